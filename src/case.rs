@@ -1,0 +1,135 @@
+//! What every solver is given: the mechanism, what drives and loads it, where it starts, and what is wanted.
+
+use crate::drive::{Drive, Load};
+use crate::math::Vec2;
+use crate::mechanism::{AssemblyMode, Mechanism, Pose, Structure};
+use crate::trajectory::{CHANNELS, Channel, Stage, Subject};
+
+/// Instants at which a solution is wanted.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Grid {
+    /// Times (s), in any order.
+    pub times: Vec<f64>,
+    /// Crank angles at those times (rad, as the scenario states them).
+    pub cranks: Vec<f64>,
+}
+
+impl Grid {
+    /// Grid of the given times.
+    #[must_use]
+    pub fn of_times(drive: &Drive, times: Vec<f64>) -> Self {
+        let cranks = times.iter().map(|&t| drive.at(t).angle).collect();
+        Grid { times, cranks }
+    }
+
+    /// Grid of the given crank angles (rad, as the scenario states them).
+    #[must_use]
+    pub fn of_cranks(drive: &Drive, cranks: Vec<f64>) -> Self {
+        let times = cranks.iter().map(|&angle| drive.time_of(angle)).collect();
+        Grid { times, cranks }
+    }
+
+    /// Number of instants.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.times.len()
+    }
+
+    /// Whether there is no instant.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.times.is_empty()
+    }
+
+    /// Rows of the grid in ascending order of time.
+    #[must_use]
+    pub fn ascending(&self) -> Vec<usize> {
+        let mut rows: Vec<usize> = (0..self.len()).collect();
+        rows.sort_by(|&a, &b| self.times[a].total_cmp(&self.times[b]));
+        rows
+    }
+}
+
+/// Which stages of channels a run wants.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Wanted([bool; Stage::ALL.len()]);
+
+impl Wanted {
+    /// All channels.
+    pub const ALL: Wanted = Wanted([true; Stage::ALL.len()]);
+
+    /// The channels of the given stages.
+    #[must_use]
+    pub fn of(stages: &[Stage]) -> Self {
+        let mut wanted = Wanted([false; Stage::ALL.len()]);
+        for &stage in stages {
+            wanted.0[stage as usize] = true;
+        }
+        wanted
+    }
+
+    /// Whether the channels of `stage` are wanted.
+    #[inline]
+    #[must_use]
+    pub fn has(&self, stage: Stage) -> bool {
+        self.0[stage as usize]
+    }
+
+    /// The last stage that must be computed; positions at least.
+    #[must_use]
+    pub fn deepest(&self) -> Stage {
+        Stage::ALL.into_iter().rev().find(|&stage| self.has(stage)).unwrap_or(Stage::Positions)
+    }
+}
+
+/// A problem, ready for any solver. SI units, world axes.
+#[derive(Clone, Debug)]
+pub struct Case {
+    /// The mechanism.
+    pub mechanism: Mechanism,
+    /// Its driving link and Assur groups.
+    pub structure: Structure,
+    /// Prescribed motion of the driving link.
+    pub drive: Drive,
+    /// Loads besides gravity and inertia.
+    pub loads: Vec<Load>,
+    /// Acceleration of gravity (m/s^2).
+    pub gravity: Vec2,
+    /// Pose at t = 0.
+    pub start: Pose,
+    /// Assembly mode of each group, in the order of the structure.
+    pub modes: Vec<AssemblyMode>,
+    /// Instants wanted.
+    pub grid: Grid,
+    /// Channels wanted.
+    pub wanted: Wanted,
+}
+
+impl Case {
+    /// The wanted channels in the order of columns: links, points, joints, drive; within each as in [`CHANNELS`].
+    #[must_use]
+    pub fn channels(&self) -> Vec<Channel> {
+        let links = self.mechanism.links()[1..].iter().map(|link| (Subject::Link, link.name.as_str()));
+        let points = self.mechanism.moving_points().map(|(name, _)| (Subject::Point, name));
+        let joints = self.mechanism.joints().iter().map(|joint| (Subject::Joint, joint.name.as_str()));
+        let subjects = links.chain(points).chain(joints).chain([(Subject::Drive, "")]);
+        let rows = |(subject, of): (Subject, &str)| {
+            let kinds = CHANNELS.iter().filter(move |kind| kind.subject == subject && self.wanted.has(kind.stage));
+            kinds.map(|kind| Channel { of: of.to_string(), kind }).collect::<Vec<_>>()
+        };
+        subjects.flat_map(rows).collect()
+    }
+
+    /// The same problem on another grid.
+    #[must_use]
+    pub fn on(&self, grid: Grid) -> Case {
+        Case { grid, ..self.clone() }
+    }
+
+    /// Sum of the load moments on a link (N m) that turns with `omega` (rad/s).
+    #[inline]
+    #[must_use]
+    pub fn load_moment(&self, link: usize, omega: f64) -> f64 {
+        self.loads.iter().filter(|load| load.link() == link).map(|load| load.moment(omega)).sum()
+    }
+}

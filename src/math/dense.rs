@@ -1,0 +1,157 @@
+//! Dense linear systems that are factored in place, time after time, without allocating.
+
+/// Square system A x = b by LU decomposition with partial pivoting; the storage is reused between poses.
+///
+/// nalgebra's own LU takes its matrix by value and so allocates once a pose, and has no solve with the transpose.
+#[derive(Clone, Debug)]
+pub struct Lu {
+    n: usize,
+    a: Vec<f64>,
+    pivot: Vec<usize>,
+    swap_sign: f64,
+    scratch: Vec<f64>,
+}
+
+impl Lu {
+    /// Storage for `n` equations; all coefficients zero.
+    #[must_use]
+    pub fn new(n: usize) -> Self {
+        Lu { n, a: vec![0.0; n * n], pivot: vec![0; n], swap_sign: 1.0, scratch: vec![0.0; n] }
+    }
+
+    /// Sets all coefficients to zero, ready for the next matrix.
+    pub fn clear(&mut self) {
+        self.a.fill(0.0);
+    }
+
+    /// Adds `value` to the coefficient in `row`, `column`.
+    #[inline]
+    pub fn add(&mut self, row: usize, column: usize, value: f64) {
+        self.a[row * self.n + column] += value;
+    }
+
+    /// Factors the matrix in place. Returns false if it is singular to working precision (or not finite).
+    #[must_use]
+    pub fn factor(&mut self) -> bool {
+        let n = self.n;
+        self.swap_sign = 1.0;
+        for k in 0..n {
+            let (mut best, mut size) = (k, self.a[k * n + k].abs());
+            for row in k + 1..n {
+                let candidate = self.a[row * n + k].abs();
+                if candidate > size {
+                    (best, size) = (row, candidate);
+                }
+            }
+            self.pivot[k] = best;
+            if !(size > f64::MIN_POSITIVE && size.is_finite()) {
+                return false;
+            }
+            if best != k {
+                self.swap_sign = -self.swap_sign;
+                for column in 0..n {
+                    self.a.swap(k * n + column, best * n + column);
+                }
+            }
+            let inverse = 1.0 / self.a[k * n + k];
+            for row in k + 1..n {
+                let factor = self.a[row * n + k] * inverse;
+                self.a[row * n + k] = factor;
+                if factor != 0.0 {
+                    for column in k + 1..n {
+                        self.a[row * n + column] -= factor * self.a[k * n + column];
+                    }
+                }
+            }
+        }
+        true
+    }
+
+    /// Sign of the determinant of the factored matrix, +1 or -1.
+    #[must_use]
+    pub fn determinant_sign(&self) -> f64 {
+        (0..self.n).fold(self.swap_sign, |sign, k| sign * self.a[k * self.n + k].signum())
+    }
+
+    /// Solves A x = b for the factored matrix; `b` is replaced by `x`.
+    pub fn solve(&self, b: &mut [f64]) {
+        let n = self.n;
+        for k in 0..n {
+            b.swap(k, self.pivot[k]);
+        }
+        for row in 1..n {
+            let sum: f64 = (0..row).map(|k| self.a[row * n + k] * b[k]).sum();
+            b[row] -= sum;
+        }
+        for row in (0..n).rev() {
+            let sum: f64 = (row + 1..n).map(|k| self.a[row * n + k] * b[k]).sum();
+            b[row] = (b[row] - sum) / self.a[row * n + row];
+        }
+    }
+
+    /// Solves A^T x = b for the factored matrix; `b` is replaced by `x`.
+    pub fn solve_transposed(&mut self, b: &mut [f64]) {
+        let n = self.n;
+        self.scratch.copy_from_slice(b);
+        let y = &mut self.scratch;
+        for row in 0..n {
+            let sum: f64 = (0..row).map(|k| self.a[k * n + row] * y[k]).sum();
+            y[row] = (y[row] - sum) / self.a[row * n + row];
+        }
+        for row in (0..n).rev() {
+            let sum: f64 = (row + 1..n).map(|k| self.a[k * n + row] * y[k]).sum();
+            y[row] -= sum;
+        }
+        for k in (0..n).rev() {
+            y.swap(k, self.pivot[k]);
+        }
+        b.copy_from_slice(y);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::{DMatrix, DVector};
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn agrees_with_nalgebra(values in prop::collection::vec(-1.0f64..1.0, 36), rhs in prop::collection::vec(-1.0f64..1.0, 6)) {
+            let matrix = DMatrix::from_row_slice(6, 6, &values);
+            let condition = matrix.clone().svd(false, false).singular_values;
+            prop_assume!(condition.min() > 1e-6);
+            let mut lu = Lu::new(6);
+            for row in 0..6 {
+                for column in 0..6 {
+                    lu.add(row, column, matrix[(row, column)]);
+                }
+            }
+            prop_assert!(lu.factor());
+            prop_assert_eq!(lu.determinant_sign(), matrix.determinant().signum());
+            let b = DVector::from_vec(rhs);
+            let bound = 1e-13 * condition.max() / condition.min() * b.norm() / condition.min();
+            let (mut x, mut y) = (b.as_slice().to_vec(), b.as_slice().to_vec());
+            lu.solve(&mut x);
+            lu.solve_transposed(&mut y);
+            prop_assert!((DVector::from_vec(x) - matrix.clone().lu().solve(&b).unwrap()).norm() <= bound);
+            prop_assert!((DVector::from_vec(y) - matrix.transpose().lu().solve(&b).unwrap()).norm() <= bound);
+        }
+    }
+
+    #[test]
+    fn singular_matrix_is_refused() {
+        let mut lu = Lu::new(2);
+        for (row, column, value) in [(0, 0, 1.0), (0, 1, 2.0), (1, 0, 2.0), (1, 1, 4.0)] {
+            lu.add(row, column, value);
+        }
+        assert!(!lu.factor());
+    }
+
+    #[test]
+    fn not_a_number_is_refused() {
+        let mut lu = Lu::new(1);
+        lu.add(0, 0, f64::NAN);
+        assert!(!lu.factor());
+    }
+}

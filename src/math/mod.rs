@@ -1,0 +1,41 @@
+//! Small mathematics without physics: plane vectors, rigid motion fields, dense solves, quantiles, interpolation.
+
+pub mod angle;
+pub mod dense;
+pub mod interpolate;
+pub mod motion;
+pub mod statistics;
+
+pub use motion::Motion;
+
+/// Vector in the plane XOY.
+pub type Vec2 = nalgebra::Vector2<f64>;
+
+/// z component of the vector product a x b.
+#[inline]
+#[must_use]
+pub fn cross(a: Vec2, b: Vec2) -> f64 {
+    a.x * b.y - a.y * b.x
+}
+
+/// `v` turned by +90 degrees: the vector product of the unit vector z with `v`.
+#[inline]
+#[must_use]
+pub fn turned(v: Vec2) -> Vec2 {
+    Vec2::new(-v.y, v.x)
+}
+
+/// Unit vector at `angle` (rad, counter-clockwise from +x).
+#[inline]
+#[must_use]
+pub fn unit(angle: f64) -> Vec2 {
+    let (sin, cos) = angle.sin_cos();
+    Vec2::new(cos, sin)
+}
+
+/// Rotates `v` by the direction `d` = (cos, sin): the product of the two as complex numbers.
+#[inline]
+#[must_use]
+pub fn rotated(d: Vec2, v: Vec2) -> Vec2 {
+    Vec2::new(d.x * v.x - d.y * v.y, d.x * v.y + d.y * v.x)
+}

@@ -1,0 +1,89 @@
+//! Plane motion of a rigid body as a field: where each of its points is, how fast, how strongly accelerated.
+
+use super::{Vec2, rotated, turned};
+
+/// Position, velocity and acceleration of a body-fixed frame; SI units, world axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Motion {
+    /// Position of the frame's origin (m).
+    pub origin: Vec2,
+    /// Unit vector of the frame's x axis: (cos, sin) of its angle.
+    pub direction: Vec2,
+    /// Velocity of the origin (m/s).
+    pub velocity: Vec2,
+    /// Angular velocity (rad/s), counter-clockwise positive.
+    pub omega: f64,
+    /// Acceleration of the origin (m/s^2).
+    pub acceleration: Vec2,
+    /// Angular acceleration (rad/s^2), counter-clockwise positive.
+    pub alpha: f64,
+}
+
+impl Motion {
+    /// A frame at rest that coincides with the world's.
+    pub const REST: Motion = Motion {
+        origin: Vec2::new(0.0, 0.0),
+        direction: Vec2::new(1.0, 0.0),
+        velocity: Vec2::new(0.0, 0.0),
+        omega: 0.0,
+        acceleration: Vec2::new(0.0, 0.0),
+        alpha: 0.0,
+    };
+
+    /// World vector from the origin to the point with body coordinates `local` (m).
+    #[inline]
+    #[must_use]
+    pub fn arm(&self, local: Vec2) -> Vec2 {
+        rotated(self.direction, local)
+    }
+
+    /// World position of a body point (m).
+    #[inline]
+    #[must_use]
+    pub fn point(&self, local: Vec2) -> Vec2 {
+        self.origin + self.arm(local)
+    }
+
+    /// Velocity of a body point (m/s): v0 + omega x r.
+    #[inline]
+    #[must_use]
+    pub fn point_velocity(&self, local: Vec2) -> Vec2 {
+        self.velocity + turned(self.arm(local)) * self.omega
+    }
+
+    /// Acceleration of a body point (m/s^2): a0 + alpha x r - omega^2 r.
+    #[inline]
+    #[must_use]
+    pub fn point_acceleration(&self, local: Vec2) -> Vec2 {
+        let arm = self.arm(local);
+        self.acceleration + turned(arm) * self.alpha - arm * (self.omega * self.omega)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::unit;
+
+    /// A frame whose origin and angle are polynomials of time, so that every derivative is known.
+    fn frame(t: f64) -> Motion {
+        Motion {
+            origin: Vec2::new(1.0 + 2.0 * t, 3.0 * t * t),
+            direction: unit(0.3 + 0.7 * t - 0.4 * t * t),
+            velocity: Vec2::new(2.0, 6.0 * t),
+            omega: 0.7 - 0.8 * t,
+            acceleration: Vec2::new(0.0, 6.0),
+            alpha: -0.8,
+        }
+    }
+
+    #[test]
+    fn velocity_and_acceleration_are_derivatives_of_the_position() {
+        let (r, t, h) = (Vec2::new(0.4, -0.2), 0.6, 1e-4);
+        let (back, here, ahead) = (frame(t - h).point(r), frame(t).point(r), frame(t + h).point(r));
+        let velocity = (ahead - back) / (2.0 * h);
+        let acceleration = (ahead - here * 2.0 + back) / (h * h);
+        assert!((velocity - frame(t).point_velocity(r)).norm() < 1e-7);
+        assert!((acceleration - frame(t).point_acceleration(r)).norm() < 1e-6);
+    }
+}

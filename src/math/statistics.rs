@@ -1,0 +1,48 @@
+//! Order statistics of residuals.
+
+/// Quantile `q` (0 to 1) of values sorted in ascending order, linear between neighbours (type 7 of Hyndman and Fan 1996).
+///
+/// Returns 0 for an empty slice.
+#[must_use]
+pub fn quantile(sorted: &[f64], q: f64) -> f64 {
+    let Some(last) = sorted.len().checked_sub(1) else { return 0.0 };
+    let place = q.clamp(0.0, 1.0) * last as f64;
+    let low = place.floor() as usize;
+    let high = (low + 1).min(last);
+    sorted[low] + (sorted[high] - sorted[low]) * (place - low as f64)
+}
+
+/// Root of the mean square of `values`; 0 for none.
+#[must_use]
+pub fn rms(values: impl IntoIterator<Item = f64>) -> f64 {
+    let (count, sum) = values.into_iter().fold((0usize, 0.0), |(n, s), v| (n + 1, s + v * v));
+    if count == 0 { 0.0 } else { (sum / count as f64).sqrt() }
+}
+
+/// Half the distance between the smallest and the largest value, NaN if a value is NaN; 0 for none.
+#[must_use]
+pub fn half_range(values: &[f64]) -> f64 {
+    let Some(&first) = values.first() else { return 0.0 };
+    let (low, high) = values.iter().fold((first, first), |(low, high), &v| (low.min(v), high.max(v)));
+    if values.iter().any(|v| v.is_nan()) { f64::NAN } else { (high - low) / 2.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quantiles_interpolate() {
+        let values = [0.0, 1.0, 2.0, 3.0, 4.0];
+        assert_eq!(quantile(&values, 0.75), 3.0);
+        assert_eq!(quantile(&values, 0.99), 3.96);
+        assert_eq!(quantile(&[], 0.5), 0.0);
+    }
+
+    #[test]
+    fn range_and_rms() {
+        assert_eq!(half_range(&[-1.0, 3.0, 2.0]), 2.0);
+        assert!(half_range(&[1.0, f64::NAN]).is_nan());
+        assert_eq!(rms([3.0, 4.0, 0.0, 0.0]), 2.5);
+    }
+}

@@ -1,0 +1,57 @@
+//! Where every link is at one instant.
+
+use super::{Joint, Mechanism, Side};
+use crate::math::{Vec2, rotated, unit};
+
+/// Place of one link's frame in the world.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LinkPose {
+    /// World position of the frame's origin (m).
+    pub origin: Vec2,
+    /// Angle of the frame's x axis, counter-clockwise from world +x (rad).
+    pub angle: f64,
+}
+
+impl LinkPose {
+    /// The ground's: the frame that coincides with the world's.
+    pub const GROUND: LinkPose = LinkPose { origin: Vec2::new(0.0, 0.0), angle: 0.0 };
+
+    /// The pose at `angle` that puts the body point `local` on the world point `at`.
+    #[must_use]
+    pub fn through(local: Vec2, at: Vec2, angle: f64) -> Self {
+        LinkPose { origin: at - rotated(unit(angle), local), angle }
+    }
+
+    /// World position of the body point `local` (m).
+    #[must_use]
+    pub fn point(&self, local: Vec2) -> Vec2 {
+        self.origin + rotated(unit(self.angle), local)
+    }
+}
+
+/// Pose of the whole mechanism: one entry a link, in the mechanism's order; the ground's is [`LinkPose::GROUND`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pose(pub Vec<LinkPose>);
+
+impl Pose {
+    /// Vector between the two sides of a joint, second minus first (m); zero in an assembled mechanism.
+    #[must_use]
+    pub fn gap(&self, joint: &Joint) -> Vec2 {
+        self.0[joint.second.link].point(joint.second.local) - self.0[joint.first.link].point(joint.first.local)
+    }
+
+    /// Largest distance between the two sides of any joint (m).
+    #[must_use]
+    pub fn closure(&self, mechanism: &Mechanism) -> f64 {
+        mechanism.joints().iter().map(|joint| self.gap(joint).norm()).fold(0.0, f64::max)
+    }
+}
+
+/// A named point of a link.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SidePoint {
+    /// The point's name.
+    pub name: String,
+    /// The link it is on, and where.
+    pub side: Side,
+}

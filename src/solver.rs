@@ -1,0 +1,140 @@
+//! What a solver is, and how it hands its states over.
+
+use crate::case::{Case, Wanted};
+use crate::error::Result;
+use crate::math::{Motion, Vec2};
+use crate::mechanism::Side;
+use crate::trajectory::{Channel, Stage, Trajectory};
+
+/// How a solver comes by a channel.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Provision {
+    /// It is computed, or read from the engine, as it is.
+    Computed,
+    /// It is derived from something else; the text says how.
+    Derived(&'static str),
+    /// It is not there; the text says why.
+    Absent(&'static str),
+}
+
+/// Told how far a long run is, from 0 to 1.
+pub type Progress<'a> = &'a mut dyn FnMut(f64);
+
+/// Anything that turns a case into a trajectory.
+pub trait Solver {
+    /// Short name, as on the command line.
+    fn name(&self) -> &'static str;
+
+    /// How this solver comes by `channel`.
+    fn provides(&self, channel: &Channel) -> Provision;
+
+    /// Solves the case: all its wanted channels that are not absent, on its grid.
+    ///
+    /// # Errors
+    /// Whatever keeps the solution from being a finite number on the asked branch, with the crank angle.
+    fn solve(&self, case: &Case, progress: Progress) -> Result<Trajectory>;
+}
+
+/// State of the whole mechanism at one instant, in the form common to all solvers.
+#[derive(Clone, Debug)]
+pub struct State {
+    /// Motion of every link's frame; the ground's is [`Motion::REST`].
+    pub motions: Vec<Motion>,
+    /// Angle of every link's frame, turns kept (rad).
+    pub angles: Vec<f64>,
+    /// Force of the first link on the second in every joint (N).
+    pub forces: Vec<Vec2>,
+    /// Balancing moment on the driving link (N m).
+    pub torque: f64,
+}
+
+impl State {
+    /// A state at rest with everything at zero.
+    #[must_use]
+    pub fn at_rest(case: &Case) -> Self {
+        State {
+            motions: vec![Motion::REST; case.mechanism.links().len()],
+            angles: vec![0.0; case.mechanism.links().len()],
+            forces: vec![Vec2::zeros(); case.mechanism.joints().len()],
+            torque: 0.0,
+        }
+    }
+}
+
+/// Collects states into the columns of a trajectory, row by row in any order.
+#[derive(Debug)]
+pub struct Sampler {
+    wanted: Wanted,
+    points: Vec<Side>,
+    channels: Vec<Channel>,
+    columns: Vec<Vec<f64>>,
+}
+
+impl Sampler {
+    /// Storage for all rows and wanted channels of a case.
+    #[must_use]
+    pub fn new(case: &Case) -> Self {
+        let channels = case.channels();
+        let columns = vec![vec![f64::NAN; case.grid.len()]; channels.len()];
+        let points = case.mechanism.moving_points().map(|(_, side)| side).collect();
+        Sampler { wanted: case.wanted, points, channels, columns }
+    }
+
+    /// Stores a state in a row. The order of values is that of [`Case::channels`].
+    pub fn put(&mut self, case: &Case, row: usize, state: &State) {
+        let mut columns = self.columns.iter_mut();
+        let mut put = |value: f64| columns.next().expect("as many values as channels")[row] = value;
+        let has = |stage| self.wanted.has(stage);
+        let (positions, velocities, accelerations) =
+            (has(Stage::Positions), has(Stage::Velocities), has(Stage::Accelerations));
+        for (index, link) in case.mechanism.links().iter().enumerate().skip(1) {
+            let motion = &state.motions[index];
+            if positions {
+                put(state.angles[index]);
+            }
+            if velocities {
+                put(motion.omega);
+            }
+            if accelerations {
+                put(motion.alpha);
+            }
+            put_point(motion, link.mass_centre, self.wanted, &mut put);
+        }
+        for side in &self.points {
+            put_point(&state.motions[side.link], side.local, self.wanted, &mut put);
+        }
+        if has(Stage::Reactions) {
+            for force in &state.forces {
+                put(force.x);
+                put(force.y);
+            }
+        }
+        if has(Stage::BalancingMoment) {
+            put(state.torque);
+        }
+    }
+
+    /// The trajectory on the case's grid.
+    ///
+    /// # Errors
+    /// If a value is missing or not finite.
+    pub fn finish(self, case: &Case) -> Result<Trajectory> {
+        Trajectory::new(case.grid.times.clone(), case.grid.cranks.clone(), self.channels, self.columns)
+    }
+}
+
+fn put_point(motion: &Motion, local: Vec2, wanted: Wanted, put: &mut impl FnMut(f64)) {
+    let mut both = |vector: Vec2| {
+        put(vector.x);
+        put(vector.y);
+    };
+    if wanted.has(Stage::Positions) {
+        both(motion.point(local));
+    }
+    if wanted.has(Stage::Velocities) {
+        both(motion.point_velocity(local));
+    }
+    if wanted.has(Stage::Accelerations) {
+        both(motion.point_acceleration(local));
+    }
+}

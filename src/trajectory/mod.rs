@@ -1,0 +1,92 @@
+//! What every solver answers with: channels over a grid of times. A trajectory holds finite numbers only.
+
+pub mod channel;
+
+pub use channel::{CHANNELS, Channel, ChannelKind, Stage, Subject};
+
+use crate::error::{Error, ErrorKind, Result};
+
+/// Values of several channels on a common grid.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trajectory {
+    times: Vec<f64>,
+    cranks: Vec<f64>,
+    channels: Vec<Channel>,
+    columns: Vec<Vec<f64>>,
+}
+
+impl Trajectory {
+    /// A trajectory from its grid (times in s, crank angles in rad as the scenario states them) and one column of values a channel.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Numeric`] if a value is NaN or infinite (with its channel, time and crank angle), or if lengths differ.
+    pub fn new(times: Vec<f64>, cranks: Vec<f64>, channels: Vec<Channel>, columns: Vec<Vec<f64>>) -> Result<Self> {
+        let rows = times.len();
+        if cranks.len() != rows || channels.len() != columns.len() || columns.iter().any(|c| c.len() != rows) {
+            return Err(Error::new(ErrorKind::Numeric, "the columns of a trajectory differ in length"));
+        }
+        for (channel, column) in channels.iter().zip(&columns) {
+            if let Some(row) = column.iter().position(|value| !value.is_finite()) {
+                return Err(Error::new(
+                    ErrorKind::Numeric,
+                    format!(
+                        "{channel} is {} at t = {:.6} s, crank angle {:.4} deg",
+                        column[row],
+                        times[row],
+                        cranks[row].to_degrees()
+                    ),
+                ));
+            }
+        }
+        Ok(Trajectory { times, cranks, channels, columns })
+    }
+
+    /// Times of the grid (s).
+    #[must_use]
+    pub fn times(&self) -> &[f64] {
+        &self.times
+    }
+
+    /// Crank angles of the grid (rad, as the scenario states them).
+    #[must_use]
+    pub fn cranks(&self) -> &[f64] {
+        &self.cranks
+    }
+
+    /// Channels, in the order of columns.
+    #[must_use]
+    pub fn channels(&self) -> &[Channel] {
+        &self.channels
+    }
+
+    /// Values of one channel over the grid, in its SI unit.
+    #[must_use]
+    pub fn column(&self, channel: &Channel) -> Option<&[f64]> {
+        let index = self.channels.iter().position(|own| own == channel)?;
+        Some(&self.columns[index])
+    }
+
+    /// Channels with their values, in the order of columns.
+    pub fn iter(&self) -> impl Iterator<Item = (&Channel, &[f64])> {
+        self.channels.iter().zip(self.columns.iter().map(Vec::as_slice))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn not_a_number_is_refused_with_its_place() {
+        let channel = Channel::named("joint.A.fx_N").unwrap();
+        let error = Trajectory::new(vec![0.0, 0.5], vec![0.0, 1.0], vec![channel], vec![vec![1.0, f64::NAN]]);
+        let message = error.unwrap_err().to_string();
+        assert!(message.contains("joint.A.fx_N is NaN at t = 0.500000 s, crank angle 57.2958 deg"), "{message}");
+    }
+
+    #[test]
+    fn ragged_columns_are_refused() {
+        let channel = Channel::named("drive.torque_N_m").unwrap();
+        assert!(Trajectory::new(vec![0.0], vec![0.0], vec![channel], vec![vec![]]).is_err());
+    }
+}
