@@ -314,7 +314,6 @@ pub(crate) mod fixtures {
 #[cfg(test)]
 mod tests {
     use super::fixtures::*;
-    use super::*;
 
     #[test]
     fn a_point_name_on_two_links_needs_a_joint() {
