@@ -7,11 +7,14 @@
 //! SI units and world axes (x right, y up, angles counter-clockwise from +x) everywhere inside; other units exist
 //! only in scenario files and carry their suffix there.
 
+pub mod assur;
 pub mod case;
 pub mod drive;
+pub mod engine;
 pub mod error;
 pub mod math;
 pub mod mechanism;
+pub mod reference;
 pub mod solver;
 pub mod tolerance;
 pub mod trajectory;

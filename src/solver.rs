@@ -28,11 +28,26 @@ pub trait Solver {
     /// How this solver comes by `channel`.
     fn provides(&self, channel: &Channel) -> Provision;
 
-    /// Solves the case: all its wanted channels that are not absent, on its grid.
+    /// Hands the state at every instant of the case's grid to `visit`, with its row, in any order. Only what the wanted
+    /// channels need is computed; the rest of the state is meaningless.
     ///
     /// # Errors
-    /// Whatever keeps the solution from being a finite number on the asked branch, with the crank angle.
-    fn solve(&self, case: &Case, progress: Progress) -> Result<Trajectory>;
+    /// Whatever keeps the solution from staying on the asked branch, with the crank angle; and the visitor's own.
+    fn sweep(&self, case: &Case, visit: &mut dyn FnMut(usize, &State) -> Result<()>, progress: Progress) -> Result<()>;
+
+    /// Solves the case: all its wanted channels on its grid.
+    ///
+    /// # Errors
+    /// Those of [`Solver::sweep`], and numbers that are not finite.
+    fn solve(&self, case: &Case, progress: Progress) -> Result<Trajectory> {
+        let mut sampler = Sampler::new(case);
+        let mut put = |row: usize, state: &State| {
+            sampler.put(case, row, state);
+            Ok(())
+        };
+        self.sweep(case, &mut put, progress)?;
+        sampler.finish(case)
+    }
 }
 
 /// State of the whole mechanism at one instant, in the form common to all solvers.

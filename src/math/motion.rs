@@ -30,6 +30,28 @@ impl Motion {
         alpha: 0.0,
     };
 
+    /// The motion of a body of which one point is given: its body coordinates `local` (m), its position, velocity and
+    /// acceleration, and the body's direction, angular velocity and angular acceleration.
+    #[inline]
+    #[must_use]
+    pub fn of_point(
+        local: Vec2,
+        [position, velocity, acceleration]: [Vec2; 3],
+        direction: Vec2,
+        omega: f64,
+        alpha: f64,
+    ) -> Self {
+        let back = rotated(direction, -local);
+        Motion {
+            origin: position + back,
+            direction,
+            velocity: velocity + turned(back) * omega,
+            omega,
+            acceleration: acceleration + turned(back) * alpha - back * (omega * omega),
+            alpha,
+        }
+    }
+
     /// World vector from the origin to the point with body coordinates `local` (m).
     #[inline]
     #[must_use]
@@ -75,6 +97,16 @@ mod tests {
             acceleration: Vec2::new(0.0, 6.0),
             alpha: -0.8,
         }
+    }
+
+    #[test]
+    fn a_motion_is_known_from_any_of_its_points() {
+        let (local, whole) = (Vec2::new(-0.3, 0.8), frame(0.4));
+        let vectors = [whole.point(local), whole.point_velocity(local), whole.point_acceleration(local)];
+        let again = Motion::of_point(local, vectors, whole.direction, whole.omega, whole.alpha);
+        assert!((again.origin - whole.origin).norm() < 1e-15);
+        assert!((again.velocity - whole.velocity).norm() < 1e-15);
+        assert!((again.acceleration - whole.acceleration).norm() < 1e-14);
     }
 
     #[test]

@@ -1,0 +1,24 @@
+//! The analytic side: two solvers that share nothing but the mechanism and small mathematics.
+
+mod assur_solver;
+mod kinetostatics;
+mod newton_solver;
+pub mod power;
+pub mod reduced;
+
+pub use assur_solver::AssurSolver;
+pub use newton_solver::NewtonSolver;
+
+use crate::solver::Solver;
+
+/// The analytic solvers, the default first.
+#[must_use]
+pub fn all() -> [&'static dyn Solver; 2] {
+    [&AssurSolver, &NewtonSolver]
+}
+
+/// The analytic solver called `name`.
+#[must_use]
+pub fn named(name: &str) -> Option<&'static dyn Solver> {
+    all().into_iter().find(|solver| solver.name() == name)
+}

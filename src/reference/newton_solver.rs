@@ -1,0 +1,278 @@
+//! Side 2: the whole mechanism at once, from its constraint equations and their Jacobian.
+//!
+//! Coordinates are (x, y, theta) of every link's mass centre frame. Constraints: the two sides of every revolute joint
+//! coincide, C = p_second - p_first = 0, and the driving link has its angle. Positions by Newton, then
+//! J q' = rate of the drive, J q'' = gamma with the centripetal terms, and M q'' = Q + J^T lambda, whose multipliers are
+//! the forces on the second links and the balancing moment (Haug, "Computer aided kinematics and dynamics of mechanical
+//! systems", 1989, chapters 3 and 8).
+
+use std::f64::consts::PI;
+
+use crate::case::Case;
+use crate::error::{Error, ErrorKind, Result};
+use crate::math::dense::Lu;
+use crate::math::{Motion, Vec2, rotated, unit};
+use crate::solver::{Progress, Provision, Solver, State};
+use crate::trajectory::{Channel, Stage};
+
+/// Largest turn of the crank between two poses (rad): a prediction from there stays on the branch.
+const TRACKING_STEP: f64 = PI / 90.0;
+/// Newton from a predicted pose converges in two or three iterations; more mean that something is wrong.
+const MAX_ITERATIONS: usize = 12;
+
+/// Whole mechanism by Newton and Lagrange multipliers.
+#[derive(Clone, Copy, Debug)]
+pub struct NewtonSolver;
+
+impl Solver for NewtonSolver {
+    fn name(&self) -> &'static str {
+        "newton"
+    }
+
+    fn provides(&self, _: &Channel) -> Provision {
+        Provision::Computed
+    }
+
+    fn sweep(&self, case: &Case, visit: &mut dyn FnMut(usize, &State) -> Result<()>, progress: Progress) -> Result<()> {
+        let mut system = System::new(case);
+        let mut state = State::at_rest(case);
+        let rows = case.grid.ascending();
+        // Outwards from the start in both directions: first the rows at and after t = 0, then those before it, backwards.
+        let split = rows.partition_point(|&row| case.grid.times[row] < 0.0);
+        let mut done = 0;
+        let mut follow = |rows: &mut dyn Iterator<Item = usize>, system: &mut System| -> Result<()> {
+            for row in rows {
+                system.go_to(case.grid.times[row])?;
+                system.fill(&mut state);
+                visit(row, &state)?;
+                done += 1;
+                progress(done as f64 / case.grid.len() as f64);
+            }
+            Ok(())
+        };
+        system.settle()?;
+        follow(&mut rows[split..].iter().copied(), &mut system)?;
+        if split > 0 {
+            system = System::new(case);
+            system.settle()?;
+            follow(&mut rows[..split].iter().rev().copied(), &mut system)?;
+        }
+        Ok(())
+    }
+}
+
+/// The equations of one case and the state they are solved for.
+struct System<'a> {
+    case: &'a Case,
+    stage: Stage,
+    time: f64,
+    /// Coordinates, velocities and accelerations: x, y, theta of each moving link's mass centre.
+    q: Vec<f64>,
+    rate: Vec<f64>,
+    second: Vec<f64>,
+    /// Multipliers: two a joint, then the drive's.
+    lambda: Vec<f64>,
+    jacobian: Lu,
+    /// Sign of the Jacobian's determinant on the branch that is followed.
+    branch: f64,
+    residual: Vec<f64>,
+    predicted: Vec<f64>,
+}
+
+impl<'a> System<'a> {
+    fn new(case: &'a Case) -> Self {
+        let links = &case.mechanism.links()[1..];
+        let n = 3 * links.len();
+        let mut q = Vec::with_capacity(n);
+        for (link, pose) in links.iter().zip(&case.start.0[1..]) {
+            let centre = pose.point(link.mass_centre);
+            q.extend([centre.x, centre.y, pose.angle]);
+        }
+        let zeros = || vec![0.0; n];
+        System {
+            case,
+            stage: case.wanted.deepest(),
+            time: 0.0,
+            q,
+            rate: zeros(),
+            second: zeros(),
+            lambda: zeros(),
+            jacobian: Lu::new(n),
+            branch: 0.0,
+            residual: zeros(),
+            predicted: zeros(),
+        }
+    }
+
+    /// Polishes the pose at t = 0 and fixes the branch there.
+    fn settle(&mut self) -> Result<()> {
+        self.correct()?;
+        self.branch = self.jacobian.determinant_sign();
+        self.differentiate();
+        Ok(())
+    }
+
+    /// Follows the branch to time `t`, in small turns of the crank.
+    fn go_to(&mut self, t: f64) -> Result<()> {
+        let drive = &self.case.drive;
+        let turn = (drive.at(t).angle - drive.at(self.time).angle).abs();
+        let parts = (turn / TRACKING_STEP).ceil().max(1.0);
+        let from = self.time;
+        for part in 1..=parts as usize {
+            // The last part must land on t itself, not on a rounded neighbour.
+            let next = if part == parts as usize { t } else { from + (t - from) * (part as f64 / parts) };
+            let dt = next - self.time;
+            for i in 0..self.q.len() {
+                self.q[i] += dt * (self.rate[i] + 0.5 * dt * self.second[i]);
+            }
+            self.time = next;
+            self.predicted.copy_from_slice(&self.q);
+            self.correct()?;
+            self.check_branch(dt)?;
+            self.differentiate();
+        }
+        if self.stage >= Stage::Reactions {
+            self.multipliers();
+        }
+        Ok(())
+    }
+
+    /// Newton to rounding, from the pose that stands in `q`. The Jacobian is left factored at the last pose but one
+    /// (which differs from the last by rounding).
+    fn correct(&mut self) -> Result<()> {
+        let size = self.case.mechanism.size().max(f64::MIN_POSITIVE);
+        let mut last = f64::INFINITY;
+        for _ in 0..MAX_ITERATIONS {
+            self.assemble();
+            if !self.jacobian.factor() {
+                return Err(self.lost("the Jacobian is singular there (dead point)"));
+            }
+            self.jacobian.solve(&mut self.residual);
+            let mut change: f64 = 0.0;
+            for (i, step) in self.residual.iter().enumerate() {
+                self.q[i] -= step;
+                change = change.max(step.abs() / if i % 3 == 2 { 1.0 } else { size });
+            }
+            // Quadratic convergence: once below 1e-9 the next change is rounding, and one more step makes sure of it.
+            if change < 1e-14 || (last < 1e-9 && change < 1e-9) {
+                return Ok(());
+            }
+            last = change;
+        }
+        Err(self.lost("Newton's method does not converge there"))
+    }
+
+    /// Residuals of all constraints and their Jacobian at the pose in `q`.
+    fn assemble(&mut self) {
+        self.jacobian.clear();
+        for (index, joint) in self.case.mechanism.joints().iter().enumerate() {
+            let row = 2 * index;
+            let mut gap = Vec2::zeros();
+            for (side, sign) in [(joint.first, -1.0), (joint.second, 1.0)] {
+                let arm = self.arm(side.link, side.local);
+                gap += (self.centre(side.link) + arm) * sign;
+                if side.link > 0 {
+                    let column = 3 * (side.link - 1);
+                    self.jacobian.add(row, column, sign);
+                    self.jacobian.add(row + 1, column + 1, sign);
+                    self.jacobian.add(row, column + 2, -arm.y * sign);
+                    self.jacobian.add(row + 1, column + 2, arm.x * sign);
+                }
+            }
+            self.residual[row] = gap.x;
+            self.residual[row + 1] = gap.y;
+        }
+        let (last, theta) = (self.q.len() - 1, self.drive_column());
+        self.residual[last] = self.q[theta] - self.case.drive.world_angle(self.case.drive.at(self.time).angle);
+        self.jacobian.add(last, theta, 1.0);
+    }
+
+    /// Velocities and accelerations from the factored Jacobian.
+    fn differentiate(&mut self) {
+        let drive = self.case.drive.at(self.time);
+        let last = self.q.len() - 1;
+        self.rate.fill(0.0);
+        self.rate[last] = drive.omega;
+        self.jacobian.solve(&mut self.rate);
+        for (index, joint) in self.case.mechanism.joints().iter().enumerate() {
+            let centripetal = |link: usize, local: Vec2| {
+                let omega = if link == 0 { 0.0 } else { self.rate[3 * (link - 1) + 2] };
+                self.arm(link, local) * (omega * omega)
+            };
+            let gamma =
+                centripetal(joint.second.link, joint.second.local) - centripetal(joint.first.link, joint.first.local);
+            self.second[2 * index] = gamma.x;
+            self.second[2 * index + 1] = gamma.y;
+        }
+        self.second[last] = drive.alpha;
+        self.jacobian.solve(&mut self.second);
+    }
+
+    /// J^T lambda = M q'' - Q.
+    fn multipliers(&mut self) {
+        for (index, link) in self.case.mechanism.links()[1..].iter().enumerate() {
+            let i = 3 * index;
+            let load = self.case.load_moment(index + 1, self.rate[i + 2]);
+            self.lambda[i] = link.mass * (self.second[i] - self.case.gravity.x);
+            self.lambda[i + 1] = link.mass * (self.second[i + 1] - self.case.gravity.y);
+            self.lambda[i + 2] = link.inertia * self.second[i + 2] - load;
+        }
+        self.jacobian.solve_transposed(&mut self.lambda);
+    }
+
+    /// A pose reached by going through a singular one, or by a correction far beyond the prediction, is another branch.
+    fn check_branch(&self, dt: f64) -> Result<()> {
+        if self.jacobian.determinant_sign() != self.branch {
+            return Err(self.lost("the mechanism has passed a dead point on the way there"));
+        }
+        for theta in (2..self.q.len()).step_by(3) {
+            let moved = (dt * self.rate[theta]).abs() + TRACKING_STEP;
+            if (self.q[theta] - self.predicted[theta]).abs() > moved {
+                return Err(self.lost("the solution has jumped to another branch"));
+            }
+        }
+        Ok(())
+    }
+
+    fn fill(&self, state: &mut State) {
+        for (index, link) in self.case.mechanism.links().iter().enumerate().skip(1) {
+            let i = 3 * (index - 1);
+            let pair = |of: &[f64]| Vec2::new(of[i], of[i + 1]);
+            state.angles[index] = self.q[i + 2];
+            state.motions[index] = Motion::of_point(
+                link.mass_centre,
+                [pair(&self.q), pair(&self.rate), pair(&self.second)],
+                unit(self.q[i + 2]),
+                self.rate[i + 2],
+                self.second[i + 2],
+            );
+        }
+        for (index, force) in state.forces.iter_mut().enumerate() {
+            *force = Vec2::new(self.lambda[2 * index], self.lambda[2 * index + 1]);
+        }
+        state.torque = self.lambda[self.q.len() - 1];
+    }
+
+    fn drive_column(&self) -> usize {
+        3 * (self.case.drive.link - 1) + 2
+    }
+
+    /// World position of a link's mass centre; the origin for the ground.
+    fn centre(&self, link: usize) -> Vec2 {
+        if link == 0 { Vec2::zeros() } else { Vec2::new(self.q[3 * (link - 1)], self.q[3 * (link - 1) + 1]) }
+    }
+
+    /// World vector from a link's mass centre to a point of it.
+    fn arm(&self, link: usize, local: Vec2) -> Vec2 {
+        if link == 0 {
+            return local;
+        }
+        rotated(unit(self.q[3 * (link - 1) + 2]), local - self.case.mechanism.links()[link].mass_centre)
+    }
+
+    fn lost(&self, why: &str) -> Error {
+        let crank = self.case.drive.at(self.time).angle.to_degrees();
+        Error::new(ErrorKind::Numeric, format!("crank angle {crank:.4} deg, t = {:.6} s: {why}", self.time))
+            .help("shorten the grid to the crank angles that can be reached on this branch")
+    }
+}

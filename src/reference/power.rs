@@ -1,0 +1,23 @@
+//! Balance of powers: a way to the balancing moment that knows no reaction.
+
+use crate::case::Case;
+use crate::math::Motion;
+
+/// Power of gravity, inertia and loads on all links (W): sum of m (g - a) . v - J alpha omega + M omega.
+#[must_use]
+pub fn of_known_forces(case: &Case, motions: &[Motion]) -> f64 {
+    let power = |(link, motion): (usize, &Motion)| {
+        let body = &case.mechanism.links()[link];
+        let force = (case.gravity - motion.point_acceleration(body.mass_centre)) * body.mass;
+        force.dot(&motion.point_velocity(body.mass_centre))
+            + (case.load_moment(link, motion.omega) - body.inertia * motion.alpha) * motion.omega
+    };
+    motions.iter().enumerate().skip(1).map(power).sum()
+}
+
+/// Balancing moment on the driving link (N m) with which the powers of all forces vanish. Ideal joints do no work, so
+/// no reaction enters. The driving link must turn.
+#[must_use]
+pub fn balancing_moment(case: &Case, motions: &[Motion]) -> f64 {
+    -of_known_forces(case, motions) / motions[case.drive.link].omega
+}
