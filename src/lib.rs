@@ -9,12 +9,18 @@
 
 pub mod assur;
 pub mod case;
+pub mod cli;
+pub mod compare;
 pub mod drive;
 pub mod engine;
 pub mod error;
 pub mod math;
 pub mod mechanism;
+pub mod proof;
+pub mod record;
 pub mod reference;
+pub mod report;
+pub mod scenario;
 pub mod solver;
 pub mod tolerance;
 pub mod trajectory;

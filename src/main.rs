@@ -1,1 +1,5 @@
-fn main() {}
+//! The `linkproof` command; everything it does stands in [`linkproof::cli`].
+
+fn main() -> std::process::ExitCode {
+    linkproof::cli::main()
+}

@@ -46,7 +46,7 @@ pub trait Solver {
             Ok(())
         };
         self.sweep(case, &mut put, progress)?;
-        sampler.finish(case)
+        sampler.finish(case, |channel| self.provides(channel))
     }
 }
 
@@ -129,12 +129,14 @@ impl Sampler {
         }
     }
 
-    /// The trajectory on the case's grid.
+    /// The trajectory on the case's grid, without the channels that `provides` calls absent.
     ///
     /// # Errors
     /// If a value is missing or not finite.
-    pub fn finish(self, case: &Case) -> Result<Trajectory> {
-        Trajectory::new(case.grid.times.clone(), case.grid.cranks.clone(), self.channels, self.columns)
+    pub fn finish(self, case: &Case, provides: impl Fn(&Channel) -> Provision) -> Result<Trajectory> {
+        let present = |channel: &Channel| !matches!(provides(channel), Provision::Absent(_));
+        let (channels, columns) = self.channels.into_iter().zip(self.columns).filter(|(c, _)| present(c)).unzip();
+        Trajectory::new(case.grid.times.clone(), case.grid.cranks.clone(), channels, columns)
     }
 }
 

@@ -2,6 +2,7 @@
 
 pub mod rapier;
 
+use crate::case::Case;
 use crate::solver::Solver;
 use crate::trajectory::ChannelKind;
 
@@ -18,6 +19,9 @@ pub trait Engine: Solver {
 
     /// Order of convergence that the method should show in a channel.
     fn formal_order(&self, channel: &ChannelKind) -> f64;
+
+    /// Rounding noise of a channel, relative to its scale, on the grid of a case.
+    fn round_off(&self, case: &Case, channel: &ChannelKind) -> f64;
 
     /// Settings that influence the result, by name.
     fn settings(&self) -> Vec<(&'static str, String)>;

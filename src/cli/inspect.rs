@@ -1,0 +1,129 @@
+//! `linkproof inspect`.
+
+use std::fmt::Write;
+use std::path::PathBuf;
+
+use serde_json::{Value, json};
+
+use super::output;
+use crate::error::Result;
+use crate::mechanism::assembly::transmission_sine;
+use crate::mechanism::{AssemblyMode, Joint, Mechanism};
+use crate::scenario::Scenario;
+
+const EXAMPLES: &str = "\
+Examples:
+  linkproof inspect scenarios/crank_rocker.toml
+  linkproof inspect scenarios/ov7_base.toml --json -";
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Args {
+    /// Scenario file
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+    /// Write the structure as JSON to a file, or to standard output instead of the text with `-`
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+}
+
+pub(super) fn inspect(args: &Args) -> Result<()> {
+    let scenario = Scenario::load(&args.file)?;
+    match &args.json {
+        Some(to) => {
+            let text = serde_json::to_string_pretty(&as_json(&scenario)).expect("plain values are always JSON");
+            output::write(&format!("{text}\n"), to)
+        }
+        None => output::print(&as_text(&scenario)),
+    }
+}
+
+fn as_text(scenario: &Scenario) -> String {
+    let case = &scenario.case;
+    let (mechanism, structure) = (&case.mechanism, &case.structure);
+    let (links, joints) = (mechanism.links().len() - 1, mechanism.joints().len());
+    let mut text = String::new();
+    let _ = writeln!(text, "{}: {}", scenario.name, scenario.title);
+    if let Some(source) = &scenario.source {
+        let _ = writeln!(text, "source     {source}");
+    }
+    let _ = writeln!(text, "mobility   W = 3*{links} - 2*{joints} = {}", structure.mobility);
+    let _ = writeln!(text, "structure  {}\n\nlinks", structure.formula(mechanism));
+    for (link, pose) in mechanism.links().iter().zip(&case.start.0) {
+        let points: Vec<&str> = link.points.iter().map(|point| point.name.as_str()).collect();
+        let _ = writeln!(
+            text,
+            "  {:14} points {:14} m = {:.4} kg, J = {:.4e} kg m^2, at {:.3} deg",
+            link.name,
+            points.join(" "),
+            link.mass,
+            link.inertia,
+            pose.angle.to_degrees()
+        );
+    }
+    let _ = writeln!(text, "\njoints");
+    for joint in mechanism.joints() {
+        let [first, second] = ends(mechanism, joint);
+        let driven = if joint.name == mechanism.joints()[case.drive.joint].name { ", driven" } else { "" };
+        let _ = writeln!(text, "  {:14} revolute, {first} - {second}{driven}", joint.name);
+    }
+    let _ = writeln!(text, "\ngroups at the start (crank {:.3} deg)", case.drive.start.to_degrees());
+    for (group, &mode) in structure.groups.iter().zip(&case.modes) {
+        let sine = transmission_sine(mechanism, group, &case.start).abs();
+        let _ = writeln!(
+            text,
+            "  {:28} class {}, order {}, {}, mode {}, transmission angle {:.2} deg",
+            group.names(mechanism),
+            group.class,
+            group.order(),
+            group.pairs(mechanism),
+            mode_name(mode),
+            sine.asin().to_degrees()
+        );
+    }
+    text
+}
+
+fn as_json(scenario: &Scenario) -> Value {
+    let case = &scenario.case;
+    let (mechanism, structure) = (&case.mechanism, &case.structure);
+    let link = |index: usize| mechanism.links()[index].name.clone();
+    let joint = |index: usize| mechanism.joints()[index].name.clone();
+    let links = mechanism.links().iter().zip(&case.start.0).map(|(link, pose)| {
+        let points = link.points.iter().map(|p| json!({"name": p.name, "x_m": p.local.x, "y_m": p.local.y}));
+        json!({
+            "name": link.name, "points": points.collect::<Vec<_>>(), "mass_kg": link.mass, "inertia_kg_m2": link.inertia,
+            "mass_centre": {"x_m": link.mass_centre.x, "y_m": link.mass_centre.y}, "start_angle_rad": pose.angle,
+        })
+    });
+    let joints = mechanism.joints().iter().map(|joint| {
+        json!({"name": joint.name, "type": "revolute", "links": ends(mechanism, joint)})
+    });
+    let groups = structure.groups.iter().zip(&case.modes).map(|(group, &mode)| {
+        json!({
+            "links": group.links.iter().map(|&l| link(l)).collect::<Vec<_>>(),
+            "inner_joints": group.inner.iter().map(|&j| joint(j)).collect::<Vec<_>>(),
+            "outer_joints": group.outer.iter().map(|&j| joint(j)).collect::<Vec<_>>(),
+            "class": group.class, "order": group.order(), "kind": group.pairs(mechanism), "mode": mode_name(mode),
+            "transmission_angle_rad": transmission_sine(mechanism, group, &case.start).abs().asin(),
+        })
+    });
+    let drivers = structure.drivers.iter().map(|&(l, j)| json!({"link": link(l), "joint": joint(j)}));
+    json!({
+        "schema": 1, "scenario": scenario.name, "title": scenario.title, "mobility": structure.mobility,
+        "formula": structure.formula(mechanism), "drivers": drivers.collect::<Vec<_>>(),
+        "groups": groups.collect::<Vec<_>>(), "links": links.collect::<Vec<_>>(), "joints": joints.collect::<Vec<_>>(),
+        "start_crank_rad": case.drive.start,
+    })
+}
+
+fn ends<'a>(mechanism: &'a Mechanism, joint: &Joint) -> [&'a str; 2] {
+    [joint.first, joint.second].map(|side| mechanism.links()[side.link].name.as_str())
+}
+
+fn mode_name(mode: AssemblyMode) -> &'static str {
+    match mode {
+        AssemblyMode::Left => "left",
+        AssemblyMode::Right => "right",
+    }
+}

@@ -1,0 +1,75 @@
+//! The command line: the only part with standard output, paths, the clock, the environment and exit codes.
+
+mod grid;
+mod inspect;
+mod list;
+mod output;
+mod progress;
+mod run;
+mod solve;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// Exit code when everything agrees.
+pub const AGREE: u8 = 0;
+/// Exit code when something disagrees.
+pub const DISAGREE: u8 = 1;
+/// Exit code for bad input or usage.
+pub const BAD_INPUT: u8 = 2;
+/// Exit code when nothing is proven either way.
+pub const INCONCLUSIVE: u8 = 3;
+
+const EXAMPLES: &str = "\
+Examples:
+  linkproof list                                        what scenarios there are
+  linkproof run scenarios/crank_rocker.toml             prove one, record it to recordings/
+  linkproof run scenarios/*.toml --no-record --json -   prove all, as JSON
+  linkproof solve scenarios/ov7_base.toml --with assur --crank-deg 0:-360:-30
+  linkproof inspect scenarios/ov7_base.toml             links, joints, Assur groups
+
+Exit codes: 0 all agree, 1 something disagrees, 2 bad input or usage, 3 nothing proven either way.";
+
+/// Builds planar mechanisms twice, analytically and as a Rapier multibody, and proves that the two agree.
+#[derive(Debug, Parser)]
+#[command(name = "linkproof", version, after_help = EXAMPLES)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Solve scenarios both ways, compare, check, record, and say whether the two sides agree
+    Run(run::Args),
+    /// Solve a scenario one way and write the solution as CSV, one row an instant
+    Solve(solve::Args),
+    /// Show the structure of a mechanism: links, joints, mobility, driving link and Assur groups
+    Inspect(inspect::Args),
+    /// List scenarios, or the channels and solvers there are
+    List(list::Args),
+}
+
+/// Runs the command line and returns its exit code.
+#[must_use]
+pub fn main() -> ExitCode {
+    let cli = Cli::parse();
+    let code = match cli.command {
+        Command::Run(args) => run::run(&args),
+        Command::Solve(args) => output::exit(solve::solve(&args)),
+        Command::Inspect(args) => output::exit(inspect::inspect(&args)),
+        Command::List(args) => output::exit(list::list(&args)),
+    };
+    ExitCode::from(code)
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    #[test]
+    fn arguments_are_consistent() {
+        super::Cli::command().debug_assert();
+    }
+}

@@ -1,0 +1,66 @@
+//! Writing to standard output, files and the terminal.
+
+use std::fs;
+use std::io::{self, Write};
+use std::path::Path;
+
+use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
+
+use crate::error::{Error, ErrorKind, Result};
+
+/// Writes text to a file, or to standard output for `-`.
+pub(super) fn write(text: &str, to: &Path) -> Result<()> {
+    if to == Path::new("-") {
+        return print(text);
+    }
+    fs::write(to, text).map_err(|error| {
+        Error::new(ErrorKind::Io, format!("{} cannot be written: {error}", to.display()))
+            .help("check that the directory exists and may be written to")
+    })
+}
+
+/// Writes text to standard output. A reader that went away (`| head`) is no error.
+pub(super) fn print(text: &str) -> Result<()> {
+    let mut out = io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            Err(Error::new(ErrorKind::Io, format!("standard output cannot be written: {error}")))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Exit code of a command, its error shown.
+pub(super) fn exit(result: Result<()>) -> u8 {
+    match result {
+        Ok(()) => super::AGREE,
+        Err(error) => {
+            show(&error);
+            super::BAD_INPUT
+        }
+    }
+}
+
+/// Shows an error on standard error: the line of the file it is about, what was found there, and the way out.
+pub(super) fn show(error: &Error) {
+    let text = render(error);
+    // Nothing is left to do if standard error is closed.
+    let _ = writeln!(io::stderr(), "{text}");
+}
+
+fn render(error: &Error) -> String {
+    let title = match error.scenario_key() {
+        Some(key) => format!("`{key}`: {}", error.message()),
+        None => error.message().to_string(),
+    };
+    let path = error.place().map(|place| place.file.display().to_string());
+    let mut group = Level::ERROR.primary_title(title.as_str()).elements::<Snippet<'_, annotate_snippets::Annotation>>([]);
+    if let (Some(place), Some(path)) = (error.place(), &path) {
+        let annotation = AnnotationKind::Primary.span(place.span.clone());
+        group = group.element(Snippet::source(place.text.as_str()).path(path.as_str()).annotation(annotation));
+    }
+    if let Some(help) = error.way_out() {
+        group = group.element(Level::HELP.message(help));
+    }
+    Renderer::plain().render(&[group])
+}

@@ -1,0 +1,208 @@
+//! `linkproof run`.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use clap::builder::PossibleValuesParser;
+
+use super::output;
+use super::progress::Bar;
+use crate::compare::Verdict;
+use crate::engine;
+use crate::error::{Error, ErrorKind, Result};
+use crate::proof::{Options, Proof, prove};
+use crate::record::{self, Level, LogEntry, Recording, Side};
+use crate::reference;
+use crate::report::{json, text};
+use crate::scenario::Scenario;
+
+const EXAMPLES: &str = "\
+Examples:
+  linkproof run scenarios/crank_rocker.toml
+  linkproof run scenarios/crank_rocker.toml --dt 1e-4          a finer engine step
+  linkproof run scenarios/*.toml --reference newton            the other analytic side as reference
+  linkproof run scenarios/*.toml --no-record --json out.json   no recording, results for a script
+
+Exit codes: 0 all agree, 1 something disagrees, 2 bad input or usage, 3 nothing proven either way.";
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Args {
+    /// Scenario files
+    #[arg(required = true, value_name = "FILE")]
+    files: Vec<PathBuf>,
+    /// Analytic solver that the engine is compared with; the other one checks it
+    #[arg(long, default_value = "assur", value_parser = PossibleValuesParser::new(reference_names()))]
+    reference: String,
+    /// Engine
+    #[arg(long, default_value = "rapier", value_parser = PossibleValuesParser::new(engine_names()))]
+    engine: String,
+    /// Time step of the engine in seconds [default: the scenario's]
+    #[arg(long, value_name = "S", allow_hyphen_values = true)]
+    dt: Option<f64>,
+    /// Directory that the recordings (MCAP) are written to
+    #[arg(long, value_name = "DIR", default_value = "recordings")]
+    record: PathBuf,
+    /// Write no recording
+    #[arg(long, conflicts_with = "record")]
+    no_record: bool,
+    /// Write the results as JSON to a file, or to standard output instead of the report with `-`
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+}
+
+pub(super) fn reference_names() -> Vec<&'static str> {
+    reference::all().iter().map(|solver| solver.name()).collect()
+}
+
+pub(super) fn engine_names() -> Vec<&'static str> {
+    engine::all(1.0).iter().map(|engine| engine.name()).collect()
+}
+
+/// Proves every file; one that is bad does not keep the others from being proven.
+pub(super) fn run(args: &Args) -> u8 {
+    let mut document = json::Document::new();
+    let mut worst = super::AGREE;
+    let quiet = args.json.as_deref() == Some(Path::new("-"));
+    for file in &args.files {
+        match run_one(args, file, quiet) {
+            Ok((proof, recording)) => {
+                worst = graver(worst, exit_code(&proof.verdict));
+                document.add(&proof, recording.map(|path| path.display().to_string()));
+            }
+            Err(error) => {
+                output::show(&error);
+                document.add_failure(&file.display().to_string(), &error);
+                worst = super::BAD_INPUT;
+            }
+        }
+    }
+    if let Some(to) = &args.json
+        && let Err(error) = output::write(&document.text(), to)
+    {
+        output::show(&error);
+        worst = super::BAD_INPUT;
+    }
+    worst
+}
+
+fn run_one(args: &Args, file: &Path, quiet: bool) -> Result<(Proof, Option<PathBuf>)> {
+    let scenario = Scenario::load(file)?;
+    let options = Options { reference: args.reference.clone(), engine: args.engine.clone(), step: args.dt };
+    let mut bar = Bar::new(&scenario.name);
+    let proof = prove(&scenario, &options, &mut |part| bar.at(part))?;
+    drop(bar);
+    if !quiet {
+        output::print(&text::proof(&proof))?;
+    }
+    if args.no_record {
+        return Ok((proof, None));
+    }
+    let path = write_recording(&scenario, &proof, &args.record)?;
+    if !quiet {
+        output::print(&format!("recording  {}\n\n", path.display()))?;
+    }
+    Ok((proof, Some(path)))
+}
+
+fn write_recording(scenario: &Scenario, proof: &Proof, directory: &Path) -> Result<PathBuf> {
+    fs::create_dir_all(directory).map_err(|error| {
+        Error::new(ErrorKind::Io, format!("the directory {} cannot be made: {error}", directory.display()))
+            .help("name another directory with --record, or use --no-record")
+    })?;
+    let path = directory.join(format!("{}.mcap", scenario.name));
+    let metadata = metadata(proof);
+    let sides = [
+        Side { name: "reference", trajectory: &proof.reference_trajectory },
+        Side { name: "engine", trajectory: &proof.engine_trajectory },
+    ];
+    let log = log(proof);
+    let recording = Recording {
+        name: &scenario.name,
+        scenario_text: &scenario.text,
+        metadata: &metadata,
+        mechanism: &scenario.case.mechanism,
+        sides: &sides,
+        errors: Some(&proof.errors),
+        log: &log,
+    };
+    record::write(&recording, &path)?;
+    Ok(path)
+}
+
+fn metadata(proof: &Proof) -> BTreeMap<String, String> {
+    let engine = &proof.engine;
+    let mut metadata = BTreeMap::from([
+        ("linkproof".to_string(), env!("CARGO_PKG_VERSION").to_string()),
+        ("reference".into(), proof.reference.into()),
+        ("structure".into(), proof.formula.clone()),
+        ("engine".into(), engine.version.clone()),
+        ("engine_step_s".into(), format!("{:e}", engine.step)),
+        ("verdict".into(), proof.verdict.word().into()),
+    ]);
+    metadata.extend(engine.settings.iter().map(|(name, value)| (format!("engine_{name}"), value.clone())));
+    let provides = engine.provides.iter().map(|(stage, how)| (format!("provides_{stage}"), json::provision(how)));
+    metadata.extend(provides);
+    metadata
+}
+
+/// The verdict at the start, and every disagreement where it is worst.
+fn log(proof: &Proof) -> Vec<LogEntry> {
+    let start = proof.reference_trajectory.times().iter().copied().fold(f64::INFINITY, f64::min);
+    let level = |verdict: &Verdict| match verdict {
+        Verdict::Agree { .. } => Level::Info,
+        Verdict::Inconclusive { .. } => Level::Warning,
+        Verdict::Disagree { .. } => Level::Error,
+    };
+    let mut log = vec![LogEntry {
+        time: start,
+        level: level(&proof.verdict),
+        text: format!("{}: {}", proof.scenario, proof.verdict.word()),
+    }];
+    for channel in &proof.channels {
+        if let Verdict::Disagree { place: why } | Verdict::Inconclusive { reason: why } = &channel.verdict {
+            let residual = &channel.residual;
+            let text = format!("{}: {why}", residual.channel);
+            log.push(LogEntry { time: residual.worst_time, level: level(&channel.verdict), text });
+        }
+    }
+    for check in &proof.checks {
+        if let Verdict::Disagree { place: why } | Verdict::Inconclusive { reason: why } = &check.verdict {
+            let text = format!("{}: {why}", check.name());
+            log.push(LogEntry { time: start, level: level(&check.verdict), text });
+        }
+    }
+    log
+}
+
+fn exit_code(verdict: &Verdict) -> u8 {
+    match verdict {
+        Verdict::Agree { .. } => super::AGREE,
+        Verdict::Disagree { .. } => super::DISAGREE,
+        Verdict::Inconclusive { .. } => super::INCONCLUSIVE,
+    }
+}
+
+/// The graver of two exit codes: bad input before disagreement before no proof.
+fn graver(a: u8, b: u8) -> u8 {
+    let rank = |code: u8| match code {
+        super::BAD_INPUT => 3,
+        super::DISAGREE => 2,
+        super::INCONCLUSIVE => 1,
+        _ => 0,
+    };
+    if rank(b) > rank(a) { b } else { a }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_gravest_outcome_decides_the_exit_code() {
+        assert_eq!([0, 3, 1].into_iter().fold(0, graver), 1);
+        assert_eq!([2, 1, 0].into_iter().fold(0, graver), 2);
+        assert_eq!([0, 3, 0].into_iter().fold(0, graver), 3);
+    }
+}

@@ -1,0 +1,93 @@
+//! `linkproof solve`.
+
+use std::path::PathBuf;
+
+use clap::builder::PossibleValuesParser;
+
+use super::grid::Range;
+use super::output;
+use super::progress::Bar;
+use super::run::{engine_names, reference_names};
+use crate::case::{Case, Grid};
+use crate::engine;
+use crate::error::{Error, ErrorKind, Result};
+use crate::reference;
+use crate::scenario::Scenario;
+use crate::trajectory::Trajectory;
+
+const EXAMPLES: &str = "\
+Examples:
+  linkproof solve scenarios/crank_rocker.toml --with assur
+  linkproof solve scenarios/ov7_base.toml --with newton --crank-deg 0:-360:-30 --csv table.csv
+  linkproof solve scenarios/crank_rocker.toml --with rapier --dt 1e-4 --times 0:0.46:0.01
+
+Columns: t_s, crank_rad, then link.NAME, point.NAME, joint.NAME and drive channels (`linkproof list --channels`).";
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Args {
+    /// Scenario file
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+    /// Solver: an analytic one or an engine
+    #[arg(long, value_name = "SOLVER", value_parser = PossibleValuesParser::new(solver_names()))]
+    with: String,
+    /// Crank angles in degrees, measured as the scenario states them, instead of its grid
+    #[arg(long, value_name = "FROM:TO:STEP", allow_hyphen_values = true, conflicts_with = "times")]
+    crank_deg: Option<Range>,
+    /// Times in seconds, instead of the scenario's grid
+    #[arg(long, value_name = "FROM:TO:STEP", allow_hyphen_values = true)]
+    times: Option<Range>,
+    /// Time step of an engine in seconds [default: the scenario's]
+    #[arg(long, value_name = "S", allow_hyphen_values = true)]
+    dt: Option<f64>,
+    /// File to write to, `-` for standard output
+    #[arg(long, value_name = "FILE", default_value = "-")]
+    csv: PathBuf,
+}
+
+fn solver_names() -> Vec<&'static str> {
+    [reference_names(), engine_names()].concat()
+}
+
+pub(super) fn solve(args: &Args) -> Result<()> {
+    let scenario = Scenario::load(&args.file)?;
+    let case = on_grid(&scenario.case, args);
+    let mut bar = Bar::new(&scenario.name);
+    let mut progress = |part| bar.at(part);
+    let trajectory = match reference::named(&args.with) {
+        Some(solver) => solver.solve(&case, &mut progress)?,
+        None => {
+            let step = args.dt.unwrap_or(scenario.dt);
+            engine::named(&args.with, step).expect("the argument parser knows all names").solve(&case, &mut progress)?
+        }
+    };
+    drop(bar);
+    output::write(&csv(&trajectory)?, &args.csv)
+}
+
+fn on_grid(case: &Case, args: &Args) -> Case {
+    match (&args.crank_deg, &args.times) {
+        (Some(Range(degrees)), _) => {
+            let cranks = degrees.iter().map(|angle| angle.to_radians()).collect();
+            case.on(Grid::of_cranks(&case.drive, cranks))
+        }
+        (None, Some(Range(times))) => case.on(Grid::of_times(&case.drive, times.clone())),
+        (None, None) => case.clone(),
+    }
+}
+
+/// One row an instant, 17 significant digits: every double is read back as the one that was written.
+fn csv(trajectory: &Trajectory) -> Result<String> {
+    let failed = |error: csv::Error| Error::new(ErrorKind::Io, format!("the table cannot be written: {error}"));
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let names = trajectory.channels().iter().map(ToString::to_string);
+    writer.write_record(["t_s".to_string(), "crank_rad".to_string()].into_iter().chain(names)).map_err(failed)?;
+    let columns: Vec<&[f64]> =
+        [trajectory.times(), trajectory.cranks()].into_iter().chain(trajectory.iter().map(|(_, v)| v)).collect();
+    for row in 0..trajectory.times().len() {
+        writer.write_record(columns.iter().map(|column| format!("{:.16e}", column[row]))).map_err(failed)?;
+    }
+    let bytes = writer.into_inner().map_err(|error| failed(error.into_error().into()))?;
+    Ok(String::from_utf8(bytes).expect("names and numbers are text"))
+}

@@ -1,0 +1,9 @@
+//! Two trajectories against each other: residuals, their distribution, the engine's own convergence, and the verdict.
+
+pub mod convergence;
+pub mod residual;
+pub mod verdict;
+
+pub use convergence::Convergence;
+pub use residual::{Residual, difference, residuals, scales};
+pub use verdict::{Check, Verdict, overall};

@@ -1,0 +1,146 @@
+//! What is left when one trajectory is taken from another, channel by channel.
+
+use std::f64::consts::TAU;
+
+use crate::error::{Error, ErrorKind, Result};
+use crate::math::statistics::{half_range, quantile, rms};
+use crate::trajectory::{Channel, Trajectory};
+
+/// A channel that moves less than this share of the widest channel of its quantity is measured by that share: its
+/// errors come from its neighbours, not from its own motion (a nearly constant coordinate).
+const SMALLEST_SHARE: f64 = 1e-3;
+
+/// Distribution of the absolute differences in one channel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Residual {
+    /// The channel.
+    pub channel: Channel,
+    /// Scale of the channel over the run, in its unit: see [`scales`].
+    pub scale: f64,
+    /// Largest absolute difference, in the channel's unit.
+    pub max: f64,
+    /// Root of the mean square of the differences.
+    pub rms: f64,
+    /// Three quarters of the absolute differences are below.
+    pub q75: f64,
+    /// 99 of 100 absolute differences are below.
+    pub q99: f64,
+    /// Time of the largest difference (s).
+    pub worst_time: f64,
+    /// Crank angle of the largest difference (rad).
+    pub worst_crank: f64,
+}
+
+/// Scale of every channel: half the range of its values over the run, but at least a thousandth of the widest such
+/// half range among the channels of the same quantity.
+#[must_use]
+pub fn scales(trajectory: &Trajectory) -> Vec<f64> {
+    let halves: Vec<f64> = trajectory.iter().map(|(_, values)| half_range(values)).collect();
+    let widest = |quantity: &str| {
+        let of_quantity = trajectory.channels().iter().zip(&halves).filter(|(c, _)| c.kind.quantity == quantity);
+        of_quantity.map(|(_, &half)| half).fold(0.0, f64::max)
+    };
+    let scale = |(channel, &half): (&Channel, &f64)| half.max(SMALLEST_SHARE * widest(channel.kind.quantity));
+    trajectory.channels().iter().zip(&halves).map(scale).collect()
+}
+
+/// Channel by channel `other` minus `reference`, for the channels that both have. Angles that differ by whole turns throughout are
+/// the same motion: the turns between the first samples are taken off.
+///
+/// # Errors
+/// If the grids differ.
+pub fn difference(reference: &Trajectory, other: &Trajectory) -> Result<Trajectory> {
+    if reference.times() != other.times() {
+        return Err(Error::new(ErrorKind::Input, "the two trajectories stand on different grids")
+            .help("compare only trajectories that were solved for the same times"));
+    }
+    let (mut channels, mut columns) = (Vec::new(), Vec::new());
+    for (channel, ours) in reference.iter() {
+        let Some(theirs) = other.column(channel) else { continue };
+        channels.push(channel.clone());
+        columns.push(differences(ours, theirs, channel.kind.periodic));
+    }
+    Trajectory::new(reference.times().to_vec(), reference.cranks().to_vec(), channels, columns)
+}
+
+/// Values of `theirs` minus `ours`.
+pub(super) fn differences(ours: &[f64], theirs: &[f64], periodic: bool) -> Vec<f64> {
+    let turns = match (periodic, ours.first(), theirs.first()) {
+        (true, Some(a), Some(b)) => TAU * ((b - a) / TAU).round(),
+        _ => 0.0,
+    };
+    ours.iter().zip(theirs).map(|(a, b)| b - a - turns).collect()
+}
+
+/// Residuals of all channels that both trajectories have, on the reference's scales.
+///
+/// # Errors
+/// If the grids differ.
+pub fn residuals(reference: &Trajectory, other: &Trajectory) -> Result<Vec<Residual>> {
+    let errors = difference(reference, other)?;
+    let scales = scales(reference);
+    let scale_of = |channel: &Channel| {
+        let index = reference.channels().iter().position(|own| own == channel);
+        scales[index.expect("the difference has only channels of the reference")]
+    };
+    Ok(errors.iter().map(|(channel, values)| of_values(channel, values, scale_of(channel), &errors)).collect())
+}
+
+fn of_values(channel: &Channel, values: &[f64], scale: f64, errors: &Trajectory) -> Residual {
+    let worst = (0..values.len()).max_by(|&a, &b| values[a].abs().total_cmp(&values[b].abs())).unwrap_or(0);
+    let mut sorted: Vec<f64> = values.iter().map(|value| value.abs()).collect();
+    sorted.sort_by(f64::total_cmp);
+    Residual {
+        channel: channel.clone(),
+        scale,
+        max: sorted.last().copied().unwrap_or(0.0),
+        rms: rms(values.iter().copied()),
+        q75: quantile(&sorted, 0.75),
+        q99: quantile(&sorted, 0.99),
+        worst_time: errors.times().get(worst).copied().unwrap_or(0.0),
+        worst_crank: errors.cranks().get(worst).copied().unwrap_or(0.0),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn trajectory(rows: &[(&str, Vec<f64>)]) -> Trajectory {
+        let n = rows[0].1.len();
+        let times: Vec<f64> = (0..n).map(|k| k as f64).collect();
+        let channels = rows.iter().map(|(name, _)| Channel::named(name).unwrap()).collect();
+        Trajectory::new(times.clone(), times, channels, rows.iter().map(|(_, v)| v.clone()).collect()).unwrap()
+    }
+
+    #[test]
+    fn whole_turns_are_no_difference_but_a_slip_on_the_way_is() {
+        let a = trajectory(&[("link.a.angle_rad", vec![0.0, 1.0, 2.0])]);
+        let b = trajectory(&[("link.a.angle_rad", vec![TAU, 1.0 + TAU, 2.0])]);
+        let residual = &residuals(&a, &b).unwrap()[0];
+        assert!((residual.max - TAU).abs() < 1e-12);
+        assert_eq!(residual.worst_time, 2.0);
+    }
+
+    #[test]
+    fn a_nearly_constant_channel_is_measured_by_its_family() {
+        let a = trajectory(&[("joint.A.fx_N", vec![-500.0, 500.0]), ("joint.A.fy_N", vec![1.0, 1.0])]);
+        assert_eq!(scales(&a), [500.0, 0.5]);
+    }
+
+    #[test]
+    fn channels_that_only_one_side_has_are_left_out() {
+        let a = trajectory(&[("joint.A.fx_N", vec![0.0, 2.0]), ("joint.B.fx_N", vec![0.0, 2.0])]);
+        let b = trajectory(&[("joint.B.fx_N", vec![0.5, 2.0])]);
+        let found = residuals(&a, &b).unwrap();
+        assert_eq!(found.len(), 1);
+        assert_eq!((found[0].max, found[0].q75, found[0].scale), (0.5, 0.375, 1.0));
+    }
+
+    #[test]
+    fn different_grids_are_refused() {
+        let a = trajectory(&[("joint.A.fx_N", vec![0.0, 2.0])]);
+        let b = trajectory(&[("joint.A.fx_N", vec![0.0, 2.0, 3.0])]);
+        assert!(residuals(&a, &b).is_err());
+    }
+}

@@ -1,0 +1,190 @@
+//! Agree, disagree, or not decided.
+
+use super::{Convergence, Residual};
+use crate::tolerance::{Basis, Tolerance};
+
+/// Outcome of one comparison.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Verdict {
+    /// The residual is within its bound.
+    Agree {
+        /// Bound over residual; infinite where the residual is zero.
+        margin: f64,
+    },
+    /// The residual is beyond its bound.
+    Disagree {
+        /// Where it is worst, in words.
+        place: String,
+    },
+    /// Nothing is proven either way.
+    Inconclusive {
+        /// Why not, and what to do.
+        reason: String,
+    },
+}
+
+impl Verdict {
+    /// Word for reports: `agree`, `disagree` or `inconclusive`.
+    #[must_use]
+    pub fn word(&self) -> &'static str {
+        match self {
+            Verdict::Agree { .. } => "agree",
+            Verdict::Disagree { .. } => "disagree",
+            Verdict::Inconclusive { .. } => "inconclusive",
+        }
+    }
+
+    /// A residual against its bound, written so that NaN disagrees.
+    #[must_use]
+    pub fn of(residual: f64, bound: f64, place: impl FnOnce() -> String) -> Self {
+        if residual <= bound {
+            Verdict::Agree { margin: bound / residual }
+        } else {
+            Verdict::Disagree { place: place() }
+        }
+    }
+
+    /// Verdict on an engine's channel. Where the engine does not converge, or its error may be larger than the share
+    /// `wanted` of the channel's scale, a small residual proves nothing.
+    #[must_use]
+    pub fn of_engine(residual: &Residual, convergence: &Convergence, bound: f64, wanted: f64) -> Self {
+        if !convergence.is_trusted() {
+            return Verdict::Inconclusive {
+                reason: format!(
+                    "the engine converges with order {:.2} instead of {:.0} here: its error cannot be estimated; choose a smaller step (--dt)",
+                    convergence.observed, convergence.formal
+                ),
+            };
+        }
+        let place = || {
+            let (t, crank) = (residual.worst_time, residual.worst_crank.to_degrees());
+            format!("{:.3e} beyond the bound {bound:.3e} at t = {t:.6} s, crank angle {crank:.3} deg", residual.max)
+        };
+        match Verdict::of(residual.max, bound, place) {
+            Verdict::Agree { .. } if bound > wanted * residual.scale => Verdict::Inconclusive {
+                reason: format!(
+                    "the engine's error may reach {:.1e} of the channel's scale, more than the {wanted:.0e} that still proves something; choose a smaller step (--dt)",
+                    bound / residual.scale
+                ),
+            },
+            verdict => verdict,
+        }
+    }
+}
+
+/// A number that must stay below a bound, besides the comparison of channels.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Check {
+    /// What is checked. Checks of one family are one line in a report.
+    pub family: String,
+    /// Which of the family; empty if there is only one.
+    pub detail: String,
+    /// The number.
+    pub value: f64,
+    /// Its bound.
+    pub bound: f64,
+    /// Unit of both; empty for relative numbers.
+    pub unit: &'static str,
+    /// What the bound rests on.
+    pub basis: Basis,
+    /// The outcome.
+    pub verdict: Verdict,
+}
+
+impl Check {
+    /// A check of a number against a bound.
+    #[must_use]
+    pub fn new(family: impl Into<String>, value: f64, tolerance: Tolerance, unit: &'static str) -> Self {
+        let bound = tolerance.bound(0.0);
+        let verdict = Verdict::of(value, bound, || {
+            let space = if unit.is_empty() { "" } else { " " };
+            format!("{value:.3e}{space}{unit} is beyond the bound {bound:.3e}")
+        });
+        let (family, detail) = (family.into(), String::new());
+        Check { family, detail, value, bound, unit, basis: tolerance.basis, verdict }
+    }
+
+    /// Says which of its family the check is.
+    #[must_use]
+    pub fn of(mut self, detail: impl Into<String>) -> Self {
+        self.detail = detail.into();
+        self
+    }
+
+    /// Adds to the reason of a disagreement where it is worst.
+    #[must_use]
+    pub fn located(mut self, place: impl FnOnce() -> String) -> Self {
+        if let Verdict::Disagree { place: reason } = &mut self.verdict {
+            *reason = format!("{reason}, {}", place());
+        }
+        self
+    }
+
+    /// Family and detail: the name of the check.
+    #[must_use]
+    pub fn name(&self) -> String {
+        if self.detail.is_empty() { self.family.clone() } else { format!("{}, {}", self.family, self.detail) }
+    }
+
+    /// Share of the bound that is used up; infinite for NaN, so that it counts as the worst.
+    #[must_use]
+    pub fn used(&self) -> f64 {
+        let used = if self.value == 0.0 { 0.0 } else { self.value / self.bound };
+        if used.is_nan() { f64::INFINITY } else { used }
+    }
+}
+
+/// Verdict on the whole: one disagreement is one, otherwise one open question leaves it open.
+#[must_use]
+pub fn overall<'a>(verdicts: impl IntoIterator<Item = &'a Verdict>) -> Verdict {
+    let mut margin = f64::INFINITY;
+    let mut open = None;
+    for verdict in verdicts {
+        match verdict {
+            Verdict::Disagree { .. } => return verdict.clone(),
+            Verdict::Inconclusive { .. } => open = open.or(Some(verdict)),
+            Verdict::Agree { margin: own } => margin = margin.min(*own),
+        }
+    }
+    open.cloned().unwrap_or(Verdict::Agree { margin })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::trajectory::Channel;
+
+    fn residual(max: f64) -> Residual {
+        let channel = Channel::named("joint.A.fx_N").unwrap();
+        Residual { channel, scale: 1.0, max, rms: 0.0, q75: 0.0, q99: 0.0, worst_time: 0.1, worst_crank: 1.0 }
+    }
+
+    fn converging(observed: f64) -> Convergence {
+        Convergence { observed, formal: 2.0, error: 1e-3, safety: 1.25 }
+    }
+
+    #[test]
+    fn not_a_number_never_agrees() {
+        assert_eq!(Verdict::of(f64::NAN, 1.0, String::new).word(), "disagree");
+        assert_eq!(Verdict::of(1.0, f64::NAN, String::new).word(), "disagree");
+    }
+
+    #[test]
+    fn an_engine_that_does_not_converge_or_is_too_coarse_proves_nothing() {
+        assert_eq!(Verdict::of_engine(&residual(1e-4), &converging(2.0), 1e-3, 1e-2).word(), "agree");
+        assert_eq!(Verdict::of_engine(&residual(1e-2), &converging(2.0), 1e-3, 1e-2).word(), "disagree");
+        assert_eq!(Verdict::of_engine(&residual(1e-4), &converging(0.3), 1e-3, 1e-2).word(), "inconclusive");
+        assert_eq!(Verdict::of_engine(&residual(1e-4), &converging(2.0), 5e-2, 1e-2).word(), "inconclusive");
+        assert_eq!(Verdict::of_engine(&residual(1e-4), &converging(f64::NAN), 1e-3, 1e-2).word(), "agree");
+    }
+
+    #[test]
+    fn the_whole_is_as_good_as_its_worst_part() {
+        let agree = Verdict::Agree { margin: 2.0 };
+        let open = Verdict::Inconclusive { reason: "why".into() };
+        let no = Verdict::Disagree { place: "there".into() };
+        assert_eq!(overall([&agree, &agree]).word(), "agree");
+        assert_eq!(overall([&agree, &open]).word(), "inconclusive");
+        assert_eq!(overall([&open, &no]).word(), "disagree");
+    }
+}

@@ -1,0 +1,111 @@
+//! Checks besides the comparison of the two sides: closure, side against side, powers.
+
+use super::observe::Observed;
+use crate::case::Case;
+use crate::compare::{Check, Convergence, residuals};
+use crate::engine::Engine;
+use crate::scenario::Scenario;
+use crate::tolerance::{Basis, Tolerance};
+use crate::trajectory::{CHANNELS, Channel, ChannelKind, Stage};
+
+/// Closure of the joints, relative to the mechanism's size, that rounding allows an analytic side.
+const CLOSURE: f64 = 1e-13;
+/// Balancing moment two ways, relative to its amplitude.
+const TWO_WAYS: f64 = 1e-11;
+
+/// Relative difference that rounding allows between the two analytic sides. Each derivative, and each linear solve for
+/// forces, multiplies the rounding of what it starts from by the condition of the pose, here at most a hundred.
+fn side_bound(stage: Stage) -> f64 {
+    match stage {
+        Stage::Positions => 1e-12,
+        Stage::Velocities | Stage::Accelerations => 1e-11,
+        Stage::Reactions | Stage::BalancingMoment => 1e-10,
+    }
+}
+
+fn rounding(bound: f64, why: &'static str) -> Tolerance {
+    Tolerance { abs: bound, rel: 0.0, basis: Basis::RoundOff(why) }
+}
+
+/// Checks on the two analytic sides, by name.
+pub(super) fn of_sides(case: &Case, sides: &[(&'static str, Observed); 2]) -> Vec<Check> {
+    let size = case.mechanism.size();
+    let mut checks = Vec::new();
+    for (name, side) in sides {
+        let tolerance = rounding(CLOSURE, "positions are good to a few units in the last place of the mechanism's size");
+        checks.push(Check::new(format!("closure of all joints ({name})"), side.closure / size, tolerance, ""));
+    }
+    checks.extend(between_sides(sides));
+    for (name, side) in sides.iter().filter(|(_, side)| !side.power.is_empty()) {
+        let tolerance = rounding(TWO_WAYS, "sums of a few forces and powers");
+        let name = format!("balancing moment from equilibrium and from powers ({name})");
+        checks.push(Check::new(name, two_ways(side), tolerance, ""));
+    }
+    checks
+}
+
+fn between_sides(sides: &[(&'static str, Observed); 2]) -> Vec<Check> {
+    let residuals = residuals(&sides[0].1.trajectory, &sides[1].1.trajectory).expect("both sides stand on one grid");
+    let of_stage = |stage: Stage| {
+        let relative = |r: &&_| -> f64 {
+            let r: &crate::compare::Residual = r;
+            if r.max == 0.0 { 0.0 } else { r.max / r.scale }
+        };
+        let own = residuals.iter().filter(|r| r.channel.kind.stage == stage);
+        let worst = own.max_by(|a, b| relative(a).total_cmp(&relative(b)))?;
+        let tolerance = rounding(side_bound(stage), "two solvers without a common equation, each good to rounding");
+        let check = Check::new(format!("{} against {}", sides[0].0, sides[1].0), relative(&worst), tolerance, "");
+        Some(check.of(stage.name()).located(|| format!("in {} at crank angle {:.3} deg", worst.channel, worst.worst_crank.to_degrees())))
+    };
+    Stage::ALL.into_iter().filter_map(of_stage).collect()
+}
+
+/// Largest difference between the balancing moment of the trajectory and that of the powers, over its amplitude.
+fn two_ways(side: &Observed) -> f64 {
+    let torque = side.trajectory.column(&torque_channel()).expect("the balancing moment is wanted");
+    let amplitude = torque.iter().fold(0.0, |max: f64, m| max.max(m.abs()));
+    let difference = torque.iter().zip(&side.power).fold(0.0, |max: f64, (a, b)| max.max((a - b).abs()));
+    if difference == 0.0 { 0.0 } else { difference / amplitude }
+}
+
+/// Checks on the engine, from its runs at double, single and half step.
+pub(super) fn of_engine(scenario: &Scenario, engine: &dyn Engine, runs: &[Observed; 3]) -> Vec<Check> {
+    let (case, name) = (&scenario.case, engine.name());
+    let mut checks = vec![Check::new(
+        format!("closure of all joints ({name})"),
+        runs[1].closure / case.mechanism.size(),
+        Tolerance {
+            abs: scenario.engine_rel,
+            rel: 0.0,
+            basis: Basis::RoundOff("the largest relative error with which the engine still proves something"),
+        },
+        "",
+    )];
+    if !runs[1].power.is_empty() {
+        checks.push(power_balance(case, engine, runs));
+    }
+    checks
+}
+
+/// The engine's driving moment against the balance of powers of its own motion: two estimates of one number, each within its own
+/// discretisation error.
+fn power_balance(case: &Case, engine: &dyn Engine, runs: &[Observed; 3]) -> Check {
+    let channel = torque_channel();
+    let kind: &ChannelKind = channel.kind;
+    let torques = [0, 1, 2].map(|k| runs[k].trajectory.column(&channel).expect("the moment is wanted"));
+    let scale = crate::math::statistics::half_range(torques[1]);
+    let noise = engine.round_off(case, kind);
+    let estimate = |of: [&[f64]; 3]| {
+        let formal = engine.formal_order(kind);
+        Convergence::of(of[0], of[1], of[2], false, formal, noise * scale).tolerance(engine.step(), noise)
+    };
+    let (own, power) = (estimate(torques), estimate([0, 1, 2].map(|k| runs[k].power.as_slice())));
+    let bound = (own.bound(scale) + power.bound(scale)) / scale.max(f64::MIN_POSITIVE);
+    let tolerance = Tolerance { abs: bound, rel: 0.0, basis: power.basis };
+    Check::new(format!("driving moment from reactions and from powers ({})", engine.name()), two_ways(&runs[1]), tolerance, "")
+}
+
+fn torque_channel() -> Channel {
+    let kind = CHANNELS.iter().find(|kind| kind.stage == Stage::BalancingMoment).expect("the table has the moment");
+    Channel { of: String::new(), kind }
+}

@@ -1,0 +1,187 @@
+//! The join: a scenario solved by both sides, compared, checked, and judged.
+
+mod checks;
+mod observe;
+mod oracle;
+
+use crate::compare::{Check, Convergence, Residual, Verdict, difference, overall, residuals};
+use crate::engine::{self, Engine};
+use crate::error::{Error, ErrorKind, Result};
+use crate::reference;
+use crate::scenario::Scenario;
+use crate::solver::{Provision, Solver};
+use crate::tolerance::{Basis, Tolerance};
+use crate::trajectory::Trajectory;
+use observe::{Observed, observe};
+
+/// What to prove a scenario with.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Options {
+    /// Analytic solver whose trajectory is the reference; the other one checks it.
+    pub reference: String,
+    /// Engine.
+    pub engine: String,
+    /// Time step of the engine (s); the scenario's if none is given.
+    pub step: Option<f64>,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Options { reference: "assur".into(), engine: "rapier".into(), step: None }
+    }
+}
+
+/// What is known of the engine that was run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EngineInfo {
+    /// Name, as on the command line.
+    pub name: &'static str,
+    /// Software and version behind it.
+    pub version: String,
+    /// Time step (s).
+    pub step: f64,
+    /// Settings that influence the result.
+    pub settings: Vec<(&'static str, String)>,
+    /// How it comes by each sort of channel: stage and provision.
+    pub provides: Vec<(&'static str, Provision)>,
+}
+
+/// Comparison of one channel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ChannelProof {
+    /// Residual of the engine against the reference.
+    pub residual: Residual,
+    /// Bound, in the channel's unit.
+    pub bound: f64,
+    /// Convergence of the engine in this channel.
+    pub convergence: Convergence,
+    /// What the bound rests on.
+    pub basis: Basis,
+    /// The outcome.
+    pub verdict: Verdict,
+}
+
+/// Everything that one proof found out.
+#[derive(Clone, Debug)]
+pub struct Proof {
+    /// Name of the scenario.
+    pub scenario: String,
+    /// Title of the scenario.
+    pub title: String,
+    /// Formula of structure.
+    pub formula: String,
+    /// Name of the reference solver.
+    pub reference: &'static str,
+    /// The engine.
+    pub engine: EngineInfo,
+    /// Channels, in the order of columns.
+    pub channels: Vec<ChannelProof>,
+    /// Checks besides the comparison.
+    pub checks: Vec<Check>,
+    /// Verdict on the whole.
+    pub verdict: Verdict,
+    /// The reference's trajectory.
+    pub reference_trajectory: Trajectory,
+    /// The engine's trajectory.
+    pub engine_trajectory: Trajectory,
+    /// Engine minus reference.
+    pub errors: Trajectory,
+}
+
+/// Solves a scenario with both analytic sides and an engine at three step sizes, and judges what comes out.
+/// `progress` is told how far the work is, from 0 to 1.
+///
+/// # Errors
+/// If a solver cannot solve the case, with the crank angle; if a solver is not known.
+pub fn prove(scenario: &Scenario, options: &Options, progress: &mut dyn FnMut(f64)) -> Result<Proof> {
+    let case = &scenario.case;
+    let step = options.step.unwrap_or(scenario.dt);
+    let main = reference::named(&options.reference).ok_or_else(|| {
+        unknown("analytic solver", &options.reference, reference::all().iter().map(|solver| solver.name()))
+    })?;
+    let engine = engine::named(&options.engine, step).ok_or_else(|| {
+        let known = engine::all(step);
+        unknown("engine", &options.engine, known.iter().map(|engine| engine.name()))
+    })?;
+    let sides = reference::all().map(|solver| Ok((solver.name(), observe(case, solver, &mut |_| {})?)));
+    let sides: [Result<(&'static str, Observed)>; 2] = sides;
+    let [first, second] = sides;
+    let sides = [first?, second?];
+    let runs = run_ladder(scenario, engine.as_ref(), progress)?;
+    let own = &sides.iter().find(|(name, _)| *name == main.name()).expect("the reference is one of the sides").1;
+
+    let channels = judge(scenario, engine.as_ref(), &own.trajectory, &runs)?;
+    let mut checks = checks::of_sides(case, &sides);
+    checks.extend(checks::of_engine(scenario, engine.as_ref(), &runs));
+    checks.extend(oracle::checks(scenario)?);
+    let verdict = overall(channels.iter().map(|c| &c.verdict).chain(checks.iter().map(|c| &c.verdict)));
+    let errors = difference(&own.trajectory, &runs[1].trajectory)?;
+    let [_, single, _] = runs;
+    Ok(Proof {
+        scenario: scenario.name.clone(),
+        title: scenario.title.clone(),
+        formula: case.structure.formula(&case.mechanism),
+        reference: main.name(),
+        engine: describe(engine.as_ref()),
+        channels,
+        checks,
+        verdict,
+        reference_trajectory: own.trajectory.clone(),
+        engine_trajectory: single.trajectory,
+        errors,
+    })
+}
+
+/// The engine at double, single and half step.
+fn run_ladder(scenario: &Scenario, engine: &dyn Engine, progress: &mut dyn FnMut(f64)) -> Result<[Observed; 3]> {
+    // The single step first: if it fails, its own message is the one that helps.
+    let mut run = |factor: f64, from: f64, to: f64| {
+        let run = engine.with_step(engine.step() * factor);
+        observe(&scenario.case, run.as_ref(), &mut |part| progress(from + (to - from) * part))
+    };
+    let single = run(1.0, 0.0, 2.0 / 7.0)?;
+    let half = run(0.5, 2.0 / 7.0, 6.0 / 7.0)?;
+    let double = run(2.0, 6.0 / 7.0, 1.0)?;
+    Ok([double, single, half])
+}
+
+fn judge(
+    scenario: &Scenario,
+    engine: &dyn Engine,
+    reference: &Trajectory,
+    runs: &[Observed; 3],
+) -> Result<Vec<ChannelProof>> {
+    let ladder = [0, 1, 2].map(|k| &runs[k].trajectory);
+    let judged = residuals(reference, ladder[1])?.into_iter().map(|residual| {
+        let kind = residual.channel.kind;
+        let noise = engine.round_off(&scenario.case, kind);
+        let formal = engine.formal_order(kind);
+        let convergence = Convergence::of_channel(ladder, &residual.channel, formal, noise * residual.scale)
+            .expect("all runs of an engine have the same channels");
+        let Tolerance { abs, rel, basis } = convergence.tolerance(engine.step(), noise);
+        let bound = abs + rel * residual.scale;
+        let verdict = Verdict::of_engine(&residual, &convergence, bound, scenario.engine_rel);
+        ChannelProof { residual, bound, convergence, basis, verdict }
+    });
+    Ok(judged.collect())
+}
+
+fn describe(engine: &dyn Engine) -> EngineInfo {
+    let provides = crate::trajectory::Stage::ALL.map(|stage| {
+        let kind = crate::trajectory::CHANNELS.iter().find(|kind| kind.stage == stage).expect("every stage has a channel");
+        (stage.name(), engine.provides(&crate::trajectory::Channel { of: String::new(), kind }))
+    });
+    EngineInfo {
+        name: engine.name(),
+        version: engine.version(),
+        step: engine.step(),
+        settings: engine.settings(),
+        provides: provides.into(),
+    }
+}
+
+fn unknown<'a>(what: &str, asked: &str, known: impl Iterator<Item = &'a str>) -> Error {
+    let known: Vec<&str> = known.collect();
+    Error::new(ErrorKind::Input, format!("there is no {what} called \"{asked}\""))
+        .help(format!("choose one of: {}", known.join(", ")))
+}

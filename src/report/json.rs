@@ -1,0 +1,202 @@
+//! Proofs as JSON, schema 1. Numbers that are not finite (an order that rounding hides) are `null`.
+
+use serde::Serialize;
+
+use crate::compare::{Check, Verdict};
+use crate::error::Error;
+use crate::proof::{ChannelProof, Proof};
+use crate::solver::Provision;
+
+/// The whole document.
+#[derive(Debug, Serialize)]
+pub struct Document {
+    schema: u32,
+    runs: Vec<Run>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    errors: Vec<Failure>,
+}
+
+#[derive(Debug, Serialize)]
+struct Run {
+    scenario: String,
+    title: String,
+    verdict: &'static str,
+    reason: Option<String>,
+    structure: String,
+    reference: Reference,
+    engine: Engine,
+    channels: Vec<Channel>,
+    checks: Vec<CheckRow>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    recording: Option<String>,
+}
+
+#[derive(Debug, Serialize)]
+struct Reference {
+    name: &'static str,
+    samples: usize,
+    from_s: f64,
+    to_s: f64,
+}
+
+#[derive(Debug, Serialize)]
+struct Engine {
+    name: &'static str,
+    version: String,
+    dt_s: f64,
+    settings: serde_json::Map<String, serde_json::Value>,
+    provides: serde_json::Map<String, serde_json::Value>,
+}
+
+#[derive(Debug, Serialize)]
+struct Channel {
+    channel: String,
+    unit: &'static str,
+    scale: f64,
+    max: f64,
+    rms: f64,
+    q75: f64,
+    q99: f64,
+    bound: f64,
+    basis: String,
+    verdict: &'static str,
+    reason: Option<String>,
+    observed_order: f64,
+    worst_t_s: f64,
+    worst_crank_rad: f64,
+}
+
+#[derive(Debug, Serialize)]
+struct CheckRow {
+    name: String,
+    value: f64,
+    bound: f64,
+    unit: &'static str,
+    basis: String,
+    verdict: &'static str,
+    reason: Option<String>,
+}
+
+#[derive(Debug, Serialize)]
+struct Failure {
+    scenario: String,
+    message: String,
+    line: Option<usize>,
+    key: Option<String>,
+    help: Option<String>,
+}
+
+impl Document {
+    /// An empty document.
+    #[must_use]
+    pub fn new() -> Self {
+        Document { schema: 1, runs: Vec::new(), errors: Vec::new() }
+    }
+
+    /// Adds a proof and the path of its recording, if one was written.
+    pub fn add(&mut self, proof: &Proof, recording: Option<String>) {
+        self.runs.push(run(proof, recording));
+    }
+
+    /// Adds a scenario that could not be proven at all.
+    pub fn add_failure(&mut self, scenario: &str, error: &Error) {
+        self.errors.push(Failure {
+            scenario: scenario.into(),
+            message: error.message().into(),
+            line: error.place().map(crate::error::Place::line),
+            key: error.scenario_key().map(Into::into),
+            help: error.way_out().map(Into::into),
+        });
+    }
+
+    /// The document as text, with a newline at its end.
+    #[must_use]
+    pub fn text(&self) -> String {
+        let mut text = serde_json::to_string_pretty(self).expect("plain structures are always JSON");
+        text.push('\n');
+        text
+    }
+}
+
+impl Default for Document {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+fn run(proof: &Proof, recording: Option<String>) -> Run {
+    let times = proof.reference_trajectory.times();
+    Run {
+        scenario: proof.scenario.clone(),
+        title: proof.title.clone(),
+        verdict: proof.verdict.word(),
+        reason: reason(&proof.verdict),
+        structure: proof.formula.clone(),
+        reference: Reference {
+            name: proof.reference,
+            samples: times.len(),
+            from_s: times.first().copied().unwrap_or(0.0),
+            to_s: times.last().copied().unwrap_or(0.0),
+        },
+        engine: Engine {
+            name: proof.engine.name,
+            version: proof.engine.version.clone(),
+            dt_s: proof.engine.step,
+            settings: proof.engine.settings.iter().map(|(k, v)| ((*k).into(), v.clone().into())).collect(),
+            provides: proof.engine.provides.iter().map(|(k, v)| ((*k).into(), provision(v).into())).collect(),
+        },
+        channels: proof.channels.iter().map(channel).collect(),
+        checks: proof.checks.iter().map(check).collect(),
+        recording,
+    }
+}
+
+fn channel(proof: &ChannelProof) -> Channel {
+    let residual = &proof.residual;
+    Channel {
+        channel: residual.channel.to_string(),
+        unit: residual.channel.kind.unit,
+        scale: residual.scale,
+        max: residual.max,
+        rms: residual.rms,
+        q75: residual.q75,
+        q99: residual.q99,
+        bound: proof.bound,
+        basis: proof.basis.to_string(),
+        verdict: proof.verdict.word(),
+        reason: reason(&proof.verdict),
+        observed_order: proof.convergence.observed,
+        worst_t_s: residual.worst_time,
+        worst_crank_rad: residual.worst_crank,
+    }
+}
+
+fn check(check: &Check) -> CheckRow {
+    CheckRow {
+        name: check.name(),
+        value: check.value,
+        bound: check.bound,
+        unit: check.unit,
+        basis: check.basis.to_string(),
+        verdict: check.verdict.word(),
+        reason: reason(&check.verdict),
+    }
+}
+
+/// How a channel is come by, in words.
+#[must_use]
+pub fn provision(provision: &Provision) -> String {
+    match provision {
+        Provision::Computed => "read".into(),
+        Provision::Derived(how) => format!("derived: {how}"),
+        Provision::Absent(why) => format!("absent: {why}"),
+    }
+}
+
+fn reason(verdict: &Verdict) -> Option<String> {
+    match verdict {
+        Verdict::Agree { .. } => None,
+        Verdict::Disagree { place } => Some(place.clone()),
+        Verdict::Inconclusive { reason } => Some(reason.clone()),
+    }
+}

@@ -1,0 +1,151 @@
+//! Proofs as text for the terminal.
+
+use std::fmt::Write;
+
+use comfy_table::{CellAlignment, Table, presets};
+
+use crate::compare::{Check, Verdict};
+use crate::proof::{ChannelProof, Proof};
+
+/// Reasons shown in full before the rest is only counted.
+const REASONS: usize = 5;
+
+/// The whole report of one proof.
+#[must_use]
+pub fn proof(proof: &Proof) -> String {
+    let mut text = String::new();
+    let engine = &proof.engine;
+    let _ = writeln!(text, "{}: {}", proof.scenario, proof.title);
+    let _ = writeln!(text, "structure  {}", proof.formula);
+    let _ = writeln!(text, "reference  {}, {} instants", proof.reference, proof.reference_trajectory.times().len());
+    let _ = writeln!(
+        text,
+        "engine     {}, step {:e} s, and its own error from {:e} and {:e} s",
+        engine.version,
+        engine.step,
+        2.0 * engine.step,
+        engine.step / 2.0
+    );
+    let _ = writeln!(text, "\nEngine against reference, the worst channel of each quantity:\n{}", channels(proof));
+    let _ = writeln!(text, "\nChecks:\n{}", checks(&proof.checks));
+    reasons(proof, &mut text);
+    let _ = writeln!(text, "\n{}", sentence(&proof.verdict, proof));
+    text
+}
+
+fn sentence(verdict: &Verdict, proof: &Proof) -> String {
+    let (channels, checks) = (proof.channels.len(), proof.checks.len());
+    match verdict {
+        Verdict::Agree { .. } => {
+            format!("AGREE: {channels} channels and {checks} checks are within their bounds.")
+        }
+        Verdict::Disagree { .. } => {
+            let wrong = verdicts(proof).filter(|(_, verdict)| matches!(verdict, Verdict::Disagree { .. })).count();
+            format!("DISAGREE: {wrong} of {channels} channels and {checks} checks are beyond their bounds.")
+        }
+        Verdict::Inconclusive { .. } => {
+            let open = verdicts(proof).filter(|(_, verdict)| matches!(verdict, Verdict::Inconclusive { .. })).count();
+            format!("INCONCLUSIVE: {open} of {channels} channels and {checks} checks prove nothing either way.")
+        }
+    }
+}
+
+fn verdicts(proof: &Proof) -> impl Iterator<Item = (String, &Verdict)> {
+    let channels = proof.channels.iter().map(|c| (c.residual.channel.to_string(), &c.verdict));
+    channels.chain(proof.checks.iter().map(|c| (c.name(), &c.verdict)))
+}
+
+fn reasons(proof: &Proof, text: &mut String) {
+    let open: Vec<(String, &str)> = verdicts(proof)
+        .filter_map(|(name, verdict)| match verdict {
+            Verdict::Agree { .. } => None,
+            Verdict::Disagree { place } => Some((name, place.as_str())),
+            Verdict::Inconclusive { reason } => Some((name, reason.as_str())),
+        })
+        .collect();
+    for (name, reason) in open.iter().take(REASONS) {
+        let _ = writeln!(text, "\n{name}: {reason}");
+    }
+    if open.len() > REASONS {
+        let _ = writeln!(text, "\n... and {} more (all of them with --json)", open.len() - REASONS);
+    }
+}
+
+fn table<const N: usize>(header: [&str; N], numbers: &[usize]) -> Table {
+    let mut table = Table::new();
+    table.load_style(presets::UTF8_HORIZONTAL_ONLY).set_header(header);
+    for &index in numbers {
+        if let Some(column) = table.column_mut(index) {
+            column.set_cell_alignment(CellAlignment::Right);
+        }
+    }
+    table
+}
+
+fn channels(proof: &Proof) -> Table {
+    let header = ["quantity", "worst channel", "crank deg", "error", "of scale", "bound", "order", "verdict"];
+    let mut table = table(header, &[2, 3, 4, 5, 6]);
+    let mut seen: Vec<&str> = Vec::new();
+    for first in &proof.channels {
+        let quantity = first.residual.channel.kind.quantity;
+        if seen.contains(&quantity) {
+            continue;
+        }
+        seen.push(quantity);
+        let family = || proof.channels.iter().filter(|c| c.residual.channel.kind.quantity == quantity);
+        let worst = family().max_by(|a, b| used(a).total_cmp(&used(b))).unwrap_or(first);
+        let residual = &worst.residual;
+        table.add_row([
+            format!("{quantity} ({})", family().count()),
+            residual.channel.to_string(),
+            format!("{:.1}", residual.worst_crank.to_degrees()),
+            format!("{:.1e} {}", residual.max, residual.channel.kind.unit),
+            share(residual.max, residual.scale),
+            share(worst.bound, residual.scale),
+            order(worst.convergence.observed),
+            crate::compare::overall(family().map(|c| &c.verdict)).word().to_string(),
+        ]);
+    }
+    table
+}
+
+/// Share of its bound that a channel uses; a verdict that is not agreement counts more than any share.
+fn used(channel: &ChannelProof) -> f64 {
+    let share = if channel.residual.max == 0.0 { 0.0 } else { channel.residual.max / channel.bound };
+    match channel.verdict {
+        Verdict::Agree { .. } => share,
+        Verdict::Inconclusive { .. } => 1e3 + share,
+        Verdict::Disagree { .. } => 1e6 + share,
+    }
+}
+
+fn share(value: f64, scale: f64) -> String {
+    if value == 0.0 { "0".into() } else { format!("{:.1e}", value / scale) }
+}
+
+fn order(observed: f64) -> String {
+    if observed.is_nan() { "rounding".into() } else { format!("{observed:.2}") }
+}
+
+fn checks(checks: &[Check]) -> Table {
+    let mut table = table(["check", "numbers", "worst", "bound", "verdict"], &[1, 2, 3]);
+    let mut seen: Vec<&str> = Vec::new();
+    for first in checks {
+        if seen.contains(&first.family.as_str()) {
+            continue;
+        }
+        seen.push(&first.family);
+        let family = || checks.iter().filter(|check| check.family == first.family);
+        let worst = family().max_by(|a, b| a.used().total_cmp(&b.used())).unwrap_or(first);
+        let unit = |value: f64| format!("{value:.1e} {}", worst.unit).trim_end().to_string();
+        let detail = if worst.detail.is_empty() { String::new() } else { format!(", worst in {}", worst.detail) };
+        table.add_row([
+            format!("{}{detail}", first.family),
+            family().count().to_string(),
+            unit(worst.value),
+            unit(worst.bound),
+            crate::compare::overall(family().map(|c| &c.verdict)).word().to_string(),
+        ]);
+    }
+    table
+}
