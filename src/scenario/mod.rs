@@ -12,6 +12,8 @@ mod settings;
 mod source;
 mod start;
 mod table_file;
+#[cfg(test)]
+mod tests;
 pub mod unit;
 mod words;
 

@@ -300,9 +300,13 @@ impl<'a> Table<'a> {
             let found = found(self.source, entry.value);
             return Err(self.wrong_entry(entry, format!("found {found}, but {} {rule} here", family.noun)));
         }
+        let value = unit.to_si(number);
+        if !value.is_finite() {
+            return Err(self.mistyped(key, entry.value, "a finite number"));
+        }
         self.asked.extend(spellings);
         self.used.push(key);
-        Ok(Some((index, unit.to_si(number))))
+        Ok(Some((index, value)))
     }
 
     /// The error for a key that is `base` without its unit or with one that is not known.
