@@ -1,0 +1,90 @@
+//! `[grid]`: the instants at which a solution is wanted.
+
+use super::reader::{Sign, Table};
+use super::unit::{ANGLE, TIME};
+use crate::case::Grid;
+use crate::drive::Drive;
+use crate::error::{ErrorKind, Result};
+
+/// Largest number of points of a range.
+pub const MOST: usize = 1_000_000;
+
+/// Points `from + k * step` (k = 0, 1, ...) up to `to`, which is included if it lies within 1e-9 of a step of a point.
+/// The step may be negative.
+///
+/// # Errors
+/// A message if a number is not finite, if the step is zero or leads away from `to`, or if there would be more than
+/// a million points.
+pub fn range(from: f64, to: f64, step: f64) -> std::result::Result<Vec<f64>, String> {
+    if ![from, to, step].into_iter().all(f64::is_finite) {
+        return Err(format!("the range from {from} to {to} by {step} is not finite"));
+    }
+    if step == 0.0 {
+        return Err("the step must not be zero".into());
+    }
+    let steps = (to - from) / step;
+    if steps < 0.0 {
+        let way = if step > 0.0 { "positive" } else { "negative" };
+        return Err(format!("a {way} step leads away from the end of the range"));
+    }
+    let last = (steps + 1e-9).floor();
+    // Written so that an overflow of the division fails too.
+    if !(last < MOST as f64) {
+        return Err(format!("the range has more than {MOST} points"));
+    }
+    Ok((0..=last as usize).map(|k| from + k as f64 * step).collect())
+}
+
+/// The grid of a scenario, by crank angle or by time.
+pub fn read(mut table: Table, drive: &Drive) -> Result<Grid> {
+    let Some((family, from)) = table.quantity_in("from", &[&ANGLE, &TIME], Sign::Any)? else {
+        return Err(table.fault("`from_deg`, `from_rad`, `from_s` or `from_ms` is missing").help(
+            "a grid goes by crank angle (`from_deg`, `to_deg`, `step_deg`) or by time (`from_s`, `to_s`, `step_s`)",
+        ));
+    };
+    let family = [&ANGLE, &TIME][family];
+    let to = table.quantity("to", family, Sign::Any)?;
+    let step = table.quantity("step", family, Sign::NotZero)?;
+    table.finish()?;
+    let points = range(from, to, step).map_err(|message| {
+        table.wrong(ErrorKind::Input, "step", message).help("check `from`, `to` and the size and sign of `step`")
+    })?;
+    let grid =
+        if std::ptr::eq(family, &ANGLE) { Grid::of_cranks(drive, points) } else { Grid::of_times(drive, points) };
+    if grid.times.iter().chain(&grid.cranks).all(|value| value.is_finite()) {
+        Ok(grid)
+    } else {
+        Err(table.fault("at this drive speed the grid is not finite").help("check `drive.speed` and the grid"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_are_not_accumulated_and_the_end_is_included() {
+        let points = range(0.0, 1.0, 0.1).unwrap();
+        assert_eq!((points.len(), points[3]), (11, 3.0 * 0.1));
+        assert_eq!(range(0.0, 0.95, 0.1).unwrap().len(), 10);
+        assert_eq!(range(1.0, -1.0, -0.5).unwrap(), [1.0, 0.5, 0.0, -0.5, -1.0]);
+        assert_eq!(range(2.0, 2.0, -3.0).unwrap(), [2.0]);
+    }
+
+    #[test]
+    fn a_turn_by_degrees_has_361_points() {
+        assert_eq!(range(0.0, 360f64.to_radians(), 1f64.to_radians()).unwrap().len(), 361);
+        assert_eq!(range(0.0, -360f64.to_radians(), -1f64.to_radians()).unwrap().len(), 361);
+    }
+
+    #[test]
+    fn senseless_ranges_are_refused() {
+        assert!(range(0.0, 1.0, 0.0).unwrap_err().contains("zero"));
+        assert!(range(0.0, 1.0, -0.1).unwrap_err().contains("negative step"));
+        assert!(range(1.0, 0.0, 0.1).unwrap_err().contains("positive step"));
+        assert!(range(0.0, f64::NAN, 0.1).unwrap_err().contains("not finite"));
+        assert!(range(0.0, 1.0, 1e-6).unwrap_err().contains("more than 1000000"));
+        assert_eq!(range(0.0, 0.999_999, 1e-6).unwrap().len(), MOST);
+        assert!(range(-1e308, 1e308, 1e-300).unwrap_err().contains("more than"));
+    }
+}

@@ -1,0 +1,104 @@
+//! `[ground]` and `[links]`: points and masses.
+
+use super::reader::{Sign, Table};
+use super::unit::{ANGLE, INERTIA, LENGTH, MASS};
+use super::words::suggestion;
+use crate::error::{ErrorKind, Result};
+use crate::math::{Vec2, unit};
+use crate::mechanism::{Link, Point};
+
+/// The ground and all links, in the order of the file.
+pub fn read(mut ground: Table, mut links: Table) -> Result<Vec<Link>> {
+    let points = points(ground.table("points")?)?;
+    ground.finish()?;
+    let frame = Link { name: "ground".into(), points, mass: 0.0, mass_centre: Vec2::zeros(), inertia: 0.0 };
+    let mut all = vec![frame];
+    for table in links.all_tables()? {
+        all.push(link(table)?);
+    }
+    if all.len() == 1 {
+        return Err(links.fault("there is no link").help("add a section `[links.NAME]` for each moving link"));
+    }
+    Ok(all)
+}
+
+fn link(mut table: Table) -> Result<Link> {
+    check_name(&table, "link")?;
+    let name = table.name().to_string();
+    let points = points(table.table("points")?)?;
+    let mass = table.optional_quantity("mass", &MASS, Sign::NotNegative)?;
+    let inertia = table.optional_quantity("inertia", &INERTIA, Sign::NotNegative)?;
+    let centre = table.optional_table("mass_centre")?.map(|centre| place(centre, &points)).transpose()?;
+    if mass.is_none() && inertia.is_some() {
+        return Err(table
+            .wrong(ErrorKind::Input, "inertia", "the link has a moment of inertia but no mass")
+            .help("add `mass_kg`, or leave out the inertia"));
+    }
+    if mass.is_none() && centre.is_some() {
+        return Err(table
+            .wrong(ErrorKind::Input, "mass_centre", "the link has a mass centre but no mass")
+            .help("add `mass_kg` (0 is allowed), or leave out the mass centre"));
+    }
+    if mass.is_some() && centre.is_none() {
+        return Err(table
+            .wrong(ErrorKind::Input, "mass", "the link has a mass but no mass centre")
+            .help("add `mass_centre = { x_mm = ..., y_mm = ... }`, in the link's frame"));
+    }
+    table.finish()?;
+    Ok(Link {
+        name,
+        points,
+        mass: mass.unwrap_or(0.0),
+        mass_centre: centre.unwrap_or_else(Vec2::zeros),
+        inertia: inertia.unwrap_or(0.0),
+    })
+}
+
+fn points(mut table: Table) -> Result<Vec<Point>> {
+    let mut points: Vec<Point> = Vec::new();
+    for point in table.all_tables()? {
+        check_name(&point, "point")?;
+        let name = point.name().to_string();
+        let local = place(point, &points)?;
+        points.push(Point { name, local });
+    }
+    if points.is_empty() {
+        return Err(table.fault("there is no point").help("add a point: `A = { x_mm = 0, y_mm = 0 }`"));
+    }
+    Ok(points)
+}
+
+/// A place: coordinates, or a distance and an angle from one of the points known so far.
+fn place(mut table: Table, known: &[Point]) -> Result<Vec2> {
+    let place = match table.optional_string("from")? {
+        None => Vec2::new(table.quantity("x", &LENGTH, Sign::Any)?, table.quantity("y", &LENGTH, Sign::Any)?),
+        Some(from) => {
+            let names = known.iter().map(|point| point.name.as_str());
+            let Some(origin) = known.iter().find(|point| point.name == from) else {
+                let message = format!("no point \"{from}\" stands before this one");
+                return Err(table.wrong(ErrorKind::Input, "from", message).help(suggestion(&from, names, "\"")));
+            };
+            let length = table.quantity("length", &LENGTH, Sign::NotNegative)?;
+            let angle = table.quantity("angle", &ANGLE, Sign::Any)?;
+            origin.local + unit(angle) * length
+        }
+    };
+    table.finish()?;
+    Ok(place)
+}
+
+fn check_name(table: &Table, what: &str) -> Result<()> {
+    if sound_name(table.name()) {
+        return Ok(());
+    }
+    Err(table.fault(format!("\"{}\" cannot be the name of a {what}", table.name())).help(NAME_HELP))
+}
+
+/// Help for names that are not sound.
+pub const NAME_HELP: &str = "names consist of letters, digits, `_`, `-` and `'`";
+
+/// Whether a link, point or joint may be called so: dots, blanks and commas would break the names of channels and
+/// the headers of tables.
+pub fn sound_name(name: &str) -> bool {
+    !name.is_empty() && name.chars().all(|letter| letter.is_alphanumeric() || "_-'".contains(letter))
+}

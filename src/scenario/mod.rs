@@ -1,0 +1,141 @@
+//! Scenario files: TOML in, a [`Case`] out. The only place where units are converted; docs/scenario.md describes the
+//! format. Every error points at file, line and key, says what was found, and the way out.
+
+pub mod grid;
+mod joints;
+mod links;
+mod motion;
+pub mod oracle;
+mod printed;
+mod reader;
+mod settings;
+mod source;
+mod start;
+mod table_file;
+#[cfg(test)]
+mod tests;
+pub mod unit;
+mod words;
+
+pub use oracle::{Figure, Oracle, OracleFigure, OraclePoint, OracleSeries, SkippedCell};
+
+use std::path::{Path, PathBuf};
+
+use self::reader::{Sign, Table};
+use self::source::Source;
+use crate::case::{Case, Wanted};
+use crate::error::{Error, ErrorKind, Result};
+use crate::mechanism::{Mechanism, Structure, first_pose};
+
+/// Version of the file format that this crate reads.
+pub const FORMAT: i64 = 1;
+
+/// A scenario: the problem, the engine's settings, and the published numbers it is judged by.
+#[derive(Clone, Debug)]
+pub struct Scenario {
+    /// Short name, fit for file names: lower-case letters, digits and `_`.
+    pub name: String,
+    /// One line for people.
+    pub title: String,
+    /// Where the dimensions come from.
+    pub source: Option<String>,
+    /// Path of the file as the user gave it.
+    pub path: PathBuf,
+    /// Whole text of the file.
+    pub text: String,
+    /// The problem, in SI.
+    pub case: Case,
+    /// Step of the engine (s).
+    pub dt: f64,
+    /// Largest discretisation error of the engine, as a share of a channel's scale, with which agreement still proves
+    /// something.
+    pub engine_rel: f64,
+    /// Published numbers.
+    pub oracles: Vec<Oracle>,
+}
+
+impl Scenario {
+    /// Reads the scenario file at `path` and the tables it names.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Io`] if a file cannot be read, else as [`Scenario::parse`].
+    pub fn load(path: &Path) -> Result<Scenario> {
+        let text = std::fs::read_to_string(path).map_err(|error| {
+            Error::new(ErrorKind::Io, format!("the scenario {} cannot be read: {error}", path.display()))
+                .help("give the path of a scenario file, such as scenarios/crank_rocker.toml")
+        })?;
+        Scenario::parse(&text, path)
+    }
+
+    /// Reads a scenario from its text. Tables of published numbers are looked for beside `path`.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Input`] for anything wrong in the text, [`ErrorKind::Geometry`] if the first pose cannot be
+    /// taken, [`ErrorKind::Unsupported`] for what this version does not solve, [`ErrorKind::Io`] for a table that
+    /// cannot be read; all with the place in the file and the key.
+    pub fn parse(text: &str, path: &Path) -> Result<Scenario> {
+        let source = Source { path, text };
+        let tree = source.tree()?;
+        read(&mut Table::root(&source, &tree)).map_err(|error| source.located(tree.get_ref(), error))
+    }
+}
+
+fn read(root: &mut Table) -> Result<Scenario> {
+    check_format(root)?;
+    let name = name(root)?;
+    let title = root.string("title")?;
+    let cited = root.optional_string("source")?;
+    // All sections are fetched before any is read: a misspelt section is the cause of whatever else is wrong.
+    let (ground, links, joints) = (root.table("ground")?, root.table("links")?, root.tables("joints")?);
+    let (drive, gravity, loads) = (root.table("drive")?, root.optional_table("gravity")?, root.tables("loads")?);
+    let (mut start, grid, channels) = (root.table("start")?, root.table("grid")?, root.optional_table("channels")?);
+    let (engine, tolerances) = (root.table("engine")?, root.optional_table("tolerances")?);
+    let oracles = root.tables("oracle")?;
+    root.finish()?;
+
+    let links = links::read(ground, links)?;
+    let joints = joints::read(joints, &links)?;
+    let mechanism = Mechanism::new(links, joints)?;
+    let crank = start.quantity("crank", &unit::ANGLE, Sign::Any)?;
+    let groups = start.tables("groups")?;
+    start.finish()?;
+    let drive = motion::drive(drive, &mechanism, crank)?;
+    let loads = motion::loads(loads, &mechanism)?;
+    let gravity = motion::gravity(gravity)?;
+    let structure = Structure::of(&mechanism, &[drive.joint])?;
+    let wanted_starts = start::groups(&start, groups, &mechanism, &structure)?;
+    let (pose, modes) = first_pose(&mechanism, &structure, &[drive.world_angle(crank)], &wanted_starts)?;
+    let grid = grid::read(grid, &drive)?;
+    let wanted = settings::wanted(channels)?;
+    let dt = settings::engine_step(engine, &drive)?;
+    let engine_rel = settings::engine_rel(tolerances)?;
+    let mut case = Case { mechanism, structure, drive, loads, gravity, start: pose, modes, grid, wanted: Wanted::ALL };
+    let oracles = oracle::read(oracles, &case.channels(), wanted)?;
+    case.wanted = wanted;
+    let source = root.source();
+    let (path, text) = (source.path.to_path_buf(), source.text.to_string());
+    Ok(Scenario { name, title, source: cited, path, text, case, dt, engine_rel, oracles })
+}
+
+fn check_format(root: &mut Table) -> Result<()> {
+    if root.is_empty() {
+        let error = root.fault("the file holds no scenario");
+        return Err(error.help("a scenario starts with `format = 1`; docs/scenario.md builds one up step by step"));
+    }
+    match root.integer("format")? {
+        FORMAT => Ok(()),
+        other => Err(root
+            .wrong(ErrorKind::Unsupported, "format", format!("format {other} is not handled by this version"))
+            .help(format!("this version reads `format = {FORMAT}`"))),
+    }
+}
+
+fn name(root: &mut Table) -> Result<String> {
+    let name = root.string("name")?;
+    if !name.is_empty() && name.bytes().all(|byte| matches!(byte, b'a'..=b'z' | b'0'..=b'9' | b'_')) {
+        return Ok(name);
+    }
+    Err(root
+        .wrong(ErrorKind::Input, "name", format!("\"{name}\" cannot be the name of a scenario"))
+        .help("it names files: use lower-case letters, digits and `_`"))
+}

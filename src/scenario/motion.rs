@@ -1,0 +1,67 @@
+//! `[drive]`, `[gravity]` and `[[loads]]`.
+
+use super::joints::link;
+use super::reader::{Sign, Table};
+use super::unit::{ACCELERATION, ANGLE, ANGULAR_SPEED, MOMENT};
+use super::words::suggestion;
+use crate::drive::{Drive, Load, MotionLaw};
+use crate::error::{ErrorKind, Result};
+use crate::math::Vec2;
+use crate::mechanism::{GROUND, Mechanism};
+
+/// The drive, with `start` as the crank angle at t = 0 (rad).
+pub fn drive(mut table: Table, mechanism: &Mechanism, start: f64) -> Result<Drive> {
+    let name = table.string("joint")?;
+    let speed = table.quantity("speed", &ANGULAR_SPEED, Sign::NotZero)?;
+    let zero = table.optional_quantity("zero", &ANGLE, Sign::Any)?.unwrap_or(0.0);
+    table.finish()?;
+    let Some(index) = mechanism.joint_named(&name) else {
+        let names = mechanism.joints().iter().map(|joint| joint.name.as_str());
+        let error = table.wrong(ErrorKind::Input, "joint", format!("there is no joint \"{name}\""));
+        return Err(error.help(suggestion(&name, names, "\"")));
+    };
+    let joint = &mechanism.joints()[index];
+    if joint.on(GROUND).is_none() {
+        let names = [joint.first, joint.second].map(|side| &mechanism.links()[side.link].name);
+        let message =
+            format!("joint \"{name}\" joins \"{}\" and \"{}\", not a link and the ground", names[0], names[1]);
+        let hinges = mechanism.joints().iter().filter(|joint| joint.on(GROUND).is_some());
+        let hinges: Vec<&str> = hinges.map(|joint| joint.name.as_str()).collect();
+        return Err(table
+            .wrong(ErrorKind::Unsupported, "joint", message)
+            .help(format!("drive a link that is hinged to the ground: {}", super::words::choice(hinges, "\""))));
+    }
+    Ok(Drive { joint: index, link: joint.other(GROUND).link, zero, start, law: MotionLaw::ConstantSpeed(speed) })
+}
+
+/// Acceleration of gravity (m/s^2); none without a table.
+pub fn gravity(table: Option<Table>) -> Result<Vec2> {
+    let Some(mut table) = table else { return Ok(Vec2::zeros()) };
+    let (x, y) = (table.quantity("x", &ACCELERATION, Sign::Any)?, table.quantity("y", &ACCELERATION, Sign::Any)?);
+    table.finish()?;
+    Ok(Vec2::new(x, y))
+}
+
+/// All loads.
+pub fn loads(tables: Vec<Table>, mechanism: &Mechanism) -> Result<Vec<Load>> {
+    tables.into_iter().map(|table| load(table, mechanism)).collect()
+}
+
+fn load(mut table: Table, mechanism: &Mechanism) -> Result<Load> {
+    let kind = table.string("type")?;
+    if kind != "resistance" {
+        return Err(table.wrong(ErrorKind::Input, "type", format!("\"{kind}\" is no type of load")).help(suggestion(
+            &kind,
+            ["resistance"],
+            "\"",
+        )));
+    }
+    let name = table.string("link")?;
+    let moment = table.quantity("moment", &MOMENT, Sign::NotNegative)?;
+    table.finish()?;
+    let link = link(&table, &name, mechanism.links())?;
+    if link == GROUND {
+        return Err(table.wrong(ErrorKind::Input, "link", "the ground does not turn").help("name a moving link"));
+    }
+    Ok(Load::Resistance { link, moment })
+}

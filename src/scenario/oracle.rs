@@ -1,0 +1,233 @@
+//! `[[oracle]]`: published numbers that the mechanism must reproduce, each with the bound its printed digits give.
+
+use super::printed::{MOST_DIGITS, Printed, PrintedChannel};
+use super::reader::{Sign, Table};
+use super::table_file;
+use super::unit::ANGLE;
+use super::words::suggestion;
+use crate::case::Wanted;
+use crate::error::{ErrorKind, Result};
+use crate::trajectory::Channel;
+
+/// Published numbers of one source.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Oracle {
+    /// File name of the table (`positions.csv`), or `inline 1`, `inline 2`, ... for numbers in the scenario itself.
+    pub name: String,
+    /// Where the numbers are published.
+    pub source: String,
+    /// Values of channels at crank angles.
+    pub series: Vec<OracleSeries>,
+    /// Figures of the whole turn.
+    pub figures: Vec<OracleFigure>,
+}
+
+/// Published values of one channel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OracleSeries {
+    /// Column of the table, or the channel as the scenario names it.
+    pub name: String,
+    /// The channel.
+    pub channel: Channel,
+    /// Values, in the order of the table.
+    pub points: Vec<OraclePoint>,
+    /// Cells left out, with their reasons.
+    pub skipped: Vec<SkippedCell>,
+}
+
+/// One published value.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OraclePoint {
+    /// Crank angle (rad, as the scenario measures it).
+    pub crank: f64,
+    /// Value in the channel's SI unit.
+    pub value: f64,
+    /// Half a unit of the last printed digit, in the channel's SI unit.
+    pub bound: f64,
+    /// Number of printed decimals, in the printed unit.
+    pub digits: i32,
+}
+
+/// A published value that is not compared.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SkippedCell {
+    /// Crank angle (rad, as the scenario measures it).
+    pub crank: f64,
+    /// Why it is left out.
+    pub why: String,
+}
+
+/// One published figure of the whole turn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OracleFigure {
+    /// Which figure.
+    pub figure: Figure,
+    /// Value in the figure's SI unit.
+    pub value: f64,
+    /// Half a unit of the last printed digit, in the figure's SI unit.
+    pub bound: f64,
+    /// Number of printed decimals.
+    pub digits: i32,
+}
+
+/// Figure of the model reduced to the crank, over one turn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Figure {
+    /// Mean over the turn of the moment of inertia reduced to the crank (kg m^2).
+    ReducedInertiaMean,
+    /// Mean over the turn of the moment of resistance reduced to the crank (N m).
+    ReducedResistanceMean,
+}
+
+impl Figure {
+    /// All figures.
+    pub const ALL: [Figure; 2] = [Figure::ReducedInertiaMean, Figure::ReducedResistanceMean];
+
+    /// Name in scenario files, unit included.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Figure::ReducedInertiaMean => "reduced_inertia_mean_kg_m2",
+            Figure::ReducedResistanceMean => "reduced_resistance_mean_N_m",
+        }
+    }
+
+    /// SI unit.
+    #[must_use]
+    pub fn unit(self) -> &'static str {
+        match self {
+            Figure::ReducedInertiaMean => "kg m^2",
+            Figure::ReducedResistanceMean => "N m",
+        }
+    }
+}
+
+/// All oracles. `channels` are all that the case has, `wanted` those that the run computes.
+pub(super) fn read(tables: Vec<Table>, channels: &[Channel], wanted: Wanted) -> Result<Vec<Oracle>> {
+    let mut inline = 0;
+    let mut oracles = Vec::with_capacity(tables.len());
+    for mut table in tables {
+        let source = table.string("source")?;
+        let forms = ["file", "values", "figures"].map(|key| table.has(key));
+        let mut oracle = Oracle { name: String::new(), source, series: Vec::new(), figures: Vec::new() };
+        match forms {
+            [true, false, false] => {
+                (oracle.name, oracle.series) = table_file::read(&mut table, &Known { channels, wanted })?;
+            }
+            [false, true, false] => oracle.series = values(&mut table, &Known { channels, wanted })?,
+            [false, false, true] => oracle.figures = figures(&mut table)?,
+            _ => {
+                return Err(table
+                    .fault("an oracle has exactly one of `file`, `values` and `figures`")
+                    .help("split it into several [[oracle]] tables, or add the numbers"));
+            }
+        }
+        if !forms[0] {
+            inline += 1;
+            oracle.name = format!("inline {inline}");
+        }
+        table.finish()?;
+        oracles.push(oracle);
+    }
+    Ok(oracles)
+}
+
+/// The channels an oracle may name.
+pub(super) struct Known<'a> {
+    channels: &'a [Channel],
+    wanted: Wanted,
+}
+
+impl Known<'_> {
+    /// The channel under the key `channel` of `table`.
+    pub fn channel(&self, table: &mut Table) -> Result<(String, PrintedChannel)> {
+        let name = table.string("channel")?;
+        let found = PrintedChannel::named(&name).filter(|found| self.channels.contains(&found.channel));
+        let Some(found) = found else {
+            let message = format!("the mechanism has no channel \"{name}\"");
+            return Err(table.wrong(ErrorKind::Input, "channel", message).help(self.help(&name)));
+        };
+        let stage = found.channel.kind.stage;
+        if self.wanted.has(stage) {
+            return Ok((name, found));
+        }
+        let message = format!("this channel is one of the {}, which `channels.want` leaves out", stage.name());
+        let help = format!("add \"{}\" to `want`, or take the published numbers out", stage.name());
+        Err(table.wrong(ErrorKind::Input, "channel", message).help(help))
+    }
+
+    fn help(&self, name: &str) -> String {
+        let si = self.channels.iter().map(ToString::to_string);
+        let printed = si.clone().filter_map(|name| {
+            let (base, unit) = name.rsplit_once('_')?;
+            let unit = match unit {
+                "m" if base.ends_with('x') || base.ends_with('y') => "mm",
+                "rad" => "deg",
+                _ => return None,
+            };
+            Some(format!("{base}_{unit}"))
+        });
+        let names: Vec<String> = si.chain(printed).collect();
+        match super::words::nearest(name, names.iter().map(String::as_str)) {
+            Some(near) => format!("did you mean \"{near}\"?"),
+            None => "channels are named like \"point.A.x_mm\", \"link.crank.angle_deg\", \"link.crank.omega_rad_s\", \
+                     \"joint.A.fx_N\" or \"drive.torque_N_m\"; only points that move have channels"
+                .into(),
+        }
+    }
+}
+
+/// Numbers at one crank angle, written in the scenario itself.
+fn values(table: &mut Table, known: &Known) -> Result<Vec<OracleSeries>> {
+    let crank = table.quantity("crank", &ANGLE, Sign::Any)?;
+    let mut series = Vec::new();
+    for mut entry in table.tables("values")? {
+        let (name, channel) = known.channel(&mut entry)?;
+        let printed = printed(&mut entry)?;
+        entry.finish()?;
+        let (value, bound) = (channel.to_si(printed.value), channel.to_si(printed.half_unit()));
+        let point = OraclePoint { crank, value, bound, digits: printed.digits };
+        series.push(OracleSeries { name, channel: channel.channel, points: vec![point], skipped: Vec::new() });
+    }
+    if series.is_empty() {
+        return Err(table.wrong(ErrorKind::Input, "values", "there is no value").help(VALUE_HELP));
+    }
+    Ok(series)
+}
+
+const VALUE_HELP: &str = "write `values = [{ channel = \"link.rocker.angle_deg\", value = 82, digits = 3 }]`";
+
+fn figures(table: &mut Table) -> Result<Vec<OracleFigure>> {
+    let mut figures = Vec::new();
+    for mut entry in table.tables("figures")? {
+        let name = entry.string("figure")?;
+        let Some(figure) = Figure::ALL.into_iter().find(|figure| figure.name() == name) else {
+            let error = entry.wrong(ErrorKind::Input, "figure", format!("there is no figure \"{name}\""));
+            return Err(error.help(suggestion(&name, Figure::ALL.map(Figure::name), "\"")));
+        };
+        let printed = printed(&mut entry)?;
+        entry.finish()?;
+        figures.push(OracleFigure { figure, value: printed.value, bound: printed.half_unit(), digits: printed.digits });
+    }
+    if figures.is_empty() {
+        let names = suggestion("", Figure::ALL.map(Figure::name), "\"");
+        return Err(table.wrong(ErrorKind::Input, "figures", "there is no figure").help(names));
+    }
+    Ok(figures)
+}
+
+/// `value` and `digits` of a number in the scenario itself, where TOML does not keep the printed text.
+fn printed(entry: &mut Table) -> Result<Printed> {
+    let (value, digits) = (entry.number("value")?, entry.integer("digits")?);
+    match i32::try_from(digits) {
+        Ok(digits) if digits.abs() <= MOST_DIGITS => Ok(Printed { value, digits }),
+        _ => Err(entry
+            .wrong(
+                ErrorKind::Input,
+                "digits",
+                format!("found {digits}, but no number is printed with as many decimals"),
+            )
+            .help(format!("give the count of printed decimals, from {} to {MOST_DIGITS}", -MOST_DIGITS))),
+    }
+}

@@ -1,0 +1,116 @@
+//! Printed numbers: their value, and how far the true value may be away.
+
+use super::unit::{ANGLE, Family, LENGTH, Unit};
+use crate::trajectory::Channel;
+
+/// A number as printed: its value and its count of decimals.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Printed {
+    /// The number, in the printed unit.
+    pub value: f64,
+    /// Decimals printed; negative if digits before the decimal point are missing (1.5e3 has -2).
+    pub digits: i32,
+}
+
+impl Printed {
+    /// Reads a decimal number with an optional exponent; nothing else is a printed number.
+    #[must_use]
+    pub fn parse(text: &str) -> Option<Printed> {
+        let (mantissa, exponent) = match text.split_once(['e', 'E']) {
+            Some((mantissa, exponent)) => (mantissa, exponent.parse::<i32>().ok()?),
+            None => (text, 0),
+        };
+        let digits = mantissa.strip_prefix(['+', '-']).unwrap_or(mantissa);
+        let (whole, decimals) = digits.split_once('.').unwrap_or((digits, ""));
+        let sound = |part: &str| part.bytes().all(|byte| byte.is_ascii_digit());
+        if whole.is_empty() || !sound(whole) || !sound(decimals) {
+            return None;
+        }
+        let value: f64 = text.parse().ok()?;
+        let digits = i32::try_from(decimals.len()).ok()?.checked_sub(exponent)?;
+        (value.is_finite() && digits.abs() <= MOST_DIGITS).then_some(Printed { value, digits })
+    }
+
+    /// Half a unit of the last printed digit, in the printed unit.
+    #[must_use]
+    pub fn half_unit(&self) -> f64 {
+        // The printed decimal is rounded once more to binary; the excess is that rounding and nothing else.
+        0.5 * 10f64.powi(-self.digits) * (1.0 + 1e-9)
+    }
+}
+
+/// Largest count of decimals that makes sense in double precision.
+pub const MOST_DIGITS: i32 = 20;
+
+/// A channel with the unit its values are printed in.
+#[derive(Clone, Debug)]
+pub struct PrintedChannel {
+    /// The channel, in SI.
+    pub channel: Channel,
+    /// Family of the printed unit, where other units than SI are known; without one the numbers are SI.
+    pub family: Option<&'static Family>,
+    unit: Option<&'static Unit>,
+}
+
+impl PrintedChannel {
+    /// Channel called `name` with the printed unit as its ending: `x_mm` for `x_m`, `angle_deg` for `angle_rad`,
+    /// else the name in SI.
+    #[must_use]
+    pub fn named(name: &str) -> Option<PrintedChannel> {
+        for family in [&LENGTH, &ANGLE] {
+            for unit in family.units {
+                let Some(base) = name.strip_suffix(unit.suffix) else { continue };
+                let Some(channel) = Channel::named(&format!("{base}{}", family.units[0].suffix)) else { continue };
+                if ["x_m", "y_m", "angle_rad"].contains(&channel.kind.suffix) {
+                    return Some(PrintedChannel { channel, family: Some(family), unit: Some(unit) });
+                }
+            }
+        }
+        Channel::named(name).map(|channel| PrintedChannel { channel, family: None, unit: None })
+    }
+
+    /// A printed number in SI.
+    #[must_use]
+    pub fn to_si(&self, value: f64) -> f64 {
+        self.unit.map_or(value, |unit| unit.to_si(value))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn digits_are_counted_in_the_text() {
+        let digits = |text| Printed::parse(text).map(|printed| printed.digits);
+        assert_eq!(digits("-14.890"), Some(3));
+        assert_eq!(digits("-0.00"), Some(2));
+        assert_eq!(digits("82"), Some(0));
+        assert_eq!(digits("1.5e3"), Some(-2));
+        assert_eq!(digits("1.5E-3"), Some(4));
+        for wrong in ["", "-", ".5", "1,5", "1.2.3", "nan", "inf", "--1", "1e", "0x10", "1_000", "12 mm", "1e999"] {
+            assert_eq!(digits(wrong), None, "{wrong}");
+        }
+    }
+
+    #[test]
+    fn the_bound_is_half_a_unit_of_the_last_digit() {
+        let printed = Printed::parse("-14.89").unwrap();
+        assert_eq!(printed.half_unit(), 0.005 * (1.0 + 1e-9));
+    }
+
+    #[test]
+    fn channels_carry_their_printed_unit() {
+        let named =
+            |name: &str| PrintedChannel::named(name).map(|found| (found.channel.to_string(), found.to_si(180.0)));
+        assert_eq!(named("point.2.x_mm"), Some(("point.2.x_m".into(), 0.18)));
+        assert_eq!(named("point.2.x_m"), Some(("point.2.x_m".into(), 180.0)));
+        assert_eq!(named("link.a.angle_deg"), Some(("link.a.angle_rad".into(), std::f64::consts::PI)));
+        assert_eq!(named("link.a.omega_rad_s"), Some(("link.a.omega_rad_s".into(), 180.0)));
+        assert_eq!(named("point.2.vx_mm_s"), None);
+        assert_eq!(named("link.a.omega_deg_s"), None);
+        assert_eq!(named("link.a.angle_mm"), None);
+        assert_eq!(named("point.2.x_deg"), None);
+        assert_eq!(named("drive.torque_N_mm"), None);
+    }
+}

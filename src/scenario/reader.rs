@@ -1,0 +1,344 @@
+//! Typed reading of a spanned TOML table. A reader knows its dotted path, hands out typed values, remembers which
+//! keys it was asked for, and in the end refuses the keys that nobody asked for.
+
+use std::ops::Range;
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::source::Source;
+use super::unit::Family;
+use super::words::{choice, nearest, suggestion};
+use crate::error::{Error, ErrorKind, Result};
+
+/// Which numbers a quantity may be.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Sign {
+    /// Any finite number.
+    Any,
+    /// Zero or positive.
+    NotNegative,
+    /// Greater than zero.
+    Positive,
+    /// Anything but zero.
+    NotZero,
+}
+
+impl Sign {
+    fn broken_by(self, value: f64) -> Option<&'static str> {
+        match self {
+            Sign::NotNegative if value < 0.0 => Some("must not be negative"),
+            Sign::Positive if value <= 0.0 => Some("must be positive"),
+            Sign::NotZero if value == 0.0 => Some("must not be zero"),
+            _ => None,
+        }
+    }
+}
+
+struct Entry<'a> {
+    key: &'a str,
+    key_span: Range<usize>,
+    value: &'a Spanned<DeValue<'a>>,
+}
+
+/// A table being read.
+pub struct Table<'a> {
+    source: &'a Source<'a>,
+    name: String,
+    path: String,
+    span: Range<usize>,
+    entries: Vec<Entry<'a>>,
+    used: Vec<&'a str>,
+    asked: Vec<String>,
+}
+
+impl<'a> Table<'a> {
+    /// Reader of the whole file.
+    pub fn root(source: &'a Source<'a>, tree: &'a Spanned<DeTable<'a>>) -> Self {
+        Table::new(source, String::new(), String::new(), 0..0, tree.get_ref())
+    }
+
+    fn new(source: &'a Source<'a>, name: String, path: String, span: Range<usize>, table: &'a DeTable<'a>) -> Self {
+        let mut entries: Vec<Entry> = table
+            .iter()
+            .map(|(key, value)| Entry { key: key.get_ref().as_ref(), key_span: key.span(), value })
+            .collect();
+        // The parser moves tables about whose header comes after one of their children.
+        entries.sort_by_key(|entry| entry.key_span.start);
+        Table { source, name, path, span, entries, used: Vec::new(), asked: Vec::new() }
+    }
+
+    /// The table's own key, for entries of a table of tables.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The file being read.
+    pub fn source(&self) -> &'a Source<'a> {
+        self.source
+    }
+
+    /// Whether `key` is there, spelt exactly so.
+    pub fn has(&self, key: &str) -> bool {
+        self.entries.iter().any(|entry| entry.key == key)
+    }
+
+    /// Whether the table holds nothing.
+    pub fn is_empty(&self) -> bool {
+        self.entries.is_empty()
+    }
+
+    /// Dotted path of this table.
+    pub fn path(&self) -> &str {
+        &self.path
+    }
+
+    /// Dotted path of a key of this table.
+    pub fn path_of(&self, key: &str) -> String {
+        if self.path.is_empty() { key.to_string() } else { format!("{}.{key}", self.path) }
+    }
+
+    /// An input error about the table as a whole.
+    pub fn fault(&self, message: impl Into<String>) -> Error {
+        let error = Error::new(ErrorKind::Input, message).at(self.source.place(self.span.clone()));
+        if self.path.is_empty() { error } else { error.key(self.path.clone()) }
+    }
+
+    /// An error of a kind about the value of `key`: its exact spelling, or a quantity's name without the unit.
+    pub fn wrong(&self, kind: ErrorKind, key: &str, message: impl Into<String>) -> Error {
+        let with_unit = |entry: &&Entry| {
+            self.used.contains(&entry.key) && entry.key.strip_prefix(key).is_some_and(|rest| rest.starts_with('_'))
+        };
+        let exact = self.entries.iter().find(|entry| entry.key == key);
+        let entry = exact.or_else(|| self.entries.iter().find(with_unit));
+        let (key, span) = entry.map_or((key, self.span.clone()), |entry| (entry.key, entry.value.span()));
+        Error::new(kind, message).key(self.path_of(key)).at(self.source.place(span))
+    }
+
+    fn wrong_entry(&self, entry: &Entry, message: impl Into<String>) -> Error {
+        self.wrong(ErrorKind::Input, entry.key, message)
+    }
+
+    fn mistyped(&self, key: &str, value: &Spanned<DeValue>, needed: &str) -> Error {
+        let found = found(self.source, value);
+        let error = Error::new(ErrorKind::Input, format!("found {found}, but {needed} is needed"))
+            .key(self.path_of(key))
+            .at(self.source.place(value.span()));
+        match (value.get_ref(), needed) {
+            (DeValue::String(_), "a number") => error.help("write numbers without quotes and with a decimal point"),
+            (DeValue::Integer(_) | DeValue::Float(_), "text") => error.help("put the text in \"quotes\""),
+            (DeValue::Table(_), "an array of tables") => error.help(format!("write [[{}]]", self.path_of(key))),
+            (DeValue::Array(_), "a table") => error.help(format!("write [{}]", self.path_of(key))),
+            _ => error,
+        }
+    }
+
+    fn missing(&self, spellings: &[String]) -> Error {
+        let wanted = choice(spellings.iter().map(String::as_str), "`");
+        // At the top there is no table to name.
+        let error = self.fault(format!("{wanted} is missing")).key(spellings[0].clone());
+        let unread = self.entries.iter().filter(|entry| entry.key.len() > 3 && !self.used.contains(&entry.key));
+        let near = unread.map(|entry| entry.key).find_map(|key| {
+            nearest(key, spellings.iter().map(String::as_str)).map(|spelling| (key, spelling.to_string()))
+        });
+        match near {
+            Some((key, spelling)) => error.help(format!("there is `{key}`: did you mean `{spelling}`?")),
+            None if self.path.is_empty() => error.help(format!("add {wanted}; docs/scenario.md describes every key")),
+            None => error.help(format!("add {wanted} to `{}`", self.path)),
+        }
+    }
+
+    /// Value of `key`, remembered as asked for.
+    fn take(&mut self, key: &str) -> Option<&'a Spanned<DeValue<'a>>> {
+        self.asked.push(key.to_string());
+        let entry = self.entries.iter().find(|entry| entry.key == key)?;
+        self.used.push(entry.key);
+        Some(entry.value)
+    }
+
+    fn required<T>(&self, key: &str, value: Option<T>) -> Result<T> {
+        value.ok_or_else(|| self.missing(&[key.to_string()]))
+    }
+
+    /// Text, if the key is there.
+    pub fn optional_string(&mut self, key: &str) -> Result<Option<String>> {
+        let Some(value) = self.take(key) else { return Ok(None) };
+        match value.get_ref().as_str() {
+            Some(text) => Ok(Some(text.to_string())),
+            None => Err(self.mistyped(key, value, "text")),
+        }
+    }
+
+    /// Text.
+    pub fn string(&mut self, key: &str) -> Result<String> {
+        let value = self.optional_string(key)?;
+        self.required(key, value)
+    }
+
+    /// Whole number.
+    pub fn integer(&mut self, key: &str) -> Result<i64> {
+        let value = self.take(key);
+        let value = self.required(key, value)?;
+        let integer = value.get_ref().as_integer();
+        integer
+            .and_then(|number| i64::from_str_radix(number.as_str(), number.radix()).ok())
+            .ok_or_else(|| self.mistyped(key, value, "a whole number"))
+    }
+
+    /// Finite number without a unit, if the key is there.
+    pub fn optional_number(&mut self, key: &str) -> Result<Option<f64>> {
+        let value = self.take(key);
+        value.map(|value| self.finite(key, value)).transpose()
+    }
+
+    /// Finite number without a unit.
+    pub fn number(&mut self, key: &str) -> Result<f64> {
+        let value = self.optional_number(key)?;
+        self.required(key, value)
+    }
+
+    /// Array of text.
+    pub fn strings(&mut self, key: &str) -> Result<Vec<String>> {
+        let value = self.take(key);
+        let value = self.required(key, value)?;
+        let array = value.get_ref().as_array().ok_or_else(|| self.mistyped(key, value, "an array of texts"))?;
+        let text = |element: &Spanned<DeValue>| match element.get_ref().as_str() {
+            Some(text) => Ok(text.to_string()),
+            None => Err(self.mistyped(key, element, "text")),
+        };
+        array.iter().map(text).collect()
+    }
+
+    /// Table, if the key is there.
+    pub fn optional_table(&mut self, key: &str) -> Result<Option<Table<'a>>> {
+        let value = self.take(key);
+        value.map(|value| self.child(key, self.path_of(key), value)).transpose()
+    }
+
+    /// Table.
+    pub fn table(&mut self, key: &str) -> Result<Table<'a>> {
+        let value = self.optional_table(key)?;
+        self.required(key, value)
+    }
+
+    /// Elements of an array of tables; none if the key is not there. Their paths carry their name where they have
+    /// one (`joints.A`), else their number, counted from 1 (`oracle[2]`).
+    pub fn tables(&mut self, key: &str) -> Result<Vec<Table<'a>>> {
+        let Some(value) = self.take(key) else { return Ok(Vec::new()) };
+        let array = value.get_ref().as_array().ok_or_else(|| self.mistyped(key, value, "an array of tables"))?;
+        let child = |(index, element): (usize, &'a Spanned<DeValue<'a>>)| {
+            let path = match element.get_ref().get("name").and_then(|name| name.get_ref().as_str()) {
+                Some(name) => format!("{}.{name}", self.path_of(key)),
+                None => format!("{}[{}]", self.path_of(key), index + 1),
+            };
+            self.child(key, path, element)
+        };
+        array.iter().enumerate().map(child).collect()
+    }
+
+    /// All entries, each of which must be a table, in the order of the file.
+    pub fn all_tables(&mut self) -> Result<Vec<Table<'a>>> {
+        self.used = self.entries.iter().map(|entry| entry.key).collect();
+        self.entries.iter().map(|entry| self.child(entry.key, self.path_of(entry.key), entry.value)).collect()
+    }
+
+    fn child(&self, key: &str, path: String, value: &'a Spanned<DeValue<'a>>) -> Result<Table<'a>> {
+        match value.get_ref() {
+            DeValue::Table(table) => Ok(Table::new(self.source, key.to_string(), path, value.span(), table)),
+            _ => Err(self.mistyped(key, value, "a table")),
+        }
+    }
+
+    fn finite(&self, key: &str, value: &Spanned<DeValue>) -> Result<f64> {
+        let number = match value.get_ref() {
+            DeValue::Float(float) => float.as_str().parse().ok(),
+            DeValue::Integer(integer) => {
+                i128::from_str_radix(integer.as_str(), integer.radix()).ok().map(|number| number as f64)
+            }
+            _ => None,
+        };
+        let number: f64 = number.ok_or_else(|| self.mistyped(key, value, "a number"))?;
+        if number.is_finite() { Ok(number) } else { Err(self.mistyped(key, value, "a finite number")) }
+    }
+
+    /// Quantity under one of the spellings of `base` in `family`, in SI, if there is one.
+    pub fn optional_quantity(&mut self, base: &str, family: &'static Family, sign: Sign) -> Result<Option<f64>> {
+        Ok(self.quantity_in(base, &[family], sign)?.map(|(_, value)| value))
+    }
+
+    /// Quantity under one of the spellings of `base` in `family`, in SI.
+    pub fn quantity(&mut self, base: &str, family: &'static Family, sign: Sign) -> Result<f64> {
+        let value = self.optional_quantity(base, family, sign)?;
+        value.ok_or_else(|| self.missing(&family.keys(base)))
+    }
+
+    /// Quantity that may be of one of several families: the index of its family, and its value in SI.
+    pub fn quantity_in(
+        &mut self,
+        base: &str,
+        families: &[&'static Family],
+        sign: Sign,
+    ) -> Result<Option<(usize, f64)>> {
+        let spellings: Vec<String> = families.iter().flat_map(|family| family.keys(base)).collect();
+        let mut present = self.entries.iter().filter(|entry| spellings.iter().any(|spelling| spelling == entry.key));
+        let (first, second) = (present.next(), present.next());
+        let Some(entry) = first else {
+            let wrong = self.misspelt_unit(base, families[0], &spellings);
+            self.asked.extend(spellings);
+            return wrong.map_or(Ok(None), Err);
+        };
+        if let Some(second) = second {
+            return Err(self
+                .wrong_entry(second, format!("`{}` and `{}` are both given", entry.key, second.key))
+                .help("keep one of the two"));
+        }
+        let (key, number) = (entry.key, self.finite(entry.key, entry.value)?);
+        let unit = |(index, family): (usize, &&'static Family)| Some((index, *family, family.unit_of(base, key)?));
+        let (index, family, unit) =
+            families.iter().enumerate().find_map(unit).expect("the key is one of the spellings");
+        if let Some(rule) = sign.broken_by(number) {
+            let found = found(self.source, entry.value);
+            return Err(self.wrong_entry(entry, format!("found {found}, but {} {rule} here", family.noun)));
+        }
+        let value = unit.to_si(number);
+        if !value.is_finite() {
+            return Err(self.mistyped(key, entry.value, "a finite number"));
+        }
+        self.asked.extend(spellings);
+        self.used.push(key);
+        Ok(Some((index, value)))
+    }
+
+    /// The error for a key that is `base` without its unit or with one that is not known.
+    fn misspelt_unit(&self, base: &str, family: &Family, spellings: &[String]) -> Option<Error> {
+        let help = format!("write {}", choice(spellings.iter().map(String::as_str), "`"));
+        let is_number =
+            |entry: &&Entry| !matches!(entry.value.get_ref(), DeValue::Table(_)) && !self.used.contains(&entry.key);
+        if let Some(entry) = self.entries.iter().filter(is_number).find(|entry| entry.key == base) {
+            return Some(self.wrong_entry(entry, format!("`{base}` carries no unit")).help(help));
+        }
+        let prefixed = |entry: &&Entry| entry.key.strip_prefix(base).is_some_and(|rest| rest.starts_with('_'));
+        let entry = self.entries.iter().filter(is_number).find(prefixed)?;
+        let message = format!("`{}` does not end in a unit that {} has here", entry.key, family.noun);
+        Some(self.wrong_entry(entry, message).help(help))
+    }
+
+    /// Ends the reading: a key that nobody asked for is an error with the nearest known key.
+    pub fn finish(&self) -> Result<()> {
+        let Some(entry) = self.entries.iter().find(|entry| !self.used.contains(&entry.key)) else { return Ok(()) };
+        let open = self.asked.iter().map(String::as_str).filter(|key| !self.has(key));
+        Err(Error::new(ErrorKind::Input, "this key is not known here")
+            .key(self.path_of(entry.key))
+            .at(self.source.place(entry.key_span.clone()))
+            .help(suggestion(entry.key, open, "`")))
+    }
+}
+
+/// A value as it stands in the file, for messages.
+fn found(source: &Source, value: &Spanned<DeValue>) -> String {
+    match value.get_ref() {
+        DeValue::Table(_) => "a table".into(),
+        DeValue::Array(_) => "an array".into(),
+        _ => source.text.get(value.span()).unwrap_or("another value").to_string(),
+    }
+}

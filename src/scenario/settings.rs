@@ -1,0 +1,67 @@
+//! `[channels]`, `[engine]` and `[tolerances]`: what a run wants and how it judges.
+
+use super::reader::{Sign, Table};
+use super::unit::{ANGLE, TIME};
+use super::words::suggestion;
+use crate::case::Wanted;
+use crate::drive::{Drive, MotionLaw};
+use crate::error::{ErrorKind, Result};
+use crate::trajectory::Stage;
+
+/// Stages of channels that are wanted; all without a table.
+pub fn wanted(table: Option<Table>) -> Result<Wanted> {
+    let Some(mut table) = table else { return Ok(Wanted::ALL) };
+    let names = table.strings("want")?;
+    table.finish()?;
+    let known = || Stage::ALL.into_iter().map(Stage::name);
+    if names.is_empty() {
+        let help = format!("name at least one, or leave the section out to get all; {}", suggestion("", known(), "\""));
+        return Err(table.wrong(ErrorKind::Input, "want", "nothing is wanted").help(help));
+    }
+    let stage = |name: &String| {
+        Stage::ALL.into_iter().find(|stage| stage.name() == name).ok_or_else(|| {
+            let error = table.wrong(ErrorKind::Input, "want", format!("there are no channels \"{name}\""));
+            error.help(suggestion(name, known(), "\""))
+        })
+    };
+    let stages: Vec<Stage> = names.iter().map(stage).collect::<Result<_>>()?;
+    Ok(Wanted::of(&stages))
+}
+
+/// Step of the engine (s).
+pub fn engine_step(mut table: Table, drive: &Drive) -> Result<f64> {
+    let time = table.optional_quantity("dt", &TIME, Sign::Positive)?;
+    let angle = table.optional_quantity("step", &ANGLE, Sign::NotZero)?;
+    table.finish()?;
+    let MotionLaw::ConstantSpeed(omega) = drive.law;
+    let dt = match (time, angle) {
+        (Some(dt), None) => dt,
+        (None, Some(angle)) => (angle / omega).abs(),
+        (Some(_), Some(_)) => {
+            let error = table.wrong(ErrorKind::Input, "step", "the engine's step is given twice");
+            return Err(error.help("keep either `dt` (a time) or `step` (a crank angle)"));
+        }
+        (None, None) => {
+            return Err(table.fault("the engine's step is missing").help("add `dt_s` (or `dt_ms`), or `step_deg`"));
+        }
+    };
+    if dt.is_finite() && dt > 0.0 {
+        Ok(dt)
+    } else {
+        Err(table.fault(format!("the engine's step would be {dt} s")).help("check the step and `drive.speed`"))
+    }
+}
+
+/// Largest discretisation error of the engine, as a share of a channel's scale, with which agreement still proves
+/// something.
+pub fn engine_rel(table: Option<Table>) -> Result<f64> {
+    const DEFAULT: f64 = 1e-2;
+    let Some(mut table) = table else { return Ok(DEFAULT) };
+    let share = table.optional_number("engine_rel")?.unwrap_or(DEFAULT);
+    table.finish()?;
+    if share > 0.0 && share < 1.0 {
+        return Ok(share);
+    }
+    let message = format!("found {share}, but this is a share of a channel's scale");
+    Err(table.wrong(ErrorKind::Input, "engine_rel", message).help("give a number between 0 and 1, such as 1e-2"))
+}

@@ -1,0 +1,101 @@
+//! The file behind a scenario: places in it, its spanned tree, and where in it a key of the trunk's errors stands.
+
+use std::ops::Range;
+use std::path::Path;
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use crate::error::{Error, ErrorKind, Place, Result};
+
+/// Text of a file and the path that messages call it by.
+pub struct Source<'a> {
+    /// Path as the user gave it.
+    pub path: &'a Path,
+    /// Whole text.
+    pub text: &'a str,
+}
+
+impl<'a> Source<'a> {
+    /// Place of a byte range.
+    pub fn place(&self, span: Range<usize>) -> Place {
+        Place { file: self.path.to_path_buf(), text: self.text.to_string(), span }
+    }
+
+    /// The spanned tree of the file.
+    pub fn tree(&self) -> Result<Spanned<DeTable<'a>>> {
+        DeTable::parse(self.text).map_err(|error| {
+            let message = error.message().trim().replace('\n', ", ");
+            Error::new(ErrorKind::Input, format!("the file is not valid TOML: {message}"))
+                .at(self.place(error.span().unwrap_or(0..0)))
+                .help("a key is written `name = value`, a section `[name]`, text stands in \"quotes\"")
+        })
+    }
+
+    /// `error` with the place of its key, if it has a key and no place yet.
+    pub fn located(&self, tree: &DeTable, error: Error) -> Error {
+        if error.place().is_some() {
+            return error;
+        }
+        let span = error.scenario_key().map_or(0..0, |key| locate(tree, key));
+        error.at(self.place(span))
+    }
+}
+
+/// Where the dotted `key` stands, or else the nearest parent that exists. Elements of an array are found by their
+/// name (`joints.A`), Assur groups by their links (`start.groups (coupler, rocker)`).
+pub fn locate(tree: &DeTable, key: &str) -> Range<usize> {
+    let (path, links) = match key.split_once(" (") {
+        Some((path, rest)) => (path, Some(rest.trim_end_matches(')').split(", ").collect::<Vec<_>>())),
+        None => (key, None),
+    };
+    let mut segments = path.split('.');
+    let Some(mut found) = segments.next().and_then(|first| tree.get(first)) else { return 0..0 };
+    for segment in segments {
+        let next = match found.get_ref() {
+            DeValue::Table(table) => table.get(segment),
+            DeValue::Array(array) => array.iter().find(|element| named(element, segment)),
+            _ => None,
+        };
+        match next {
+            Some(next) => found = next,
+            None => return found.span(),
+        }
+    }
+    let group = links.and_then(|links| found.get_ref().as_array()?.iter().find(|element| has_links(element, &links)));
+    group.unwrap_or(found).span()
+}
+
+fn named(element: &Spanned<DeValue>, name: &str) -> bool {
+    element.get_ref().get("name").and_then(|found| found.get_ref().as_str()) == Some(name)
+}
+
+fn has_links(element: &Spanned<DeValue>, links: &[&str]) -> bool {
+    let Some(found) = element.get_ref().get("links").and_then(|found| found.get_ref().as_array()) else {
+        return false;
+    };
+    let found: Vec<&str> = found.iter().filter_map(|name| name.get_ref().as_str()).collect();
+    found.len() == links.len() && links.iter().all(|link| found.contains(link))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TEXT: &str = "[links.rocker.points]\nB = { x_mm = 1 }\n[[joints]]\nname = \"A\"\n[[joints]]\nname = \"B\"\n\
+                        [start]\n[[start.groups]]\nlinks = [\"a\", \"b\"]\n[[start.groups]]\nlinks = [\"c\", \"d\"]\n";
+
+    #[test]
+    fn keys_are_found_in_the_file() {
+        let source = Source { path: Path::new("x.toml"), text: TEXT };
+        let tree = source.tree().unwrap();
+        let line = |key: &str| source.place(locate(tree.get_ref(), key)).line();
+        assert_eq!(line("links.rocker.points.B"), 2);
+        assert_eq!(line("joints"), 3);
+        assert_eq!(line("joints.B"), 5);
+        assert_eq!(line("start.groups (d, c)"), 10);
+        assert_eq!(line("start.groups (a, d)"), 8);
+        assert_eq!(line("links.rocker.mass"), 1);
+        assert_eq!(line("nothing.here"), 1);
+    }
+}

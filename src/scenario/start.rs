@@ -1,0 +1,112 @@
+//! `[[start.groups]]`: in which assembly mode each Assur group starts.
+
+use super::joints::link;
+use super::reader::{Sign, Table};
+use super::unit::LENGTH;
+use super::words::suggestion;
+use crate::error::{Error, ErrorKind, Result};
+use crate::math::Vec2;
+use crate::mechanism::pose::SidePoint;
+use crate::mechanism::{AssemblyMode, Group, GroupKind, Mechanism, Side, StartGroup, Structure};
+
+/// What is asked of each group, in the order of the structure. `start` is the table the groups stand in.
+pub fn groups(
+    start: &Table,
+    tables: Vec<Table>,
+    mechanism: &Mechanism,
+    structure: &Structure,
+) -> Result<Vec<StartGroup>> {
+    let mut wanted: Vec<Option<StartGroup>> = vec![None; structure.groups.len()];
+    for table in tables {
+        let (index, group) = group(table, mechanism, structure, &wanted)?;
+        wanted[index] = Some(group);
+    }
+    let missing: Vec<&Group> =
+        structure.groups.iter().zip(&wanted).filter(|(_, wanted)| wanted.is_none()).map(|(group, _)| group).collect();
+    // A group that no version of the file could start is left to the first pose, which says so.
+    match missing.iter().find(|group| group.kind == GroupKind::Rrr) {
+        None => Ok(wanted.into_iter().map(Option::unwrap_or_default).collect()),
+        Some(first) => Err(start
+            .fault(format!("the assembly mode of the group ({}) is not given", first.names(mechanism)))
+            .help(format!("add, with the right mode:\n{}", ready_to_paste(&missing, mechanism)))
+            .key("start.groups")),
+    }
+}
+
+fn group(
+    mut table: Table,
+    mechanism: &Mechanism,
+    structure: &Structure,
+    before: &[Option<StartGroup>],
+) -> Result<(usize, StartGroup)> {
+    let names = table.strings("links")?;
+    let mode = mode(&mut table)?;
+    let near = table.optional_table("near")?;
+    table.finish()?;
+    let links: Vec<usize> = names.iter().map(|name| link(&table, name, mechanism.links())).collect::<Result<_>>()?;
+    let mut sorted = links.clone();
+    sorted.sort_unstable();
+    let Some(index) = structure.groups.iter().position(|group| group.links == sorted) else {
+        return Err(unknown_group(&table, &names, mechanism, structure));
+    };
+    if before[index].is_some() {
+        return Err(table.wrong(ErrorKind::Input, "links", "this group is given twice").help("keep one of the two"));
+    }
+    let group = &structure.groups[index];
+    let mode = if links == group.links { mode } else { mode.map(AssemblyMode::swapped) };
+    let near = near.map(|near| rough_place(near, mechanism, group)).transpose()?;
+    Ok((index, StartGroup { mode, near }))
+}
+
+fn mode(table: &mut Table) -> Result<Option<AssemblyMode>> {
+    match table.optional_string("mode")?.as_deref() {
+        None => Ok(None),
+        Some("left") => Ok(Some(AssemblyMode::Left)),
+        Some("right") => Ok(Some(AssemblyMode::Right)),
+        Some(other) => Err(table
+            .wrong(ErrorKind::Input, "mode", format!("\"{other}\" is no assembly mode"))
+            .help(suggestion(other, ["left", "right"], "\""))),
+    }
+}
+
+fn rough_place(mut table: Table, mechanism: &Mechanism, group: &Group) -> Result<(SidePoint, Vec2)> {
+    let name = table.string("point")?;
+    let place = Vec2::new(table.quantity("x", &LENGTH, Sign::Any)?, table.quantity("y", &LENGTH, Sign::Any)?);
+    table.finish()?;
+    let mut points = group.links.iter().flat_map(|&link| {
+        mechanism.links()[link].points.iter().map(move |point| (point.name.as_str(), Side { link, local: point.local }))
+    });
+    match points.clone().find(|&(point, _)| point == name) {
+        Some((_, side)) => Ok((SidePoint { name, side }, place)),
+        None => {
+            let mut names: Vec<&str> = Vec::new();
+            points.by_ref().for_each(|(point, _)| {
+                if !names.contains(&point) {
+                    names.push(point)
+                }
+            });
+            let message = format!("no link of the group has a point \"{name}\"");
+            Err(table.wrong(ErrorKind::Input, "point", message).help(suggestion(&name, names, "\"")))
+        }
+    }
+}
+
+fn unknown_group(table: &Table, names: &[String], mechanism: &Mechanism, structure: &Structure) -> Error {
+    let message = format!("the mechanism has no Assur group ({})", names.join(", "));
+    let groups: Vec<&Group> = structure.groups.iter().collect();
+    let help = if groups.is_empty() {
+        "it has no group at all: take the table out".to_string()
+    } else {
+        format!("its groups are:\n{}", ready_to_paste(&groups, mechanism))
+    };
+    table.wrong(ErrorKind::Input, "links", message).help(help)
+}
+
+fn ready_to_paste(groups: &[&Group], mechanism: &Mechanism) -> String {
+    let entry = |group: &&Group| {
+        let names: Vec<String> =
+            group.links.iter().map(|&link| format!("\"{}\"", mechanism.links()[link].name)).collect();
+        format!("[[start.groups]]\nlinks = [{}]\nmode = \"left\" # or \"right\"", names.join(", "))
+    };
+    groups.iter().map(entry).collect::<Vec<_>>().join("\n")
+}

@@ -1,0 +1,176 @@
+//! The scenarios of the repository, checked from outside: printed first rows, hand computation, and random damage.
+
+use std::path::{Path, PathBuf};
+
+use proptest::prelude::*;
+
+use super::*;
+use crate::math::Vec2;
+use crate::mechanism::AssemblyMode;
+use crate::trajectory::Channel;
+
+fn scenarios() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios")
+}
+
+fn load(name: &str) -> Scenario {
+    Scenario::load(&scenarios().join(name)).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// World position of a named point in the first pose (m).
+fn start_point(scenario: &Scenario, name: &str) -> Vec2 {
+    let case = &scenario.case;
+    let (_, side) = case.mechanism.moving_points().find(|&(point, _)| point == name).unwrap();
+    case.start.0[side.link].point(side.local)
+}
+
+#[test]
+fn val_ov7_base_first_pose() {
+    let scenario = load("ov7_base.toml");
+    let positions = scenario.oracles.iter().find(|oracle| oracle.name == "positions.csv").unwrap();
+    for point in ["2", "3", "5", "7", "9"] {
+        let found = start_point(&scenario, point);
+        for (axis, found) in [("x", found.x), ("y", found.y)] {
+            let column = format!("P{point}{axis}_mm");
+            let printed = positions.series.iter().find(|series| series.name == column).unwrap().points[0];
+            assert_eq!(printed.crank, 0.0);
+            assert!((found - printed.value).abs() <= 0.005e-3, "{column}: {found} against {}", printed.value);
+        }
+    }
+    assert_eq!(scenario.case.modes, [AssemblyMode::Right; 3]);
+    assert!(scenario.case.start.closure(&scenario.case.mechanism) < 1e-15);
+}
+
+#[test]
+fn ov7_base_is_read_whole() {
+    let scenario = load("ov7_base.toml");
+    let case = &scenario.case;
+    let formula = "I(ground, crank) -> II.2 RRR(rod_23, rocker_43) -> II.2 RRR(rod_35, rocker_65) \
+                   -> II.2 RRR(rod_57, rocker_87)";
+    assert_eq!(case.structure.formula(&case.mechanism), formula);
+    assert_eq!((case.grid.len(), case.grid.cranks[90]), (361, -90f64.to_radians()));
+    assert!(case.grid.times.iter().all(|&time| time >= 0.0));
+    assert!((scenario.dt - 0.78f64.to_radians() / 97.2).abs() < 1e-18);
+    let columns: Vec<usize> = scenario.oracles.iter().map(|oracle| oracle.series.len()).collect();
+    assert_eq!(columns, [10, 10, 10, 7, 7, 7]);
+    let rows = scenario.oracles.iter().flat_map(|oracle| &oracle.series).map(|series| series.points.len());
+    assert!(rows.into_iter().all(|rows| rows == 13));
+    let angles = &scenario.oracles[3].series;
+    assert_eq!(angles[6].channel, Channel::named("link.rocker_87.angle_rad").unwrap());
+    let (eight_nine, eight_seven) = (angles[6].points[0], angles[5].points[0]);
+    assert!((eight_nine.value - eight_seven.value).abs() < 1e-14);
+    assert!((eight_nine.bound / 0.005f64.to_radians() - 1.0).abs() < 2e-9 && eight_nine.digits == 2);
+}
+
+#[test]
+fn crank_rocker_starts_where_two_circles_meet() {
+    let scenario = load("crank_rocker.toml");
+    // By hand: |B - A| = 0.34707193189181 and |B - C| = 0.25 about A = (0.025995627740337, 0), C = (0.15, 0.015).
+    let (a, c) = (Vec2::new(0.025_995_627_740_337, 0.0), Vec2::new(0.15, 0.015));
+    let b = start_point(&scenario, "B");
+    assert!(((b - a).norm() - 0.347_071_931_891_81).abs() < 1e-15 && ((b - c).norm() - 0.25).abs() < 1e-15);
+    assert!(crate::math::cross(c - a, b - a) > 0.0, "B lies left of the line from A to C");
+    let d = start_point(&scenario, "D");
+    assert!((d - c - (b - c) * (4.0 / 3.0)).norm() < 1e-15);
+    let crank = &scenario.case.mechanism.links()[1];
+    let about_pivot = crank.inertia + crank.mass * crank.mass_centre.norm_squared();
+    assert!((about_pivot - 2.6 * a.norm_squared() / 3.0).abs() < 1e-18, "I_O = m l^2 / 3");
+    assert_eq!((scenario.dt, scenario.engine_rel, scenario.case.grid.len()), (1e-3, 1e-2, 361));
+    let names: Vec<&str> = scenario.oracles.iter().map(|oracle| oracle.name.as_str()).collect();
+    assert_eq!(names, ["inline 1", "inline 2", "inline 3"]);
+    assert_eq!(scenario.oracles[2].figures[0].figure, Figure::ReducedInertiaMean);
+}
+
+#[test]
+fn val_crank_rocker_extreme_positions_are_in_line() {
+    let scenario = load("crank_rocker.toml");
+    for (oracle, sign) in scenario.oracles.iter().zip([1.0, -1.0]) {
+        let (crank, angle) = (oracle.series[0].points[0].crank, oracle.series[0].points[0].value);
+        let a = crate::math::unit(crank) * 0.025_995_627_740_337;
+        let b = Vec2::new(0.15, 0.015) + crate::math::unit(angle) * 0.25;
+        assert!(((b - a).norm() - 0.347_071_931_891_81).abs() < 1e-14);
+        assert!((b.norm() - 0.347_071_931_891_81 - sign * 0.025_995_627_740_337).abs() < 1e-14);
+    }
+}
+
+/// One random damage to a scenario's lines.
+#[derive(Clone, Debug)]
+enum Damage {
+    Delete(usize),
+    Double(usize),
+    Swap(usize, usize),
+    Value(usize, &'static str),
+    Text(usize, String),
+}
+
+fn damage() -> impl Strategy<Value = Damage> {
+    let values = prop::sample::select(vec![
+        "nan",
+        "-inf",
+        "1e308",
+        "1e-320",
+        "0",
+        "-1",
+        "\"\"",
+        "\"ground\"",
+        "[]",
+        "{}",
+        "[\"a\"]",
+        "true",
+        "1979-05-27",
+        "\"O\"",
+        "99999999999999999999",
+        "[\"crank\", \"rocker\"]",
+        "\"left\"",
+        "{ x_mm = 1, y_mm = 2 }",
+    ]);
+    prop_oneof![
+        (0..200usize).prop_map(Damage::Delete),
+        (0..200usize).prop_map(Damage::Double),
+        (0..200usize, 0..200usize).prop_map(|(a, b)| Damage::Swap(a, b)),
+        (0..200usize, values).prop_map(|(line, value)| Damage::Value(line, value)),
+        (0..200usize, "\\PC{0,20}").prop_map(|(line, text)| Damage::Text(line, text)),
+    ]
+}
+
+fn damaged(text: &str, damages: &[Damage]) -> String {
+    let mut lines: Vec<String> = text.lines().map(ToString::to_string).collect();
+    for damage in damages {
+        let count = lines.len();
+        match damage {
+            Damage::Delete(line) => drop(lines.remove(line % count)),
+            Damage::Double(line) => lines.insert(line % count, lines[line % count].clone()),
+            Damage::Swap(a, b) => lines.swap(a % count, b % count),
+            Damage::Value(line, value) => {
+                let line = &mut lines[line % count];
+                *line = format!("{} = {value}", line.split('=').next().unwrap_or_default());
+            }
+            Damage::Text(line, text) => lines[line % count].clone_from(text),
+        }
+    }
+    lines.join("\n")
+}
+
+fn check(text: &str) -> std::result::Result<(), TestCaseError> {
+    if let Err(error) = Scenario::parse(text, &scenarios().join("damaged.toml")) {
+        let Some(place) = error.place() else { return Err(TestCaseError::fail(format!("{error} has no place"))) };
+        prop_assert!(place.text.get(place.span.clone()).is_some(), "{error} points outside its file");
+    }
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn a_damaged_scenario_is_read_or_refused_with_a_place(damages in prop::collection::vec(damage(), 1..6)) {
+        for text in [include_str!("../../scenarios/crank_rocker.toml"), include_str!("../../scenarios/ov7_base.toml")] {
+            check(&damaged(text, &damages))?;
+        }
+    }
+
+    #[test]
+    fn any_text_is_read_or_refused_with_a_place(text in "[\\PC\\n]{0,200}") {
+        check(&text)?;
+    }
+}

@@ -1,0 +1,105 @@
+//! Units of scenario files. Every key that holds a physical quantity ends in its unit; inside, everything is SI.
+
+use std::f64::consts::{PI, TAU};
+
+/// One unit of a family.
+#[derive(Debug, PartialEq)]
+pub struct Unit {
+    /// Ending of keys in this unit, without the underscore that joins it.
+    pub suffix: &'static str,
+    factor: f64,
+    // Kept apart from the factor: 150 / 1000 is the double nearest to 0.15, 150 * 0.001 need not be.
+    divisor: f64,
+}
+
+impl Unit {
+    const fn new(suffix: &'static str, factor: f64, divisor: f64) -> Self {
+        Unit { suffix, factor, divisor }
+    }
+
+    /// A number in this unit, converted to SI.
+    #[must_use]
+    pub fn to_si(&self, value: f64) -> f64 {
+        value * self.factor / self.divisor
+    }
+}
+
+/// Units that measure one quantity, SI first.
+#[derive(Debug)]
+pub struct Family {
+    /// The quantity with its article, for messages.
+    pub noun: &'static str,
+    /// Units, the SI unit first.
+    pub units: &'static [Unit],
+}
+
+impl Family {
+    /// The spellings of a key of this family: `length_m` or `length_mm`.
+    #[must_use]
+    pub fn keys(&self, base: &str) -> Vec<String> {
+        self.units.iter().map(|unit| format!("{base}_{}", unit.suffix)).collect()
+    }
+
+    /// The unit that `key` ends in, if `key` is `base` and a unit of this family.
+    #[must_use]
+    pub fn unit_of(&self, base: &str, key: &str) -> Option<&'static Unit> {
+        let suffix = key.strip_prefix(base)?.strip_prefix('_')?;
+        self.units.iter().find(|unit| unit.suffix == suffix)
+    }
+}
+
+const fn si(suffix: &'static str) -> Unit {
+    Unit::new(suffix, 1.0, 1.0)
+}
+
+/// Lengths and coordinates.
+pub static LENGTH: Family = Family { noun: "a length", units: &[si("m"), Unit::new("mm", 1.0, 1e3)] };
+/// Angles.
+pub static ANGLE: Family = Family { noun: "an angle", units: &[si("rad"), Unit::new("deg", PI / 180.0, 1.0)] };
+/// Angular velocities; rpm are turns a minute.
+pub static ANGULAR_SPEED: Family =
+    Family { noun: "an angular velocity", units: &[si("rad_s"), Unit::new("rpm", TAU, 60.0)] };
+/// Times.
+pub static TIME: Family = Family { noun: "a time", units: &[si("s"), Unit::new("ms", 1.0, 1e3)] };
+/// Masses.
+pub static MASS: Family = Family { noun: "a mass", units: &[si("kg"), Unit::new("g", 1.0, 1e3)] };
+/// Moments of inertia.
+pub static INERTIA: Family = Family { noun: "a moment of inertia", units: &[si("kg_m2")] };
+/// Accelerations.
+pub static ACCELERATION: Family = Family { noun: "an acceleration", units: &[si("m_s2")] };
+/// Moments of forces.
+pub static MOMENT: Family = Family { noun: "a moment", units: &[si("N_m")] };
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn si_of(family: &Family, suffix: &str, value: f64) -> f64 {
+        family.units.iter().find(|unit| unit.suffix == suffix).unwrap().to_si(value)
+    }
+
+    #[test]
+    fn units_are_converted() {
+        assert_eq!(si_of(&LENGTH, "mm", 150.0), 0.15);
+        assert_eq!(si_of(&ANGLE, "deg", 180.0), PI);
+        assert!((si_of(&ANGULAR_SPEED, "rpm", 60.0) / TAU - 1.0).abs() < 4e-16);
+        assert!((si_of(&ANGULAR_SPEED, "rpm", 130.0) - 13.613_568_165_555_77).abs() < 4e-15);
+        assert_eq!(si_of(&MASS, "g", 2600.0), 2.6);
+        assert_eq!(si_of(&TIME, "ms", 1.0), 1e-3);
+    }
+
+    #[test]
+    fn every_family_starts_with_its_si_unit() {
+        for family in [&LENGTH, &ANGLE, &ANGULAR_SPEED, &TIME, &MASS, &INERTIA, &ACCELERATION, &MOMENT] {
+            assert_eq!(family.units[0].to_si(2.5), 2.5, "{}", family.noun);
+        }
+    }
+
+    #[test]
+    fn keys_end_in_their_unit() {
+        assert_eq!(LENGTH.keys("length"), ["length_m", "length_mm"]);
+        assert_eq!(LENGTH.unit_of("length", "length_mm").unwrap().suffix, "mm");
+        assert!(LENGTH.unit_of("length", "length").is_none() && LENGTH.unit_of("length", "length_cm").is_none());
+        assert!(LENGTH.unit_of("x", "x_m_s").is_none());
+    }
+}
