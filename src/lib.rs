@@ -12,6 +12,7 @@ pub mod drive;
 pub mod error;
 pub mod math;
 pub mod mechanism;
+pub mod record;
 pub mod solver;
 pub mod tolerance;
 pub mod trajectory;
