@@ -61,7 +61,7 @@ impl<'a> Forces<'a> {
         let size = self.scene.size;
         let length = (self.scale * force.norm()).max(SHORTEST * size);
         let head = (0.3 * length).min(0.06 * size);
-        let (broad, z) = (side.paint.broad.sqrt(), (0.02 + 0.01 * side.paint.layer) * size);
+        let (broad, z) = (side.paint.broad.sqrt(), (8.0 + side.paint.layer) * self.scene.layer());
         let mut color = side.paint.colour();
         // Lighter than the links that the arrows lie on.
         color.a = 0.8;

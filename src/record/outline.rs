@@ -7,10 +7,10 @@ use crate::mechanism::GROUND;
 use foxglove::messages::packed_element_field::NumericType;
 use foxglove::messages::{PackedElementField, PointCloud};
 
-/// Points on a segment of the first side.
-const POINTS: usize = 40;
+/// Points in one mechanism size along a segment of the first side; closer ones would only fill the disk.
+const POINTS: f64 = 64.0;
 /// Steps of the grid that points are rounded to, in one mechanism size: round numbers compress, and nobody sees it.
-const STEPS: f64 = 2048.0;
+const STEPS: f64 = 1024.0;
 /// Bytes of one point: three single precision coordinates and four bytes of colour.
 const STRIDE: u32 = 16;
 
@@ -25,7 +25,8 @@ pub struct Outline<'a> {
 impl<'a> Outline<'a> {
     /// The outlines of a scene.
     pub fn new(scene: &'a Scene<'a>) -> Self {
-        let links = (0..scene.mechanism.links().len()).map(|link| along(&scene.places(link), link)).collect();
+        let links =
+            (0..scene.mechanism.links().len()).map(|link| along(&scene.places(link), link, scene.size)).collect();
         // A power of two, so that the rounded numbers end in zeros.
         let quantum = (scene.size / STEPS).log2().floor().exp2();
         Outline { scene, links, quantum }
@@ -35,9 +36,10 @@ impl<'a> Outline<'a> {
     pub fn cloud(&self, time: f64, nanoseconds: u64) -> PointCloud {
         let mut data: Vec<u8> = Vec::new();
         let mut put = |at: Vec2, z: f64, rgba: [u8; 4]| {
-            for value in [at.x, at.y, z] {
+            for value in [at.x, at.y] {
                 data.extend((((value / self.quantum).round() * self.quantum) as f32).to_le_bytes());
             }
+            data.extend((z as f32).to_le_bytes());
             data.extend(rgba);
         };
         for &at in &self.links[GROUND] {
@@ -46,7 +48,7 @@ impl<'a> Outline<'a> {
         for (number, side) in self.scene.sides.iter().enumerate() {
             let row = side.row_at(time);
             // Later sides are drawn as dots over the first one's line, so that both are seen where they agree.
-            let (stride, z) = (if number == 0 { 1 } else { 4 }, 0.01 * self.scene.size * side.paint.layer);
+            let (stride, z) = (if number == 0 { 1 } else { 4 }, self.scene.layer() * side.paint.layer);
             for (link, places) in self.links.iter().enumerate().skip(1) {
                 let pose = side.pose(self.scene.mechanism, link, row);
                 for &local in places.iter().step_by(stride) {
@@ -79,7 +81,7 @@ fn fields() -> Vec<PackedElementField> {
 }
 
 /// Points along a link's outline; the ground is no more than its pivots.
-fn along(places: &[Vec2], link: usize) -> Vec<Vec2> {
+fn along(places: &[Vec2], link: usize, size: f64) -> Vec<Vec2> {
     let (corners, closed) = outline(places);
     if link == GROUND || corners.len() < 2 {
         return corners;
@@ -88,7 +90,8 @@ fn along(places: &[Vec2], link: usize) -> Vec<Vec2> {
     let mut points = Vec::new();
     for start in 0..segments {
         let (a, b) = (corners[start], corners[(start + 1) % corners.len()]);
-        points.extend((0..POINTS).map(|k| a + (b - a) * (k as f64 / POINTS as f64)));
+        let count = (POINTS * (b - a).norm() / size).ceil().max(2.0);
+        points.extend((0..count as usize).map(|k| a + (b - a) * (k as f64 / count)));
     }
     points.extend(if closed { None } else { corners.last().copied() });
     points

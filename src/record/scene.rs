@@ -66,6 +66,12 @@ impl<'a> Scene<'a> {
         (!sides.is_empty()).then_some(Scene { mechanism, sides, size })
     }
 
+    /// Distance between the sides above each other (m): enough to be told apart by a viewer's depth, not by the eye,
+    /// to which a gap would look like a disagreement.
+    pub fn layer(&self) -> f64 {
+        0.002 * self.size
+    }
+
     /// Times at which the scene is drawn (s), ascending: those of the first side, thinned.
     pub fn times(&self) -> Vec<f64> {
         let side = &self.sides[0];
@@ -125,8 +131,7 @@ impl<'a> Scene<'a> {
     fn link(&self, side: &Placed, index: usize, lettered: bool) -> SceneEntity {
         let link = &self.mechanism.links()[index];
         let (colour, broad) = (Some(side.paint.colour()), side.paint.broad);
-        let layer = 0.01 * self.size;
-        let z = layer * side.paint.layer;
+        let z = self.layer() * side.paint.layer;
         let places = self.places(index);
         let (outline, closed) = outline(&places);
         let line = LinePrimitive {
@@ -141,7 +146,7 @@ impl<'a> Scene<'a> {
         let (joints, others): (Vec<Vec2>, Vec<Vec2>) = places.iter().partition(|local| is_joint(local));
         let pin = |&local: &Vec2| CylinderPrimitive {
             pose: pose(local, z, 0.0),
-            size: extent(0.04 * self.size * broad.sqrt(), layer),
+            size: extent(0.04 * self.size * broad.sqrt(), self.layer()),
             bottom_scale: 1.0,
             top_scale: 1.0,
             color: colour,
