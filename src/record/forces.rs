@@ -1,0 +1,77 @@
+//! Reactions as arrows: the force of each joint's first link on its second, at the joint.
+
+use super::scene::{Placed, Scene, column};
+use super::shapes::{pose, stamp};
+use crate::math::Vec2;
+use crate::mechanism::Joint;
+use foxglove::messages::{ArrowPrimitive, SceneEntity, SceneUpdate};
+
+/// Length of the largest arrow against the size of the mechanism.
+const LONGEST: f64 = 0.4;
+/// Length of the shortest arrow against the size of the mechanism; viewers choke on arrows without length.
+const SHORTEST: f64 = 0.01;
+
+/// The arrows of all sides that have reactions.
+pub struct Forces<'a> {
+    scene: &'a Scene<'a>,
+    /// Sides with the components of each joint's force.
+    sides: Vec<(&'a Placed<'a>, Vec<[&'a [f64]; 2]>)>,
+    /// Length of an arrow for each newton (m/N).
+    pub scale: f64,
+}
+
+impl<'a> Forces<'a> {
+    /// The arrows of a scene; none if no side has reactions.
+    pub fn new(scene: &'a Scene<'a>) -> Option<Self> {
+        let of_side = |side: &'a Placed<'a>| {
+            let column = |joint: &Joint, suffix| column(side.trajectory, &format!("joint.{}.{suffix}", joint.name));
+            let columns = |joint| Some([column(joint, "fx_N")?, column(joint, "fy_N")?]);
+            Some((side, scene.mechanism.joints().iter().map(columns).collect::<Option<Vec<_>>>()?))
+        };
+        let sides: Vec<_> = scene.sides.iter().filter_map(of_side).collect();
+        let forces = sides.iter().flat_map(|(_, joints)| joints);
+        let sizes = forces.flat_map(|[x, y]| x.iter().zip(*y).map(|(x, y)| x.hypot(*y)));
+        let largest = sizes.filter(|size| size.is_finite()).fold(0.0, f64::max);
+        let scale = if largest > 0.0 { LONGEST * scene.size / largest } else { 0.0 };
+        let scale = if scale.is_finite() { scale } else { 0.0 };
+        (!sides.is_empty()).then_some(Forces { scene, sides, scale })
+    }
+
+    /// Every arrow at a time, always with the same identities.
+    pub fn arrows(&self, time: f64, nanoseconds: u64) -> SceneUpdate {
+        let mechanism = self.scene.mechanism;
+        let mut entities = Vec::new();
+        for (side, joints) in &self.sides {
+            let row = side.row_at(time);
+            for (joint, [x, y]) in mechanism.joints().iter().zip(joints) {
+                let at = side.pose(mechanism, joint.second.link, row).point(joint.second.local);
+                entities.push(SceneEntity {
+                    timestamp: stamp(nanoseconds),
+                    frame_id: "world".into(),
+                    id: format!("{}/{}", side.name, joint.name),
+                    arrows: vec![self.arrow(side, at, Vec2::new(x[row], y[row]))],
+                    ..Default::default()
+                });
+            }
+        }
+        SceneUpdate { deletions: Vec::new(), entities }
+    }
+
+    fn arrow(&self, side: &Placed, at: Vec2, force: Vec2) -> ArrowPrimitive {
+        let size = self.scene.size;
+        let length = (self.scale * force.norm()).max(SHORTEST * size);
+        let head = (0.3 * length).min(0.06 * size);
+        let (broad, z) = (side.paint.broad.sqrt(), (8.0 + side.paint.layer) * self.scene.layer());
+        let mut color = side.paint.colour();
+        // Lighter than the links that the arrows lie on.
+        color.a = 0.8;
+        ArrowPrimitive {
+            pose: pose(at, z, force.y.atan2(force.x)),
+            shaft_length: length - head,
+            shaft_diameter: 0.014 * size * broad,
+            head_length: head,
+            head_diameter: 0.035 * size * broad,
+            color: Some(color),
+        }
+    }
+}

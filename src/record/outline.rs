@@ -1,0 +1,98 @@
+//! The links as clouds of points, for viewers that draw no scenes.
+
+use super::scene::{Scene, outline};
+use super::shapes::{GREY, pose, stamp};
+use crate::math::Vec2;
+use crate::mechanism::GROUND;
+use foxglove::messages::packed_element_field::NumericType;
+use foxglove::messages::{PackedElementField, PointCloud};
+
+/// Points in one mechanism size along a segment of the first side; closer ones would only fill the disk.
+const POINTS: f64 = 64.0;
+/// Steps of the grid that points are rounded to, in one mechanism size: round numbers compress, and nobody sees it.
+const STEPS: f64 = 1024.0;
+/// Bytes of one point: three single precision coordinates and four bytes of colour.
+const STRIDE: u32 = 16;
+
+/// The outlines of all sides' links as points in their own frames, made once and placed at each time.
+pub struct Outline<'a> {
+    scene: &'a Scene<'a>,
+    /// Points of each link, in its frame.
+    links: Vec<Vec<Vec2>>,
+    quantum: f64,
+}
+
+impl<'a> Outline<'a> {
+    /// The outlines of a scene.
+    pub fn new(scene: &'a Scene<'a>) -> Self {
+        let links =
+            (0..scene.mechanism.links().len()).map(|link| along(&scene.places(link), link, scene.size)).collect();
+        // A power of two, so that the rounded numbers end in zeros.
+        let quantum = (scene.size / STEPS).log2().floor().exp2();
+        Outline { scene, links, quantum }
+    }
+
+    /// The cloud at a time.
+    pub fn cloud(&self, time: f64, nanoseconds: u64) -> PointCloud {
+        let mut data: Vec<u8> = Vec::new();
+        let mut put = |at: Vec2, z: f64, rgba: [u8; 4]| {
+            for value in [at.x, at.y] {
+                data.extend((((value / self.quantum).round() * self.quantum) as f32).to_le_bytes());
+            }
+            data.extend((z as f32).to_le_bytes());
+            data.extend(rgba);
+        };
+        for &at in &self.links[GROUND] {
+            put(at, 0.0, GREY);
+        }
+        for (number, side) in self.scene.sides.iter().enumerate() {
+            let row = side.row_at(time);
+            // Later sides are drawn as dots over the first one's line, so that both are seen where they agree.
+            let (stride, z) = (if number == 0 { 1 } else { 4 }, self.scene.layer() * side.paint.layer);
+            for (link, places) in self.links.iter().enumerate().skip(1) {
+                let pose = side.pose(self.scene.mechanism, link, row);
+                for &local in places.iter().step_by(stride) {
+                    put(pose.point(local), z, side.paint.rgba);
+                }
+            }
+        }
+        PointCloud {
+            timestamp: stamp(nanoseconds),
+            frame_id: "world".into(),
+            pose: pose(Vec2::zeros(), 0.0, 0.0),
+            point_stride: STRIDE,
+            fields: fields(),
+            data: data.into(),
+        }
+    }
+}
+
+fn fields() -> Vec<PackedElementField> {
+    let coordinates = ["x", "y", "z"].map(|name| (name, NumericType::Float32));
+    let colours = ["red", "green", "blue", "alpha"].map(|name| (name, NumericType::Uint8));
+    let mut offset = 0;
+    let mut fields = Vec::new();
+    for (name, kind) in coordinates.into_iter().chain(colours) {
+        fields.push(PackedElementField { name: name.into(), offset, r#type: kind as i32 });
+        offset += if kind == NumericType::Float32 { 4 } else { 1 };
+    }
+    debug_assert_eq!(offset, STRIDE);
+    fields
+}
+
+/// Points along a link's outline; the ground is no more than its pivots.
+fn along(places: &[Vec2], link: usize, size: f64) -> Vec<Vec2> {
+    let (corners, closed) = outline(places);
+    if link == GROUND || corners.len() < 2 {
+        return corners;
+    }
+    let segments = if closed { corners.len() } else { corners.len() - 1 };
+    let mut points = Vec::new();
+    for start in 0..segments {
+        let (a, b) = (corners[start], corners[(start + 1) % corners.len()]);
+        let count = (POINTS * (b - a).norm() / size).ceil().max(2.0);
+        points.extend((0..count as usize).map(|k| a + (b - a) * (k as f64 / count)));
+    }
+    points.extend(if closed { None } else { corners.last().copied() });
+    points
+}

@@ -1,0 +1,91 @@
+//! The MCAP file itself: options, topics, messages.
+
+use super::{Recording, schema};
+use foxglove::{Encode, Schema};
+use mcap::records::{MessageHeader, Metadata};
+use mcap::write::NoSeek;
+use mcap::{Attachment, McapError, McapResult, WriteOptions, Writer};
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::BufWriter;
+
+/// Nanoseconds in a second.
+pub const SECOND: u64 = 1_000_000_000;
+/// Target size of a chunk before compression (bytes).
+const CHUNK: u64 = 768 * 1024;
+
+/// The file being written.
+pub struct Output {
+    writer: Writer<NoSeek<BufWriter<File>>>,
+    /// Second of the last flush.
+    flushed: u64,
+    /// Bytes since then.
+    pending: usize,
+}
+
+impl Output {
+    /// Starts the file.
+    pub fn create(file: File) -> McapResult<Self> {
+        let writer = WriteOptions::new()
+            .profile("")
+            .library(concat!("linkproof ", env!("CARGO_PKG_VERSION")))
+            .chunk_size(Some(CHUNK))
+            // Several threads would cut chunks by the number of cores.
+            .compression_threads(0)
+            // A seeking writer mends the chunk's length afterwards; killed before, it leaves a file nobody opens.
+            .disable_seeking(true)
+            .create(NoSeek::new(BufWriter::new(file)))?;
+        Ok(Output { writer, flushed: 0, pending: 0 })
+    }
+
+    /// Metadata record and scenario, first of all, so that a file cut off has them too.
+    pub fn describe(&mut self, recording: &Recording, start: f64, force_scale: Option<f64>) -> McapResult<()> {
+        let mut metadata = recording.metadata.clone();
+        metadata.entry("scenario".into()).or_insert_with(|| recording.name.into());
+        metadata.insert("log_time_zero_s".into(), start.to_string());
+        if let Some(scale) = force_scale {
+            metadata.insert("force_scale_m_per_N".into(), scale.to_string());
+        }
+        self.writer.write_metadata(&Metadata { name: "linkproof".into(), metadata })?;
+        self.writer.attach(&Attachment {
+            log_time: 0,
+            create_time: 0,
+            name: "scenario.toml".into(),
+            media_type: "application/toml".into(),
+            data: recording.scenario_text.as_bytes().into(),
+        })
+    }
+
+    /// A topic of our own messages.
+    pub fn topic(&mut self, name: &str, schema: &schema::Schema) -> McapResult<u16> {
+        let schema = self.writer.add_schema(&schema.name, "protobuf", &schema.descriptor)?;
+        self.writer.add_channel(schema, name, "protobuf", &BTreeMap::new())
+    }
+
+    /// A topic of the viewers' messages.
+    pub fn foxglove<M: Encode>(&mut self, name: &str) -> McapResult<u16> {
+        let Schema { name: schema, encoding, data } = M::get_schema().expect("the viewers' messages have schemas");
+        let schema = self.writer.add_schema(&schema, &encoding, &data)?;
+        self.writer.add_channel(schema, name, &M::get_message_encoding(), &BTreeMap::new())
+    }
+
+    /// One message at a time (ns).
+    pub fn put(&mut self, topic: u16, sequence: u32, time: u64, data: &[u8]) -> McapResult<()> {
+        // A chunk for each second bounds what a killed run loses; chunks of a few samples would not compress.
+        if time / SECOND > self.flushed && self.pending > CHUNK as usize / 8 {
+            self.writer.flush()?;
+            (self.flushed, self.pending) = (time / SECOND, 0);
+        }
+        self.pending += data.len();
+        let header = MessageHeader { channel_id: topic, sequence, log_time: time, publish_time: time };
+        self.writer.write_to_known_channel(&header, data)
+    }
+
+    /// Indexes and the end of the file, safe on the disk.
+    pub fn finish(mut self) -> McapResult<()> {
+        self.writer.finish()?;
+        let file =
+            self.writer.into_inner().into_inner().into_inner().map_err(|error| McapError::Io(error.into_error()))?;
+        Ok(file.sync_all()?)
+    }
+}

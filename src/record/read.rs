@@ -1,0 +1,148 @@
+//! From an MCAP file back to trajectories.
+
+use super::schema;
+use crate::error::{Error, ErrorKind, Result};
+use crate::trajectory::{Channel, Trajectory};
+use mcap::{Message, MessageStream};
+use std::collections::{BTreeMap, HashMap};
+use std::fmt::Display;
+use std::fs;
+use std::path::Path;
+
+/// Values with the sequence numbers of their samples.
+type Numbered = Vec<(u32, f64)>;
+
+/// What is done with the messages of one MCAP channel.
+enum Topic {
+    /// The grid of a side; names of the fields by number.
+    Grid(String, BTreeMap<u32, String>),
+    /// Values of a side; the channels by field number.
+    Values(String, BTreeMap<u32, Channel>),
+    /// Not for us.
+    Other,
+}
+
+/// What was found of one side. Keys order sides and columns as they were recorded: MCAP channel, then field.
+#[derive(Default)]
+struct Found {
+    grid: BTreeMap<String, Numbered>,
+    columns: BTreeMap<(u16, u32), (Channel, Numbered)>,
+    first: Option<u16>,
+}
+
+pub(super) fn read(path: &Path) -> Result<Vec<(String, Trajectory)>> {
+    let bytes = fs::read(path).map_err(|error| {
+        Error::new(ErrorKind::Io, format!("the recording {} cannot be read: {error}", path.display()))
+            .help("check the path")
+    })?;
+    let damaged = |error: &dyn Display| {
+        Error::new(ErrorKind::Io, format!("the recording {} is cut off or damaged: {error}", path.display()))
+            .help("record it again, or save what is left of it with `pymcap-cli recover`")
+    };
+    let mut topics: HashMap<u16, Topic> = HashMap::new();
+    let mut sides: BTreeMap<String, Found> = BTreeMap::new();
+    for message in MessageStream::new(&bytes).map_err(|error| damaged(&error))? {
+        let message = message.map_err(|error| damaged(&error))?;
+        let id = message.channel.id;
+        if let std::collections::hash_map::Entry::Vacant(entry) = topics.entry(id) {
+            entry.insert(topic(&message).map_err(|error| damaged(&error))?);
+        }
+        collect(&message, &topics[&id], &mut sides).map_err(|error| damaged(&error))?;
+    }
+    let mut sides: Vec<(String, Found)> = sides.into_iter().collect();
+    sides.sort_by_key(|(_, found)| found.first);
+    if sides.is_empty() {
+        return Err(Error::new(ErrorKind::Input, format!("the recording {} holds no trajectory", path.display()))
+            .help("a side needs a topic `/<side>/grid` with the fields t_s and crank_rad"));
+    }
+    sides.into_iter().map(|(name, found)| assemble(&name, found, path).map(|trajectory| (name, trajectory))).collect()
+}
+
+/// What the topic of a message holds, from its name and from the descriptor that the file carries.
+fn topic(message: &Message) -> std::result::Result<Topic, prost::DecodeError> {
+    let channel = &message.channel;
+    let parts = channel.topic.strip_prefix('/').and_then(|rest| rest.split_once('/'));
+    let (Some((side, subject)), Some(schema)) = (parts, &channel.schema) else { return Ok(Topic::Other) };
+    if channel.message_encoding != "protobuf" || schema.encoding != "protobuf" || side == "error" {
+        return Ok(Topic::Other);
+    }
+    let names = schema::field_names(&schema.data, &schema.name)?;
+    if subject == "grid" {
+        return Ok(Topic::Grid(side.into(), names));
+    }
+    // `link/crank` and the field `x_m` are the channel `link.crank.x_m`.
+    let subject = subject.replacen('/', ".", 1);
+    let channels: BTreeMap<u32, Channel> = names
+        .into_iter()
+        .filter_map(|(tag, field)| Some((tag, Channel::named(&format!("{subject}.{field}"))?)))
+        .collect();
+    Ok(if channels.is_empty() { Topic::Other } else { Topic::Values(side.into(), channels) })
+}
+
+fn collect(
+    message: &Message,
+    topic: &Topic,
+    sides: &mut BTreeMap<String, Found>,
+) -> std::result::Result<(), prost::DecodeError> {
+    let id = message.channel.id;
+    match topic {
+        Topic::Grid(side, names) => {
+            let found = sides.entry(side.clone()).or_default();
+            found.first = Some(id);
+            for (tag, value) in schema::doubles(&message.data)? {
+                if let Some(name) = names.get(&tag) {
+                    found.grid.entry(name.clone()).or_default().push((message.sequence, value));
+                }
+            }
+        }
+        Topic::Values(side, channels) => {
+            let found = sides.entry(side.clone()).or_default();
+            for (tag, value) in schema::doubles(&message.data)? {
+                if let Some(channel) = channels.get(&tag) {
+                    let column = found.columns.entry((id, tag)).or_insert_with(|| (channel.clone(), Vec::new()));
+                    column.1.push((message.sequence, value));
+                }
+            }
+        }
+        Topic::Other => {}
+    }
+    Ok(())
+}
+
+fn assemble(name: &str, mut found: Found, path: &Path) -> Result<Trajectory> {
+    let incomplete = |what: &dyn Display| {
+        Error::new(
+            ErrorKind::Input,
+            format!("in the recording {}, the side \"{name}\" lacks samples of {what}", path.display()),
+        )
+        .help("every topic of a side needs one message for each of its grid, with the same sequence number")
+    };
+    let mut take = |field: &str| {
+        let mut values = found.grid.remove(field).unwrap_or_default();
+        values.sort_by_key(|&(sequence, _)| sequence);
+        values
+    };
+    let [times, cranks, rows] = schema::GRID_FIELDS.map(&mut take);
+    let same = |values: &Numbered| {
+        values.len() == times.len() && values.iter().zip(&times).all(|(value, time)| value.0 == time.0)
+    };
+    if times.is_empty() || !same(&cranks) {
+        return Err(incomplete(&"its grid"));
+    }
+    // Without row numbers (other programs have no use for them) the order of the samples stands.
+    let mut order: Vec<usize> = (0..times.len()).collect();
+    if same(&rows) {
+        order.sort_by(|&a, &b| rows[a].1.total_cmp(&rows[b].1));
+    }
+    let ordered = |values: &Numbered| order.iter().map(|&index| values[index].1).collect::<Vec<f64>>();
+    let (mut channels, mut columns) = (Vec::new(), Vec::new());
+    for (channel, mut values) in found.columns.into_values() {
+        values.sort_by_key(|&(sequence, _)| sequence);
+        if !same(&values) {
+            return Err(incomplete(&channel));
+        }
+        columns.push(ordered(&values));
+        channels.push(channel);
+    }
+    Trajectory::new(ordered(&times), ordered(&cranks), channels, columns)
+}

@@ -1,0 +1,283 @@
+//! The moving mechanism: where each side's links are, their frames, and what they look like.
+
+use super::Side;
+use super::shapes::{Paint, extent, grey, point, pose, stamp, turn, vector};
+use crate::math::Vec2;
+use crate::mechanism::{GROUND, Link, LinkPose, Mechanism};
+use crate::trajectory::{Channel, Trajectory};
+use foxglove::messages::line_primitive::Type as LineType;
+use foxglove::messages::{
+    CylinderPrimitive, FrameTransform, FrameTransforms, LinePrimitive, Point3, SceneEntity, SceneUpdate,
+    SpherePrimitive, TextPrimitive, TriangleListPrimitive,
+};
+
+/// Frames of a recording, at most, unless it is so long that they would be fewer than [`FRAMES_PER_SECOND`].
+const FRAMES: f64 = 400.0;
+/// Frames in a simulated second, at least, where there are as many samples.
+const FRAMES_PER_SECOND: f64 = 50.0;
+
+/// Everything that can be drawn of a recording.
+pub struct Scene<'a> {
+    /// The mechanism.
+    pub mechanism: &'a Mechanism,
+    /// The sides that have positions.
+    pub sides: Vec<Placed<'a>>,
+    /// Length that all drawing is proportional to (m).
+    pub size: f64,
+}
+
+/// A side with the positions of its links.
+pub struct Placed<'a> {
+    /// Name of the side.
+    pub name: &'a str,
+    /// Its values.
+    pub trajectory: &'a Trajectory,
+    /// How it is drawn.
+    pub paint: Paint,
+    /// Rows in ascending order of time.
+    rows: Vec<usize>,
+    /// Angle and mass centre of each moving link.
+    links: Vec<[&'a [f64]; 3]>,
+}
+
+impl<'a> Scene<'a> {
+    /// The scene of the sides that have samples and all positions; none if there is no such side.
+    pub fn new(mechanism: &'a Mechanism, sides: &[Side<'a>]) -> Option<Self> {
+        let placed = |(number, side): (usize, &Side<'a>)| {
+            let column = |link: &Link, suffix| column(side.trajectory, &format!("link.{}.{suffix}", link.name));
+            let columns = |link| Some([column(link, "angle_rad")?, column(link, "x_m")?, column(link, "y_m")?]);
+            Some(Placed {
+                name: side.name,
+                trajectory: side.trajectory,
+                paint: Paint::of(number),
+                rows: ascending(side.trajectory.times()),
+                links: mechanism.links()[1..].iter().map(columns).collect::<Option<_>>()?,
+            })
+        };
+        let sides: Vec<Placed> = sides
+            .iter()
+            .enumerate()
+            .filter(|(_, side)| !side.trajectory.times().is_empty())
+            .filter_map(placed)
+            .collect();
+        let ground = &mechanism.links()[GROUND].points;
+        let reach = ground.iter().map(|point| point.local.norm()).fold(0.0, f64::max);
+        let size = if mechanism.size() > 0.0 { mechanism.size() } else { reach.max(f64::MIN_POSITIVE) };
+        (!sides.is_empty()).then_some(Scene { mechanism, sides, size })
+    }
+
+    /// Distance between the sides above each other (m): enough to be told apart by a viewer's depth, not by the eye,
+    /// to which a gap would look like a disagreement.
+    pub fn layer(&self) -> f64 {
+        0.002 * self.size
+    }
+
+    /// Times at which the scene is drawn (s), ascending: those of the first side, thinned.
+    pub fn times(&self) -> Vec<f64> {
+        let side = &self.sides[0];
+        let time = |&row: &usize| side.trajectory.times()[row];
+        let (Some(first), Some(last)) = (side.rows.first().map(time), side.rows.last().map(time)) else {
+            return Vec::new();
+        };
+        let enough = FRAMES.max(FRAMES_PER_SECOND * (last - first));
+        let stride = (side.rows.len() as f64 / enough).ceil().max(1.0) as usize;
+        let mut times: Vec<f64> = side.rows.iter().step_by(stride).map(time).collect();
+        if (side.rows.len() - 1) % stride != 0 {
+            times.push(last);
+        }
+        times
+    }
+
+    /// Frames of all links at a time, all sides in one message: viewers that jump look at the last message only.
+    pub fn frames(&self, time: f64, nanoseconds: u64) -> FrameTransforms {
+        let mut transforms = Vec::new();
+        for side in &self.sides {
+            let row = side.row_at(time);
+            for (index, link) in self.mechanism.links().iter().enumerate().skip(1) {
+                let at = side.pose(self.mechanism, index, row);
+                transforms.push(FrameTransform {
+                    timestamp: stamp(nanoseconds),
+                    parent_frame_id: "world".into(),
+                    child_frame_id: format!("{}/{}", side.name, link.name),
+                    translation: Some(vector(at.origin, 0.0)),
+                    rotation: Some(turn(at.angle)),
+                });
+            }
+        }
+        FrameTransforms { transforms }
+    }
+
+    /// What the links look like, each in its own frame, and the ground.
+    pub fn links(&self) -> SceneUpdate {
+        let mut entities = vec![self.ground()];
+        for (number, side) in self.sides.iter().enumerate() {
+            for link in 1..self.mechanism.links().len() {
+                entities.push(self.link(side, link, number == 0));
+            }
+        }
+        SceneUpdate { deletions: Vec::new(), entities }
+    }
+
+    /// Places of a link that are drawn: its points, then joints that have no named point there (m, link frame).
+    pub fn places(&self, link: usize) -> Vec<Vec2> {
+        let mut places: Vec<Vec2> = self.mechanism.links()[link].points.iter().map(|point| point.local).collect();
+        for joint in self.mechanism.joints() {
+            let new = joint.on(link).filter(|local| !places.contains(local));
+            places.extend(new);
+        }
+        places
+    }
+
+    fn link(&self, side: &Placed, index: usize, lettered: bool) -> SceneEntity {
+        let link = &self.mechanism.links()[index];
+        let (colour, broad) = (Some(side.paint.colour()), side.paint.broad);
+        let z = self.layer() * side.paint.layer;
+        let places = self.places(index);
+        let (outline, closed) = outline(&places);
+        let line = LinePrimitive {
+            r#type: if closed { LineType::LineLoop } else { LineType::LineStrip } as i32,
+            pose: pose(Vec2::zeros(), z, 0.0),
+            thickness: 0.02 * self.size * broad,
+            points: outline.iter().map(|&local| point(local, 0.0)).collect(),
+            color: colour,
+            ..Default::default()
+        };
+        let is_joint = |local: &Vec2| self.mechanism.joints().iter().any(|joint| joint.on(index) == Some(*local));
+        let (joints, others): (Vec<Vec2>, Vec<Vec2>) = places.iter().partition(|local| is_joint(local));
+        let pin = |&local: &Vec2| CylinderPrimitive {
+            pose: pose(local, z, 0.0),
+            size: extent(0.04 * self.size * broad.sqrt(), self.layer()),
+            bottom_scale: 1.0,
+            top_scale: 1.0,
+            color: colour,
+        };
+        let ball = |&local: &Vec2| SpherePrimitive {
+            pose: pose(local, z, 0.0),
+            size: extent(0.03 * self.size * broad.sqrt(), 0.03 * self.size * broad.sqrt()),
+            color: colour,
+        };
+        let letters = link.points.iter().filter(|_| lettered).filter(|letter| self.owner(&letter.name) == index);
+        SceneEntity {
+            timestamp: stamp(0),
+            frame_id: format!("{}/{}", side.name, link.name),
+            id: format!("{}/{}", side.name, link.name),
+            frame_locked: true,
+            lines: if outline.len() > 1 { vec![line] } else { Vec::new() },
+            cylinders: joints.iter().map(pin).collect(),
+            spheres: others.iter().map(ball).collect(),
+            texts: letters.map(|letter| self.text(&letter.name, letter.local)).collect(),
+            ..Default::default()
+        }
+    }
+
+    /// The first link that carries a point of this name; it alone is lettered.
+    fn owner(&self, name: &str) -> usize {
+        let carries = |link: &Link| link.points.iter().any(|point| point.name == name);
+        self.mechanism.links().iter().position(carries).unwrap_or(GROUND)
+    }
+
+    fn text(&self, text: &str, at: Vec2) -> TextPrimitive {
+        TextPrimitive {
+            pose: pose(at, 0.06 * self.size, 0.0),
+            billboard: true,
+            font_size: 14.0,
+            scale_invariant: true,
+            color: Some(grey()),
+            text: text.into(),
+        }
+    }
+
+    /// Pivots as triangles standing below their points, as textbooks draw them.
+    fn ground(&self) -> SceneEntity {
+        let (half, down) = (0.03 * self.size, -0.05 * self.size);
+        let below = -0.01 * self.size;
+        let places = self.places(GROUND);
+        let mut corners: Vec<Point3> = Vec::new();
+        let mut lines = Vec::new();
+        for &at in &places {
+            let [left, right] = [-half, half].map(|x| at + Vec2::new(x, down));
+            corners.extend([at, left, right].map(|corner| point(corner, below)));
+            let ends = [left - Vec2::new(half, 0.0), right + Vec2::new(half, 0.0)];
+            lines.push(LinePrimitive {
+                thickness: 0.008 * self.size,
+                points: ends.iter().map(|&end| point(end, below)).collect(),
+                color: Some(grey()),
+                ..Default::default()
+            });
+        }
+        let points = &self.mechanism.links()[GROUND].points;
+        SceneEntity {
+            timestamp: stamp(0),
+            frame_id: "world".into(),
+            id: "ground".into(),
+            frame_locked: true,
+            triangles: vec![TriangleListPrimitive { points: corners, color: Some(grey()), ..Default::default() }],
+            lines,
+            texts: points.iter().map(|p| self.text(&p.name, p.local + Vec2::new(half, down))).collect(),
+            ..Default::default()
+        }
+    }
+}
+
+impl Placed<'_> {
+    /// Row of the last sample that is not after `time`, or of the first sample.
+    pub fn row_at(&self, time: f64) -> usize {
+        let times = self.trajectory.times();
+        let after = self.rows.partition_point(|&row| times[row] <= time);
+        self.rows[after.max(1) - 1]
+    }
+
+    /// Pose of a link's frame; the trajectory tells where its mass centre is.
+    pub fn pose(&self, mechanism: &Mechanism, link: usize, row: usize) -> LinkPose {
+        if link == GROUND {
+            return LinkPose::GROUND;
+        }
+        let [angle, x, y] = self.links[link - 1].map(|column| column[row]);
+        LinkPose::through(mechanism.links()[link].mass_centre, Vec2::new(x, y), angle)
+    }
+}
+
+/// Column of the channel called `name`, if the trajectory has it.
+pub fn column<'a>(trajectory: &'a Trajectory, name: &str) -> Option<&'a [f64]> {
+    trajectory.column(&Channel::named(name)?)
+}
+
+/// Rows in ascending order of time.
+pub fn ascending(times: &[f64]) -> Vec<usize> {
+    let mut rows: Vec<usize> = (0..times.len()).collect();
+    rows.sort_by(|&a, &b| times[a].total_cmp(&times[b]));
+    rows
+}
+
+/// The line through all places, and whether it is closed: a polygon without crossings, or a bar if all lie on one line.
+pub fn outline(places: &[Vec2]) -> (Vec<Vec2>, bool) {
+    let mut sorted = places.to_vec();
+    let centre = places.iter().sum::<Vec2>() / places.len().max(1) as f64;
+    let axis = places.iter().map(|place| place - centre).max_by(|a, b| a.norm().total_cmp(&b.norm()));
+    let axis = axis.unwrap_or_else(Vec2::zeros);
+    let off = |place: &Vec2| crate::math::cross(axis, place - centre).abs();
+    let closed = places.len() > 2 && places.iter().any(|place| off(place) > 1e-6 * axis.norm_squared());
+    if closed {
+        let bearing = |place: &Vec2| (place.y - centre.y).atan2(place.x - centre.x);
+        sorted.sort_by(|a, b| bearing(a).total_cmp(&bearing(b)));
+    } else {
+        sorted.sort_by(|a, b| axis.dot(a).total_cmp(&axis.dot(b)));
+    }
+    (sorted, closed)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn three_points_off_a_line_close_and_three_on_it_do_not() {
+        let places = |y| [Vec2::new(0.0, 0.0), Vec2::new(4.0, 0.0), Vec2::new(1.0, y)];
+        assert!(outline(&places(1.0)).1);
+        let (bar, closed) = outline(&places(0.0));
+        assert!(!closed);
+        let xs: Vec<f64> = bar.iter().map(|place| place.x).collect();
+        assert!(xs.is_sorted() || xs.iter().rev().is_sorted(), "{xs:?}");
+        assert!(outline(&[]).0.is_empty());
+    }
+}

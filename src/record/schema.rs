@@ -1,0 +1,166 @@
+//! Our own messages: flat protobuf, one number a field, made from the table of channels.
+//!
+//! Every field has presence (proto3 `optional`): a channel that was not computed is absent, which is not zero.
+
+use crate::trajectory::{CHANNELS, ChannelKind, Subject};
+use prost::Message;
+use prost::encoding::{WireType, decode_key, double, encode_key, skip_field};
+use prost_types::field_descriptor_proto::{Label, Type};
+use prost_types::{
+    DescriptorProto, FieldDescriptorProto, FileDescriptorProto, FileDescriptorSet, OneofDescriptorProto,
+};
+use std::collections::BTreeMap;
+
+/// Fields of the grid message: time (s), crank angle (rad), number of the row in the solver's order.
+pub const GRID_FIELDS: [&str; 3] = ["t_s", "crank_rad", "row"];
+
+/// A message type as viewers must know it.
+pub struct Schema {
+    /// Full name.
+    pub name: String,
+    /// Serialised descriptor set.
+    pub descriptor: Vec<u8>,
+}
+
+/// The grid message.
+pub fn grid() -> Schema {
+    schema("Grid", GRID_FIELDS.into_iter().map(str::to_string), Type::Double)
+}
+
+/// The message of a subject's values.
+pub fn values(subject: Subject) -> Schema {
+    schema(&type_name(subject), kinds(subject).map(|kind| kind.suffix.to_string()), Type::Double)
+}
+
+/// The message of a subject's errors, in small units. Single precision: they are for people, who read three digits.
+pub fn errors(subject: Subject) -> Schema {
+    schema(&format!("{}Error", type_name(subject)), kinds(subject).map(|kind| small_unit(kind).0), Type::Float)
+}
+
+/// Number of a channel's field in the message of its subject.
+pub fn tag(kind: &ChannelKind) -> u32 {
+    let place = kinds(kind.subject).position(|own| own.suffix == kind.suffix);
+    place.expect("every kind is a row of the table") as u32 + 1
+}
+
+/// Name of a channel's error with its small unit, and how many of these units the SI unit has.
+pub fn small_unit(kind: &ChannelKind) -> (String, f64) {
+    let unit = kind.unit.replace("/s^2", "_s2").replace(['/', ' '], "_");
+    let stem = kind.suffix.strip_suffix(&unit).unwrap_or(kind.suffix);
+    let (prefix, factor) = if unit.starts_with('N') { ("m", 1e3) } else { ("u", 1e6) };
+    (format!("{stem}{prefix}{unit}"), factor)
+}
+
+/// Appends a double field, zero or not.
+pub fn put(buffer: &mut Vec<u8>, tag: u32, value: f64) {
+    double::encode(tag, &value, buffer);
+}
+
+/// Appends a single precision field, zero or not.
+pub fn put_small(buffer: &mut Vec<u8>, tag: u32, value: f32) {
+    encode_key(tag, WireType::ThirtyTwoBit, buffer);
+    buffer.extend(value.to_le_bytes());
+}
+
+/// The double fields of a message in the order of the wire; other fields are passed over.
+pub fn doubles(mut data: &[u8]) -> Result<Vec<(u32, f64)>, prost::DecodeError> {
+    let mut fields = Vec::new();
+    while !data.is_empty() {
+        let (tag, wire) = decode_key(&mut data)?;
+        if wire == WireType::SixtyFourBit {
+            let mut value = 0.0;
+            double::merge(wire, &mut value, &mut data, Default::default())?;
+            fields.push((tag, value));
+        } else {
+            skip_field(wire, tag, &mut data, Default::default())?;
+        }
+    }
+    Ok(fields)
+}
+
+/// Names of the double fields of the message called `full_name` in a serialised descriptor set, by their numbers.
+pub fn field_names(descriptor: &[u8], full_name: &str) -> Result<BTreeMap<u32, String>, prost::DecodeError> {
+    let set = FileDescriptorSet::decode(descriptor)?;
+    let mut names = BTreeMap::new();
+    for file in &set.file {
+        let package = file.package();
+        for message in &file.message_type {
+            let own = if package.is_empty() { message.name().into() } else { format!("{package}.{}", message.name()) };
+            if own == full_name {
+                let doubles = message.field.iter().filter(|field| field.r#type() == Type::Double);
+                names.extend(doubles.map(|field| (field.number() as u32, field.name().to_string())));
+            }
+        }
+    }
+    Ok(names)
+}
+
+fn kinds(subject: Subject) -> impl Iterator<Item = &'static ChannelKind> {
+    CHANNELS.iter().filter(move |kind| kind.subject == subject)
+}
+
+fn type_name(subject: Subject) -> String {
+    let word = subject.word();
+    word[..1].to_uppercase() + &word[1..]
+}
+
+fn schema(name: &str, fields: impl Iterator<Item = String>, kind: Type) -> Schema {
+    let field: Vec<FieldDescriptorProto> = fields
+        .enumerate()
+        .map(|(index, field)| FieldDescriptorProto {
+            json_name: Some(field.clone()),
+            name: Some(field),
+            number: Some(index as i32 + 1),
+            label: Some(Label::Optional as i32),
+            r#type: Some(kind as i32),
+            oneof_index: Some(index as i32),
+            proto3_optional: Some(true),
+            ..Default::default()
+        })
+        .collect();
+    // Presence in proto3 is told by a oneof of a single field, as protoc writes it.
+    let oneof_decl =
+        field.iter().map(|f| OneofDescriptorProto { name: Some(format!("_{}", f.name())), options: None }).collect();
+    let message = DescriptorProto { name: Some(name.into()), field, oneof_decl, ..Default::default() };
+    let file = FileDescriptorProto {
+        name: Some(format!("linkproof/{name}.proto")),
+        package: Some("linkproof".into()),
+        message_type: vec![message],
+        syntax: Some("proto3".into()),
+        ..Default::default()
+    };
+    Schema { name: format!("linkproof.{name}"), descriptor: FileDescriptorSet { file: vec![file] }.encode_to_vec() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_channel_has_a_field_of_its_own_name() {
+        for kind in &CHANNELS {
+            let schema = values(kind.subject);
+            let names = field_names(&schema.descriptor, &schema.name).unwrap();
+            assert_eq!(names[&tag(kind)], kind.suffix);
+        }
+    }
+
+    #[test]
+    fn zeros_of_both_signs_are_written() {
+        let mut buffer = Vec::new();
+        put(&mut buffer, 1, 0.0);
+        put_small(&mut buffer, 2, 1.0);
+        put(&mut buffer, 17, -0.0);
+        let read = doubles(&buffer).unwrap();
+        assert_eq!(read.iter().map(|&(tag, v)| (tag, v.to_bits())).collect::<Vec<_>>(), [(1, 0), (17, 1 << 63)]);
+    }
+
+    #[test]
+    fn errors_are_named_by_their_small_unit() {
+        let name = |suffix: &str| small_unit(CHANNELS.iter().find(|kind| kind.suffix == suffix).unwrap());
+        assert_eq!(name("angle_rad"), ("angle_urad".into(), 1e6));
+        assert_eq!(name("ax_m_s2"), ("ax_um_s2".into(), 1e6));
+        assert_eq!(name("fx_N"), ("fx_mN".into(), 1e3));
+        assert_eq!(name("torque_N_m"), ("torque_mN_m".into(), 1e3));
+    }
+}

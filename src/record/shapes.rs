@@ -1,0 +1,77 @@
+//! Small makers of the viewers' messages, and the colours of the sides.
+
+use foxglove::messages::{Color, Point3, Pose, Quaternion, Timestamp, Vector3};
+
+use crate::math::Vec2;
+
+/// How one side is drawn. Sides lie over each other: the first broad and pale, each later one thinner and before it,
+/// so that two that agree show both colours and two that do not come apart.
+#[derive(Clone, Copy)]
+pub struct Paint {
+    /// Red, green, blue, opacity, each 0 to 255.
+    pub rgba: [u8; 4],
+    /// Thickness against that of the first side.
+    pub broad: f64,
+    /// Height above the plane of motion, in layers.
+    pub layer: f64,
+}
+
+impl Paint {
+    /// Paint of the side number `side`. Colours of Okabe and Ito, which colour-blind people tell apart.
+    pub fn of(side: usize) -> Paint {
+        const COLOURS: [[u8; 3]; 4] = [[86, 180, 233], [230, 120, 0], [0, 158, 115], [204, 121, 167]];
+        let [red, green, blue] = COLOURS[side % COLOURS.len()];
+        Paint { rgba: [red, green, blue, 255], broad: 0.4f64.powi(side.min(3) as i32), layer: side as f64 }
+    }
+
+    /// The colour as messages want it.
+    pub fn colour(self) -> Color {
+        let [r, g, b, a] = self.rgba.map(|part| f64::from(part) / 255.0);
+        Color { r, g, b, a }
+    }
+}
+
+/// Colour of the ground and of lettering: readable on black and on white.
+pub const GREY: [u8; 4] = [128, 128, 128, 255];
+
+/// A grey that is readable on black and on white.
+pub fn grey() -> Color {
+    Color { r: 0.5, g: 0.5, b: 0.5, a: 1.0 }
+}
+
+/// Log time as the viewers' stamp.
+pub fn stamp(nanoseconds: u64) -> Option<Timestamp> {
+    let seconds = u32::try_from(nanoseconds / 1_000_000_000).unwrap_or(u32::MAX);
+    Some(Timestamp::new(seconds, (nanoseconds % 1_000_000_000) as u32))
+}
+
+/// Pictures need no more than single precision, and numbers with an empty tail compress to half.
+pub fn short(value: f64) -> f64 {
+    f64::from(value as f32)
+}
+
+/// A point at height `z`.
+pub fn point(at: Vec2, z: f64) -> Point3 {
+    Point3 { x: short(at.x), y: short(at.y), z: short(z) }
+}
+
+/// A vector at height `z`.
+pub fn vector(at: Vec2, z: f64) -> Vector3 {
+    Vector3 { x: short(at.x), y: short(at.y), z: short(z) }
+}
+
+/// A box of equal sides in the plane.
+pub fn extent(width: f64, height: f64) -> Option<Vector3> {
+    Some(Vector3 { x: short(width), y: short(width), z: short(height) })
+}
+
+/// Rotation about z by `angle` (rad).
+pub fn turn(angle: f64) -> Quaternion {
+    let (sin, cos) = (angle / 2.0).sin_cos();
+    Quaternion { x: 0.0, y: 0.0, z: short(sin), w: short(cos) }
+}
+
+/// Pose in the plane, at height `z`.
+pub fn pose(at: Vec2, z: f64, angle: f64) -> Option<Pose> {
+    Some(Pose { position: Some(vector(at, z)), orientation: Some(turn(angle)) })
+}
