@@ -96,9 +96,10 @@ fn as_json(scenario: &Scenario) -> Value {
             "mass_centre": {"x_m": link.mass_centre.x, "y_m": link.mass_centre.y}, "start_angle_rad": pose.angle,
         })
     });
-    let joints = mechanism.joints().iter().map(|joint| {
-        json!({"name": joint.name, "type": "revolute", "links": ends(mechanism, joint)})
-    });
+    let joints = mechanism
+        .joints()
+        .iter()
+        .map(|joint| json!({"name": joint.name, "type": "revolute", "links": ends(mechanism, joint)}));
     let groups = structure.groups.iter().zip(&case.modes).map(|(group, &mode)| {
         json!({
             "links": group.links.iter().map(|&l| link(l)).collect::<Vec<_>>(),

@@ -76,7 +76,8 @@ fn channels() -> String {
     let mut text = String::new();
     for kind in &CHANNELS {
         let word = kind.subject.word();
-        let name = if word == "drive" { format!("{word}.{}", kind.suffix) } else { format!("{word}.NAME.{}", kind.suffix) };
+        let name =
+            if word == "drive" { format!("{word}.{}", kind.suffix) } else { format!("{word}.NAME.{}", kind.suffix) };
         let _ = writeln!(text, "{name:30} {:8} {:26} with \"{}\"", kind.unit, kind.quantity, kind.stage.name());
     }
     text

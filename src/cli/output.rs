@@ -4,7 +4,7 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::Path;
 
-use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
+use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
 use crate::error::{Error, ErrorKind, Result};
 
@@ -54,7 +54,7 @@ fn render(error: &Error) -> String {
         None => error.message().to_string(),
     };
     let path = error.place().map(|place| place.file.display().to_string());
-    let mut group = Level::ERROR.primary_title(title.as_str()).elements::<Snippet<'_, annotate_snippets::Annotation>>([]);
+    let mut group = Group::with_title(Level::ERROR.primary_title(title.as_str()));
     if let (Some(place), Some(path)) = (error.place(), &path) {
         let annotation = AnnotationKind::Primary.span(place.span.clone());
         group = group.element(Snippet::source(place.text.as_str()).path(path.as_str()).annotation(annotation));

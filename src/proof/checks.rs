@@ -32,7 +32,8 @@ pub(super) fn of_sides(case: &Case, sides: &[(&'static str, Observed); 2]) -> Ve
     let size = case.mechanism.size();
     let mut checks = Vec::new();
     for (name, side) in sides {
-        let tolerance = rounding(CLOSURE, "positions are good to a few units in the last place of the mechanism's size");
+        let tolerance =
+            rounding(CLOSURE, "positions are good to a few units in the last place of the mechanism's size");
         checks.push(Check::new(format!("closure of all joints ({name})"), side.closure / size, tolerance, ""));
     }
     checks.extend(between_sides(sides));
@@ -55,7 +56,11 @@ fn between_sides(sides: &[(&'static str, Observed); 2]) -> Vec<Check> {
         let worst = own.max_by(|a, b| relative(a).total_cmp(&relative(b)))?;
         let tolerance = rounding(side_bound(stage), "two solvers without a common equation, each good to rounding");
         let check = Check::new(format!("{} against {}", sides[0].0, sides[1].0), relative(&worst), tolerance, "");
-        Some(check.of(stage.name()).located(|| format!("in {} at crank angle {:.3} deg", worst.channel, worst.worst_crank.to_degrees())))
+        Some(
+            check
+                .of(stage.name())
+                .located(|| format!("in {} at crank angle {:.3} deg", worst.channel, worst.worst_crank.to_degrees())),
+        )
     };
     Stage::ALL.into_iter().filter_map(of_stage).collect()
 }
@@ -102,7 +107,12 @@ fn power_balance(case: &Case, engine: &dyn Engine, runs: &[Observed; 3]) -> Chec
     let (own, power) = (estimate(torques), estimate([0, 1, 2].map(|k| runs[k].power.as_slice())));
     let bound = (own.bound(scale) + power.bound(scale)) / scale.max(f64::MIN_POSITIVE);
     let tolerance = Tolerance { abs: bound, rel: 0.0, basis: power.basis };
-    Check::new(format!("driving moment from reactions and from powers ({})", engine.name()), two_ways(&runs[1]), tolerance, "")
+    Check::new(
+        format!("driving moment from reactions and from powers ({})", engine.name()),
+        two_ways(&runs[1]),
+        tolerance,
+        "",
+    )
 }
 
 fn torque_channel() -> Channel {

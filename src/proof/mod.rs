@@ -9,7 +9,7 @@ use crate::engine::{self, Engine};
 use crate::error::{Error, ErrorKind, Result};
 use crate::reference;
 use crate::scenario::Scenario;
-use crate::solver::{Provision, Solver};
+use crate::solver::Provision;
 use crate::tolerance::{Basis, Tolerance};
 use crate::trajectory::Trajectory;
 use observe::{Observed, observe};
@@ -168,7 +168,8 @@ fn judge(
 
 fn describe(engine: &dyn Engine) -> EngineInfo {
     let provides = crate::trajectory::Stage::ALL.map(|stage| {
-        let kind = crate::trajectory::CHANNELS.iter().find(|kind| kind.stage == stage).expect("every stage has a channel");
+        let kind =
+            crate::trajectory::CHANNELS.iter().find(|kind| kind.stage == stage).expect("every stage has a channel");
         (stage.name(), engine.provides(&crate::trajectory::Channel { of: String::new(), kind }))
     });
     EngineInfo {

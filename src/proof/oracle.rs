@@ -42,7 +42,8 @@ fn of_one(oracle: &Oracle, series: &OracleSeries, solved: &Trajectory, side: &st
     })?;
     let kind = series.channel.kind;
     let deviations = series.points.iter().map(|point| {
-        let row = solved.cranks().binary_search_by(|crank| crank.total_cmp(&point.crank)).expect("solved at this angle");
+        let row =
+            solved.cranks().binary_search_by(|crank| crank.total_cmp(&point.crank)).expect("solved at this angle");
         let difference = column[row] - point.value;
         (point, if kind.periodic { wrapped(difference) } else { difference }.abs())
     });

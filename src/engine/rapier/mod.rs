@@ -32,7 +32,7 @@ pub struct Rapier {
 
 impl Rapier {
     /// Solver sweeps a step that bring every mechanism tried so far to convergence.
-    pub const SWEEPS: usize = 64;
+    pub const SWEEPS: usize = 256;
 
     /// The engine with the time step `step` (s).
     #[must_use]
