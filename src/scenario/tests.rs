@@ -37,6 +37,12 @@ fn val_ov7_base_first_pose() {
             assert!((found - printed.value).abs() <= 0.005e-3, "{column}: {found} against {}", printed.value);
         }
     }
+    let angles = scenario.oracles.iter().find(|oracle| oracle.name == "angles.csv").unwrap();
+    for series in &angles.series {
+        let link = scenario.case.mechanism.link_named(&series.channel.of).unwrap();
+        let away = crate::math::angle::wrapped(scenario.case.start.0[link].angle - series.points[0].value);
+        assert!(away.abs() <= series.points[0].bound, "{}: {away} rad away", series.name);
+    }
     assert_eq!(scenario.case.modes, [AssemblyMode::Right; 3]);
     assert!(scenario.case.start.closure(&scenario.case.mechanism) < 1e-15);
 }
