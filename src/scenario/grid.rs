@@ -28,8 +28,7 @@ pub fn range(from: f64, to: f64, step: f64) -> std::result::Result<Vec<f64>, Str
         return Err(format!("a {way} step leads away from the end of the range"));
     }
     let last = (steps + 1e-9).floor();
-    // Written so that an overflow of the division fails too.
-    if !(last < MOST as f64) {
+    if last >= MOST as f64 {
         return Err(format!("the range has more than {MOST} points"));
     }
     Ok((0..=last as usize).map(|k| from + k as f64 * step).collect())

@@ -29,6 +29,7 @@ fn link(mut table: Table) -> Result<Link> {
     let mass = table.optional_quantity("mass", &MASS, Sign::NotNegative)?;
     let inertia = table.optional_quantity("inertia", &INERTIA, Sign::NotNegative)?;
     let centre = table.optional_table("mass_centre")?.map(|centre| place(centre, &points)).transpose()?;
+    table.finish()?;
     if mass.is_none() && inertia.is_some() {
         return Err(table
             .wrong(ErrorKind::Input, "inertia", "the link has a moment of inertia but no mass")
@@ -44,7 +45,6 @@ fn link(mut table: Table) -> Result<Link> {
             .wrong(ErrorKind::Input, "mass", "the link has a mass but no mass centre")
             .help("add `mass_centre = { x_mm = ..., y_mm = ... }`, in the link's frame"));
     }
-    table.finish()?;
     Ok(Link {
         name,
         points,

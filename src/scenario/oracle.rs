@@ -1,13 +1,13 @@
 //! `[[oracle]]`: published numbers that the mechanism must reproduce, each with the bound its printed digits give.
 
-use super::printed::{MOST_DIGITS, Printed, PrintedChannel};
+use super::printed::{self, MOST_DIGITS, Printed, PrintedChannel};
 use super::reader::{Sign, Table};
 use super::table_file;
 use super::unit::ANGLE;
 use super::words::suggestion;
 use crate::case::Wanted;
 use crate::error::{ErrorKind, Result};
-use crate::trajectory::Channel;
+use crate::trajectory::{CHANNELS, Channel};
 
 /// Published numbers of one source.
 #[derive(Clone, Debug, PartialEq)]
@@ -158,21 +158,22 @@ impl Known<'_> {
     }
 
     fn help(&self, name: &str) -> String {
-        let si = self.channels.iter().map(ToString::to_string);
-        let printed = si.clone().filter_map(|name| {
-            let (base, unit) = name.rsplit_once('_')?;
-            let unit = match unit {
-                "m" if base.ends_with('x') || base.ends_with('y') => "mm",
-                "rad" => "deg",
-                _ => return None,
-            };
-            Some(format!("{base}_{unit}"))
-        });
-        let names: Vec<String> = si.chain(printed).collect();
-        match super::words::nearest(name, names.iter().map(String::as_str)) {
-            Some(near) => format!("did you mean \"{near}\"?"),
-            None => "channels are named like \"point.A.x_mm\", \"link.crank.angle_deg\", \"link.crank.omega_rad_s\", \
-                     \"joint.A.fx_N\" or \"drive.torque_N_m\"; only points that move have channels"
+        if let Some(found) = PrintedChannel::named(name) {
+            let subject = found.channel.kind.subject;
+            let mut names: Vec<&str> =
+                self.channels.iter().filter(|c| c.kind.subject == subject).map(|c| &*c.of).collect();
+            names.dedup();
+            return format!("of what moves, {}", suggestion(&found.channel.of, names, "\""));
+        }
+        let subject = name.split('.').next().unwrap_or_default();
+        let kinds = CHANNELS.iter().filter(|kind| kind.subject.word() == subject);
+        let endings: Vec<&str> = kinds.flat_map(|kind| printed::endings(kind.suffix)).collect();
+        match name.rsplit_once('.') {
+            Some((of, ending)) if !endings.is_empty() => {
+                format!("after `{of}.`, {}", suggestion(ending, endings, "`"))
+            }
+            _ => "channels are named like \"point.A.x_mm\", \"link.crank.angle_deg\", \"link.crank.omega_rad_s\", \
+                  \"joint.A.fx_N\" or \"drive.torque_N_m\""
                 .into(),
         }
     }
@@ -184,7 +185,7 @@ fn values(table: &mut Table, known: &Known) -> Result<Vec<OracleSeries>> {
     let mut series = Vec::new();
     for mut entry in table.tables("values")? {
         let (name, channel) = known.channel(&mut entry)?;
-        let printed = printed(&mut entry)?;
+        let printed = number(&mut entry)?;
         entry.finish()?;
         let (value, bound) = (channel.to_si(printed.value), channel.to_si(printed.half_unit()));
         let point = OraclePoint { crank, value, bound, digits: printed.digits };
@@ -206,7 +207,7 @@ fn figures(table: &mut Table) -> Result<Vec<OracleFigure>> {
             let error = entry.wrong(ErrorKind::Input, "figure", format!("there is no figure \"{name}\""));
             return Err(error.help(suggestion(&name, Figure::ALL.map(Figure::name), "\"")));
         };
-        let printed = printed(&mut entry)?;
+        let printed = number(&mut entry)?;
         entry.finish()?;
         figures.push(OracleFigure { figure, value: printed.value, bound: printed.half_unit(), digits: printed.digits });
     }
@@ -218,7 +219,7 @@ fn figures(table: &mut Table) -> Result<Vec<OracleFigure>> {
 }
 
 /// `value` and `digits` of a number in the scenario itself, where TOML does not keep the printed text.
-fn printed(entry: &mut Table) -> Result<Printed> {
+fn number(entry: &mut Table) -> Result<Printed> {
     let (value, digits) = (entry.number("value")?, entry.integer("digits")?);
     match i32::try_from(digits) {
         Ok(digits) if digits.abs() <= MOST_DIGITS => Ok(Printed { value, digits }),

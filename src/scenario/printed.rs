@@ -42,6 +42,17 @@ impl Printed {
 /// Largest count of decimals that makes sense in double precision.
 pub const MOST_DIGITS: i32 = 20;
 
+/// The endings that channel names with the SI ending `suffix` may have, one a printed unit.
+#[must_use]
+pub fn endings(suffix: &'static str) -> Vec<&'static str> {
+    match suffix {
+        "x_m" => vec!["x_m", "x_mm"],
+        "y_m" => vec!["y_m", "y_mm"],
+        "angle_rad" => vec!["angle_rad", "angle_deg"],
+        si => vec![si],
+    }
+}
+
 /// A channel with the unit its values are printed in.
 #[derive(Clone, Debug)]
 pub struct PrintedChannel {
@@ -61,7 +72,7 @@ impl PrintedChannel {
             for unit in family.units {
                 let Some(base) = name.strip_suffix(unit.suffix) else { continue };
                 let Some(channel) = Channel::named(&format!("{base}{}", family.units[0].suffix)) else { continue };
-                if ["x_m", "y_m", "angle_rad"].contains(&channel.kind.suffix) {
+                if endings(channel.kind.suffix).iter().any(|ending| name.ends_with(&format!(".{ending}"))) {
                     return Some(PrintedChannel { channel, family: Some(family), unit: Some(unit) });
                 }
             }

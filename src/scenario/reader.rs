@@ -1,39 +1,18 @@
 //! Typed reading of a spanned TOML table. A reader knows its dotted path, hands out typed values, remembers which
 //! keys it was asked for, and in the end refuses the keys that nobody asked for.
 
+mod quantity;
+
+pub use quantity::Sign;
+
 use std::ops::Range;
 
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::source::Source;
-use super::unit::Family;
-use super::words::{choice, nearest, suggestion};
+use super::words::{choice, nearest};
 use crate::error::{Error, ErrorKind, Result};
-
-/// Which numbers a quantity may be.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub enum Sign {
-    /// Any finite number.
-    Any,
-    /// Zero or positive.
-    NotNegative,
-    /// Greater than zero.
-    Positive,
-    /// Anything but zero.
-    NotZero,
-}
-
-impl Sign {
-    fn broken_by(self, value: f64) -> Option<&'static str> {
-        match self {
-            Sign::NotNegative if value < 0.0 => Some("must not be negative"),
-            Sign::Positive if value <= 0.0 => Some("must be positive"),
-            Sign::NotZero if value == 0.0 => Some("must not be zero"),
-            _ => None,
-        }
-    }
-}
 
 struct Entry<'a> {
     key: &'a str,
@@ -137,12 +116,13 @@ impl<'a> Table<'a> {
         let wanted = choice(spellings.iter().map(String::as_str), "`");
         // At the top there is no table to name.
         let error = self.fault(format!("{wanted} is missing")).key(spellings[0].clone());
+        let spelling = |key: &str| nearest(key, spellings.iter().map(String::as_str));
         let unread = self.entries.iter().filter(|entry| entry.key.len() > 3 && !self.used.contains(&entry.key));
-        let near = unread.map(|entry| entry.key).find_map(|key| {
-            nearest(key, spellings.iter().map(String::as_str)).map(|spelling| (key, spelling.to_string()))
-        });
-        match near {
-            Some((key, spelling)) => error.help(format!("there is `{key}`: did you mean `{spelling}`?")),
+        match unread.filter_map(|entry| Some((entry, spelling(entry.key)?))).next() {
+            Some((entry, spelling)) => Error::new(ErrorKind::Input, format!("{wanted} is missing"))
+                .key(self.path_of(spelling))
+                .at(self.source.place(entry.key_span.clone()))
+                .help(format!("there is `{}`: did you mean `{spelling}`?", entry.key)),
             None if self.path.is_empty() => error.help(format!("add {wanted}; docs/scenario.md describes every key")),
             None => error.help(format!("add {wanted} to `{}`", self.path)),
         }
@@ -261,76 +241,18 @@ impl<'a> Table<'a> {
         if number.is_finite() { Ok(number) } else { Err(self.mistyped(key, value, "a finite number")) }
     }
 
-    /// Quantity under one of the spellings of `base` in `family`, in SI, if there is one.
-    pub fn optional_quantity(&mut self, base: &str, family: &'static Family, sign: Sign) -> Result<Option<f64>> {
-        Ok(self.quantity_in(base, &[family], sign)?.map(|(_, value)| value))
-    }
-
-    /// Quantity under one of the spellings of `base` in `family`, in SI.
-    pub fn quantity(&mut self, base: &str, family: &'static Family, sign: Sign) -> Result<f64> {
-        let value = self.optional_quantity(base, family, sign)?;
-        value.ok_or_else(|| self.missing(&family.keys(base)))
-    }
-
-    /// Quantity that may be of one of several families: the index of its family, and its value in SI.
-    pub fn quantity_in(
-        &mut self,
-        base: &str,
-        families: &[&'static Family],
-        sign: Sign,
-    ) -> Result<Option<(usize, f64)>> {
-        let spellings: Vec<String> = families.iter().flat_map(|family| family.keys(base)).collect();
-        let mut present = self.entries.iter().filter(|entry| spellings.iter().any(|spelling| spelling == entry.key));
-        let (first, second) = (present.next(), present.next());
-        let Some(entry) = first else {
-            let wrong = self.misspelt_unit(base, families[0], &spellings);
-            self.asked.extend(spellings);
-            return wrong.map_or(Ok(None), Err);
-        };
-        if let Some(second) = second {
-            return Err(self
-                .wrong_entry(second, format!("`{}` and `{}` are both given", entry.key, second.key))
-                .help("keep one of the two"));
-        }
-        let (key, number) = (entry.key, self.finite(entry.key, entry.value)?);
-        let unit = |(index, family): (usize, &&'static Family)| Some((index, *family, family.unit_of(base, key)?));
-        let (index, family, unit) =
-            families.iter().enumerate().find_map(unit).expect("the key is one of the spellings");
-        if let Some(rule) = sign.broken_by(number) {
-            let found = found(self.source, entry.value);
-            return Err(self.wrong_entry(entry, format!("found {found}, but {} {rule} here", family.noun)));
-        }
-        let value = unit.to_si(number);
-        if !value.is_finite() {
-            return Err(self.mistyped(key, entry.value, "a finite number"));
-        }
-        self.asked.extend(spellings);
-        self.used.push(key);
-        Ok(Some((index, value)))
-    }
-
-    /// The error for a key that is `base` without its unit or with one that is not known.
-    fn misspelt_unit(&self, base: &str, family: &Family, spellings: &[String]) -> Option<Error> {
-        let help = format!("write {}", choice(spellings.iter().map(String::as_str), "`"));
-        let is_number =
-            |entry: &&Entry| !matches!(entry.value.get_ref(), DeValue::Table(_)) && !self.used.contains(&entry.key);
-        if let Some(entry) = self.entries.iter().filter(is_number).find(|entry| entry.key == base) {
-            return Some(self.wrong_entry(entry, format!("`{base}` carries no unit")).help(help));
-        }
-        let prefixed = |entry: &&Entry| entry.key.strip_prefix(base).is_some_and(|rest| rest.starts_with('_'));
-        let entry = self.entries.iter().filter(is_number).find(prefixed)?;
-        let message = format!("`{}` does not end in a unit that {} has here", entry.key, family.noun);
-        Some(self.wrong_entry(entry, message).help(help))
-    }
-
     /// Ends the reading: a key that nobody asked for is an error with the nearest known key.
     pub fn finish(&self) -> Result<()> {
         let Some(entry) = self.entries.iter().find(|entry| !self.used.contains(&entry.key)) else { return Ok(()) };
-        let open = self.asked.iter().map(String::as_str).filter(|key| !self.has(key));
+        let asked = || self.asked.iter().map(String::as_str);
+        let help = match nearest(entry.key, asked().filter(|key| !self.has(key))) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => format!("known here: {}", choice(asked(), "`")),
+        };
         Err(Error::new(ErrorKind::Input, "this key is not known here")
             .key(self.path_of(entry.key))
             .at(self.source.place(entry.key_span.clone()))
-            .help(suggestion(entry.key, open, "`")))
+            .help(help))
     }
 }
 

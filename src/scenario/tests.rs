@@ -37,6 +37,12 @@ fn val_ov7_base_first_pose() {
             assert!((found - printed.value).abs() <= 0.005e-3, "{column}: {found} against {}", printed.value);
         }
     }
+    let angles = scenario.oracles.iter().find(|oracle| oracle.name == "angles.csv").unwrap();
+    for series in &angles.series {
+        let link = scenario.case.mechanism.link_named(&series.channel.of).unwrap();
+        let away = crate::math::angle::wrapped(scenario.case.start.0[link].angle - series.points[0].value);
+        assert!(away.abs() <= series.points[0].bound, "{}: {away} rad away", series.name);
+    }
     assert_eq!(scenario.case.modes, [AssemblyMode::Right; 3]);
     assert!(scenario.case.start.closure(&scenario.case.mechanism) < 1e-15);
 }
@@ -91,6 +97,72 @@ fn val_crank_rocker_extreme_positions_are_in_line() {
         assert!(((b - a).norm() - 0.347_071_931_891_81).abs() < 1e-14);
         assert!((b.norm() - 0.347_071_931_891_81 - sign * 0.025_995_627_740_337).abs() < 1e-14);
     }
+}
+
+fn edited(edits: &[(&str, &str)]) -> Scenario {
+    let mut text = include_str!("../../scenarios/crank_rocker.toml").to_string();
+    for (from, to) in edits {
+        assert!(text.contains(from), "{from}");
+        text = text.replacen(from, to, 1);
+    }
+    Scenario::parse(&text, Path::new("edited.toml")).unwrap_or_else(|error| panic!("{error}"))
+}
+
+#[test]
+fn a_group_named_in_the_other_order_has_the_other_side() {
+    let plain = edited(&[]);
+    let turned = edited(&[
+        ("links = [\"coupler\", \"rocker\"]\nmode", "links = [\"rocker\", \"coupler\"]\nmode"),
+        ("mode = \"left\"", "mode = \"right\""),
+    ]);
+    assert_eq!((&turned.case.start, &turned.case.modes), (&plain.case.start, &plain.case.modes));
+    let near = edited(&[("mode = \"left\"", "near = { point = \"D\", x_mm = 360, y_mm = 300 }")]);
+    assert_eq!(near.case.start, plain.case.start);
+}
+
+#[test]
+fn units_change_nothing_but_the_text() {
+    let plain = edited(&[]);
+    let other = edited(&[
+        ("C = { x_mm = 150, y_mm = 15 }", "C = { x_m = 0.15, y_m = 0.015 }"),
+        ("mass_kg = 2.6", "mass_g = 2600"),
+        ("dt_s = 1e-3", "step_rad = -0.013613568165555769"),
+        ("B = { x_mm = 250, y_mm = 0 }", "B = { from = \"C\", length_m = 0.25, angle_rad = 0 }"),
+    ]);
+    assert_eq!(other.case.mechanism, plain.case.mechanism);
+    assert_eq!(other.case.start, plain.case.start);
+    assert!((other.dt - 1e-3).abs() < 1e-17);
+    let by_time = edited(&[("from_deg = 0\nto_deg = 360\nstep_deg = 1", "from_s = 0\nto_s = 0.4\nstep_ms = 100")]);
+    assert_eq!(by_time.case.grid.times, [0.0, 0.1, 0.2, 3.0 * 0.1, 0.4]);
+    assert!((by_time.case.grid.cranks[1] - 78f64.to_radians()).abs() < 1e-15);
+}
+
+#[test]
+fn links_keep_the_order_of_the_file_when_their_points_come_first() {
+    let text = "[links.b.points]\n[links.a]\n[links.b]\n[links.c]\n";
+    let source = Source { path: Path::new("x.toml"), text };
+    let tree = source.tree().unwrap();
+    let links = Table::root(&source, &tree).table("links").unwrap().all_tables().unwrap();
+    let names: Vec<&str> = links.iter().map(Table::name).collect();
+    // The header counts, as for a reader of the file.
+    assert_eq!(names, ["a", "b", "c"]);
+}
+
+#[test]
+fn skipped_cells_keep_their_reason() {
+    let directory = tempfile::tempdir().unwrap();
+    std::fs::write(directory.path().join("table.csv"), "\u{feff}turn_rad, B \r\n0,12.5\r\n0.5,\r\n1e0,7\r\n").unwrap();
+    let text = include_str!("../../scenarios/crank_rocker.toml").to_string()
+        + "[[oracle]]\nsource = \"t\"\nfile = \"table.csv\"\ncrank = \"turn_rad\"\n[oracle.columns]\n\
+           B = { channel = \"link.rocker.angle_deg\", offset_deg = 2.5, skip = [{ crank_rad = 0.5, why = \"blank\" }] }\n";
+    let scenario = Scenario::parse(&text, &directory.path().join("x.toml")).unwrap_or_else(|error| panic!("{error}"));
+    let oracle = &scenario.oracles[3];
+    assert_eq!((oracle.name.as_str(), oracle.series[0].name.as_str()), ("table.csv", "B"));
+    assert_eq!(oracle.series[0].skipped, [SkippedCell { crank: 0.5, why: "blank".into() }]);
+    let points = &oracle.series[0].points;
+    assert_eq!((points.len(), points[0].digits, points[1].digits, points[1].crank), (2, 1, 0, 1.0));
+    assert!((points[0].value - 10f64.to_radians()).abs() < 1e-15);
+    assert_eq!(points[1].bound, 0.5 * (1.0 + 1e-9) * (std::f64::consts::PI / 180.0));
 }
 
 /// One random damage to a scenario's lines.

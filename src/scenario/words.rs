@@ -3,7 +3,9 @@
 /// The candidate that `word` most probably stands for, if one is near enough.
 #[must_use]
 pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let allowed = (word.chars().count() / 3).clamp(1, 3);
+    // In names of one or two letters one letter is no slip but another name.
+    let length = word.chars().count();
+    let allowed = if length < 3 { 0 } else { ((length + 1) / 3).min(3) };
     candidates
         .into_iter()
         .map(|candidate| (distance(word, candidate), candidate))
@@ -71,6 +73,8 @@ mod tests {
     fn only_a_near_word_is_suggested() {
         assert_eq!(nearest("rokcer", ["crank", "rocker"]), Some("rocker"));
         assert_eq!(nearest("wheel", ["crank", "rocker"]), None);
+        assert_eq!(nearest("B", ["A", "C"]), None);
+        assert_eq!(nearest("velocity", ["positions", "velocities"]), Some("velocities"));
         assert_eq!(suggestion("wheel", ["crank", "rocker"], "\""), "allowed here: \"crank\" or \"rocker\"");
     }
 }

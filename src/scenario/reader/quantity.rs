@@ -1,0 +1,96 @@
+//! Quantities: numbers whose key ends in their unit.
+
+use toml::de::DeValue;
+
+use super::{Entry, Table, found};
+use crate::error::{Error, Result};
+use crate::scenario::unit::Family;
+use crate::scenario::words::choice;
+
+/// Which numbers a quantity may be.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Sign {
+    /// Any finite number.
+    Any,
+    /// Zero or positive.
+    NotNegative,
+    /// Greater than zero.
+    Positive,
+    /// Anything but zero.
+    NotZero,
+}
+
+impl Sign {
+    fn broken_by(self, value: f64) -> Option<&'static str> {
+        match self {
+            Sign::NotNegative if value < 0.0 => Some("must not be negative"),
+            Sign::Positive if value <= 0.0 => Some("must be positive"),
+            Sign::NotZero if value == 0.0 => Some("must not be zero"),
+            _ => None,
+        }
+    }
+}
+
+impl Table<'_> {
+    /// Quantity under one of the spellings of `base` in `family`, in SI, if there is one.
+    pub fn optional_quantity(&mut self, base: &str, family: &'static Family, sign: Sign) -> Result<Option<f64>> {
+        Ok(self.quantity_in(base, &[family], sign)?.map(|(_, value)| value))
+    }
+
+    /// Quantity under one of the spellings of `base` in `family`, in SI.
+    pub fn quantity(&mut self, base: &str, family: &'static Family, sign: Sign) -> Result<f64> {
+        let value = self.optional_quantity(base, family, sign)?;
+        value.ok_or_else(|| self.missing(&family.keys(base)))
+    }
+
+    /// Quantity that may be of one of several families: the index of its family, and its value in SI.
+    pub fn quantity_in(
+        &mut self,
+        base: &str,
+        families: &[&'static Family],
+        sign: Sign,
+    ) -> Result<Option<(usize, f64)>> {
+        let spellings: Vec<String> = families.iter().flat_map(|family| family.keys(base)).collect();
+        let mut present = self.entries.iter().filter(|entry| spellings.iter().any(|spelling| spelling == entry.key));
+        let (first, second) = (present.next(), present.next());
+        let Some(entry) = first else {
+            let wrong = self.misspelt_unit(base, families[0], &spellings);
+            self.asked.extend(spellings);
+            return wrong.map_or(Ok(None), Err);
+        };
+        if let Some(second) = second {
+            return Err(self
+                .wrong_entry(second, format!("`{}` and `{}` are both given", entry.key, second.key))
+                .help("keep one of the two"));
+        }
+        let (key, number) = (entry.key, self.finite(entry.key, entry.value)?);
+        let unit = |(index, family): (usize, &&'static Family)| Some((index, *family, family.unit_of(base, key)?));
+        let (index, family, unit) =
+            families.iter().enumerate().find_map(unit).expect("the key is one of the spellings");
+        if let Some(rule) = sign.broken_by(number) {
+            let found = found(self.source, entry.value);
+            return Err(self.wrong_entry(entry, format!("found {found}, but {} {rule} here", family.noun)));
+        }
+        let value = unit.to_si(number);
+        if !value.is_finite() {
+            return Err(self.mistyped(key, entry.value, "a finite number"));
+        }
+        self.asked.extend(spellings);
+        self.used.push(key);
+        Ok(Some((index, value)))
+    }
+
+    /// The error for a key that is `base` without its unit or with one that is not known.
+    fn misspelt_unit(&self, base: &str, family: &Family, spellings: &[String]) -> Option<Error> {
+        let help = format!("write {}", choice(spellings.iter().map(String::as_str), "`"));
+        let is_number =
+            |entry: &&Entry| !matches!(entry.value.get_ref(), DeValue::Table(_)) && !self.used.contains(&entry.key);
+        if let Some(entry) = self.entries.iter().filter(is_number).find(|entry| entry.key == base) {
+            return Some(self.wrong_entry(entry, format!("`{base}` carries no unit")).help(help));
+        }
+        let prefixed = |entry: &&Entry| entry.key.strip_prefix(base).is_some_and(|rest| rest.starts_with('_'));
+        let entry = self.entries.iter().filter(is_number).find(prefixed)?;
+        let message = format!("`{}` does not end in a unit that {} has here", entry.key, family.noun);
+        Some(self.wrong_entry(entry, message).help(help))
+    }
+}
