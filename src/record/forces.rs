@@ -1,7 +1,7 @@
 //! Reactions as arrows: the force of each joint's first link on its second, at the joint.
 
 use super::scene::{Placed, Scene, column};
-use super::shapes::{pose, stamp};
+use super::shapes::{pose, short, stamp};
 use crate::math::Vec2;
 use crate::mechanism::Joint;
 use foxglove::messages::{ArrowPrimitive, SceneEntity, SceneUpdate};
@@ -67,9 +67,9 @@ impl<'a> Forces<'a> {
         color.a = 0.8;
         ArrowPrimitive {
             pose: pose(at, z, force.y.atan2(force.x)),
-            shaft_length: length - head,
+            shaft_length: short(length - head),
             shaft_diameter: 0.014 * size * broad,
-            head_length: head,
+            head_length: short(head),
             head_diameter: 0.035 * size * broad,
             color: Some(color),
         }

@@ -82,7 +82,7 @@ impl<'a> Scene<'a> {
         let enough = FRAMES.max(FRAMES_PER_SECOND * (last - first));
         let stride = (side.rows.len() as f64 / enough).ceil().max(1.0) as usize;
         let mut times: Vec<f64> = side.rows.iter().step_by(stride).map(time).collect();
-        if (side.rows.len() - 1) % stride != 0 {
+        if !(side.rows.len() - 1).is_multiple_of(stride) {
             times.push(last);
         }
         times
