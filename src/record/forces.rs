@@ -61,7 +61,8 @@ impl<'a> Forces<'a> {
         let size = self.scene.size;
         let length = (self.scale * force.norm()).max(SHORTEST * size);
         let head = (0.3 * length).min(0.06 * size);
-        let (broad, z) = (side.paint.broad.sqrt(), (8.0 + side.paint.layer) * self.scene.layer());
+        // Arrows are round: a thinner one must be lifted out of the broader one.
+        let (broad, z) = (side.paint.broad.sqrt(), (8.0 + 4.0 * side.paint.layer) * self.scene.layer());
         let mut color = side.paint.colour();
         // Lighter than the links that the arrows lie on.
         color.a = 0.8;

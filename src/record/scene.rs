@@ -153,7 +153,7 @@ impl<'a> Scene<'a> {
         };
         let ball = |&local: &Vec2| SpherePrimitive {
             pose: pose(local, z, 0.0),
-            size: extent(0.03 * self.size * broad.sqrt(), 0.03 * self.size * broad.sqrt()),
+            size: extent(0.03 * self.size * broad.sqrt(), self.layer()),
             color: colour,
         };
         let letters = link.points.iter().filter(|_| lettered).filter(|letter| self.owner(&letter.name) == index);
