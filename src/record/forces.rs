@@ -1,7 +1,7 @@
 //! Reactions as arrows: the force of each joint's first link on its second, at the joint.
 
 use super::scene::{Placed, Scene, column};
-use super::shapes::{pose, stamp};
+use super::shapes::{pose, short, stamp};
 use crate::math::Vec2;
 use crate::mechanism::Joint;
 use foxglove::messages::{ArrowPrimitive, SceneEntity, SceneUpdate};
@@ -61,15 +61,16 @@ impl<'a> Forces<'a> {
         let size = self.scene.size;
         let length = (self.scale * force.norm()).max(SHORTEST * size);
         let head = (0.3 * length).min(0.06 * size);
-        let (broad, z) = (side.paint.broad.sqrt(), (8.0 + side.paint.layer) * self.scene.layer());
+        // Arrows are round: a thinner one must be lifted out of the broader one.
+        let (broad, z) = (side.paint.broad.sqrt(), (8.0 + 4.0 * side.paint.layer) * self.scene.layer());
         let mut color = side.paint.colour();
         // Lighter than the links that the arrows lie on.
         color.a = 0.8;
         ArrowPrimitive {
             pose: pose(at, z, force.y.atan2(force.x)),
-            shaft_length: length - head,
+            shaft_length: short(length - head),
             shaft_diameter: 0.014 * size * broad,
-            head_length: head,
+            head_length: short(head),
             head_diameter: 0.035 * size * broad,
             color: Some(color),
         }

@@ -82,7 +82,7 @@ impl<'a> Scene<'a> {
         let enough = FRAMES.max(FRAMES_PER_SECOND * (last - first));
         let stride = (side.rows.len() as f64 / enough).ceil().max(1.0) as usize;
         let mut times: Vec<f64> = side.rows.iter().step_by(stride).map(time).collect();
-        if (side.rows.len() - 1) % stride != 0 {
+        if !(side.rows.len() - 1).is_multiple_of(stride) {
             times.push(last);
         }
         times
@@ -153,7 +153,7 @@ impl<'a> Scene<'a> {
         };
         let ball = |&local: &Vec2| SpherePrimitive {
             pose: pose(local, z, 0.0),
-            size: extent(0.03 * self.size * broad.sqrt(), 0.03 * self.size * broad.sqrt()),
+            size: extent(0.03 * self.size * broad.sqrt(), self.layer()),
             color: colour,
         };
         let letters = link.points.iter().filter(|_| lettered).filter(|letter| self.owner(&letter.name) == index);

@@ -1,0 +1,204 @@
+"""Opens recordings with readers that are not ours, and judges what they see.
+
+usage: check.py FILE...
+"""
+
+import math
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections import defaultdict
+from pathlib import Path
+
+import numpy as np
+from mcap.reader import make_reader
+from mcap_protobuf.decoder import DecoderFactory
+
+OWN = {"grid": "Grid", "link": "Link", "point": "Point", "joint": "Joint", "drive": "Drive"}
+FOXGLOVE = {
+    "/tf": "FrameTransforms",
+    "/mechanism/links": "SceneUpdate",
+    "/mechanism/forces": "SceneUpdate",
+    "/mechanism/outline": "PointCloud",
+    "/log": "Log",
+}
+# Pictures are written in single precision.
+DRAWING = 1e-6
+
+results = []
+
+
+def check(what, passed, found=""):
+    """Prints and counts one check."""
+    results.append(bool(passed))
+    print(f"  {'ok    ' if passed else 'FAILED'} {what}{f': {found}' if found else ''}")
+
+
+def values(message):
+    """Numbers of a flat message that are present."""
+    return {field.name: value for field, value in message.ListFields()}
+
+
+def expected_schema(topic):
+    """Name of the schema that a topic must have, or None for a topic that should not be there."""
+    if topic in FOXGLOVE:
+        return f"foxglove.{FOXGLOVE[topic]}"
+    parts = topic.split("/")
+    if len(parts) < 3 or parts[2] not in OWN:
+        return None
+    return f"linkproof.{OWN[parts[2]]}{'Error' if parts[1] == 'error' else ''}"
+
+
+def load(path):
+    """Schemas and messages (log time, sequence, decoded) by topic, and the summary's records."""
+    schemas, messages = {}, defaultdict(list)
+    with open(path, "rb") as stream:
+        reader = make_reader(stream, validate_crcs=True, decoder_factories=[DecoderFactory()])
+        for schema, channel, raw, message in reader.iter_decoded_messages():
+            schemas[channel.topic] = schema.name
+            messages[channel.topic].append((raw.log_time, raw.sequence, message))
+        attachments = {a.name: a.data for a in reader.iter_attachments()}
+        metadata = {m.name: m.metadata for m in reader.iter_metadata()}
+    return schemas, messages, attachments, metadata
+
+
+def check_numbers(schemas, messages):
+    """The topics of every sample."""
+    wrong = [f"{t} is {s}" for t, s in schemas.items() if s != expected_schema(t)]
+    check("every topic has the schema of its name", not wrong, ", ".join(wrong) or f"{len(schemas)} topics")
+    disorder = [t for t, ms in messages.items() if any(b[0] < a[0] for a, b in zip(ms, ms[1:]))]
+    check("log times ascend in every topic", not disorder, ", ".join(disorder))
+
+    sides = [t.split("/")[1] for t in messages if t.endswith("/grid") and t.count("/") == 2]
+    check("there is a side", sides, ", ".join(sides))
+    for side in sides:
+        counts = {t: len(ms) for t, ms in messages.items() if t.startswith(f"/{side}/")}
+        check(f"{side}: all topics have as many messages", len(set(counts.values())) == 1, sorted(set(counts.values())))
+        grid = [values(m) for _, _, m in messages[f"/{side}/grid"]]
+        check(f"{side}: the grid has time, crank angle and row", all(set(g) == {"t_s", "crank_rad", "row"} for g in grid))
+        times = np.array([g.get("t_s", math.nan) for g in grid])
+        check(f"{side}: times ascend", np.all(np.diff(times) >= 0.0))
+        stamps = np.array([m[0] for m in messages[f"/{side}/grid"]]) * 1e-9
+        check(f"{side}: log times are the times", np.ptp(stamps - times) < 2e-9, f"within {np.ptp(stamps - times):.1e} s")
+        check(f"{side}: every row once", sorted(g.get("row") for g in grid) == list(range(len(grid))))
+        ragged = [t for t in counts if len({tuple(values(m)) for _, _, m in messages[t]}) != 1]
+        check(f"{side}: every message of a topic has the same fields", not ragged, ", ".join(ragged))
+    own = [t for t, s in schemas.items() if s.startswith("linkproof.")]
+    bad = [t for t in own for _, _, m in messages[t] if not all(math.isfinite(v) for v in values(m).values())]
+    check("all numbers are finite", not bad, ", ".join(sorted(set(bad))))
+    return sides
+
+
+def placed(transform, point):
+    """World coordinates of a point of a frame."""
+    angle = 2.0 * math.atan2(transform.rotation.z, transform.rotation.w)
+    c, s = math.cos(angle), math.sin(angle)
+    return np.array([transform.translation.x + c * point.x - s * point.y, transform.translation.y + s * point.x + c * point.y])
+
+
+def check_scene(messages, sides):
+    """Frames, links and outline."""
+    if "/tf" not in messages:
+        positions = [t for t in messages if "/link/" in t and "x_m" in values(messages[t][0][2])]
+        check("there is no scene only where there are no positions", not positions)
+        return
+    links = [e for _, _, m in messages["/mechanism/links"] for e in m.entities]
+    check("links are drawn once", len(messages["/mechanism/links"]) == 1, f"{len(links)} entities")
+    framed = [e for e in links if e.frame_id != "world"]
+    check("links are locked to frames and stay", all(e.frame_locked and not e.HasField("lifetime") for e in links))
+    wanted = {e.frame_id for e in framed}
+    sets = [{t.child_frame_id for t in m.transforms} for _, _, m in messages["/tf"]]
+    check("every link has its frame at every time", all(s == wanted for s in sets), ", ".join(sorted(wanted)))
+    check("frames hang on the world", all(t.parent_frame_id == "world" for _, _, m in messages["/tf"] for t in m.transforms))
+    norms = [math.hypot(t.rotation.z, t.rotation.w) for _, _, m in messages["/tf"] for t in m.transforms]
+    check("rotations are unit quaternions", max(abs(n - 1.0) for n in norms) < DRAWING)
+
+    size = max([abs(p.x) + abs(p.y) for e in framed for line in e.lines for p in line.points], default=1.0)
+    letters = [(e.frame_id, text.text, text.pose.position) for e in framed for text in e.texts]
+    worst, compared = 0.0, 0
+    for frame, name, local in letters:
+        topic = f"/{frame.split('/')[0]}/point/{name}"
+        track = {time: values(m) for time, _, m in messages.get(topic, [])}
+        for time, _, message in messages["/tf"]:
+            transform = next(t for t in message.transforms if t.child_frame_id == frame)
+            if "x_m" in track.get(time, {}):
+                gap = placed(transform, local) - np.array([track[time]["x_m"], track[time]["y_m"]])
+                worst, compared = max(worst, float(np.abs(gap).max())), compared + 1
+    check("lettered points are drawn where the numbers say", worst < 4 * DRAWING * max(size, 1.0), f"{compared} compared, {worst:.1e} m")
+
+    strides = {f.name: f.offset for f in messages["/mechanism/outline"][0][2].fields}
+    check("the outline has places and colours", list(strides) == ["x", "y", "z", "red", "green", "blue", "alpha"])
+    clouds = [np.frombuffer(m.data, "<f4").reshape(-1, m.point_stride // 4)[:, :3] for _, _, m in messages["/mechanism/outline"]]
+    check("outlines are finite and of one size", len({c.shape for c in clouds}) == 1 and all(np.isfinite(c).all() for c in clouds), f"{clouds[0].shape[0]} points")
+    moving = np.abs(clouds[len(clouds) // 3] - clouds[0]).max() if len(clouds) > 3 else 1.0
+    check("the outline moves", moving > 0.0, f"{moving:.3g} m")
+
+
+def check_forces(messages, metadata):
+    """Arrows."""
+    if "/mechanism/forces" not in messages:
+        return
+    updates = [m for _, _, m in messages["/mechanism/forces"]]
+    check("every update has every arrow", len({tuple(e.id for e in m.entities) for m in updates}) == 1, f"{len(updates[0].entities)} arrows")
+    arrows = [a for m in updates for e in m.entities for a in e.arrows]
+    numbers = [n for a in arrows for n in (a.shaft_length, a.head_length, a.pose.position.x, a.pose.position.y, a.pose.orientation.z)]
+    check("arrows are finite and have length", all(map(math.isfinite, numbers)) and all(a.shaft_length > 0 and a.head_length > 0 for a in arrows))
+    scale = float(metadata["linkproof"].get("force_scale_m_per_N", "nan"))
+    check("the scale of forces is given", math.isfinite(scale), f"{scale:.3g} m/N")
+    worst = 0.0
+    shortest = min(a.shaft_length + a.head_length for a in arrows)
+    for (time, _, update) in messages["/mechanism/forces"][:: max(1, len(updates) // 20)]:
+        for entity in update.entities:
+            side, joint = entity.id.split("/", 1)
+            force = next((values(m) for t, _, m in messages.get(f"/{side}/joint/{joint}", []) if t == time), None)
+            if force:
+                (arrow,) = entity.arrows
+                length = max(scale * math.hypot(force["fx_N"], force["fy_N"]), shortest)
+                worst = max(worst, abs(arrow.shaft_length + arrow.head_length - length))
+    check("arrows are as long as their forces", worst < 1e-5, f"{worst:.1e} m")
+
+
+def run(what, *command):
+    """A check by another program, passed over where that is not installed."""
+    if shutil.which(command[0]) is None:
+        print(f"  --     {what}: {command[0]} is not installed")
+        return
+    done = subprocess.run(command, capture_output=True, text=True)
+    last = (done.stdout + done.stderr).strip().splitlines()
+    check(what, done.returncode == 0, "" if done.returncode == 0 else " / ".join(last[-5:]))
+
+
+def check_file(path):
+    """All checks of one recording."""
+    print(path)
+    try:
+        schemas, messages, attachments, metadata = load(path)
+    except Exception as error:  # whatever a foreign reader stumbles over is a finding
+        check("the Python reader opens it", False, repr(error))
+        return
+    check("the Python reader opens it", messages, f"{sum(map(len, messages.values()))} messages")
+    check("the scenario is attached", attachments.get("scenario.toml"), f"{len(attachments.get('scenario.toml', b''))} bytes")
+    check("metadata tells the scenario", metadata.get("linkproof", {}).get("scenario"), metadata.get("linkproof"))
+    sides = check_numbers(schemas, messages)
+    check_scene(messages, sides)
+    check_forces(messages, metadata)
+    run("pymcap-cli doctor", "pymcap-cli", "doctor", path)
+    with tempfile.TemporaryDirectory() as directory:
+        rrd = str(Path(directory) / "converted.rrd")
+        run("rerun mcap convert", "rerun", "mcap", "convert", path, "-o", rrd)
+        run("rerun rrd verify", "rerun", "rrd", "verify", rrd)
+
+
+def main(paths):
+    """Checks all recordings; the exit code tells whether all passed."""
+    if not paths:
+        sys.exit(__doc__)
+    for path in paths:
+        check_file(path)
+    failed = results.count(False)
+    print(f"{results.count(True)} passed, {failed} failed")
+    sys.exit(1 if failed else 0)
+
+
+main(sys.argv[1:])
