@@ -92,6 +92,7 @@ impl Structure {
         if mobility != drives.len() as i64 {
             return Err(wrong_mobility(mechanism, mobility, drives.len()));
         }
+        check_sparse(mechanism, drives)?;
         let owners = Owners::find(mechanism, drives)?;
         let mut structure = Structure { mobility, drivers: Vec::new(), groups: Vec::new() };
         let mut known = vec![false; mechanism.links().len()];
@@ -180,6 +181,19 @@ fn unsupported_drive(mechanism: &Mechanism, joint: usize) -> Error {
     .help("drive a link that is hinged to the ground by a revolute joint")
 }
 
+/// Every part of k links, the ground counted among them, may carry at most 3 k - 3 equations (Laman's condition for
+/// plane bodies). Equivalent: with three more copies of any one equation, all equations still find owners among all links,
+/// three to a link (Lee and Streinu, "Pebble game algorithms and sparse graphs", 2008).
+fn check_sparse(mechanism: &Mechanism, drives: &[usize]) -> Result<()> {
+    for (index, joint) in mechanism.joints().iter().enumerate() {
+        let mut owners = Owners::unassigned(mechanism, drives, OWNED);
+        let ends = [joint.first.link, joint.second.link];
+        owners.add((0..3).map(|_| Equation { joint: index, of_drive: false, ends }));
+        owners.assign_all(mechanism)?;
+    }
+    Ok(())
+}
+
 /// One scalar equation of a joint or of a drive, to be owned by one of the two links it touches.
 struct Equation {
     joint: usize,
@@ -187,41 +201,61 @@ struct Equation {
     ends: [usize; 2],
 }
 
+/// Equations that one link can own: as many as it has freedoms.
+const OWNED: usize = 3;
+
 /// Which link owns which equation.
 struct Owners {
     equations: Vec<Equation>,
     owner: Vec<Option<usize>>,
+    /// Equations that the ground can own.
+    of_ground: usize,
 }
 
 impl Owners {
+    /// The ground owns nothing: its pose is given.
     fn find(mechanism: &Mechanism, drives: &[usize]) -> Result<Self> {
-        let mut equations = Vec::new();
+        let mut owners = Owners::unassigned(mechanism, drives, 0);
+        owners.assign_all(mechanism)?;
+        Ok(owners)
+    }
+
+    fn unassigned(mechanism: &Mechanism, drives: &[usize], of_ground: usize) -> Self {
+        let mut owners = Owners { equations: Vec::new(), owner: Vec::new(), of_ground };
         for (index, joint) in mechanism.joints().iter().enumerate() {
             let ends = [joint.first.link, joint.second.link];
-            let own = joint.kind.equations();
-            equations.extend((0..own).map(|_| Equation { joint: index, of_drive: false, ends }));
+            owners.add((0..joint.kind.equations()).map(|_| Equation { joint: index, of_drive: false, ends }));
             let driven = drives.iter().filter(|&&drive| drive == index);
-            equations.extend(driven.map(|_| Equation { joint: index, of_drive: true, ends }));
+            owners.add(driven.map(|_| Equation { joint: index, of_drive: true, ends }));
         }
-        let mut owners = Owners { owner: vec![None; equations.len()], equations };
-        for equation in 0..owners.equations.len() {
+        owners
+    }
+
+    fn add(&mut self, equations: impl Iterator<Item = Equation>) {
+        self.equations.extend(equations);
+        self.owner.resize(self.equations.len(), None);
+    }
+
+    fn assign_all(&mut self, mechanism: &Mechanism) -> Result<()> {
+        for equation in 0..self.equations.len() {
             let mut visited = vec![false; mechanism.links().len()];
-            if !owners.assign(equation, &mut visited) {
+            if !self.assign(equation, &mut visited) {
                 return Err(over_constrained(mechanism, &visited));
             }
         }
-        Ok(owners)
+        Ok(())
     }
 
     /// Finds an owner for one equation, moving others along if need be (Kuhn's augmenting paths).
     fn assign(&mut self, equation: usize, visited: &mut [bool]) -> bool {
         for link in self.equations[equation].ends {
-            if link == GROUND || visited[link] {
+            let most = if link == GROUND { self.of_ground } else { OWNED };
+            if most == 0 || visited[link] {
                 continue;
             }
             visited[link] = true;
             let owned: Vec<usize> = (0..self.owner.len()).filter(|&e| self.owner[e] == Some(link)).collect();
-            if owned.len() < 3 || owned.into_iter().any(|other| self.assign(other, visited)) {
+            if owned.len() < most || owned.into_iter().any(|other| self.assign(other, visited)) {
                 self.owner[equation] = Some(link);
                 return true;
             }
@@ -419,6 +453,59 @@ mod tests {
         assert_eq!(mobility(&mechanism), 1);
         let error = Structure::of(&mechanism, &[0]).unwrap_err();
         assert!(error.to_string().contains("crank, coupler are over-constrained"), "{error}");
+    }
+
+    #[test]
+    fn two_links_pinned_together_twice_are_over_constrained_and_no_dyad() {
+        let links = vec![
+            link("ground", &[("O", 0.0, 0.0)]),
+            link("crank", &[("O", 0.0, 0.0), ("A", 1.0, 0.0)]),
+            link("a", &[("A", 0.0, 0.0), ("P", 1.0, 0.0), ("Q", 0.0, 1.0)]),
+            link("b", &[("P", 0.0, 0.0), ("Q", -1.0, 1.0)]),
+        ];
+        let pins =
+            [("O", "O", "ground", "crank"), ("A", "A", "crank", "a"), ("P", "P", "a", "b"), ("Q", "Q", "a", "b")];
+        let mechanism = mechanism(links, &pins).unwrap();
+        assert_eq!(mobility(&mechanism), 1);
+        let error = Structure::of(&mechanism, &[0]).unwrap_err();
+        assert!(error.to_string().contains("a, b are over-constrained"), "{error}");
+    }
+
+    #[test]
+    fn a_floating_part_with_one_joint_too_many_is_found() {
+        // Four links in a square with a fifth as diagonal pin: 5 joints on 4 links is one equation more than 3*4 - 3.
+        let corner = |a: &str, b: &str| -> Vec<(String, f64, f64)> { vec![(a.into(), 0.0, 0.0), (b.into(), 1.0, 0.0)] };
+        let names = |points: &[(String, f64, f64)]| points.to_vec();
+        let body = |name: &str, points: &[(String, f64, f64)]| {
+            link(name, &points.iter().map(|(n, x, y)| (n.as_str(), *x, *y)).collect::<Vec<_>>())
+        };
+        let mut first = names(&corner("S", "P"));
+        first.extend([("A".to_string(), 0.5, 0.5), ("X".to_string(), 2.0, 0.0)]);
+        let mut third = names(&corner("Q", "R"));
+        third.push(("X".to_string(), 3.0, 0.0));
+        let links = vec![
+            link("ground", &[("O", 0.0, 0.0)]),
+            link("crank", &[("O", 0.0, 0.0), ("A", 1.0, 0.0)]),
+            body("1", &first),
+            body("2", &corner("P", "Q")),
+            body("3", &third),
+            body("4", &corner("R", "S")),
+            link("loose", &[("A", 0.0, 0.0)]),
+        ];
+        let pins = [
+            ("O", "O", "ground", "crank"),
+            ("A", "A", "crank", "1"),
+            ("P", "P", "1", "2"),
+            ("Q", "Q", "2", "3"),
+            ("R", "R", "3", "4"),
+            ("S", "S", "4", "1"),
+            ("X", "X", "1", "3"),
+            ("A2", "A", "1", "loose"),
+        ];
+        let mechanism = mechanism(links, &pins).unwrap();
+        let error = Structure::of(&mechanism, &[0, 1]).unwrap_err();
+        assert!(error.to_string().contains("over-constrained"), "{error}");
+        assert!(!error.to_string().contains("loose"), "{error}");
     }
 
     #[test]
