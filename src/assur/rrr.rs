@@ -44,7 +44,11 @@ impl Rrr {
                 span: on_link(group.inner[0]) - outer,
             }
         });
-        Rrr { arms, squared: arms.map(|arm| arm.span.norm_squared()), side: mode.sign() }
+        Rrr {
+            arms,
+            squared: arms.map(|arm| arm.span.norm_squared()),
+            side: if mode == AssemblyMode::Right { -1.0 } else { 1.0 },
+        }
     }
 
     /// World vectors from the outer joints to the inner one.

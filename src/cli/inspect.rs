@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use super::output;
 use crate::error::Result;
 use crate::mechanism::assembly::transmission_sine;
-use crate::mechanism::{AssemblyMode, Joint, Mechanism};
+use crate::mechanism::{Joint, Mechanism};
 use crate::scenario::Scenario;
 
 const EXAMPLES: &str = "\
@@ -77,7 +77,7 @@ fn as_text(scenario: &Scenario) -> String {
             group.class,
             group.order(),
             group.pairs(mechanism),
-            mode_name(mode),
+            mode.name(),
             sine.asin().to_degrees()
         );
     }
@@ -105,7 +105,7 @@ fn as_json(scenario: &Scenario) -> Value {
             "links": group.links.iter().map(|&l| link(l)).collect::<Vec<_>>(),
             "inner_joints": group.inner.iter().map(|&j| joint(j)).collect::<Vec<_>>(),
             "outer_joints": group.outer.iter().map(|&j| joint(j)).collect::<Vec<_>>(),
-            "class": group.class, "order": group.order(), "kind": group.pairs(mechanism), "mode": mode_name(mode),
+            "class": group.class, "order": group.order(), "kind": group.pairs(mechanism), "mode": mode.name(),
             "transmission_angle_rad": transmission_sine(mechanism, group, &case.start).abs().asin(),
         })
     });
@@ -120,11 +120,4 @@ fn as_json(scenario: &Scenario) -> Value {
 
 fn ends<'a>(mechanism: &'a Mechanism, joint: &Joint) -> [&'a str; 2] {
     [joint.first, joint.second].map(|side| mechanism.links()[side.link].name.as_str())
-}
-
-fn mode_name(mode: AssemblyMode) -> &'static str {
-    match mode {
-        AssemblyMode::Left => "left",
-        AssemblyMode::Right => "right",
-    }
 }

@@ -1,7 +1,7 @@
 //! Where every link is at one instant.
 
 use super::{Joint, Mechanism, Side};
-use crate::math::{Vec2, rotated, unit};
+use crate::math::{Vec2, cross, rotated, unit};
 
 /// Place of one link's frame in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,6 +20,13 @@ impl LinkPose {
     #[must_use]
     pub fn through(local: Vec2, at: Vec2, angle: f64) -> Self {
         LinkPose { origin: at - rotated(unit(angle), local), angle }
+    }
+
+    /// The pose that puts the body points `local_a`, `local_b` on two world points; the distances are taken to fit.
+    #[must_use]
+    pub fn between(local_a: Vec2, local_b: Vec2, a: Vec2, b: Vec2) -> Self {
+        let (local, world) = (local_b - local_a, b - a);
+        LinkPose::through(local_a, a, cross(local, world).atan2(local.dot(&world)))
     }
 
     /// World position of the body point `local` (m).

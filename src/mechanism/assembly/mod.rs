@@ -1,40 +1,56 @@
 //! The pose at t = 0: the crank at its angle, then group after group in its assembly mode.
 //!
-//! Dyads are placed by intersecting two circles. The formulas here are the trunk's own: the analytic solvers neither
+//! Dyads are placed by intersecting two circles, groups of four links by the zeros of a trigonometric polynomial, which misses
+//! none of their configurations. The formulas here are the trunk's own: the analytic solvers neither
 //! provide nor use them, so that a slip in one of the three shows.
+
+mod four_link;
 
 use super::pose::SidePoint;
 use super::{Group, GroupKind, LinkPose, Mechanism, Pose, Structure};
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::{Vec2, cross, turned};
 
-/// Which of the two real configurations a dyad takes.
+/// Which of its real configurations a group takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AssemblyMode {
-    /// The inner joint lies to the left of the line from the first link's outer joint to the second link's.
+    /// Of a dyad: the inner joint lies to the left of the line from the first link's outer joint to the second link's.
     Left,
-    /// The inner joint lies to the right of that line.
+    /// Of a dyad: the inner joint lies to the right of that line.
     Right,
+    /// Of a higher group: the configuration of the start pose, followed from there.
+    Followed,
 }
 
 impl AssemblyMode {
-    /// +1 for left, -1 for right: the sign of the signed area (first outer, second outer, inner joint).
-    #[must_use]
-    pub fn sign(self) -> f64 {
-        match self {
-            AssemblyMode::Left => 1.0,
-            AssemblyMode::Right => -1.0,
-        }
-    }
-
-    /// The same configuration seen with the dyad's links in the other order.
+    /// The same configuration seen with a dyad's links in the other order.
     #[must_use]
     pub fn swapped(self) -> Self {
         match self {
             AssemblyMode::Left => AssemblyMode::Right,
             AssemblyMode::Right => AssemblyMode::Left,
+            AssemblyMode::Followed => AssemblyMode::Followed,
         }
     }
+
+    /// Name, as in scenario files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            AssemblyMode::Left => "left",
+            AssemblyMode::Right => "right",
+            AssemblyMode::Followed => "followed",
+        }
+    }
+}
+
+/// One real configuration of a group at a given pose of the links it hangs on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Configuration {
+    /// Its mode.
+    pub mode: AssemblyMode,
+    /// Pose of each of the group's links, in the order of [`Group::links`].
+    pub links: Vec<LinkPose>,
 }
 
 /// What is asked of one group's first pose. The links stand in the order of [`Group::links`].
@@ -52,7 +68,7 @@ pub struct StartGroup {
 ///
 /// # Errors
 /// [`ErrorKind::Geometry`] if a group's links do not reach each other, if a guess fits both modes or contradicts the
-/// mode asked for; [`ErrorKind::Unsupported`] for groups above class II; [`ErrorKind::Input`] if a group is asked for nothing.
+/// mode asked for; [`ErrorKind::Unsupported`] for groups of more than four links; [`ErrorKind::Input`] if a group is asked for nothing.
 pub fn first_pose(
     mechanism: &Mechanism,
     structure: &Structure,
@@ -89,88 +105,117 @@ pub fn transmission_sine(mechanism: &Mechanism, group: &Group, pose: &Pose) -> f
     cross(a, b) / (a.norm() * b.norm())
 }
 
-fn place(mechanism: &Mechanism, group: &Group, wanted: &StartGroup, pose: &mut Pose) -> Result<AssemblyMode> {
-    if group.kind != GroupKind::Rrr {
-        return Err(Error::new(
-            ErrorKind::Unsupported,
-            format!(
-                "the group is of class {} and order {}; only RRR dyads are solved so far",
-                group.class,
-                group.order()
-            ),
-        )
-        .help("drive another link: that may turn the group into dyads (`linkproof inspect` shows the groups)"));
+/// All real configurations of a group, once the links it hangs on are posed in `pose`: up to two of a dyad, up to six
+/// of a group of four links.
+///
+/// # Errors
+/// [`ErrorKind::Geometry`] if there is none; [`ErrorKind::Unsupported`] for groups of more than four links.
+pub fn configurations(mechanism: &Mechanism, group: &Group, pose: &Pose) -> Result<Vec<Configuration>> {
+    match group.kind {
+        GroupKind::Rrr => dyad(mechanism, group, pose),
+        GroupKind::Higher => four_link::configurations(mechanism, group, pose),
     }
-    let mode = match (wanted.mode, &wanted.near) {
-        (None, None) => return Err(nothing_asked()),
-        (Some(mode), None) => mode,
+}
+
+fn place(mechanism: &Mechanism, group: &Group, wanted: &StartGroup, pose: &mut Pose) -> Result<AssemblyMode> {
+    let all = configurations(mechanism, group, pose)?;
+    let chosen = match (wanted.mode, &wanted.near) {
+        (None, None) => return Err(nothing_asked(group)),
+        (Some(mode), None) => all.iter().find(|one| one.mode == mode).ok_or_else(|| nothing_asked(group))?,
         (mode, Some((point, guess))) => {
-            let nearest = nearest_mode(mechanism, group, pose, point, *guess)?;
+            let nearest = nearest(mechanism, group, &all, point, *guess)?;
             match mode {
-                Some(mode) if mode != nearest => return Err(contradiction(point, mode)),
+                Some(mode) if mode != nearest.mode => return Err(contradiction(point, mode)),
                 _ => nearest,
             }
         }
     };
-    place_dyad(mechanism, group, mode, pose)?;
-    Ok(mode)
+    for (&link, &place) in group.links.iter().zip(&chosen.links) {
+        pose.0[link] = place;
+    }
+    Ok(chosen.mode)
 }
 
-fn nothing_asked() -> Error {
-    Error::new(ErrorKind::Input, "neither an assembly mode nor a rough place is given for this group")
-        .help("add `mode = \"left\"` or `mode = \"right\"`, or `near = { point = \"...\", x_mm = ..., y_mm = ... }`")
+fn nothing_asked(group: &Group) -> Error {
+    let near = "`near = { point = \"...\", x_mm = ..., y_mm = ... }`";
+    if group.kind == GroupKind::Rrr {
+        Error::new(ErrorKind::Input, "neither an assembly mode nor a rough place is given for this group")
+            .help(format!("add `mode = \"left\"` or `mode = \"right\"`, or {near}"))
+    } else {
+        Error::new(ErrorKind::Input, "no rough place is given for this group, which has up to six configurations")
+            .help(format!("add {near}"))
+    }
 }
 
 fn contradiction(point: &SidePoint, mode: AssemblyMode) -> Error {
     Error::new(
         ErrorKind::Geometry,
         format!(
-            "the rough place of point \"{}\" lies nearer to the other configuration than to mode {mode:?}",
-            point.name
+            "the rough place of point \"{}\" lies nearer to another configuration than to mode {}",
+            point.name,
+            mode.name()
         ),
     )
     .help("correct the mode or the rough place; the wrong branch is never chosen silently")
 }
 
-fn nearest_mode(
+fn nearest<'a>(
     mechanism: &Mechanism,
     group: &Group,
-    pose: &Pose,
+    all: &'a [Configuration],
     point: &SidePoint,
     guess: Vec2,
-) -> Result<AssemblyMode> {
-    let distance = |mode: AssemblyMode| -> Result<f64> {
-        let mut trial = pose.clone();
-        place_dyad(mechanism, group, mode, &mut trial)?;
-        Ok((trial.0[point.side.link].point(point.side.local) - guess).norm())
-    };
-    let (left, right) = (distance(AssemblyMode::Left)?, distance(AssemblyMode::Right)?);
-    // A guess that is less than twice as near to one configuration as to the other does not tell them apart.
-    if 2.0 * left.min(right) > left.max(right) {
+) -> Result<&'a Configuration> {
+    let index =
+        group.links.iter().position(|&link| link == point.side.link).expect("the point is on a link of the group");
+    let distance = |one: &Configuration| (one.links[index].point(point.side.local) - guess).norm();
+    let mut order: Vec<(f64, &Configuration)> = all.iter().map(|one| (distance(one), one)).collect();
+    order.sort_by(|a, b| a.0.total_cmp(&b.0));
+    // A guess that is less than twice as near to one configuration as to the next does not tell them apart; nor does it
+    // if it lies beyond the mechanism from all of them.
+    if let [(first, a), (second, b), ..] = order[..]
+        && 2.0 * first > second
+    {
         return Err(Error::new(
             ErrorKind::Geometry,
             format!(
-                "the rough place of point \"{}\" is {left:.4} m from the left and {right:.4} m from the right configuration: it does not tell them apart",
-                point.name
+                "the rough place of point \"{}\" is {first:.4} m from the {}nearest configuration and {second:.4} m from the {}next: it does not tell them apart",
+                point.name,
+                named(a.mode),
+                named(b.mode)
             ),
         )
         .help("give a place nearer to the configuration you mean, or its mode"));
     }
-    Ok(if left < right { AssemblyMode::Left } else { AssemblyMode::Right })
+    let size = mechanism.size();
+    match order[..] {
+        [(first, one), ..] if first <= size => Ok(one),
+        [(first, _), ..] => Err(Error::new(
+            ErrorKind::Geometry,
+            format!("the rough place of point \"{}\" is {first:.4} m from the nearest configuration, farther than the longest link", point.name),
+        )
+        .help("check its coordinates and their unit")),
+        [] => unreachable!("a group without configurations is an error before"),
+    }
 }
 
-/// Places an RRR dyad: its inner joint is where the circles about its outer joints meet, on the side that `mode` names.
-fn place_dyad(mechanism: &Mechanism, group: &Group, mode: AssemblyMode, pose: &mut Pose) -> Result<()> {
+/// The mode of a dyad and a comma, for messages; nothing for higher groups.
+fn named(mode: AssemblyMode) -> String {
+    if mode == AssemblyMode::Followed { String::new() } else { format!("{}, ", mode.name()) }
+}
+
+/// Both configurations of an RRR dyad: its inner joint is where the circles about its outer joints meet.
+fn dyad(mechanism: &Mechanism, group: &Group, pose: &Pose) -> Result<Vec<Configuration>> {
     let [first, second] = [0, 1].map(|k| {
         let link = group.links[k];
         let outer = &mechanism.joints()[group.outer[k]];
         let inner = mechanism.joints()[group.inner[0]].on(link).expect("the inner joint is on both links");
         let outer_local = outer.on(link).expect("the outer joint is on its link");
         let base = outer.other(link);
-        (link, outer_local, inner, pose.0[base.link].point(base.local))
+        (outer_local, inner, pose.0[base.link].point(base.local))
     });
-    let (radius_1, radius_2) = ((first.2 - first.1).norm(), (second.2 - second.1).norm());
-    let base = second.3 - first.3;
+    let (radius_1, radius_2) = ((first.1 - first.0).norm(), (second.1 - second.0).norm());
+    let base = second.2 - first.2;
     let distance = base.norm();
     let along = (distance * distance + radius_1 * radius_1 - radius_2 * radius_2) / (2.0 * distance);
     let across_squared = (radius_1 - along) * (radius_1 + along);
@@ -186,13 +231,14 @@ fn place_dyad(mechanism: &Mechanism, group: &Group, mode: AssemblyMode, pose: &m
         .help("check the lengths and the ground points, or start at a crank angle that can be reached"));
     }
     let direction = base / distance;
-    let inner = first.3 + direction * along + turned(direction) * (mode.sign() * across_squared.sqrt());
-    for (link, outer_local, inner_local, outer) in [first, second] {
-        let (local, world) = (inner_local - outer_local, inner - outer);
-        let angle = cross(local, world).atan2(local.dot(&world));
-        pose.0[link] = LinkPose::through(outer_local, outer, angle);
-    }
-    Ok(())
+    let across = turned(direction) * across_squared.sqrt();
+    let one = |mode: AssemblyMode, across: Vec2| {
+        let inner = first.2 + direction * along + across;
+        let links = [first, second]
+            .map(|(outer_local, inner_local, outer)| LinkPose::between(outer_local, inner_local, outer, inner));
+        Configuration { mode, links: links.into() }
+    };
+    Ok(vec![one(AssemblyMode::Left, across), one(AssemblyMode::Right, -across)])
 }
 
 #[cfg(test)]
@@ -239,7 +285,7 @@ mod tests {
         let error = start(StartGroup { mode: None, near: near(2.0, 0.5) }).unwrap_err();
         assert!(error.to_string().contains("does not tell them apart"), "{error}");
         let error = start(StartGroup { mode: Some(AssemblyMode::Right), near: near(b.x, b.y) }).unwrap_err();
-        assert!(error.to_string().contains("nearer to the other configuration"), "{error}");
+        assert!(error.to_string().contains("nearer to another configuration"), "{error}");
         assert_eq!(start(StartGroup::default()).unwrap_err().kind(), ErrorKind::Input);
     }
 
