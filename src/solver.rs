@@ -2,7 +2,7 @@
 
 use crate::case::{Case, Wanted};
 use crate::error::Result;
-use crate::math::{Motion, Vec2};
+use crate::math::{Motion, Vec2, unit};
 use crate::mechanism::Side;
 use crate::trajectory::{Channel, Stage, Trajectory};
 
@@ -73,6 +73,20 @@ impl State {
             forces: vec![Vec2::zeros(); case.mechanism.joints().len()],
             torque: 0.0,
         }
+    }
+}
+
+impl State {
+    /// The start pose of the case, at rest.
+    #[must_use]
+    pub fn at_start(case: &Case) -> Self {
+        let mut state = State::at_rest(case);
+        for (index, pose) in case.start.0.iter().enumerate() {
+            state.motions[index].origin = pose.origin;
+            state.motions[index].direction = unit(pose.angle);
+            state.angles[index] = pose.angle;
+        }
+        state
     }
 }
 

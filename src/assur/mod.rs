@@ -1,10 +1,12 @@
-//! Kinematics group by group: the driving link, then every Assur group in closed form, one file a kind.
+//! Kinematics group by group: the driving link, then every Assur group, one file a kind: dyads in closed form, higher groups
+//! by Newton's method on their contours.
 
+mod chain;
 mod rrr;
 
+pub use chain::{Chain, Closing, Node};
 pub use rrr::Rrr;
 
-use crate::error::{Error, ErrorKind, Result};
 use crate::math::{Motion, Vec2, rotated, turned, unit};
 use crate::mechanism::{AssemblyMode, GroupKind, Mechanism, Side, Structure};
 
@@ -16,50 +18,65 @@ struct Driver {
     base: Side,
 }
 
+/// An Assur group, ready for solving.
+#[derive(Clone, Debug)]
+pub enum Step {
+    /// RRR dyad.
+    Rrr(Rrr),
+    /// Group of more than two links.
+    Chain(Chain),
+}
+
 /// A mechanism made ready for solving pose after pose without allocation.
 #[derive(Clone, Debug)]
 pub struct Plan {
     drivers: Vec<Driver>,
-    dyads: Vec<Rrr>,
+    steps: Vec<Step>,
 }
 
-/// A dyad whose links do not reach each other at some crank angle.
+/// A group that cannot be placed at some crank angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OutOfReach {
     /// Index of the group in [`Structure::groups`].
     pub group: usize,
-    /// Distance of the outer joints (m).
-    pub distance: f64,
-    /// Shortest and longest distance that the group's links can span (m).
-    pub span: [f64; 2],
+    /// Distance of a dyad's outer joints, and the shortest and longest distance that its links can span (m); `None` for
+    /// a higher group, whose branch could not be followed.
+    pub span: Option<(f64, [f64; 2])>,
 }
 
 impl Plan {
     /// Prepares a mechanism of the given structure in the given assembly modes (one a group).
-    ///
-    /// # Errors
-    /// [`ErrorKind::Unsupported`] for groups that have no closed form here.
-    pub fn of(mechanism: &Mechanism, structure: &Structure, modes: &[AssemblyMode]) -> Result<Self> {
+    #[must_use]
+    pub fn of(mechanism: &Mechanism, structure: &Structure, modes: &[AssemblyMode]) -> Self {
         let drivers = structure.drivers.iter().map(|&(link, joint)| {
             let joint = &mechanism.joints()[joint];
             Driver { link, pivot: joint.on(link).expect("the driven joint is on its link"), base: joint.other(link) }
         });
-        let dyads = structure.groups.iter().zip(modes).map(|(group, &mode)| match group.kind {
-            GroupKind::Rrr => Ok(Rrr::of(mechanism, group, mode)),
-            GroupKind::Higher => Err(Error::new(
-                ErrorKind::Unsupported,
-                format!("there is no closed form for the group ({})", group.names(mechanism)),
-            )),
+        let steps = structure.groups.iter().zip(modes).map(|(group, &mode)| match group.kind {
+            GroupKind::Rrr => Step::Rrr(Rrr::of(mechanism, group, mode)),
+            GroupKind::Higher => Step::Chain(Chain::of(mechanism, group)),
         });
-        Ok(Plan { drivers: drivers.collect(), dyads: dyads.collect::<Result<_>>()? })
+        Plan { drivers: drivers.collect(), steps: steps.collect() }
     }
 
-    /// Positions of all links for the world angle of the driving link (rad).
+    /// The groups, in the order of [`Structure::groups`].
+    #[must_use]
+    pub fn steps(&self) -> &[Step] {
+        &self.steps
+    }
+
+    /// Whether all groups are placed in closed form; if not, poses must be followed in small steps.
+    #[must_use]
+    pub fn is_closed_form(&self) -> bool {
+        self.steps.iter().all(|step| matches!(step, Step::Rrr(_)))
+    }
+
+    /// Positions of all links for the world angle of the driving link (rad). Higher groups start from the last pose in `motions`.
     ///
     /// # Errors
-    /// The first group that cannot be assembled.
+    /// The first group that cannot be placed.
     #[inline]
-    pub fn positions(&self, angle: f64, motions: &mut [Motion]) -> std::result::Result<(), OutOfReach> {
+    pub fn positions(&mut self, angle: f64, motions: &mut [Motion]) -> std::result::Result<(), OutOfReach> {
         let direction = unit(angle);
         for driver in &self.drivers {
             let pivot = motions[driver.base.link].point(driver.base.local);
@@ -67,36 +84,49 @@ impl Plan {
             motion.direction = direction;
             motion.origin = pivot - rotated(direction, driver.pivot);
         }
-        for (index, dyad) in self.dyads.iter().enumerate() {
-            dyad.positions(motions).map_err(|(distance, span)| OutOfReach { group: index, distance, span })?;
+        for (group, step) in self.steps.iter_mut().enumerate() {
+            match step {
+                Step::Rrr(dyad) => dyad.positions(motions).map_err(|span| OutOfReach { group, span: Some(span) })?,
+                Step::Chain(chain) => {
+                    if !chain.positions(motions) {
+                        return Err(OutOfReach { group, span: None });
+                    }
+                }
+            }
         }
         Ok(())
     }
 
     /// Velocities of all links, once their positions are known; `omega` is the driving link's (rad/s).
     #[inline]
-    pub fn velocities(&self, omega: f64, motions: &mut [Motion]) {
+    pub fn velocities(&mut self, omega: f64, motions: &mut [Motion]) {
         for driver in &self.drivers {
             let motion = &mut motions[driver.link];
             motion.omega = omega;
             motion.velocity = turned(motion.arm(driver.pivot)) * -omega;
         }
-        for dyad in &self.dyads {
-            dyad.velocities(motions);
+        for step in &mut self.steps {
+            match step {
+                Step::Rrr(dyad) => dyad.velocities(motions),
+                Step::Chain(chain) => chain.velocities(motions),
+            }
         }
     }
 
     /// Accelerations of all links, once their velocities are known; `alpha` is the driving link's (rad/s^2).
     #[inline]
-    pub fn accelerations(&self, alpha: f64, motions: &mut [Motion]) {
+    pub fn accelerations(&mut self, alpha: f64, motions: &mut [Motion]) {
         for driver in &self.drivers {
             let motion = &mut motions[driver.link];
             let arm = motion.arm(driver.pivot);
             motion.alpha = alpha;
             motion.acceleration = arm * (motion.omega * motion.omega) - turned(arm) * alpha;
         }
-        for dyad in &self.dyads {
-            dyad.accelerations(motions);
+        for step in &mut self.steps {
+            match step {
+                Step::Rrr(dyad) => dyad.accelerations(motions),
+                Step::Chain(chain) => chain.accelerations(motions),
+            }
         }
     }
 }

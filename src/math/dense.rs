@@ -9,14 +9,13 @@ pub struct Lu {
     a: Vec<f64>,
     pivot: Vec<usize>,
     swap_sign: f64,
-    scratch: Vec<f64>,
 }
 
 impl Lu {
     /// Storage for `n` equations; all coefficients zero.
     #[must_use]
     pub fn new(n: usize) -> Self {
-        Lu { n, a: vec![0.0; n * n], pivot: vec![0; n], swap_sign: 1.0, scratch: vec![0.0; n] }
+        Lu { n, a: vec![0.0; n * n], pivot: vec![0; n], swap_sign: 1.0 }
     }
 
     /// Sets all coefficients to zero, ready for the next matrix.
@@ -89,11 +88,9 @@ impl Lu {
         }
     }
 
-    /// Solves A^T x = b for the factored matrix; `b` is replaced by `x`.
-    pub fn solve_transposed(&mut self, b: &mut [f64]) {
+    /// Solves A^T x = b for the factored matrix; `y` is replaced by `x`.
+    pub fn solve_transposed(&self, y: &mut [f64]) {
         let n = self.n;
-        self.scratch.copy_from_slice(b);
-        let y = &mut self.scratch;
         for row in 0..n {
             let sum: f64 = (0..row).map(|k| self.a[k * n + row] * y[k]).sum();
             y[row] = (y[row] - sum) / self.a[row * n + row];
@@ -105,7 +102,6 @@ impl Lu {
         for k in (0..n).rev() {
             y.swap(k, self.pivot[k]);
         }
-        b.copy_from_slice(y);
     }
 }
 

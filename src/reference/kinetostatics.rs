@@ -5,6 +5,7 @@
 //! and the forces of both give (u x R = -M_a, w x R = M_b - w x F with u = A - C, w = B - C) the reaction at A;
 //! Artobolevsky, "Theory of mechanisms and machines", kinetostatics of class II groups.
 
+use crate::assur::{Chain, Plan, Step};
 use crate::case::Case;
 use crate::math::{Motion, Vec2, cross};
 use crate::mechanism::Group;
@@ -92,32 +93,108 @@ impl Dyad {
     }
 }
 
+/// A higher group, seen from its forces.
+///
+/// Virtual work on the links' angles, with the closing joints cut, gives the forces there (J^T lambda = -Q); those of the
+/// other joints follow from the outermost link inwards.
+#[derive(Clone, Debug)]
+struct Higher {
+    /// Index of the group's [`Chain`] in the plan.
+    step: usize,
+    bodies: Vec<Body>,
+    /// Of each node: its own hanging joint, as it acts on the node's link.
+    hung: Vec<Action>,
+    /// Known force on each node's link and on all that hangs on it (N).
+    carried: Vec<Vec2>,
+    multipliers: Vec<f64>,
+}
+
+impl Higher {
+    fn of(case: &Case, step: usize, chain: &Chain, settled: &[bool]) -> Self {
+        let nodes = chain.nodes();
+        Higher {
+            step,
+            bodies: nodes.iter().map(|node| Body::of(case, node.link, settled)).collect(),
+            hung: nodes.iter().map(|node| Action::of(case, node.joint, node.link)).collect(),
+            carried: vec![Vec2::zeros(); nodes.len()],
+            multipliers: vec![0.0; nodes.len()],
+        }
+    }
+
+    fn solve(&mut self, case: &Case, plan: &Plan, motions: &[Motion], forces: &mut [Vec2]) {
+        let Step::Chain(chain) = &plan.steps()[self.step] else { unreachable!("the step is a chain") };
+        let nodes = chain.nodes();
+        self.carried.fill(Vec2::zeros());
+        self.multipliers.fill(0.0);
+        for (index, node) in nodes.iter().enumerate().rev() {
+            let pole = motions[node.link].point(node.own);
+            let (force, moment) = self.bodies[index].resultant(case, motions, forces, pole);
+            self.multipliers[index] += moment;
+            self.carried[index] += force;
+            if let Some(parent) = node.parent_node {
+                let arm = pole - motions[node.parent.link].point(nodes[parent].own);
+                self.multipliers[parent] += cross(arm, self.carried[index]);
+                let carried = self.carried[index];
+                self.carried[parent] += carried;
+            }
+        }
+        chain.multipliers(&mut self.multipliers);
+        for (index, closing) in chain.closings().iter().enumerate() {
+            let force = Vec2::new(self.multipliers[2 * index], self.multipliers[2 * index + 1]);
+            forces[closing.joint] = force;
+            for (node, sign) in closing.nodes.into_iter().zip([-1.0, 1.0]) {
+                let mut next = Some(node);
+                while let Some(carrier) = next {
+                    self.carried[carrier] += force * sign;
+                    next = nodes[carrier].parent_node;
+                }
+            }
+        }
+        for (index, action) in self.hung.iter().enumerate() {
+            forces[action.joint] = -self.carried[index] * action.sign;
+        }
+    }
+}
+
+/// One group, seen from its forces.
+#[derive(Clone, Debug)]
+enum Part {
+    Dyad(Dyad),
+    Higher(Higher),
+}
+
 /// The force analysis of a case, ready for pose after pose without allocation.
 #[derive(Clone, Debug)]
 pub(super) struct Kinetostatics {
-    dyads: Vec<Dyad>,
+    parts: Vec<Part>,
     driver: Body,
     pivot: Action,
 }
 
 impl Kinetostatics {
     /// Prepares the groups in reverse order, then the driving link.
-    pub(super) fn of(case: &Case) -> Self {
+    pub(super) fn of(case: &Case, plan: &Plan) -> Self {
         let mut settled = vec![false; case.mechanism.joints().len()];
-        let mut dyads = Vec::with_capacity(case.structure.groups.len());
-        for group in case.structure.groups.iter().rev() {
-            dyads.push(Dyad::of(case, group, &settled));
+        let mut parts = Vec::with_capacity(case.structure.groups.len());
+        for (step, group) in case.structure.groups.iter().enumerate().rev() {
+            parts.push(match &plan.steps()[step] {
+                Step::Rrr(_) => Part::Dyad(Dyad::of(case, group, &settled)),
+                Step::Chain(chain) => Part::Higher(Higher::of(case, step, chain, &settled)),
+            });
             group.inner.iter().chain(&group.outer).for_each(|&joint| settled[joint] = true);
         }
         let driver = Body::of(case, case.drive.link, &settled);
-        Kinetostatics { dyads, driver, pivot: Action::of(case, case.drive.joint, case.drive.link) }
+        Kinetostatics { parts, driver, pivot: Action::of(case, case.drive.joint, case.drive.link) }
     }
 
     /// Fills in the force of the first link on the second in every joint (N) and returns the balancing moment on the
-    /// driving link (N m), from its equilibrium about the pivot.
-    pub(super) fn solve(&self, case: &Case, motions: &[Motion], forces: &mut [Vec2]) -> f64 {
-        for dyad in &self.dyads {
-            dyad.solve(case, motions, forces);
+    /// driving link (N m), from its equilibrium about the pivot. The pose must be the last one that `plan` has solved.
+    pub(super) fn solve(&mut self, case: &Case, plan: &Plan, motions: &[Motion], forces: &mut [Vec2]) -> f64 {
+        for part in &mut self.parts {
+            match part {
+                Part::Dyad(dyad) => dyad.solve(case, motions, forces),
+                Part::Higher(higher) => higher.solve(case, plan, motions, forces),
+            }
         }
         let pole = motions[self.driver.link].point(self.pivot.local);
         let (force, moment) = self.driver.resultant(case, motions, forces, pole);
