@@ -58,12 +58,15 @@ impl Convergence {
         self.observed.is_nan() || self.observed >= 0.5 * self.formal
     }
 
-    /// Bound on the error of the middle run at step `step` (s); `noise` is the rounding added to it, relative to the
-    /// channel's scale.
+    /// Bound on the error of the middle run at step `step` (s); `noise` is the rounding added to it, in the channel's unit.
     #[must_use]
     pub fn tolerance(&self, step: f64, noise: f64) -> Tolerance {
         let Convergence { observed, formal, safety, .. } = *self;
-        Tolerance { abs: safety * self.error, rel: noise, basis: Basis::Truncation { observed, formal, step, safety } }
+        Tolerance {
+            abs: safety * self.error + noise,
+            rel: 0.0,
+            basis: Basis::Truncation { observed, formal, step, safety },
+        }
     }
 }
 

@@ -20,8 +20,8 @@ pub trait Engine: Solver {
     /// Order of convergence that the method should show in a channel.
     fn formal_order(&self, channel: &ChannelKind) -> f64;
 
-    /// Rounding noise of a channel, relative to its scale, on the grid of a case.
-    fn round_off(&self, case: &Case, channel: &ChannelKind) -> f64;
+    /// Bound on the rounding noise of a channel on the grid of a case, in the channel's unit.
+    fn noise(&self, case: &Case, channel: &ChannelKind) -> f64;
 
     /// Settings that influence the result, by name.
     fn settings(&self) -> Vec<(&'static str, String)>;

@@ -68,9 +68,13 @@ fn between_sides(sides: &[(&'static str, Observed); 2]) -> Vec<Check> {
 /// Largest difference between the balancing moment of the trajectory and that of the powers, over its amplitude.
 fn two_ways(side: &Observed) -> f64 {
     let torque = side.trajectory.column(&torque_channel()).expect("the balancing moment is wanted");
-    let amplitude = torque.iter().fold(0.0, |max: f64, m| max.max(m.abs()));
     let difference = torque.iter().zip(&side.power).fold(0.0, |max: f64, (a, b)| max.max((a - b).abs()));
-    if difference == 0.0 { 0.0 } else { difference / amplitude }
+    if difference == 0.0 { 0.0 } else { difference / amplitude(torque) }
+}
+
+/// Largest absolute value.
+fn amplitude(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |max: f64, value| max.max(value.abs()))
 }
 
 /// Checks on the engine, from its runs at double, single and half step.
@@ -98,11 +102,11 @@ fn power_balance(case: &Case, engine: &dyn Engine, runs: &[Observed; 3]) -> Chec
     let channel = torque_channel();
     let kind: &ChannelKind = channel.kind;
     let torques = [0, 1, 2].map(|k| runs[k].trajectory.column(&channel).expect("the moment is wanted"));
-    let scale = crate::math::statistics::half_range(torques[1]);
-    let noise = engine.round_off(case, kind);
+    let scale = amplitude(torques[1]);
+    let noise = engine.with_step(engine.step() / 2.0).noise(case, kind);
     let estimate = |of: [&[f64]; 3]| {
-        let formal = engine.formal_order(kind);
-        Convergence::of(of[0], of[1], of[2], false, formal, noise * scale).tolerance(engine.step(), noise)
+        let convergence = Convergence::of(of[0], of[1], of[2], false, engine.formal_order(kind), noise);
+        convergence.tolerance(engine.step(), engine.noise(case, kind))
     };
     let (own, power) = (estimate(torques), estimate([0, 1, 2].map(|k| runs[k].power.as_slice())));
     let bound = (own.bound(scale) + power.bound(scale)) / scale.max(f64::MIN_POSITIVE);

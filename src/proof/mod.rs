@@ -10,7 +10,7 @@ use crate::error::{Error, ErrorKind, Result};
 use crate::reference;
 use crate::scenario::Scenario;
 use crate::solver::Provision;
-use crate::tolerance::{Basis, Tolerance};
+use crate::tolerance::Basis;
 use crate::trajectory::Trajectory;
 use observe::{Observed, observe};
 
@@ -152,16 +152,17 @@ fn judge(
     runs: &[Observed; 3],
 ) -> Result<Vec<ChannelProof>> {
     let ladder = [0, 1, 2].map(|k| &runs[k].trajectory);
+    let case = &scenario.case;
+    let finest = engine.with_step(engine.step() / 2.0);
     let judged = residuals(reference, ladder[1])?.into_iter().map(|residual| {
         let kind = residual.channel.kind;
-        let noise = engine.round_off(&scenario.case, kind);
-        let formal = engine.formal_order(kind);
-        let convergence = Convergence::of_channel(ladder, &residual.channel, formal, noise * residual.scale)
-            .expect("all runs of an engine have the same channels");
-        let Tolerance { abs, rel, basis } = convergence.tolerance(engine.step(), noise);
-        let bound = abs + rel * residual.scale;
+        let convergence =
+            Convergence::of_channel(ladder, &residual.channel, engine.formal_order(kind), finest.noise(case, kind))
+                .expect("all runs of an engine have the same channels");
+        let tolerance = convergence.tolerance(engine.step(), engine.noise(case, kind));
+        let bound = tolerance.bound(residual.scale);
         let verdict = Verdict::of_engine(&residual, &convergence, bound, scenario.engine_rel);
-        ChannelProof { residual, bound, convergence, basis, verdict }
+        ChannelProof { residual, bound, convergence, basis: tolerance.basis, verdict }
     });
     Ok(judged.collect())
 }

@@ -5,6 +5,7 @@
 //! the first steps has died away before anything is read.
 
 mod newton_euler;
+mod noise;
 pub mod tree;
 pub mod twin;
 mod window;
@@ -58,17 +59,8 @@ impl Engine for Rapier {
         2.0
     }
 
-    fn round_off(&self, case: &Case, channel: &ChannelKind) -> f64 {
-        // The crank's angle is a sum of as many rounded increments as there are steps; half a unit in the last place each
-        // at worst, and the divided second difference of such positions. The factors were measured, see docs/rapier.md.
-        let longest = case.grid.times.iter().fold(0.0, |max: f64, t| max.max(t.abs()));
-        let steps = longest / self.step + SETTLING_STEPS as f64;
-        let turn = case.drive.at(0.0).omega * self.step;
-        let summed = f64::EPSILON * steps;
-        match channel.stage {
-            Stage::Positions | Stage::Velocities => summed,
-            _ => summed + 30.0 * f64::EPSILON / (turn * turn),
-        }
+    fn noise(&self, case: &Case, channel: &ChannelKind) -> f64 {
+        noise::bound(case, self.step, channel)
     }
 
     fn settings(&self) -> Vec<(&'static str, String)> {
