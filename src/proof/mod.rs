@@ -4,6 +4,7 @@ mod checks;
 mod observe;
 mod oracle;
 
+use crate::case::Case;
 use crate::compare::{Check, Convergence, Residual, Verdict, difference, overall, residuals};
 use crate::engine::{self, Engine};
 use crate::error::{Error, ErrorKind, Result};
@@ -94,6 +95,20 @@ pub struct Proof {
 /// # Errors
 /// If a solver cannot solve the case, with the crank angle; if a solver is not known.
 pub fn prove(scenario: &Scenario, options: &Options, progress: &mut dyn FnMut(f64)) -> Result<Proof> {
+    prove_against(scenario, &scenario.case, options, progress)
+}
+
+/// As [`prove`], with an engine that is given a case of its own, on the scenario's instants. With a fault planted in it, what a proof
+/// can find is seen.
+///
+/// # Errors
+/// Those of [`prove`].
+pub fn prove_against(
+    scenario: &Scenario,
+    engine_case: &Case,
+    options: &Options,
+    progress: &mut dyn FnMut(f64),
+) -> Result<Proof> {
     let case = &scenario.case;
     let step = options.step.unwrap_or(scenario.dt);
     let main = reference::named(&options.reference).ok_or_else(|| {
@@ -107,7 +122,7 @@ pub fn prove(scenario: &Scenario, options: &Options, progress: &mut dyn FnMut(f6
     let sides: [Result<(&'static str, Observed)>; 2] = sides;
     let [first, second] = sides;
     let sides = [first?, second?];
-    let runs = run_ladder(scenario, engine.as_ref(), progress)?;
+    let runs = run_ladder(&engine_case.on(case.grid.clone()), engine.as_ref(), progress)?;
     let own = &sides.iter().find(|(name, _)| *name == main.name()).expect("the reference is one of the sides").1;
 
     let channels = judge(scenario, engine.as_ref(), &own.trajectory, &runs)?;
@@ -133,11 +148,11 @@ pub fn prove(scenario: &Scenario, options: &Options, progress: &mut dyn FnMut(f6
 }
 
 /// The engine at double, single and half step.
-fn run_ladder(scenario: &Scenario, engine: &dyn Engine, progress: &mut dyn FnMut(f64)) -> Result<[Observed; 3]> {
+fn run_ladder(case: &Case, engine: &dyn Engine, progress: &mut dyn FnMut(f64)) -> Result<[Observed; 3]> {
     // The single step first: if it fails, its own message is the one that helps.
     let mut run = |factor: f64, from: f64, to: f64| {
         let run = engine.with_step(engine.step() * factor);
-        observe(&scenario.case, run.as_ref(), &mut |part| progress(from + (to - from) * part))
+        observe(case, run.as_ref(), &mut |part| progress(from + (to - from) * part))
     };
     let single = run(1.0, 0.0, 2.0 / 7.0)?;
     let half = run(0.5, 2.0 / 7.0, 6.0 / 7.0)?;
