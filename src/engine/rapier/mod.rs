@@ -32,8 +32,9 @@ pub struct Rapier {
 }
 
 impl Rapier {
-    /// Solver sweeps a step that bring every mechanism tried so far to convergence.
-    pub const SWEEPS: usize = 256;
+    /// Solver sweeps a step. With 256, random chains of three dyads keep a first-order error in their velocities that the ladder of
+    /// steps does not see; with 512 one in a hundred channels does, with 1024 none of those tried.
+    pub const SWEEPS: usize = 1024;
 
     /// The engine with the time step `step` (s).
     #[must_use]
