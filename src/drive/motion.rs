@@ -49,7 +49,8 @@ impl Drive {
     #[must_use]
     pub fn time_of(&self, angle: f64) -> f64 {
         match self.law {
-            MotionLaw::ConstantSpeed(omega) => (angle - self.start) / omega,
+            // Adding zero turns the -0 of a clockwise crank into 0.
+            MotionLaw::ConstantSpeed(omega) => (angle - self.start) / omega + 0.0,
         }
     }
 

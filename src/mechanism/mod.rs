@@ -29,6 +29,15 @@ pub struct Link {
     pub inertia: f64,
 }
 
+impl Link {
+    /// Largest distance between two of its points (m).
+    #[must_use]
+    pub fn size(&self) -> f64 {
+        let pairs = self.points.iter().enumerate().flat_map(|(i, a)| self.points[i + 1..].iter().map(move |b| (a, b)));
+        pairs.map(|(a, b)| (a.local - b.local).norm()).fold(0.0, f64::max)
+    }
+}
+
 /// Named point of a link.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Point {
@@ -167,12 +176,7 @@ impl Mechanism {
     /// Largest distance between two points of one link (m): the size that closure gaps are judged by.
     #[must_use]
     pub fn size(&self) -> f64 {
-        let spread = |link: &Link| {
-            let points = &link.points;
-            let pairs = points.iter().enumerate().flat_map(|(i, a)| points[i + 1..].iter().map(move |b| (a, b)));
-            pairs.map(|(a, b)| (a.local - b.local).norm()).fold(0.0, f64::max)
-        };
-        self.links.iter().map(spread).fold(0.0, f64::max)
+        self.links.iter().map(Link::size).fold(0.0, f64::max)
     }
 
     fn check_names(&self) -> Result<()> {

@@ -31,6 +31,7 @@ pub(super) fn bound(case: &Case, step: f64, channel: &ChannelKind) -> f64 {
         "m/s" => rate * size,
         "m/s^2" => second * size,
         "N" => second * size * mass,
-        _ => second * size * size * mass,
+        // A moment on the driving link is a force at its far end.
+        _ => second * size * mass * case.mechanism.links()[case.drive.link].size(),
     }
 }

@@ -10,7 +10,7 @@ use rapier2d_f64::prelude::{
 
 use super::tree::Tree;
 use crate::case::Case;
-use crate::drive::MotionLaw;
+use crate::drive::{Drive, MotionLaw};
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::{Vec2, rotated, unit};
 use crate::mechanism::{Link, Mechanism, Side};
@@ -41,7 +41,7 @@ pub struct Twin {
     cuts: Vec<Cut>,
     motor: ImpulseJointHandle,
     largest_gap: f64,
-    steps: u64,
+    drive: Drive,
     names: Vec<String>,
     /// Angles of all links (rad), turns kept.
     angles: Vec<f64>,
@@ -49,7 +49,7 @@ pub struct Twin {
 
 impl std::fmt::Debug for Twin {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Twin").field("tree", &self.tree).field("steps", &self.steps).finish_non_exhaustive()
+        f.debug_struct("Twin").field("tree", &self.tree).finish_non_exhaustive()
     }
 }
 
@@ -94,7 +94,7 @@ impl Twin {
             cuts,
             motor,
             largest_gap: LARGEST_GAP * mechanism.size(),
-            steps: 0,
+            drive: case.drive,
             names: mechanism.joints().iter().map(|joint| joint.name.clone()).collect(),
             angles: case.start.0.iter().map(|pose| pose.angle).collect(),
             tree,
@@ -141,17 +141,17 @@ impl Twin {
     /// [`ErrorKind::Numeric`] if a loop has opened: the pose cannot be assembled, or the step is far too large.
     pub fn step(&mut self) -> Result<()> {
         self.world.step();
-        self.steps += 1;
         self.read_angles();
         for cut in &self.cuts {
             let gap = (self.point(cut.sides[1]) - self.point(cut.sides[0])).norm();
             // Written so that NaN stops the run too.
             if !(gap <= self.largest_gap) {
+                let crank = (self.angles[self.drive.link] - self.drive.zero).to_degrees();
+                let joint = &self.names[cut.joint];
                 return Err(Error::new(
                     ErrorKind::Numeric,
                     format!(
-                        "the loop has opened by {gap:.3e} m at joint \"{}\" in step {}",
-                        self.names[cut.joint], self.steps
+                        "the engine's loop has opened by {gap:.3e} m at joint \"{joint}\", crank angle {crank:.4} deg"
                     ),
                 )
                 .help("choose a smaller time step (--dt), or check that the pose can be assembled there"));
