@@ -133,39 +133,3 @@ impl Case {
         self.loads.iter().filter(|load| load.link() == link).map(|load| load.moment(omega)).sum()
     }
 }
-
-#[cfg(test)]
-pub(crate) mod fixtures {
-    //! Cases built without a scenario file, for unit tests.
-
-    use super::*;
-    use crate::drive::MotionLaw;
-    use crate::mechanism::{StartGroup, first_pose, fixtures};
-
-    /// A case on a mechanism whose joint 0 is driven at `speed` (rad/s), over one turn in steps of `step_deg`.
-    pub fn driven(mechanism: Mechanism, speed: f64, modes: &[AssemblyMode], step_deg: f64) -> Case {
-        let structure = Structure::of(&mechanism, &[0]).unwrap();
-        let link = structure.drivers[0].0;
-        let drive = Drive { joint: 0, link, zero: 0.3, start: 0.0, law: MotionLaw::ConstantSpeed(speed) };
-        let wanted: Vec<_> = modes.iter().map(|&mode| StartGroup { mode: Some(mode), near: None }).collect();
-        let (start, modes) = first_pose(&mechanism, &structure, &[drive.zero], &wanted).unwrap();
-        let count = (360.0 / step_deg).round() as i32;
-        let cranks = (0..=count).map(|k| (f64::from(k) * step_deg).to_radians() * speed.signum()).collect();
-        let grid = Grid::of_cranks(&drive, cranks);
-        let (loads, gravity) = (Vec::new(), Vec2::new(0.0, -9.81));
-        Case { mechanism, structure, drive, loads, gravity, start, modes, grid, wanted: Wanted::ALL }
-    }
-
-    /// Four-bar with masses, at 10 rad/s.
-    pub fn four_bar() -> Case {
-        let mechanism = fixtures::four_bar();
-        let mut links = mechanism.links().to_vec();
-        for (link, (mass, x)) in links[1..].iter_mut().zip([(1.0, 0.4), (3.0, 2.0), (2.0, 1.4)]) {
-            link.mass = mass;
-            link.mass_centre = Vec2::new(x, 0.1);
-            link.inertia = mass * x * x / 3.0;
-        }
-        let mechanism = Mechanism::new(links, mechanism.joints().to_vec()).unwrap();
-        driven(mechanism, 10.0, &[AssemblyMode::Left], 1.0)
-    }
-}
