@@ -53,12 +53,15 @@ fn render(error: &Error) -> String {
         Some(key) => format!("`{key}`: {}", error.message()),
         None => error.message().to_string(),
     };
-    let path = error.place().map(|place| place.file.display().to_string());
-    let mut group = Group::with_title(Level::ERROR.primary_title(title.as_str()));
-    if let (Some(place), Some(path)) = (error.place(), &path) {
-        let annotation = AnnotationKind::Primary.span(place.span.clone());
-        group = group.element(Snippet::source(place.text.as_str()).path(path.as_str()).annotation(annotation));
-    }
+    let Some(place) = error.place() else {
+        // The renderer would draw a margin for lines that are not there.
+        let help = error.way_out().map(|help| format!("\n  = help: {help}")).unwrap_or_default();
+        return format!("error: {title}{help}");
+    };
+    let path = place.file.display().to_string();
+    let annotation = AnnotationKind::Primary.span(place.span.clone());
+    let snippet = Snippet::source(place.text.as_str()).path(path.as_str()).annotation(annotation);
+    let mut group = Group::with_title(Level::ERROR.primary_title(title.as_str())).element(snippet);
     if let Some(help) = error.way_out() {
         group = group.element(Level::HELP.message(help));
     }

@@ -116,6 +116,9 @@ fn what_cannot_be_read_is_named_with_a_way_out() {
             assert_eq!(outcome.stdout, "", "{command} {file}");
         }
     }
+    let gone = place.run("inspect gone.toml").stderr;
+    let lines: Vec<&str> = gone.lines().collect();
+    assert!(lines.len() == 2 && lines[0].starts_with("error: ") && lines[1].starts_with("  = help: "), "{gone}");
     for directory in ["gone", "empty.toml"] {
         place.refused(&format!("list {directory}"), &[directory, "linkproof list DIR"]);
     }
