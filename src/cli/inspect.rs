@@ -23,7 +23,7 @@ pub(super) struct Args {
     #[arg(value_name = "FILE")]
     file: PathBuf,
     /// Write the structure as JSON to a file, or to standard output instead of the text with `-`
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = output::target)]
     json: Option<PathBuf>,
 }
 

@@ -2,11 +2,21 @@
 
 use std::fs;
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
 use crate::error::{Error, ErrorKind, Result};
+
+/// Path that results may be written to, `-` for standard output. Scenarios are refused: `--json scenarios/*.toml` would
+/// take the first of them for the target.
+pub(super) fn target(text: &str) -> std::result::Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    if path.extension().is_some_and(|extension| extension == "toml") {
+        return Err("this is a scenario file and would be overwritten; expected a file for the results, or `-`".into());
+    }
+    Ok(path)
+}
 
 /// Writes text to a file, or to standard output for `-`.
 pub(super) fn write(text: &str, to: &Path) -> Result<()> {

@@ -48,7 +48,7 @@ pub(super) struct Args {
     #[arg(long, conflicts_with = "record")]
     no_record: bool,
     /// Write the results as JSON to a file, or to standard output instead of the report with `-`
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = output::target)]
     json: Option<PathBuf>,
 }
 

@@ -47,7 +47,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "S", allow_hyphen_values = true)]
     dt: Option<f64>,
     /// File to write to, `-` for standard output
-    #[arg(long, value_name = "FILE", default_value = "-")]
+    #[arg(long, value_name = "FILE", default_value = "-", value_parser = output::target)]
     csv: PathBuf,
 }
 

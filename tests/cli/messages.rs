@@ -152,6 +152,22 @@ fn what_cannot_be_written_is_named_with_a_way_out() {
 }
 
 #[test]
+fn a_scenario_is_never_taken_for_a_target() {
+    let place = Place::new();
+    let (scenario, other) = ("scenarios/crank_rocker.toml", "scenarios/ov7_base.toml");
+    let before = fs::read(place.path(other)).unwrap();
+    for command in [
+        // What a shell makes of `--json scenarios/*.toml`.
+        format!("run --no-record --json {other} {scenario}"),
+        format!("solve {scenario} --with assur --csv {other}"),
+        format!("inspect {scenario} --json {other}"),
+    ] {
+        place.refused(&command, &[other, "would be overwritten"]);
+    }
+    assert!(fs::read(place.path(other)).unwrap() == before);
+}
+
+#[test]
 fn a_reader_that_goes_away_is_no_error() {
     use std::process::{Command, Stdio};
     let place = Place::new();
