@@ -1,0 +1,126 @@
+//! Who owns which equation: every equation of a joint or drive goes to one of the two links it touches, three to a link.
+
+use petgraph::algo::tarjan_scc;
+use petgraph::graph::{DiGraph, NodeIndex};
+
+use crate::error::{Error, ErrorKind, Result};
+use crate::mechanism::{GROUND, Mechanism};
+
+/// Every part of k links, the ground counted among them, may carry at most 3 k - 3 equations (Laman's condition for
+/// plane bodies). Equivalent: with three more copies of any one equation, all equations still find owners among all links,
+/// three to a link (Lee and Streinu, "Pebble game algorithms and sparse graphs", 2008).
+pub(super) fn check_sparse(mechanism: &Mechanism, drives: &[usize]) -> Result<()> {
+    for (index, joint) in mechanism.joints().iter().enumerate() {
+        let mut owners = Owners::unassigned(mechanism, drives, OWNED);
+        let ends = [joint.first.link, joint.second.link];
+        owners.add((0..3).map(|_| Equation { joint: index, of_drive: false, ends }));
+        owners.assign_all(mechanism)?;
+    }
+    Ok(())
+}
+
+/// One scalar equation of a joint or of a drive, to be owned by one of the two links it touches.
+struct Equation {
+    joint: usize,
+    of_drive: bool,
+    ends: [usize; 2],
+}
+
+/// Equations that one link can own: as many as it has freedoms.
+const OWNED: usize = 3;
+
+/// Which link owns which equation.
+pub(super) struct Owners {
+    equations: Vec<Equation>,
+    owner: Vec<Option<usize>>,
+    /// Equations that the ground can own.
+    of_ground: usize,
+}
+
+impl Owners {
+    /// The ground owns nothing: its pose is given.
+    pub(super) fn find(mechanism: &Mechanism, drives: &[usize]) -> Result<Self> {
+        let mut owners = Owners::unassigned(mechanism, drives, 0);
+        owners.assign_all(mechanism)?;
+        Ok(owners)
+    }
+
+    fn unassigned(mechanism: &Mechanism, drives: &[usize], of_ground: usize) -> Self {
+        let mut owners = Owners { equations: Vec::new(), owner: Vec::new(), of_ground };
+        for (index, joint) in mechanism.joints().iter().enumerate() {
+            let ends = [joint.first.link, joint.second.link];
+            owners.add((0..joint.kind.equations()).map(|_| Equation { joint: index, of_drive: false, ends }));
+            let driven = drives.iter().filter(|&&drive| drive == index);
+            owners.add(driven.map(|_| Equation { joint: index, of_drive: true, ends }));
+        }
+        owners
+    }
+
+    fn add(&mut self, equations: impl Iterator<Item = Equation>) {
+        self.equations.extend(equations);
+        self.owner.resize(self.equations.len(), None);
+    }
+
+    fn assign_all(&mut self, mechanism: &Mechanism) -> Result<()> {
+        for equation in 0..self.equations.len() {
+            let mut visited = vec![false; mechanism.links().len()];
+            if !self.assign(equation, &mut visited) {
+                return Err(over_constrained(mechanism, &visited));
+            }
+        }
+        Ok(())
+    }
+
+    /// Finds an owner for one equation, moving others along if need be (Kuhn's augmenting paths).
+    fn assign(&mut self, equation: usize, visited: &mut [bool]) -> bool {
+        for link in self.equations[equation].ends {
+            let most = if link == GROUND { self.of_ground } else { OWNED };
+            if most == 0 || visited[link] {
+                continue;
+            }
+            visited[link] = true;
+            let owned: Vec<usize> = (0..self.owner.len()).filter(|&e| self.owner[e] == Some(link)).collect();
+            if owned.len() < most || owned.into_iter().any(|other| self.assign(other, visited)) {
+                self.owner[equation] = Some(link);
+                return true;
+            }
+        }
+        false
+    }
+
+    pub(super) fn owner_of_drive(&self, joint: usize) -> Option<usize> {
+        let index = self.equations.iter().position(|equation| equation.of_drive && equation.joint == joint)?;
+        self.owner[index]
+    }
+
+    /// The strongly connected parts, each sorted, in the order in which they can be solved.
+    pub(super) fn parts(&self, mechanism: &Mechanism) -> Vec<Vec<usize>> {
+        let mut graph = DiGraph::<(), ()>::new();
+        for _ in mechanism.links() {
+            graph.add_node(());
+        }
+        for (equation, owner) in self.equations.iter().zip(&self.owner) {
+            let owner = owner.expect("every equation has an owner");
+            let other = if equation.ends[0] == owner { equation.ends[1] } else { equation.ends[0] };
+            graph.update_edge(NodeIndex::new(owner), NodeIndex::new(other), ());
+        }
+        let mut parts: Vec<Vec<usize>> = tarjan_scc(&graph)
+            .into_iter()
+            .map(|part| part.into_iter().map(NodeIndex::index).collect())
+            .filter(|part: &Vec<usize>| part[..] != [GROUND])
+            .collect();
+        parts.iter_mut().for_each(|part| part.sort_unstable());
+        parts
+    }
+}
+
+fn over_constrained(mechanism: &Mechanism, links: &[bool]) -> Error {
+    let names: Vec<&str> =
+        mechanism.links().iter().zip(links).filter(|&(_, &is)| is).map(|(link, _)| link.name.as_str()).collect();
+    Error::new(
+        ErrorKind::Input,
+        format!("the links {} are over-constrained, while other links are free to move", names.join(", ")),
+    )
+    .key("joints")
+    .help("the count of joints is right as a whole, but they are not where they are needed: move a joint")
+}
