@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use super::output;
 use crate::error::Result;
 use crate::mechanism::assembly::transmission_sine;
-use crate::mechanism::{AssemblyMode, Joint, Mechanism};
+use crate::mechanism::{AssemblyMode, GROUND, Joint, Mechanism};
 use crate::scenario::Scenario;
 
 const EXAMPLES: &str = "\
@@ -23,7 +23,7 @@ pub(super) struct Args {
     #[arg(value_name = "FILE")]
     file: PathBuf,
     /// Write the structure as JSON to a file, or to standard output instead of the text with `-`
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = output::target)]
     json: Option<PathBuf>,
 }
 
@@ -49,17 +49,19 @@ fn as_text(scenario: &Scenario) -> String {
     }
     let _ = writeln!(text, "mobility   W = 3*{links} - 2*{joints} = {}", structure.mobility);
     let _ = writeln!(text, "structure  {}\n\nlinks", structure.formula(mechanism));
-    for (link, pose) in mechanism.links().iter().zip(&case.start.0) {
+    for (index, (link, pose)) in mechanism.links().iter().zip(&case.start.0).enumerate() {
         let points: Vec<&str> = link.points.iter().map(|point| point.name.as_str()).collect();
-        let _ = writeln!(
-            text,
-            "  {:14} points {:14} m = {:.4} kg, J = {:.4e} kg m^2, at {:.3} deg",
-            link.name,
-            points.join(" "),
-            link.mass,
-            link.inertia,
-            pose.angle.to_degrees()
-        );
+        let body = if index == GROUND {
+            "fixed".to_string()
+        } else {
+            let at = format!("at {:.3} deg", pose.angle.to_degrees());
+            if link.mass == 0.0 {
+                format!("massless, {at}")
+            } else {
+                format!("m = {} kg, J = {:e} kg m^2, {at}", link.mass, link.inertia)
+            }
+        };
+        let _ = writeln!(text, "  {:14} points {:14} {body}", link.name, points.join(" "));
     }
     let _ = writeln!(text, "\njoints");
     for joint in mechanism.joints() {

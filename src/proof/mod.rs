@@ -152,12 +152,26 @@ fn run_ladder(case: &Case, engine: &dyn Engine, progress: &mut dyn FnMut(f64)) -
     // The single step first: if it fails, its own message is the one that helps.
     let mut run = |factor: f64, from: f64, to: f64| {
         let run = engine.with_step(engine.step() * factor);
-        observe(case, run.as_ref(), &mut |part| progress(from + (to - from) * part))
+        let observed = observe(case, run.as_ref(), &mut |part| progress(from + (to - from) * part));
+        observed.map_err(|error| if factor == 1.0 { error } else { in_ladder(&error, run.step(), engine.step()) })
     };
     let single = run(1.0, 0.0, 2.0 / 7.0)?;
     let half = run(0.5, 2.0 / 7.0, 6.0 / 7.0)?;
     let double = run(2.0, 6.0 / 7.0, 1.0)?;
     Ok([double, single, half])
+}
+
+/// The same error, told as that of a run which nobody asked for.
+fn in_ladder(error: &Error, step: f64, asked: f64) -> Error {
+    let message = format!(
+        "the run at {step:e} s, from which the error of the run at {asked:e} s is estimated, failed: {}",
+        error.message()
+    );
+    let told = Error::new(error.kind(), message);
+    match error.way_out() {
+        Some(help) => told.help(help),
+        None => told,
+    }
 }
 
 fn judge(
