@@ -1,6 +1,5 @@
 //! `linkproof solve`.
 
-use std::f64::consts::TAU;
 use std::path::PathBuf;
 
 use clap::builder::PossibleValuesParser;
@@ -23,10 +22,6 @@ Examples:
   linkproof solve scenarios/crank_rocker.toml --with rapier --dt 1e-4 --times 0:0.46:0.01
 
 Columns: t_s, crank_rad, then link.NAME, point.NAME, joint.NAME and drive channels (`linkproof list --channels`).";
-
-/// Every turn on the way to the grid is followed, so that the branch is kept; more than this takes minutes, and most likely
-/// a unit is wrong.
-const MOST_TURNS: f64 = 1e5;
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
@@ -87,11 +82,9 @@ fn on_grid(case: &Case, args: &Args) -> Result<Case> {
         (None, Some(Range(times))) => Grid::of_times(&case.drive, times.clone()),
         (None, None) => return Ok(case.clone()),
     };
-    let most = grid.cranks.iter().fold(0.0, |most: f64, crank| most.max(crank.abs()));
-    if most > MOST_TURNS * TAU || !grid.times.iter().all(|time| time.is_finite()) {
-        let message = format!("the grid leads {:.1e} turns away, the limit is {MOST_TURNS:e}", most / TAU);
-        return Err(Error::new(ErrorKind::Input, message).help("check the unit and size of --crank-deg or --times"));
-    }
+    grid.check().map_err(|message| {
+        Error::new(ErrorKind::Input, message).help("check the unit and size of --crank-deg or --times")
+    })?;
     Ok(case.on(grid))
 }
 

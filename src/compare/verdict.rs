@@ -48,6 +48,10 @@ impl Verdict {
     /// `wanted` of the channel's scale, a small residual proves nothing.
     #[must_use]
     pub fn of_engine(residual: &Residual, convergence: &Convergence, bound: f64, wanted: f64) -> Self {
+        if residual.scale == 0.0 && residual.max > 0.0 {
+            let reason = "the grid has no extent that an error could be measured by; give it more than one instant";
+            return Verdict::Inconclusive { reason: reason.into() };
+        }
         if !convergence.is_trusted() {
             return Verdict::Inconclusive {
                 reason: format!(

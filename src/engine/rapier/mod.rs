@@ -19,8 +19,8 @@ use newton_euler::NewtonEuler;
 use twin::Twin;
 use window::Window;
 
-/// Steps that the transient of a start or of a turn-about takes to fall below rounding, with a margin.
-const SETTLING_STEPS: i64 = 12;
+/// Steps that the transient of a start or of a turn-about takes to fall below rounding (one does; the rest is margin).
+const SETTLING_STEPS: i64 = 3;
 /// More steps than this are refused: they would take minutes, and most likely a unit is wrong.
 const MAX_STEPS: f64 = 2e7;
 
