@@ -1,5 +1,7 @@
 //! What every solver is given: the mechanism, what drives and loads it, where it starts, and what is wanted.
 
+use std::f64::consts::TAU;
+
 use crate::drive::{Drive, Load};
 use crate::math::Vec2;
 use crate::mechanism::{AssemblyMode, Mechanism, Pose, Structure};
@@ -39,6 +41,22 @@ impl Grid {
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.times.is_empty()
+    }
+
+    /// Largest number of turns of the crank, from its zero, that a grid may lead away: solvers follow the branch all the way, and
+    /// an angle of more turns has lost its last digits.
+    pub const MOST_TURNS: f64 = 1e5;
+
+    /// Checks that all times and angles are finite and within [`Grid::MOST_TURNS`].
+    ///
+    /// # Errors
+    /// A message that says how far the grid leads.
+    pub fn check(&self) -> std::result::Result<(), String> {
+        let most = self.cranks.iter().fold(0.0, |most: f64, crank| most.max(crank.abs())) / TAU;
+        if most <= Self::MOST_TURNS && self.times.iter().chain(&self.cranks).all(|value| value.is_finite()) {
+            return Ok(());
+        }
+        Err(format!("the grid leads {most:.1e} turns away, the limit is {:e}", Self::MOST_TURNS))
     }
 
     /// Rows of the grid in ascending order of time.

@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use super::output;
 use crate::error::Result;
 use crate::mechanism::assembly::transmission_sine;
-use crate::mechanism::{Joint, Mechanism};
+use crate::mechanism::{GROUND, Joint, Mechanism};
 use crate::scenario::Scenario;
 
 const EXAMPLES: &str = "\
@@ -23,7 +23,7 @@ pub(super) struct Args {
     #[arg(value_name = "FILE")]
     file: PathBuf,
     /// Write the structure as JSON to a file, or to standard output instead of the text with `-`
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = output::target)]
     json: Option<PathBuf>,
 }
 
@@ -49,17 +49,19 @@ fn as_text(scenario: &Scenario) -> String {
     }
     let _ = writeln!(text, "mobility   W = 3*{links} - 2*{joints} = {}", structure.mobility);
     let _ = writeln!(text, "structure  {}\n\nlinks", structure.formula(mechanism));
-    for (link, pose) in mechanism.links().iter().zip(&case.start.0) {
+    for (index, (link, pose)) in mechanism.links().iter().zip(&case.start.0).enumerate() {
         let points: Vec<&str> = link.points.iter().map(|point| point.name.as_str()).collect();
-        let _ = writeln!(
-            text,
-            "  {:14} points {:14} m = {:.4} kg, J = {:.4e} kg m^2, at {:.3} deg",
-            link.name,
-            points.join(" "),
-            link.mass,
-            link.inertia,
-            pose.angle.to_degrees()
-        );
+        let body = if index == GROUND {
+            "fixed".to_string()
+        } else {
+            let at = format!("at {:.3} deg", pose.angle.to_degrees());
+            if link.mass == 0.0 {
+                format!("massless, {at}")
+            } else {
+                format!("m = {} kg, J = {:e} kg m^2, {at}", link.mass, link.inertia)
+            }
+        };
+        let _ = writeln!(text, "  {:14} points {:14} {body}", link.name, points.join(" "));
     }
     let _ = writeln!(text, "\njoints");
     for joint in mechanism.joints() {
@@ -69,16 +71,16 @@ fn as_text(scenario: &Scenario) -> String {
     }
     let _ = writeln!(text, "\ngroups at the start (crank {:.3} deg)", case.drive.start.to_degrees());
     for (group, &mode) in structure.groups.iter().zip(&case.modes) {
-        let sine = transmission_sine(mechanism, group, &case.start).abs();
+        let transmission = transmission_sine(mechanism, group, &case.start)
+            .map_or_else(String::new, |sine| format!(", transmission angle {:.2} deg", sine.abs().asin().to_degrees()));
         let _ = writeln!(
             text,
-            "  {:28} class {}, order {}, {}, mode {}, transmission angle {:.2} deg",
+            "  {:28} class {}, order {}, {}, mode {}{transmission}",
             group.names(mechanism),
             group.class,
             group.order(),
             group.pairs(mechanism),
-            mode.name(),
-            sine.asin().to_degrees()
+            mode.name()
         );
     }
     text
@@ -106,7 +108,7 @@ fn as_json(scenario: &Scenario) -> Value {
             "inner_joints": group.inner.iter().map(|&j| joint(j)).collect::<Vec<_>>(),
             "outer_joints": group.outer.iter().map(|&j| joint(j)).collect::<Vec<_>>(),
             "class": group.class, "order": group.order(), "kind": group.pairs(mechanism), "mode": mode.name(),
-            "transmission_angle_rad": transmission_sine(mechanism, group, &case.start).abs().asin(),
+            "transmission_angle_rad": transmission_sine(mechanism, group, &case.start).map(|sine| sine.abs().asin()),
         })
     });
     let drivers = structure.drivers.iter().map(|&(l, j)| json!({"link": link(l), "joint": joint(j)}));

@@ -2,11 +2,21 @@
 
 use std::fs;
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
 use crate::error::{Error, ErrorKind, Result};
+
+/// Path that results may be written to, `-` for standard output. Scenarios are refused: `--json scenarios/*.toml` would
+/// take the first of them for the target.
+pub(super) fn target(text: &str) -> std::result::Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    if path.extension().is_some_and(|extension| extension == "toml") {
+        return Err("this is a scenario file and would be overwritten; expected a file for the results, or `-`".into());
+    }
+    Ok(path)
+}
 
 /// Writes text to a file, or to standard output for `-`.
 pub(super) fn write(text: &str, to: &Path) -> Result<()> {
@@ -53,12 +63,15 @@ fn render(error: &Error) -> String {
         Some(key) => format!("`{key}`: {}", error.message()),
         None => error.message().to_string(),
     };
-    let path = error.place().map(|place| place.file.display().to_string());
-    let mut group = Group::with_title(Level::ERROR.primary_title(title.as_str()));
-    if let (Some(place), Some(path)) = (error.place(), &path) {
-        let annotation = AnnotationKind::Primary.span(place.span.clone());
-        group = group.element(Snippet::source(place.text.as_str()).path(path.as_str()).annotation(annotation));
-    }
+    let Some(place) = error.place() else {
+        // The renderer would draw a margin for lines that are not there.
+        let help = error.way_out().map(|help| format!("\n  = help: {help}")).unwrap_or_default();
+        return format!("error: {title}{help}");
+    };
+    let path = place.file.display().to_string();
+    let annotation = AnnotationKind::Primary.span(place.span.clone());
+    let snippet = Snippet::source(place.text.as_str()).path(path.as_str()).annotation(annotation);
+    let mut group = Group::with_title(Level::ERROR.primary_title(title.as_str())).element(snippet);
     if let Some(help) = error.way_out() {
         group = group.element(Level::HELP.message(help));
     }

@@ -12,7 +12,7 @@ use crate::compare::Verdict;
 use crate::engine;
 use crate::error::{Error, ErrorKind, Result};
 use crate::proof::{Options, Proof, prove};
-use crate::record::{self, Level, LogEntry, Recording, Side};
+use crate::record::{self as recorder, Level, LogEntry, Recording, Side};
 use crate::reference;
 use crate::report::{json, text};
 use crate::scenario::Scenario;
@@ -48,7 +48,7 @@ pub(super) struct Args {
     #[arg(long, conflicts_with = "record")]
     no_record: bool,
     /// Write the results as JSON to a file, or to standard output instead of the report with `-`
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = output::target)]
     json: Option<PathBuf>,
 }
 
@@ -65,18 +65,27 @@ pub(super) fn run(args: &Args) -> u8 {
     let mut document = json::Document::new();
     let mut worst = super::AGREE;
     let quiet = args.json.as_deref() == Some(Path::new("-"));
+    let mut written = BTreeMap::new();
     for file in &args.files {
-        match run_one(args, file, quiet) {
-            Ok((proof, recording)) => {
-                worst = graver(worst, exit_code(&proof.verdict));
-                document.add(&proof, recording.map(|path| path.display().to_string()));
-            }
+        let mut failed = |error: &Error| {
+            output::show(error);
+            document.add_failure(&file.display().to_string(), error);
+            worst = super::BAD_INPUT;
+        };
+        let (scenario, proof) = match prove_file(args, file, quiet) {
+            Ok(proven) => proven,
             Err(error) => {
-                output::show(&error);
-                document.add_failure(&file.display().to_string(), &error);
-                worst = super::BAD_INPUT;
+                failed(&error);
+                continue;
             }
-        }
+        };
+        // A proof stands whether or not it can be recorded.
+        let recording = record(args, &scenario, &proof, quiet, &mut written).unwrap_or_else(|error| {
+            failed(&error);
+            None
+        });
+        worst = graver(worst, exit_code(&proof.verdict));
+        document.add(&proof, recording.map(|path| path.display().to_string()));
     }
     if let Some(to) = &args.json
         && let Err(error) = output::write(&document.text(), to)
@@ -87,7 +96,7 @@ pub(super) fn run(args: &Args) -> u8 {
     worst
 }
 
-fn run_one(args: &Args, file: &Path, quiet: bool) -> Result<(Proof, Option<PathBuf>)> {
+fn prove_file(args: &Args, file: &Path, quiet: bool) -> Result<(Scenario, Proof)> {
     let scenario = Scenario::load(file)?;
     let options = Options { reference: args.reference.clone(), engine: args.engine.clone(), step: args.dt };
     let mut bar = Bar::new(&scenario.name);
@@ -96,22 +105,40 @@ fn run_one(args: &Args, file: &Path, quiet: bool) -> Result<(Proof, Option<PathB
     if !quiet {
         output::print(&text::proof(&proof))?;
     }
+    Ok((scenario, proof))
+}
+
+/// Records a proof unless that is switched off. `written` holds the recordings of this command: path and scenario.
+fn record(
+    args: &Args,
+    scenario: &Scenario,
+    proof: &Proof,
+    quiet: bool,
+    written: &mut BTreeMap<PathBuf, String>,
+) -> Result<Option<PathBuf>> {
     if args.no_record {
-        return Ok((proof, None));
+        return Ok(None);
     }
-    let path = write_recording(&scenario, &proof, &args.record)?;
+    let path = args.record.join(format!("{}.mcap", scenario.name));
+    let first = written.entry(path.clone()).or_insert_with(|| scenario.text.clone());
+    if *first != scenario.text {
+        let message =
+            format!("{} holds another scenario of this command, also called {}", path.display(), scenario.name);
+        return Err(Error::new(ErrorKind::Input, message)
+            .help("change the `name` of one of the two, or run them one by one with different --record"));
+    }
+    write_recording(scenario, proof, &args.record, &path)?;
     if !quiet {
         output::print(&format!("recording  {}\n\n", path.display()))?;
     }
-    Ok((proof, Some(path)))
+    Ok(Some(path))
 }
 
-fn write_recording(scenario: &Scenario, proof: &Proof, directory: &Path) -> Result<PathBuf> {
+fn write_recording(scenario: &Scenario, proof: &Proof, directory: &Path, path: &Path) -> Result<()> {
     fs::create_dir_all(directory).map_err(|error| {
         Error::new(ErrorKind::Io, format!("the directory {} cannot be made: {error}", directory.display()))
             .help("name another directory with --record, or use --no-record")
     })?;
-    let path = directory.join(format!("{}.mcap", scenario.name));
     let metadata = metadata(proof);
     let sides = [
         Side { name: "reference", trajectory: &proof.reference_trajectory },
@@ -127,8 +154,7 @@ fn write_recording(scenario: &Scenario, proof: &Proof, directory: &Path) -> Resu
         errors: Some(&proof.errors),
         log: &log,
     };
-    record::write(&recording, &path)?;
-    Ok(path)
+    recorder::write(&recording, path)
 }
 
 fn metadata(proof: &Proof) -> BTreeMap<String, String> {

@@ -42,7 +42,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "S", allow_hyphen_values = true)]
     dt: Option<f64>,
     /// File to write to, `-` for standard output
-    #[arg(long, value_name = "FILE", default_value = "-")]
+    #[arg(long, value_name = "FILE", default_value = "-", value_parser = output::target)]
     csv: PathBuf,
 }
 
@@ -52,10 +52,11 @@ fn solver_names() -> Vec<&'static str> {
 
 pub(super) fn solve(args: &Args) -> Result<()> {
     let scenario = Scenario::load(&args.file)?;
-    let case = on_grid(&scenario.case, args);
+    let case = on_grid(&scenario.case, args)?;
     let mut bar = Bar::new(&scenario.name);
     let mut progress = |part| bar.at(part);
     let trajectory = match reference::named(&args.with) {
+        Some(_) if args.dt.is_some() => return Err(no_step(&args.with)),
         Some(solver) => solver.solve(&case, &mut progress)?,
         None => {
             let step = args.dt.unwrap_or(scenario.dt);
@@ -66,15 +67,25 @@ pub(super) fn solve(args: &Args) -> Result<()> {
     output::write(&csv(&trajectory)?, &args.csv)
 }
 
-fn on_grid(case: &Case, args: &Args) -> Case {
-    match (&args.crank_deg, &args.times) {
+/// A step given to a solver that takes none is a misunderstanding, not a detail.
+fn no_step(solver: &str) -> Error {
+    Error::new(ErrorKind::Input, format!("--dt is the time step of an engine, but {solver} is analytic and has none"))
+        .help(format!("leave --dt out, or solve --with one of: {}", engine_names().join(", ")))
+}
+
+fn on_grid(case: &Case, args: &Args) -> Result<Case> {
+    let grid = match (&args.crank_deg, &args.times) {
         (Some(Range(degrees)), _) => {
             let cranks = degrees.iter().map(|angle| angle.to_radians()).collect();
-            case.on(Grid::of_cranks(&case.drive, cranks))
+            Grid::of_cranks(&case.drive, cranks)
         }
-        (None, Some(Range(times))) => case.on(Grid::of_times(&case.drive, times.clone())),
-        (None, None) => case.clone(),
-    }
+        (None, Some(Range(times))) => Grid::of_times(&case.drive, times.clone()),
+        (None, None) => return Ok(case.clone()),
+    };
+    grid.check().map_err(|message| {
+        Error::new(ErrorKind::Input, message).help("check the unit and size of --crank-deg or --times")
+    })?;
+    Ok(case.on(grid))
 }
 
 /// One row an instant, 17 significant digits: every double is read back as the one that was written.

@@ -5,5 +5,5 @@ pub mod residual;
 pub mod verdict;
 
 pub use convergence::Convergence;
-pub use residual::{Residual, difference, residuals, scales};
+pub use residual::{Residual, difference, magnitudes, residuals, scales};
 pub use verdict::{Check, Verdict, overall};

@@ -6,8 +6,8 @@ use crate::error::{Error, ErrorKind, Result};
 use crate::math::statistics::{half_range, quantile, rms};
 use crate::trajectory::{Channel, Trajectory};
 
-/// A channel that moves less than this share of the widest channel of its quantity is measured by that share: its
-/// errors come from its neighbours, not from its own motion (a nearly constant coordinate).
+/// A channel that moves less than this share of what is natural for its quantity is measured by that share: its errors come
+/// from its neighbours, not from its own motion (a nearly constant coordinate).
 const SMALLEST_SHARE: f64 = 1e-3;
 
 /// Distribution of the absolute differences in one channel.
@@ -31,17 +31,49 @@ pub struct Residual {
     pub worst_crank: f64,
 }
 
-/// Scale of every channel: half the range of its values over the run, but at least a thousandth of the widest such
-/// half range among the channels of the same quantity.
+/// Scale of every channel: half the range of its values over the run, but at least a thousandth of what is natural for its
+/// quantity: the widest such half range among the quantity's channels, or what the crank's motion and the widest half ranges of
+/// places and forces make of it. So a quantity that vanishes in the whole mechanism is measured too.
 #[must_use]
 pub fn scales(trajectory: &Trajectory) -> Vec<f64> {
     let halves: Vec<f64> = trajectory.iter().map(|(_, values)| half_range(values)).collect();
-    let widest = |quantity: &str| {
-        let of_quantity = trajectory.channels().iter().zip(&halves).filter(|(c, _)| c.kind.quantity == quantity);
-        of_quantity.map(|(_, &half)| half).fold(0.0, f64::max)
+    let natural = natural(trajectory, &halves, half_range(trajectory.cranks()));
+    halves.iter().zip(natural).map(|(half, natural)| half.max(SMALLEST_SHARE * natural)).collect()
+}
+
+/// Size of the numbers in every channel, which its rounding is proportional to: the largest absolute value among the
+/// channels of its quantity, or what a turn of one radian, the largest coordinates and forces make of it.
+#[must_use]
+pub fn magnitudes(trajectory: &Trajectory) -> Vec<f64> {
+    let largest = |values: &[f64]| values.iter().fold(0.0, |max: f64, value| max.max(value.abs()));
+    let largest: Vec<f64> = trajectory.iter().map(|(_, values)| largest(values)).collect();
+    natural(trajectory, &largest, 1.0)
+}
+
+/// For every channel, the largest of `sizes` among the channels of its quantity, but at least what follows from the crank's
+/// speed, its `turn` (rad) and the sizes of places and forces.
+fn natural(trajectory: &Trajectory, sizes: &[f64], turn: f64) -> Vec<f64> {
+    let all = || trajectory.channels().iter().zip(sizes);
+    let of_unit = |unit: &str| all().filter(|(c, _)| c.kind.unit == unit).fold(0.0, |max: f64, (_, &s)| max.max(s));
+    let of_quantity =
+        |quantity: &str| all().filter(|(c, _)| c.kind.quantity == quantity).fold(0.0, |max: f64, (_, &s)| max.max(s));
+    let span = half_range(trajectory.times());
+    let speed = if span > 0.0 { half_range(trajectory.cranks()) / span } else { 0.0 };
+    let (length, force) = (of_unit("m"), of_unit("N"));
+    let natural = |channel: &Channel| {
+        let derived = match channel.kind.unit {
+            "rad" => turn,
+            "rad/s" => speed * turn,
+            "rad/s^2" => speed * speed * turn,
+            "m" => length,
+            "m/s" => speed * length,
+            "m/s^2" => speed * speed * length,
+            "N m" => force * length,
+            _ => 0.0,
+        };
+        of_quantity(channel.kind.quantity).max(derived)
     };
-    let scale = |(channel, &half): (&Channel, &f64)| half.max(SMALLEST_SHARE * widest(channel.kind.quantity));
-    trajectory.channels().iter().zip(&halves).map(scale).collect()
+    trajectory.channels().iter().map(natural).collect()
 }
 
 /// Channel by channel `other` minus `reference`, for the channels that both have. Angles that differ by whole turns throughout are
@@ -126,6 +158,19 @@ mod tests {
     fn a_nearly_constant_channel_is_measured_by_its_family() {
         let a = trajectory(&[("joint.A.fx_N", vec![-500.0, 500.0]), ("joint.A.fy_N", vec![1.0, 1.0])]);
         assert_eq!(scales(&a), [500.0, 0.5]);
+    }
+
+    #[test]
+    fn quantities_that_vanish_everywhere_are_measured_by_the_crank_and_by_forces() {
+        // One radian a second over two seconds: the half range of the crank angle is 1.
+        let a = trajectory(&[
+            ("link.a.alpha_rad_s2", vec![0.0, 0.0, 0.0]),
+            ("joint.A.fx_N", vec![-500.0, 500.0, 0.0]),
+            ("link.a.x_m", vec![-2.0, 2.0, 0.0]),
+            ("drive.torque_N_m", vec![0.0, 0.0, 0.0]),
+        ]);
+        assert_eq!(scales(&a), [1e-3, 500.0, 2.0, 1.0]);
+        assert_eq!(magnitudes(&a), [1.0, 500.0, 2.0, 1000.0]);
     }
 
     #[test]

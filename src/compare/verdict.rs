@@ -38,7 +38,7 @@ impl Verdict {
     #[must_use]
     pub fn of(residual: f64, bound: f64, place: impl FnOnce() -> String) -> Self {
         if residual <= bound {
-            Verdict::Agree { margin: bound / residual }
+            Verdict::Agree { margin: if residual == 0.0 { f64::INFINITY } else { bound / residual } }
         } else {
             Verdict::Disagree { place: place() }
         }
@@ -48,6 +48,10 @@ impl Verdict {
     /// `wanted` of the channel's scale, a small residual proves nothing.
     #[must_use]
     pub fn of_engine(residual: &Residual, convergence: &Convergence, bound: f64, wanted: f64) -> Self {
+        if residual.scale == 0.0 && residual.max > 0.0 {
+            let reason = "the grid has no extent that an error could be measured by; give it more than one instant";
+            return Verdict::Inconclusive { reason: reason.into() };
+        }
         if !convergence.is_trusted() {
             return Verdict::Inconclusive {
                 reason: format!(
@@ -167,6 +171,11 @@ mod tests {
     fn not_a_number_never_agrees() {
         assert_eq!(Verdict::of(f64::NAN, 1.0, String::new).word(), "disagree");
         assert_eq!(Verdict::of(1.0, f64::NAN, String::new).word(), "disagree");
+    }
+
+    #[test]
+    fn nothing_left_of_nothing_allowed_agrees_with_all_margin() {
+        assert_eq!(Verdict::of(0.0, 0.0, String::new), Verdict::Agree { margin: f64::INFINITY });
     }
 
     #[test]

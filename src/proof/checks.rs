@@ -2,15 +2,15 @@
 
 use super::observe::Observed;
 use crate::case::Case;
-use crate::compare::{Check, Convergence, residuals};
+use crate::compare::{Check, Convergence, magnitudes, residuals};
 use crate::engine::Engine;
 use crate::scenario::Scenario;
 use crate::tolerance::{Basis, Tolerance};
 use crate::trajectory::{CHANNELS, Channel, ChannelKind, Stage};
 
-/// Closure of the joints, relative to the mechanism's size, that rounding allows an analytic side.
+/// Closure of the joints, relative to the mechanism's size or its distance from the origin, that rounding allows an analytic side.
 const CLOSURE: f64 = 1e-13;
-/// Balancing moment two ways, relative to its amplitude.
+/// Balancing moment two ways, relative to the moments that make it up.
 const TWO_WAYS: f64 = 1e-11;
 
 /// Relative difference that rounding allows between the two analytic sides. Each derivative, and each linear solve for
@@ -33,8 +33,13 @@ pub(super) fn of_sides(case: &Case, sides: &[(&'static str, Observed); 2]) -> Ve
     let mut checks = Vec::new();
     for (name, side) in sides {
         let tolerance =
-            rounding(CLOSURE, "positions are good to a few units in the last place of the mechanism's size");
-        checks.push(Check::new(format!("closure of all joints ({name})"), side.closure / size, tolerance, ""));
+            rounding(CLOSURE, "positions are good to a few units in the last place of the largest coordinate");
+        checks.push(Check::new(
+            format!("closure of all joints ({name})"),
+            side.closure / size.max(side.reach),
+            tolerance,
+            "",
+        ));
     }
     checks.extend(between_sides(sides));
     for (name, side) in sides.iter().filter(|(_, side)| !side.power.is_empty()) {
@@ -46,16 +51,18 @@ pub(super) fn of_sides(case: &Case, sides: &[(&'static str, Observed); 2]) -> Ve
 }
 
 fn between_sides(sides: &[(&'static str, Observed); 2]) -> Vec<Check> {
-    let residuals = residuals(&sides[0].1.trajectory, &sides[1].1.trajectory).expect("both sides stand on one grid");
+    let reference = &sides[0].1.trajectory;
+    let residuals = residuals(reference, &sides[1].1.trajectory).expect("both sides stand on one grid");
+    let relative: Vec<f64> = residuals
+        .iter()
+        .zip(magnitudes(reference))
+        .map(|(residual, size)| if residual.max == 0.0 { 0.0 } else { residual.max / size })
+        .collect();
     let of_stage = |stage: Stage| {
-        let relative = |r: &&_| -> f64 {
-            let r: &crate::compare::Residual = r;
-            if r.max == 0.0 { 0.0 } else { r.max / r.scale }
-        };
-        let own = residuals.iter().filter(|r| r.channel.kind.stage == stage);
-        let worst = own.max_by(|a, b| relative(a).total_cmp(&relative(b)))?;
+        let own = residuals.iter().zip(&relative).filter(|(residual, _)| residual.channel.kind.stage == stage);
+        let (worst, &relative) = own.max_by(|a, b| a.1.total_cmp(b.1))?;
         let tolerance = rounding(side_bound(stage), "two solvers without a common equation, each good to rounding");
-        let check = Check::new(format!("{} against {}", sides[0].0, sides[1].0), relative(&worst), tolerance, "");
+        let check = Check::new(format!("{} against {}", sides[0].0, sides[1].0), relative, tolerance, "");
         Some(
             check
                 .of(stage.name())
@@ -65,16 +72,11 @@ fn between_sides(sides: &[(&'static str, Observed); 2]) -> Vec<Check> {
     Stage::ALL.into_iter().filter_map(of_stage).collect()
 }
 
-/// Largest difference between the balancing moment of the trajectory and that of the powers, over its amplitude.
+/// Largest difference between the balancing moment of the trajectory and that of the powers, over the moments that make it up: where it vanishes they balance, and their rounding is left.
 fn two_ways(side: &Observed) -> f64 {
     let torque = side.trajectory.column(&torque_channel()).expect("the balancing moment is wanted");
     let difference = torque.iter().zip(&side.power).fold(0.0, |max: f64, (a, b)| max.max((a - b).abs()));
-    if difference == 0.0 { 0.0 } else { difference / amplitude(torque) }
-}
-
-/// Largest absolute value.
-fn amplitude(values: &[f64]) -> f64 {
-    values.iter().fold(0.0, |max: f64, value| max.max(value.abs()))
+    if difference == 0.0 { 0.0 } else { difference / side.moment }
 }
 
 /// Checks on the engine, from its runs at double, single and half step.
@@ -102,7 +104,7 @@ fn power_balance(case: &Case, engine: &dyn Engine, runs: &[Observed; 3]) -> Chec
     let channel = torque_channel();
     let kind: &ChannelKind = channel.kind;
     let torques = [0, 1, 2].map(|k| runs[k].trajectory.column(&channel).expect("the moment is wanted"));
-    let scale = amplitude(torques[1]);
+    let scale = runs[1].moment;
     let noise = engine.with_step(engine.step() / 2.0).noise(case, kind);
     let estimate = |of: [&[f64]; 3]| {
         let convergence = Convergence::of(of[0], of[1], of[2], false, engine.formal_order(kind), noise);

@@ -20,17 +20,23 @@ pub fn proof(proof: &Proof) -> String {
     let _ = writeln!(text, "reference  {}, {} instants", proof.reference, proof.reference_trajectory.times().len());
     let _ = writeln!(
         text,
-        "engine     {}, step {:e} s, and its own error from {:e} and {:e} s",
+        "engine     {}, step {} s, and its own error from {} and {} s",
         engine.version,
-        engine.step,
-        2.0 * engine.step,
-        engine.step / 2.0
+        seconds(engine.step),
+        seconds(2.0 * engine.step),
+        seconds(engine.step / 2.0)
     );
     let _ = writeln!(text, "\nEngine against reference, the worst channel of each quantity:\n{}", channels(proof));
     let _ = writeln!(text, "\nChecks:\n{}", checks(&proof.checks));
     reasons(proof, &mut text);
     let _ = writeln!(text, "\n{}", sentence(&proof.verdict, proof));
     text
+}
+
+/// A step with five significant digits at most; the JSON has all of them.
+fn seconds(step: f64) -> String {
+    let rounded: f64 = format!("{step:.4e}").parse().unwrap_or(step);
+    format!("{rounded:e}")
 }
 
 fn sentence(verdict: &Verdict, proof: &Proof) -> String {
@@ -73,7 +79,7 @@ fn reasons(proof: &Proof, text: &mut String) {
 
 fn table<const N: usize>(header: [&str; N], numbers: &[usize]) -> Table {
     let mut table = Table::new();
-    table.load_style(presets::UTF8_HORIZONTAL_ONLY).set_header(header);
+    table.load_style(presets::NOTHING).set_header(header);
     for &index in numbers {
         if let Some(column) = table.column_mut(index) {
             column.set_cell_alignment(CellAlignment::Right);

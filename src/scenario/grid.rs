@@ -50,10 +50,9 @@ pub fn read(mut table: Table, drive: &Drive) -> Result<Grid> {
     })?;
     let grid =
         if std::ptr::eq(family, &ANGLE) { Grid::of_cranks(drive, points) } else { Grid::of_times(drive, points) };
-    if grid.times.iter().chain(&grid.cranks).all(|value| value.is_finite()) {
-        Ok(grid)
-    } else {
-        Err(table.fault("at this drive speed the grid is not finite").help("check `drive.speed` and the grid"))
+    match grid.check() {
+        Ok(()) => Ok(grid),
+        Err(message) => Err(table.fault(message).help("check the unit and size of the grid and of `drive.speed`")),
     }
 }
 

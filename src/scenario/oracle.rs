@@ -12,7 +12,8 @@ use crate::trajectory::{CHANNELS, Channel};
 /// Published numbers of one source.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Oracle {
-    /// File name of the table (`positions.csv`), or `inline 1`, `inline 2`, ... for numbers in the scenario itself.
+    /// The scenario's own name for it, else the file name of the table (`positions.csv`), or `inline 1`, `inline 2`, ... for
+    /// numbers in the scenario itself.
     pub name: String,
     /// Where the numbers are published.
     pub source: String,
@@ -109,6 +110,7 @@ pub(super) fn read(tables: Vec<Table>, channels: &[Channel], wanted: Wanted) -> 
     let mut oracles = Vec::with_capacity(tables.len());
     for mut table in tables {
         let source = table.string("source")?;
+        let own_name = table.optional_string("name")?;
         let forms = ["file", "values", "figures"].map(|key| table.has(key));
         let mut oracle = Oracle { name: String::new(), source, series: Vec::new(), figures: Vec::new() };
         match forms {
@@ -126,6 +128,9 @@ pub(super) fn read(tables: Vec<Table>, channels: &[Channel], wanted: Wanted) -> 
         if !forms[0] {
             inline += 1;
             oracle.name = format!("inline {inline}");
+        }
+        if let Some(name) = own_name {
+            oracle.name = name;
         }
         table.finish()?;
         oracles.push(oracle);

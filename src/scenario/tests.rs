@@ -83,7 +83,7 @@ fn crank_rocker_starts_where_two_circles_meet() {
     assert!((about_pivot - 2.6 * a.norm_squared() / 3.0).abs() < 1e-18, "I_O = m l^2 / 3");
     assert_eq!((scenario.dt, scenario.engine_rel, scenario.case.grid.len()), (1e-3, 1e-2, 361));
     let names: Vec<&str> = scenario.oracles.iter().map(|oracle| oracle.name.as_str()).collect();
-    assert_eq!(names, ["inline 1", "inline 2", "inline 3"]);
+    assert_eq!(names, ["extreme position, stretched", "extreme position, folded", "reduced model"]);
     assert_eq!(scenario.oracles[2].figures[0].figure, Figure::ReducedInertiaMean);
 }
 

@@ -23,15 +23,19 @@ pub(super) fn bound(case: &Case, step: f64, channel: &ChannelKind) -> f64 {
     let angle = f64::EPSILON * (longest / step + turned);
     let rate = (angle + SPEED_ULPS * f64::EPSILON) * speed;
     let second = angle * speed * speed + DIFFERENCE_ULPS * f64::EPSILON * turned / (step * step);
+    // Places are world coordinates: far from the origin they are coarser than the mechanism's size lets expect.
+    let reach = case.start.0.iter().fold(size, |max: f64, pose| max.max(pose.origin.norm() + size));
+    let place = f64::EPSILON * reach;
+    let linear = second * size + DIFFERENCE_ULPS * place / (step * step);
     match channel.unit {
         "rad" => angle,
         "rad/s" => rate,
         "rad/s^2" => second,
-        "m" => angle * size,
+        "m" => angle * size + place,
         "m/s" => rate * size,
-        "m/s^2" => second * size,
-        "N" => second * size * mass,
+        "m/s^2" => linear,
+        "N" => linear * mass,
         // A moment on the driving link is a force at its far end.
-        _ => second * size * mass * case.mechanism.links()[case.drive.link].size(),
+        _ => linear * mass * case.mechanism.links()[case.drive.link].size(),
     }
 }

@@ -93,16 +93,19 @@ pub fn first_pose(
 }
 
 /// Signed area of a dyad's triangle (first outer, second outer, inner joint) over the product of its two link lengths:
-/// the sine of the transmission angle, positive in the mode [`AssemblyMode::Left`].
+/// the sine of the transmission angle, positive in the mode [`AssemblyMode::Left`]. Higher groups have none.
 #[must_use]
-pub fn transmission_sine(mechanism: &Mechanism, group: &Group, pose: &Pose) -> f64 {
+pub fn transmission_sine(mechanism: &Mechanism, group: &Group, pose: &Pose) -> Option<f64> {
+    if group.kind != GroupKind::Rrr {
+        return None;
+    }
     let at = |joint: usize| {
         let side = mechanism.joints()[joint].first;
         pose.0[side.link].point(side.local)
     };
     let inner = at(group.inner[0]);
     let (a, b) = (inner - at(group.outer[0]), inner - at(group.outer[1]));
-    cross(a, b) / (a.norm() * b.norm())
+    Some(cross(a, b) / (a.norm() * b.norm()))
 }
 
 /// All real configurations of a group, once the links it hangs on are posed in `pose`: up to two of a dyad, up to six

@@ -1,0 +1,10 @@
+//! The contract of the command line: exit codes, streams, JSON, CSV and messages, on the built command.
+
+#[path = "cli/messages.rs"]
+mod messages;
+#[path = "cli/run.rs"]
+mod run;
+#[path = "cli/solve.rs"]
+mod solve;
+#[path = "cli/tools.rs"]
+mod tools;

@@ -1,0 +1,107 @@
+//! Runs the command as a user would, on scenarios of the repository or edited copies of them.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use assert_cmd::Command;
+use serde_json::Value;
+use tempfile::TempDir;
+
+/// A directory of its own that holds copies of the repository's scenarios, and is where commands run.
+pub struct Place(TempDir);
+
+/// What a command left behind.
+pub struct Outcome {
+    pub code: i32,
+    pub stdout: String,
+    pub stderr: String,
+}
+
+impl Place {
+    pub fn new() -> Self {
+        let place = Place(TempDir::new().unwrap());
+        copy(&Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios"), &place.path("scenarios"));
+        place
+    }
+
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    /// Writes a copy of a scenario in which each text is replaced, which must stand there exactly once.
+    pub fn edited(&self, scenario: &str, to: &str, edits: &[(&str, &str)]) {
+        let mut text = fs::read_to_string(self.path(&format!("scenarios/{scenario}"))).unwrap();
+        for (old, new) in edits {
+            assert_eq!(text.matches(old).count(), 1, "`{old}` in {scenario}");
+            text = text.replace(old, new);
+        }
+        fs::write(self.path(&format!("scenarios/{to}")), text).unwrap();
+    }
+
+    /// Runs `linkproof` here with words that stand apart by blanks.
+    pub fn run(&self, arguments: &str) -> Outcome {
+        let mut command = Command::cargo_bin("linkproof").unwrap();
+        let output = command.current_dir(self.0.path()).args(arguments.split_whitespace()).output().unwrap();
+        let text = |bytes| String::from_utf8(bytes).unwrap();
+        let (stdout, stderr) = (text(output.stdout), text(output.stderr));
+        assert!(!stderr.contains("panicked"), "{arguments}: {stderr}");
+        Outcome { code: output.status.code().expect("an exit code"), stdout, stderr }
+    }
+
+    /// Runs a command that must succeed without a word on standard error.
+    pub fn ok(&self, arguments: &str) -> String {
+        let outcome = self.run(arguments);
+        assert_eq!((outcome.code, outcome.stderr.as_str()), (0, ""), "{arguments}: {}", outcome.stdout);
+        outcome.stdout
+    }
+
+    /// Runs a command that must be refused: exit code 2, a message with every one of `words`, and a way out.
+    pub fn refused(&self, arguments: &str, words: &[&str]) -> Outcome {
+        let outcome = self.run(arguments);
+        assert_eq!(outcome.code, 2, "{arguments}: {}", outcome.stderr);
+        for word in words {
+            assert!(outcome.stderr.contains(word), "{arguments}: `{word}` is not in: {}", outcome.stderr);
+        }
+        let way_out = ["help: ", "possible values", "expected", "try '--help'"];
+        assert!(way_out.iter().any(|way| outcome.stderr.contains(way)), "{arguments}: no way out: {}", outcome.stderr);
+        outcome
+    }
+}
+
+impl Outcome {
+    /// Standard output as JSON and nothing else.
+    pub fn json(&self) -> Value {
+        serde_json::from_str(&self.stdout).unwrap_or_else(|error| panic!("{error}: {}", self.stdout))
+    }
+}
+
+fn copy(from: &Path, to: &Path) {
+    fs::create_dir_all(to).unwrap();
+    for entry in fs::read_dir(from).unwrap() {
+        let path = entry.unwrap().path();
+        let target = to.join(path.file_name().unwrap());
+        if path.is_dir() { copy(&path, &target) } else { fs::copy(&path, &target).map(drop).unwrap() }
+    }
+}
+
+/// A table of `solve`: header and rows.
+pub struct Table {
+    pub header: Vec<String>,
+    pub rows: Vec<Vec<String>>,
+}
+
+impl Table {
+    pub fn of(text: &str) -> Self {
+        let cells = |line: &str| line.split(',').map(str::to_string).collect::<Vec<_>>();
+        let mut lines = text.lines().map(cells);
+        let table = Table { header: lines.next().expect("a header"), rows: lines.collect() };
+        assert!(table.rows.iter().all(|row| row.len() == table.header.len()));
+        table
+    }
+
+    /// Numbers of a column.
+    pub fn column(&self, name: &str) -> Vec<f64> {
+        let at = self.header.iter().position(|column| column == name).unwrap_or_else(|| panic!("no column {name}"));
+        self.rows.iter().map(|row| row[at].parse().unwrap()).collect()
+    }
+}

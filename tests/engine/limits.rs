@@ -1,0 +1,56 @@
+//! Steps that are far too large and poses that cannot be reached: an error that helps, never numbers that look good.
+
+use linkproof::ErrorKind;
+use linkproof::engine;
+use linkproof::proof::{Options, prove};
+use linkproof::reference::{self, AssurSolver};
+use linkproof::solver::Solver;
+
+use crate::common::shipped;
+use crate::common::spec::four_bar;
+
+/// Story 40. Symptom: numbers off by half, without a word. Cause: with a step of a tenth of a turn the loop opens by less
+/// than what stops a run. The ladder of three steps must refuse to prove anything then: steps of 37 to 7.8 degrees.
+#[test]
+fn regress_40_steps_that_are_too_large_prove_nothing() {
+    let scenario = shipped("crank_rocker.toml");
+    for engine in engine::all(1e-3) {
+        for step in [0.05, 0.02, 0.01] {
+            let options = Options { engine: engine.name().into(), step: Some(step), ..Options::default() };
+            match prove(&scenario, &options, &mut |_| {}) {
+                Ok(proof) => assert_eq!(proof.verdict.word(), "inconclusive", "{step}: {:?}", proof.verdict),
+                Err(error) => assert_helpful(&error),
+            }
+        }
+        let error = engine.with_step(0.1).solve(&scenario.case, &mut |_| {}).unwrap_err();
+        assert_helpful(&error);
+    }
+}
+
+/// The error says where it happened and what to do.
+fn assert_helpful(error: &linkproof::Error) {
+    assert_eq!(error.kind(), ErrorKind::Numeric, "{error}");
+    assert!(error.message().contains("crank angle"), "{error}");
+    assert!(error.way_out().is_some_and(|way| way.contains("smaller time step")), "{error}");
+}
+
+/// Story 41. Symptom: gaps of metres and forces of 1e12 N behind a pose that cannot be assembled. Cause: the engine does
+/// not notice by itself. The links reach 0.45 m, which the outer joints of the dyad pass at acos(0.0475 / 0.24) = 78.6 deg.
+#[test]
+fn regress_41_a_pose_that_cannot_be_assembled_is_an_error_with_its_crank_angle() {
+    let mut spec = four_bar([0.4, 0.3, 0.25, 0.2], true);
+    spec.start = 0.5;
+    spec.grid = (0.5, 0.05, 60);
+    let case = spec.scenario().unwrap().case;
+    for step in [1e-2, 1e-3, 1e-4] {
+        for engine in engine::all(step) {
+            assert_helpful(&engine.solve(&case, &mut |_| {}).unwrap_err());
+        }
+    }
+    for solver in reference::all() {
+        let error = solver.solve(&case, &mut |_| {}).unwrap_err();
+        assert!(error.message().contains("crank angle"), "{error}");
+    }
+    let geometry = AssurSolver.solve(&case, &mut |_| {}).unwrap_err();
+    assert_eq!(geometry.kind(), ErrorKind::Geometry);
+}

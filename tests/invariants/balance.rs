@@ -1,0 +1,131 @@
+//! Forces against the laws of momentum and energy, with all derivatives taken by differences.
+
+use linkproof::case::Case;
+use linkproof::math::{Vec2, cross};
+use linkproof::reference;
+use linkproof::solver::State;
+use proptest::test_runner::TestCaseError;
+
+use crate::common::random::for_each;
+use crate::common::{centre, centre_velocity};
+use crate::{Around, COUNT, REACH};
+
+/// Five states around an instant, and what the balances are measured by.
+struct Instant<'a> {
+    case: &'a Case,
+    around: Around,
+    /// Largest speed of a link (rad/s).
+    fastest: f64,
+    /// Mass of all links (kg).
+    mass: f64,
+}
+
+impl Instant<'_> {
+    fn here(&self) -> &State {
+        self.around.here()
+    }
+
+    fn masses(&self) -> impl Iterator<Item = (usize, &linkproof::mechanism::Link)> {
+        self.case.mechanism.links().iter().enumerate().skip(1)
+    }
+
+    fn load(&self, link: usize) -> f64 {
+        self.case.load_moment(link, self.here().motions[link].omega)
+    }
+
+    /// Forces and their places, in the world, that the joints put on `link` (0 for the ground).
+    fn on(&self, link: usize) -> Vec<(Vec2, Vec2)> {
+        let joints = self.case.mechanism.joints().iter().zip(&self.here().forces);
+        let own = joints.filter_map(|(joint, &force)| {
+            let local = joint.on(link)?;
+            let sign = if joint.second.link == link { 1.0 } else { -1.0 };
+            Some((self.here().motions[link].point(local), force * sign))
+        });
+        own.collect()
+    }
+}
+
+/// Runs `check` at three instants of every sample with both solvers.
+fn at_instants(check: impl Fn(&Instant) -> Result<(), TestCaseError>) {
+    for_each(COUNT, |sample| {
+        let case = &sample.scenario.case;
+        for solver in reference::all() {
+            for k in [0, case.grid.len() / 2, case.grid.len() - 1] {
+                let around = Around::of(solver, sample, case.grid.times[k]);
+                let fastest = around.here().motions.iter().map(|m| m.omega.abs()).fold(0.0, f64::max);
+                let mass = case.mechanism.links().iter().map(|link| link.mass).sum();
+                check(&Instant { case, around, fastest, mass })?;
+            }
+        }
+        Ok(())
+    });
+}
+
+#[test]
+fn ground_reactions_and_gravity_change_the_momentum() {
+    at_instants(|at| {
+        let case = at.case;
+        let momentum =
+            |s: &State| -> Vec2 { at.masses().map(|(link, body)| centre_velocity(case, s, link) * body.mass).sum() };
+        let weight: Vec2 = at.masses().map(|(_, body)| case.gravity * body.mass).sum();
+        let ground: Vec2 = at.on(0).iter().map(|(_, force)| -force).sum();
+        at.around.are_slopes("momentum", at.mass * REACH * at.fastest, momentum, weight + ground)
+    });
+}
+
+#[test]
+fn ground_reactions_drive_loads_and_gravity_change_the_angular_momentum() {
+    at_instants(|at| {
+        let case = at.case;
+        let momentum = |s: &State| -> f64 {
+            let of = |(link, body): (usize, &linkproof::mechanism::Link)| {
+                body.mass * cross(centre(case, s, link), centre_velocity(case, s, link))
+                    + body.inertia * s.motions[link].omega
+            };
+            at.masses().map(of).sum()
+        };
+        let weight = at
+            .masses()
+            .map(|(link, body)| cross(centre(case, at.here(), link), case.gravity * body.mass) + at.load(link));
+        let ground = at.on(0).into_iter().map(|(place, force)| -cross(place, force));
+        let outer: f64 = weight.chain(ground).sum::<f64>() + at.here().torque;
+        at.around.is_slope("angular momentum", at.mass * REACH * REACH * at.fastest, momentum, outer)
+    });
+}
+
+#[test]
+fn every_link_is_in_equilibrium() {
+    at_instants(|at| {
+        let case = at.case;
+        for (link, body) in at.masses() {
+            let middle = centre(case, at.here(), link);
+            let force: Vec2 = at.on(link).iter().map(|(_, force)| *force).sum();
+            let arms: f64 = at.on(link).iter().map(|(place, force)| cross(place - middle, *force)).sum();
+            let drive = if link == case.drive.link { at.here().torque } else { 0.0 };
+            let scale = body.mass * REACH * at.fastest;
+            let push = |s: &State| centre_velocity(case, s, link) * body.mass;
+            at.around.are_slopes("force", scale, push, force + case.gravity * body.mass)?;
+            let spin = |s: &State| s.motions[link].omega * body.inertia;
+            at.around.is_slope("moment", scale * REACH, spin, arms + drive + at.load(link))?;
+        }
+        Ok(())
+    });
+}
+
+#[test]
+fn drive_and_loads_change_the_energy() {
+    at_instants(|at| {
+        let case = at.case;
+        let energy = |s: &State| -> f64 {
+            let of = |(link, body): (usize, &linkproof::mechanism::Link)| {
+                let (v, spin) = (centre_velocity(case, s, link), s.motions[link].omega);
+                0.5 * (body.mass * v.norm_squared() + body.inertia * spin * spin)
+                    - body.mass * case.gravity.dot(&centre(case, s, link))
+            };
+            at.masses().map(of).sum()
+        };
+        let loads: f64 = at.masses().map(|(link, _)| at.load(link) * at.here().motions[link].omega).sum();
+        let power = at.here().torque * case.drive.at(0.0).omega + loads;
+        at.around.is_slope("energy", at.mass * (REACH * at.fastest).powi(2), energy, power)
+    });
+}
