@@ -12,7 +12,7 @@ use imports::{code_words, imports};
 /// Every module, and what it may name of the rest of the crate. As tight as the code is: an entry that nothing uses
 /// fails too.
 const ALLOWED: &[(&str, &str)] = &[
-    ("assur", "error math mechanism"),
+    ("assur", "math mechanism"),
     ("case", "drive math mechanism trajectory"),
     ("cli", "case compare engine error mechanism proof record reference report scenario trajectory"),
     ("compare", "error math tolerance trajectory"),

@@ -13,6 +13,8 @@ use linkproof::solver::{Solver, State};
 use linkproof::tolerance::Basis;
 use linkproof::trajectory::{Channel, Stage, Trajectory};
 
+const ALL: [&str; 5] = ["crank_rocker", "ov7_base", "ov7_new", "ov7_new_tabulated", "fourth_class"];
+
 fn scenario(name: &str) -> Scenario {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios").join(format!("{name}.toml"));
     Scenario::load(&path).unwrap_or_else(|error| panic!("{error}"))
@@ -40,7 +42,12 @@ fn val_ov7_base_every_printed_number_by_both_sides() {
         scenario.oracles.iter().map(|oracle| oracle.series.iter().map(|series| series.points.len()).sum()).collect();
     // Positions, velocities, accelerations of five points in two directions, and three tables of seven angles, at 13 angles.
     assert_eq!(cells, [130, 130, 130, 91, 91, 91]);
-    assert!(scenario.oracles.iter().all(|oracle| oracle.series.iter().all(|series| series.skipped.is_empty())));
+    assert!(
+        scenario
+            .oracles
+            .iter()
+            .all(|oracle| oracle.series.iter().all(|s| s.expected.is_empty() && s.finding.is_none()))
+    );
 
     let proof = proof("ov7_base", None);
     let published: Vec<_> = proof.checks.iter().filter(|c| matches!(c.basis, Basis::Published { .. })).collect();
@@ -59,7 +66,7 @@ fn val_ov7_base_every_printed_number_by_both_sides() {
 
 #[test]
 fn the_two_analytic_sides_agree_to_rounding_over_a_turn() {
-    for name in ["crank_rocker", "ov7_base"] {
+    for name in ALL {
         let case = fine(&scenario(name).case);
         let (assur, newton) = (solve(&AssurSolver, &case), solve(&NewtonSolver, &case));
         for residual in residuals(&assur, &newton).unwrap() {
@@ -80,7 +87,7 @@ fn the_two_analytic_sides_agree_to_rounding_over_a_turn() {
 
 #[test]
 fn balancing_moment_from_equilibrium_and_from_powers() {
-    for name in ["crank_rocker", "ov7_base"] {
+    for name in ALL {
         let case = fine(&scenario(name).case);
         for solver in [&AssurSolver as &dyn Solver, &NewtonSolver] {
             let (mut amplitude, mut worst): (f64, f64) = (0.0, 0.0);
@@ -150,7 +157,7 @@ fn rapier_on_the_crank_rocker_is_within_a_thousandth_and_a_hundred_times_less() 
 
 #[test]
 fn rapier_shows_second_order_in_every_channel_of_both_mechanisms() {
-    for name in ["crank_rocker", "ov7_base"] {
+    for name in ALL {
         let proof = proof(name, None);
         assert!(matches!(proof.verdict, Verdict::Agree { .. }), "{name}: {:?}", proof.verdict);
         let orders: Vec<(String, f64)> = proof
@@ -164,5 +171,97 @@ fn rapier_shows_second_order_in_every_channel_of_both_mechanisms() {
         for (channel, order) in orders {
             assert!((order - 2.0).abs() <= 0.1, "{name} {channel}: {order}");
         }
+    }
+}
+
+/// The headings of the findings, as anchors.
+fn anchors() -> Vec<String> {
+    let text = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/findings.md")).unwrap();
+    let anchor = |heading: &str| {
+        let kept = |c: &char| c.is_alphanumeric() || " -_".contains(*c);
+        heading.to_lowercase().chars().filter(kept).collect::<String>().replace(' ', "-")
+    };
+    text.lines().filter_map(|line| line.strip_prefix("### ")).map(anchor).collect()
+}
+
+#[test]
+fn every_expected_disagreement_has_its_finding() {
+    let anchors = anchors();
+    for name in ["ov7_new", "ov7_new_tabulated"] {
+        let proof = proof(name, None);
+        assert!(matches!(proof.verdict, Verdict::Agree { .. }), "{name}: {:?}", proof.verdict);
+        let expected: Vec<&String> = proof
+            .checks
+            .iter()
+            .filter_map(|check| match &check.verdict {
+                Verdict::Expected { finding } => Some(finding),
+                _ => None,
+            })
+            .collect();
+        assert_eq!(expected.len(), if name == "ov7_new" { 2 * 2 } else { 2 * 12 });
+        for finding in expected {
+            assert!(anchors.contains(finding), "{finding} is not in docs/findings.md: {anchors:?}");
+        }
+    }
+}
+
+#[test]
+fn an_expected_disagreement_that_disappears_is_a_failure() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/crank_rocker.toml");
+    let text = std::fs::read_to_string(&path).unwrap();
+    let value = r#"{ channel = "link.rocker.angle_deg", value = 50, digits = 9 }"#;
+    let wrong = text.replace(value, &value.replace("digits = 9 }", r#"digits = 9, finding = "none" }"#));
+    assert_ne!(text, wrong);
+    let scenario = Scenario::parse(&wrong, &path).unwrap();
+    let proof = prove(&scenario, &Options::default(), &mut |_| {}).unwrap();
+    assert!(matches!(proof.verdict, Verdict::Disagree { .. }), "{:?}", proof.verdict);
+}
+
+/// The authors' formula: on the crank acts only the component of the reaction at joint 2 that is perpendicular to link 2-3.
+#[test]
+fn val_ov7_new_printed_r1_and_moment_come_from_half_a_reaction() {
+    let case = fine(&scenario("ov7_new_tabulated").case);
+    let printed = [170.13, 220.93, 212.23, 128.99, 20.9, 142.67, 220.34, 227.77, 180.22, 101.93, 17.84, 87.63];
+    let (mut largest_force, mut largest, mut first): (f64, f64, f64) = (0.0, 0.0, 0.0);
+    let mut visit = |row: usize, state: &State| {
+        let mechanism = &case.mechanism;
+        let (crank, lead) = (mechanism.link_named("crank").unwrap(), mechanism.link_named("lead_23").unwrap());
+        // Joint 2 goes from the crank to the lead: on the crank acts the opposite force.
+        let whole = -state.forces[mechanism.joint_named("2").unwrap()];
+        let along = state.motions[lead].direction;
+        let half = whole - along * along.dot(&whole);
+        let body = &mechanism.links()[crank];
+        let motion = &state.motions[crank];
+        let inertial = (case.gravity - motion.point_acceleration(body.mass_centre)) * body.mass;
+        let r1 = half + inertial;
+        if row.is_multiple_of(300) && row < 3600 {
+            assert_abs_diff_eq!(r1.norm(), printed[row / 300], epsilon = 0.02);
+        }
+        largest_force = largest_force.max(r1.norm());
+        let arm = motion.arm(mechanism.joints()[1].first.local);
+        let centre = motion.arm(body.mass_centre);
+        let moment = -(arm.perp(&half) + centre.perp(&inertial));
+        largest = largest.max(moment.abs());
+        if row == 0 {
+            first = moment;
+        }
+        Ok(())
+    };
+    AssurSolver.sweep(&case, &mut visit, &mut |_| {}).unwrap();
+    // Printed -5.831: the moment that the forces have on the crank, not the one that balances it.
+    assert_abs_diff_eq!(-first, -5.831, epsilon = 0.5e-3);
+    // Printed maxima over the turn, between the twelve angles of the table.
+    assert_abs_diff_eq!(largest, 6.34, epsilon = 5e-3);
+    assert_abs_diff_eq!(largest_force, 232.74, epsilon = 0.02);
+}
+
+#[test]
+fn val_fourth_class_branch_closes_after_a_turn() {
+    let case = scenario("fourth_class").case;
+    let turn = solve(&AssurSolver, &case);
+    for (channel, values) in turn.iter().filter(|(channel, _)| channel.of != "crank") {
+        let (first, last) = (values[0], values[values.len() - 1]);
+        let size = values.iter().fold(0.0f64, |max, v| max.max(v.abs()));
+        assert!((first - last).abs() <= 1e-11 * size, "{channel}: {first} {last}");
     }
 }

@@ -6,12 +6,12 @@
 //! the same Jacobian: J omega = -(velocity of the ends), J alpha = -(acceleration of the ends) + centripetal parts.
 
 use crate::math::dense::Lu;
-use crate::math::{Motion, Vec2, rotated, turned, unit};
+use crate::math::{Motion, Vec2, cross, rotated, turned, unit};
 use crate::mechanism::{Group, Mechanism, Side};
 
 /// Newton from the last pose needs a few iterations; more mean that it has lost the branch.
 const MAX_ITERATIONS: usize = 10;
-/// Largest turn of a link in one iteration (rad) that is still a continuation.
+/// Largest turn of a link from the last pose (rad) that is still a continuation; its sine is what is compared.
 const MAX_TURN: f64 = 0.3;
 
 /// A link of the group, hung on one that is known before it.
@@ -137,13 +137,19 @@ impl Chain {
         for (kept, node) in self.kept.iter_mut().zip(&self.nodes) {
             *kept = motions[node.link].direction;
         }
-        let followed = self.follow(motions);
+        let followed = self.follow(motions) && self.is_near(motions);
         if !followed {
             for (kept, node) in self.kept.iter().zip(&self.nodes) {
                 motions[node.link].direction = *kept;
             }
         }
         followed
+    }
+
+    /// Whether no link has turned farther than a continuation may.
+    fn is_near(&self, motions: &[Motion]) -> bool {
+        let mut turns = self.kept.iter().zip(&self.nodes).map(|(kept, node)| (kept, motions[node.link].direction));
+        turns.all(|(kept, now)| kept.dot(&now) > 0.0 && cross(*kept, now).abs() <= MAX_TURN)
     }
 
     /// Newton's method to rounding.

@@ -177,7 +177,7 @@ fn metadata(proof: &Proof) -> BTreeMap<String, String> {
 fn log(proof: &Proof) -> Vec<LogEntry> {
     let start = proof.reference_trajectory.times().iter().copied().fold(f64::INFINITY, f64::min);
     let level = |verdict: &Verdict| match verdict {
-        Verdict::Agree { .. } => Level::Info,
+        Verdict::Agree { .. } | Verdict::Expected { .. } => Level::Info,
         Verdict::Inconclusive { .. } => Level::Warning,
         Verdict::Disagree { .. } => Level::Error,
     };
@@ -204,7 +204,7 @@ fn log(proof: &Proof) -> Vec<LogEntry> {
 
 fn exit_code(verdict: &Verdict) -> u8 {
     match verdict {
-        Verdict::Agree { .. } => super::AGREE,
+        Verdict::Agree { .. } | Verdict::Expected { .. } => super::AGREE,
         Verdict::Disagree { .. } => super::DISAGREE,
         Verdict::Inconclusive { .. } => super::INCONCLUSIVE,
     }

@@ -16,6 +16,11 @@ pub enum Verdict {
         /// Where it is worst, in words.
         place: String,
     },
+    /// A published number disagrees, as a finding says it must.
+    Expected {
+        /// Anchor of the finding in `docs/findings.md`.
+        finding: String,
+    },
     /// Nothing is proven either way.
     Inconclusive {
         /// Why not, and what to do.
@@ -24,12 +29,13 @@ pub enum Verdict {
 }
 
 impl Verdict {
-    /// Word for reports: `agree`, `disagree` or `inconclusive`.
+    /// Word for reports: `agree`, `disagree`, `expected` or `inconclusive`.
     #[must_use]
     pub fn word(&self) -> &'static str {
         match self {
             Verdict::Agree { .. } => "agree",
             Verdict::Disagree { .. } => "disagree",
+            Verdict::Expected { .. } => "expected",
             Verdict::Inconclusive { .. } => "inconclusive",
         }
     }
@@ -124,6 +130,20 @@ impl Check {
         self
     }
 
+    /// Turns the check of a number that a finding calls wrong: it must disagree.
+    #[must_use]
+    pub fn expected(mut self, finding: &str) -> Self {
+        self.verdict = match self.verdict {
+            Verdict::Agree { .. } => Verdict::Disagree {
+                place: format!(
+                    "the finding \"{finding}\" says that the published number is wrong, but it agrees: correct one of the two"
+                ),
+            },
+            _ => Verdict::Expected { finding: finding.to_string() },
+        };
+        self
+    }
+
     /// Family and detail: the name of the check.
     #[must_use]
     pub fn name(&self) -> String {
@@ -148,6 +168,7 @@ pub fn overall<'a>(verdicts: impl IntoIterator<Item = &'a Verdict>) -> Verdict {
             Verdict::Disagree { .. } => return verdict.clone(),
             Verdict::Inconclusive { .. } => open = open.or(Some(verdict)),
             Verdict::Agree { margin: own } => margin = margin.min(*own),
+            Verdict::Expected { .. } => {}
         }
     }
     open.cloned().unwrap_or(Verdict::Agree { margin })

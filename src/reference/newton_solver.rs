@@ -17,6 +17,8 @@ use crate::trajectory::{Channel, Stage};
 
 /// Largest turn of the crank between two poses (rad): a prediction from there stays on the branch.
 const TRACKING_STEP: f64 = PI / 90.0;
+/// How often a step that fails is halved: down to a millionth of it.
+const HALVINGS: u32 = 20;
 /// Newton from a predicted pose converges in two or three iterations; more mean that something is wrong.
 const MAX_ITERATIONS: usize = 12;
 
@@ -77,6 +79,8 @@ struct System<'a> {
     branch: f64,
     residual: Vec<f64>,
     predicted: Vec<f64>,
+    /// Coordinates before the step, to go back to.
+    before: Vec<f64>,
 }
 
 impl<'a> System<'a> {
@@ -101,6 +105,7 @@ impl<'a> System<'a> {
             branch: 0.0,
             residual: zeros(),
             predicted: zeros(),
+            before: zeros(),
         }
     }
 
@@ -118,23 +123,39 @@ impl<'a> System<'a> {
         let turn = (drive.at(t).angle - drive.at(self.time).angle).abs();
         let parts = (turn / TRACKING_STEP).ceil().max(1.0);
         let from = self.time;
-        for part in 1..=parts as usize {
-            // The last part must land on t itself, not on a rounded neighbour.
-            let next = if part == parts as usize { t } else { from + (t - from) * (part as f64 / parts) };
-            let dt = next - self.time;
-            for i in 0..self.q.len() {
-                self.q[i] += dt * (self.rate[i] + 0.5 * dt * self.second[i]);
-            }
-            self.time = next;
-            self.predicted.copy_from_slice(&self.q);
-            self.correct()?;
-            self.check_branch(dt)?;
-            self.differentiate();
+        for part in 1..parts as usize {
+            self.step_to(from + (t - from) * (part as f64 / parts), HALVINGS)?;
         }
+        // The last part lands on t itself, not on a rounded neighbour.
+        self.step_to(t, HALVINGS)?;
         if self.stage >= Stage::Reactions {
             self.multipliers();
         }
         Ok(())
+    }
+
+    /// One step from a prediction; where the branch cannot be followed over it, two of half the size.
+    fn step_to(&mut self, t: f64, halvings: u32) -> Result<()> {
+        let (from, dt) = (self.time, t - self.time);
+        self.before.copy_from_slice(&self.q);
+        for i in 0..self.q.len() {
+            self.q[i] += dt * (self.rate[i] + 0.5 * dt * self.second[i]);
+        }
+        self.time = t;
+        self.predicted.copy_from_slice(&self.q);
+        match self.correct().and_then(|()| self.check_branch(dt)) {
+            Ok(()) => {
+                self.differentiate();
+                Ok(())
+            }
+            Err(error) if halvings == 0 => Err(error),
+            Err(_) => {
+                self.q.copy_from_slice(&self.before);
+                self.time = from;
+                self.step_to(from + dt / 2.0, halvings - 1)?;
+                self.step_to(t, halvings - 1)
+            }
+        }
     }
 
     /// Newton to rounding, from the pose that stands in `q`. The Jacobian is left factored at the last pose but one

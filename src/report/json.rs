@@ -75,6 +75,8 @@ struct CheckRow {
     basis: String,
     verdict: &'static str,
     reason: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    finding: Option<String>,
 }
 
 #[derive(Debug, Serialize)]
@@ -180,6 +182,10 @@ fn check(check: &Check) -> CheckRow {
         basis: check.basis.to_string(),
         verdict: check.verdict.word(),
         reason: reason(&check.verdict),
+        finding: match &check.verdict {
+            Verdict::Expected { finding } => Some(finding.clone()),
+            _ => None,
+        },
     }
 }
 
@@ -196,6 +202,7 @@ pub fn provision(provision: &Provision) -> String {
 fn reason(verdict: &Verdict) -> Option<String> {
     match verdict {
         Verdict::Agree { .. } => None,
+        Verdict::Expected { finding } => Some(format!("expected, see docs/findings.md#{finding}")),
         Verdict::Disagree { place } => Some(place.clone()),
         Verdict::Inconclusive { reason } => Some(reason.clone()),
     }

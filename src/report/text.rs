@@ -28,6 +28,7 @@ pub fn proof(proof: &Proof) -> String {
     );
     let _ = writeln!(text, "\nEngine against reference, the worst channel of each quantity:\n{}", channels(proof));
     let _ = writeln!(text, "\nChecks:\n{}", checks(&proof.checks));
+    expected(proof, &mut text);
     reasons(proof, &mut text);
     let _ = writeln!(text, "\n{}", sentence(&proof.verdict, proof));
     text
@@ -42,7 +43,7 @@ fn seconds(step: f64) -> String {
 fn sentence(verdict: &Verdict, proof: &Proof) -> String {
     let (channels, checks) = (proof.channels.len(), proof.checks.len());
     match verdict {
-        Verdict::Agree { .. } => {
+        Verdict::Agree { .. } | Verdict::Expected { .. } => {
             format!("AGREE: {channels} channels and {checks} checks are within their bounds.")
         }
         Verdict::Disagree { .. } => {
@@ -64,7 +65,7 @@ fn verdicts(proof: &Proof) -> impl Iterator<Item = (String, &Verdict)> {
 fn reasons(proof: &Proof, text: &mut String) {
     let open: Vec<(String, &str)> = verdicts(proof)
         .filter_map(|(name, verdict)| match verdict {
-            Verdict::Agree { .. } => None,
+            Verdict::Agree { .. } | Verdict::Expected { .. } => None,
             Verdict::Disagree { place } => Some((name, place.as_str())),
             Verdict::Inconclusive { reason } => Some((name, reason.as_str())),
         })
@@ -74,6 +75,29 @@ fn reasons(proof: &Proof, text: &mut String) {
     }
     if open.len() > REASONS {
         let _ = writeln!(text, "\n... and {} more (all of them with --json)", open.len() - REASONS);
+    }
+}
+
+/// Verdict on a family of checks; `expected` where all that is wrong is known to be.
+fn family_word<'a>(family: impl Iterator<Item = &'a Check> + Clone) -> &'static str {
+    let word = crate::compare::overall(family.clone().map(|check| &check.verdict)).word();
+    let known = family.clone().any(|check| matches!(check.verdict, Verdict::Expected { .. }));
+    if known && word == "agree" { "expected" } else { word }
+}
+
+/// Which published numbers are wrong as expected, finding by finding.
+fn expected(proof: &Proof, text: &mut String) {
+    let mut findings: Vec<(&str, usize)> = Vec::new();
+    for check in &proof.checks {
+        if let Verdict::Expected { finding } = &check.verdict {
+            match findings.iter_mut().find(|(known, _)| known == finding) {
+                Some((_, count)) => *count += 1,
+                None => findings.push((finding, 1)),
+            }
+        }
+    }
+    for (finding, count) in findings {
+        let _ = writeln!(text, "\n{count} checks disagree as expected, see docs/findings.md#{finding}");
     }
 }
 
@@ -119,7 +143,7 @@ fn channels(proof: &Proof) -> Table {
 fn used(channel: &ChannelProof) -> f64 {
     let share = if channel.residual.max == 0.0 { 0.0 } else { channel.residual.max / channel.bound };
     match channel.verdict {
-        Verdict::Agree { .. } => share,
+        Verdict::Agree { .. } | Verdict::Expected { .. } => share,
         Verdict::Inconclusive { .. } => 1e3 + share,
         Verdict::Disagree { .. } => 1e6 + share,
     }
@@ -150,7 +174,7 @@ fn checks(checks: &[Check]) -> Table {
             family().count().to_string(),
             unit(worst.value),
             unit(worst.bound),
-            crate::compare::overall(family().map(|c| &c.verdict)).word().to_string(),
+            family_word(family()).to_string(),
         ]);
     }
     table

@@ -17,7 +17,7 @@ mod tests;
 pub mod unit;
 mod words;
 
-pub use oracle::{Figure, Oracle, OracleFigure, OraclePoint, OracleSeries, SkippedCell};
+pub use oracle::{ExpectedCell, Figure, Oracle, OracleFigure, OraclePoint, OracleSeries};
 
 use std::path::{Path, PathBuf};
 

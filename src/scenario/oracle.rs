@@ -15,7 +15,7 @@ pub struct Oracle {
     /// The scenario's own name for it, else the file name of the table (`positions.csv`), or `inline 1`, `inline 2`, ... for
     /// numbers in the scenario itself.
     pub name: String,
-    /// Where the numbers are published.
+    /// Where the numbers are published, and why they have an error of their own if they have.
     pub source: String,
     /// Values of channels at crank angles.
     pub series: Vec<OracleSeries>,
@@ -30,10 +30,14 @@ pub struct OracleSeries {
     pub name: String,
     /// The channel.
     pub channel: Channel,
-    /// Values, in the order of the table.
+    /// Whether the value is the size of the vector whose x component the channel is.
+    pub magnitude: bool,
+    /// Values that must be reproduced, in the order of the table.
     pub points: Vec<OraclePoint>,
-    /// Cells left out, with their reasons.
-    pub skipped: Vec<SkippedCell>,
+    /// Values known to be wrong: they must not be reproduced.
+    pub expected: Vec<ExpectedCell>,
+    /// Finding that says why the whole series is wrong; its values must not all be reproduced.
+    pub finding: Option<String>,
 }
 
 /// One published value.
@@ -43,19 +47,19 @@ pub struct OraclePoint {
     pub crank: f64,
     /// Value in the channel's SI unit.
     pub value: f64,
-    /// Half a unit of the last printed digit, in the channel's SI unit.
+    /// Half a unit of the last printed digit, and the error that the numbers are known to have, in the channel's SI unit.
     pub bound: f64,
     /// Number of printed decimals, in the printed unit.
     pub digits: i32,
 }
 
-/// A published value that is not compared.
+/// A published value that is known to be wrong.
 #[derive(Clone, Debug, PartialEq)]
-pub struct SkippedCell {
-    /// Crank angle (rad, as the scenario measures it).
-    pub crank: f64,
-    /// Why it is left out.
-    pub why: String,
+pub struct ExpectedCell {
+    /// The value as published.
+    pub point: OraclePoint,
+    /// Anchor of the finding that says so, in `docs/findings.md`.
+    pub finding: String,
 }
 
 /// One published figure of the whole turn.
@@ -115,9 +119,12 @@ pub(super) fn read(tables: Vec<Table>, channels: &[Channel], wanted: Wanted) -> 
         let mut oracle = Oracle { name: String::new(), source, series: Vec::new(), figures: Vec::new() };
         match forms {
             [true, false, false] => {
-                (oracle.name, oracle.series) = table_file::read(&mut table, &Known { channels, wanted })?;
+                (oracle.name, oracle.series) =
+                    table_file::read(&mut table, &Known { channels, wanted, digits: None, slack: 0.0 })?;
             }
-            [false, true, false] => oracle.series = values(&mut table, &Known { channels, wanted })?,
+            [false, true, false] => {
+                oracle.series = values(&mut table, &Known { channels, wanted, digits: None, slack: 0.0 })?
+            }
             [false, false, true] => oracle.figures = figures(&mut table)?,
             _ => {
                 return Err(table
@@ -139,12 +146,22 @@ pub(super) fn read(tables: Vec<Table>, channels: &[Channel], wanted: Wanted) -> 
 }
 
 /// The channels an oracle may name.
+#[derive(Clone, Copy)]
 pub(super) struct Known<'a> {
     channels: &'a [Channel],
     wanted: Wanted,
+    /// Decimals that a table has, where zeros at the end are not printed.
+    pub digits: Option<i32>,
+    /// Error that the published numbers are known to have, in the printed unit.
+    pub slack: f64,
 }
 
 impl Known<'_> {
+    /// The same for a table with so many decimals, of which zeros at the end are not printed, and with such an error.
+    pub fn of_table(self, digits: Option<i32>, slack: f64) -> Self {
+        Known { digits, slack, ..self }
+    }
+
     /// The channel under the key `channel` of `table`.
     pub fn channel(&self, table: &mut Table) -> Result<(String, PrintedChannel)> {
         let name = table.string("channel")?;
@@ -191,10 +208,12 @@ fn values(table: &mut Table, known: &Known) -> Result<Vec<OracleSeries>> {
     for mut entry in table.tables("values")? {
         let (name, channel) = known.channel(&mut entry)?;
         let printed = number(&mut entry)?;
+        let finding = entry.optional_string("finding")?;
         entry.finish()?;
         let (value, bound) = (channel.to_si(printed.value), channel.to_si(printed.half_unit()));
         let point = OraclePoint { crank, value, bound, digits: printed.digits };
-        series.push(OracleSeries { name, channel: channel.channel, points: vec![point], skipped: Vec::new() });
+        let PrintedChannel { channel, magnitude, .. } = channel;
+        series.push(OracleSeries { name, channel, magnitude, points: vec![point], expected: Vec::new(), finding });
     }
     if series.is_empty() {
         return Err(table.wrong(ErrorKind::Input, "values", "there is no value").help(VALUE_HELP));
@@ -225,9 +244,16 @@ fn figures(table: &mut Table) -> Result<Vec<OracleFigure>> {
 
 /// `value` and `digits` of a number in the scenario itself, where TOML does not keep the printed text.
 fn number(entry: &mut Table) -> Result<Printed> {
-    let (value, digits) = (entry.number("value")?, entry.integer("digits")?);
+    let value = entry.number("value")?;
+    let digits = digits(entry)?;
+    Ok(Printed { value, digits })
+}
+
+/// The count of printed decimals under the key `digits`.
+pub(super) fn digits(entry: &mut Table) -> Result<i32> {
+    let digits = entry.integer("digits")?;
     match i32::try_from(digits) {
-        Ok(digits) if digits.abs() <= MOST_DIGITS => Ok(Printed { value, digits }),
+        Ok(digits) if digits.abs() <= MOST_DIGITS => Ok(digits),
         _ => Err(entry
             .wrong(
                 ErrorKind::Input,

@@ -31,6 +31,12 @@ impl Printed {
         (value.is_finite() && digits.abs() <= MOST_DIGITS).then_some(Printed { value, digits })
     }
 
+    /// The same number with so many decimals, the last of which were dropped in print because they are zero.
+    #[must_use]
+    pub fn with_zeros(self, digits: Option<i32>) -> Printed {
+        Printed { digits: digits.map_or(self.digits, |all| all.max(self.digits)), ..self }
+    }
+
     /// Half a unit of the last printed digit, in the printed unit.
     #[must_use]
     pub fn half_unit(&self) -> f64 {
@@ -42,6 +48,9 @@ impl Printed {
 /// Largest count of decimals that makes sense in double precision.
 pub const MOST_DIGITS: i32 = 20;
 
+/// Ending of a joint's name that stands for the size of its reaction.
+const MAGNITUDE: &str = ".f_N";
+
 /// The endings that channel names with the SI ending `suffix` may have, one a printed unit.
 #[must_use]
 pub fn endings(suffix: &'static str) -> Vec<&'static str> {
@@ -49,6 +58,7 @@ pub fn endings(suffix: &'static str) -> Vec<&'static str> {
         "x_m" => vec!["x_m", "x_mm"],
         "y_m" => vec!["y_m", "y_mm"],
         "angle_rad" => vec!["angle_rad", "angle_deg"],
+        "fx_N" => vec!["fx_N", "f_N"],
         si => vec![si],
     }
 }
@@ -60,6 +70,8 @@ pub struct PrintedChannel {
     pub channel: Channel,
     /// Family of the printed unit, where other units than SI are known; without one the numbers are SI.
     pub family: Option<&'static Family>,
+    /// Whether the printed number is the size of the vector whose x component the channel is.
+    pub magnitude: bool,
     unit: Option<&'static Unit>,
 }
 
@@ -68,16 +80,20 @@ impl PrintedChannel {
     /// else the name in SI.
     #[must_use]
     pub fn named(name: &str) -> Option<PrintedChannel> {
+        if let Some(base) = name.strip_suffix(MAGNITUDE) {
+            let channel = Channel::named(&format!("{base}.fx_N"))?;
+            return Some(PrintedChannel { channel, family: None, magnitude: true, unit: None });
+        }
         for family in [&LENGTH, &ANGLE] {
             for unit in family.units {
                 let Some(base) = name.strip_suffix(unit.suffix) else { continue };
                 let Some(channel) = Channel::named(&format!("{base}{}", family.units[0].suffix)) else { continue };
                 if endings(channel.kind.suffix).iter().any(|ending| name.ends_with(&format!(".{ending}"))) {
-                    return Some(PrintedChannel { channel, family: Some(family), unit: Some(unit) });
+                    return Some(PrintedChannel { channel, family: Some(family), magnitude: false, unit: Some(unit) });
                 }
             }
         }
-        Channel::named(name).map(|channel| PrintedChannel { channel, family: None, unit: None })
+        Channel::named(name).map(|channel| PrintedChannel { channel, family: None, magnitude: false, unit: None })
     }
 
     /// A printed number in SI.
@@ -118,6 +134,9 @@ mod tests {
         assert_eq!(named("point.2.x_m"), Some(("point.2.x_m".into(), 180.0)));
         assert_eq!(named("link.a.angle_deg"), Some(("link.a.angle_rad".into(), std::f64::consts::PI)));
         assert_eq!(named("link.a.omega_rad_s"), Some(("link.a.omega_rad_s".into(), 180.0)));
+        assert_eq!(named("joint.A.f_N"), Some(("joint.A.fx_N".into(), 180.0)));
+        assert!(PrintedChannel::named("joint.A.f_N").unwrap().magnitude);
+        assert_eq!(named("link.A.f_N"), None);
         assert_eq!(named("point.2.vx_mm_s"), None);
         assert_eq!(named("link.a.omega_deg_s"), None);
         assert_eq!(named("link.a.angle_mm"), None);

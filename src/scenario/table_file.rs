@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use super::oracle::{Known, OraclePoint, OracleSeries, SkippedCell};
+use super::oracle::{ExpectedCell, Known, OraclePoint, OracleSeries, digits};
 use super::printed::{Printed, PrintedChannel};
 use super::reader::{Sign, Table};
 use super::source::Source;
@@ -38,6 +38,9 @@ pub fn read(oracle: &mut Table, known: &Known) -> Result<(String, Vec<OracleSeri
         .collect::<Result<_>>()
         .map_err(|error| error.key(oracle.path_of("crank")))?;
 
+    let digits = if oracle.has("digits") { Some(digits(oracle)?) } else { None };
+    let slack = slack(oracle)?;
+    let known = &known.of_table(digits, slack);
     let mut columns = oracle.table("columns")?;
     let mut all = Vec::new();
     for column in columns.all_tables()? {
@@ -56,32 +59,44 @@ fn series(mut table: Table, rows: &Rows, cranks: &[f64], known: &Known) -> Resul
     let column = rows.column(&name).map_err(|error| error.key(table.path()))?;
     let (_, channel) = known.channel(&mut table)?;
     let offset = offset(&mut table, &channel)?;
-    let skips = table.tables("skip")?;
+    let finding = table.optional_string("finding")?;
+    let expects = table.tables("expect")?;
     table.finish()?;
-    let mut skipped: Vec<Option<SkippedCell>> = vec![None; cranks.len()];
-    for mut skip in skips {
-        let crank = skip.quantity("crank", &ANGLE, Sign::Any)?;
-        let why = skip.string("why")?;
-        skip.finish()?;
-        if why.trim().is_empty() {
-            let error = skip.wrong(ErrorKind::Input, "why", "no reason is given");
-            return Err(error.help("say why the cell is left out, for example `why = \"misprint: -4.64, is -4.685\"`"));
-        }
+    let mut findings: Vec<Option<String>> = vec![None; cranks.len()];
+    for mut expect in expects {
+        let crank = expect.quantity("crank", &ANGLE, Sign::Any)?;
+        let finding = expect.string("finding")?;
+        expect.finish()?;
         let Some(row) = cranks.iter().position(|row| (row - crank).abs() <= SAME_CRANK) else {
-            let error = skip.wrong(ErrorKind::Input, "crank", "the table has no row with this crank angle");
+            let error = expect.wrong(ErrorKind::Input, "crank", "the table has no row with this crank angle");
             return Err(error.help("give a crank angle that stands in the table"));
         };
-        skipped[row] = Some(SkippedCell { crank: cranks[row], why });
+        findings[row] = Some(finding);
     }
-    let mut points = Vec::with_capacity(cranks.len());
-    for ((cell, &crank), skip) in rows.cells(column).zip(cranks).zip(&skipped) {
-        if skip.is_none() {
-            let printed = cell.printed().map_err(|error| error.key(table.path()))?;
-            let (value, bound) = (channel.to_si(printed.value) - offset, channel.to_si(printed.half_unit()));
-            points.push(OraclePoint { crank, value, bound, digits: printed.digits });
+    let (mut points, mut expected) = (Vec::with_capacity(cranks.len()), Vec::new());
+    for ((cell, &crank), finding) in rows.cells(column).zip(cranks).zip(findings) {
+        let printed = cell.printed().map_err(|error| error.key(table.path()))?.with_zeros(known.digits);
+        let (value, bound) = (channel.to_si(printed.value) - offset, channel.to_si(printed.half_unit() + known.slack));
+        let point = OraclePoint { crank, value, bound, digits: printed.digits };
+        match finding {
+            None => points.push(point),
+            Some(finding) => expected.push(ExpectedCell { point, finding }),
         }
     }
-    Ok(OracleSeries { name, channel: channel.channel, points, skipped: skipped.into_iter().flatten().collect() })
+    let PrintedChannel { channel, magnitude, .. } = channel;
+    Ok(OracleSeries { name, channel, magnitude, points, expected, finding })
+}
+
+/// The error that the published numbers are known to have, in the printed unit; it must be explained.
+fn slack(oracle: &mut Table) -> Result<f64> {
+    let Some(slack) = oracle.optional_number("slack")? else { return Ok(0.0) };
+    let why = oracle.string("why")?;
+    if slack > 0.0 && !why.trim().is_empty() {
+        return Ok(slack);
+    }
+    Err(oracle
+        .wrong(ErrorKind::Input, "slack", format!("found {slack}, explained by \"{why}\""))
+        .help("give a positive number and the reason why the published numbers are as far off"))
 }
 
 /// What the printed values exceed the channel by, in SI; zero if it is not given.
@@ -153,7 +168,7 @@ impl Cell<'_> {
         Printed::parse(self.text).ok_or_else(|| {
             Error::new(ErrorKind::Input, format!("found \"{}\", but a decimal number is needed", self.text))
                 .at(self.source.place(self.span.clone()))
-                .help("write it as printed, with a decimal point; a cell to leave out is named under `skip` with a reason")
+                .help("write it as printed, with a decimal point; a cell known to be wrong is named under `expect`, with its finding")
         })
     }
 }

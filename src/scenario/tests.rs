@@ -149,16 +149,19 @@ fn links_keep_the_order_of_the_file_when_their_points_come_first() {
 }
 
 #[test]
-fn skipped_cells_keep_their_reason() {
+fn cells_known_to_be_wrong_keep_their_finding() {
     let directory = tempfile::tempdir().unwrap();
-    std::fs::write(directory.path().join("table.csv"), "\u{feff}turn_rad, B \r\n0,12.5\r\n0.5,\r\n1e0,7\r\n").unwrap();
+    std::fs::write(directory.path().join("table.csv"), "\u{feff}turn_rad, B \r\n0,12.5\r\n0.5,9.25\r\n1e0,7\r\n")
+        .unwrap();
     let text = include_str!("../../scenarios/crank_rocker.toml").to_string()
         + "[[oracle]]\nsource = \"t\"\nfile = \"table.csv\"\ncrank = \"turn_rad\"\n[oracle.columns]\n\
-           B = { channel = \"link.rocker.angle_deg\", offset_deg = 2.5, skip = [{ crank_rad = 0.5, why = \"blank\" }] }\n";
+           B = { channel = \"link.rocker.angle_deg\", offset_deg = 2.5, expect = [{ crank_rad = 0.5, finding = \"misprint\" }] }\n";
     let scenario = Scenario::parse(&text, &directory.path().join("x.toml")).unwrap_or_else(|error| panic!("{error}"));
     let oracle = &scenario.oracles[3];
     assert_eq!((oracle.name.as_str(), oracle.series[0].name.as_str()), ("table.csv", "B"));
-    assert_eq!(oracle.series[0].skipped, [SkippedCell { crank: 0.5, why: "blank".into() }]);
+    let expected = &oracle.series[0].expected;
+    assert_eq!((expected.len(), expected[0].point.crank, expected[0].point.digits), (1, 0.5, 2));
+    assert_eq!(expected[0].finding, "misprint");
     let points = &oracle.series[0].points;
     assert_eq!((points.len(), points[0].digits, points[1].digits, points[1].crank), (2, 1, 0, 1.0));
     assert!((points[0].value - 10f64.to_radians()).abs() < 1e-15);

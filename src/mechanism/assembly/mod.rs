@@ -182,10 +182,10 @@ fn nearest<'a>(
         return Err(Error::new(
             ErrorKind::Geometry,
             format!(
-                "the rough place of point \"{}\" is {first:.4} m from the {}nearest configuration and {second:.4} m from the {}next: it does not tell them apart",
+                "the rough place of point \"{}\" is {first:.4} m from the {} and {second:.4} m from the {} configuration: it does not tell them apart",
                 point.name,
-                named(a.mode),
-                named(b.mode)
+                named(a.mode, "nearest"),
+                named(b.mode, "next")
             ),
         )
         .help("give a place nearer to the configuration you mean, or its mode"));
@@ -202,9 +202,9 @@ fn nearest<'a>(
     }
 }
 
-/// The mode of a dyad and a comma, for messages; nothing for higher groups.
-fn named(mode: AssemblyMode) -> String {
-    if mode == AssemblyMode::Followed { String::new() } else { format!("{}, ", mode.name()) }
+/// The mode of a dyad; for higher groups, whose configurations have no names, `rank`.
+fn named(mode: AssemblyMode, rank: &'static str) -> &'static str {
+    if mode == AssemblyMode::Followed { rank } else { mode.name() }
 }
 
 /// Both configurations of an RRR dyad: its inner joint is where the circles about its outer joints meet.
