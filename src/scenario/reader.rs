@@ -104,6 +104,7 @@ impl<'a> Table<'a> {
             .key(self.path_of(key))
             .at(self.source.place(value.span()));
         match (value.get_ref(), needed) {
+            (_, "a finite number") => error.help("write a decimal number; nan and inf stand for no quantity"),
             (DeValue::String(_), "a number") => error.help("write numbers without quotes and with a decimal point"),
             (DeValue::Integer(_) | DeValue::Float(_), "text") => error.help("put the text in \"quotes\""),
             (DeValue::Table(_), "an array of tables") => error.help(format!("write [[{}]]", self.path_of(key))),

@@ -21,11 +21,12 @@ pub enum Sign {
 }
 
 impl Sign {
-    fn broken_by(self, value: f64) -> Option<&'static str> {
+    /// The rule that a value breaks, and the way out.
+    fn broken_by(self, value: f64) -> Option<(&'static str, &'static str)> {
         match self {
-            Sign::NotNegative if value < 0.0 => Some("must not be negative"),
-            Sign::Positive if value <= 0.0 => Some("must be positive"),
-            Sign::NotZero if value == 0.0 => Some("must not be zero"),
+            Sign::NotNegative if value < 0.0 => Some(("must not be negative", "give zero or a positive number")),
+            Sign::Positive if value <= 0.0 => Some(("must be positive", "give a number greater than zero")),
+            Sign::NotZero if value == 0.0 => Some(("must not be zero", "give a positive or a negative number")),
             _ => None,
         }
     }
@@ -67,9 +68,10 @@ impl Table<'_> {
         let unit = |(index, family): (usize, &&'static Family)| Some((index, *family, family.unit_of(base, key)?));
         let (index, family, unit) =
             families.iter().enumerate().find_map(unit).expect("the key is one of the spellings");
-        if let Some(rule) = sign.broken_by(number) {
+        if let Some((rule, way_out)) = sign.broken_by(number) {
             let found = found(self.source, entry.value);
-            return Err(self.wrong_entry(entry, format!("found {found}, but {} {rule} here", family.noun)));
+            let message = format!("found {found}, but {} {rule} here", family.noun);
+            return Err(self.wrong_entry(entry, message).help(way_out));
         }
         let value = unit.to_si(number);
         if !value.is_finite() {
