@@ -6,13 +6,23 @@
 //! the same Jacobian: J omega = -(velocity of the ends), J alpha = -(acceleration of the ends) + centripetal parts.
 
 use crate::math::dense::Lu;
-use crate::math::{Motion, Vec2, cross, rotated, turned, unit};
+use crate::math::{Motion, Vec2, cross, rotated, turned};
 use crate::mechanism::{Group, Mechanism, Side};
 
 /// Newton from the last pose needs a few iterations; more mean that it has lost the branch.
 const MAX_ITERATIONS: usize = 10;
 /// Largest turn of a link from the last pose (rad) that is still a continuation; its sine is what is compared.
 const MAX_TURN: f64 = 0.3;
+
+/// Largest turn of the last iteration (rad): what is left is its square, times the condition of the pose.
+const LAST_CHANGE: f64 = 1e-8;
+
+/// `direction` turned by a small angle (rad), to the third order of it, and of unit length to rounding.
+#[inline]
+fn slightly_turned(direction: Vec2, angle: f64) -> Vec2 {
+    let turn = Vec2::new(1.0 - 0.5 * angle * angle, angle);
+    rotated(direction, turn).normalize()
+}
 
 /// A link of the group, hung on one that is known before it.
 #[derive(Clone, Copy, Debug)]
@@ -59,6 +69,9 @@ pub struct Chain {
     branch: f64,
     /// Directions of the links at the last pose, to go back to.
     kept: Vec<Vec2>,
+    /// Turns of the links in the last step and in the one before (rad), and the last step of the driving angle (rad).
+    turned: Vec<[f64; 2]>,
+    last_step: f64,
 }
 
 impl Chain {
@@ -96,6 +109,8 @@ impl Chain {
             unknown: vec![0.0; n],
             branch: 0.0,
             kept: vec![Vec2::zeros(); n],
+            turned: vec![[0.0; 2]; n],
+            last_step: f64::NAN,
         }
     }
 
@@ -131,19 +146,44 @@ impl Chain {
         }
     }
 
-    /// Positions from those of the last pose; `false`, with the links' directions as they were, if the branch cannot be
-    /// followed there.
-    pub(super) fn positions(&mut self, motions: &mut [Motion]) -> bool {
+    /// Positions from those of the last pose, from which the driving angle has moved by `step` (rad); `false`, with the
+    /// links' directions as they were, if the branch cannot be followed there.
+    pub(super) fn positions(&mut self, step: f64, motions: &mut [Motion]) -> bool {
         for (kept, node) in self.kept.iter_mut().zip(&self.nodes) {
             *kept = motions[node.link].direction;
         }
+        self.predict(step, motions);
         let followed = self.follow(motions) && self.is_near(motions);
-        if !followed {
+        if followed {
+            self.remember(step, motions);
+        } else {
+            self.last_step = f64::NAN;
             for (kept, node) in self.kept.iter().zip(&self.nodes) {
                 motions[node.link].direction = *kept;
             }
         }
         followed
+    }
+
+    /// Turns the links as the last two steps let expect, if this one is of the same size: the error is of third order.
+    fn predict(&self, step: f64, motions: &mut [Motion]) {
+        if (step - self.last_step).abs() <= 1e-6 * step.abs() {
+            for (node, [last, before]) in self.nodes.iter().zip(&self.turned) {
+                let direction = &mut motions[node.link].direction;
+                *direction = slightly_turned(*direction, 2.0 * last - before);
+            }
+        }
+    }
+
+    /// Keeps the turns of this step for the next prediction.
+    fn remember(&mut self, step: f64, motions: &[Motion]) {
+        // After a step of another size the turn before is unknown: taking the last one for it predicts linearly.
+        let same = (step - self.last_step).abs() <= 1e-6 * step.abs();
+        for ((turned, kept), node) in self.turned.iter_mut().zip(&self.kept).zip(&self.nodes) {
+            let turn = cross(*kept, motions[node.link].direction);
+            *turned = [turn, if same { turned[0] } else { turn }];
+        }
+        self.last_step = step;
     }
 
     /// Whether no link has turned farther than a continuation may.
@@ -152,9 +192,8 @@ impl Chain {
         turns.all(|(kept, now)| kept.dot(&now) > 0.0 && cross(*kept, now).abs() <= MAX_TURN)
     }
 
-    /// Newton's method to rounding.
+    /// Newton's method to rounding; leaves the Jacobian factored at the pose it ends in.
     fn follow(&mut self, motions: &mut [Motion]) -> bool {
-        let mut last = f64::INFINITY;
         for _ in 0..MAX_ITERATIONS {
             self.assemble(motions);
             if !self.jacobian.factor() {
@@ -167,13 +206,18 @@ impl Chain {
             }
             for (node, &turn) in self.nodes.iter().zip(&self.unknown) {
                 let direction = &mut motions[node.link].direction;
-                *direction = rotated(*direction, unit(-turn)).normalize();
+                *direction = slightly_turned(*direction, -turn);
             }
-            // Quadratic convergence: a change of rounding size, or the one after it, is the last.
-            if change < 1e-15 || (last < 1e-8 && change < 1e-8) {
+            // Quadratic convergence: what is left is of the order of the square.
+            if change < LAST_CHANGE {
+                if change > f64::EPSILON {
+                    self.assemble(motions);
+                    if !self.jacobian.factor() {
+                        return false;
+                    }
+                }
                 return self.hang(motions);
             }
-            last = change;
         }
         false
     }

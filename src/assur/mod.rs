@@ -32,6 +32,8 @@ pub enum Step {
 pub struct Plan {
     drivers: Vec<Driver>,
     steps: Vec<Step>,
+    /// World angle of the driving link at the last pose (rad).
+    angle: f64,
 }
 
 /// A group that cannot be placed at some crank angle.
@@ -56,7 +58,7 @@ impl Plan {
             GroupKind::Rrr => Step::Rrr(Rrr::of(mechanism, group, mode)),
             GroupKind::Higher => Step::Chain(Chain::of(mechanism, group)),
         });
-        Plan { drivers: drivers.collect(), steps: steps.collect() }
+        Plan { drivers: drivers.collect(), steps: steps.collect(), angle: f64::NAN }
     }
 
     /// The groups, in the order of [`Structure::groups`].
@@ -88,12 +90,13 @@ impl Plan {
             match step {
                 Step::Rrr(dyad) => dyad.positions(motions).map_err(|span| OutOfReach { group, span: Some(span) })?,
                 Step::Chain(chain) => {
-                    if !chain.positions(motions) {
+                    if !chain.positions(angle - self.angle, motions) {
                         return Err(OutOfReach { group, span: None });
                     }
                 }
             }
         }
+        self.angle = angle;
         Ok(())
     }
 

@@ -45,3 +45,27 @@ pub fn four_bar() -> Mechanism {
     ];
     mechanism(links, &pins).unwrap()
 }
+
+/// Reference 7: crank 1 = OA, triangles 2 = A-C-B and 5 = K-E-D, links 3 = BD and 4 = CE. B is C turned by +60 deg about A
+/// (`side_b` = 1) or by -60 deg (-1), D is E turned about K likewise.
+pub fn class_four(side_b: f64, side_d: f64) -> Mechanism {
+    let (x, y) = (15e-3, 30e-3 * 0.75f64.sqrt());
+    let links = vec![
+        link("ground", &[("O", 0.0, 0.0), ("K", 85e-3, -15e-3)]),
+        link("1", &[("O", 0.0, 0.0), ("A", 10e-3, 0.0)]),
+        link("2", &[("A", 0.0, 0.0), ("C", 30e-3, 0.0), ("B", x, side_b * y)]),
+        link("3", &[("B", 0.0, 0.0), ("D", 51e-3, 0.0)]),
+        link("4", &[("C", 0.0, 0.0), ("E", 40e-3, 0.0)]),
+        link("5", &[("K", 0.0, 0.0), ("E", 30e-3, 0.0), ("D", x, side_d * y)]),
+    ];
+    let pins = [
+        ("O", "O", "ground", "1"),
+        ("A", "A", "1", "2"),
+        ("B", "B", "2", "3"),
+        ("C", "C", "2", "4"),
+        ("D", "D", "3", "5"),
+        ("E", "E", "4", "5"),
+        ("K", "K", "ground", "5"),
+    ];
+    mechanism(links, &pins).unwrap()
+}

@@ -3,11 +3,13 @@
 mod assur_solver;
 mod kinetostatics;
 mod newton_solver;
+mod pose_solver;
 pub mod power;
 pub mod reduced;
 
 pub use assur_solver::AssurSolver;
 pub use newton_solver::NewtonSolver;
+pub use pose_solver::PoseSolver;
 
 use crate::solver::Solver;
 

@@ -44,7 +44,9 @@ fn sentence(verdict: &Verdict, proof: &Proof) -> String {
     let (channels, checks) = (proof.channels.len(), proof.checks.len());
     match verdict {
         Verdict::Agree { .. } | Verdict::Expected { .. } => {
-            format!("AGREE: {channels} channels and {checks} checks are within their bounds.")
+            let known = verdicts(proof).filter(|(_, verdict)| matches!(verdict, Verdict::Expected { .. })).count();
+            let expected = if known == 0 { String::new() } else { format!(", {known} disagree as expected") };
+            format!("AGREE: {channels} channels and {} checks are within their bounds{expected}.", checks - known)
         }
         Verdict::Disagree { .. } => {
             let wrong = verdicts(proof).filter(|(_, verdict)| matches!(verdict, Verdict::Disagree { .. })).count();

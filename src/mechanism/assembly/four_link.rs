@@ -230,7 +230,7 @@ pub(super) fn configurations(mechanism: &Mechanism, group: &Group, pose: &Pose) 
 mod tests {
     use super::*;
     use crate::math::cross;
-    use crate::mechanism::fixtures::{link, mechanism};
+    use crate::mechanism::fixtures::class_four;
     use crate::mechanism::{GROUND, Structure};
     use proptest::prelude::*;
     use std::f64::consts::TAU;
@@ -290,29 +290,9 @@ mod tests {
     /// Reference 7: link 2 A-C-B, link 3 BD, link 4 CE, link 5 K-E-D, crank OA at 70 deg.
     #[test]
     fn val_fourth_class_configurations_at_70_degrees() {
-        let third = 30e-3 * unit(TAU / 6.0);
-        let triangle = |sign: f64| (third.x, sign * third.y);
         let mut total = 0;
         for (side_b, side_d) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
-            let (b, d) = (triangle(side_b), triangle(side_d));
-            let links = vec![
-                link("ground", &[("O", 0.0, 0.0), ("K", 85e-3, -15e-3)]),
-                link("1", &[("O", 0.0, 0.0), ("A", 10e-3, 0.0)]),
-                link("2", &[("A", 0.0, 0.0), ("C", 30e-3, 0.0), ("B", b.0, b.1)]),
-                link("3", &[("B", 0.0, 0.0), ("D", 51e-3, 0.0)]),
-                link("4", &[("C", 0.0, 0.0), ("E", 40e-3, 0.0)]),
-                link("5", &[("K", 0.0, 0.0), ("E", 30e-3, 0.0), ("D", d.0, d.1)]),
-            ];
-            let pins = [
-                ("O", "O", "ground", "1"),
-                ("A", "A", "1", "2"),
-                ("B", "B", "2", "3"),
-                ("C", "C", "2", "4"),
-                ("D", "D", "3", "5"),
-                ("E", "E", "4", "5"),
-                ("K", "K", "ground", "5"),
-            ];
-            let mechanism = mechanism(links, &pins).unwrap();
+            let mechanism = class_four(side_b, side_d);
             let structure = Structure::of(&mechanism, &[0]).unwrap();
             let mut pose = Pose(vec![LinkPose::GROUND; 6]);
             pose.0[1].angle = 70f64.to_radians();

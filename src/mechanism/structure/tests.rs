@@ -1,5 +1,5 @@
 use super::*;
-use crate::mechanism::fixtures::{four_bar, link, mechanism};
+use crate::mechanism::fixtures::{class_four, four_bar, link, mechanism};
 
 #[test]
 fn four_bar_is_a_crank_and_a_dyad() {
@@ -58,24 +58,7 @@ fn driving_a_lead_of_the_triad_lowers_the_class() {
 
 #[test]
 fn a_changeable_quadrilateral_is_class_four_order_two() {
-    let links = vec![
-        link("ground", &[("O", 0.0, 0.0), ("K", 8.5, -1.5)]),
-        link("1", &[("O", 0.0, 0.0), ("A", 1.0, 0.0)]),
-        link("2", &[("A", 0.0, 0.0), ("B", 3.0, 0.0), ("C", 1.5, 2.6)]),
-        link("3", &[("B", 0.0, 0.0), ("D", 5.1, 0.0)]),
-        link("4", &[("C", 0.0, 0.0), ("E", 4.0, 0.0)]),
-        link("5", &[("K", 0.0, 0.0), ("D", 3.0, 0.0), ("E", 1.5, 2.6)]),
-    ];
-    let pins = [
-        ("O", "O", "ground", "1"),
-        ("A", "A", "1", "2"),
-        ("B", "B", "2", "3"),
-        ("C", "C", "2", "4"),
-        ("D", "D", "3", "5"),
-        ("E", "E", "4", "5"),
-        ("K", "K", "ground", "5"),
-    ];
-    let mechanism = mechanism(links, &pins).unwrap();
+    let mechanism = class_four(1.0, -1.0);
     let structure = Structure::of(&mechanism, &[0]).unwrap();
     assert_eq!(structure.formula(&mechanism), "I(ground, 1) -> IV.2(2, 3, 4, 5)");
 }

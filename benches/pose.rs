@@ -1,0 +1,98 @@
+//! Cost of one pose: positions, velocities, accelerations, all reactions and the balancing moment, as a ratio to a
+//! four-bar written out by hand and timed in the same run. `cargo bench --bench pose`.
+
+mod four_bar;
+
+use std::hint::black_box;
+use std::path::Path;
+use std::time::Instant;
+
+use four_bar::FourBar;
+use linkproof::reference::PoseSolver;
+use linkproof::scenario::Scenario;
+use linkproof::trajectory::Stage;
+
+/// Poses a timing; one turn in as many steps.
+const POSES: usize = 3600;
+/// Timings, of which the shortest counts: whatever else the machine does only adds.
+const REPEATS: usize = 200;
+
+fn scenario(name: &str) -> Scenario {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios").join(format!("{name}.toml"));
+    Scenario::load(&path).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Shortest time of a turn, a pose (ns).
+fn shortest(mut turn: impl FnMut()) -> f64 {
+    let time = |_| {
+        let since = Instant::now();
+        turn();
+        since.elapsed().as_secs_f64()
+    };
+    (0..REPEATS).map(time).fold(f64::INFINITY, f64::min) * 1e9 / POSES as f64
+}
+
+fn angle(k: usize) -> f64 {
+    std::f64::consts::TAU * k as f64 / POSES as f64
+}
+
+fn by_hand(scenario: &Scenario) -> FourBar {
+    let case = &scenario.case;
+    let [crank, coupler, rocker] = [1, 2, 3].map(|k| &case.mechanism.links()[k]);
+    let length = |link: &linkproof::mechanism::Link| link.points[1].local.x;
+    FourBar {
+        crank: length(crank),
+        coupler: length(coupler),
+        rocker: length(rocker),
+        pivot: [0.15, 0.015],
+        mass: [crank, coupler, rocker].map(|link| link.mass),
+        inertia: [crank, coupler, rocker].map(|link| link.inertia),
+        centre: [crank, coupler, rocker].map(|link| link.mass_centre.x),
+        gravity: -case.gravity.y,
+        resistance: 100.0,
+    }
+}
+
+/// The two must compute the same, or the ratio means nothing.
+fn check(scenario: &Scenario, hand: &FourBar) {
+    let omega = scenario.case.drive.at(0.0).omega;
+    let mut poses = PoseSolver::new(&scenario.case).unwrap();
+    for k in 0..POSES {
+        let state = poses.solve(angle(k), omega, 0.0, Stage::BalancingMoment).unwrap();
+        let general = state.forces.iter().flat_map(|force| [force.x, force.y]).chain([state.torque]);
+        // Joints in the scenario's order: O, A, B, C.
+        for (ours, theirs) in general.zip(hand.solve(angle(k), omega)) {
+            assert!((ours - theirs).abs() < 1e-8, "{ours} {theirs} at {k}");
+        }
+    }
+}
+
+fn main() {
+    let crank_rocker = scenario("crank_rocker");
+    let hand = by_hand(&crank_rocker);
+    check(&crank_rocker, &hand);
+    let omega = crank_rocker.case.drive.at(0.0).omega;
+    let measure = shortest(|| {
+        for k in 0..POSES {
+            black_box(hand.solve(black_box(angle(k)), omega));
+        }
+    });
+    println!("four-bar by hand: 1 ({measure:.0} ns a pose on this machine, now)\n");
+    println!("{:20} {:>10} {:>10}", "scenario", "all", "positions");
+    for name in ["crank_rocker", "ov7_base", "ov7_new", "fourth_class"] {
+        let scenario = scenario(name);
+        let drive = scenario.case.drive;
+        let omega = drive.at(0.0).omega;
+        let time = |deepest: Stage| {
+            let mut poses = PoseSolver::new(&scenario.case).unwrap();
+            shortest(|| {
+                for k in 0..POSES {
+                    let crank = drive.start + angle(k);
+                    let _ = black_box(poses.solve(black_box(crank), omega, 0.0, deepest).unwrap().torque);
+                }
+            })
+        };
+        let (all, positions) = (time(Stage::BalancingMoment) / measure, time(Stage::Positions) / measure);
+        println!("{name:20} {all:>10.2} {positions:>10.2}");
+    }
+}

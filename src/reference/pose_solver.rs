@@ -1,0 +1,141 @@
+//! Pose after pose by Assur groups: the part of side 1 that is fast.
+
+use std::f64::consts::TAU;
+
+use super::kinetostatics::Kinetostatics;
+use crate::assur::{OutOfReach, Plan};
+use crate::case::Case;
+use crate::error::{Error, ErrorKind, Result};
+use crate::math::{Vec2, angle, cross};
+use crate::solver::State;
+use crate::trajectory::Stage;
+
+/// Crank angle between two poses (rad) over which no link turns so far that its turns could be miscounted.
+const CLOSED_FORM_STEP: f64 = std::f64::consts::PI / 12.0;
+/// The same where a group is followed by Newton's method from pose to pose.
+const FOLLOWED_STEP: f64 = std::f64::consts::PI / 90.0;
+/// How often a step that fails is halved: down to a millionth of it.
+const HALVINGS: u32 = 20;
+
+/// Goes from crank angle to crank angle on one branch and solves the pose there, without allocation.
+#[derive(Debug)]
+pub struct PoseSolver<'a> {
+    case: &'a Case,
+    plan: Plan,
+    statics: Kinetostatics,
+    state: State,
+    /// Direction of every link at the last pose, and its whole turns.
+    directions: Vec<Vec2>,
+    turns: Vec<f64>,
+    crank: f64,
+    step: f64,
+}
+
+impl<'a> PoseSolver<'a> {
+    /// At the start pose of the case, which fixes the branch.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Geometry`] if the start pose is a singular one.
+    pub fn new(case: &'a Case) -> Result<Self> {
+        let plan = Plan::of(&case.mechanism, &case.structure, &case.modes);
+        let step = if plan.is_closed_form() { CLOSED_FORM_STEP } else { FOLLOWED_STEP };
+        let (statics, state) = (Kinetostatics::of(case, &plan), State::at_start(case));
+        let directions = state.motions.iter().map(|motion| motion.direction).collect();
+        let turns = case.start.0.iter().map(|pose| ((pose.angle - angle::wrapped(pose.angle)) / TAU).round()).collect();
+        let mut solver = PoseSolver { case, plan, statics, state, directions, turns, crank: case.drive.start, step };
+        solver.step_to(case.drive.start, 0)?;
+        Ok(solver)
+    }
+
+    /// The state at the crank angle `crank` (rad, as the scenario states it) for the driving link's angular velocity `omega` (rad/s)
+    /// and acceleration `alpha` (rad/s^2), computed as far as `deepest`; what lies beyond is left from before, and so are the angles:
+    /// see [`PoseSolver::with_angles`].
+    ///
+    /// # Errors
+    /// [`ErrorKind::Geometry`] if the crank angle cannot be reached on the branch, with the group and the angle at which it fails.
+    #[inline]
+    pub fn solve(&mut self, crank: f64, omega: f64, alpha: f64, deepest: Stage) -> Result<&State> {
+        self.go_to(crank)?;
+        if deepest >= Stage::Velocities {
+            self.plan.velocities(omega, &mut self.state.motions);
+        }
+        if deepest >= Stage::Accelerations {
+            self.plan.accelerations(alpha, &mut self.state.motions);
+        }
+        if deepest >= Stage::Reactions {
+            let State { motions, forces, torque, .. } = &mut self.state;
+            *torque = self.statics.solve(self.case, &self.plan, motions, forces);
+        }
+        Ok(&self.state)
+    }
+
+    /// Places the mechanism at the crank angle `target`, in small steps from where it is.
+    fn go_to(&mut self, target: f64) -> Result<()> {
+        let from = self.crank;
+        let parts = ((target - from).abs() / self.step).ceil().max(1.0);
+        for part in 1..parts as usize {
+            self.step_to(from + (target - from) * (part as f64 / parts), HALVINGS)?;
+        }
+        self.step_to(target, HALVINGS)
+    }
+
+    /// One step; where a group cannot be followed over it, two of half the size.
+    fn step_to(&mut self, target: f64, halvings: u32) -> Result<()> {
+        let world = self.case.drive.world_angle(target);
+        match self.plan.positions(world, &mut self.state.motions) {
+            Ok(()) => {
+                self.crank = target;
+                self.count_turns();
+                Ok(())
+            }
+            Err(OutOfReach { span: None, .. }) if halvings > 0 => {
+                self.step_to((self.crank + target) / 2.0, halvings - 1)?;
+                self.step_to(target, halvings - 1)
+            }
+            Err(reach) => Err(self.unreachable(target, reach)),
+        }
+    }
+
+    /// Counts the turns of every link: it has gone past the direction -x since the last pose, one way or the other.
+    #[inline]
+    fn count_turns(&mut self) {
+        for ((turns, last), motion) in self.turns.iter_mut().zip(&mut self.directions).zip(&self.state.motions) {
+            let now = motion.direction;
+            let (was_up, is_up) = (last.y >= 0.0, now.y >= 0.0);
+            if was_up != is_up {
+                let sense = cross(*last, now);
+                if was_up && sense > 0.0 {
+                    *turns += 1.0;
+                } else if is_up && sense < 0.0 {
+                    *turns -= 1.0;
+                }
+            }
+            *last = now;
+        }
+    }
+
+    /// The last state with its links' angles (rad), turns kept.
+    pub fn with_angles(&mut self) -> &State {
+        for ((angle, turns), motion) in self.state.angles.iter_mut().zip(&self.turns).zip(&self.state.motions) {
+            // Adding zero makes -0 a 0: on the axis -x the angle is +pi, as it is counted.
+            *angle = (motion.direction.y + 0.0).atan2(motion.direction.x) + TAU * turns;
+        }
+        self.state.angles[self.case.drive.link] = self.case.drive.world_angle(self.crank);
+        &self.state
+    }
+
+    fn unreachable(&self, crank: f64, reach: OutOfReach) -> Error {
+        let group = self.case.structure.groups[reach.group].names(&self.case.mechanism);
+        let crank = crank.to_degrees();
+        let message = match reach.span {
+            Some((distance, [shortest, longest])) => format!(
+                "the group ({group}) cannot be assembled at crank angle {crank:.4} deg: its outer joints are {distance:.6} m apart, its links span {shortest:.6} to {longest:.6} m"
+            ),
+            None => format!(
+                "the group ({group}) cannot be followed beyond crank angle {crank:.4} deg: it has a dead point there"
+            ),
+        };
+        Error::new(ErrorKind::Geometry, message)
+            .help("shorten the grid to the crank angles that can be reached, or check the lengths")
+    }
+}
