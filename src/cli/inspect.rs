@@ -5,16 +5,19 @@ use std::path::PathBuf;
 
 use serde_json::{Value, json};
 
-use super::output;
-use crate::error::Result;
+use super::{modes, output};
+use crate::case::Grid;
+use crate::error::{Error, ErrorKind, Result};
 use crate::mechanism::assembly::transmission_sine;
 use crate::mechanism::{GROUND, Joint, Mechanism};
+use crate::reference;
 use crate::scenario::Scenario;
 
 const EXAMPLES: &str = "\
 Examples:
   linkproof inspect scenarios/crank_rocker.toml
-  linkproof inspect scenarios/ov7_base.toml --json -";
+  linkproof inspect scenarios/ov7_base.toml --json -
+  linkproof inspect scenarios/fourth_class.toml --modes --at-crank-deg 70   all configurations of its groups";
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
@@ -22,6 +25,12 @@ pub(super) struct Args {
     /// Scenario file
     #[arg(value_name = "FILE")]
     file: PathBuf,
+    /// List all real configurations of every group, with angles, angular velocities and places of points
+    #[arg(long)]
+    modes: bool,
+    /// Crank angle for --modes in degrees, as the scenario states it [default: that of the start]
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true, requires = "modes")]
+    at_crank_deg: Option<f64>,
     /// Write the structure as JSON to a file, or to standard output instead of the text with `-`
     #[arg(long, value_name = "FILE", value_parser = output::target)]
     json: Option<PathBuf>,
@@ -29,12 +38,30 @@ pub(super) struct Args {
 
 pub(super) fn inspect(args: &Args) -> Result<()> {
     let scenario = Scenario::load(&args.file)?;
+    let case = &scenario.case;
+    let modes = match args.modes {
+        true => {
+            let crank = args.at_crank_deg.map_or(case.drive.start, f64::to_radians);
+            Grid::of_cranks(&case.drive, vec![crank])
+                .check()
+                .map_err(|message| Error::new(ErrorKind::Input, message).help("check --at-crank-deg"))?;
+            Some((crank, reference::modes::all(case, crank)?))
+        }
+        false => None,
+    };
     match &args.json {
         Some(to) => {
-            let text = serde_json::to_string_pretty(&as_json(&scenario)).expect("plain values are always JSON");
+            let mut value = as_json(&scenario);
+            if let Some((crank, modes)) = &modes {
+                value["modes"] = modes::json(&scenario, *crank, modes);
+            }
+            let text = serde_json::to_string_pretty(&value).expect("plain values are always JSON");
             output::write(&format!("{text}\n"), to)
         }
-        None => output::print(&as_text(&scenario)),
+        None => {
+            let text = modes.map_or_else(|| as_text(&scenario), |(crank, modes)| modes::text(&scenario, crank, &modes));
+            output::print(&text)
+        }
     }
 }
 

@@ -3,6 +3,7 @@
 mod grid;
 mod inspect;
 mod list;
+mod modes;
 mod output;
 mod progress;
 mod run;

@@ -2,6 +2,7 @@
 
 mod assur_solver;
 mod kinetostatics;
+pub mod modes;
 mod newton_solver;
 mod pose_solver;
 pub mod power;

@@ -27,6 +27,28 @@ fn inspect_shows_the_structure() {
 }
 
 #[test]
+fn inspect_lists_all_configurations() {
+    let place = Place::new();
+    let shown = place.ok("inspect scenarios/fourth_class.toml --modes --at-crank-deg 70 --json -");
+    let found: Value = serde_json::from_str(&shown).unwrap();
+    let modes = found["modes"]["groups"][0]["modes"].as_array().unwrap();
+    assert_eq!(modes.iter().map(|mode| mode["followed"] == json!(true)).collect::<Vec<_>>(), [true, false]);
+    for (link, (degrees, speed)) in modes[0]["links"].as_array().unwrap().iter().zip([
+        (-53.70258, 2.03890),
+        (2.58635, -8.39961),
+        (20.59796, -31.87948),
+        (151.55247, 30.91372),
+    ]) {
+        assert!((link["angle_rad"].as_f64().unwrap().to_degrees() - degrees).abs() < 0.5e-5, "{link}");
+        assert!((link["omega_rad_s"].as_f64().unwrap() - speed).abs() < 0.5e-5, "{link}");
+    }
+    let text = place.ok("inspect scenarios/ov7_base.toml --modes");
+    assert_eq!(text.matches("2 real configurations").count(), 3, "{text}");
+    assert_eq!(text.matches("right, followed by the scenario").count(), 3, "{text}");
+    assert_eq!(place.run("inspect scenarios/ov7_base.toml --at-crank-deg 70").code, 2);
+}
+
+#[test]
 fn inspect_as_json() {
     let place = Place::new();
     let shown = place.ok("inspect scenarios/ov7_base.toml --json -");

@@ -1,0 +1,63 @@
+//! All real configurations of every group at one crank angle.
+
+use super::PoseSolver;
+use crate::assur::Plan;
+use crate::case::Case;
+use crate::error::Result;
+use crate::math::unit;
+use crate::mechanism::assembly::configurations;
+use crate::mechanism::{AssemblyMode, LinkPose, Pose, Structure};
+use crate::trajectory::Stage;
+
+/// One real configuration of a group.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mode {
+    /// Its assembly mode.
+    pub mode: AssemblyMode,
+    /// Pose of each link of the group, in the order of its links.
+    pub poses: Vec<LinkPose>,
+    /// Angular velocity of each link (rad/s).
+    pub omegas: Vec<f64>,
+    /// Whether it is the one that the case follows.
+    pub is_followed: bool,
+}
+
+/// All real configurations of every group (in the order of the structure) at the crank angle `crank` (rad, as the scenario states
+/// it), each group hung on the links before it as the case follows them.
+///
+/// # Errors
+/// [`ErrorKind::Geometry`](crate::ErrorKind::Geometry) if the crank angle cannot be reached on the case's branch.
+pub fn all(case: &Case, crank: f64) -> Result<Vec<Vec<Mode>>> {
+    let mechanism = &case.mechanism;
+    let mut poses = PoseSolver::new(case)?;
+    let omega = case.drive.at(case.drive.time_of(crank)).omega;
+    poses.solve(crank, omega, 0.0, Stage::Velocities)?;
+    let state = poses.with_angles().clone();
+    let followed: Vec<LinkPose> =
+        state.motions.iter().zip(&state.angles).map(|(m, &angle)| LinkPose { origin: m.origin, angle }).collect();
+    let pose = Pose(followed);
+    let mut groups = Vec::with_capacity(case.structure.groups.len());
+    for (index, group) in case.structure.groups.iter().enumerate() {
+        let part = Structure { groups: case.structure.groups[..=index].to_vec(), ..case.structure.clone() };
+        let mut modes = Vec::new();
+        for one in configurations(mechanism, group, &pose)? {
+            let mut motions = state.motions.clone();
+            for (&link, place) in group.links.iter().zip(&one.links) {
+                motions[link].direction = unit(place.angle);
+            }
+            let mut chosen = case.modes[..=index].to_vec();
+            chosen[index] = one.mode;
+            let mut plan = Plan::of(mechanism, &part, &chosen);
+            // The configurations are exact: solving them again only prepares the velocities.
+            let solved = plan.positions(case.drive.world_angle(crank), &mut motions).is_ok();
+            plan.velocities(omega, &mut motions);
+            let omegas = group.links.iter().map(|&link| if solved { motions[link].omega } else { f64::NAN }).collect();
+            let near =
+                |(&link, place): (&usize, &LinkPose)| (unit(place.angle) - state.motions[link].direction).norm() < 1e-9;
+            let is_followed = group.links.iter().zip(&one.links).all(near);
+            modes.push(Mode { mode: one.mode, poses: one.links, omegas, is_followed });
+        }
+        groups.push(modes);
+    }
+    Ok(groups)
+}
