@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use crate::drive::{Drive, Load};
 use crate::math::Vec2;
+use crate::math::statistics::ascending;
 use crate::mechanism::{AssemblyMode, Mechanism, Pose, Structure};
 use crate::trajectory::{CHANNELS, Channel, Stage, Subject};
 
@@ -62,9 +63,7 @@ impl Grid {
     /// Rows of the grid in ascending order of time.
     #[must_use]
     pub fn ascending(&self) -> Vec<usize> {
-        let mut rows: Vec<usize> = (0..self.len()).collect();
-        rows.sort_by(|&a, &b| self.times[a].total_cmp(&self.times[b]));
-        rows
+        ascending(&self.times)
     }
 }
 

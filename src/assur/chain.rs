@@ -165,9 +165,14 @@ impl Chain {
         followed
     }
 
+    /// Whether a step of the driving angle (rad) has the size of the last one.
+    fn is_repeated(&self, step: f64) -> bool {
+        (step - self.last_step).abs() <= 1e-6 * step.abs()
+    }
+
     /// Turns the links as the last two steps let expect, if this one is of the same size: the error is of third order.
     fn predict(&self, step: f64, motions: &mut [Motion]) {
-        if (step - self.last_step).abs() <= 1e-6 * step.abs() {
+        if self.is_repeated(step) {
             for (node, [last, before]) in self.nodes.iter().zip(&self.turned) {
                 let direction = &mut motions[node.link].direction;
                 *direction = slightly_turned(*direction, 2.0 * last - before);
@@ -178,7 +183,7 @@ impl Chain {
     /// Keeps the turns of this step for the next prediction.
     fn remember(&mut self, step: f64, motions: &[Motion]) {
         // After a step of another size the turn before is unknown: taking the last one for it predicts linearly.
-        let same = (step - self.last_step).abs() <= 1e-6 * step.abs();
+        let same = self.is_repeated(step);
         for ((turned, kept), node) in self.turned.iter_mut().zip(&self.kept).zip(&self.nodes) {
             let turn = cross(*kept, motions[node.link].direction);
             *turned = [turn, if same { turned[0] } else { turn }];

@@ -4,8 +4,7 @@ use std::f64::consts::TAU;
 
 /// The angle congruent to `angle` (modulo one turn) that lies nearest to `near`; both in rad.
 #[inline]
-#[must_use]
-pub fn nearest(angle: f64, near: f64) -> f64 {
+fn nearest(angle: f64, near: f64) -> f64 {
     angle + TAU * ((near - angle) / TAU).round()
 }
 

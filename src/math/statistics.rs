@@ -12,6 +12,14 @@ pub fn quantile(sorted: &[f64], q: f64) -> f64 {
     sorted[low] + (sorted[high] - sorted[low]) * (place - low as f64)
 }
 
+/// Places of `values` in ascending order of value; equal values keep their order.
+#[must_use]
+pub fn ascending(values: &[f64]) -> Vec<usize> {
+    let mut places: Vec<usize> = (0..values.len()).collect();
+    places.sort_by(|&a, &b| values[a].total_cmp(&values[b]));
+    places
+}
+
 /// Root of the mean square of `values`; 0 for none.
 #[must_use]
 pub fn rms(values: impl IntoIterator<Item = f64>) -> f64 {

@@ -10,7 +10,7 @@ use crate::engine::{self, Engine};
 use crate::error::{Error, ErrorKind, Result};
 use crate::reference;
 use crate::scenario::Scenario;
-use crate::solver::Provision;
+use crate::solver::{Provision, Solver};
 use crate::tolerance::Basis;
 use crate::trajectory::{Channel, Stage, Trajectory};
 use observe::{Observed, observe};
@@ -118,10 +118,9 @@ pub fn prove_against(
         let known = engine::all(step);
         unknown("engine", &options.engine, known.iter().map(|engine| engine.name()))
     })?;
-    let sides = reference::all().map(|solver| Ok((solver.name(), observe(case, solver, &mut |_| {})?)));
-    let sides: [Result<(&'static str, Observed)>; 2] = sides;
-    let [first, second] = sides;
-    let sides = [first?, second?];
+    let observed = |solver: &dyn Solver| -> Result<_> { Ok((solver.name(), observe(case, solver, &mut |_| {})?)) };
+    let [first, second] = reference::all();
+    let sides = [observed(first)?, observed(second)?];
     let runs = run_ladder(&engine_case.on(case.grid.clone()), engine.as_ref(), progress)?;
     let own = &sides.iter().find(|(name, _)| *name == main.name()).expect("the reference is one of the sides").1;
 

@@ -3,6 +3,7 @@
 use super::Side;
 use super::shapes::{Paint, extent, grey, point, pose, stamp, turn, vector};
 use crate::math::Vec2;
+use crate::math::statistics::ascending;
 use crate::mechanism::{GROUND, Link, LinkPose, Mechanism};
 use crate::trajectory::{Channel, Trajectory};
 use foxglove::messages::line_primitive::Type as LineType;
@@ -240,13 +241,6 @@ impl Placed<'_> {
 /// Column of the channel called `name`, if the trajectory has it.
 pub fn column<'a>(trajectory: &'a Trajectory, name: &str) -> Option<&'a [f64]> {
     trajectory.column(&Channel::named(name)?)
-}
-
-/// Rows in ascending order of time.
-pub fn ascending(times: &[f64]) -> Vec<usize> {
-    let mut rows: Vec<usize> = (0..times.len()).collect();
-    rows.sort_by(|&a, &b| times[a].total_cmp(&times[b]));
-    rows
 }
 
 /// The line through all places, and whether it is closed: a polygon without crossings, or a bar if all lie on one line.

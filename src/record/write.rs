@@ -3,10 +3,11 @@
 use super::forces::Forces;
 use super::outline::Outline;
 use super::output::{Output, SECOND};
-use super::scene::{Scene, ascending};
+use super::scene::Scene;
 use super::shapes::stamp;
 use super::{Level, LogEntry, Recording, schema};
 use crate::error::{Error, ErrorKind, Result};
+use crate::math::statistics::ascending;
 use crate::trajectory::{ChannelKind, Subject, Trajectory};
 use foxglove::messages::{FrameTransforms, Log, PointCloud, SceneUpdate, log::Level as LogLevel};
 use mcap::McapResult;

@@ -38,6 +38,8 @@ pub struct Twin {
     any_link: MultibodyJointHandle,
     /// Generalised coordinate of every branch's joint: index in the multibody, sense of its angle is child minus parent.
     dofs: Vec<usize>,
+    /// Number of every branch's link in the multibody.
+    ids: Vec<usize>,
     cuts: Vec<Cut>,
     motor: ImpulseJointHandle,
     largest_gap: f64,
@@ -91,6 +93,7 @@ impl Twin {
             bodies,
             any_link,
             dofs: Vec::new(),
+            ids: Vec::new(),
             cuts,
             motor,
             largest_gap: LARGEST_GAP * mechanism.size(),
@@ -117,6 +120,7 @@ impl Twin {
         // Rapier puts 0.1 N m s/rad on every pin by default.
         multibody.damping_mut().fill(0.0);
         self.dofs = ids.iter().map(|&id| multibody.link(id).expect("the link exists").assembly_id()).collect();
+        self.ids = ids;
         let mut displacements = vec![0.0; multibody.ndofs()];
         for (branch, &dof) in self.tree.branches.iter().zip(&self.dofs) {
             displacements[dof] = case.start.0[branch.link].angle - case.start.0[branch.parent].angle;
@@ -129,8 +133,7 @@ impl Twin {
     /// Sets the motor to the drive's speed times `sense` (-1 runs the mechanism backwards).
     pub fn drive_at(&mut self, case: &Case, sense: f64) {
         let MotionLaw::ConstantSpeed(omega) = case.drive.law;
-        let forward = case.mechanism.joints()[case.drive.joint].second.link == case.drive.link;
-        let speed = if forward { omega * sense } else { -omega * sense };
+        let speed = omega * sense * motor_sense(case);
         let motor = self.world.impulse_joints.get_mut(self.motor, true).expect("the motor exists");
         motor.data.set_motor_velocity(JointAxis::AngX, speed, RIGID_MOTOR);
     }
@@ -166,8 +169,7 @@ impl Twin {
 
     fn read_angles(&mut self) {
         let (multibody, _) = self.world.multibody_joints.get(self.any_link).expect("the multibody exists");
-        for branch in &self.tree.branches {
-            let id = self.world.multibody_joints.rigid_body_link(self.bodies[branch.link]).expect("known link").id;
+        for (branch, &id) in self.tree.branches.iter().zip(&self.ids) {
             let relative = multibody.link(id).expect("known link").joint().coords()[2];
             self.angles[branch.link] = self.angles[branch.parent] + relative;
         }
@@ -217,9 +219,13 @@ impl Twin {
     pub fn native_torque(&self, case: &Case) -> f64 {
         let motor = self.world.impulse_joints.get(self.motor).expect("the motor exists");
         let on_second = -motor.data.motors[2].impulse / self.world.integration_parameters.dt;
-        let forward = case.mechanism.joints()[case.drive.joint].second.link == case.drive.link;
-        if forward { on_second } else { -on_second }
+        on_second * motor_sense(case)
     }
+}
+
+/// +1 if the driving link is the second of the driven joint, as the motor counts, else -1.
+fn motor_sense(case: &Case) -> f64 {
+    if case.mechanism.joints()[case.drive.joint].second.link == case.drive.link { 1.0 } else { -1.0 }
 }
 
 fn parameters(step: f64, sweeps: usize) -> IntegrationParameters {

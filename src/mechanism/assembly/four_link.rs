@@ -8,6 +8,7 @@
 
 use super::{AssemblyMode, Configuration};
 use crate::error::{Error, ErrorKind, Result};
+use crate::math::angle::wrapped;
 use crate::math::{Vec2, cross, harmonic, rotated, unit};
 use crate::mechanism::{Group, LinkPose, Mechanism, Pose};
 
@@ -181,13 +182,12 @@ impl Layout {
 
     /// Poses of the four links, in the order of the group.
     fn poses(&self, group: &Group, [alpha, beta]: [f64; 2]) -> Vec<LinkPose> {
-        let reduced = |angle: f64| crate::math::angle::wrapped(angle);
-        let first = LinkPose::through(self.pivot.0, self.pivot.1, reduced(alpha));
+        let first = LinkPose::through(self.pivot.0, self.pivot.1, wrapped(alpha));
         let place = |hook: Hook| match hook {
             Hook::World(place) => place,
             Hook::Alpha(local) => first.point(local),
         };
-        let second = LinkPose::through(self.hung.0, place(self.hung.1), reduced(beta));
+        let second = LinkPose::through(self.hung.0, place(self.hung.1), wrapped(beta));
         let pose = |link: &usize| {
             if *link == self.alpha {
                 return first;
