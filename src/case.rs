@@ -123,13 +123,16 @@ pub struct Case {
 }
 
 impl Case {
-    /// The wanted channels in the order of columns: links, points, joints, drive; within each as in [`CHANNELS`].
+    /// The wanted channels in the order of columns: links, points, joints, sliders, frame, drive; within each as in [`CHANNELS`].
     #[must_use]
     pub fn channels(&self) -> Vec<Channel> {
         let links = self.mechanism.links()[1..].iter().map(|link| (Subject::Link, link.name.as_str()));
         let points = self.mechanism.moving_points().map(|(name, _)| (Subject::Point, name));
         let joints = self.mechanism.joints().iter().map(|joint| (Subject::Joint, joint.name.as_str()));
-        let subjects = links.chain(points).chain(joints).chain([(Subject::Drive, "")]);
+        let sliders = self.mechanism.joints().iter().filter(|joint| joint.is_prismatic());
+        let sliders = sliders.map(|joint| (Subject::Slider, joint.name.as_str()));
+        let whole = [(Subject::Frame, ""), (Subject::Drive, "")];
+        let subjects = links.chain(points).chain(joints).chain(sliders).chain(whole);
         let rows = |(subject, of): (Subject, &str)| {
             let kinds = CHANNELS.iter().filter(move |kind| kind.subject == subject && self.wanted.has(kind.stage));
             kinds.map(|kind| Channel { of: of.to_string(), kind }).collect::<Vec<_>>()

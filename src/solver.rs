@@ -2,8 +2,8 @@
 
 use crate::case::{Case, Wanted};
 use crate::error::Result;
-use crate::math::{Motion, Vec2, unit};
-use crate::mechanism::Side;
+use crate::math::{Motion, Vec2, cross, unit};
+use crate::mechanism::{GROUND, Joint, Side};
 use crate::trajectory::{Channel, Stage, Trajectory};
 
 /// How a solver comes by a channel.
@@ -59,6 +59,8 @@ pub struct State {
     pub angles: Vec<f64>,
     /// Force of the first link on the second in every joint (N).
     pub forces: Vec<Vec2>,
+    /// Moment of the first link on the second in every joint, about the joint's place on the second (N m); 0 in revolute joints.
+    pub moments: Vec<f64>,
     /// Balancing moment on the driving link (N m).
     pub torque: f64,
 }
@@ -71,12 +73,45 @@ impl State {
             motions: vec![Motion::REST; case.mechanism.links().len()],
             angles: vec![0.0; case.mechanism.links().len()],
             forces: vec![Vec2::zeros(); case.mechanism.joints().len()],
+            moments: vec![0.0; case.mechanism.joints().len()],
             torque: 0.0,
         }
     }
 }
 
 impl State {
+    /// Slide of a prismatic joint (m) with its rate and second derivative: s = e . (p2 - p1) along the axis e of the first link; with
+    /// p2 - p1 = s e, e . (v2 - v1) = s' and e . (a2 - a1) = s'' - s omega^2. `None` for a revolute joint.
+    #[must_use]
+    pub fn slide(&self, joint: &Joint) -> Option<[f64; 3]> {
+        let [first, second] = [joint.first, joint.second].map(|side| (&self.motions[side.link], side.local));
+        let axis = first.0.arm(joint.axis_on(joint.first.link)?);
+        let slide = axis.dot(&(second.0.point(second.1) - first.0.point(first.1)));
+        let speed = axis.dot(&(second.0.point_velocity(second.1) - first.0.point_velocity(first.1)));
+        let second_derivative =
+            axis.dot(&(second.0.point_acceleration(second.1) - first.0.point_acceleration(first.1)));
+        Some([slide, speed, second_derivative + slide * first.0.omega * first.0.omega])
+    }
+
+    /// Shaking force (N) and shaking moment about the origin (N m): the sum of what the joints with the ground and the drive
+    /// exert on the frame.
+    #[must_use]
+    pub fn shaking(&self, case: &Case) -> (Vec2, f64) {
+        // The drive stands on the frame: its reaction there is opposite to the balancing moment.
+        let (mut force, mut moment) = (Vec2::zeros(), -self.torque);
+        for (index, joint) in case.mechanism.joints().iter().enumerate() {
+            let sign = match (joint.first.link, joint.second.link) {
+                (GROUND, _) => -1.0,
+                (_, GROUND) => 1.0,
+                _ => continue,
+            };
+            let place = self.motions[joint.second.link].point(joint.second.local);
+            force += self.forces[index] * sign;
+            moment += (cross(place, self.forces[index]) + self.moments[index]) * sign;
+        }
+        (force, moment)
+    }
+
     /// The start pose of the case, at rest.
     #[must_use]
     pub fn at_start(case: &Case) -> Self {
@@ -138,7 +173,22 @@ impl Sampler {
                 put(force.y);
             }
         }
+        for (index, joint) in case.mechanism.joints().iter().enumerate() {
+            let Some(slide) = state.slide(joint) else { continue };
+            for (value, stage) in slide.into_iter().zip([Stage::Positions, Stage::Velocities, Stage::Accelerations]) {
+                if has(stage) {
+                    put(value);
+                }
+            }
+            if has(Stage::Reactions) {
+                put(state.moments[index]);
+            }
+        }
         if has(Stage::BalancingMoment) {
+            let (force, moment) = state.shaking(case);
+            put(force.x);
+            put(force.y);
+            put(moment);
             put(state.torque);
         }
     }

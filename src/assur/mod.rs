@@ -56,7 +56,7 @@ impl Plan {
         });
         let steps = structure.groups.iter().zip(modes).map(|(group, &mode)| match group.kind {
             GroupKind::Rrr => Step::Rrr(Rrr::of(mechanism, group, mode)),
-            GroupKind::Higher => Step::Chain(Chain::of(mechanism, group)),
+            _ => Step::Chain(Chain::of(mechanism, group)),
         });
         Plan { drivers: drivers.collect(), steps: steps.collect(), angle: f64::NAN }
     }

@@ -94,7 +94,7 @@ fn as_text(scenario: &Scenario) -> String {
     for joint in mechanism.joints() {
         let [first, second] = ends(mechanism, joint);
         let driven = if joint.name == mechanism.joints()[case.drive.joint].name { ", driven" } else { "" };
-        let _ = writeln!(text, "  {:14} revolute, {first} - {second}{driven}", joint.name);
+        let _ = writeln!(text, "  {:14} {}, {first} - {second}{driven}", joint.name, joint.kind.name());
     }
     let _ = writeln!(text, "\ngroups at the start (crank {:.3} deg)", case.drive.start.to_degrees());
     for (group, &mode) in structure.groups.iter().zip(&case.modes) {
@@ -106,7 +106,7 @@ fn as_text(scenario: &Scenario) -> String {
             group.names(mechanism),
             group.class,
             group.order(),
-            group.pairs(mechanism),
+            group.pairs(),
             mode.name()
         );
     }
@@ -128,13 +128,13 @@ fn as_json(scenario: &Scenario) -> Value {
     let joints = mechanism
         .joints()
         .iter()
-        .map(|joint| json!({"name": joint.name, "type": "revolute", "links": ends(mechanism, joint)}));
+        .map(|joint| json!({"name": joint.name, "type": joint.kind.name(), "links": ends(mechanism, joint)}));
     let groups = structure.groups.iter().zip(&case.modes).map(|(group, &mode)| {
         json!({
             "links": group.links.iter().map(|&l| link(l)).collect::<Vec<_>>(),
             "inner_joints": group.inner.iter().map(|&j| joint(j)).collect::<Vec<_>>(),
             "outer_joints": group.outer.iter().map(|&j| joint(j)).collect::<Vec<_>>(),
-            "class": group.class, "order": group.order(), "kind": group.pairs(mechanism), "mode": mode.name(),
+            "class": group.class, "order": group.order(), "kind": group.pairs(), "mode": mode.name(),
             "transmission_angle_rad": transmission_sine(mechanism, group, &case.start).map(|sine| sine.abs().asin()),
         })
     });

@@ -73,6 +73,21 @@ impl Motion {
         self.velocity + turned(self.arm(local)) * self.omega
     }
 
+    /// Velocity of the body point that is at the world point `place` at this instant (m/s).
+    #[inline]
+    #[must_use]
+    pub fn velocity_at(&self, place: Vec2) -> Vec2 {
+        self.velocity + turned(place - self.origin) * self.omega
+    }
+
+    /// Acceleration of the body point that is at the world point `place` at this instant (m/s^2).
+    #[inline]
+    #[must_use]
+    pub fn acceleration_at(&self, place: Vec2) -> Vec2 {
+        let arm = place - self.origin;
+        self.acceleration + turned(arm) * self.alpha - arm * (self.omega * self.omega)
+    }
+
     /// Acceleration of a body point (m/s^2): a0 + alpha x r - omega^2 r.
     #[inline]
     #[must_use]
@@ -107,6 +122,14 @@ mod tests {
         assert!((again.origin - whole.origin).norm() < 1e-15);
         assert!((again.velocity - whole.velocity).norm() < 1e-15);
         assert!((again.acceleration - whole.acceleration).norm() < 1e-14);
+    }
+
+    #[test]
+    fn a_body_point_and_its_place_have_one_motion() {
+        let (local, whole) = (Vec2::new(-0.3, 0.8), frame(0.4));
+        let place = whole.point(local);
+        assert!((whole.velocity_at(place) - whole.point_velocity(local)).norm() < 1e-15);
+        assert!((whole.acceleration_at(place) - whole.point_acceleration(local)).norm() < 1e-14);
     }
 
     #[test]

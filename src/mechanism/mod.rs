@@ -11,7 +11,7 @@ pub use pose::{LinkPose, Pose};
 pub use structure::{Group, GroupKind, Structure};
 
 use crate::error::{Error, ErrorKind, Result};
-use crate::math::Vec2;
+use crate::math::{Vec2, cross, rotated};
 
 /// Index of the ground (frame) in [`Mechanism::links`].
 pub const GROUND: usize = 0;
@@ -49,28 +49,39 @@ pub struct Point {
     pub local: Vec2,
 }
 
-/// Sort of kinematic pair.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// Sort of kinematic pair. Either takes two equations and leaves one relative freedom.
+#[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum JointKind {
-    /// Revolute pair (pin): two equations, one relative freedom.
+    /// Revolute pair (pin): the joint's places on both links are one point.
     Revolute,
+    /// Prismatic pair (slider in a guide): the second link's place lies on the line through the first link's along the axis,
+    /// and the two links turn together.
+    Prismatic {
+        /// Unit vector of the axis in the frame of the first link and in that of the second; one direction in the world.
+        axes: [Vec2; 2],
+    },
 }
 
+/// Number of constraint equations of any lower pair of the plane.
+pub const EQUATIONS: usize = 2;
+
 impl JointKind {
-    /// Letter of the pair in the names of groups: R.
+    /// Letter of the pair in the names of groups: R or P.
     #[must_use]
     pub fn letter(self) -> char {
         match self {
             JointKind::Revolute => 'R',
+            JointKind::Prismatic { .. } => 'P',
         }
     }
 
-    /// Number of constraint equations of the pair.
+    /// Name, as in scenario files.
     #[must_use]
-    pub fn equations(self) -> usize {
+    pub fn name(self) -> &'static str {
         match self {
-            JointKind::Revolute => 2,
+            JointKind::Revolute => "revolute",
+            JointKind::Prismatic { .. } => "prismatic",
         }
     }
 }
@@ -84,7 +95,8 @@ pub struct Side {
     pub local: Vec2,
 }
 
-/// Kinematic pair between two links. Its reaction is the force of the first link on the second.
+/// Kinematic pair between two links. Its reaction is what the first link exerts on the second: a force, and in a prismatic
+/// pair a moment besides, about the joint's place on the second link.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Joint {
     /// Name, unique in the mechanism.
@@ -108,6 +120,37 @@ impl Joint {
     #[must_use]
     pub fn other(&self, link: usize) -> Side {
         if self.first.link == link { self.second } else { self.first }
+    }
+
+    /// Whether the pair is prismatic.
+    #[must_use]
+    pub fn is_prismatic(&self) -> bool {
+        matches!(self.kind, JointKind::Prismatic { .. })
+    }
+
+    /// Unit vector of a prismatic pair's axis in the frame of `link`, if the joint is prismatic and on that link.
+    #[must_use]
+    pub fn axis_on(&self, link: usize) -> Option<Vec2> {
+        let JointKind::Prismatic { axes } = self.kind else { return None };
+        let sides = [self.first, self.second];
+        sides.iter().position(|side| side.link == link).map(|index| axes[index])
+    }
+
+    /// How far the joint is from holding together: distance of its places, across the axis in a prismatic pair (m), and
+    /// angle between the axes (its sine; 0 in a revolute pair). `places` are the joint's on both links in the world,
+    /// `directions` the (cos, sin) of both links' angles.
+    #[must_use]
+    pub fn opening(&self, places: [Vec2; 2], directions: [Vec2; 2]) -> (f64, f64) {
+        let gap = places[1] - places[0];
+        match self.kind {
+            JointKind::Revolute => (gap.norm(), 0.0),
+            JointKind::Prismatic { axes } => {
+                let [first, second] = [0, 1].map(|k| rotated(directions[k], axes[k]));
+                // Axes that point against each other are as far off as can be.
+                let turn = if first.dot(&second) > 0.0 { cross(first, second).abs() } else { 1.0 };
+                (cross(first, gap).abs(), turn)
+            }
+        }
     }
 }
 
@@ -196,6 +239,11 @@ impl Mechanism {
             if self.joints[..j].iter().any(|other| other.name == joint.name) {
                 return wrong(format!("two joints are called \"{}\"", joint.name), "give every joint its own name");
             }
+            if let JointKind::Prismatic { axes } = joint.kind
+                && !axes.iter().all(|axis| (axis.norm() - 1.0).abs() <= 1e-12)
+            {
+                return wrong("its axis is no unit vector".into(), "give the axis by its angle");
+            }
             if joint.first.link == joint.second.link {
                 return wrong(
                     format!("it joins \"{}\" with itself", self.links[joint.first.link].name),
@@ -233,14 +281,15 @@ impl Mechanism {
         Ok(())
     }
 
-    /// Whether joints that lie at points called `name` connect link `a` with link `b`, directly or through others.
+    /// Whether revolute joints that lie at points called `name` connect link `a` with link `b`, directly or through others.
     fn held_together(&self, name: &str, a: usize, b: usize) -> bool {
         let at = |side: Side| self.links[side.link].points.iter().any(|p| p.name == name && p.local == side.local);
         let mut reached = vec![a];
         let mut next = 0;
         while let Some(&link) = reached.get(next) {
             next += 1;
-            for joint in self.joints.iter().filter(|joint| at(joint.first) && at(joint.second)) {
+            let pins = self.joints.iter().filter(|joint| joint.kind == JointKind::Revolute);
+            for joint in pins.filter(|joint| at(joint.first) && at(joint.second)) {
                 if joint.on(link).is_some() && !reached.contains(&joint.other(link).link) {
                     reached.push(joint.other(link).link);
                 }

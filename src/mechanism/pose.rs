@@ -41,16 +41,16 @@ impl LinkPose {
 pub struct Pose(pub Vec<LinkPose>);
 
 impl Pose {
-    /// Vector between the two sides of a joint, second minus first (m); zero in an assembled mechanism.
-    #[must_use]
-    pub fn gap(&self, joint: &Joint) -> Vec2 {
-        self.0[joint.second.link].point(joint.second.local) - self.0[joint.first.link].point(joint.first.local)
-    }
-
-    /// Largest distance between the two sides of any joint (m).
+    /// Largest opening of any joint (m): see [`Joint::opening`]; an angle counts at the mechanism's size.
     #[must_use]
     pub fn closure(&self, mechanism: &Mechanism) -> f64 {
-        mechanism.joints().iter().map(|joint| self.gap(joint).norm()).fold(0.0, f64::max)
+        let opening = |joint: &Joint| {
+            let sides = [joint.first, joint.second];
+            let places = sides.map(|side| self.0[side.link].point(side.local));
+            let (distance, turn) = joint.opening(places, sides.map(|side| unit(self.0[side.link].angle)));
+            distance.max(turn * mechanism.size())
+        };
+        mechanism.joints().iter().map(opening).fold(0.0, f64::max)
     }
 }
 

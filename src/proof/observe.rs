@@ -26,12 +26,15 @@ pub(super) fn observe(case: &Case, solver: &dyn Solver, progress: &mut dyn FnMut
     let with_power = case.wanted.has(Stage::BalancingMoment);
     let mut power = if with_power { vec![0.0; case.grid.len()] } else { Vec::new() };
     let arm = case.mechanism.links()[case.drive.link].size();
+    let size = case.mechanism.size();
     let (mut closure, mut reach, mut moment): (f64, f64, f64) = (0.0, 0.0, 0.0);
     let mut visit = |row: usize, state: &State| {
         for joint in case.mechanism.joints() {
-            let [a, b] = [joint.first, joint.second].map(|side| state.motions[side.link].point(side.local));
-            closure = closure.max((b - a).norm());
-            reach = reach.max(a.norm());
+            let sides = [joint.first, joint.second];
+            let places = sides.map(|side| state.motions[side.link].point(side.local));
+            let (distance, turn) = joint.opening(places, sides.map(|side| state.motions[side.link].direction));
+            closure = closure.max(distance).max(turn * size);
+            reach = reach.max(places[0].norm());
         }
         if with_power {
             power[row] = power::balancing_moment(case, &state.motions);

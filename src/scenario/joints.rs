@@ -1,9 +1,13 @@
-//! `[[joints]]`: which links are joined, and where.
+//! `[[joints]]`: which links are joined, how, and where.
+
+use std::f64::consts::FRAC_PI_2;
 
 use super::links::{NAME_HELP, sound_name};
-use super::reader::Table;
+use super::reader::{Sign, Table};
+use super::unit::ANGLE;
 use super::words::suggestion;
 use crate::error::{ErrorKind, Result};
+use crate::math::{Vec2, unit};
 use crate::mechanism::{Joint, JointKind, Link, Side};
 
 /// All joints, in the order of the file.
@@ -30,7 +34,7 @@ fn joint(mut table: Table, links: &[Link], before: &[Joint]) -> Result<Joint> {
     }
     let kind = kind(&mut table)?;
     let pair = table.strings("links")?;
-    let point = table.optional_string("point")?;
+    let places = places(&mut table, kind, &name)?;
     table.finish()?;
     let [first, second] = &pair[..] else {
         let message = format!("found {} links, but a joint has two", pair.len());
@@ -43,43 +47,79 @@ fn joint(mut table: Table, links: &[Link], before: &[Joint]) -> Result<Joint> {
     }
     if let Some(other) = before.iter().find(|joint| joint.on(first).is_some() && joint.on(second).is_some()) {
         let message = format!(
-            "joint \"{}\" joins \"{}\" and \"{}\" already; two revolute joints lock two links together",
+            "joint \"{}\" joins \"{}\" and \"{}\" already; two joints lock two links together",
             other.name, links[first].name, links[second].name
         );
         return Err(table
             .wrong(ErrorKind::Input, "links", message)
             .help("make the two one link with all their points, or join other links"));
     }
-    let (key, point) = match &point {
-        Some(point) => ("point", point),
-        None => ("name", &name),
-    };
-    let side = |link: usize| -> Result<Side> {
+    let side = |link: usize, point: &str| -> Result<Side> {
         let points = &links[link].points;
-        let found = points.iter().find(|found| found.name == *point);
+        let found = points.iter().find(|found| found.name == point);
         let local = found.map(|found| found.local).ok_or_else(|| {
             let message = format!("link \"{}\" has no point \"{point}\"", links[link].name);
-            let points = points.iter().map(|point| point.name.as_str());
-            let near = suggestion(point, points, "\"");
-            table
-                .wrong(ErrorKind::Input, key, message)
-                .help(format!("a joint lies at the point of its name, or of its key `point`, on both links; {near}"))
+            let near = suggestion(point, points.iter().map(|point| point.name.as_str()), "\"");
+            table.wrong(ErrorKind::Input, places.key, message).help(format!("{}; {near}", places.rule))
         })?;
         Ok(Side { link, local })
     };
-    let (first, second) = (side(first)?, side(second)?);
+    let [first, second] = [side(first, &places.names[0])?, side(second, &places.names[1])?];
     Ok(Joint { name, kind, first, second })
+}
+
+/// Names of the points that a joint lies at, on its first and its second link.
+struct Places {
+    names: [String; 2],
+    /// Key that they come from.
+    key: &'static str,
+    rule: &'static str,
+}
+
+fn places(table: &mut Table, kind: JointKind, name: &str) -> Result<Places> {
+    if kind == JointKind::Revolute {
+        let rule = "a joint lies at the point of its name, or of its key `point`, on both links";
+        return Ok(match table.optional_string("point")? {
+            Some(point) => Places { names: [point.clone(), point], key: "point", rule },
+            None => Places { names: [name.to_string(), name.to_string()], key: "name", rule },
+        });
+    }
+    let names = table.strings("points")?;
+    let [first, second] = &names[..] else {
+        let message = format!("found {} points, but a guide takes two", names.len());
+        return Err(table.wrong(ErrorKind::Input, "points", message).help(
+            "write `points = [\"O\", \"B\"]`: a point of the first link on the guide's line, and the point of the second that slides along it",
+        ));
+    };
+    let rule = "`points` names a point of the first link and one of the second";
+    Ok(Places { names: [first.clone(), second.clone()], key: "points", rule })
 }
 
 fn kind(table: &mut Table) -> Result<JointKind> {
     match table.string("type")?.as_str() {
         "revolute" => Ok(JointKind::Revolute),
-        "prismatic" => Err(table
-            .wrong(ErrorKind::Unsupported, "type", "prismatic joints are not handled by this version")
-            .help("only `type = \"revolute\"` is handled so far")),
+        "prismatic" => {
+            let first = table.quantity("axis", &ANGLE, Sign::Any)?;
+            let second = table.optional_quantity("second_axis", &ANGLE, Sign::Any)?.unwrap_or(0.0);
+            Ok(JointKind::Prismatic { axes: [first, second].map(direction) })
+        }
         other => Err(table
             .wrong(ErrorKind::Input, "type", format!("\"{other}\" is no type of joint"))
-            .help(suggestion(other, ["revolute"], "\""))),
+            .help(suggestion(other, ["revolute", "prismatic"], "\""))),
+    }
+}
+
+/// Unit vector at `angle` (rad); along the axes of the frame without the rounding of pi, so that a vertical guide is vertical.
+fn direction(angle: f64) -> Vec2 {
+    let quarters = angle / FRAC_PI_2;
+    if (quarters - quarters.round()).abs() > 4.0 * f64::EPSILON * quarters.abs() {
+        return unit(angle);
+    }
+    match quarters.round().rem_euclid(4.0) as u8 {
+        0 => Vec2::new(1.0, 0.0),
+        1 => Vec2::new(0.0, 1.0),
+        2 => Vec2::new(-1.0, 0.0),
+        _ => Vec2::new(0.0, -1.0),
     }
 }
 

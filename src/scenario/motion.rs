@@ -25,11 +25,16 @@ pub fn drive(mut table: Table, mechanism: &Mechanism, start: f64) -> Result<Driv
         let names = [joint.first, joint.second].map(|side| &mechanism.links()[side.link].name);
         let message =
             format!("joint \"{name}\" joins \"{}\" and \"{}\", not a link and the ground", names[0], names[1]);
-        let hinges = mechanism.joints().iter().filter(|joint| joint.on(GROUND).is_some());
+        let hinges = mechanism.joints().iter().filter(|joint| joint.on(GROUND).is_some() && !joint.is_prismatic());
         let hinges: Vec<&str> = hinges.map(|joint| joint.name.as_str()).collect();
         return Err(table
             .wrong(ErrorKind::Unsupported, "joint", message)
             .help(format!("drive a link that is hinged to the ground: {}", super::words::choice(hinges, "\""))));
+    }
+    if joint.is_prismatic() {
+        let message = format!("joint \"{name}\" is prismatic, but the crank turns");
+        let help = "drive a link that is hinged to the ground by a revolute joint";
+        return Err(table.wrong(ErrorKind::Unsupported, "joint", message).help(help));
     }
     Ok(Drive { joint: index, link: joint.other(GROUND).link, zero, start, law: MotionLaw::ConstantSpeed(speed) })
 }

@@ -24,7 +24,7 @@ pub fn groups(
     let missing: Vec<&Group> =
         structure.groups.iter().zip(&wanted).filter(|(_, wanted)| wanted.is_none()).map(|(group, _)| group).collect();
     // A group that no version of the file could start is left to the first pose, which says so.
-    match missing.iter().find(|group| group.kind == GroupKind::Rrr) {
+    match missing.iter().find(|group| !modes_of(group.kind).is_empty()) {
         None => Ok(wanted.into_iter().map(Option::unwrap_or_default).collect()),
         Some(first) => Err(start
             .fault(format!("the assembly mode of the group ({}) is not given", first.names(mechanism)))
@@ -53,6 +53,11 @@ fn group(
         return Err(table.wrong(ErrorKind::Input, "links", "this group is given twice").help("keep one of the two"));
     }
     let group = &structure.groups[index];
+    if let Some(asked) = mode
+        && !modes_of(group.kind).contains(&asked)
+    {
+        return Err(foreign_mode(&table, asked, group));
+    }
     let mode = if links == group.links { mode } else { mode.map(AssemblyMode::swapped) };
     let near = near.map(|near| rough_place(near, mechanism, group)).transpose()?;
     Ok((index, StartGroup { mode, near }))
@@ -63,10 +68,31 @@ fn mode(table: &mut Table) -> Result<Option<AssemblyMode>> {
         None => Ok(None),
         Some("left") => Ok(Some(AssemblyMode::Left)),
         Some("right") => Ok(Some(AssemblyMode::Right)),
+        Some("ahead") => Ok(Some(AssemblyMode::Ahead)),
+        Some("behind") => Ok(Some(AssemblyMode::Behind)),
         Some(other) => Err(table
             .wrong(ErrorKind::Input, "mode", format!("\"{other}\" is no assembly mode"))
-            .help(suggestion(other, ["left", "right"], "\""))),
+            .help(suggestion(other, ["left", "right", "ahead", "behind"], "\""))),
     }
+}
+
+/// The assembly modes that a group of this sort can be asked for by name.
+fn modes_of(kind: GroupKind) -> &'static [AssemblyMode] {
+    match kind {
+        GroupKind::Rrr => &[AssemblyMode::Left, AssemblyMode::Right],
+        GroupKind::Rrp | GroupKind::Rpr => &[AssemblyMode::Ahead, AssemblyMode::Behind],
+        GroupKind::Rpp | GroupKind::Prp | GroupKind::Higher => &[],
+    }
+}
+
+fn foreign_mode(table: &Table, asked: AssemblyMode, group: &Group) -> Error {
+    let message = format!("mode \"{}\" does not belong to a group of {}", asked.name(), group.pairs());
+    let help = match modes_of(group.kind) {
+        [one, other] => format!("write \"{}\" or \"{}\"", one.name(), other.name()),
+        _ if group.kind == GroupKind::Higher => "give `near` instead".to_string(),
+        _ => "it has one configuration: leave the mode out".to_string(),
+    };
+    table.wrong(ErrorKind::Input, "mode", message).help(help)
 }
 
 fn rough_place(mut table: Table, mechanism: &Mechanism, group: &Group) -> Result<(SidePoint, Vec2)> {
@@ -106,7 +132,12 @@ fn ready_to_paste(groups: &[&Group], mechanism: &Mechanism) -> String {
     let entry = |group: &&Group| {
         let names: Vec<String> =
             group.links.iter().map(|&link| format!("\"{}\"", mechanism.links()[link].name)).collect();
-        format!("[[start.groups]]\nlinks = [{}]\nmode = \"left\" # or \"right\"", names.join(", "))
+        let mode = match modes_of(group.kind) {
+            [one, other] => format!("mode = \"{}\" # or \"{}\"", one.name(), other.name()),
+            _ => "near = { point = \"...\", x_mm = ..., y_mm = ... }".to_string(),
+        };
+        format!("[[start.groups]]\nlinks = [{}]\n{mode}", names.join(", "))
     };
-    groups.iter().map(entry).collect::<Vec<_>>().join("\n")
+    let takes_mode = |group: &&&Group| !matches!(group.kind, GroupKind::Rpp | GroupKind::Prp);
+    groups.iter().filter(takes_mode).map(entry).collect::<Vec<_>>().join("\n")
 }

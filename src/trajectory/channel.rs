@@ -11,6 +11,10 @@ pub enum Subject {
     Point,
     /// A joint.
     Joint,
+    /// A prismatic joint: what it has besides the rows of any joint.
+    Slider,
+    /// The frame, on which all joints with the ground and the drive act.
+    Frame,
     /// The drive.
     Drive,
 }
@@ -22,7 +26,8 @@ impl Subject {
         match self {
             Subject::Link => "link",
             Subject::Point => "point",
-            Subject::Joint => "joint",
+            Subject::Joint | Subject::Slider => "joint",
+            Subject::Frame => "frame",
             Subject::Drive => "drive",
         }
     }
@@ -89,11 +94,13 @@ const fn row(
 }
 
 /// Every channel there is, in the order of columns. All vectors are in world axes; angles count counter-clockwise
-/// from world +x and keep their turns; a joint's force is that of its first link on its second; the drive's torque acts on the
-/// driving link, counter-clockwise positive.
-pub static CHANNELS: [ChannelKind; 18] = {
+/// from world +x and keep their turns; a joint's force is that of its first link on its second; a prismatic joint's slide is the
+/// way along its axis from the place on its first link to that on its second, its moment that of the first link on the
+/// second about the place on the second; what acts on the frame is the sum over its joints and the drive, its
+/// moment about the origin; the drive's torque acts on the driving link. Moments are counter-clockwise positive.
+pub static CHANNELS: [ChannelKind; 25] = {
     use Stage::{Accelerations, BalancingMoment, Positions, Reactions, Velocities};
-    use Subject::{Drive, Joint, Link, Point};
+    use Subject::{Drive, Frame, Joint, Link, Point, Slider};
     [
         ChannelKind { periodic: true, ..row(Link, "angle_rad", "angle", "rad", Positions) },
         row(Link, "omega_rad_s", "angular velocity", "rad/s", Velocities),
@@ -112,6 +119,13 @@ pub static CHANNELS: [ChannelKind; 18] = {
         row(Point, "ay_m_s2", "point acceleration", "m/s^2", Accelerations),
         row(Joint, "fx_N", "reaction", "N", Reactions),
         row(Joint, "fy_N", "reaction", "N", Reactions),
+        row(Slider, "slide_m", "slide", "m", Positions),
+        row(Slider, "slide_speed_m_s", "slide speed", "m/s", Velocities),
+        row(Slider, "slide_acceleration_m_s2", "slide acceleration", "m/s^2", Accelerations),
+        row(Slider, "moment_N_m", "reaction moment", "N m", Reactions),
+        row(Frame, "fx_N", "shaking force", "N", BalancingMoment),
+        row(Frame, "fy_N", "shaking force", "N", BalancingMoment),
+        row(Frame, "moment_N_m", "shaking moment", "N m", BalancingMoment),
         row(Drive, "torque_N_m", "balancing moment", "N m", BalancingMoment),
     ]
 };
@@ -138,7 +152,7 @@ impl Channel {
         CHANNELS.iter().find_map(|kind| {
             let rest = name.strip_prefix(kind.subject.word())?.strip_suffix(kind.suffix)?;
             let of = match kind.subject {
-                Subject::Drive => (rest == ".").then_some("")?,
+                Subject::Drive | Subject::Frame => (rest == ".").then_some("")?,
                 _ => rest.strip_prefix('.')?.strip_suffix('.')?,
             };
             Some(Channel { of: of.to_string(), kind })
@@ -165,7 +179,7 @@ mod tests {
     #[test]
     fn names_are_read_as_they_are_written() {
         for kind in &CHANNELS {
-            let of = if kind.subject == Subject::Drive { "" } else { "A.b" };
+            let of = if matches!(kind.subject, Subject::Drive | Subject::Frame) { "" } else { "A.b" };
             let channel = Channel { of: of.into(), kind };
             assert_eq!(Channel::named(&channel.to_string()), Some(channel));
         }

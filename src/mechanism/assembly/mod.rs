@@ -18,6 +18,13 @@ pub enum AssemblyMode {
     Left,
     /// Of a dyad: the inner joint lies to the right of that line.
     Right,
+    /// Of an RRP or RPR dyad: measured along the axis of its prismatic pair, the inner joint lies ahead of the outer pin (RRP), or
+    /// the outer pin of the pair's second link ahead of that of its first (RPR).
+    Ahead,
+    /// Of an RRP or RPR dyad: it lies behind.
+    Behind,
+    /// Of an RPP or PRP dyad, which has one configuration.
+    Only,
     /// Of a higher group: the configuration of the start pose, followed from there.
     Followed,
 }
@@ -29,7 +36,7 @@ impl AssemblyMode {
         match self {
             AssemblyMode::Left => AssemblyMode::Right,
             AssemblyMode::Right => AssemblyMode::Left,
-            AssemblyMode::Followed => AssemblyMode::Followed,
+            other => other,
         }
     }
 
@@ -39,6 +46,9 @@ impl AssemblyMode {
         match self {
             AssemblyMode::Left => "left",
             AssemblyMode::Right => "right",
+            AssemblyMode::Ahead => "ahead",
+            AssemblyMode::Behind => "behind",
+            AssemblyMode::Only => "only",
             AssemblyMode::Followed => "followed",
         }
     }
@@ -116,7 +126,7 @@ pub fn transmission_sine(mechanism: &Mechanism, group: &Group, pose: &Pose) -> O
 pub fn configurations(mechanism: &Mechanism, group: &Group, pose: &Pose) -> Result<Vec<Configuration>> {
     match group.kind {
         GroupKind::Rrr => dyad(mechanism, group, pose),
-        GroupKind::Higher => four_link::configurations(mechanism, group, pose),
+        _ => four_link::configurations(mechanism, group, pose),
     }
 }
 

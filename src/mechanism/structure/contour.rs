@@ -1,7 +1,7 @@
 //! Class of an Assur group by its closed contours.
 
 use super::Group;
-use crate::mechanism::{JointKind, Mechanism};
+use crate::mechanism::Mechanism;
 
 /// Number of sides of the highest closed contour of a group: a link with three or more pairs is a contour of as many
 /// sides, and so is every shortest loop of inner joints.
@@ -15,7 +15,6 @@ pub(super) fn highest_contour(mechanism: &Mechanism, group: &Group) -> usize {
 
 /// Number of links in the shortest loop of inner joints through the joint `through`, if there is one.
 fn shortest_loop(mechanism: &Mechanism, group: &Group, through: usize) -> Option<usize> {
-    debug_assert_eq!(mechanism.joints()[through].kind, JointKind::Revolute);
     let (start, goal) = (mechanism.joints()[through].first.link, mechanism.joints()[through].second.link);
     let mut layers = vec![(start, 1)];
     let mut next = 0;

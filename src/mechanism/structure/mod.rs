@@ -1,6 +1,6 @@
 //! Structural analysis: mobility and the decomposition into driving links and Assur groups.
 //!
-//! Every link has three freedoms, every revolute pair takes two and every drive one. The equations are given owners
+//! Every link has three freedoms, every revolute or prismatic pair takes two and every drive one. The equations are given owners
 //! among the links they touch, three to a link (a matching); a link then depends on the other link of every equation it
 //! owns, and the strongly connected parts of that dependence are the driving links and the Assur groups, in the order in which
 //! they can be solved. The parts do not depend on which matching was found (Dulmage and Mendelsohn 1958).
@@ -10,7 +10,7 @@ mod owners;
 #[cfg(test)]
 mod tests;
 
-use super::{GROUND, Mechanism};
+use super::{EQUATIONS, GROUND, Mechanism};
 use crate::error::{Error, ErrorKind, Result};
 use contour::highest_contour;
 use owners::{Owners, check_sparse};
@@ -19,10 +19,33 @@ use owners::{Owners, check_sparse};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum GroupKind {
-    /// Dyad of two links and three revolute pairs: class II, order 2.
+    /// Dyad with an outer, the inner and an outer revolute pair: class II, order 2, as all dyads.
     Rrr,
+    /// Dyad with an outer and the inner revolute pair and an outer prismatic one: connecting rod and slider.
+    Rrp,
+    /// Dyad of two outer revolute pairs and an inner prismatic one: swinging guide and block.
+    Rpr,
+    /// Dyad with an outer revolute pair, the inner and the other outer prismatic.
+    Rpp,
+    /// Dyad of two outer prismatic pairs and an inner revolute one.
+    Prp,
     /// Any group of more than two links.
     Higher,
+}
+
+impl GroupKind {
+    /// Letters of a dyad's pairs from outer over inner to outer; none for higher groups.
+    #[must_use]
+    pub fn letters(self) -> Option<&'static str> {
+        match self {
+            GroupKind::Rrr => Some("RRR"),
+            GroupKind::Rrp => Some("RRP"),
+            GroupKind::Rpr => Some("RPR"),
+            GroupKind::Rpp => Some("RPP"),
+            GroupKind::Prp => Some("PRP"),
+            GroupKind::Higher => None,
+        }
+    }
 }
 
 /// Assur group: a set of links that has no mobility once its outer joints are held.
@@ -55,14 +78,13 @@ impl Group {
         found.next().is_none().then_some(first)
     }
 
-    /// Letters of a dyad's pairs from outer over inner to outer ("RRR"); for higher groups the count of pairs.
+    /// Letters of a dyad's pairs ("RRP"); for higher groups the count of pairs.
     #[must_use]
-    pub fn pairs(&self, mechanism: &Mechanism) -> String {
-        let letter = |&joint: &usize| mechanism.joints()[joint].kind.letter();
-        match self.kind {
-            GroupKind::Rrr => [self.outer[0], self.inner[0], self.outer[1]].iter().map(letter).collect(),
-            GroupKind::Higher => format!("{} inner and {} outer pairs", self.inner.len(), self.outer.len()),
-        }
+    pub fn pairs(&self) -> String {
+        self.kind.letters().map_or_else(
+            || format!("{} inner and {} outer pairs", self.inner.len(), self.outer.len()),
+            ToString::to_string,
+        )
     }
 
     /// The group's links by name, for messages: `coupler, rocker`.
@@ -76,7 +98,7 @@ impl Group {
 /// Result of the structural analysis of a mechanism.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Structure {
-    /// Mobility by Chebyshev-Gruebler, W = 3 n - 2 p (n moving links, p revolute pairs).
+    /// Mobility by Chebyshev-Gruebler, W = 3 n - 2 p (n moving links, p lower pairs).
     pub mobility: i64,
     /// Driving links in the order in which they can be solved: (link, driven joint).
     pub drivers: Vec<(usize, usize)>,
@@ -92,6 +114,7 @@ impl Structure {
     /// over-constrained while another is free; [`ErrorKind::Unsupported`] if a drive does not act on a link hinged to the ground.
     pub fn of(mechanism: &Mechanism, drives: &[usize]) -> Result<Self> {
         check_connected(mechanism)?;
+        check_sliders(mechanism)?;
         let mobility = mobility(mechanism);
         if mobility != drives.len() as i64 {
             return Err(wrong_mobility(mechanism, mobility, drives.len()));
@@ -109,7 +132,7 @@ impl Structure {
                 .find(|&joint| owners.owner_of_drive(joint).is_some_and(|link| part.contains(&link)));
             match drive {
                 None => structure.groups.push(group(mechanism, part, &known)),
-                Some(joint) if part.len() == 1 && mechanism.joints()[joint].other(part[0]).link == GROUND => {
+                Some(joint) if part.len() == 1 && turns_on_ground(mechanism, joint, part[0]) => {
                     structure.drivers.push((part[0], joint));
                 }
                 Some(joint) => return Err(unsupported_drive(mechanism, joint)),
@@ -129,9 +152,8 @@ impl Structure {
         let mut parts: Vec<String> = self.drivers.iter().map(name).collect();
         for group in &self.groups {
             let class = ROMAN.get(group.class).map_or_else(|| group.class.to_string(), ToString::to_string);
-            let pairs = if group.kind == GroupKind::Higher { String::new() } else { group.pairs(mechanism) };
-            let space = if pairs.is_empty() { "" } else { " " };
-            parts.push(format!("{class}.{}{space}{pairs}({})", group.order(), group.names(mechanism)));
+            let pairs = group.kind.letters().map_or_else(String::new, |letters| format!(" {letters}"));
+            parts.push(format!("{class}.{}{pairs}({})", group.order(), group.names(mechanism)));
         }
         parts.join(" -> ")
     }
@@ -139,8 +161,7 @@ impl Structure {
 
 /// W = 3 n - 2 p.
 fn mobility(mechanism: &Mechanism) -> i64 {
-    let equations: usize = mechanism.joints().iter().map(|joint| joint.kind.equations()).sum();
-    3 * (mechanism.links().len() as i64 - 1) - equations as i64
+    3 * (mechanism.links().len() as i64 - 1) - (EQUATIONS * mechanism.joints().len()) as i64
 }
 
 fn check_connected(mechanism: &Mechanism) -> Result<()> {
@@ -161,6 +182,21 @@ fn check_connected(mechanism: &Mechanism) -> Result<()> {
     }
 }
 
+/// A closed loop of prismatic pairs alone fixes the angle between its links twice over and leaves it free to slide.
+fn check_sliders(mechanism: &Mechanism) -> Result<()> {
+    let mut part: Vec<usize> = (0..mechanism.links().len()).collect();
+    for joint in mechanism.joints().iter().filter(|joint| joint.is_prismatic()) {
+        let (a, b) = (part[joint.first.link], part[joint.second.link]);
+        if a == b {
+            return Err(Error::new(ErrorKind::Input, "the joint closes a loop of prismatic joints alone")
+                .key(format!("joints.{}", joint.name))
+                .help("links that are joined by prismatic joints only cannot turn against each other: one joint of the loop must be revolute"));
+        }
+        part.iter_mut().filter(|own| **own == b).for_each(|own| *own = a);
+    }
+    Ok(())
+}
+
 fn wrong_mobility(mechanism: &Mechanism, mobility: i64, drives: usize) -> Error {
     let (n, p) = (mechanism.links().len() - 1, mechanism.joints().len());
     let help = if mobility > drives as i64 {
@@ -174,6 +210,11 @@ fn wrong_mobility(mechanism: &Mechanism, mobility: i64, drives: usize) -> Error 
     )
     .key("joints")
     .help(help)
+}
+
+fn turns_on_ground(mechanism: &Mechanism, joint: usize, link: usize) -> bool {
+    let joint = &mechanism.joints()[joint];
+    !joint.is_prismatic() && joint.other(link).link == GROUND
 }
 
 fn unsupported_drive(mechanism: &Mechanism, joint: usize) -> Error {
@@ -199,8 +240,23 @@ fn group(mechanism: &Mechanism, links: Vec<usize>, known: &[bool]) -> Group {
     }
     // A dyad's outer joints stand in the order of its links.
     outer.sort_by_key(|&j| links.iter().position(|&link| mechanism.joints()[j].on(link).is_some()));
-    let kind = if links.len() == 2 { GroupKind::Rrr } else { GroupKind::Higher };
+    let kind = kind(mechanism, &links, &inner, &outer);
     let mut group = Group { links, inner, outer, class: 2, kind };
     group.class = highest_contour(mechanism, &group);
     group
+}
+
+fn kind(mechanism: &Mechanism, links: &[usize], inner: &[usize], outer: &[usize]) -> GroupKind {
+    if links.len() != 2 {
+        return GroupKind::Higher;
+    }
+    let slides = |joints: &[usize]| joints.iter().filter(|&&joint| mechanism.joints()[joint].is_prismatic()).count();
+    match (slides(inner), slides(outer)) {
+        (0, 0) => GroupKind::Rrr,
+        (0, 1) => GroupKind::Rrp,
+        (0, _) => GroupKind::Prp,
+        (_, 0) => GroupKind::Rpr,
+        // Three prismatic pairs are refused before.
+        (_, _) => GroupKind::Rpp,
+    }
 }
