@@ -1,17 +1,21 @@
-//! Any higher group of revolute pairs, by Newton's method on its own vector contours.
+//! Any higher group, by Newton's method on its own vector contours.
 //!
-//! The group's links hang on the known ones in a tree of joints; every joint left over closes a contour. Unknown are the
-//! links' angles only, as many as contour equations: the gap of a closing joint is the sum of the link vectors on either way to
-//! it, and its derivative by a link's angle is that vector turned by 90 degrees. Velocities and accelerations follow from
-//! the same Jacobian: J omega = -(velocity of the ends), J alpha = -(acceleration of the ends) + centripetal parts.
+//! The group's links hang on the known ones in a tree of joints, which has all prismatic ones (these cannot form a loop); every
+//! revolute joint left over closes a contour. Unknown are one angle for every link hung by a revolute joint and one slide for every
+//! link hung by a prismatic one, as many as contour equations: the gap of a closing joint is the sum of the link and slide
+//! vectors on either way to it. Its derivative by an angle is the sum of the vectors that turn with it, turned by 90 degrees, and
+//! by a slide it is the axis. Velocities and accelerations follow from the same Jacobian: J q' = -(velocity of
+//! the ends), J q'' = -(acceleration of the ends) + centripetal and Coriolis parts.
 
+use super::guide::turn_between;
 use crate::math::dense::Lu;
 use crate::math::{Motion, Vec2, cross, rotated, turned};
-use crate::mechanism::{Group, Mechanism, Side};
+use crate::mechanism::{Group, Joint, Mechanism, Side};
 
 /// Newton from the last pose needs a few iterations; more mean that it has lost the branch.
 const MAX_ITERATIONS: usize = 10;
-/// Largest turn of a link from the last pose (rad) that is still a continuation; its sine is what is compared.
+/// Largest turn of a link from the last pose (rad) that is still a continuation; its sine is what is compared. For a slide, the same
+/// share of the mechanism's size.
 const MAX_TURN: f64 = 0.3;
 
 /// Largest turn of the last iteration (rad): what is left is its square, times the condition of the pose.
@@ -22,6 +26,15 @@ const LAST_CHANGE: f64 = 1e-8;
 fn slightly_turned(direction: Vec2, angle: f64) -> Vec2 {
     let turn = Vec2::new(1.0 - 0.5 * angle * angle, angle);
     rotated(direction, turn).normalize()
+}
+
+/// How a link is guided by the one it hangs on with a prismatic joint.
+#[derive(Clone, Copy, Debug)]
+struct Guided {
+    /// The axis in the parent's frame.
+    axis: Vec2,
+    /// Direction of the link's frame in the parent's.
+    turn: Vec2,
 }
 
 /// A link of the group, hung on one that is known before it.
@@ -37,13 +50,45 @@ pub struct Node {
     pub parent: Side,
     /// Position of the parent among the nodes; `None` for a link outside the group.
     pub parent_node: Option<usize>,
+    /// Position of the node whose unknown is this link's angle: its own if it hangs by a revolute joint, else its parent's; `None` if
+    /// a link outside the group leads it.
+    pub spin: Option<usize>,
+    guided: Option<Guided>,
 }
 
-/// Part of the way to a closing joint: a vector of one link.
+impl Node {
+    fn of(joints: &[Joint], joint: usize, link: usize, before: &[Node]) -> Self {
+        let found = &joints[joint];
+        let parent = found.other(link);
+        let parent_node = before.iter().position(|node| node.link == parent.link);
+        let guided = found.axis_on(parent.link).zip(found.axis_on(link));
+        let guided = guided.map(|(axis, own)| Guided { axis, turn: turn_between(axis, own) });
+        let spin = if guided.is_none() { Some(before.len()) } else { parent_node.and_then(|node| before[node].spin) };
+        let own = found.on(link).expect("the joint is on the link");
+        Node { link, joint, own, parent, parent_node, spin, guided }
+    }
+
+    /// Whether the link hangs by a prismatic joint.
+    #[inline]
+    #[must_use]
+    pub fn is_guided(&self) -> bool {
+        self.guided.is_some()
+    }
+
+    /// World direction of the prismatic joint that the link hangs by; `None` for a revolute one.
+    #[inline]
+    #[must_use]
+    pub fn axis(&self, motions: &[Motion]) -> Option<Vec2> {
+        self.guided.map(|guided| motions[self.parent.link].arm(guided.axis))
+    }
+}
+
+/// Part of the way to a closing joint: a vector of one link, or the slide vector of a node.
 #[derive(Clone, Copy, Debug)]
 struct Segment {
     node: usize,
-    local: Vec2,
+    /// Vector in the link's frame; `None` for the node's slide.
+    local: Option<Vec2>,
     sign: f64,
 }
 
@@ -54,9 +99,20 @@ pub struct Closing {
     pub joint: usize,
     /// Nodes of the joint's first and second link.
     pub nodes: [usize; 2],
+    /// The joint on its second link.
+    place: Side,
     /// Known points from which the two ways start: second with sign +1, first with -1.
     ends: [(Side, f64); 2],
     segments: Vec<Segment>,
+}
+
+impl Closing {
+    /// World place of the joint.
+    #[inline]
+    #[must_use]
+    pub fn place(&self, motions: &[Motion]) -> Vec2 {
+        motions[self.place.link].point(self.place.local)
+    }
 }
 
 /// Higher group, ready for solving.
@@ -69,7 +125,14 @@ pub struct Chain {
     branch: f64,
     /// Directions of the links at the last pose, to go back to.
     kept: Vec<Vec2>,
-    /// Turns of the links in the last step and in the one before (rad), and the last step of the driving angle (rad).
+    /// Slides at this pose and at the last one, and their rates (m, m, m/s); 0 for revolute joints.
+    slides: Vec<f64>,
+    kept_slides: Vec<f64>,
+    speeds: Vec<f64>,
+    /// Length that slides are measured by, so that all unknowns are of one order (m).
+    size: f64,
+    is_sliding: bool,
+    /// Changes of the unknowns in the last step and in the one before, and the last step of the driving angle (rad).
     turned: Vec<[f64; 2]>,
     last_step: f64,
 }
@@ -84,24 +147,25 @@ impl Chain {
         // Breadth first: all outer joints, then inner ones from the links already hung.
         while nodes.len() < group.links.len() {
             let known = |link: usize| !group.links.contains(&link) || nodes.iter().any(|node| node.link == link);
-            let next = group.outer.iter().chain(&group.inner).copied().find_map(|joint| {
+            let hung = |&joint: &usize| {
                 let (a, b) = (joints[joint].first.link, joints[joint].second.link);
                 match (known(a), known(b)) {
                     (true, false) => Some((joint, b)),
                     (false, true) => Some((joint, a)),
                     _ => None,
                 }
-            });
-            let (joint, link) = next.expect("a group hangs together");
+            };
+            let next = || group.outer.iter().chain(&group.inner).filter_map(hung);
+            // Prismatic joints first: so none of them is left over (Prim's spanning tree of smallest weight).
+            let slider = next().find(|&(joint, _)| joints[joint].is_prismatic());
+            let (joint, link) = slider.or_else(|| next().next()).expect("a group hangs together");
             used[joint] = true;
-            let parent = joints[joint].other(link);
-            let own = joints[joint].on(link).expect("the joint is on the link");
-            let parent_node = nodes.iter().position(|node| node.link == parent.link);
-            nodes.push(Node { link, joint, own, parent, parent_node });
+            nodes.push(Node::of(joints, joint, link, &nodes));
         }
         let left = group.inner.iter().chain(&group.outer).copied().filter(|&joint| !used[joint]);
         let closings: Vec<Closing> = left.map(|joint| closing(mechanism, &nodes, joint)).collect();
         let n = nodes.len();
+        let is_sliding = nodes.iter().any(|node| node.guided.is_some());
         Chain {
             nodes,
             closings,
@@ -109,6 +173,11 @@ impl Chain {
             unknown: vec![0.0; n],
             branch: 0.0,
             kept: vec![Vec2::zeros(); n],
+            slides: vec![f64::NAN; n],
+            kept_slides: vec![0.0; n],
+            speeds: vec![0.0; n],
+            size: mechanism.size(),
+            is_sliding,
             turned: vec![[0.0; 2]; n],
             last_step: f64::NAN,
         }
@@ -126,8 +195,50 @@ impl Chain {
         &self.closings
     }
 
-    /// Gaps into `unknown` and their derivatives by the links' angles into the Jacobian.
-    fn assemble(&mut self, motions: &[Motion]) {
+    /// Length by which slides are divided among the unknowns (m).
+    #[must_use]
+    pub fn size(&self) -> f64 {
+        self.size
+    }
+
+    /// A segment's vector, with its sign.
+    #[inline]
+    fn vector(&self, segment: &Segment, motions: &[Motion]) -> Vec2 {
+        let node = &self.nodes[segment.node];
+        match segment.local {
+            Some(local) => motions[node.link].arm(local) * segment.sign,
+            None => self.axis(segment, motions) * self.slides[segment.node],
+        }
+    }
+
+    /// The axis of a slide segment, with its sign.
+    #[inline]
+    fn axis(&self, segment: &Segment, motions: &[Motion]) -> Vec2 {
+        self.nodes[segment.node].axis(motions).expect("slides belong to prismatic joints") * segment.sign
+    }
+
+    /// The link that a segment's vector turns with, and the node whose unknown is its angle.
+    #[inline]
+    fn carrier(&self, segment: &Segment) -> (usize, Option<usize>) {
+        let node = &self.nodes[segment.node];
+        (if segment.local.is_some() { node.link } else { node.parent.link }, node.spin)
+    }
+
+    /// Turns every guided link as its parent stands.
+    fn aim(&self, motions: &mut [Motion]) {
+        if !self.is_sliding {
+            return;
+        }
+        for node in &self.nodes {
+            if let Some(guided) = node.guided {
+                motions[node.link].direction = rotated(motions[node.parent.link].direction, guided.turn);
+            }
+        }
+    }
+
+    /// Gaps into `unknown` and their derivatives into the Jacobian.
+    fn assemble(&mut self, motions: &mut [Motion]) {
+        self.aim(motions);
         self.jacobian.clear();
         for (index, closing) in self.closings.iter().enumerate() {
             let row = 2 * index;
@@ -136,22 +247,42 @@ impl Chain {
                 gap += motions[side.link].point(side.local) * sign;
             }
             for segment in &closing.segments {
-                let arm = motions[self.nodes[segment.node].link].arm(segment.local) * segment.sign;
-                gap += arm;
-                self.jacobian.add(row, segment.node, -arm.y);
-                self.jacobian.add(row + 1, segment.node, arm.x);
+                let vector = self.vector(segment, motions);
+                gap += vector;
+                if let Some(column) = self.carrier(segment).1 {
+                    self.jacobian.add(row, column, -vector.y);
+                    self.jacobian.add(row + 1, column, vector.x);
+                }
+                if segment.local.is_none() {
+                    let axis = self.axis(segment, motions) * self.size;
+                    self.jacobian.add(row, segment.node, axis.x);
+                    self.jacobian.add(row + 1, segment.node, axis.y);
+                }
             }
             self.unknown[row] = gap.x;
             self.unknown[row + 1] = gap.y;
         }
     }
 
+    /// Slides of the start pose, which the links still hold when the group is placed for the first time.
+    fn read_slides(&mut self, motions: &[Motion]) {
+        for (slide, node) in self.slides.iter_mut().zip(&self.nodes) {
+            let from = motions[node.parent.link].point(node.parent.local);
+            let to = motions[node.link].point(node.own);
+            *slide = node.axis(motions).map_or(0.0, |axis| axis.dot(&(to - from)));
+        }
+    }
+
     /// Positions from those of the last pose, from which the driving angle has moved by `step` (rad); `false`, with the
     /// links' directions as they were, if the branch cannot be followed there.
     pub(super) fn positions(&mut self, step: f64, motions: &mut [Motion]) -> bool {
+        if self.slides[0].is_nan() {
+            self.read_slides(motions);
+        }
         for (kept, node) in self.kept.iter_mut().zip(&self.nodes) {
             *kept = motions[node.link].direction;
         }
+        self.kept_slides.copy_from_slice(&self.slides);
         self.predict(step, motions);
         let followed = self.follow(motions) && self.is_near(motions);
         if followed {
@@ -161,6 +292,7 @@ impl Chain {
             for (kept, node) in self.kept.iter().zip(&self.nodes) {
                 motions[node.link].direction = *kept;
             }
+            self.slides.copy_from_slice(&self.kept_slides);
         }
         followed
     }
@@ -171,11 +303,11 @@ impl Chain {
     }
 
     /// Turns the links as the last two steps let expect, if this one is of the same size: the error is of third order.
-    fn predict(&self, step: f64, motions: &mut [Motion]) {
+    fn predict(&mut self, step: f64, motions: &mut [Motion]) {
         if self.is_repeated(step) {
-            for (node, [last, before]) in self.nodes.iter().zip(&self.turned) {
-                let direction = &mut motions[node.link].direction;
-                *direction = slightly_turned(*direction, 2.0 * last - before);
+            for (index, [last, before]) in self.turned.iter().enumerate() {
+                let change = 2.0 * last - before;
+                advance(&self.nodes[index], &mut self.slides[index], change, self.size, motions);
             }
         }
     }
@@ -184,15 +316,23 @@ impl Chain {
     fn remember(&mut self, step: f64, motions: &[Motion]) {
         // After a step of another size the turn before is unknown: taking the last one for it predicts linearly.
         let same = self.is_repeated(step);
-        for ((turned, kept), node) in self.turned.iter_mut().zip(&self.kept).zip(&self.nodes) {
-            let turn = cross(*kept, motions[node.link].direction);
+        for (index, node) in self.nodes.iter().enumerate() {
+            let turn = match node.guided {
+                None => cross(self.kept[index], motions[node.link].direction),
+                Some(_) => (self.slides[index] - self.kept_slides[index]) / self.size,
+            };
+            let turned = &mut self.turned[index];
             *turned = [turn, if same { turned[0] } else { turn }];
         }
         self.last_step = step;
     }
 
-    /// Whether no link has turned farther than a continuation may.
+    /// Whether no link has turned or slid farther than a continuation may.
     fn is_near(&self, motions: &[Motion]) -> bool {
+        let mut slides = self.slides.iter().zip(&self.kept_slides);
+        if self.is_sliding && !slides.all(|(now, kept)| (now - kept).abs() <= MAX_TURN * self.size) {
+            return false;
+        }
         let mut turns = self.kept.iter().zip(&self.nodes).map(|(kept, node)| (kept, motions[node.link].direction));
         turns.all(|(kept, now)| kept.dot(&now) > 0.0 && cross(*kept, now).abs() <= MAX_TURN)
     }
@@ -209,9 +349,8 @@ impl Chain {
             if !(change <= MAX_TURN) {
                 return false;
             }
-            for (node, &turn) in self.nodes.iter().zip(&self.unknown) {
-                let direction = &mut motions[node.link].direction;
-                *direction = slightly_turned(*direction, -turn);
+            for (index, change) in self.unknown.iter().enumerate() {
+                advance(&self.nodes[index], &mut self.slides[index], -change, self.size, motions);
             }
             // Quadratic convergence: what is left is of the order of the square.
             if change < LAST_CHANGE {
@@ -229,8 +368,12 @@ impl Chain {
 
     /// Origins of all links from their directions; `false` if the pose lies beyond a singular one.
     fn hang(&mut self, motions: &mut [Motion]) -> bool {
-        for node in &self.nodes {
-            let at = motions[node.parent.link].point(node.parent.local);
+        self.aim(motions);
+        for (node, slide) in self.nodes.iter().zip(&self.slides) {
+            let mut at = motions[node.parent.link].point(node.parent.local);
+            if let Some(axis) = node.axis(motions) {
+                at += axis * *slide;
+            }
             let motion = &mut motions[node.link];
             motion.origin = at - motion.arm(node.own);
         }
@@ -247,12 +390,25 @@ impl Chain {
             for (side, sign) in closing.ends {
                 rate -= motions[side.link].point_velocity(side.local) * sign;
             }
+            for segment in closing.segments.iter().filter(|_| self.is_sliding) {
+                if let (carrier, None) = self.carrier(segment) {
+                    rate -= turned(self.vector(segment, motions)) * motions[carrier].omega;
+                }
+            }
             self.unknown[2 * index] = rate.x;
             self.unknown[2 * index + 1] = rate.y;
         }
         self.jacobian.solve(&mut self.unknown);
-        for (node, &omega) in self.nodes.iter().zip(&self.unknown) {
-            let at = motions[node.parent.link].point_velocity(node.parent.local);
+        for (index, node) in self.nodes.iter().enumerate() {
+            let parent = &motions[node.parent.link];
+            let (at, omega) = match node.axis(motions) {
+                None => (parent.point_velocity(node.parent.local), self.unknown[index]),
+                Some(axis) => {
+                    self.speeds[index] = self.unknown[index] * self.size;
+                    let carried = parent.velocity_at(motions[node.link].point(node.own));
+                    (carried + axis * self.speeds[index], parent.omega)
+                }
+            };
             let motion = &mut motions[node.link];
             motion.omega = omega;
             motion.velocity = at - turned(motion.arm(node.own)) * omega;
@@ -266,15 +422,30 @@ impl Chain {
                 second -= motions[side.link].point_acceleration(side.local) * sign;
             }
             for segment in &closing.segments {
-                let motion = &motions[self.nodes[segment.node].link];
-                second += motion.arm(segment.local) * (segment.sign * motion.omega * motion.omega);
+                let (carrier, spin) = self.carrier(segment);
+                let (motion, vector) = (&motions[carrier], self.vector(segment, motions));
+                second += vector * (motion.omega * motion.omega);
+                if spin.is_none() {
+                    second -= turned(vector) * motion.alpha;
+                }
+                if segment.local.is_none() {
+                    second -= self.coriolis(segment.node, turned(self.axis(segment, motions)), motions);
+                }
             }
             self.unknown[2 * index] = second.x;
             self.unknown[2 * index + 1] = second.y;
         }
         self.jacobian.solve(&mut self.unknown);
-        for (node, &alpha) in self.nodes.iter().zip(&self.unknown) {
-            let at = motions[node.parent.link].point_acceleration(node.parent.local);
+        for (index, node) in self.nodes.iter().enumerate() {
+            let parent = &motions[node.parent.link];
+            let (at, alpha) = match node.axis(motions) {
+                None => (parent.point_acceleration(node.parent.local), self.unknown[index]),
+                Some(axis) => {
+                    let carried = parent.acceleration_at(motions[node.link].point(node.own));
+                    let relative = axis * (self.unknown[index] * self.size);
+                    (carried + relative + self.coriolis(index, turned(axis), motions), parent.alpha)
+                }
+            };
             let motion = &mut motions[node.link];
             let own = motion.arm(node.own);
             motion.alpha = alpha;
@@ -282,11 +453,29 @@ impl Chain {
         }
     }
 
+    /// Coriolis acceleration of a sliding node along the normal of its axis.
+    #[inline]
+    fn coriolis(&self, node: usize, normal: Vec2, motions: &[Motion]) -> Vec2 {
+        normal * (2.0 * self.speeds[node] * motions[self.nodes[node].parent.link].omega)
+    }
+
     /// Multipliers of the closing joints (forces on their second links, x and y in turn, N) from the generalised forces
-    /// on the links' angles (N m), in place: J^T lambda = -Q. The pose must be the last one solved.
+    /// on the unknowns (N m; for a slide, the force along the axis times [`Chain::size`]), in place: J^T lambda = -Q. The pose must
+    /// be the last one solved.
     pub fn multipliers(&self, generalised: &mut [f64]) {
         generalised.iter_mut().for_each(|q| *q = -*q);
         self.jacobian.solve_transposed(generalised);
+    }
+}
+
+/// Changes one unknown: turns the node's link by an angle (rad), or slides it by a share of `size`.
+#[inline]
+fn advance(node: &Node, slide: &mut f64, change: f64, size: f64, motions: &mut [Motion]) {
+    if node.guided.is_some() {
+        *slide += change * size;
+    } else {
+        let direction = &mut motions[node.link].direction;
+        *direction = slightly_turned(*direction, change);
     }
 }
 
@@ -300,12 +489,15 @@ fn closing(mechanism: &Mechanism, nodes: &[Node], joint: usize) -> Closing {
         let (mut next, mut local, mut end) = (Some(node), side.local, side);
         while let Some(index) = next {
             let own = &nodes[index];
-            segments.push(Segment { node: index, local: local - own.own, sign });
+            segments.push(Segment { node: index, local: Some(local - own.own), sign });
+            if own.guided.is_some() {
+                segments.push(Segment { node: index, local: None, sign });
+            }
             (next, local, end) = (own.parent_node, own.parent.local, own.parent);
         }
         (node, (end, sign))
     };
     let (second, second_end) = way(found.second, 1.0);
     let (first, first_end) = way(found.first, -1.0);
-    Closing { joint, nodes: [first, second], ends: [second_end, first_end], segments }
+    Closing { joint, place: found.second, nodes: [first, second], ends: [second_end, first_end], segments }
 }

@@ -43,6 +43,7 @@ pub fn all(case: &Case, crank: f64) -> Result<Vec<Vec<Mode>>> {
         for one in configurations(mechanism, group, &pose)? {
             let mut motions = state.motions.clone();
             for (&link, place) in group.links.iter().zip(&one.links) {
+                motions[link].origin = place.origin;
                 motions[link].direction = unit(place.angle);
             }
             let mut chosen = case.modes[..=index].to_vec();
