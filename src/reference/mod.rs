@@ -3,6 +3,7 @@
 mod assur_solver;
 mod kinetostatics;
 pub mod modes;
+pub mod momentum;
 mod newton_solver;
 mod pose_solver;
 pub mod power;
