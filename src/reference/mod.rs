@@ -5,6 +5,7 @@ mod kinetostatics;
 pub mod modes;
 pub mod momentum;
 mod newton_solver;
+pub mod peaks;
 mod pose_solver;
 pub mod power;
 pub mod reduced;
