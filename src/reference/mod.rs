@@ -7,6 +7,7 @@ mod newton_solver;
 mod pose_solver;
 pub mod power;
 pub mod reduced;
+pub mod triad;
 
 pub use assur_solver::AssurSolver;
 pub use newton_solver::NewtonSolver;
