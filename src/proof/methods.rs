@@ -3,7 +3,7 @@
 use super::checks::rounding;
 use crate::case::Case;
 use crate::compare::{Check, Verdict};
-use crate::error::Result;
+use crate::error::{ErrorKind, Result};
 use crate::math::{Vec2, cross};
 use crate::reference::triad::class_change::ClassChange;
 use crate::reference::triad::{Reactions, Triad, assur_point, cramer, linear_system};
@@ -41,7 +41,13 @@ impl Worst {
 
     /// What the method answers; its first error is kept.
     fn answer<T>(&mut self, answer: Result<T>) -> Option<T> {
-        answer.map_err(|error| self.failure.get_or_insert_with(|| error.to_string()).len()).ok()
+        match answer {
+            Ok(answer) => Some(answer),
+            Err(error) => {
+                self.failure.get_or_insert_with(|| error.to_string());
+                None
+            }
+        }
     }
 
     fn check(self, family: &str, detail: &str, scales: [f64; 4]) -> Check {
@@ -72,10 +78,14 @@ struct Watch {
 }
 
 impl Watch {
-    fn of(case: &Case, triad: Triad) -> Self {
-        let change = ClassChange::new(case, &triad).ok().map(|change| (change, Worst::default()));
+    fn of(case: &Case, triad: Triad) -> Result<Self> {
+        let change = match ClassChange::new(case, &triad) {
+            Ok(change) => Some((change, Worst::default())),
+            Err(error) if error.kind() == ErrorKind::Unsupported => None,
+            Err(error) => return Err(error),
+        };
         let [cramer, assur_point, linear] = [(); 3].map(|()| Worst::default());
-        Watch { triad, scales: [1.0, 0.0, 0.0, 0.0], cramer, change, assur_point, linear }
+        Ok(Watch { triad, scales: [1.0, 0.0, 0.0, 0.0], cramer, change, assur_point, linear })
     }
 
     fn grow(&mut self, quantity: Quantity, value: f64) {
@@ -110,7 +120,7 @@ impl Watch {
             rates(&mut self.cramer, found);
         }
         if let Some((change, worst)) = &mut self.change
-            && let Some(found) = worst.answer(change.solve(crank).cloned())
+            && let Some(found) = worst.answer(change.solve(crank).copied())
         {
             for (link, direction) in links.into_iter().zip(found.directions) {
                 let own = state.motions[link].direction;
@@ -163,7 +173,8 @@ impl Watch {
 /// Checks of the reference by the published methods, for every class III group of order 3 with revolute pairs; none if there is no such
 /// group.
 pub(super) fn checks(case: &Case, reference: &dyn Solver) -> Result<Vec<Check>> {
-    let mut watches: Vec<Watch> = Triad::all(case).into_iter().map(|triad| Watch::of(case, triad)).collect();
+    let watches: Result<Vec<Watch>> = Triad::all(case).into_iter().map(|triad| Watch::of(case, triad)).collect();
+    let mut watches = watches?;
     if watches.is_empty() {
         return Ok(Vec::new());
     }

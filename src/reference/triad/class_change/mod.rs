@@ -246,7 +246,7 @@ fn zero(gap: impl Fn(f64) -> Option<(f64, f64)>, guess: f64) -> Option<f64> {
         return Some(guess);
     }
     let newton = value / slope;
-    let mut width = (2.0 * newton.abs()).max(f64::EPSILON);
+    let mut width = (2.0 * newton.abs()).clamp(f64::EPSILON, MAX_TURN);
     let mut bounds = loop {
         if !(width <= MAX_TURN) {
             return None;
@@ -284,4 +284,19 @@ fn unsupported(case: &Case, triad: &Triad) -> Error {
         "class change asks for a group with two leads on the ground and one on the driving link \"{crank}\", turning about the ground; the leads of the group ({names}) hang on: {supports}"
     );
     Error::new(ErrorKind::Unsupported, message).help("use Cramer's rule, which takes any supports")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_zero_is_found_where_newton_alone_runs_away() {
+        // From 0.1 Newton's method on atan(20 x) goes to -0.18, then to 0.7, and farther out each time.
+        let steep = |x: f64| Some(((20.0 * x).atan(), 20.0 / (1.0 + 400.0 * x * x)));
+        assert!(zero(steep, 0.1).unwrap().abs() < f64::EPSILON);
+        assert_eq!(zero(|x| Some((x * x + 1.0, 2.0 * x)), 0.1), None);
+        assert_eq!(zero(|x| (x < 0.1).then_some((x - 0.2, 1.0)), 0.0), None);
+        assert_eq!(zero(|_| Some((f64::NAN, f64::NAN)), 0.0), None);
+    }
 }
