@@ -23,7 +23,7 @@ fn side_bound(stage: Stage) -> f64 {
     }
 }
 
-fn rounding(bound: f64, why: &'static str) -> Tolerance {
+pub(super) fn rounding(bound: f64, why: &'static str) -> Tolerance {
     Tolerance { abs: bound, rel: 0.0, basis: Basis::RoundOff(why) }
 }
 

@@ -9,6 +9,7 @@ pub mod peaks;
 mod pose_solver;
 pub mod power;
 pub mod reduced;
+pub mod triad;
 
 pub use assur_solver::AssurSolver;
 pub use newton_solver::NewtonSolver;
