@@ -6,6 +6,7 @@ mod list;
 mod modes;
 mod output;
 mod progress;
+mod range;
 mod run;
 mod solve;
 
@@ -46,7 +47,7 @@ enum Command {
     Run(run::Args),
     /// Solve a scenario one way and write the solution as CSV, one row an instant
     Solve(solve::Args),
-    /// Show the structure of a mechanism: links, joints, mobility, driving link and Assur groups
+    /// Show the structure of a mechanism: links, joints, mobility, driving link and Assur groups; its configurations; its range of motion
     Inspect(inspect::Args),
     /// List scenarios, or the channels and solvers there are
     List(list::Args),

@@ -6,6 +6,7 @@ pub mod modes;
 mod newton_solver;
 mod pose_solver;
 pub mod power;
+pub mod range;
 pub mod reduced;
 
 pub use assur_solver::AssurSolver;
