@@ -104,7 +104,9 @@ fn groups(scenario: &Scenario, range: &Range) -> String {
 fn links(scenario: &Scenario, range: &Range) -> String {
     let mut table = table(["link", "motion", "from deg", "to deg", "extreme positions, at crank deg"], &[2, 3]);
     for link in &range.links {
-        let [least, most] = link.angles.map(|at| format!("{:.6}", at.value.to_degrees()));
+        // Between which angles a link lies that comes round says nothing.
+        let end = |at: At| if link.turns == 0 { format!("{:.6}", at.value.to_degrees()) } else { "-".into() };
+        let [least, most] = link.angles.map(end);
         table.add_row([
             scenario.case.mechanism.links()[link.link].name.clone(),
             motion(link),

@@ -105,3 +105,30 @@ impl FourBar {
         Some(FourBar::of_lengths(all))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_shortest_link_decides() {
+        for (place, expected) in
+            [FourBarType::DoubleCrank, FourBarType::CrankRocker, FourBarType::DoubleRocker, FourBarType::RockerCrank]
+                .into_iter()
+                .enumerate()
+        {
+            let mut lengths = [4.0; 4];
+            lengths[place] = 1.0;
+            assert_eq!(FourBar::of_lengths(lengths).of_type, expected);
+        }
+        assert_eq!(FourBar::of_lengths([4.0, 3.5, 3.0, 2.0]).of_type, FourBarType::TripleRocker);
+    }
+
+    #[test]
+    fn equal_sums_are_equal_in_spite_of_rounding() {
+        // Parallelogram, deltoid, and lengths of which the sums differ in the last digit.
+        for lengths in [[0.4, 0.1, 0.4, 0.1], [0.1, 0.1, 0.4, 0.4], [0.1, 0.2, 0.5, 0.4]] {
+            assert_eq!(FourBar::of_lengths(lengths).of_type, FourBarType::ChangePoint, "{lengths:?}");
+        }
+    }
+}

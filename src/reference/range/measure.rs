@@ -35,3 +35,49 @@ pub(super) fn of(block: &Matrix, group: &Group) -> Measure {
     let condition = (values.max() / values.min()).min(f64::MAX);
     Measure { determinant: sign * values.product(), condition }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::constraints::Constraints;
+    use super::*;
+    use crate::math::Vec2;
+    use crate::mechanism::assembly::transmission_sine;
+    use crate::mechanism::fixtures::four_bar;
+    use crate::mechanism::{AssemblyMode, StartGroup, Structure, first_pose};
+
+    #[test]
+    fn a_dyad_has_its_transmission_angle_whatever_the_unit_of_length() {
+        let mechanism = four_bar();
+        let structure = Structure::of(&mechanism, &[0]).unwrap();
+        let group = &structure.groups[0];
+        let constraints = Constraints::of(&mechanism, Vec2::new(1.0, -2.0));
+        for degrees in (0..360).step_by(5) {
+            for mode in [AssemblyMode::Left, AssemblyMode::Right] {
+                let wanted = [StartGroup { mode: Some(mode), near: None }];
+                let (pose, _) =
+                    first_pose(&mechanism, &structure, &[f64::from(degrees).to_radians()], &wanted).unwrap();
+                let jacobian = constraints.at(&constraints.coordinates_of(&pose)).jacobian;
+                let measure = of(&constraints.block(&jacobian, group), group);
+                let sine = transmission_sine(&mechanism, group, &pose).unwrap();
+                assert!((measure.determinant.abs() - sine.abs()).abs() < 1e-14);
+                // cot(mu / 2) = (1 + cos mu) / sin mu.
+                let expected = (1.0 + (1.0 - sine * sine).sqrt()) / sine.abs();
+                assert!((measure.condition / expected - 1.0).abs() < 1e-12, "{} {expected}", measure.condition);
+            }
+        }
+    }
+
+    #[test]
+    fn the_jacobian_is_the_derivative_of_the_residual() {
+        let mechanism = four_bar();
+        let constraints = Constraints::of(&mechanism, Vec2::zeros());
+        let q = crate::math::Column::from_fn(9, |k, _| 0.3 + 0.7 * k as f64);
+        let jacobian = constraints.at(&q).jacobian;
+        for k in 0..9 {
+            let (mut ahead, mut behind) = (q.clone(), q.clone());
+            (ahead[k], behind[k]) = (q[k] + 1e-5, q[k] - 1e-5);
+            let slope = (constraints.at(&ahead).residual - constraints.at(&behind).residual) / 2e-5;
+            assert!((slope - jacobian.column(k)).norm() < 1e-9);
+        }
+    }
+}
