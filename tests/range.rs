@@ -192,19 +192,25 @@ fn limits_and_extremes_of_chains_lie_where_the_solver_finds_them() {
     assert!(limited.get() >= 10 && extremes.get() >= 20, "{} {}", limited.get(), extremes.get());
 }
 
-fn parallelogram(side: f64) -> Spec {
-    Spec { start: 0.5, grid: (0.5, 0.1, 5), ..four_bar([0.4, 0.1, 0.4, side], false) }
+/// A parallelogram if `side` is 0.1 m; in the other mode the same links form an antiparallelogram.
+fn parallelogram(side: f64, left: bool) -> Spec {
+    Spec { start: 0.5, grid: (0.5, 0.1, 5), ..four_bar([0.4, 0.1, 0.4, side], left) }
 }
 
 #[test]
 fn a_parallelogram_has_change_points_at_0_and_180_degrees() {
-    let range = range(&parallelogram(0.1));
-    let [from, to] = limits(&range).unwrap();
-    assert_eq!([from.kind, to.kind], [Kind::ChangePoint; 2]);
-    assert!(from.crank.abs() <= EXACT && (to.crank - PI).abs() <= EXACT, "{:e} {:e}", from.crank, to.crank - PI);
-    assert_eq!(range.four_bar.unwrap().of_type, FourBarType::ChangePoint);
-    let coupler = &range.links[1];
-    assert!(coupler.extremes.is_empty() && coupler.angles[1].value - coupler.angles[0].value < EXACT);
+    for left in [true, false] {
+        let range = range(&parallelogram(0.1, left));
+        let [from, to] = limits(&range).unwrap();
+        assert_eq!([from.kind, to.kind], [Kind::ChangePoint; 2]);
+        assert!(from.crank.abs() <= EXACT && (to.crank - PI).abs() <= EXACT, "{:e} {:e}", from.crank, to.crank - PI);
+        assert_eq!(range.four_bar.unwrap().of_type, FourBarType::ChangePoint);
+        let [coupler, rocker] = [1, 2].map(|k| range.links[k].angles[1].value - range.links[k].angles[0].value);
+        // The rocker goes from one line with the frame to the other; the coupler stays parallel to the frame or rocks.
+        assert!((rocker - PI).abs() <= EXACT, "{rocker}");
+        assert_eq!(coupler <= EXACT, left, "{coupler}");
+        assert_eq!(range.links[1].extremes.len(), usize::from(!left));
+    }
 }
 
 /// A rocker a little too long or too short parts the branches that cross in a parallelogram: it can be followed through a contact, or
@@ -212,7 +218,7 @@ fn a_parallelogram_has_change_points_at_0_and_180_degrees() {
 #[test]
 fn near_a_parallelogram_branches_touch_or_end() {
     for off in [1e-4, 1e-6, 1e-8] {
-        let touching = range(&parallelogram(0.1 + off));
+        let touching = range(&parallelogram(0.1 + off, true));
         assert_eq!(touching.extent, Extent::FullTurn(1), "{off:e}");
         let contacts: Vec<f64> =
             touching.singularities.iter().filter(|s| s.kind == Kind::BranchContact).map(|s| wrapped(s.crank)).collect();
@@ -224,7 +230,7 @@ fn near_a_parallelogram_branches_touch_or_end() {
         };
         let expected: Vec<f64> = [0.3, 0.5].map(sine).into_iter().filter(|sine| *sine < 1e-3).collect();
         assert_eq!(contacts.len(), expected.len(), "{off:e}: {:?} for {expected:?}", touching.singularities);
-        let ended = limits(&range(&parallelogram(0.1 - off))).unwrap();
+        let ended = limits(&range(&parallelogram(0.1 - off, true))).unwrap();
         assert_eq!(ended.map(|limit| limit.kind), [Kind::DeadPoint; 2], "{off:e}");
         let expected = closed_form([0.4, 0.1, 0.4, 0.1 - off], 0.5).unwrap();
         for (limit, expected) in ended.iter().zip(expected) {

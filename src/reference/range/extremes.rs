@@ -8,8 +8,9 @@ use super::constraints::Constraints;
 use super::tracking::{Point, Tracker};
 use super::{At, Kind, Singularity};
 
-/// Part of the tangent that is rounding and no motion, times the smallest singular value of the pose.
-const STILL: f64 = 1e-12;
+/// Part of the tangent that is rounding and no motion, times the square of the smallest singular value: a pose is known to rounding over that
+/// value, and its tangent to the error of the pose over it once more.
+const STILL: f64 = 50.0 * f64::EPSILON;
 
 /// Extreme position of a link: its angular velocity changes sign.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,7 +51,8 @@ fn of_link(tracker: &Tracker, points: &[Point], closed: bool, link: usize) -> Li
         extremes.push(Extreme { crank: tracker.crank_of(&point.q), angle: point.q[angle], is_greatest });
     };
     // Places of poses in which the link turns at all: between two of them that differ in sense lies one extreme.
-    let moving: Vec<usize> = (0..points.len()).filter(|&k| rate(&points[k]).abs() * points[k].sigma > STILL).collect();
+    let moving: Vec<usize> =
+        (0..points.len()).filter(|&k| rate(&points[k]).abs() * points[k].sigma.powi(2) > STILL).collect();
     for pair in moving.windows(2) {
         let (a, b) = (&points[pair[0]], &points[pair[1]]);
         if rate(a) * rate(b) < 0.0 {

@@ -121,7 +121,7 @@ mod tests {
             lengths[place] = 1.0;
             assert_eq!(FourBar::of_lengths(lengths).of_type, expected);
         }
-        assert_eq!(FourBar::of_lengths([4.0, 3.5, 3.0, 2.0]).of_type, FourBarType::TripleRocker);
+        assert_eq!(FourBar::of_lengths([4.0, 3.5, 3.0, 3.0]).of_type, FourBarType::TripleRocker);
     }
 
     #[test]
