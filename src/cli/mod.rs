@@ -7,6 +7,7 @@ mod list;
 mod modes;
 mod output;
 mod progress;
+mod range;
 mod run;
 mod solve;
 
@@ -47,7 +48,7 @@ enum Command {
     Run(run::Args),
     /// Solve a scenario one way and write the solution as CSV, one row an instant
     Solve(solve::Args),
-    /// Show the structure of a mechanism: links, joints, mobility, driving link and Assur groups
+    /// Show the structure of a mechanism: links, joints, mobility, driving link and Assur groups; its configurations; its range of motion
     Inspect(inspect::Args),
     /// Largest reactions over the range of the grid, and the smallest journals that carry them
     Bearings(bearings::Args),

@@ -8,6 +8,7 @@ mod newton_solver;
 pub mod peaks;
 mod pose_solver;
 pub mod power;
+pub mod range;
 pub mod reduced;
 pub mod triad;
 

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::kinetostatics::{Kinetostatics, Reactions};
+use super::range;
 use crate::assur::{Misfit, OutOfReach, Plan};
 use crate::case::Case;
 use crate::error::{Error, ErrorKind, Result};
@@ -143,7 +144,8 @@ impl<'a> PoseSolver<'a> {
                 "the group ({group}) cannot be followed beyond crank angle {crank:.4} deg: it has a dead point there"
             ),
         };
-        Error::new(ErrorKind::Geometry, message)
-            .help("shorten the grid to the crank angles that can be reached, or check the lengths")
+        let error = Error::new(ErrorKind::Geometry, message)
+            .help("shorten the grid to the crank angles that can be reached, or check the lengths");
+        range::explained(self.case, &error)
     }
 }
