@@ -27,7 +27,13 @@ struct Arm {
 pub struct Rrr {
     arms: [Arm; 2],
     squared: [f64; 2],
+    /// Their inverses: a product is cheaper than a quotient.
+    inverse_squared: [f64; 2],
     side: f64,
+    /// World vectors from the outer joints to the inner one, r1 and r2 (m).
+    spans: [Vec2; 2],
+    /// 1 / D (1/m^2).
+    inverse: f64,
 }
 
 impl Rrr {
@@ -45,21 +51,28 @@ impl Rrr {
                 span: on_link(group.inner[0]) - outer,
             }
         });
+        let squared = arms.map(|arm| arm.span.norm_squared());
         Rrr {
             arms,
-            squared: arms.map(|arm| arm.span.norm_squared()),
+            squared,
+            inverse_squared: squared.map(|squared| 1.0 / squared),
+
             side: if mode == AssemblyMode::Right { -1.0 } else { 1.0 },
+            spans: [Vec2::zeros(); 2],
+            inverse: f64::NAN,
         }
     }
 
-    /// World vectors from the outer joints to the inner one.
+    /// World vectors from the outer joints of the group's first and second link to the inner one (m), and the inverse of their vector
+    /// product (1/m^2), once positions and velocities are known.
     #[inline]
-    fn spans(&self, motions: &[Motion]) -> [Vec2; 2] {
-        self.arms.map(|arm| motions[arm.link].arm(arm.span))
+    #[must_use]
+    pub fn spans(&self) -> ([Vec2; 2], f64) {
+        (self.spans, self.inverse)
     }
 
     #[inline]
-    pub(super) fn positions(&self, motions: &mut [Motion]) -> Result<(), Misfit> {
+    pub(super) fn positions(&mut self, motions: &mut [Motion]) -> Result<(), Misfit> {
         let [p1, p2] = self.arms.map(|arm| motions[arm.base.link].point(arm.base.local));
         let d = p2 - p1;
         let d_squared = d.norm_squared();
@@ -71,21 +84,23 @@ impl Rrr {
             return Err(Misfit::Span { distance: d_squared.sqrt(), reach: [(l1 - l2).abs(), l1 + l2] });
         }
         let r1 = d * along + turned(d) * (self.side * across_squared.sqrt());
-        for (k, (pivot, r)) in [(p1, r1), (p2, r1 - d)].into_iter().enumerate() {
+        self.spans = [r1, r1 - d];
+        for (k, (pivot, r)) in [p1, p2].into_iter().zip(self.spans).enumerate() {
             let Arm { link, outer, span, .. } = self.arms[k];
             let motion = &mut motions[link];
             // Quotient of the world and the body vector as complex numbers: the direction of the frame.
-            motion.direction = Vec2::new(span.dot(&r), cross(span, r)) / self.squared[k];
+            motion.direction = Vec2::new(span.dot(&r), cross(span, r)) * self.inverse_squared[k];
             motion.origin = pivot - motion.arm(outer);
         }
         Ok(())
     }
 
     #[inline]
-    pub(super) fn velocities(&self, motions: &mut [Motion]) {
-        let [r1, r2] = self.spans(motions);
+    pub(super) fn velocities(&mut self, motions: &mut [Motion]) {
+        let [r1, r2] = self.spans;
+        self.inverse = 1.0 / cross(r1, r2);
         let [v1, v2] = self.arms.map(|arm| motions[arm.base.link].point_velocity(arm.base.local));
-        let quotient = (v2 - v1) / cross(r1, r2);
+        let quotient = (v2 - v1) * self.inverse;
         for (arm, (v, omega)) in self.arms.iter().zip([(v1, quotient.dot(&r2)), (v2, quotient.dot(&r1))]) {
             let motion = &mut motions[arm.link];
             motion.omega = omega;
@@ -95,10 +110,10 @@ impl Rrr {
 
     #[inline]
     pub(super) fn accelerations(&self, motions: &mut [Motion]) {
-        let [r1, r2] = self.spans(motions);
+        let [r1, r2] = self.spans;
         let [a1, a2] = self.arms.map(|arm| motions[arm.base.link].point_acceleration(arm.base.local));
         let [w1, w2] = self.arms.map(|arm| motions[arm.link].omega);
-        let quotient = ((a2 - r2 * (w2 * w2)) - (a1 - r1 * (w1 * w1))) / cross(r1, r2);
+        let quotient = ((a2 - r2 * (w2 * w2)) - (a1 - r1 * (w1 * w1))) * self.inverse;
         for (arm, (a, alpha)) in self.arms.iter().zip([(a1, quotient.dot(&r2)), (a2, quotient.dot(&r1))]) {
             let motion = &mut motions[arm.link];
             let outer = motion.arm(arm.outer);

@@ -73,7 +73,10 @@ impl<'a> PoseSolver<'a> {
     /// Places the mechanism at the crank angle `target`, in small steps from where it is.
     fn go_to(&mut self, target: f64) -> Result<()> {
         let from = self.crank;
-        let parts = ((target - from).abs() / self.step).ceil().max(1.0);
+        if (target - from).abs() <= self.step {
+            return self.step_to(target, HALVINGS);
+        }
+        let parts = ((target - from).abs() / self.step).ceil();
         for part in 1..parts as usize {
             self.step_to(from + (target - from) * (part as f64 / parts), HALVINGS)?;
         }

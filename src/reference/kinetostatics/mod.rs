@@ -1,25 +1,28 @@
 //! Joint reactions group by group, last group first, and the balancing moment from the driving link's equilibrium.
 //!
 //! D'Alembert: every link carries m (g - a) at its mass centre, the moment -J alpha, its loads, and the forces of the
-//! groups that hang on it; see `dyad` for the equations of the dyads.
+//! groups that hang on it; one file a sort of group.
 
 mod body;
-mod dyad;
 mod higher;
+mod rrr;
+mod sliding;
 
 use crate::assur::{Plan, Step};
 use crate::case::Case;
 use crate::math::Motion;
 use body::{Action, Body};
-use dyad::Dyad;
 use higher::Higher;
+use rrr::Pinned;
+use sliding::Sliding;
 
 pub(crate) use body::Reactions;
 
 /// One group, seen from its forces.
 #[derive(Clone, Debug)]
 enum Part {
-    Dyad(Dyad),
+    Pinned(Pinned),
+    Sliding(Sliding),
     Higher(Higher),
 }
 
@@ -39,7 +42,8 @@ impl Kinetostatics {
         for (step, group) in case.structure.groups.iter().enumerate().rev() {
             parts.push(match &plan.steps()[step] {
                 Step::Chain(chain) => Part::Higher(Higher::of(case, step, chain, &settled)),
-                _ => Part::Dyad(Dyad::of(case, group, &settled)),
+                Step::Rrr(_) => Part::Pinned(Pinned::of(case, step, group, &settled)),
+                _ => Part::Sliding(Sliding::of(case, group, &settled)),
             });
             group.inner.iter().chain(&group.outer).for_each(|&joint| settled[joint] = true);
         }
@@ -53,7 +57,11 @@ impl Kinetostatics {
         let reactions = &mut reactions;
         for part in &mut self.parts {
             match part {
-                Part::Dyad(dyad) => dyad.solve(case, motions, reactions),
+                Part::Pinned(part) => {
+                    let Step::Rrr(dyad) = &plan.steps()[part.step] else { unreachable!("the step is an RRR dyad") };
+                    part.solve(case, dyad, motions, reactions);
+                }
+                Part::Sliding(dyad) => dyad.solve(case, motions, reactions),
                 Part::Higher(higher) => higher.solve(case, plan, motions, reactions),
             }
         }

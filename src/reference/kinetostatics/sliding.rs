@@ -1,8 +1,8 @@
-//! Reactions of the five dyads.
+//! Reactions of the four dyads with prismatic pairs.
 //!
 //! An outer or inner revolute pair passes a force, a prismatic one a force across its axis and a moment. With F and M the known
 //! force and moment on a link, u and w the vectors from the pole to the outer joints, R the force on link a at its outer joint:
-//! RRR: u x R = -M_a and w x (R + F) = M_b about the inner joint. RRP: u x R = -M_a about it, e . (R + F) = 0 for the whole.
+//! RRP: u x R = -M_a about the inner joint, e . (R + F) = 0 for the whole.
 //! RPR, with R on the pair's second link: e . (R + F_b) = 0 there, d x R = -M for the whole about the first pin. RPP: b . (R + F_a) = 0 on the
 //! pinned link, e . (R + F) = 0 for the whole. PRP: the inner force I on link a has e . (I + F_a) = 0 and
 //! b . (I - F_b) = 0. Moments of the guides follow from the moments of their links. Artobolevsky, "Theory of mechanisms and
@@ -13,9 +13,9 @@ use crate::case::Case;
 use crate::math::{Motion, Vec2, cross, turned};
 use crate::mechanism::{Group, GroupKind};
 
-/// A dyad, seen from its forces. The links stand in the order in which the formulas name them.
+/// A dyad with prismatic pairs, seen from its forces. The links stand in the order in which the formulas name them.
 #[derive(Clone, Debug)]
-pub(super) struct Dyad {
+pub(super) struct Sliding {
     kind: GroupKind,
     bodies: [Body; 2],
     outer: [Action; 2],
@@ -26,7 +26,7 @@ pub(super) struct Dyad {
     other: (usize, Vec2),
 }
 
-impl Dyad {
+impl Sliding {
     pub(super) fn of(case: &Case, group: &Group, settled: &[bool]) -> Self {
         let joints = case.mechanism.joints();
         let inner = &joints[group.inner[0]];
@@ -51,7 +51,7 @@ impl Dyad {
             GroupKind::Prp => (axis(outer[0]), axis(outer[1])),
             _ => (axis(group.inner[0]), axis(group.inner[0])),
         };
-        Dyad {
+        Sliding {
             kind: group.kind,
             bodies: links.map(|link| Body::of(case, link, settled)),
             outer: [0, 1].map(|k| Action::of(case, outer[k], links[k])),
@@ -68,7 +68,7 @@ impl Dyad {
             GroupKind::Rpr => self.rpr(case, motions, reactions),
             GroupKind::Rpp => self.rpp(case, motions, reactions),
             GroupKind::Prp => self.prp(case, motions, reactions),
-            GroupKind::Rrr | GroupKind::Higher => self.rrr(case, motions, reactions),
+            GroupKind::Rrr | GroupKind::Higher => unreachable!("the dyad slides"),
         }
     }
 
@@ -82,18 +82,6 @@ impl Dyad {
 
     fn axes(&self, motions: &[Motion]) -> [Vec2; 2] {
         [self.axis, self.other].map(|(link, axis)| motions[link].arm(axis))
-    }
-
-    #[inline]
-    fn rrr(&self, case: &Case, motions: &[Motion], reactions: &mut Reactions) {
-        let pole = self.inner[0].place(motions);
-        let [u, w] = self.outer.map(|outer| outer.place(motions) - pole);
-        let ([force_a, force_b], [moment_a, moment_b]) = self.known(case, motions, reactions, pole);
-        let total = force_a + force_b;
-        let reaction_a = (w * -moment_a - u * (moment_b - cross(w, total))) / cross(u, w);
-        self.outer[0].put(reaction_a, reactions);
-        self.outer[1].put(-(reaction_a + total), reactions);
-        self.inner[0].put(-(reaction_a + force_a), reactions);
     }
 
     fn rrp(&self, case: &Case, motions: &[Motion], reactions: &mut Reactions) {
