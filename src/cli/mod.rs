@@ -1,10 +1,12 @@
 //! The command line: the only part with standard output, paths, the clock, the environment and exit codes.
 
+mod diagram;
 mod grid;
 mod inspect;
 mod list;
 mod modes;
 mod output;
+mod plan;
 mod progress;
 mod run;
 mod solve;
@@ -48,6 +50,10 @@ enum Command {
     Solve(solve::Args),
     /// Show the structure of a mechanism: links, joints, mobility, driving link and Assur groups
     Inspect(inspect::Args),
+    /// Velocity and acceleration plans at one crank angle, as a table, as JSON or drawn to scale
+    Plan(plan::Args),
+    /// Velocity and acceleration from a displacement by the chord method, and back, with their errors
+    Diagram(diagram::Args),
     /// List scenarios, or the channels and solvers there are
     List(list::Args),
 }
@@ -60,6 +66,8 @@ pub fn main() -> ExitCode {
         Command::Run(args) => run::run(&args),
         Command::Solve(args) => output::exit(solve::solve(&args)),
         Command::Inspect(args) => output::exit(inspect::inspect(&args)),
+        Command::Plan(args) => output::exit(plan::plan(&args)),
+        Command::Diagram(args) => output::exit(diagram::diagram(&args)),
         Command::List(args) => output::exit(list::list(&args)),
     };
     ExitCode::from(code)
