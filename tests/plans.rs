@@ -202,6 +202,48 @@ fn drawings_are_well_formed_and_hold_every_vector() {
     }
 }
 
+/// Letters stand apart from each other, and none on a line: boxes as large as the letters themselves, a little less than what was kept free.
+#[test]
+fn letters_can_be_read() {
+    let (mut letters, mut crossed) = (0, 0);
+    for (name, degrees) in ALL.into_iter().flat_map(|name| angles().step_by(2).map(move |degrees| (name, degrees))) {
+        let text = draw::plans(&plans(name, degrees), name, "");
+        let document = roxmltree::Document::parse(&text).unwrap();
+        let number = |node: &roxmltree::Node, key: &str| node.attribute(key).unwrap().parse::<f64>().unwrap();
+        let italic = document.descendants().filter(|node| node.attribute("font-style") == Some("italic"));
+        let boxes: Vec<(Vec2, Vec2)> = italic
+            .map(|node| {
+                let signs = node.descendants().filter(|n| n.is_text()).filter_map(|n| n.text()).collect::<String>();
+                let wide =
+                    0.5 * 4.2 * signs.trim().chars().count() as f64 * if signs.trim().len() > 1 { 0.85 } else { 1.0 };
+                let middle = node.attribute("text-anchor") == Some("middle");
+                let left = number(&node, "x") - if middle { wide / 2.0 } else { 0.0 };
+                (Vec2::new(left + wide / 2.0, number(&node, "y") - 1.2), Vec2::new(wide / 2.0, 1.3))
+            })
+            .collect();
+        let arrows: Vec<[Vec2; 2]> = document
+            .descendants()
+            .filter(|node| node.has_tag_name("line") && node.parent().is_some_and(|parent| parent.has_tag_name("g")))
+            .map(|node| [["x1", "y1"], ["x2", "y2"]].map(|[x, y]| Vec2::new(number(&node, x), number(&node, y))))
+            .collect();
+        for (index, (centre, half)) in boxes.iter().enumerate() {
+            letters += 1;
+            for (other, size) in &boxes[index + 1..] {
+                let gap = (centre - other).abs() - half - size;
+                assert!(gap.x > 0.0 || gap.y > 0.0, "{name} at {degrees}: letters at {centre:?} and {other:?}");
+            }
+            let inside = |[a, b]: &[Vec2; 2]| {
+                (0..=400)
+                    .map(|k| a + (b - a) * (f64::from(k) / 400.0) - centre)
+                    .any(|d| d.x.abs() < half.x && d.y.abs() < half.y)
+            };
+            crossed += usize::from(arrows.iter().any(inside));
+        }
+    }
+    assert!(letters > 1000);
+    assert_eq!(crossed, 0, "of {letters} letters");
+}
+
 /// The arrow of a vector is as long as its size over the scale factor says, to the hundredths of a millimetre that are written.
 #[test]
 fn drawings_are_true_to_scale() {
