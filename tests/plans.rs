@@ -1,12 +1,16 @@
 //! Graphical methods: plans close and are images of the links, drawings hold what they say, the chord method has its known error, and the
 //! published graphical figures are what they are.
 
+#[path = "plans/drawings.rs"]
+mod drawings;
+#[path = "plans/motion.rs"]
+mod motion;
+
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::path::Path;
 
-use linkproof::diagram::motion::Method;
-use linkproof::diagram::{Course, MotionDiagram, Part, Plan, Plans, SingularPoint, TipKind, draw};
+use linkproof::diagram::{Part, Plan, Plans, SingularPoint, TipKind};
 use linkproof::math::{Vec2, rotated, unit};
 use linkproof::reference::{AssurSolver, NewtonSolver};
 use linkproof::scenario::Scenario;
@@ -165,110 +169,6 @@ fn scale_factors_are_round_and_fill_the_paper() {
 }
 
 #[test]
-fn drawings_are_well_formed_and_hold_every_vector() {
-    for (name, degrees) in ALL.into_iter().flat_map(|name| [0.0, 70.0, -150.0].map(|degrees| (name, degrees))) {
-        let plans = plans(name, degrees);
-        let text = draw::plans(&plans, name, "a < b & \"c\"");
-        let document = roxmltree::Document::parse(&text).unwrap_or_else(|error| panic!("{name}: {error}"));
-        let root = document.root_element();
-        let size = |key: &str| root.attribute(key).unwrap().trim_end_matches("mm").parse::<f64>().unwrap();
-        assert_eq!(root.attribute("viewBox").unwrap(), format!("0 0 {} {}", size("width"), size("height")));
-        let titles: Vec<&str> =
-            document.descendants().filter(|n| n.has_tag_name("title")).filter_map(|n| n.text()).collect();
-        let words: Vec<String> = document
-            .descendants()
-            .filter(|node| node.has_tag_name("text"))
-            .map(|node| node.descendants().filter(|n| n.is_text()).filter_map(|n| n.text()).collect::<String>())
-            .map(|text| text.trim().to_string())
-            .collect();
-        for plan in [&plans.velocity, &plans.acceleration] {
-            for vector in &plan.vectors {
-                let plain = vector.name.replace(['_', '^'], "");
-                assert!(words.contains(&plain), "{name}: {} is not in the table", vector.name);
-                let arrow = titles.iter().find(|title| title.trim().starts_with(&format!("{} = ", vector.name)));
-                assert!(arrow.is_some() || plan.paper(vector) <= 0.15, "{name}: {} is not drawn", vector.name);
-            }
-        }
-        // Nothing is clipped: every coordinate lies on the sheet.
-        for (key, most) in
-            [("x", "width"), ("x1", "width"), ("x2", "width"), ("y", "height"), ("y1", "height"), ("y2", "height")]
-        {
-            for value in document.descendants().filter_map(|node| node.attribute(key)) {
-                let value: f64 = value.parse().unwrap();
-                assert!(value >= 0.0 && value <= size(most), "{name}: {key} = {value}");
-            }
-        }
-        assert_eq!(text, draw::plans(&plans, name, "a < b & \"c\""), "same input, same bytes");
-    }
-}
-
-/// Letters stand apart from each other, and none on a line: boxes as large as the letters themselves, a little less than what was kept free.
-#[test]
-fn letters_can_be_read() {
-    let (mut letters, mut crossed) = (0, 0);
-    for (name, degrees) in ALL.into_iter().flat_map(|name| angles().step_by(2).map(move |degrees| (name, degrees))) {
-        let text = draw::plans(&plans(name, degrees), name, "");
-        let document = roxmltree::Document::parse(&text).unwrap();
-        let number = |node: &roxmltree::Node, key: &str| node.attribute(key).unwrap().parse::<f64>().unwrap();
-        let italic = document.descendants().filter(|node| node.attribute("font-style") == Some("italic"));
-        let boxes: Vec<(Vec2, Vec2)> = italic
-            .map(|node| {
-                let signs = node.descendants().filter(|n| n.is_text()).filter_map(|n| n.text()).collect::<String>();
-                let wide =
-                    0.5 * 4.2 * signs.trim().chars().count() as f64 * if signs.trim().len() > 1 { 0.85 } else { 1.0 };
-                let middle = node.attribute("text-anchor") == Some("middle");
-                let left = number(&node, "x") - if middle { wide / 2.0 } else { 0.0 };
-                (Vec2::new(left + wide / 2.0, number(&node, "y") - 1.2), Vec2::new(wide / 2.0, 1.3))
-            })
-            .collect();
-        let arrows: Vec<[Vec2; 2]> = document
-            .descendants()
-            .filter(|node| node.has_tag_name("line") && node.parent().is_some_and(|parent| parent.has_tag_name("g")))
-            .map(|node| [["x1", "y1"], ["x2", "y2"]].map(|[x, y]| Vec2::new(number(&node, x), number(&node, y))))
-            .collect();
-        for (index, (centre, half)) in boxes.iter().enumerate() {
-            letters += 1;
-            for (other, size) in &boxes[index + 1..] {
-                let gap = (centre - other).abs() - half - size;
-                assert!(gap.x > 0.0 || gap.y > 0.0, "{name} at {degrees}: letters at {centre:?} and {other:?}");
-            }
-            let inside = |[a, b]: &[Vec2; 2]| {
-                (0..=400)
-                    .map(|k| a + (b - a) * (f64::from(k) / 400.0) - centre)
-                    .any(|d| d.x.abs() < half.x && d.y.abs() < half.y)
-            };
-            crossed += usize::from(arrows.iter().any(inside));
-        }
-    }
-    assert!(letters > 1000);
-    assert_eq!(crossed, 0, "of {letters} letters");
-}
-
-/// The arrow of a vector is as long as its size over the scale factor says, to the hundredths of a millimetre that are written.
-#[test]
-fn drawings_are_true_to_scale() {
-    let plans = plans("crank_rocker", 70.0);
-    let text = draw::plans(&plans, "crank_rocker", "");
-    let document = roxmltree::Document::parse(&text).unwrap();
-    let mut checked = 0;
-    for group in document.descendants().filter(|node| node.has_tag_name("g")) {
-        let title =
-            group.children().find(|n| n.has_tag_name("title")).and_then(|n| n.text()).unwrap_or_default().trim();
-        let name = title.split(" = ").next().unwrap();
-        let plan = if name.starts_with('v') { &plans.velocity } else { &plans.acceleration };
-        let number = |node: roxmltree::Node, key: &str| node.attribute(key).unwrap().parse::<f64>().unwrap();
-        let line = group.children().find(|n| n.has_tag_name("line")).unwrap();
-        let head = group.children().find(|n| n.has_tag_name("path")).unwrap().attribute("d").unwrap().to_string();
-        let tip: Vec<f64> = head[1..].split('L').next().unwrap().split(' ').map(|part| part.parse().unwrap()).collect();
-        let drawn = Vec2::new(tip[0] - number(line, "x1"), number(line, "y1") - tip[1]);
-        let vector = plan.vector(name).unwrap();
-        assert!((drawn - vector.value / plan.scale).norm() < 0.015, "{name}: {drawn:?}");
-        checked += 1;
-    }
-    assert!(checked > 20);
-}
-
-#[test]
 fn both_solvers_draw_the_same_plans() {
     for name in ALL {
         let [a, b] = [&AssurSolver as &dyn Solver, &NewtonSolver].map(|solver| plans_with(name, solver, 70.0));
@@ -345,105 +245,4 @@ fn val_fourth_class_published_graphical_figures() {
     }
     // docs/findings.md, fourth_class-percentages.
     assert_eq!(wrong, ["eps2 printed 0.0 is 0.13", "eps4 printed 2.3 is 2.18", "omega5 printed 1.0 is 1.06"]);
-}
-
-fn motion(name: &str, channel: &str, divisions: usize) -> MotionDiagram {
-    let case = scenario(name).case;
-    let course = Course::named(&case, channel).unwrap();
-    MotionDiagram::of(&case, &AssurSolver, &course, divisions).unwrap()
-}
-
-/// The pin of a uniformly turning crank moves as a sine: the chord method makes it smaller by sin(h/2)/(h/2) and its square.
-#[test]
-fn the_chord_method_on_the_crank_pin_has_its_known_factor() {
-    for n in [12, 24, 48] {
-        let diagram = motion("crank_rocker", "point.A.x_m", n);
-        let half = PI / n as f64;
-        let factor = half.sin() / half;
-        for (method, factor) in [(Method::ChordVelocity, factor), (Method::ChordAcceleration, factor * factor)] {
-            let found = diagram.by(method).unwrap();
-            let exact = &diagram.exact[method.gives()];
-            for (&row, value) in found.rows.iter().zip(&found.values) {
-                // Rounding of positions (1e-15 of their range) over the interval, once or twice.
-                let bound = 1e-15 * (n * n) as f64 * diagram.half_range(method.gives());
-                assert!((value - factor * exact[row]).abs() <= bound, "{n} {method:?}");
-            }
-        }
-    }
-}
-
-#[test]
-fn the_error_of_all_four_methods_is_of_second_order() {
-    // So many divisions that the next term, of fourth order, no longer shows; the class IV group moves by far the most sharply.
-    for (name, channel, divisions) in [
-        ("crank_rocker", "point.B.x_m", 48),
-        ("crank_rocker", "link.rocker.angle_rad", 48),
-        ("ov7_base", "point.9.y_m", 48),
-        ("ov7_new", "link.base_345.angle_rad", 48),
-        ("fourth_class", "point.E.x_m", 192),
-    ] {
-        for found in &motion(name, channel, divisions).found {
-            for order in found.orders {
-                assert!((order.unwrap() - 2.0).abs() <= 0.05, "{name} {channel} {:?}: {order:?}", found.method);
-            }
-        }
-    }
-    // What a draughtsman takes: 12 divisions, then 24 and 48.
-    for found in &motion("crank_rocker", "link.coupler.angle_rad", 12).found {
-        assert!((found.orders[1].unwrap() - 2.0).abs() <= 0.05, "{:?}", found.orders);
-    }
-}
-
-#[test]
-fn a_link_that_turns_uniformly_has_no_error() {
-    let diagram = motion("crank_rocker", "link.crank.angle_rad", 12);
-    for found in &diagram.found {
-        // The angle grows by 2 pi: rounding of it over the interval, once or twice.
-        assert!(found.largest <= 1e-11 && found.share <= 1e-11 && found.orders == [None; 2], "{found:?}");
-    }
-}
-
-#[test]
-fn diagrams_are_well_formed_and_carry_their_errors() {
-    for (name, channel, n) in [("crank_rocker", "point.B.x_m", 12), ("ov7_base", "link.rocker_87.angle_rad", 36)] {
-        let diagram = motion(name, channel, n);
-        let text = draw::motion(&diagram, name);
-        let document = roxmltree::Document::parse(&text).unwrap();
-        let words: String = document.descendants().filter(|n| n.is_text()).filter_map(|n| n.text()).collect();
-        for found in &diagram.found {
-            assert!(words.contains(&format!(
-                "{}: largest error {}",
-                found.method.words(),
-                draw::significant(found.largest)
-            )));
-        }
-        let circles = document.descendants().filter(|node| node.has_tag_name("circle")).count();
-        // One at every middle and every end but the first, and one in each of two captions.
-        assert_eq!(circles, 2 * n + 2);
-    }
-}
-
-#[test]
-fn bad_questions_are_answered_with_the_way_out() {
-    let case = scenario("crank_rocker").case;
-    for (channel, message, way_out) in [
-        ("point.B.z_m", "no channel", "point.B.x_m"),
-        ("point.Q.x_m", "no channel", "point.A.x_m"),
-        ("link.roker.angle_rad", "no channel", "link.rocker.angle_rad"),
-        ("point.B.vx_m_s", "a derivative already", "point.B.x_m"),
-        ("joint.B.fx_N", "neither a position nor an angle", "point.B.x_m"),
-        ("", "no channel", "point.B.x_m"),
-    ] {
-        let error = Course::named(&case, channel).unwrap_err();
-        assert!(error.message().contains(message), "{channel}: {error}");
-        assert!(error.way_out().unwrap().contains(way_out), "{channel}: {error}");
-    }
-    let course = Course::named(&case, "point.B.x_m").unwrap();
-    for divisions in [0, 3, 1001] {
-        let error = MotionDiagram::of(&case, &AssurSolver, &course, divisions).unwrap_err();
-        assert!(error.way_out().unwrap().contains("from 4 to 1000"), "{error}");
-    }
-    for crank in [f64::NAN, f64::INFINITY, 1e30] {
-        assert!(Plans::at(&case, &AssurSolver, crank).is_err());
-    }
 }

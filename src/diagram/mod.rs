@@ -1,6 +1,7 @@
 //! The graphical methods of the theory of mechanisms as results of their own: velocity and acceleration plans, the singular Assur
 //! point of a class IV group, and motion diagrams by chords and by graphical integration; as data and as drawings true to scale.
 
+mod builder;
 pub mod chord;
 pub mod draw;
 pub mod motion;
