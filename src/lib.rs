@@ -11,6 +11,7 @@ pub mod assur;
 pub mod case;
 pub mod cli;
 pub mod compare;
+pub mod diagram;
 pub mod drive;
 pub mod engine;
 pub mod error;

@@ -14,8 +14,9 @@ use imports::{code_words, imports};
 const ALLOWED: &[(&str, &str)] = &[
     ("assur", "math mechanism"),
     ("case", "drive math mechanism trajectory"),
-    ("cli", "case compare engine error mechanism proof record reference report scenario trajectory"),
+    ("cli", "case compare diagram engine error math mechanism proof record reference report scenario trajectory"),
     ("compare", "error math tolerance trajectory"),
+    ("diagram", "case error math mechanism solver trajectory"),
     ("drive", ""),
     ("engine", "case drive error math mechanism solver trajectory"),
     ("error", ""),
@@ -46,6 +47,8 @@ const NEVER: &[(&str, &str)] = &[
     ("reference", "engine compare proof scenario record"),
     ("engine", "assur reference compare proof scenario record"),
     ("compare", "mechanism case solver assur reference engine scenario"),
+    // Any solver's states are drawn.
+    ("diagram", "drive assur reference engine compare proof record scenario"),
     ("record", "compare proof solver assur reference engine"),
     ("report", "assur reference engine record scenario mechanism"),
     ("proof", "record report"),
@@ -63,6 +66,7 @@ const HOMES: &[(&str, &str)] = &[
     ("petgraph", "mechanism"),
     ("nalgebra", "math"),
     ("comfy_table", "report"),
+    ("svg", "diagram"),
     ("serde", "report"),
     ("serde_json", "report cli"),
     ("clap", "cli"),

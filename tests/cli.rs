@@ -2,6 +2,8 @@
 
 #[path = "cli/messages.rs"]
 mod messages;
+#[path = "cli/plan.rs"]
+mod plan;
 #[path = "cli/range.rs"]
 mod range;
 #[path = "cli/run.rs"]

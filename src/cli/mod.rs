@@ -1,11 +1,13 @@
 //! The command line: the only part with standard output, paths, the clock, the environment and exit codes.
 
 mod bearings;
+mod diagram;
 mod grid;
 mod inspect;
 mod list;
 mod modes;
 mod output;
+mod plan;
 mod progress;
 mod range;
 mod run;
@@ -52,6 +54,10 @@ enum Command {
     Inspect(inspect::Args),
     /// Largest reactions over the range of the grid, and the smallest journals that carry them
     Bearings(bearings::Args),
+    /// Velocity and acceleration plans at one crank angle, as a table, as JSON or drawn to scale
+    Plan(plan::Args),
+    /// Velocity and acceleration from a displacement by the chord method, and back, with their errors
+    Diagram(diagram::Args),
     /// List scenarios, or the channels and solvers there are
     List(list::Args),
 }
@@ -65,6 +71,8 @@ pub fn main() -> ExitCode {
         Command::Solve(args) => output::exit(solve::solve(&args)),
         Command::Inspect(args) => output::exit(inspect::inspect(&args)),
         Command::Bearings(args) => output::exit(bearings::bearings(&args)),
+        Command::Plan(args) => output::exit(plan::plan(&args)),
+        Command::Diagram(args) => output::exit(diagram::diagram(&args)),
         Command::List(args) => output::exit(list::list(&args)),
     };
     ExitCode::from(code)

@@ -1,0 +1,17 @@
+//! The graphical methods of the theory of mechanisms as results of their own: velocity and acceleration plans, the singular Assur
+//! point of a class IV group, and motion diagrams by chords and by graphical integration; as data and as drawings true to scale.
+
+mod builder;
+pub mod chord;
+pub mod draw;
+pub mod motion;
+mod names;
+pub mod plan;
+pub mod scale;
+pub mod scheme;
+pub mod singular;
+
+pub use motion::{Course, MotionDiagram};
+pub use plan::{Part, Plan, Plans, Quantity, Tip, TipKind, Vector};
+pub use scheme::Scheme;
+pub use singular::SingularPoint;
