@@ -4,6 +4,7 @@
 #![allow(dead_code)]
 
 pub mod random;
+pub mod sliders;
 pub mod spec;
 
 use linkproof::case::{Case, Grid};

@@ -1,0 +1,320 @@
+//! Mechanisms with prismatic joints, built by hand with their motion in closed form: one of every sort of dyad. No frame and no
+//! axis lies along the world's, no mass centre on a joint, so that a wrong sign or a frame left out shows.
+
+use linkproof::case::{Case, Grid, Wanted};
+use linkproof::drive::{Drive, MotionLaw};
+use linkproof::math::{Vec2, cross, rotated, turned, unit};
+use linkproof::mechanism::{AssemblyMode, Joint, JointKind, Link, LinkPose, Mechanism, Point, Pose, Side, Structure};
+
+/// Crank speed (rad/s).
+pub const SPEED: f64 = 10.0;
+/// Length of the cranks (m).
+pub const CRANK: f64 = 0.1;
+
+/// A slider's guide: direction of its axis and a point on it.
+const GUIDE: f64 = 0.3;
+
+/// A mechanism and the angles (rad) and joint places that are known in closed form.
+pub struct Sample {
+    pub name: &'static str,
+    pub case: Case,
+    /// Slide of one joint and angle of one link as functions of the crank angle, with both derivatives by time (crank at `SPEED`).
+    pub exact: fn(f64) -> Exact,
+    /// The joint and the link.
+    pub joint: &'static str,
+    pub link: &'static str,
+}
+
+/// Value, rate and second derivative.
+#[derive(Clone, Copy, Debug)]
+pub struct Exact {
+    pub slide: [f64; 3],
+    pub angle: [f64; 3],
+}
+
+fn link(name: &str, points: &[(&str, Vec2)], [mass, x, y, inertia]: [f64; 4]) -> Link {
+    let points = points.iter().map(|&(name, local)| Point { name: name.into(), local }).collect();
+    Link { name: name.into(), points, mass, mass_centre: Vec2::new(x, y), inertia }
+}
+
+fn joint(name: &str, kind: JointKind, first: (usize, Vec2), second: (usize, Vec2)) -> Joint {
+    let [first, second] = [first, second].map(|(link, local)| Side { link, local });
+    Joint { name: name.into(), kind, first, second }
+}
+
+fn along(first: f64, second: f64) -> JointKind {
+    JointKind::Prismatic { axes: [unit(first), unit(second)] }
+}
+
+/// The same joint with its links in the other order.
+pub fn swapped(joint: Joint) -> Joint {
+    let kind = match joint.kind {
+        JointKind::Prismatic { axes: [first, second] } => JointKind::Prismatic { axes: [second, first] },
+        kind => kind,
+    };
+    Joint { kind, first: joint.second, second: joint.first, ..joint }
+}
+
+/// The case with its crank as link 1, driven at joint 0.
+fn case(links: Vec<Link>, joints: Vec<Joint>, mode: AssemblyMode, start: f64, to: f64, pose: Vec<LinkPose>) -> Case {
+    let mechanism = Mechanism::new(links, joints).unwrap();
+    let structure = Structure::of(&mechanism, &[0]).unwrap();
+    let drive = Drive { joint: 0, link: 1, zero: 0.0, start, law: MotionLaw::ConstantSpeed(SPEED) };
+    let cranks = (0..=72).map(|k| start + (to - start) * f64::from(k) / 72.0).collect();
+    let case = Case {
+        mechanism,
+        structure,
+        drive,
+        loads: Vec::new(),
+        gravity: Vec2::new(0.0, -9.81),
+        start: Pose(pose),
+        modes: vec![mode],
+        grid: Grid::of_cranks(&drive, cranks),
+        wanted: Wanted::ALL,
+    };
+    let closure = case.start.closure(&case.mechanism);
+    assert!(closure < 1e-15, "the start pose is off by {closure:e} m");
+    case
+}
+
+const TURN: f64 = std::f64::consts::TAU;
+const PIN: JointKind = JointKind::Revolute;
+
+fn crank() -> Link {
+    link("crank", &[("O", Vec2::zeros()), ("A", Vec2::new(CRANK, 0.0))], [0.8, 0.03, 0.01, 2e-3])
+}
+
+/// All of them.
+pub fn all() -> [Sample; 5] {
+    [slider_crank(), swinging_guide(), scotch_yoke(), slotted_crank(), oldham()]
+}
+
+const ROD: f64 = 0.35;
+const OFFSET: f64 = 0.02;
+/// The slider's axis in its own frame, and the joint's place there.
+const SLIDER_AXIS: f64 = -0.5;
+const SLIDER_PLACE: Vec2 = Vec2::new(0.02, 0.015);
+
+/// RRP: crank 0.1 m, rod 0.35 m, slider whose pin runs 0.02 m beside the crank's pivot.
+///
+/// With the crank at phi from the guide and sin(beta) = (e - a sin(phi)) / l: s = a cos(phi) + l cos(beta); both derived twice
+/// (the formulas of a piston compressor, here with an offset).
+pub fn slider_crank() -> Sample {
+    // The place on the slider and the one on the guide both lie off the pin's path.
+    let from_pin = rotated(unit(-SLIDER_AXIS), SLIDER_PLACE);
+    let guide = rotated(unit(GUIDE), Vec2::new(0.25, OFFSET + from_pin.y));
+    let links = vec![
+        link("ground", &[("O", Vec2::zeros()), ("G", guide)], [0.0; 4]),
+        crank(),
+        link("rod", &[("A", Vec2::zeros()), ("B", Vec2::new(ROD, 0.0))], [1.5, 0.15, 0.02, 0.02]),
+        link("slider", &[("B", Vec2::zeros()), ("S", SLIDER_PLACE)], [2.0, 0.01, -0.02, 3e-3]),
+    ];
+    let joints = vec![
+        joint("O", PIN, (0, Vec2::zeros()), (1, Vec2::zeros())),
+        joint("A", PIN, (1, Vec2::new(CRANK, 0.0)), (2, Vec2::zeros())),
+        joint("B", PIN, (2, Vec2::new(ROD, 0.0)), (3, Vec2::zeros())),
+        joint("guide", along(GUIDE, SLIDER_AXIS), (0, guide), (3, SLIDER_PLACE)),
+    ];
+    let exact = |crank: f64| {
+        let phi = crank - GUIDE;
+        let beta = ((OFFSET - CRANK * phi.sin()) / ROD).asin();
+        let (sin, cos) = beta.sin_cos();
+        let spin = -CRANK * SPEED * phi.cos() / (ROD * cos);
+        let alpha = (CRANK * SPEED * SPEED * phi.sin() + ROD * spin * spin * sin) / (ROD * cos);
+        let place = CRANK * phi.cos() + ROD * cos;
+        let speed = -CRANK * SPEED * phi.sin() - ROD * spin * sin;
+        let second = -CRANK * SPEED * SPEED * phi.cos() - ROD * spin * spin * cos - ROD * alpha * sin;
+        let ahead = rotated(unit(-SLIDER_AXIS), SLIDER_PLACE).x - 0.25;
+        Exact { slide: [place + ahead, speed, second], angle: [GUIDE + beta, spin, alpha] }
+    };
+    let start = 0.7;
+    let tip = unit(start) * CRANK;
+    let rod = LinkPose { origin: tip, angle: exact(start).angle[0] };
+    let slider = LinkPose { origin: rod.point(Vec2::new(ROD, 0.0)), angle: GUIDE - SLIDER_AXIS };
+    let pose = vec![LinkPose::GROUND, LinkPose { origin: Vec2::zeros(), angle: start }, rod, slider];
+    let case = case(links, joints, AssemblyMode::Ahead, start, start + TURN, pose);
+    Sample { name: "slider-crank", case, exact, joint: "guide", link: "rod" }
+}
+
+const PIVOT: Vec2 = Vec2::new(0.25, 0.05);
+const ROCKER_AXIS: f64 = 0.4;
+const BLOCK_AXIS: f64 = -0.6;
+const ROCKER_PLACE: Vec2 = Vec2::new(0.05, 0.01);
+const BLOCK_PLACE: Vec2 = Vec2::new(-0.01, 0.02);
+
+/// RPR: crank 0.1 m, block on its pin, sliding on a rocker about (0.25, 0.05).
+///
+/// With the guide at eta, A = C + t e + h n (h constant): v . n = t eta', v . e = t' - h eta', a . n = t eta'' + 2 t' eta' - h eta'^2,
+/// a . e = t'' - t eta'^2 - h eta''.
+pub fn swinging_guide() -> Sample {
+    let links = vec![
+        link("ground", &[("O", Vec2::zeros()), ("C", PIVOT)], [0.0; 4]),
+        crank(),
+        link("block", &[("A", Vec2::zeros()), ("Q", BLOCK_PLACE)], [0.5, 0.01, 0.005, 1e-3]),
+        link(
+            "rocker",
+            &[("C", Vec2::zeros()), ("D", ROCKER_PLACE), ("E", Vec2::new(0.4, 0.1))],
+            [2.5, 0.2, 0.03, 0.03],
+        ),
+    ];
+    let joints = vec![
+        joint("O", PIN, (0, Vec2::zeros()), (1, Vec2::zeros())),
+        joint("A", PIN, (1, Vec2::new(CRANK, 0.0)), (2, Vec2::zeros())),
+        joint("slot", along(BLOCK_AXIS, ROCKER_AXIS), (2, BLOCK_PLACE), (3, ROCKER_PLACE)),
+        joint("C", PIN, (0, PIVOT), (3, Vec2::zeros())),
+    ];
+    let exact = |crank: f64| {
+        let tip = unit(crank) * CRANK;
+        let rocker_place = rotated(unit(-ROCKER_AXIS), ROCKER_PLACE);
+        let block_place = rotated(unit(-BLOCK_AXIS), BLOCK_PLACE);
+        let (arm, h) = (tip - PIVOT, rocker_place.y - block_place.y);
+        let t = (arm.norm_squared() - h * h).sqrt();
+        let eta = arm.y.atan2(arm.x) - h.atan2(t);
+        let (e, n) = (unit(eta), turned(unit(eta)));
+        let (v, a) = (turned(tip) * SPEED, -tip * SPEED * SPEED);
+        let spin = v.dot(&n) / t;
+        let speed = v.dot(&e) + h * spin;
+        let alpha = (a.dot(&n) - 2.0 * speed * spin + h * spin * spin) / t;
+        let second = a.dot(&e) + t * spin * spin + h * alpha;
+        // The slide counts from the block, the joint's first link, to the rocker.
+        let slide = rocker_place.x - (t + block_place.x);
+        let turns = if eta < 0.0 { TURN } else { 0.0 };
+        Exact { slide: [slide, -speed, -second], angle: [eta - ROCKER_AXIS + turns, spin, alpha] }
+    };
+    let start = 0.7;
+    let rocker = exact(start).angle[0];
+    let pose = vec![
+        LinkPose::GROUND,
+        LinkPose { origin: Vec2::zeros(), angle: start },
+        LinkPose { origin: unit(start) * CRANK, angle: rocker + ROCKER_AXIS - BLOCK_AXIS },
+        LinkPose { origin: PIVOT, angle: rocker },
+    ];
+    let case = case(links, joints, AssemblyMode::Behind, start, start + TURN, pose);
+    Sample { name: "swinging guide", case, exact, joint: "slot", link: "rocker" }
+}
+
+const YOKE_AXIS: f64 = 0.2;
+const SLOT_AXIS: f64 = 1.4;
+const YOKE_GUIDE: Vec2 = Vec2::new(0.1, 0.05);
+const SLOT: Vec2 = Vec2::new(0.03, -0.02);
+
+/// RPP: crank 0.1 m, block on its pin, sliding in the oblique slot of a yoke that slides on the ground.
+///
+/// The block's place Q = A + const stays on the slot: with the slot's normal m, s = m . (Q - G - slot) / m . g; both derivatives are
+/// those of A.
+pub fn scotch_yoke() -> Sample {
+    let links = vec![
+        link("ground", &[("O", Vec2::zeros()), ("G", YOKE_GUIDE)], [0.0; 4]),
+        crank(),
+        link("block", &[("A", Vec2::zeros()), ("Q", BLOCK_PLACE)], [0.5, 0.01, 0.005, 1e-3]),
+        link("yoke", &[("Y", Vec2::zeros()), ("D", SLOT), ("E", Vec2::new(0.1, 0.2))], [2.5, 0.05, 0.08, 0.03]),
+    ];
+    let joints = vec![
+        joint("O", PIN, (0, Vec2::zeros()), (1, Vec2::zeros())),
+        joint("A", PIN, (1, Vec2::new(CRANK, 0.0)), (2, Vec2::zeros())),
+        joint("slot", along(SLOT_AXIS, BLOCK_AXIS), (3, SLOT), (2, BLOCK_PLACE)),
+        joint("guide", along(GUIDE, YOKE_AXIS), (0, YOKE_GUIDE), (3, Vec2::zeros())),
+    ];
+    let exact = |crank: f64| {
+        let yoke = GUIDE - YOKE_AXIS;
+        let block = yoke + SLOT_AXIS - BLOCK_AXIS;
+        let tip = unit(crank) * CRANK;
+        let (m, g) = (turned(unit(yoke + SLOT_AXIS)), unit(GUIDE));
+        let place = tip + rotated(unit(block), BLOCK_PLACE) - YOKE_GUIDE - rotated(unit(yoke), SLOT);
+        let slide = [place, turned(tip) * SPEED, -tip * SPEED * SPEED].map(|v| m.dot(&v) / m.dot(&g));
+        Exact { slide, angle: [block, 0.0, 0.0] }
+    };
+    let start = 0.7;
+    let pose = vec![
+        LinkPose::GROUND,
+        LinkPose { origin: Vec2::zeros(), angle: start },
+        LinkPose { origin: unit(start) * CRANK, angle: exact(start).angle[0] },
+        LinkPose { origin: YOKE_GUIDE + unit(GUIDE) * exact(start).slide[0], angle: GUIDE - YOKE_AXIS },
+    ];
+    let case = case(links, joints, AssemblyMode::Only, start, start + TURN, pose);
+    Sample { name: "Scotch yoke", case, exact, joint: "guide", link: "block" }
+}
+
+const LINE: Vec2 = Vec2::new(0.1, 0.15);
+const CRANK_AXIS: f64 = 0.15;
+const CRANK_PLACE: Vec2 = Vec2::new(0.05, 0.02);
+
+/// PRP: block sliding on the crank, pinned to a slider on the ground.
+///
+/// The pin B = L + s g lies h beside the crank's axis e: n . (L + s g) = h, so s = (h - n . L) / n . g; with n' = -w e and s' from n . B = h:
+/// s' n . g = w e . B and s'' n . g = 2 w s' e . g + w^2 n . B.
+pub fn slotted_crank() -> Sample {
+    let block_place = BLOCK_PLACE;
+    let links = vec![
+        link("ground", &[("O", Vec2::zeros()), ("L", LINE)], [0.0; 4]),
+        link("crank", &[("O", Vec2::zeros()), ("D", CRANK_PLACE), ("E", Vec2::new(0.3, 0.1))], [0.8, 0.1, 0.03, 8e-3]),
+        link("block", &[("B", Vec2::zeros()), ("Q", block_place)], [0.5, 0.01, 0.005, 1e-3]),
+        link("slider", &[("B", Vec2::zeros()), ("F", Vec2::new(0.05, 0.03))], [2.5, 0.02, 0.03, 5e-3]),
+    ];
+    let joints = vec![
+        joint("O", PIN, (0, Vec2::zeros()), (1, Vec2::zeros())),
+        joint("slot", along(CRANK_AXIS, BLOCK_AXIS), (1, CRANK_PLACE), (2, block_place)),
+        joint("B", PIN, (2, Vec2::zeros()), (3, Vec2::zeros())),
+        joint("guide", along(SLIDER_AXIS, GUIDE), (3, Vec2::zeros()), (0, LINE)),
+    ];
+    let exact = |crank: f64| {
+        let (e, g) = (unit(crank + CRANK_AXIS), unit(GUIDE));
+        let n = turned(e);
+        let h = rotated(unit(-CRANK_AXIS), CRANK_PLACE).y - rotated(unit(-BLOCK_AXIS), BLOCK_PLACE).y;
+        let s = (h - n.dot(&LINE)) / n.dot(&g);
+        let pin = LINE + g * s;
+        let speed = SPEED * e.dot(&pin) / n.dot(&g);
+        let second = (2.0 * SPEED * speed * e.dot(&g) + SPEED * SPEED * n.dot(&pin)) / n.dot(&g);
+        // The slide counts from the slider, the joint's first link, to the ground.
+        Exact { slide: [-s, -speed, -second], angle: [crank + CRANK_AXIS - BLOCK_AXIS, SPEED, 0.0] }
+    };
+    let start = 1.2;
+    let pin = LINE - unit(GUIDE) * exact(start).slide[0];
+    let pose = vec![
+        LinkPose::GROUND,
+        LinkPose { origin: Vec2::zeros(), angle: start },
+        LinkPose { origin: pin, angle: exact(start).angle[0] },
+        LinkPose { origin: pin, angle: GUIDE - SLIDER_AXIS },
+    ];
+    let case = case(links, joints, AssemblyMode::Only, start, 2.4, pose);
+    Sample { name: "slotted crank", case, exact, joint: "guide", link: "block" }
+}
+
+const SHAFTS: Vec2 = Vec2::new(0.03, 0.04);
+
+/// RPP in rotation: an Oldham coupling. The disc's middle runs on the circle whose diameter is the distance of the shafts, at
+/// twice the speed: M = C/2 + |C|/2 unit(2 phi - arg C), and the slide on the crank is e . M = e . C.
+pub fn oldham() -> Sample {
+    let far = Vec2::new(0.0, 0.1);
+    let links = vec![
+        link("ground", &[("O", Vec2::zeros()), ("C", SHAFTS)], [0.0; 4]),
+        link("crank", &[("O", Vec2::zeros()), ("E", Vec2::new(CRANK, 0.0))], [0.8, 0.03, 0.01, 2e-3]),
+        link("disc", &[("M", Vec2::zeros()), ("F", far)], [1.5, 0.004, 0.006, 5e-3]),
+        link("output", &[("C", Vec2::zeros()), ("H", far)], [1.0, 0.02, -0.01, 4e-3]),
+    ];
+    let joints = vec![
+        joint("O", PIN, (0, Vec2::zeros()), (1, Vec2::zeros())),
+        joint("slot", along(CRANK_AXIS, DISC_AXIS), (1, Vec2::zeros()), (2, Vec2::zeros())),
+        joint("groove", along(OUTPUT_AXIS, DISC_AXIS + TURN / 4.0), (3, Vec2::zeros()), (2, Vec2::zeros())),
+        joint("C", PIN, (3, Vec2::zeros()), (0, SHAFTS)),
+    ];
+    let exact = |crank: f64| {
+        let e = unit(crank + CRANK_AXIS);
+        let slide = [e.dot(&SHAFTS), cross(e, SHAFTS) * SPEED, -e.dot(&SHAFTS) * SPEED * SPEED];
+        let disc = crank + CRANK_AXIS - DISC_AXIS;
+        Exact { slide, angle: [disc + DISC_AXIS + TURN / 4.0 - OUTPUT_AXIS, SPEED, 0.0] }
+    };
+    let start = 0.7;
+    let disc = unit(start + CRANK_AXIS) * exact(start).slide[0];
+    let pose = vec![
+        LinkPose::GROUND,
+        LinkPose { origin: Vec2::zeros(), angle: start },
+        LinkPose { origin: disc, angle: start + CRANK_AXIS - DISC_AXIS },
+        LinkPose { origin: SHAFTS, angle: exact(start).angle[0] },
+    ];
+    let case = case(links, joints, AssemblyMode::Only, start, start + TURN, pose);
+    Sample { name: "Oldham coupling", case, exact, joint: "slot", link: "output" }
+}
+
+const DISC_AXIS: f64 = 0.8;
+const OUTPUT_AXIS: f64 = -0.35;
