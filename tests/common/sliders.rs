@@ -7,7 +7,9 @@ use double::{oldham, scotch_yoke, slotted_crank};
 use linkproof::case::{Case, Grid, Wanted};
 use linkproof::drive::{Drive, MotionLaw};
 use linkproof::math::{Vec2, rotated, turned, unit};
-use linkproof::mechanism::{AssemblyMode, Joint, JointKind, Link, LinkPose, Mechanism, Point, Pose, Side, Structure};
+use linkproof::mechanism::{
+    AssemblyMode, Group, GroupKind, Joint, JointKind, Link, LinkPose, Mechanism, Point, Pose, Side, Structure,
+};
 
 /// Crank speed (rad/s).
 pub const SPEED: f64 = 10.0;
@@ -48,13 +50,25 @@ fn along(first: f64, second: f64) -> JointKind {
     JointKind::Prismatic { axes: [unit(first), unit(second)] }
 }
 
-/// The same joint with its links in the other order.
-pub fn swapped(joint: Joint) -> Joint {
-    let kind = match joint.kind {
-        JointKind::Prismatic { axes: [first, second] } => JointKind::Prismatic { axes: [second, first] },
-        kind => kind,
+/// The same case with its joints' links named in the other order. The mode of an RPR dyad says which of the pair's links lies
+/// ahead, so it turns about.
+pub fn swapped(case: &Case) -> Case {
+    let swap = |joint: &Joint| {
+        let kind = match joint.kind {
+            JointKind::Prismatic { axes: [first, second] } => JointKind::Prismatic { axes: [second, first] },
+            kind => kind,
+        };
+        Joint { kind, first: joint.second, second: joint.first, ..joint.clone() }
     };
-    Joint { kind, first: joint.second, second: joint.first, ..joint }
+    let joints = case.mechanism.joints().iter().map(swap).collect();
+    let mechanism = Mechanism::new(case.mechanism.links().to_vec(), joints).unwrap();
+    let mode = |(group, &mode): (&Group, &AssemblyMode)| match (group.kind, mode) {
+        (GroupKind::Rpr, AssemblyMode::Ahead) => AssemblyMode::Behind,
+        (GroupKind::Rpr, AssemblyMode::Behind) => AssemblyMode::Ahead,
+        _ => mode,
+    };
+    let modes = case.structure.groups.iter().zip(&case.modes).map(mode).collect();
+    Case { mechanism, modes, ..case.clone() }
 }
 
 /// The case with its crank as link 1, driven at joint 0.

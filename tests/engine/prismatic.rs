@@ -8,16 +8,9 @@ use linkproof::mechanism::{Link, Mechanism};
 use linkproof::reference::NewtonSolver;
 use linkproof::solver::Solver;
 
-use crate::common::sliders::{self, SPEED};
+use crate::common::sliders::{self, SPEED, swapped};
 use crate::common::states;
 use crate::{has_formal_order, solve};
-
-/// The same case with its joints' links named in the other order.
-fn swapped(case: &Case) -> Case {
-    let joints = case.mechanism.joints().iter().cloned().map(sliders::swapped).collect();
-    let mechanism = Mechanism::new(case.mechanism.links().to_vec(), joints).unwrap();
-    Case { mechanism, ..case.clone() }
-}
 
 /// The same case with a massless first link behind the crank: a rod, block or disc.
 fn lighter(case: &Case) -> Case {
