@@ -85,7 +85,9 @@ mod tests {
         let kind = JointKind::Prismatic { axes: [Vec2::new(1.0, 0.0); 2] };
         let mut joints = four_bar().joints().to_vec();
         joints[2] = Joint { kind, ..joints[2].clone() };
-        let tree = Tree::of(&Mechanism::new(four_bar().links().to_vec(), joints).unwrap());
+        let mut links = four_bar().links().to_vec();
+        links[3].points[1].name = "D".into();
+        let tree = Tree::of(&Mechanism::new(links, joints).unwrap());
         assert_eq!(tree.cut, [1]);
         assert_eq!(tree.branches.iter().map(|b| (b.parent, b.link)).collect::<Vec<_>>(), [(0, 1), (0, 3), (3, 2)]);
     }
