@@ -10,6 +10,8 @@ mod limits;
 mod native;
 #[path = "engine/pendulum.rs"]
 mod pendulum;
+#[path = "engine/prismatic.rs"]
+mod prismatic;
 
 use common::shipped;
 use common::spec::four_bar;
@@ -33,17 +35,16 @@ fn engine_runs(engine: &dyn Engine, case: &Case, factors: [f64; 3]) -> [Trajecto
 }
 
 /// Order 2 in every channel whose error is not rounding, over the steps h, h/2 and h/4.
-fn has_formal_order(name: &str) {
-    let scenario = shipped(name);
-    let reference = solve(&AssurSolver, &scenario.case);
-    for engine in engine::all(scenario.dt) {
-        let runs = engine_runs(engine.as_ref(), &scenario.case, [1.0, 0.5, 0.25]);
+fn has_formal_order(case: &Case, dt: f64, solver: &dyn Solver) {
+    let reference = solve(solver, case);
+    for engine in engine::all(dt) {
+        let runs = engine_runs(engine.as_ref(), case, [1.0, 0.5, 0.25]);
         let finest = residuals(&reference, &runs[2]).unwrap();
         let mut seen = 0;
         for residual in finest {
             let kind = residual.channel.kind;
             // A hundredth of rounding in the error moves an order by less than 0.02.
-            let noise = engine.with_step(engine.step() / 4.0).noise(&scenario.case, kind);
+            let noise = engine.with_step(engine.step() / 4.0).noise(case, kind);
             if residual.rms <= 100.0 * noise {
                 continue;
             }
@@ -54,18 +55,21 @@ fn has_formal_order(name: &str) {
                 assert!((order - formal).abs() <= 0.1, "{} {}: order {order}", engine.name(), residual.channel);
             }
         }
-        assert!(seen > reference.channels().len() / 2, "only {seen} channels have more than rounding errors");
+        // Cranks are exact, and in a Scotch yoke all angles and speeds.
+        assert!(seen > reference.channels().len() / 3, "only {seen} channels have more than rounding errors");
     }
 }
 
 #[test]
 fn crank_rocker_converges_with_the_formal_order() {
-    has_formal_order("crank_rocker.toml");
+    let scenario = shipped("crank_rocker.toml");
+    has_formal_order(&scenario.case, scenario.dt, &AssurSolver);
 }
 
 #[test]
 fn ov7_base_converges_with_the_formal_order() {
-    has_formal_order("ov7_base.toml");
+    let scenario = shipped("ov7_base.toml");
+    has_formal_order(&scenario.case, scenario.dt, &AssurSolver);
 }
 
 /// Story 1. Symptom: the crank falls behind a little every step, so that all other errors look like errors of phase.

@@ -1,10 +1,11 @@
 //! Side 2: the whole mechanism at once, from its constraint equations and their Jacobian.
 //!
-//! Coordinates are (x, y, theta) of every link's mass centre frame. Constraints: the two sides of every revolute joint
-//! coincide, C = p_second - p_first = 0, and the driving link has its angle. Positions by Newton, then
-//! J q' = rate of the drive, J q'' = gamma with the centripetal terms, and M q'' = Q + J^T lambda, whose multipliers are
-//! the forces on the second links and the balancing moment (Haug, "Computer aided kinematics and dynamics of mechanical
-//! systems", 1989, chapters 3 and 8).
+//! Coordinates are (x, y, theta) of every link's mass centre frame. Constraints: two equations C = 0 of every joint, and the
+//! driving link has its angle. Positions by Newton, then J q' = rate of the drive, J q'' = gamma with the centripetal terms,
+//! and M q'' = Q + J^T lambda, whose multipliers are the reactions on the second links and the balancing moment (Haug,
+//! "Computer aided kinematics and dynamics of mechanical systems", 1989, chapters 3 and 8).
+
+mod constraint;
 
 use std::f64::consts::PI;
 
@@ -12,7 +13,7 @@ use super::range;
 use crate::case::Case;
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::dense::Lu;
-use crate::math::{Motion, Vec2, rotated, unit};
+use crate::math::{Motion, Vec2, unit};
 use crate::solver::{Progress, Provision, Solver, State};
 use crate::trajectory::{Channel, Stage};
 
@@ -75,6 +76,8 @@ struct System<'a> {
     second: Vec<f64>,
     /// Multipliers: two a joint, then the drive's.
     lambda: Vec<f64>,
+    /// Of every joint: see [`constraint::twist`].
+    twists: Vec<f64>,
     jacobian: Lu,
     /// Sign of the Jacobian's determinant on the branch that is followed.
     branch: f64,
@@ -102,6 +105,7 @@ impl<'a> System<'a> {
             rate: zeros(),
             second: zeros(),
             lambda: zeros(),
+            twists: case.mechanism.joints().iter().map(|joint| constraint::twist(case, joint)).collect(),
             jacobian: Lu::new(n),
             branch: 0.0,
             residual: zeros(),
@@ -187,22 +191,9 @@ impl<'a> System<'a> {
     /// Residuals of all constraints and their Jacobian at the pose in `q`.
     fn assemble(&mut self) {
         self.jacobian.clear();
-        for (index, joint) in self.case.mechanism.joints().iter().enumerate() {
-            let row = 2 * index;
-            let mut gap = Vec2::zeros();
-            for (side, sign) in [(joint.first, -1.0), (joint.second, 1.0)] {
-                let arm = self.arm(side.link, side.local);
-                gap += (self.centre(side.link) + arm) * sign;
-                if side.link > 0 {
-                    let column = 3 * (side.link - 1);
-                    self.jacobian.add(row, column, sign);
-                    self.jacobian.add(row + 1, column + 1, sign);
-                    self.jacobian.add(row, column + 2, -arm.y * sign);
-                    self.jacobian.add(row + 1, column + 2, arm.x * sign);
-                }
-            }
-            self.residual[row] = gap.x;
-            self.residual[row + 1] = gap.y;
+        let case = self.case;
+        for (index, joint) in case.mechanism.joints().iter().enumerate() {
+            self.assemble_joint(2 * index, joint);
         }
         let (last, theta) = (self.q.len() - 1, self.drive_column());
         self.residual[last] = self.q[theta] - self.case.drive.world_angle(self.case.drive.at(self.time).angle);
@@ -217,14 +208,8 @@ impl<'a> System<'a> {
         self.rate[last] = drive.omega;
         self.jacobian.solve(&mut self.rate);
         for (index, joint) in self.case.mechanism.joints().iter().enumerate() {
-            let centripetal = |link: usize, local: Vec2| {
-                let omega = if link == 0 { 0.0 } else { self.rate[3 * (link - 1) + 2] };
-                self.arm(link, local) * (omega * omega)
-            };
-            let gamma =
-                centripetal(joint.second.link, joint.second.local) - centripetal(joint.first.link, joint.first.local);
-            self.second[2 * index] = gamma.x;
-            self.second[2 * index + 1] = gamma.y;
+            let gamma = self.gamma(joint);
+            self.second[2 * index..2 * index + 2].copy_from_slice(&gamma);
         }
         self.second[last] = drive.alpha;
         self.jacobian.solve(&mut self.second);
@@ -269,27 +254,15 @@ impl<'a> System<'a> {
                 self.second[i + 2],
             );
         }
-        for (index, force) in state.forces.iter_mut().enumerate() {
-            *force = Vec2::new(self.lambda[2 * index], self.lambda[2 * index + 1]);
+        for (index, joint) in self.case.mechanism.joints().iter().enumerate() {
+            let multipliers = [self.lambda[2 * index], self.lambda[2 * index + 1]];
+            (state.forces[index], state.moments[index]) = self.reaction(joint, multipliers);
         }
         state.torque = self.lambda[self.q.len() - 1];
     }
 
     fn drive_column(&self) -> usize {
         3 * (self.case.drive.link - 1) + 2
-    }
-
-    /// World position of a link's mass centre; the origin for the ground.
-    fn centre(&self, link: usize) -> Vec2 {
-        if link == 0 { Vec2::zeros() } else { Vec2::new(self.q[3 * (link - 1)], self.q[3 * (link - 1) + 1]) }
-    }
-
-    /// World vector from a link's mass centre to a point of it.
-    fn arm(&self, link: usize, local: Vec2) -> Vec2 {
-        if link == 0 {
-            return local;
-        }
-        rotated(unit(self.q[3 * (link - 1) + 2]), local - self.case.mechanism.links()[link].mass_centre)
     }
 
     fn lost(&self, why: &str) -> Error {

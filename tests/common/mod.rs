@@ -5,6 +5,7 @@
 
 pub mod four_link;
 pub mod random;
+pub mod sliders;
 pub mod spec;
 
 use linkproof::case::{Case, Grid};

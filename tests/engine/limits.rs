@@ -3,10 +3,11 @@
 use linkproof::ErrorKind;
 use linkproof::engine;
 use linkproof::proof::{Options, prove};
-use linkproof::reference::{self, AssurSolver};
+use linkproof::reference::{self, AssurSolver, NewtonSolver};
 use linkproof::solver::Solver;
 
 use crate::common::shipped;
+use crate::common::sliders::short_rod;
 use crate::common::spec::four_bar;
 
 /// Story 40. Symptom: numbers off by half, without a word. Cause: with a step of a tenth of a turn the loop opens by less
@@ -53,4 +54,17 @@ fn regress_41_a_pose_that_cannot_be_assembled_is_an_error_with_its_crank_angle()
     }
     let geometry = AssurSolver.solve(&case, &mut |_| {}).unwrap_err();
     assert_eq!(geometry.kind(), ErrorKind::Geometry);
+}
+
+/// Story 42. The same with a slider, which leaves the engine no gap in the guide to notice: the rod does not reach beyond 261.347 deg.
+#[test]
+fn regress_42_a_slider_out_of_reach_is_an_error_with_its_crank_angle() {
+    let case = short_rod();
+    for step in [1e-2, 1e-3, 1e-4] {
+        for engine in engine::all(step) {
+            assert_helpful(&engine.solve(&case, &mut |_| {}).unwrap_err());
+        }
+    }
+    let error = NewtonSolver.solve(&case, &mut |_| {}).unwrap_err();
+    assert!(error.message().contains("crank angle 261.34"), "{error}");
 }

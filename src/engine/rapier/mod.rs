@@ -4,6 +4,7 @@
 //! backwards to a little before the first instant wanted and then forwards, so that the transient of
 //! the first steps has died away before anything is read.
 
+mod joints;
 mod newton_euler;
 mod noise;
 pub mod tree;

@@ -1,12 +1,14 @@
 //! Reactions and driving moment from the engine's own motion: the equations of Newton and Euler of all links at once.
 //!
-//! Unknown are the force of every joint and the driving moment; for every link m (a - g) = sum of forces and
-//! J alpha = sum of moments about the mass centre + loads.
+//! Unknown are two components of every joint's reaction and the driving moment: the force of a revolute joint; of a prismatic one
+//! the force across its axis, at the place on the second link, and the moment. For every link m (a - g) = sum of forces
+//! and J alpha = sum of moments about the mass centre + loads.
 
 use crate::case::Case;
 use crate::error::{Error, ErrorKind, Result};
-use crate::math::Vec2;
 use crate::math::dense::Lu;
+use crate::math::{Vec2, cross, turned};
+use crate::mechanism::Joint;
 use crate::solver::State;
 
 /// The linear system, reused from pose to pose.
@@ -27,14 +29,24 @@ impl NewtonEuler {
         self.matrix.clear();
         for (index, joint) in case.mechanism.joints().iter().enumerate() {
             let column = 2 * index;
+            let normal = normal(joint, state);
             for (side, sign) in [(joint.first, -1.0), (joint.second, 1.0)] {
                 let Some(row) = (3 * side.link).checked_sub(3) else { continue };
                 let motion = &state.motions[side.link];
-                let arm: Vec2 = motion.arm(side.local - case.mechanism.links()[side.link].mass_centre);
-                self.matrix.add(row, column, sign);
-                self.matrix.add(row + 1, column + 1, sign);
-                self.matrix.add(row + 2, column, -arm.y * sign);
-                self.matrix.add(row + 2, column + 1, arm.x * sign);
+                if let Some(normal) = normal {
+                    let place = state.motions[joint.second.link].point(joint.second.local);
+                    let arm = place - motion.point(case.mechanism.links()[side.link].mass_centre);
+                    self.matrix.add(row, column, normal.x * sign);
+                    self.matrix.add(row + 1, column, normal.y * sign);
+                    self.matrix.add(row + 2, column, cross(arm, normal) * sign);
+                    self.matrix.add(row + 2, column + 1, sign);
+                } else {
+                    let arm: Vec2 = motion.arm(side.local - case.mechanism.links()[side.link].mass_centre);
+                    self.matrix.add(row, column, sign);
+                    self.matrix.add(row + 1, column + 1, sign);
+                    self.matrix.add(row + 2, column, -arm.y * sign);
+                    self.matrix.add(row + 2, column + 1, arm.x * sign);
+                }
             }
         }
         let last = self.unknown.len() - 1;
@@ -55,10 +67,20 @@ impl NewtonEuler {
             .help("shorten the grid to the crank angles before the dead point"));
         }
         self.matrix.solve(&mut self.unknown);
-        for (index, force) in state.forces.iter_mut().enumerate() {
-            *force = Vec2::new(self.unknown[2 * index], self.unknown[2 * index + 1]);
+        for (index, joint) in case.mechanism.joints().iter().enumerate() {
+            let (first, second) = (self.unknown[2 * index], self.unknown[2 * index + 1]);
+            let reaction = match normal(joint, state) {
+                None => (Vec2::new(first, second), 0.0),
+                Some(normal) => (normal * first, second),
+            };
+            (state.forces[index], state.moments[index]) = reaction;
         }
         state.torque = self.unknown[last];
         Ok(())
     }
+}
+
+/// Unit vector across the axis of a prismatic joint.
+fn normal(joint: &Joint, state: &State) -> Option<Vec2> {
+    Some(turned(state.motions[joint.first.link].arm(joint.axis_on(joint.first.link)?)))
 }

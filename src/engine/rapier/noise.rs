@@ -1,7 +1,7 @@
 //! How much rounding there is in what the engine answers.
 
 use crate::case::Case;
-use crate::trajectory::ChannelKind;
+use crate::trajectory::{ChannelKind, Subject};
 
 /// Rounding of a speed in the solver's sweeps, in units of the last place; 12 were measured on the crank-rocker, 2 on `ov7_base`.
 const SPEED_ULPS: f64 = 20.0;
@@ -35,7 +35,16 @@ pub(super) fn bound(case: &Case, step: f64, channel: &ChannelKind) -> f64 {
         "m/s" => rate * size,
         "m/s^2" => linear,
         "N" => linear * mass,
-        // A moment on the driving link is a force at its far end.
-        _ => linear * mass * case.mechanism.links()[case.drive.link].size(),
+        _ => linear * mass * lever(case, reach, channel.subject),
+    }
+}
+
+/// Lever (m) of the forces that make up a moment: on the driving link they act at its far end, in a prismatic joint anywhere in the
+/// mechanism, on the frame they are taken about the origin.
+fn lever(case: &Case, reach: f64, subject: Subject) -> f64 {
+    match subject {
+        Subject::Drive => case.mechanism.links()[case.drive.link].size(),
+        Subject::Frame => reach,
+        _ => case.mechanism.size(),
     }
 }

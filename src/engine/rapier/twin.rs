@@ -3,11 +3,12 @@
 
 use parry2d_f64::mass_properties::MassProperties;
 use rapier2d_f64::prelude::{
-    GenericJointBuilder, ImpulseJointHandle, IntegrationParameters, JointAxesMask, JointAxis, MotorModel, Multibody,
-    MultibodyJointHandle, PhysicsWorld, RevoluteJointBuilder, RigidBodyBuilder, RigidBodyHandle, SpringCoefficients,
-    Vector,
+    ImpulseJointHandle, IntegrationParameters, JointAxesMask, JointAxis, MotorModel, Multibody, MultibodyJointHandle,
+    PhysicsWorld, RigidBodyBuilder, RigidBodyHandle, Vector,
 };
 
+use super::joints;
+use super::joints::vector;
 use super::tree::Tree;
 use crate::case::Case;
 use crate::drive::{Drive, MotionLaw};
@@ -19,10 +20,8 @@ use crate::mechanism::{Link, Mechanism, Side};
 const RIGID_MOTOR: f64 = 1e30;
 /// Share of the mechanism's size to which a loop may open before the run is stopped.
 const LARGEST_GAP: f64 = 0.05;
-/// Joint frequency (Hz): rigid to rounding. The default, 1e6 Hz, adds 6 % to the closure gap at a step of 1e-5 s.
-const JOINT_FREQUENCY: f64 = 1e12;
 
-/// A joint that closes a loop.
+/// A joint that closes a loop: a revolute one.
 #[derive(Clone, Copy, Debug)]
 struct Cut {
     joint: usize,
@@ -36,7 +35,7 @@ pub struct Twin {
     tree: Tree,
     bodies: Vec<RigidBodyHandle>,
     any_link: MultibodyJointHandle,
-    /// Generalised coordinate of every branch's joint: index in the multibody, sense of its angle is child minus parent.
+    /// Generalised coordinate of every branch's joint: index in the multibody; its sense is that of the child in its parent.
     dofs: Vec<usize>,
     /// Number of every branch's link in the multibody.
     ids: Vec<usize>,
@@ -45,6 +44,8 @@ pub struct Twin {
     largest_gap: f64,
     drive: Drive,
     names: Vec<String>,
+    /// Angle of the child less that of its parent (rad) of every branch whose joint keeps it.
+    twists: Vec<Option<f64>>,
     /// Angles of all links (rad), turns kept.
     angles: Vec<f64>,
 }
@@ -70,8 +71,7 @@ impl Twin {
         let mut last = None;
         for branch in &tree.branches {
             let found = &mechanism.joints()[branch.joint];
-            let anchors = [branch.parent, branch.link].map(|link| anchor(found.on(link).expect("joint on link")));
-            let joint = revolute(anchors);
+            let joint = joints::between(found, [branch.parent, branch.link]);
             last = world.multibody_joints.insert(bodies[branch.parent], bodies[branch.link], joint, true);
             if last.is_none() {
                 let name = &found.name;
@@ -82,12 +82,17 @@ impl Twin {
         let cuts = tree.cut.iter().map(|&joint| {
             let found = &mechanism.joints()[joint];
             let sides = [found.first, found.second];
-            let data = revolute(sides.map(|side| anchor(side.local)));
             let [first, second] = sides.map(|side| bodies[side.link]);
+            let data = joints::between(found, sides.map(|side| side.link));
             Cut { joint, sides, handle: world.impulse_joints.insert(first, second, data, true) }
         });
         let cuts = cuts.collect();
         let motor = insert_motor(&mut world, case, &bodies);
+        let twists = tree.branches.iter().map(|branch| {
+            let angle = |link: usize| case.start.0[link].angle;
+            mechanism.joints()[branch.joint].is_prismatic().then(|| angle(branch.link) - angle(branch.parent))
+        });
+        let twists = twists.collect();
         let mut twin = Twin {
             world,
             bodies,
@@ -99,6 +104,7 @@ impl Twin {
             largest_gap: LARGEST_GAP * mechanism.size(),
             drive: case.drive,
             names: mechanism.joints().iter().map(|joint| joint.name.clone()).collect(),
+            twists,
             angles: case.start.0.iter().map(|pose| pose.angle).collect(),
             tree,
         };
@@ -123,7 +129,7 @@ impl Twin {
         self.ids = ids;
         let mut displacements = vec![0.0; multibody.ndofs()];
         for (branch, &dof) in self.tree.branches.iter().zip(&self.dofs) {
-            displacements[dof] = case.start.0[branch.link].angle - case.start.0[branch.parent].angle;
+            displacements[dof] = joints::coordinate(&case.mechanism.joints()[branch.joint], branch, &case.start);
         }
         multibody.apply_displacements(&displacements);
         multibody.forward_kinematics(bodies, false);
@@ -169,8 +175,8 @@ impl Twin {
 
     fn read_angles(&mut self) {
         let (multibody, _) = self.world.multibody_joints.get(self.any_link).expect("the multibody exists");
-        for (branch, &id) in self.tree.branches.iter().zip(&self.ids) {
-            let relative = multibody.link(id).expect("known link").joint().coords()[2];
+        for ((branch, &id), twist) in self.tree.branches.iter().zip(&self.ids).zip(&self.twists) {
+            let relative = twist.unwrap_or_else(|| multibody.link(id).expect("known link").joint().coords()[2]);
             self.angles[branch.link] = self.angles[branch.parent] + relative;
         }
     }
@@ -191,19 +197,20 @@ impl Twin {
     #[must_use]
     pub fn point(&self, side: Side) -> Vec2 {
         let pose = self.world.bodies[self.bodies[side.link]].position();
-        let at = pose.transform_point(anchor(side.local));
+        let at = pose.transform_point(vector(side.local));
         Vec2::new(at.x, at.y)
     }
 
-    /// Relative angular velocity (rad/s, child minus parent) of branch `index` of the tree, as it stood at the START of
-    /// the last step: Rapier reports velocities one step late.
+    /// Speed of the joint of branch `index` of the tree, as it stood at the START of the last step (Rapier reports velocities
+    /// one step late): angular velocity of the child less that of its parent (rad/s), or of a prismatic joint, speed of the
+    /// child along the parent's axis (m/s).
     #[must_use]
     pub fn relative_speed(&self, index: usize) -> f64 {
         self.multibody().generalized_velocity()[self.dofs[index]]
     }
 
     /// Force of the first link on the second in a joint that closes a loop (N, world axes), from the impulse of the last
-    /// step; `None` for joints of the tree, which report none. First order in the step.
+    /// step; `None` for joints of the tree, which report none (all prismatic ones are among them). First order in the step.
     ///
     /// `before` is the angle of the first link at the start of that step: the impulse is given in its axes there.
     #[must_use]
@@ -242,18 +249,6 @@ fn parameters(step: f64, sweeps: usize) -> IntegrationParameters {
     }
 }
 
-fn anchor(local: Vec2) -> Vector {
-    Vector::new(local.x, local.y)
-}
-
-fn revolute([first, second]: [Vector; 2]) -> RevoluteJointBuilder {
-    RevoluteJointBuilder::new()
-        .local_anchor1(first)
-        .local_anchor2(second)
-        .contacts_enabled(false)
-        .softness(SpringCoefficients::new(JOINT_FREQUENCY, 1.0))
-}
-
 fn insert_bodies(world: &mut PhysicsWorld, mechanism: &Mechanism) -> Vec<RigidBodyHandle> {
     let moving = &mechanism.links()[1..];
     let total: f64 = moving.iter().map(|link| link.mass).sum();
@@ -274,16 +269,13 @@ fn insert_bodies(world: &mut PhysicsWorld, mechanism: &Mechanism) -> Vec<RigidBo
 fn mass_properties(link: &Link, stand_in: f64, size: f64) -> MassProperties {
     let mass = if link.mass > 0.0 { link.mass } else { stand_in };
     let inertia = if link.inertia > 0.0 { link.inertia } else { mass * size * size / 12.0 };
-    MassProperties::new(anchor(link.mass_centre), mass, inertia)
+    MassProperties::new(vector(link.mass_centre), mass, inertia)
 }
 
 fn insert_motor(world: &mut PhysicsWorld, case: &Case, bodies: &[RigidBodyHandle]) -> ImpulseJointHandle {
     let joint = &case.mechanism.joints()[case.drive.joint];
-    let data = GenericJointBuilder::new(JointAxesMask::empty())
-        .local_anchor1(anchor(joint.first.local))
-        .local_anchor2(anchor(joint.second.local))
-        .contacts_enabled(false)
-        .softness(SpringCoefficients::new(JOINT_FREQUENCY, 1.0))
+    let links = [joint.first.link, joint.second.link];
+    let data = joints::holding(JointAxesMask::empty(), joint, links)
         .motor_model(JointAxis::AngX, MotorModel::ForceBased)
         .motor_velocity(JointAxis::AngX, 0.0, RIGID_MOTOR)
         .build();

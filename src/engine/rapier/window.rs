@@ -78,18 +78,29 @@ impl Window {
         self.rates[0] = (Vec2::zeros(), 0.0);
         for (index, branch) in twin.tree().branches.iter().enumerate() {
             let joint = &case.mechanism.joints()[branch.joint];
-            let arm = |link: usize| {
-                let local = joint.on(link).expect("the joint is on the link");
-                if link == 0 {
-                    return local;
-                }
-                let angle = self.nodes[self.slot(before, link) + 2];
-                rotated(unit(angle), local - case.mechanism.links()[link].mass_centre)
+            let along = |link: usize, local: Vec2| {
+                if link == 0 { local } else { rotated(unit(self.nodes[self.slot(before, link) + 2]), local) }
             };
             let (velocity, omega) = self.rates[branch.parent];
-            let spin = omega + twin.relative_speed(index);
-            let centre = velocity + turned(arm(branch.parent)) * omega - turned(arm(branch.link)) * spin;
-            self.rates[branch.link] = (centre, spin);
+            let speed = twin.relative_speed(index);
+            self.rates[branch.link] = match joint.axis_on(branch.parent) {
+                None => {
+                    let arm = |link: usize| {
+                        let local = joint.on(link).expect("the joint is on the link");
+                        along(link, local - case.mechanism.links()[link].mass_centre)
+                    };
+                    let spin = omega + speed;
+                    (velocity + turned(arm(branch.parent)) * omega - turned(arm(branch.link)) * spin, spin)
+                }
+                Some(axis) => {
+                    let centre = |link: usize| {
+                        let slot = self.slot(before, link);
+                        if link == 0 { Vec2::zeros() } else { Vec2::new(self.nodes[slot], self.nodes[slot + 1]) }
+                    };
+                    let reach = centre(branch.link) - centre(branch.parent);
+                    (velocity + turned(reach) * omega + along(branch.parent, axis) * speed, omega)
+                }
+            };
         }
         for link in 1..self.links {
             let (velocity, omega) = self.rates[link];
