@@ -4,6 +4,8 @@
 mod messages;
 #[path = "cli/modes.rs"]
 mod modes;
+#[path = "cli/range.rs"]
+mod range;
 #[path = "cli/run.rs"]
 mod run;
 #[path = "cli/solve.rs"]

@@ -16,7 +16,6 @@ fn agrees(what: &str, spec: &Spec) {
 /// so does the balancing moment.
 fn parallelogram() -> Spec {
     let mut spec = four_bar([0.4, 0.1, 0.4, 0.1], true);
-    spec.dyads[0].left = false;
     spec.start = 0.5;
     spec.grid = (0.5, 0.1, 20);
     spec

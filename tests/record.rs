@@ -121,7 +121,16 @@ fn value(mechanism: &Mechanism, channel: &Channel, time: f64) -> f64 {
             let force = reactions(mechanism, &motions).0[mechanism.joint_named(&channel.of).unwrap()];
             if channel.kind.suffix == "fx_N" { force.x } else { force.y }
         }
+        Subject::Frame => {
+            let ([o, _, _, c], torque) = reactions(mechanism, &motions);
+            match channel.kind.suffix {
+                "fx_N" => -o.x - c.x,
+                "fy_N" => -o.y - c.y,
+                _ => -cross(Vec2::new(0.4, 0.0), c) - torque,
+            }
+        }
         Subject::Drive => reactions(mechanism, &motions).1,
+        Subject::Slider => panic!("a four-bar has no slider"),
     }
 }
 
@@ -130,7 +139,8 @@ fn channels(mechanism: &Mechanism, wanted: impl Fn(&Channel) -> bool) -> Vec<Cha
     let links = mechanism.links()[1..].iter().map(|link| (Subject::Link, link.name.clone()));
     let points = mechanism.moving_points().map(|(name, _)| (Subject::Point, name.to_string()));
     let joints = mechanism.joints().iter().map(|joint| (Subject::Joint, joint.name.clone()));
-    let subjects = links.chain(points).chain(joints).chain([(Subject::Drive, String::new())]);
+    let subjects =
+        links.chain(points).chain(joints).chain([(Subject::Frame, String::new()), (Subject::Drive, String::new())]);
     let rows = subjects.flat_map(|(subject, of)| {
         let kinds = CHANNELS.iter().filter(move |kind| kind.subject == subject);
         kinds.map(move |kind| Channel { of: of.clone(), kind })

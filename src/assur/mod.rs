@@ -2,13 +2,23 @@
 //! by Newton's method on their contours.
 
 mod chain;
+mod guide;
+mod pin;
+mod prp;
+mod rpp;
+mod rpr;
+mod rrp;
 mod rrr;
 
 pub use chain::{Chain, Closing, Node};
+pub use prp::Prp;
+pub use rpp::Rpp;
+pub use rpr::Rpr;
+pub use rrp::Rrp;
 pub use rrr::Rrr;
 
 use crate::math::{Motion, Vec2, rotated, turned, unit};
-use crate::mechanism::{AssemblyMode, GroupKind, Mechanism, Side, Structure};
+use crate::mechanism::{AssemblyMode, Group, GroupKind, Joint, Mechanism, Side, Structure};
 
 /// Driving link that turns about a joint with the ground.
 #[derive(Clone, Copy, Debug)]
@@ -23,8 +33,29 @@ struct Driver {
 pub enum Step {
     /// RRR dyad.
     Rrr(Rrr),
+    /// RRP dyad.
+    Rrp(Rrp),
+    /// RPR dyad.
+    Rpr(Rpr),
+    /// RPP dyad.
+    Rpp(Rpp),
+    /// PRP dyad.
+    Prp(Prp),
     /// Group of more than two links.
     Chain(Chain),
+}
+
+/// One link of a dyad and its outer joint.
+struct Half<'a> {
+    link: usize,
+    outer: &'a Joint,
+}
+
+/// The two halves of a dyad, the one that `is_first` holds for at the front.
+fn of_dyad<'a>(mechanism: &'a Mechanism, group: &Group, is_first: impl Fn(&Joint, usize) -> bool) -> [Half<'a>; 2] {
+    let half = |k: usize| Half { link: group.links[k], outer: &mechanism.joints()[group.outer[k]] };
+    let [a, b] = [half(0), half(1)];
+    if is_first(a.outer, a.link) { [a, b] } else { [b, a] }
 }
 
 /// A mechanism made ready for solving pose after pose without allocation.
@@ -41,9 +72,38 @@ pub struct Plan {
 pub struct OutOfReach {
     /// Index of the group in [`Structure::groups`].
     pub group: usize,
-    /// Distance of a dyad's outer joints, and the shortest and longest distance that its links can span (m); `None` for
-    /// a higher group, whose branch could not be followed.
-    pub span: Option<(f64, [f64; 2])>,
+    /// Why.
+    pub why: Misfit,
+}
+
+/// Why a group cannot be placed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Misfit {
+    /// RRR: distance of the outer joints, and the shortest and longest distance that the links can span (m).
+    Span {
+        /// Distance of the outer joints (m).
+        distance: f64,
+        /// Shortest and longest distance that the two links can span (m).
+        reach: [f64; 2],
+    },
+    /// RRP: the outer pin is farther from the line of the inner joint than the rod is long (m).
+    Guide {
+        /// Distance of the pin from the line (m).
+        distance: f64,
+        /// Length of the rod (m).
+        length: f64,
+    },
+    /// RPR: the outer pins are closer together than their distances from the axis allow (m).
+    Swing {
+        /// Distance of the pins (m).
+        distance: f64,
+        /// Smallest distance possible (m).
+        shortest: f64,
+    },
+    /// RPP, PRP: the two axes are parallel.
+    Parallel,
+    /// A higher group, whose branch could not be followed.
+    Lost,
 }
 
 impl Plan {
@@ -56,7 +116,11 @@ impl Plan {
         });
         let steps = structure.groups.iter().zip(modes).map(|(group, &mode)| match group.kind {
             GroupKind::Rrr => Step::Rrr(Rrr::of(mechanism, group, mode)),
-            _ => Step::Chain(Chain::of(mechanism, group)),
+            GroupKind::Rrp => Step::Rrp(Rrp::of(mechanism, group, mode)),
+            GroupKind::Rpr => Step::Rpr(Rpr::of(mechanism, group, mode)),
+            GroupKind::Rpp => Step::Rpp(Rpp::of(mechanism, group)),
+            GroupKind::Prp => Step::Prp(Prp::of(mechanism, group)),
+            GroupKind::Higher => Step::Chain(Chain::of(mechanism, group)),
         });
         Plan { drivers: drivers.collect(), steps: steps.collect(), angle: f64::NAN }
     }
@@ -70,7 +134,7 @@ impl Plan {
     /// Whether all groups are placed in closed form; if not, poses must be followed in small steps.
     #[must_use]
     pub fn is_closed_form(&self) -> bool {
-        self.steps.iter().all(|step| matches!(step, Step::Rrr(_)))
+        !self.steps.iter().any(|step| matches!(step, Step::Chain(_)))
     }
 
     /// Positions of all links for the world angle of the driving link (rad). Higher groups start from the last pose in `motions`.
@@ -87,14 +151,18 @@ impl Plan {
             motion.origin = pivot - rotated(direction, driver.pivot);
         }
         for (group, step) in self.steps.iter_mut().enumerate() {
-            match step {
-                Step::Rrr(dyad) => dyad.positions(motions).map_err(|span| OutOfReach { group, span: Some(span) })?,
-                Step::Chain(chain) => {
-                    if !chain.positions(angle - self.angle, motions) {
-                        return Err(OutOfReach { group, span: None });
-                    }
-                }
-            }
+            let placed = match step {
+                Step::Rrr(dyad) => dyad.positions(motions),
+                Step::Rrp(dyad) => dyad.positions(motions),
+                Step::Rpr(dyad) => dyad.positions(motions),
+                Step::Rpp(dyad) => dyad.positions(motions),
+                Step::Prp(dyad) => dyad.positions(motions),
+                Step::Chain(chain) => match chain.positions(angle - self.angle, motions) {
+                    true => Ok(()),
+                    false => Err(Misfit::Lost),
+                },
+            };
+            placed.map_err(|why| OutOfReach { group, why })?;
         }
         self.angle = angle;
         Ok(())
@@ -111,6 +179,10 @@ impl Plan {
         for step in &mut self.steps {
             match step {
                 Step::Rrr(dyad) => dyad.velocities(motions),
+                Step::Rrp(dyad) => dyad.velocities(motions),
+                Step::Rpr(dyad) => dyad.velocities(motions),
+                Step::Rpp(dyad) => dyad.velocities(motions),
+                Step::Prp(dyad) => dyad.velocities(motions),
                 Step::Chain(chain) => chain.velocities(motions),
             }
         }
@@ -128,6 +200,10 @@ impl Plan {
         for step in &mut self.steps {
             match step {
                 Step::Rrr(dyad) => dyad.accelerations(motions),
+                Step::Rrp(dyad) => dyad.accelerations(motions),
+                Step::Rpr(dyad) => dyad.accelerations(motions),
+                Step::Rpp(dyad) => dyad.accelerations(motions),
+                Step::Prp(dyad) => dyad.accelerations(motions),
                 Step::Chain(chain) => chain.accelerations(motions),
             }
         }

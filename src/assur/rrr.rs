@@ -6,6 +6,7 @@
 //! the accelerations less their centripetal parts. Follows from the vector contour of the group, for example Artobolevsky,
 //! "Theory of mechanisms and machines", chapter on the kinematics of class II groups.
 
+use super::Misfit;
 use crate::math::{Motion, Vec2, cross, turned};
 use crate::mechanism::{AssemblyMode, Group, Mechanism, Side};
 
@@ -58,7 +59,7 @@ impl Rrr {
     }
 
     #[inline]
-    pub(super) fn positions(&self, motions: &mut [Motion]) -> std::result::Result<(), (f64, [f64; 2])> {
+    pub(super) fn positions(&self, motions: &mut [Motion]) -> Result<(), Misfit> {
         let [p1, p2] = self.arms.map(|arm| motions[arm.base.link].point(arm.base.local));
         let d = p2 - p1;
         let d_squared = d.norm_squared();
@@ -67,7 +68,7 @@ impl Rrr {
         // Written so that NaN (outer joints on one point) is refused too.
         if !(across_squared >= 0.0) {
             let [l1, l2] = self.squared.map(f64::sqrt);
-            return Err((d_squared.sqrt(), [(l1 - l2).abs(), l1 + l2]));
+            return Err(Misfit::Span { distance: d_squared.sqrt(), reach: [(l1 - l2).abs(), l1 + l2] });
         }
         let r1 = d * along + turned(d) * (self.side * across_squared.sqrt());
         for (k, (pivot, r)) in [(p1, r1), (p2, r1 - d)].into_iter().enumerate() {

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use serde_json::{Value, json};
 
-use super::{modes, output};
+use super::{modes, output, range};
 use crate::case::Grid;
 use crate::error::{Error, ErrorKind, Result};
 use crate::mechanism::assembly::{Choice, transmission_sine};
@@ -17,7 +17,8 @@ const EXAMPLES: &str = "\
 Examples:
   linkproof inspect scenarios/crank_rocker.toml
   linkproof inspect scenarios/ov7_base.toml --json -
-  linkproof inspect scenarios/fourth_class.toml --modes --at-crank-deg 70   all configurations of its groups";
+  linkproof inspect scenarios/fourth_class.toml --modes --at-crank-deg 70   all configurations of its groups
+  linkproof inspect scenarios/crank_rocker.toml --range                      how far it turns, dead and extreme positions";
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
@@ -28,6 +29,9 @@ pub(super) struct Args {
     /// List all real configurations of every group, with angles, angular velocities and places of points
     #[arg(long)]
     modes: bool,
+    /// Show over which crank angles the mechanism can be followed, its singular and extreme positions, and its transmission angles
+    #[arg(long, conflicts_with = "modes")]
+    range: bool,
     /// Crank angle for --modes in degrees, as the scenario states it [default: that of the start]
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, requires = "modes")]
     at_crank_deg: Option<f64>,
@@ -49,17 +53,25 @@ pub(super) fn inspect(args: &Args) -> Result<()> {
         }
         false => None,
     };
+    let range = if args.range { Some(reference::range::Range::of(case)?) } else { None };
     match &args.json {
         Some(to) => {
             let mut value = as_json(&scenario);
             if let Some((crank, modes)) = &modes {
                 value["modes"] = modes::json(&scenario, *crank, modes);
             }
+            if let Some(range) = &range {
+                value["range"] = range::json(&scenario, range);
+            }
             let text = serde_json::to_string_pretty(&value).expect("plain values are always JSON");
             output::write(&format!("{text}\n"), to)
         }
         None => {
-            let text = modes.map_or_else(|| as_text(&scenario), |(crank, modes)| modes::text(&scenario, crank, &modes));
+            let text = match (modes, range) {
+                (Some((crank, modes)), _) => modes::text(&scenario, crank, &modes),
+                (None, Some(range)) => range::text(&scenario, &range),
+                (None, None) => as_text(&scenario),
+            };
             output::print(&text)
         }
     }

@@ -9,7 +9,7 @@ use crate::engine;
 use crate::error::{Error, ErrorKind, Result};
 use crate::reference;
 use crate::scenario::Scenario;
-use crate::trajectory::CHANNELS;
+use crate::trajectory::{CHANNELS, Channel};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -75,10 +75,9 @@ fn scenarios(directory: &Path) -> Result<String> {
 fn channels() -> String {
     let mut text = String::new();
     for kind in &CHANNELS {
-        let word = kind.subject.word();
-        let name =
-            if word == "drive" { format!("{word}.{}", kind.suffix) } else { format!("{word}.NAME.{}", kind.suffix) };
-        let _ = writeln!(text, "{name:30} {:8} {:26} with \"{}\"", kind.unit, kind.quantity, kind.stage.name());
+        let of = if kind.subject.is_whole() { "" } else { "NAME" };
+        let name = Channel { of: of.into(), kind }.to_string();
+        let _ = writeln!(text, "{name:40} {:8} {:26} with \"{}\"", kind.unit, kind.quantity, kind.stage.name());
     }
     text
 }

@@ -1,11 +1,13 @@
 //! The command line: the only part with standard output, paths, the clock, the environment and exit codes.
 
+mod bearings;
 mod grid;
 mod inspect;
 mod list;
 mod modes;
 mod output;
 mod progress;
+mod range;
 mod run;
 mod solve;
 
@@ -46,8 +48,10 @@ enum Command {
     Run(run::Args),
     /// Solve a scenario one way and write the solution as CSV, one row an instant
     Solve(solve::Args),
-    /// Show the structure of a mechanism: links, joints, mobility, driving link and Assur groups
+    /// Show the structure of a mechanism: links, joints, mobility, driving link and Assur groups; its configurations; its range of motion
     Inspect(inspect::Args),
+    /// Largest reactions over the range of the grid, and the smallest journals that carry them
+    Bearings(bearings::Args),
     /// List scenarios, or the channels and solvers there are
     List(list::Args),
 }
@@ -60,6 +64,7 @@ pub fn main() -> ExitCode {
         Command::Run(args) => run::run(&args),
         Command::Solve(args) => output::exit(solve::solve(&args)),
         Command::Inspect(args) => output::exit(inspect::inspect(&args)),
+        Command::Bearings(args) => output::exit(bearings::bearings(&args)),
         Command::List(args) => output::exit(list::list(&args)),
     };
     ExitCode::from(code)

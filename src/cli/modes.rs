@@ -8,6 +8,9 @@ use crate::mechanism::AssemblyMode;
 use crate::reference::modes::Mode;
 use crate::scenario::Scenario;
 
+/// Why a configuration has no angular velocities.
+const SINGULAR: &str = "the configuration is singular: angular velocities are not determined";
+
 /// As text.
 pub(super) fn text(scenario: &Scenario, crank: f64, all: &[Vec<Mode>]) -> String {
     let mechanism = &scenario.case.mechanism;
@@ -20,7 +23,9 @@ pub(super) fn text(scenario: &Scenario, crank: f64, all: &[Vec<Mode>]) -> String
                 if mode.mode == AssemblyMode::Followed { String::new() } else { format!(", {}", mode.mode.name()) };
             let followed = if mode.is_followed { ", followed by the scenario" } else { "" };
             let _ = writeln!(text, "  {}{name}{followed}", number + 1);
-            for ((&link, pose), omega) in group.links.iter().zip(&mode.poses).zip(&mode.omegas) {
+            for (k, (&link, pose)) in group.links.iter().zip(&mode.poses).enumerate() {
+                let omega =
+                    mode.omegas.as_ref().map_or_else(|| "singular".into(), |all| format!("{:>12.5} rad/s", all[k]));
                 let link = &mechanism.links()[link];
                 let points = link.points.iter().map(|point| {
                     let at = pose.point(point.local);
@@ -28,12 +33,7 @@ pub(super) fn text(scenario: &Scenario, crank: f64, all: &[Vec<Mode>]) -> String
                 });
                 let points: Vec<String> = points.collect();
                 let angle = pose.angle.to_degrees();
-                let _ = writeln!(
-                    text,
-                    "    {:14} {angle:>11.5} deg {omega:>12.5} rad/s   {} m",
-                    link.name,
-                    points.join(", ")
-                );
+                let _ = writeln!(text, "    {:14} {angle:>11.5} deg {omega:<18}   {} m", link.name, points.join(", "));
             }
         }
     }
@@ -45,7 +45,8 @@ pub(super) fn json(scenario: &Scenario, crank: f64, all: &[Vec<Mode>]) -> Value 
     let mechanism = &scenario.case.mechanism;
     let groups = scenario.case.structure.groups.iter().zip(all).map(|(group, modes)| {
         let modes = modes.iter().map(|mode| {
-            let links = group.links.iter().zip(&mode.poses).zip(&mode.omegas).map(|((&link, pose), omega)| {
+            let links = group.links.iter().zip(&mode.poses).enumerate().map(|(k, (&link, pose))| {
+                let omega = mode.omegas.as_ref().map(|all| all[k]);
                 let link = &mechanism.links()[link];
                 let points = link.points.iter().map(|point| {
                     let at = pose.point(point.local);
@@ -53,7 +54,11 @@ pub(super) fn json(scenario: &Scenario, crank: f64, all: &[Vec<Mode>]) -> Value 
                 });
                 serde_json::json!({"name": link.name, "angle_rad": pose.angle, "omega_rad_s": omega, "points": points.collect::<Vec<_>>()})
             });
-            serde_json::json!({"mode": mode.mode.name(), "followed": mode.is_followed, "links": links.collect::<Vec<_>>()})
+            let mut value = serde_json::json!({"mode": mode.mode.name(), "followed": mode.is_followed, "links": links.collect::<Vec<_>>()});
+            if mode.omegas.is_none() {
+                value["omega_absent"] = SINGULAR.into();
+            }
+            value
         });
         serde_json::json!({"links": group.links.iter().map(|&l| mechanism.links()[l].name.as_str()).collect::<Vec<_>>(), "modes": modes.collect::<Vec<_>>()})
     });

@@ -12,6 +12,12 @@ pub use motion::Motion;
 /// Vector in the plane XOY.
 pub type Vec2 = nalgebra::Vector2<f64>;
 
+/// Matrix of any size, for what is computed once and not in every pose.
+pub type Matrix = nalgebra::DMatrix<f64>;
+
+/// Column of any length.
+pub type Column = nalgebra::DVector<f64>;
+
 /// z component of the vector product a x b.
 #[inline]
 #[must_use]

@@ -6,7 +6,7 @@ use crate::compare::{Check, Convergence, magnitudes, residuals};
 use crate::engine::Engine;
 use crate::scenario::Scenario;
 use crate::tolerance::{Basis, Tolerance};
-use crate::trajectory::{CHANNELS, Channel, ChannelKind, Stage};
+use crate::trajectory::{Channel, ChannelKind, Stage};
 
 /// Closure of the joints, relative to the mechanism's size or its distance from the origin, that rounding allows an analytic side.
 const CLOSURE: f64 = 1e-13;
@@ -23,7 +23,7 @@ fn side_bound(stage: Stage) -> f64 {
     }
 }
 
-fn rounding(bound: f64, why: &'static str) -> Tolerance {
+pub(super) fn rounding(bound: f64, why: &'static str) -> Tolerance {
     Tolerance { abs: bound, rel: 0.0, basis: Basis::RoundOff(why) }
 }
 
@@ -46,6 +46,17 @@ pub(super) fn of_sides(case: &Case, sides: &[(&'static str, Observed); 2]) -> Ve
         let tolerance = rounding(TWO_WAYS, "sums of a few forces and powers");
         let name = format!("balancing moment from equilibrium and from powers ({name})");
         checks.push(Check::new(name, two_ways(side), tolerance, ""));
+    }
+    for (name, side) in sides {
+        checks.extend(side.unbalance.map(|share| {
+            let tolerance = rounding(TWO_WAYS, "sums of as many forces as there are links");
+            Check::new(
+                format!("shaking force and moment from reactions and from momentum ({name})"),
+                share,
+                tolerance,
+                "",
+            )
+        }));
     }
     checks
 }
@@ -122,6 +133,5 @@ fn power_balance(case: &Case, engine: &dyn Engine, runs: &[Observed; 3]) -> Chec
 }
 
 fn torque_channel() -> Channel {
-    let kind = CHANNELS.iter().find(|kind| kind.stage == Stage::BalancingMoment).expect("the table has the moment");
-    Channel { of: String::new(), kind }
+    Channel::named("drive.torque_N_m").expect("the table has the moment")
 }

@@ -1,6 +1,7 @@
 //! The join: a scenario solved by both sides, compared, checked, and judged.
 
 mod checks;
+mod methods;
 mod observe;
 mod oracle;
 
@@ -126,6 +127,7 @@ pub fn prove_against(
 
     let channels = judge(scenario, engine.as_ref(), &own.trajectory, &runs)?;
     let mut checks = checks::of_sides(case, &sides);
+    checks.extend(methods::checks(case, main)?);
     checks.extend(checks::of_engine(scenario, engine.as_ref(), &runs));
     checks.extend(oracle::checks(scenario)?);
     let verdict = overall(channels.iter().map(|c| &c.verdict).chain(checks.iter().map(|c| &c.verdict)));

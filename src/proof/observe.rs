@@ -2,7 +2,7 @@
 
 use crate::case::Case;
 use crate::error::Result;
-use crate::reference::power;
+use crate::reference::{momentum, power};
 use crate::solver::{Sampler, Solver, State};
 use crate::trajectory::{Stage, Trajectory};
 
@@ -16,6 +16,9 @@ pub(super) struct Observed {
     pub(super) reach: f64,
     /// Balancing moment from the balance of powers (N m) at every instant; empty if no balancing moment is wanted.
     pub(super) power: Vec<f64>,
+    /// Largest difference at any instant between the shaking force from reactions and from momentum, over the largest force in
+    /// a joint, or the same of the shaking moment, over the largest moment of such a force about the origin.
+    pub(super) unbalance: Option<f64>,
     /// Largest moment on the driving link (N m): the balancing one, or that of a joint's force at the link's length.
     pub(super) moment: f64,
 }
@@ -28,6 +31,7 @@ pub(super) fn observe(case: &Case, solver: &dyn Solver, progress: &mut dyn FnMut
     let arm = case.mechanism.links()[case.drive.link].size();
     let size = case.mechanism.size();
     let (mut closure, mut reach, mut moment): (f64, f64, f64) = (0.0, 0.0, 0.0);
+    let mut unbalance = Unbalance::default();
     let mut visit = |row: usize, state: &State| {
         for joint in case.mechanism.joints() {
             let sides = [joint.first, joint.second];
@@ -40,6 +44,7 @@ pub(super) fn observe(case: &Case, solver: &dyn Solver, progress: &mut dyn FnMut
             power[row] = power::balancing_moment(case, &state.motions);
             let forces = state.forces.iter().map(|force| force.norm() * arm);
             moment = forces.fold(moment.max(state.torque.abs()), f64::max);
+            unbalance.add(case, state);
         }
         sampler.put(case, row, state);
         Ok(())
@@ -50,6 +55,35 @@ pub(super) fn observe(case: &Case, solver: &dyn Solver, progress: &mut dyn FnMut
         closure,
         reach,
         power,
+        unbalance: with_power.then(|| unbalance.share()),
         moment,
     })
+}
+
+/// Equilibrium of the whole mechanism, watched over a run.
+#[derive(Default)]
+struct Unbalance {
+    force: f64,
+    moment: f64,
+    largest_force: f64,
+    largest_moment: f64,
+}
+
+impl Unbalance {
+    fn add(&mut self, case: &Case, state: &State) {
+        let ((force, moment), (other_force, other_moment)) = (state.shaking(case), momentum::shaking(case, state));
+        self.force = self.force.max((force - other_force).norm());
+        self.moment = self.moment.max((moment - other_moment).abs());
+        for (index, joint) in case.mechanism.joints().iter().enumerate() {
+            let place = state.motions[joint.second.link].point(joint.second.local);
+            let own = state.forces[index].norm();
+            self.largest_force = self.largest_force.max(own);
+            self.largest_moment = self.largest_moment.max(own * place.norm()).max(state.moments[index].abs());
+        }
+    }
+
+    fn share(&self) -> f64 {
+        let of = |part: f64, whole: f64| if part == 0.0 { 0.0 } else { part / whole };
+        of(self.force, self.largest_force).max(of(self.moment, self.largest_moment))
+    }
 }

@@ -3,10 +3,14 @@
 mod assur_solver;
 mod kinetostatics;
 pub mod modes;
+pub mod momentum;
 mod newton_solver;
+pub mod peaks;
 mod pose_solver;
 pub mod power;
+pub mod range;
 pub mod reduced;
+pub mod triad;
 
 pub use assur_solver::AssurSolver;
 pub use newton_solver::NewtonSolver;

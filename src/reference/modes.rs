@@ -1,6 +1,7 @@
 //! All real configurations of every group at one crank angle.
 
 use super::PoseSolver;
+use super::range::is_singular;
 use crate::assur::Plan;
 use crate::case::Case;
 use crate::error::Result;
@@ -16,8 +17,8 @@ pub struct Mode {
     pub mode: AssemblyMode,
     /// Pose of each link of the group, in the order of its links.
     pub poses: Vec<LinkPose>,
-    /// Angular velocity of each link (rad/s).
-    pub omegas: Vec<f64>,
+    /// Angular velocity of each link (rad/s); `None` in a singular configuration, where none is determined.
+    pub omegas: Option<Vec<f64>>,
     /// Whether it is the one that the case follows.
     pub is_followed: bool,
 }
@@ -43,6 +44,7 @@ pub fn all(case: &Case, crank: f64) -> Result<Vec<Vec<Mode>>> {
         for one in configurations(mechanism, group, &pose)? {
             let mut motions = state.motions.clone();
             for (&link, place) in group.links.iter().zip(&one.links) {
+                motions[link].origin = place.origin;
                 motions[link].direction = unit(place.angle);
             }
             let mut chosen = case.modes[..=index].to_vec();
@@ -50,8 +52,14 @@ pub fn all(case: &Case, crank: f64) -> Result<Vec<Vec<Mode>>> {
             let mut plan = Plan::of(mechanism, &part, &chosen);
             // The configurations are exact: solving them again only prepares the velocities.
             let solved = plan.positions(case.drive.world_angle(crank), &mut motions).is_ok();
-            plan.velocities(omega, &mut motions);
-            let omegas = group.links.iter().map(|&link| if solved { motions[link].omega } else { f64::NAN }).collect();
+            let mut placed = pose.clone();
+            for (&link, place) in group.links.iter().zip(&one.links) {
+                placed.0[link] = *place;
+            }
+            let omegas = (solved && !is_singular(mechanism, group, &placed)).then(|| {
+                plan.velocities(omega, &mut motions);
+                group.links.iter().map(|&link| motions[link].omega).collect()
+            });
             let near =
                 |(&link, place): (&usize, &LinkPose)| (unit(place.angle) - state.motions[link].direction).norm() < 1e-9;
             let is_followed = group.links.iter().zip(&one.links).all(near);

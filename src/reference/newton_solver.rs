@@ -8,6 +8,7 @@
 
 use std::f64::consts::PI;
 
+use super::range;
 use crate::case::Case;
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::dense::Lu;
@@ -44,7 +45,7 @@ impl Solver for NewtonSolver {
         let mut done = 0;
         let mut follow = |rows: &mut dyn Iterator<Item = usize>, system: &mut System| -> Result<()> {
             for row in rows {
-                system.go_to(case.grid.times[row])?;
+                system.go_to(case.grid.times[row]).map_err(|error| range::explained(case, &error))?;
                 system.fill(&mut state);
                 visit(row, &state)?;
                 done += 1;
@@ -52,7 +53,7 @@ impl Solver for NewtonSolver {
             }
             Ok(())
         };
-        system.settle()?;
+        system.settle().map_err(|error| range::explained(case, &error))?;
         follow(&mut rows[split..].iter().copied(), &mut system)?;
         if split > 0 {
             system = System::new(case);

@@ -2,8 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use super::kinetostatics::Kinetostatics;
-use crate::assur::{OutOfReach, Plan};
+use super::kinetostatics::{Kinetostatics, Reactions};
+use super::range;
+use crate::assur::{Misfit, OutOfReach, Plan};
 use crate::case::Case;
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::{Vec2, angle, cross};
@@ -63,8 +64,8 @@ impl<'a> PoseSolver<'a> {
             self.plan.accelerations(alpha, &mut self.state.motions);
         }
         if deepest >= Stage::Reactions {
-            let State { motions, forces, torque, .. } = &mut self.state;
-            *torque = self.statics.solve(self.case, &self.plan, motions, forces);
+            let State { motions, forces, moments, torque, .. } = &mut self.state;
+            *torque = self.statics.solve(self.case, &self.plan, motions, Reactions { forces, moments });
         }
         Ok(&self.state)
     }
@@ -88,7 +89,7 @@ impl<'a> PoseSolver<'a> {
                 self.count_turns();
                 Ok(())
             }
-            Err(OutOfReach { span: None, .. }) if halvings > 0 => {
+            Err(OutOfReach { why: Misfit::Lost, .. }) if halvings > 0 => {
                 self.step_to((self.crank + target) / 2.0, halvings - 1)?;
                 self.step_to(target, halvings - 1)
             }
@@ -127,15 +128,24 @@ impl<'a> PoseSolver<'a> {
     fn unreachable(&self, crank: f64, reach: OutOfReach) -> Error {
         let group = self.case.structure.groups[reach.group].names(&self.case.mechanism);
         let crank = crank.to_degrees();
-        let message = match reach.span {
-            Some((distance, [shortest, longest])) => format!(
-                "the group ({group}) cannot be assembled at crank angle {crank:.4} deg: its outer joints are {distance:.6} m apart, its links span {shortest:.6} to {longest:.6} m"
+        let assembled = format!("the group ({group}) cannot be assembled at crank angle {crank:.4} deg");
+        let message = match reach.why {
+            Misfit::Span { distance, reach: [shortest, longest] } => format!(
+                "{assembled}: its outer joints are {distance:.6} m apart, its links span {shortest:.6} to {longest:.6} m"
             ),
-            None => format!(
+            Misfit::Guide { distance, length } => format!(
+                "{assembled}: its rod is {length:.6} m long, its outer pin {distance:.6} m from the line on which the other end slides"
+            ),
+            Misfit::Swing { distance, shortest } => format!(
+                "{assembled}: its outer pins are {distance:.6} m apart, its slider holds them at least {shortest:.6} m apart"
+            ),
+            Misfit::Parallel => format!("{assembled}: its two axes are parallel there"),
+            Misfit::Lost => format!(
                 "the group ({group}) cannot be followed beyond crank angle {crank:.4} deg: it has a dead point there"
             ),
         };
-        Error::new(ErrorKind::Geometry, message)
-            .help("shorten the grid to the crank angles that can be reached, or check the lengths")
+        let error = Error::new(ErrorKind::Geometry, message)
+            .help("shorten the grid to the crank angles that can be reached, or check the lengths");
+        range::explained(self.case, &error)
     }
 }

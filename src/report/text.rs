@@ -103,7 +103,8 @@ fn expected(proof: &Proof, text: &mut String) {
     }
 }
 
-fn table<const N: usize>(header: [&str; N], numbers: &[usize]) -> Table {
+/// An empty table without lines; the columns of `numbers` are set flush right.
+pub(crate) fn table<const N: usize>(header: [&str; N], numbers: &[usize]) -> Table {
     let mut table = Table::new();
     table.load_style(presets::NOTHING).set_header(header);
     for &index in numbers {

@@ -20,6 +20,12 @@ pub enum Subject {
 }
 
 impl Subject {
+    /// Whether there is one of it in a mechanism, so that it needs no name.
+    #[must_use]
+    pub fn is_whole(self) -> bool {
+        matches!(self, Subject::Frame | Subject::Drive)
+    }
+
     /// Word that channel names start with.
     #[must_use]
     pub fn word(self) -> &'static str {
@@ -151,9 +157,9 @@ impl Channel {
     pub fn named(name: &str) -> Option<Channel> {
         CHANNELS.iter().find_map(|kind| {
             let rest = name.strip_prefix(kind.subject.word())?.strip_suffix(kind.suffix)?;
-            let of = match kind.subject {
-                Subject::Drive | Subject::Frame => (rest == ".").then_some("")?,
-                _ => rest.strip_prefix('.')?.strip_suffix('.')?,
+            let of = match kind.subject.is_whole() {
+                true => (rest == ".").then_some("")?,
+                false => rest.strip_prefix('.')?.strip_suffix('.')?,
             };
             Some(Channel { of: of.to_string(), kind })
         })
@@ -179,7 +185,7 @@ mod tests {
     #[test]
     fn names_are_read_as_they_are_written() {
         for kind in &CHANNELS {
-            let of = if matches!(kind.subject, Subject::Drive | Subject::Frame) { "" } else { "A.b" };
+            let of = if kind.subject.is_whole() { "" } else { "A.b" };
             let channel = Channel { of: of.into(), kind };
             assert_eq!(Channel::named(&channel.to_string()), Some(channel));
         }

@@ -90,10 +90,15 @@ fn list_shows_scenarios_and_what_is_wrong_with_bad_ones() {
 fn list_shows_channels_and_solvers() {
     let place = Place::new();
     let channels = place.ok("list --channels");
-    assert_eq!(channels.lines().count(), 18);
-    for part in
-        ["link.NAME.angle_rad ", "point.NAME.ay_m_s2 ", "joint.NAME.fx_N ", "drive.torque_N_m ", "\"balancing_moment\""]
-    {
+    assert_eq!(channels.lines().count(), 25);
+    for part in [
+        "link.NAME.angle_rad ",
+        "point.NAME.ay_m_s2 ",
+        "joint.NAME.fx_N ",
+        "frame.moment_N_m ",
+        "drive.torque_N_m ",
+        "\"balancing_moment\"",
+    ] {
         assert!(channels.contains(part), "{part}");
     }
     let solvers = place.ok("list --solvers");

@@ -70,9 +70,9 @@ fn both_scenarios_agree_and_the_json_is_as_promised() {
     let [crank_rocker, ov7] = [0, 1].map(|k| &document["runs"][k]);
     assert_eq!(
         (crank_rocker["channels"].as_array().unwrap().len(), crank_rocker["engine"]["dt_s"].as_f64()),
-        (54, Some(1e-3))
+        (57, Some(1e-3))
     );
-    assert_eq!(ov7["channels"].as_array().unwrap().len(), 114);
+    assert_eq!(ov7["channels"].as_array().unwrap().len(), 117);
 }
 
 #[test]

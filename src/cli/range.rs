@@ -1,0 +1,201 @@
+//! What `linkproof inspect --range` shows.
+
+use std::f64::consts::TAU;
+use std::fmt::Write;
+
+use serde_json::{Value, json};
+
+use crate::reference::range::{At, Extent, Extreme, LinkRange, Measure, Range, Singularity};
+use crate::report::text::table;
+use crate::scenario::Scenario;
+
+/// Extreme positions of one link shown in full before the rest is only counted.
+const EXTREMES: usize = 8;
+
+/// As text.
+pub(super) fn text(scenario: &Scenario, range: &Range) -> String {
+    let mut text = String::new();
+    let _ = writeln!(text, "{}: {}", scenario.name, scenario.title);
+    let _ = writeln!(text, "crank      {}", extent(range));
+    if let Some(four_bar) = &range.four_bar {
+        let [frame, driver, coupler, output] = four_bar.lengths;
+        let _ = writeln!(text, "four-bar   {}", four_bar.of_type.name());
+        let _ = writeln!(
+            text,
+            "           frame {frame:.6} m, driving link {driver:.6} m, coupler {coupler:.6} m, output link {output:.6} m"
+        );
+    }
+    let _ = writeln!(text, "\n{}", singularities(scenario, range));
+    let _ = writeln!(text, "Groups, nearest to a singular pose:\n{}", groups(scenario, range));
+    let _ = writeln!(text, "\nLinks:\n{}", links(scenario, range));
+    text
+}
+
+fn extent(range: &Range) -> String {
+    match range.extent {
+        Extent::FullTurn(1) => "turns fully".into(),
+        Extent::FullTurn(turns) => format!("turns fully; the mechanism is back at its first pose after {turns} turns"),
+        Extent::Limited([from, to]) => format!(
+            "from {} to {} deg, {:.6} deg in all",
+            degrees(from.crank, range),
+            degrees(to.crank, range),
+            (to.crank - from.crank).to_degrees()
+        ),
+    }
+}
+
+/// An angle of the crank in degrees: of one that comes round, in the first turn.
+fn degrees(crank: f64, range: &Range) -> String {
+    format!("{:.6}", in_turn(crank, range).to_degrees())
+}
+
+fn in_turn(crank: f64, range: &Range) -> f64 {
+    match range.extent {
+        // What lies a rounding below a whole turn is zero.
+        Extent::FullTurn(1) => (crank + 1e-12).rem_euclid(TAU) - 1e-12,
+        _ => crank,
+    }
+}
+
+fn names(scenario: &Scenario, group: usize) -> String {
+    scenario.case.structure.groups[group].names(&scenario.case.mechanism)
+}
+
+fn is_dyad(scenario: &Scenario, group: usize) -> bool {
+    scenario.case.structure.groups[group].links.len() == 2
+}
+
+fn singularities(scenario: &Scenario, range: &Range) -> String {
+    if range.singularities.is_empty() {
+        return "No singular pose on the way.\n".into();
+    }
+    let mut table = table(["singular pose", "crank deg", "group", "determinant"], &[1, 3]);
+    for Singularity { kind, crank, group, determinant } in &range.singularities {
+        let crank = degrees(*crank, range);
+        table.add_row([kind.name().to_string(), crank, names(scenario, *group), format!("{determinant:.1e}")]);
+    }
+    format!("{table}\n")
+}
+
+fn groups(scenario: &Scenario, range: &Range) -> String {
+    let header =
+        ["group", "least determinant", "transmission deg", "at crank deg", "largest condition", "at crank deg"];
+    let mut table = table(header, &[1, 2, 3, 4, 5]);
+    for (index, group) in range.groups.iter().enumerate() {
+        let At { crank, value } = group.determinant;
+        let transmission =
+            if is_dyad(scenario, index) { format!("{:.4}", value.abs().asin().to_degrees()) } else { "-".into() };
+        let (condition, at) = match group.condition {
+            Some(worst) => (format!("{:.4}", worst.value), degrees(worst.crank, range)),
+            None => ("without bound".into(), degrees(crank, range)),
+        };
+        table.add_row([
+            names(scenario, index),
+            format!("{value:.6}"),
+            transmission,
+            degrees(crank, range),
+            condition,
+            at,
+        ]);
+    }
+    table.to_string()
+}
+
+fn links(scenario: &Scenario, range: &Range) -> String {
+    let mut table = table(["link", "motion", "from deg", "to deg", "extreme positions, at crank deg"], &[2, 3]);
+    for link in &range.links {
+        // Between which angles a link lies that comes round says nothing.
+        let end = |at: At| if link.turns == 0 { format!("{:.6}", at.value.to_degrees()) } else { "-".into() };
+        let [least, most] = link.angles.map(end);
+        table.add_row([
+            scenario.case.mechanism.links()[link.link].name.clone(),
+            motion(link),
+            least,
+            most,
+            positions(&link.extremes, range),
+        ]);
+    }
+    table.to_string()
+}
+
+fn motion(link: &LinkRange) -> String {
+    let swing = (link.angles[1].value - link.angles[0].value).to_degrees();
+    match link.turns {
+        0 if swing < 1e-9 => "does not turn".into(),
+        0 => format!("over {swing:.6} deg"),
+        1 | -1 => "turns fully".into(),
+        turns => format!("turns fully, {} times", turns.abs()),
+    }
+}
+
+fn positions(extremes: &[Extreme], range: &Range) -> String {
+    let one = |extreme: &Extreme| {
+        let word = if extreme.is_greatest { "greatest" } else { "smallest" };
+        format!("{:.6} ({word}, {})", extreme.angle.to_degrees(), degrees(extreme.crank, range))
+    };
+    let mut shown: Vec<String> = extremes.iter().take(EXTREMES).map(one).collect();
+    if extremes.len() > EXTREMES {
+        shown.push(format!("and {} more", extremes.len() - EXTREMES));
+    }
+    shown.join("\n")
+}
+
+/// As JSON.
+pub(super) fn json(scenario: &Scenario, range: &Range) -> Value {
+    let at = |at: &At, key: &str| json!({"crank_rad": at.crank, key: at.value});
+    let extent = match range.extent {
+        Extent::FullTurn(turns) => json!({"full_turn": true, "turns_to_same_pose": turns}),
+        Extent::Limited([from, to]) => json!({"full_turn": false, "from_rad": from.crank, "to_rad": to.crank}),
+    };
+    let singularities = range.singularities.iter().map(|s| {
+        let transmission = is_dyad(scenario, s.group).then(|| s.determinant.abs().asin());
+        json!({
+            "kind": s.kind.name(), "crank_rad": s.crank, "group": names(scenario, s.group), "determinant": s.determinant,
+            "transmission_angle_rad": transmission,
+        })
+    });
+    let groups = range.groups.iter().enumerate().map(|(index, group)| {
+        let transmission = is_dyad(scenario, index).then(|| group.determinant.value.abs().asin());
+        let mut value = json!({
+            "links": names(scenario, index), "least_determinant": at(&group.determinant, "determinant"),
+            "least_transmission_angle_rad": transmission,
+            "largest_condition": group.condition.as_ref().map(|worst| at(worst, "condition")),
+        });
+        if group.condition.is_none() {
+            value["largest_condition_absent"] =
+                "the group is singular at a limit: the condition number has no bound".into();
+        }
+        value
+    });
+    let links = range.links.iter().map(|link| {
+        let extremes = link
+            .extremes
+            .iter()
+            .map(|e| json!({"crank_rad": e.crank, "angle_rad": e.angle, "greatest": e.is_greatest}));
+        json!({
+            "name": scenario.case.mechanism.links()[link.link].name, "least": at(&link.angles[0], "angle_rad"),
+            "greatest": at(&link.angles[1], "angle_rad"), "turns": link.turns, "extremes": extremes.collect::<Vec<_>>(),
+        })
+    });
+    let of_samples = |f: fn(&Measure) -> f64, group: usize| -> Vec<f64> {
+        range.samples.iter().map(|sample| f(&sample.groups[group])).collect()
+    };
+    let sampled = (0..range.groups.len()).map(|group| {
+        json!({
+            "links": names(scenario, group), "determinant": of_samples(|m| m.determinant, group),
+            "condition": of_samples(|m| m.condition, group),
+        })
+    });
+    let four_bar = range.four_bar.as_ref().map(|bar| {
+        let [frame, driver, coupler, output] = bar.lengths;
+        json!({"type": bar.of_type.name(), "frame_m": frame, "driver_m": driver, "coupler_m": coupler, "output_m": output})
+    });
+    json!({
+        "extent": extent, "four_bar": four_bar, "singularities": singularities.collect::<Vec<_>>(),
+        "groups": groups.collect::<Vec<_>>(), "links": links.collect::<Vec<_>>(),
+        "samples": {
+            "crank_rad": range.samples.iter().map(|sample| sample.crank).collect::<Vec<_>>(),
+            "groups": sampled.collect::<Vec<_>>(),
+        },
+    })
+}

@@ -1,0 +1,192 @@
+//! Published methods for class III groups of order 3 against the reference, pose by pose.
+
+use super::checks::rounding;
+use crate::case::Case;
+use crate::compare::{Check, Verdict};
+use crate::error::{ErrorKind, Result};
+use crate::math::{Vec2, cross};
+use crate::reference::triad::class_change::ClassChange;
+use crate::reference::triad::{Reactions, Triad, assur_point, cramer, linear_system};
+use crate::solver::{Solver, State};
+use crate::trajectory::Stage;
+
+/// Largest difference, relative to the largest value of the quantity, that rounding allows: that of forces between the two analytic
+/// sides, which passes through as many linear equations.
+const BOUND: f64 = 1e-10;
+
+/// What is compared: directions, angular velocities, angular accelerations, forces.
+#[derive(Clone, Copy)]
+enum Quantity {
+    Angle,
+    Omega,
+    Alpha,
+    Force,
+}
+
+/// Largest difference of one method in every quantity, with the crank angle (rad).
+#[derive(Default)]
+struct Worst {
+    differences: [(f64, f64); 4],
+    failure: Option<String>,
+}
+
+impl Worst {
+    fn put(&mut self, quantity: Quantity, difference: f64, crank: f64) {
+        let worst = &mut self.differences[quantity as usize];
+        // Written so that NaN comes in and stays.
+        if !(difference <= worst.0) && !worst.0.is_nan() {
+            *worst = (difference, crank);
+        }
+    }
+
+    /// What the method answers; its first error is kept.
+    fn answer<T>(&mut self, answer: Result<T>) -> Option<T> {
+        match answer {
+            Ok(answer) => Some(answer),
+            Err(error) => {
+                self.failure.get_or_insert_with(|| error.to_string());
+                None
+            }
+        }
+    }
+
+    fn check(self, family: &str, detail: &str, scales: [f64; 4]) -> Check {
+        let share = |((difference, crank), scale): ((f64, f64), f64)| {
+            (if difference == 0.0 { 0.0 } else { difference / scale }, crank)
+        };
+        let shares = self.differences.into_iter().zip(scales).map(share);
+        let (value, crank) = shares.max_by(|a, b| a.0.abs().total_cmp(&b.0.abs())).unwrap_or_default();
+        let tolerance = rounding(BOUND, "two methods without a common equation, each good to rounding");
+        let check = Check::new(family, value, tolerance, "").of(detail);
+        let mut check = check.located(|| format!("at crank angle {:.3} deg", crank.to_degrees()));
+        if let Some(reason) = self.failure {
+            check.verdict = Verdict::Inconclusive { reason };
+        }
+        check
+    }
+}
+
+/// One group with the methods that are watched on it.
+struct Watch {
+    triad: Triad,
+    scales: [f64; 4],
+    cramer: Worst,
+    /// Only where the group's layout allows it.
+    change: Option<(ClassChange, Worst)>,
+    assur_point: Worst,
+    linear: Worst,
+}
+
+impl Watch {
+    fn of(case: &Case, triad: Triad) -> Result<Self> {
+        let change = match ClassChange::new(case, &triad) {
+            Ok(change) => Some((change, Worst::default())),
+            Err(error) if error.kind() == ErrorKind::Unsupported => None,
+            Err(error) => return Err(error),
+        };
+        let [cramer, assur_point, linear] = [(); 3].map(|()| Worst::default());
+        Ok(Watch { triad, scales: [1.0, 0.0, 0.0, 0.0], cramer, change, assur_point, linear })
+    }
+
+    fn grow(&mut self, quantity: Quantity, value: f64) {
+        let scale = &mut self.scales[quantity as usize];
+        *scale = scale.max(value.abs());
+    }
+
+    fn see(&mut self, case: &Case, row: usize, state: &State) {
+        let (crank, deepest) = (case.grid.cranks[row], case.wanted.deepest());
+        let drive = case.drive.at(case.grid.times[row]);
+        let links = self.triad.links();
+        self.grow(Quantity::Omega, drive.omega);
+        self.grow(Quantity::Alpha, drive.omega * drive.omega);
+        for link in links {
+            self.grow(Quantity::Omega, state.motions[link].omega);
+            self.grow(Quantity::Alpha, state.motions[link].alpha);
+        }
+        let rates = |worst: &mut Worst, [first, second]: [[f64; 4]; 2]| {
+            for (k, link) in links.into_iter().enumerate() {
+                let motion = &state.motions[link];
+                if deepest >= Stage::Velocities {
+                    worst.put(Quantity::Omega, (first[k] - motion.omega).abs(), crank);
+                }
+                if deepest >= Stage::Accelerations {
+                    worst.put(Quantity::Alpha, (second[k] - motion.alpha).abs(), crank);
+                }
+            }
+        };
+        if deepest >= Stage::Velocities
+            && let Some(found) = self.cramer.answer(cramer::rates(&self.triad, &state.motions))
+        {
+            rates(&mut self.cramer, found);
+        }
+        if let Some((change, worst)) = &mut self.change
+            && let Some(found) = worst.answer(change.solve(crank).copied())
+        {
+            for (link, direction) in links.into_iter().zip(found.directions) {
+                let own = state.motions[link].direction;
+                worst.put(Quantity::Angle, cross(own, direction).atan2(own.dot(&direction)).abs(), crank);
+            }
+            rates(worst, found.rates(drive.omega, drive.alpha));
+        }
+        if deepest >= Stage::Reactions {
+            let known = self.triad.known(case, &state.motions, &state.forces);
+            let places = self.triad.places(&state.motions);
+            self.forces(case, crank, assur_point::reactions(&places, &known), &state.forces, |own| {
+                &mut own.assur_point
+            });
+            self.forces(case, crank, linear_system::reactions(&places, &known), &state.forces, |own| &mut own.linear);
+        }
+    }
+
+    fn forces(
+        &mut self,
+        case: &Case,
+        crank: f64,
+        found: Result<Reactions>,
+        forces: &[Vec2],
+        worst: impl Fn(&mut Self) -> &mut Worst,
+    ) {
+        let Some(found) = worst(self).answer(found) else { return };
+        for (joint, force) in self.triad.joint_forces(&case.mechanism, &found) {
+            self.grow(Quantity::Force, forces[joint].norm());
+            worst(self).put(Quantity::Force, (force - forces[joint]).norm(), crank);
+        }
+    }
+
+    fn checks(self, detail: &str, deepest: Stage) -> Vec<Check> {
+        let mut checks = Vec::new();
+        let mut add = |family: &str, worst: Worst| checks.push(worst.check(family, detail, self.scales));
+        if deepest >= Stage::Velocities {
+            add("class III by Cramer's rule", self.cramer);
+        }
+        if let Some((_, worst)) = self.change {
+            add("class III by class change", worst);
+        }
+        if deepest >= Stage::Reactions {
+            add("class III reactions by the singular Assur point", self.assur_point);
+            add("class III reactions by the group's linear system", self.linear);
+        }
+        checks
+    }
+}
+
+/// Checks of the reference by the published methods, for every class III group of order 3 with revolute pairs; none if there is no such
+/// group.
+pub(super) fn checks(case: &Case, reference: &dyn Solver) -> Result<Vec<Check>> {
+    let watches: Result<Vec<Watch>> = Triad::all(case).into_iter().map(|triad| Watch::of(case, triad)).collect();
+    let mut watches = watches?;
+    if watches.is_empty() {
+        return Ok(Vec::new());
+    }
+    let mut visit = |row: usize, state: &State| {
+        watches.iter_mut().for_each(|watch| watch.see(case, row, state));
+        Ok(())
+    };
+    reference.sweep(case, &mut visit, &mut |_| {})?;
+    let several = watches.len() > 1;
+    let of_one = |watch: Watch| {
+        let base = &case.mechanism.links()[watch.triad.base].name;
+        watch.checks(if several { base } else { "" }, case.wanted.deepest())
+    };
+    Ok(watches.into_iter().flat_map(of_one).collect())
+}

@@ -1,0 +1,90 @@
+//! A link, what acts on it, and what a joint does to it.
+
+use crate::case::Case;
+use crate::math::{Motion, Vec2, cross};
+use crate::mechanism::Side;
+
+/// What the first link of every joint exerts on the second, filled in from the last group to the first.
+#[derive(Debug)]
+pub(crate) struct Reactions<'a> {
+    /// Forces (N).
+    pub(crate) forces: &'a mut [Vec2],
+    /// Moments about the joint's place on the second link (N m); 0 in revolute joints.
+    pub(crate) moments: &'a mut [f64],
+}
+
+/// A joint as it acts on one of its links: `sign` times its reaction, at the place where the reaction is told.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Action {
+    pub(super) joint: usize,
+    side: Side,
+    sign: f64,
+}
+
+impl Action {
+    pub(super) fn of(case: &Case, joint: usize, link: usize) -> Self {
+        let found = &case.mechanism.joints()[joint];
+        let local = found.on(link).expect("the joint is on the link");
+        // The places of a revolute joint are one point; that on the link itself is at hand.
+        let side = if found.is_prismatic() { found.second } else { Side { link, local } };
+        Action { joint, side, sign: if found.second.link == link { 1.0 } else { -1.0 } }
+    }
+
+    /// World place at which the joint acts.
+    #[inline]
+    pub(super) fn place(&self, motions: &[Motion]) -> Vec2 {
+        motions[self.side.link].point(self.side.local)
+    }
+
+    /// Stores the joint's reaction from the force on the link.
+    #[inline]
+    pub(super) fn put(&self, force: Vec2, reactions: &mut Reactions) {
+        reactions.forces[self.joint] = force * self.sign;
+    }
+
+    /// Stores a prismatic joint's reaction from the force on the link and the moment of all else on it about `pole`, which
+    /// it must balance.
+    #[inline]
+    pub(super) fn put_guided(
+        &self,
+        force: Vec2,
+        moment: f64,
+        pole: Vec2,
+        motions: &[Motion],
+        reactions: &mut Reactions,
+    ) {
+        reactions.forces[self.joint] = force * self.sign;
+        reactions.moments[self.joint] = (-moment - cross(self.place(motions) - pole, force)) * self.sign;
+    }
+}
+
+/// A link with the joints at which later groups hang on it.
+#[derive(Clone, Debug)]
+pub(super) struct Body {
+    link: usize,
+    hanging: Vec<Action>,
+}
+
+impl Body {
+    pub(super) fn of(case: &Case, link: usize, settled: &[bool]) -> Self {
+        let joints = case.mechanism.joints().iter().enumerate();
+        let on_link = joints.filter(|(index, joint)| settled[*index] && joint.on(link).is_some());
+        Body { link, hanging: on_link.map(|(index, _)| Action::of(case, index, link)).collect() }
+    }
+
+    /// Resultant of all known forces on the link and their moment about the world point `pole`.
+    #[inline]
+    pub(super) fn resultant(&self, case: &Case, motions: &[Motion], reactions: &Reactions, pole: Vec2) -> (Vec2, f64) {
+        let body = &case.mechanism.links()[self.link];
+        let motion = &motions[self.link];
+        let mut force = (case.gravity - motion.point_acceleration(body.mass_centre)) * body.mass;
+        let mut moment = cross(motion.point(body.mass_centre) - pole, force) - body.inertia * motion.alpha
+            + case.load_moment(self.link, motion.omega);
+        for action in &self.hanging {
+            let hung = reactions.forces[action.joint] * action.sign;
+            force += hung;
+            moment += cross(action.place(motions) - pole, hung) + reactions.moments[action.joint] * action.sign;
+        }
+        (force, moment)
+    }
+}
