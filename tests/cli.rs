@@ -2,6 +2,8 @@
 
 #[path = "cli/messages.rs"]
 mod messages;
+#[path = "cli/modes.rs"]
+mod modes;
 #[path = "cli/plan.rs"]
 mod plan;
 #[path = "cli/range.rs"]

@@ -25,9 +25,13 @@ fn both_sides_agree_on_random_groups_of_four_links() {
                 assert!(assur.is_err() && newton.is_err(), "{:?} {:?}", assur.err(), newton.err());
                 continue;
             };
-            // Omega measures how near the pose is to a singular one: rounding grows with its square.
-            let near = assur.iter().filter(|(channel, _)| channel.kind.suffix == "omega_rad_s");
-            let speed = near.flat_map(|(_, values)| values).fold(1.0f64, |max, v| max.max(v.abs() / 7.0));
+            // Omega measures how near the pose is to a singular one: rounding grows with its square. So does alpha, which is of the
+            // order of that square and tells where omega happens to pass through zero.
+            let most = |suffix: &str| {
+                let near = assur.iter().filter(|(channel, _)| channel.kind.suffix == suffix);
+                near.flat_map(|(_, values)| values).fold(0.0f64, |max, v| max.max(v.abs()))
+            };
+            let speed = (most("omega_rad_s") / 7.0).max(most("alpha_rad_s2").sqrt() / 7.0).max(1.0);
             solved += 1;
             for (residual, size) in residuals(assur, newton).unwrap().iter().zip(magnitudes(assur)) {
                 let stage = residual.channel.kind.stage;

@@ -3,12 +3,12 @@
 use std::fmt::Write;
 use std::path::PathBuf;
 
-use comfy_table::{CellAlignment, Table, presets};
 use serde_json::json;
 
 use super::output;
 use crate::error::{Error, ErrorKind, Result};
 use crate::reference::peaks::{self, Peak, Peaks, journal_diameter};
+use crate::report::text::table;
 use crate::scenario::Scenario;
 
 const EXAMPLES: &str = "\
@@ -55,16 +55,8 @@ fn diameter(args: &Args, peak: Peak) -> f64 {
 }
 
 fn as_text(args: &Args, scenario: &Scenario, peaks: &Peaks) -> String {
-    let mut table = Table::new();
-    table.load_style(presets::NOTHING);
-    table.set_header([
-        "joint",
-        "largest reaction",
-        "at crank deg",
-        "smallest journal",
-        "largest moment",
-        "at crank deg",
-    ]);
+    let header = ["joint", "largest reaction", "at crank deg", "smallest journal", "largest moment", "at crank deg"];
+    let mut table = table(header, &[1, 2, 3, 4, 5]);
     let degrees = |peak: Peak| format!("{:.4}", peak.crank.to_degrees());
     for (index, joint) in scenario.case.mechanism.joints().iter().enumerate() {
         let reaction = peaks.reactions[index];
@@ -74,9 +66,6 @@ fn as_text(args: &Args, scenario: &Scenario, peaks: &Peaks) -> String {
             Some(moment) => row.extend(["slider".into(), format!("{:.6} N m", moment.value), degrees(moment)]),
         }
         table.add_row(row);
-    }
-    for column in table.column_iter_mut().skip(1) {
-        column.set_cell_alignment(CellAlignment::Right);
     }
     let mut text = String::new();
     let _ = writeln!(text, "{}: {}\n\n{table}\n", scenario.name, scenario.title);

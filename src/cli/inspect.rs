@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use super::{modes, output, range};
 use crate::case::Grid;
 use crate::error::{Error, ErrorKind, Result};
-use crate::mechanism::assembly::transmission_sine;
+use crate::mechanism::assembly::{Choice, transmission_sine};
 use crate::mechanism::{GROUND, Joint, Mechanism};
 use crate::reference;
 use crate::scenario::Scenario;
@@ -109,20 +109,33 @@ fn as_text(scenario: &Scenario) -> String {
         let _ = writeln!(text, "  {:14} {}, {first} - {second}{driven}", joint.name, joint.kind.name());
     }
     let _ = writeln!(text, "\ngroups at the start (crank {:.3} deg)", case.drive.start.to_degrees());
-    for (group, &mode) in structure.groups.iter().zip(&case.modes) {
+    for ((group, &mode), choice) in structure.groups.iter().zip(&case.modes).zip(&scenario.choices) {
         let transmission = transmission_sine(mechanism, group, &case.start)
             .map_or_else(String::new, |sine| format!(", transmission angle {:.2} deg", sine.abs().asin().to_degrees()));
         let _ = writeln!(
             text,
-            "  {:28} class {}, order {}, {}, mode {}{transmission}",
+            "  {:28} class {}, order {}, {}, mode {}{transmission}{}",
             group.names(mechanism),
             group.class,
             group.order(),
             group.pairs(),
-            mode.name()
+            mode.name(),
+            from_rough_place(choice)
         );
     }
     text
+}
+
+/// How far the configuration lies from the rough places, and how far the next one.
+fn from_rough_place(choice: &Choice) -> String {
+    let mm = |distance: f64| format!("{:.*} mm", if distance < 0.01 { 1 } else { 0 }, distance * 1e3);
+    match (choice.nearest_m, choice.next_m) {
+        (None, _) => String::new(),
+        (Some(nearest), None) => format!(", {} from the rough place", mm(nearest)),
+        (Some(nearest), Some(next)) => {
+            format!(", {} from the rough place, the next configuration {}", mm(nearest), mm(next))
+        }
+    }
 }
 
 fn as_json(scenario: &Scenario) -> Value {
@@ -141,13 +154,14 @@ fn as_json(scenario: &Scenario) -> Value {
         .joints()
         .iter()
         .map(|joint| json!({"name": joint.name, "type": joint.kind.name(), "links": ends(mechanism, joint)}));
-    let groups = structure.groups.iter().zip(&case.modes).map(|(group, &mode)| {
+    let groups = structure.groups.iter().zip(&case.modes).zip(&scenario.choices).map(|((group, &mode), choice)| {
         json!({
             "links": group.links.iter().map(|&l| link(l)).collect::<Vec<_>>(),
             "inner_joints": group.inner.iter().map(|&j| joint(j)).collect::<Vec<_>>(),
             "outer_joints": group.outer.iter().map(|&j| joint(j)).collect::<Vec<_>>(),
             "class": group.class, "order": group.order(), "kind": group.pairs(), "mode": mode.name(),
             "transmission_angle_rad": transmission_sine(mechanism, group, &case.start).map(|sine| sine.abs().asin()),
+            "from_rough_place_m": choice.nearest_m, "next_from_rough_place_m": choice.next_m,
         })
     });
     let drivers = structure.drivers.iter().map(|&(l, j)| json!({"link": link(l), "joint": joint(j)}));

@@ -22,6 +22,7 @@ Examples:
   linkproof run scenarios/crank_rocker.toml
   linkproof run scenarios/crank_rocker.toml --dt 1e-4          a finer engine step
   linkproof run scenarios/*.toml --reference newton            the other analytic side as reference
+  linkproof run scenarios/fourth_class.toml --no-record --mode link_2,link_3,link_4,link_5=2   another configuration
   linkproof run scenarios/*.toml --no-record --json out.json   no recording, results for a script
 
 Exit codes: 0 all agree, 1 something disagrees, 2 bad input or usage, 3 nothing proven either way.";
@@ -41,6 +42,10 @@ pub(super) struct Args {
     /// Time step of the engine in seconds [default: the scenario's]
     #[arg(long, value_name = "S", allow_hyphen_values = true)]
     dt: Option<f64>,
+    /// Start a group in another mode than the file says, or in the configuration of that number in `inspect --modes`;
+    /// published numbers, which belong to the file's own modes, are left out then. May be given for several groups
+    #[arg(long, value_name = "LINK,LINK=MODE")]
+    mode: Vec<String>,
     /// Directory that the recordings (MCAP) are written to
     #[arg(long, value_name = "DIR", default_value = "recordings")]
     record: PathBuf,
@@ -50,6 +55,12 @@ pub(super) struct Args {
     /// Write the results as JSON to a file, or to standard output instead of the report with `-`
     #[arg(long, value_name = "FILE", value_parser = output::target)]
     json: Option<PathBuf>,
+}
+
+/// Reads a scenario and starts its groups as `modes` say.
+pub(super) fn load(file: &Path, modes: &[String]) -> Result<Scenario> {
+    let scenario = Scenario::load(file)?;
+    if modes.is_empty() { Ok(scenario) } else { scenario.with_modes(modes).map_err(|error| error.key("--mode")) }
 }
 
 pub(super) fn reference_names() -> Vec<&'static str> {
@@ -97,7 +108,7 @@ pub(super) fn run(args: &Args) -> u8 {
 }
 
 fn prove_file(args: &Args, file: &Path, quiet: bool) -> Result<(Scenario, Proof)> {
-    let scenario = Scenario::load(file)?;
+    let scenario = load(file, &args.mode)?;
     let options = Options { reference: args.reference.clone(), engine: args.engine.clone(), step: args.dt };
     let mut bar = Bar::new(&scenario.name);
     let proof = prove(&scenario, &options, &mut |part| bar.at(part))?;
@@ -127,19 +138,24 @@ fn record(
         return Err(Error::new(ErrorKind::Input, message)
             .help("change the `name` of one of the two, or run them one by one with different --record"));
     }
-    write_recording(scenario, proof, &args.record, &path)?;
+    write_recording(scenario, proof, args, &path)?;
     if !quiet {
         output::print(&format!("recording  {}\n\n", path.display()))?;
     }
     Ok(Some(path))
 }
 
-fn write_recording(scenario: &Scenario, proof: &Proof, directory: &Path, path: &Path) -> Result<()> {
+fn write_recording(scenario: &Scenario, proof: &Proof, args: &Args, path: &Path) -> Result<()> {
+    let directory = &args.record;
     fs::create_dir_all(directory).map_err(|error| {
         Error::new(ErrorKind::Io, format!("the directory {} cannot be made: {error}", directory.display()))
             .help("name another directory with --record, or use --no-record")
     })?;
-    let metadata = metadata(proof);
+    let mut metadata = metadata(proof);
+    if !args.mode.is_empty() {
+        // The text of the scenario in the recording does not say so.
+        metadata.insert("modes".into(), args.mode.join(" "));
+    }
     let sides = [
         Side { name: "reference", trajectory: &proof.reference_trajectory },
         Side { name: "engine", trajectory: &proof.engine_trajectory },

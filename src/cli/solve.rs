@@ -7,12 +7,11 @@ use clap::builder::PossibleValuesParser;
 use super::grid::Range;
 use super::output;
 use super::progress::Bar;
-use super::run::{engine_names, reference_names};
+use super::run::{engine_names, load, reference_names};
 use crate::case::{Case, Grid};
 use crate::engine;
 use crate::error::{Error, ErrorKind, Result};
 use crate::reference;
-use crate::scenario::Scenario;
 use crate::trajectory::Trajectory;
 
 const EXAMPLES: &str = "\
@@ -20,6 +19,7 @@ Examples:
   linkproof solve scenarios/crank_rocker.toml --with assur
   linkproof solve scenarios/ov7_base.toml --with newton --crank-deg 0:-360:-30 --csv table.csv
   linkproof solve scenarios/crank_rocker.toml --with rapier --dt 1e-4 --times 0:0.46:0.01
+  linkproof solve scenarios/crank_rocker.toml --with assur --mode coupler,rocker=right
 
 Columns: t_s, crank_rad, then link.NAME, point.NAME, joint.NAME and drive channels (`linkproof list --channels`).";
 
@@ -38,6 +38,10 @@ pub(super) struct Args {
     /// Times in seconds, instead of the scenario's grid
     #[arg(long, value_name = "FROM:TO:STEP", allow_hyphen_values = true)]
     times: Option<Range>,
+    /// Start a group in another mode than the file says, or in the configuration of that number in `inspect --modes`. May be
+    /// given for several groups
+    #[arg(long, value_name = "LINK,LINK=MODE")]
+    mode: Vec<String>,
     /// Time step of an engine in seconds [default: the scenario's]
     #[arg(long, value_name = "S", allow_hyphen_values = true)]
     dt: Option<f64>,
@@ -51,7 +55,7 @@ fn solver_names() -> Vec<&'static str> {
 }
 
 pub(super) fn solve(args: &Args) -> Result<()> {
-    let scenario = Scenario::load(&args.file)?;
+    let scenario = load(&args.file, &args.mode)?;
     let case = on_grid(&scenario.case, args)?;
     let mut bar = Bar::new(&scenario.name);
     let mut progress = |part| bar.at(part);

@@ -25,7 +25,8 @@ use self::reader::{Sign, Table};
 use self::source::Source;
 use crate::case::{Case, Wanted};
 use crate::error::{Error, ErrorKind, Result};
-use crate::mechanism::{Mechanism, Structure, first_pose};
+use crate::mechanism::assembly::{Choice, first_choices};
+use crate::mechanism::{Mechanism, StartGroup, Structure};
 
 /// Version of the file format that this crate reads.
 pub const FORMAT: i64 = 1;
@@ -52,6 +53,10 @@ pub struct Scenario {
     pub engine_rel: f64,
     /// Published numbers.
     pub oracles: Vec<Oracle>,
+    /// What is asked of each group at the start, in the order of the structure.
+    pub starts: Vec<StartGroup>,
+    /// How each group was placed at the start, in the order of the structure.
+    pub choices: Vec<Choice>,
 }
 
 impl Scenario {
@@ -78,6 +83,31 @@ impl Scenario {
         let tree = source.tree()?;
         read(&mut Table::root(&source, &tree)).map_err(|error| source.located(tree.get_ref(), error))
     }
+
+    /// The same scenario with some groups started otherwise. Each of `asked` is `LINK,LINK=MODE` or `LINK,LINK=NUMBER`: the links
+    /// of a group and its mode, by name as in the file (of links in another order, left and right change places), or by its number in
+    /// the list of [`configurations`](crate::mechanism::assembly::configurations), counted from 1. If that leads to another
+    /// start pose, the published numbers are left out: they belong to the scenario's own.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Input`] if a group, its mode or its number is not known; those of [`first_choices`] for the groups after it.
+    pub fn with_modes(&self, asked: &[String]) -> Result<Scenario> {
+        let mut changed = self.clone();
+        let case = &mut changed.case;
+        for text in asked {
+            let (index, start) = start::asked(text, &case.mechanism, &case.structure)?;
+            changed.starts[index] = start;
+        }
+        let angles = [case.drive.world_angle(case.drive.start)];
+        let (pose, choices) = first_choices(&case.mechanism, &case.structure, &angles, &changed.starts)?;
+        if pose != case.start {
+            changed.oracles.clear();
+        }
+        case.modes = choices.iter().map(|choice| choice.mode).collect();
+        case.start = pose;
+        changed.choices = choices;
+        Ok(changed)
+    }
 }
 
 fn read(root: &mut Table) -> Result<Scenario> {
@@ -103,8 +133,9 @@ fn read(root: &mut Table) -> Result<Scenario> {
     let loads = motion::loads(loads, &mechanism)?;
     let gravity = motion::gravity(gravity)?;
     let structure = Structure::of(&mechanism, &[drive.joint])?;
-    let wanted_starts = start::groups(&start, groups, &mechanism, &structure)?;
-    let (pose, modes) = first_pose(&mechanism, &structure, &[drive.world_angle(crank)], &wanted_starts)?;
+    let starts = start::groups(&start, groups, &mechanism, &structure)?;
+    let (pose, choices) = first_choices(&mechanism, &structure, &[drive.world_angle(crank)], &starts)?;
+    let modes = choices.iter().map(|choice| choice.mode).collect();
     let grid = grid::read(grid, &drive)?;
     let wanted = settings::wanted(channels)?;
     let dt = settings::engine_step(engine, &drive)?;
@@ -114,7 +145,7 @@ fn read(root: &mut Table) -> Result<Scenario> {
     case.wanted = wanted;
     let source = root.source();
     let (path, text) = (source.path.to_path_buf(), source.text.to_string());
-    Ok(Scenario { name, title, source: cited, path, text, case, dt, engine_rel, oracles })
+    Ok(Scenario { name, title, source: cited, path, text, case, dt, engine_rel, oracles, starts, choices })
 }
 
 fn check_format(root: &mut Table) -> Result<()> {

@@ -217,6 +217,14 @@ impl<'a> Table<'a> {
         array.iter().enumerate().map(child).collect()
     }
 
+    /// A table or an array of tables; none if the key is not there.
+    pub fn table_or_tables(&mut self, key: &str) -> Result<Vec<Table<'a>>> {
+        match self.entries.iter().find(|entry| entry.key == key).map(|entry| entry.value.get_ref()) {
+            Some(DeValue::Array(_)) => self.tables(key),
+            _ => Ok(self.optional_table(key)?.into_iter().collect()),
+        }
+    }
+
     /// All entries, each of which must be a table, in the order of the file.
     pub fn all_tables(&mut self) -> Result<Vec<Table<'a>>> {
         self.used = self.entries.iter().map(|entry| entry.key).collect();

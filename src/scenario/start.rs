@@ -1,4 +1,4 @@
-//! `[[start.groups]]`: in which assembly mode each Assur group starts.
+//! `[[start.groups]]`: in which assembly mode each Assur group starts, and the same asked for on the command line.
 
 use super::joints::link;
 use super::reader::{Sign, Table};
@@ -41,12 +41,10 @@ fn group(
 ) -> Result<(usize, StartGroup)> {
     let names = table.strings("links")?;
     let mode = mode(&mut table)?;
-    let near = table.optional_table("near")?;
+    let near = table.table_or_tables("near")?;
     table.finish()?;
     let links: Vec<usize> = names.iter().map(|name| link(&table, name, mechanism.links())).collect::<Result<_>>()?;
-    let mut sorted = links.clone();
-    sorted.sort_unstable();
-    let Some(index) = structure.groups.iter().position(|group| group.links == sorted) else {
+    let Some(index) = group_of(&links, structure) else {
         return Err(unknown_group(&table, &names, mechanism, structure));
     };
     if before[index].is_some() {
@@ -59,8 +57,52 @@ fn group(
         return Err(foreign_mode(&table, asked, group));
     }
     let mode = if links == group.links { mode } else { mode.map(AssemblyMode::swapped) };
-    let near = near.map(|near| rough_place(near, mechanism, group)).transpose()?;
-    Ok((index, StartGroup { mode, near }))
+    let near = near.into_iter().map(|near| rough_place(near, mechanism, group)).collect::<Result<_>>()?;
+    Ok((index, StartGroup { mode, rank: None, near }))
+}
+
+/// Index of the group of exactly these links, in any order.
+fn group_of(links: &[usize], structure: &Structure) -> Option<usize> {
+    let mut sorted = links.to_vec();
+    sorted.sort_unstable();
+    structure.groups.iter().position(|group| group.links == sorted)
+}
+
+/// What `LINK,LINK=MODE` or `LINK,LINK=NUMBER` asks of which group.
+///
+/// # Errors
+/// [`ErrorKind::Input`] if there is no such group, or the mode is none of its own.
+pub fn asked(text: &str, mechanism: &Mechanism, structure: &Structure) -> Result<(usize, StartGroup)> {
+    let examples = || {
+        let example = |group: &Group| {
+            let names = group.names(mechanism).replace(", ", ",");
+            format!("\"{names}={}\"", modes_of(group.kind).first().map_or("1", |mode| mode.name()))
+        };
+        structure.groups.iter().map(example).collect::<Vec<_>>().join(" or ")
+    };
+    let Some((names, mode)) = text.rsplit_once('=') else {
+        return Err(Error::new(ErrorKind::Input, format!("\"{text}\" names no group and mode"))
+            .help(format!("write the links of a group, `=`, and a mode or a number: {}", examples())));
+    };
+    let names: Vec<&str> = names.split(',').map(str::trim).collect();
+    let links: Option<Vec<usize>> = names.iter().map(|name| mechanism.link_named(name)).collect();
+    let Some(index) = links.as_ref().and_then(|links| group_of(links, structure)) else {
+        return Err(Error::new(ErrorKind::Input, format!("the mechanism has no Assur group ({})", names.join(", ")))
+            .help(format!("ask for one of its groups: {}", examples())));
+    };
+    let (group, mode) = (&structure.groups[index], mode.trim());
+    if let Ok(rank) = mode.parse::<usize>() {
+        return Ok((index, StartGroup { rank: Some(rank), ..StartGroup::default() }));
+    }
+    let Some(&found) = modes_of(group.kind).iter().find(|own| own.name() == mode) else {
+        let message = format!("\"{mode}\" is no assembly mode of the group ({})", group.names(mechanism));
+        let names = modes_of(group.kind).iter().map(|mode| format!("\"{}\", ", mode.name())).collect::<String>();
+        return Err(Error::new(ErrorKind::Input, message)
+            .help(format!("give {names}or a number from the list of `linkproof inspect FILE --modes`")));
+    };
+    let in_order = links.is_some_and(|links| links == group.links);
+    let mode = if in_order { found } else { found.swapped() };
+    Ok((index, StartGroup { mode: Some(mode), ..StartGroup::default() }))
 }
 
 fn mode(table: &mut Table) -> Result<Option<AssemblyMode>> {

@@ -68,7 +68,7 @@ mod tests {
         let constraints = Constraints::of(&mechanism, Vec2::new(1.0, -2.0));
         for degrees in (0..360).step_by(5) {
             for mode in [AssemblyMode::Left, AssemblyMode::Right] {
-                let wanted = [StartGroup { mode: Some(mode), near: None }];
+                let wanted = [StartGroup { mode: Some(mode), ..StartGroup::default() }];
                 let (pose, _) =
                     first_pose(&mechanism, &structure, &[f64::from(degrees).to_radians()], &wanted).unwrap();
                 let jacobian = constraints.at(&constraints.coordinates_of(&pose)).jacobian;

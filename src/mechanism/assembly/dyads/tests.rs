@@ -1,0 +1,248 @@
+use super::super::random::{Random, group, mechanism, size};
+use super::super::transmission_sine;
+use super::*;
+use crate::mechanism::{Joint, JointKind};
+
+const CASES: usize = 100_000;
+
+/// A dyad of links 3 and 4 on links 1 and 2 that stand at random.
+struct Case {
+    mechanism: Mechanism,
+    group: Group,
+    pose: Pose,
+}
+
+fn case(random: &mut Random, kind: GroupKind) -> Case {
+    let letters: Vec<bool> = kind.letters().unwrap().chars().map(|letter| letter == 'P').collect();
+    let outer = if random.yes() { [letters[0], letters[2]] } else { [letters[2], letters[0]] };
+    let joints =
+        vec![random.joint("A", outer[0], 1, 3), random.joint("B", letters[1], 3, 4), random.joint("C", outer[1], 2, 4)];
+    let mechanism = mechanism(5, joints);
+    let mut pose = Pose((0..5).map(|_| random.pose()).collect());
+    pose.0[0] = LinkPose::GROUND;
+    let group = group(&mechanism, &[3, 4], kind);
+    Case { mechanism, group, pose }
+}
+
+impl Case {
+    fn joint(&self, index: usize) -> &Joint {
+        &self.mechanism.joints()[index]
+    }
+
+    fn place(&self, pose: &Pose, joint: usize, link: usize) -> Vec2 {
+        pose.0[link].point(self.joint(joint).on(link).unwrap())
+    }
+
+    fn axis(&self, pose: &Pose, joint: usize) -> Vec2 {
+        let joint = self.joint(joint);
+        rotated(unit(pose.0[joint.first.link].angle), joint.axis_on(joint.first.link).unwrap())
+    }
+
+    /// The pose with link `link` turned so that its prismatic `joint` has the axis of its other side.
+    fn with_turned(&self, mut pose: Pose, joint: usize, link: usize) -> Pose {
+        let other = self.joint(joint).other(link).link;
+        let angle = |axis: Vec2| axis.y.atan2(axis.x);
+        let axis = |of: usize| angle(self.joint(joint).axis_on(of).unwrap());
+        pose.0[link].angle = pose.0[other].angle + axis(other) - axis(link);
+        pose
+    }
+
+    /// How far the places of a prismatic `joint` are from its line.
+    fn off_line(&self, pose: &Pose, joint: usize) -> f64 {
+        let own = self.joint(joint);
+        cross(
+            self.axis(pose, joint),
+            self.place(pose, joint, own.second.link) - self.place(pose, joint, own.first.link),
+        )
+    }
+
+    /// Whether the dyad has configurations, by the zeros of a function that is sampled, not derived: positive if it has, negative if not, by
+    /// how much.
+    fn reach(&self) -> f64 {
+        let outer_pin = |joint: usize, link: usize| self.place(&self.pose, joint, self.joint(joint).other(link).link);
+        match self.group.kind {
+            GroupKind::Rrr => {
+                // The triangle inequality, three times.
+                let span = |link: usize, outer: usize| {
+                    (self.joint(1).on(link).unwrap() - self.joint(outer).on(link).unwrap()).norm()
+                };
+                let (a, b) = (span(3, 0), span(4, 2));
+                let c = (outer_pin(0, 3) - outer_pin(2, 4)).norm();
+                (a + b - c).min(a + c - b).min(b + c - a)
+            }
+            GroupKind::Rrp => {
+                // Squared distance of the inner joint from the outer pin as a function of the slide, a parabola by three values.
+                let (slider, outer, rod, pin) = if self.joint(0).is_prismatic() { (3, 0, 4, 2) } else { (4, 2, 3, 0) };
+                let mut pose = self.with_turned(self.pose.clone(), outer, slider);
+                let axis = self.axis(&pose, outer);
+                let normal = turned(axis);
+                let off = normal.dot(&(self.place(&pose, outer, slider) - outer_pin(outer, slider)));
+                pose.0[slider].origin -= normal * off;
+                let squared = |slide: f64| {
+                    let mut moved = pose.clone();
+                    moved.0[slider].origin += axis * slide;
+                    (self.place(&moved, 1, slider) - outer_pin(pin, rod)).norm_squared()
+                };
+                let [before, here, after] = [-1.0, 0.0, 1.0].map(squared);
+                let (a, b) = ((before + after) / 2.0 - here, (after - before) / 2.0);
+                let least = here - b * b / (4.0 * a);
+                let rod = self.joint(1).on(rod).unwrap() - self.joint(pin).on(rod).unwrap();
+                rod.norm() - least.max(0.0).sqrt()
+            }
+            GroupKind::Rpr => {
+                // Distance from the line as a function of the common angle: a harmonic plus a constant, by three values.
+                let off = |angle: f64| {
+                    let mut pose = self.pose.clone();
+                    pose.0[3].angle = angle;
+                    pose = self.with_turned(pose, 1, 4);
+                    for (link, joint) in [(3, 0), (4, 2)] {
+                        let local = self.joint(joint).on(link).unwrap();
+                        pose.0[link] = LinkPose::through(local, outer_pin(joint, link), pose.0[link].angle);
+                    }
+                    self.off_line(&pose, 1)
+                };
+                let [f0, f1, f2] = [0.0, 2.0, 4.0].map(|k: f64| off(k * std::f64::consts::FRAC_PI_3));
+                let mean = (f0 + f1 + f2) / 3.0;
+                let (a, b) = (f0 - mean, (f1 - f2) / 3f64.sqrt());
+                a.hypot(b) - mean.abs()
+            }
+            _ => f64::INFINITY,
+        }
+    }
+
+    /// The mode of an assembled dyad by the words of [`AssemblyMode`].
+    fn mode(&self, pose: &Pose) -> AssemblyMode {
+        let inner = self.place(pose, 1, 3);
+        let (a, c) = (self.place(pose, 0, 3), self.place(pose, 2, 4));
+        let ahead = |is: bool| if is { AssemblyMode::Ahead } else { AssemblyMode::Behind };
+        match self.group.kind {
+            GroupKind::Rrr if cross(c - a, inner - a) > 0.0 => AssemblyMode::Left,
+            GroupKind::Rrr => AssemblyMode::Right,
+            GroupKind::Rrp => {
+                let (guide, pin) = if self.joint(0).is_prismatic() { (0, c) } else { (2, a) };
+                ahead(self.axis(pose, guide).dot(&(inner - pin)) > 0.0)
+            }
+            GroupKind::Rpr => {
+                let base = if self.joint(1).first.link == 3 { c - a } else { a - c };
+                ahead(self.axis(pose, 1).dot(&base) > 0.0)
+            }
+            _ => AssemblyMode::Only,
+        }
+    }
+}
+
+/// Of 100 000 dyads of every kind, in all orders of links and sides: every configuration closes, is of the mode it says and has a
+/// transmission sine of that sign, two are two, and there is none exactly when another criterion says so.
+#[test]
+fn random_dyads_of_every_kind() {
+    let kinds = [GroupKind::Rrr, GroupKind::Rrp, GroupKind::Rpr, GroupKind::Rpp, GroupKind::Prp];
+    for kind in kinds {
+        let mut random = Random(kind as u64 + 1);
+        let (mut some, mut worst) = (0, 0.0f64);
+        for _ in 0..CASES {
+            let case = case(&mut random, kind);
+            let reach = case.reach();
+            let all = match configurations(&case.mechanism, &case.group, &case.pose) {
+                Ok(all) => all,
+                Err(error) => {
+                    // The criterion rounds otherwise: at the very edge it cannot tell.
+                    assert!(reach <= 1e-14, "{kind:?}: {error}, but there is room of {reach}");
+                    assert!(error.kind() == ErrorKind::Geometry && error.way_out().is_some(), "{error}");
+                    continue;
+                }
+            };
+            some += 1;
+            assert!(reach >= -1e-14, "{kind:?}: a configuration beyond reach by {reach}");
+            let poses: Vec<Pose> = all
+                .iter()
+                .map(|one| {
+                    let mut pose = case.pose.clone();
+                    (pose.0[3], pose.0[4]) = (one.links[0], one.links[1]);
+                    pose
+                })
+                .collect();
+            for (one, pose) in all.iter().zip(&poses) {
+                // Two axes that are nearly parallel cross far away: the size is that of the assembled dyad.
+                let size = size(&case.mechanism, pose);
+                let sine = transmission_sine(&case.mechanism, &case.group, pose).unwrap();
+                worst = worst.max(pose.closure(&case.mechanism) / size);
+                // On the dead point the two modes are one.
+                if sine.abs() > 1e-12 {
+                    assert_eq!(case.mode(pose), one.mode, "{kind:?} {sine}");
+                    if one.mode != AssemblyMode::Only {
+                        let first = [AssemblyMode::Left, AssemblyMode::Ahead].contains(&one.mode);
+                        assert!(sine.abs() <= 1.0 + 1e-15 && (sine > 0.0) == first, "{kind:?} {sine}");
+                    }
+                }
+            }
+            let expected = if matches!(kind, GroupKind::Rpp | GroupKind::Prp) { 1 } else { 2 };
+            assert_eq!(all.len(), expected, "{kind:?}");
+            if let [one, other] = &all[..] {
+                assert!(one.mode != other.mode && one.links != other.links, "{kind:?}");
+            }
+        }
+        println!("{kind:?}: {some} of {CASES} assembled, closure at worst {worst:.1e} of the size");
+        assert!(some > CASES / 5, "{kind:?}: {some}");
+        // 1e-12 as everywhere for closures.
+        assert!(worst <= 1e-12, "{kind:?}: {worst}");
+    }
+}
+
+/// Of the two-slider dyads, those whose axes are parallel have no configuration, and a hair beside that they have.
+#[test]
+fn parallel_axes_are_refused() {
+    for kind in [GroupKind::Rpp, GroupKind::Prp] {
+        let mut random = Random(77);
+        for _ in 0..1000 {
+            let mut case = case(&mut random, kind);
+            let (Some(joint), Some(other)) = (0..3)
+                .filter(|&k| case.joint(k).is_prismatic())
+                .fold((None, None), |(first, _), k| if first.is_none() { (Some(k), None) } else { (first, Some(k)) })
+            else {
+                panic!("two prismatic joints");
+            };
+            // PRP: turn one base until its guide is parallel to the other's. RPP: give the slider two parallel axes.
+            let turned_by = |case: &mut Case, angle: f64| {
+                if kind == GroupKind::Prp {
+                    let guide = |k: usize, link: usize| {
+                        let base = case.joint(k).other(link).link;
+                        let axis = case.joint(k).axis_on(base).unwrap();
+                        case.pose.0[base].angle + axis.y.atan2(axis.x)
+                    };
+                    let off = guide(joint, 3) - guide(other, 4) + angle;
+                    case.pose.0[2].angle += off;
+                } else {
+                    let slider = if case.joint(0).is_prismatic() { 3 } else { 4 };
+                    let (outer, inner) = if slider == 3 { (0, 1) } else { (2, 1) };
+                    let along = case.joint(outer).axis_on(slider).unwrap();
+                    let mut joints = case.mechanism.joints().to_vec();
+                    let side = usize::from(joints[inner].second.link == slider);
+                    let JointKind::Prismatic { axes } = &mut joints[inner].kind else { panic!("a prismatic joint") };
+                    axes[side] = rotated(unit(angle), along);
+                    case.mechanism = mechanism(5, joints);
+                }
+            };
+            turned_by(&mut case, 0.0);
+            let error = configurations(&case.mechanism, &case.group, &case.pose).unwrap_err();
+            assert!(error.to_string().contains("are parallel"), "{error}");
+            turned_by(&mut case, 1e-6);
+            assert_eq!(configurations(&case.mechanism, &case.group, &case.pose).unwrap().len(), 1);
+        }
+    }
+}
+
+#[test]
+fn what_does_not_reach_is_told_in_metres() {
+    let mut random = Random(5);
+    let mut told = [false; 2];
+    while told != [true; 2] {
+        for (index, kind) in [GroupKind::Rrp, GroupKind::Rpr].into_iter().enumerate() {
+            let case = case(&mut random, kind);
+            if let Err(error) = configurations(&case.mechanism, &case.group, &case.pose) {
+                let words = ["its rod spans", "across the axis of its prismatic joint"][index];
+                assert!(error.to_string().contains(words) && error.to_string().contains(" m"), "{error}");
+                told[index] = true;
+            }
+        }
+    }
+}

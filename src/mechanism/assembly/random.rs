@@ -1,0 +1,85 @@
+//! Random mechanisms for the tests of this module, the same in every run.
+
+use crate::math::{Vec2, rotated, unit};
+use crate::mechanism::{Group, GroupKind, Joint, JointKind, Link, LinkPose, Mechanism, Pose, Side};
+
+/// Linear congruential generator (Knuth's MMIX), upper bits.
+pub struct Random(pub u64);
+
+impl Random {
+    pub fn number(&mut self, from: f64, to: f64) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        from + (to - from) * (self.0 >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    pub fn yes(&mut self) -> bool {
+        self.number(0.0, 1.0) < 0.5
+    }
+
+    pub fn place(&mut self) -> Vec2 {
+        Vec2::new(self.number(-1.0, 1.0), self.number(-1.0, 1.0))
+    }
+
+    pub fn pose(&mut self) -> LinkPose {
+        LinkPose { origin: self.place(), angle: self.number(-3.1, 3.1) }
+    }
+
+    /// A joint between links `a` and `b`, either of which may come first, at random places.
+    pub fn joint(&mut self, name: &str, slides: bool, a: usize, b: usize) -> Joint {
+        let [first, second] = if self.yes() { [a, b] } else { [b, a] };
+        let side = |link, local| Side { link, local };
+        let axes = [self.number(-3.1, 3.1), self.number(-3.1, 3.1)].map(unit);
+        let kind = if slides { JointKind::Prismatic { axes } } else { JointKind::Revolute };
+        Joint { name: name.into(), kind, first: side(first, self.place()), second: side(second, self.place()) }
+    }
+
+    /// Moves the second side of a joint so that it holds in `pose`: of a revolute one its place, of a prismatic one its axis too.
+    pub fn fitted(&mut self, mut joint: Joint, pose: &Pose) -> Joint {
+        let (first, second) = (pose.0[joint.first.link], pose.0[joint.second.link]);
+        let back = |v: Vec2| rotated(unit(-second.angle), v);
+        let mut place = first.point(joint.first.local);
+        if let JointKind::Prismatic { axes: [axis, other] } = &mut joint.kind {
+            let world = rotated(unit(first.angle), *axis);
+            *other = back(world).normalize();
+            place += world * self.number(-1.0, 1.0);
+        }
+        joint.second.local = back(place - second.origin);
+        joint
+    }
+}
+
+/// A mechanism of `count` links and the given joints whose points are the joints' places.
+pub fn mechanism(count: usize, joints: Vec<Joint>) -> Mechanism {
+    let link = |index: usize| Link {
+        name: if index == 0 { "ground".into() } else { format!("link{index}") },
+        points: joints
+            .iter()
+            .filter_map(|joint| {
+                Some(crate::mechanism::Point { name: format!("{}{index}", joint.name), local: joint.on(index)? })
+            })
+            .collect(),
+        mass: 0.0,
+        mass_centre: Vec2::zeros(),
+        inertia: 0.0,
+    };
+    let links = (0..count).map(link).collect();
+    Mechanism::new(links, joints).unwrap()
+}
+
+/// The group of `links`, as the structural analysis would find it were all others known.
+pub fn group(mechanism: &Mechanism, links: &[usize], kind: GroupKind) -> Group {
+    let inside = |joint: usize| {
+        let joint = &mechanism.joints()[joint];
+        [joint.first, joint.second].iter().filter(|side| links.contains(&side.link)).count()
+    };
+    let all = 0..mechanism.joints().len();
+    let mut outer: Vec<usize> = all.clone().filter(|&joint| inside(joint) == 1).collect();
+    outer.sort_by_key(|&joint| links.iter().position(|&link| mechanism.joints()[joint].on(link).is_some()));
+    Group { links: links.into(), inner: all.filter(|&joint| inside(joint) == 2).collect(), outer, class: 2, kind }
+}
+
+/// Largest distance between joints of one link, and between bases (m): what errors are measured by.
+pub fn size(mechanism: &Mechanism, pose: &Pose) -> f64 {
+    let bases = pose.0.iter().map(|link| link.origin.norm()).fold(0.0, f64::max);
+    mechanism.size().max(bases)
+}

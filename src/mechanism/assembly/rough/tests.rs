@@ -1,0 +1,126 @@
+use super::super::random::{Random, group, mechanism, size};
+use super::*;
+use crate::mechanism::{GroupKind, Side};
+
+/// Two base links 6 and 5, pinned to each other, each on two leads: a group of six links and nine joints that hold in the pose.
+fn case(random: &mut Random, slides: impl Fn(&mut Random) -> bool) -> (Mechanism, Group, Pose) {
+    let mut pose = Pose((0..7).map(|_| random.pose()).collect());
+    pose.0[0] = LinkPose::GROUND;
+    let ends = [[0, 1], [0, 2], [3, 0], [4, 0], [1, 5], [5, 2], [3, 6], [6, 4], [5, 6]];
+    let mut joints: Vec<Joint> = Vec::new();
+    for (name, [a, b]) in ["A", "B", "C", "D", "E", "F", "G", "H", "I"].into_iter().zip(ends) {
+        let slides = slides(random);
+        let joint = random.joint(name, slides, a, b);
+        joints.push(random.fitted(joint, &pose));
+    }
+    let mechanism = mechanism(7, joints);
+    let group = group(&mechanism, &[1, 2, 3, 4, 5, 6], GroupKind::Higher);
+    (mechanism, group, pose)
+}
+
+/// All points of the group's links, moved at random by up to `by` in each coordinate.
+fn drawing(random: &mut Random, mechanism: &Mechanism, group: &Group, pose: &Pose, by: f64) -> Vec<(SidePoint, Vec2)> {
+    let mut near = Vec::new();
+    for &link in &group.links {
+        for point in &mechanism.links()[link].points {
+            let side = Side { link, local: point.local };
+            near.push((
+                SidePoint { name: point.name.clone(), side },
+                pose.0[link].point(point.local) + random.place() * by,
+            ));
+        }
+    }
+    near
+}
+
+#[test]
+fn the_jacobian_is_the_derivative_of_the_gaps() {
+    let mut random = Random(21);
+    for _ in 0..20 {
+        let (mechanism, group, mut pose) = case(&mut random, |random| random.yes());
+        // Away from the closed pose, where all terms count.
+        pose.0[1..].iter_mut().for_each(|link| *link = random.pose());
+        let system = System { mechanism: &mechanism, group: &group, size: mechanism.size() };
+        let rows = system.jacobian(&pose);
+        let h = 1e-6;
+        for column in 0..18 {
+            let mut step = vec![0.0; 18];
+            step[column] = -h;
+            let ahead = system.gaps(&system.moved(&pose, &step));
+            step[column] = h;
+            let back = system.gaps(&system.moved(&pose, &step));
+            for row in 0..18 {
+                let slope = (ahead[row] - back[row]) / (2.0 * h);
+                // Central differences: h^2 times third derivatives, and rounding over h.
+                assert!((slope - rows[row][column]).abs() < 1e-8, "{row} {column}: {slope} {}", rows[row][column]);
+            }
+        }
+    }
+}
+
+/// From a drawing that is right to two hundredths, the pose it was drawn from is found, and closes.
+#[test]
+fn a_rough_drawing_finds_its_configuration() {
+    let mut random = Random(22);
+    let (mut found, mut refused) = (0, 0);
+    for number in 0..500 {
+        let sliding = number % 2 == 1;
+        let (mechanism, group, pose) = case(&mut random, |random| sliding && random.number(0.0, 1.0) < 0.2);
+        let near = drawing(&mut random, &mechanism, &group, &pose, 0.02);
+        let mut posed = pose.clone();
+        posed.0[1..].iter_mut().for_each(|link| *link = LinkPose::GROUND);
+        match place(&mechanism, &group, &near, &mut posed) {
+            Ok(choice) => {
+                let size = size(&mechanism, &posed);
+                assert!(posed.closure(&mechanism) <= 1e-12 * size, "{}", posed.closure(&mechanism));
+                let farthest =
+                    near.iter().map(|(point, guess)| (posed.0[point.side.link].point(point.side.local) - guess).norm());
+                assert_eq!(
+                    choice,
+                    Choice {
+                        mode: AssemblyMode::Followed,
+                        nearest_m: Some(farthest.fold(0.0, f64::max)),
+                        next_m: None
+                    }
+                );
+                let same = posed.0.iter().zip(&pose.0).all(|(a, b)| (a.origin - b.origin).norm() < 1e-9);
+                found += usize::from(same);
+            }
+            Err(error) => {
+                assert!(error.kind() == ErrorKind::Geometry && error.way_out().is_some(), "{error}");
+                assert!(posed.0[1..].iter().all(|link| *link == LinkPose::GROUND), "a refused group is not posed");
+                refused += 1;
+            }
+        }
+    }
+    println!("{found} found, {refused} refused of 500");
+    // The rest are drawings nearer to another configuration, or poses near a singular one.
+    assert!(found > 350, "{found}");
+}
+
+#[test]
+fn too_few_places_name_the_link() {
+    let mut random = Random(23);
+    let (mechanism, group, pose) = case(&mut random, |_| false);
+    let near = drawing(&mut random, &mechanism, &group, &pose, 0.0);
+    let error = place(&mechanism, &group, &near[..1], &mut pose.clone()).unwrap_err();
+    assert!(error.to_string().contains("do not tell where link \"link1\" of the group lies"), "{error}");
+    // Link 1 has its joint with the ground; so has 2; from these 5 follows, and so on.
+    let few: Vec<(SidePoint, Vec2)> = ["E1", "F2", "G3", "H4"]
+        .iter()
+        .map(|name| near.iter().find(|(point, _)| point.name == *name).expect("a point of that name").clone())
+        .collect();
+    let mut posed = pose.clone();
+    place(&mechanism, &group, &few, &mut posed).unwrap();
+    assert!(posed.0.iter().zip(&pose.0).all(|(a, b)| (a.origin - b.origin).norm() < 1e-9));
+}
+
+#[test]
+fn a_drawing_far_from_any_configuration_is_refused() {
+    let mut random = Random(24);
+    let (mechanism, group, pose) = case(&mut random, |_| false);
+    let mut near = drawing(&mut random, &mechanism, &group, &pose, 0.0);
+    near.iter_mut().for_each(|(_, place)| *place += Vec2::new(9.0, 0.0));
+    let error = place(&mechanism, &group, &near, &mut pose.clone()).unwrap_err();
+    assert!(error.to_string().contains("half a link") || error.to_string().contains("no configuration"), "{error}");
+}

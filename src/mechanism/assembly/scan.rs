@@ -1,0 +1,190 @@
+//! Configurations of a base on three leads counted by a scan: a method without any polynomial, for the tests of this module.
+//!
+//! For every angle of the base two leads leave its reference point one or two places; the third is fulfilled where a function of the
+//! angle changes sign. Each place is followed over the angles where it exists, out on one branch and back on the other, so
+//! that the function is smooth and periodic. Samples lie closer where the place moves fast; between samples of one sign
+//! the extremum is sought, so that pairs of zeros are told from near misses.
+
+use super::three_leads::{Lead, Pair};
+use crate::math::{Vec2, cross, rotated, turned, unit};
+use std::f64::consts::{PI, TAU};
+
+/// An extremum within this share of the function's largest value is a double root: neither method can tell.
+const DOUBLE: f64 = 1e-9;
+
+/// Outcome of a scan.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scan {
+    pub count: usize,
+    /// Whether a root is double to within [`DOUBLE`].
+    pub double: bool,
+}
+
+/// Where the base's reference point may be.
+#[derive(Clone, Copy)]
+enum Locus {
+    Circle(Vec2, f64),
+    /// A point and a direction.
+    Line(Vec2, Vec2),
+}
+
+/// By the words of the pairs' definition: the lead is laid, and the base's far joint put where the lead's is.
+fn locus(lead: &Lead, b: Vec2) -> Option<Locus> {
+    let (near, far) = (lead.near, lead.far);
+    let span = far.lead.place - near.lead.place;
+    let arm = rotated(b, far.body.place);
+    // Direction of the lead that brings its axis of a pair onto `axis`.
+    let onto = |pair: Pair, axis: Vec2| rotated(Vec2::new(pair.lead.axis.x, -pair.lead.axis.y), axis);
+    match (near.slides, far.slides) {
+        (false, false) => Some(Locus::Circle(near.body.place - arm, span.norm())),
+        (true, false) => {
+            let axis = near.body.axis;
+            Some(Locus::Line(near.body.place + rotated(onto(near, axis), span) - arm, axis))
+        }
+        (false, true) => {
+            let axis = rotated(b, far.body.axis);
+            Some(Locus::Line(near.body.place + rotated(onto(far, axis), span) - arm, axis))
+        }
+        (true, true) => None,
+    }
+}
+
+/// How far a point is from a locus.
+fn off(locus: Locus, o: Vec2) -> f64 {
+    match locus {
+        Locus::Circle(centre, radius) => (o - centre).norm_squared() - radius * radius,
+        Locus::Line(point, direction) => cross(direction, o - point),
+    }
+}
+
+/// Whether circle and other locus meet (positive), as a smooth function; and where, on the branch `sign`.
+fn meet(centre: Vec2, radius: f64, other: Locus, sign: f64) -> (f64, Vec2) {
+    match other {
+        Locus::Line(point, direction) => {
+            let height = cross(direction, point - centre);
+            let room = (radius - height) * (radius + height);
+            (room, centre + turned(direction) * height + direction * (sign * room.max(0.0).sqrt()))
+        }
+        Locus::Circle(second, length) => {
+            let base = second - centre;
+            let distance = base.norm();
+            let twice = base.norm_squared() + (radius - length) * (radius + length);
+            let room = 4.0 * base.norm_squared() * radius * radius - twice * twice;
+            let across = turned(base) * (sign * room.max(0.0).sqrt());
+            (room, centre + (base * twice + across) / (2.0 * distance * distance))
+        }
+    }
+}
+
+/// Zeros of a periodic function on [0, `period`), and whether one is double. `place` is what must not move far between samples.
+fn zeros(f: &dyn Fn(f64) -> f64, place: &dyn Fn(f64) -> Vec2, period: f64, step: f64) -> (Vec<f64>, bool) {
+    let first = 400;
+    let mut at = vec![0.0];
+    for k in 0..first {
+        let mut ends = vec![period * (k + 1) as f64 / first as f64];
+        while let Some(&end) = ends.last() {
+            let from = at[at.len() - 1];
+            if (place(end) - place(from)).norm() > step && end - from > 1e-9 {
+                ends.push(0.5 * (from + end));
+            } else {
+                at.push(end);
+                ends.pop();
+            }
+        }
+    }
+    let values: Vec<f64> = at.iter().map(|&x| f(x)).collect();
+    let largest = values.iter().fold(0.0f64, |most, v| most.max(v.abs()));
+    let n = at.len() - 1;
+    let (mut found, mut double) = (Vec::new(), false);
+    for k in 0..n {
+        if (values[k] > 0.0) != (values[k + 1] > 0.0) {
+            found.push(bisect(f, at[k], at[k + 1]));
+        }
+        let (before, after) = if k == 0 { (n - 1, 1) } else { (k - 1, k + 1) };
+        let sign = values[k].signum();
+        let low = [before, k, after].map(|k| values[k] * sign);
+        if low.iter().all(|&v| v > 0.0) && low[1] <= low[0] && low[1] <= low[2] {
+            let back = if k == 0 { at[n - 1] - period } else { at[k - 1] };
+            let g = |x: f64| sign * f(x.rem_euclid(period));
+            let x = least(&g, back, at[after]);
+            double |= g(x).abs() < DOUBLE * largest;
+            if g(x) < 0.0 {
+                found.push(bisect(&g, back, x).rem_euclid(period));
+                found.push(bisect(&g, x, at[after]).rem_euclid(period));
+            }
+        }
+    }
+    (found, double)
+}
+
+fn bisect(f: &dyn Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
+    let rises = f(high) > 0.0;
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if (f(middle) > 0.0) == rises { high = middle } else { low = middle }
+    }
+    0.5 * (low + high)
+}
+
+/// Place of the least value, by golden section.
+fn least(f: &dyn Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
+    let share = 0.5 * (5f64.sqrt() - 1.0);
+    for _ in 0..60 {
+        let (a, b) = (high - share * (high - low), low + share * (high - low));
+        if f(a) < f(b) { high = b } else { low = a }
+    }
+    0.5 * (low + high)
+}
+
+/// Counts the configurations; `None` if a lead gives the base's angle and there is nothing to scan.
+pub fn scanned(leads: &[Lead; 3]) -> Option<Scan> {
+    let at =
+        |beta: f64| Some([locus(&leads[0], unit(beta))?, locus(&leads[1], unit(beta))?, locus(&leads[2], unit(beta))?]);
+    let circle = at(0.0)?.iter().position(|locus| matches!(locus, Locus::Circle(..)));
+    let at = |beta: f64| at(beta).expect("as at zero");
+    let still = |_: f64| Vec2::zeros();
+    let Some(circle) = circle else {
+        // Lines 1 and 2 meet at p1 + d1 (p2 - p1) x d2 / d1 x d2: times the denominator, how far that is from line 3.
+        let f = |beta: f64| {
+            let [Locus::Line(p1, d1), Locus::Line(p2, d2), Locus::Line(p3, d3)] = at(beta) else { return f64::NAN };
+            cross(d1, d2) * cross(d3, p1 - p3) + cross(d3, d1) * cross(p2 - p1, d2)
+        };
+        let (found, double) = zeros(&f, &still, TAU, 1.0);
+        return Some(Scan { count: found.len(), double });
+    };
+    let (second, third) = ((circle + 1) % 3, (circle + 2) % 3);
+    let both = |beta: f64, sign: f64| {
+        let loci = at(beta);
+        let Locus::Circle(centre, radius) = loci[circle] else { return (f64::NAN, Vec2::zeros(), f64::NAN) };
+        let (room, o) = meet(centre, radius, loci[second], sign);
+        (room, o - centre, off(loci[third], o))
+    };
+    let radius = (leads[circle].far.lead.place - leads[circle].near.lead.place).norm();
+    let (ends, mut double) = zeros(&|beta| both(beta, 1.0).0, &still, TAU, 1.0);
+    let mut ends = ends;
+    ends.sort_by(f64::total_cmp);
+    let mut count = 0;
+    let mut add = |f: &dyn Fn(f64) -> f64, place: &dyn Fn(f64) -> Vec2| {
+        let (found, close) = zeros(f, place, TAU, 0.02 * radius);
+        count += found.len();
+        double |= close;
+    };
+    if ends.is_empty() {
+        if both(0.0, 1.0).0 > 0.0 {
+            for sign in [1.0, -1.0] {
+                add(&|beta| both(beta, sign).2, &|beta| both(beta, sign).1);
+            }
+        }
+        return Some(Scan { count, double });
+    }
+    for (index, &from) in ends.iter().enumerate() {
+        let to = ends.get(index + 1).copied().unwrap_or(ends[0] + TAU);
+        let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
+        if both(middle, 1.0).0 > 0.0 {
+            // Out on one branch and back on the other.
+            let on = |turn: f64| both(middle - half * turn.cos(), if turn < PI { 1.0 } else { -1.0 });
+            add(&|turn| on(turn).2, &|turn| on(turn).1);
+        }
+    }
+    Some(Scan { count, double })
+}
