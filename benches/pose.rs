@@ -59,7 +59,7 @@ fn check(scenario: &Scenario, hand: &FourBar) {
     let mut poses = PoseSolver::new(&scenario.case).unwrap();
     for k in 0..POSES {
         let state = poses.solve(angle(k), omega, 0.0, Stage::BalancingMoment).unwrap();
-        let general = state.forces.iter().flat_map(|force| [force.x, force.y]).chain([state.torque]);
+        let general = state.forces.iter().flat_map(|force| [force.x, force.y]).chain([state.torques[0]]);
         // Joints in the scenario's order: O, A, B, C.
         for (ours, theirs) in general.zip(hand.solve(angle(k), omega)) {
             assert!((ours - theirs).abs() < 1e-8, "{ours} {theirs} at {k}");
@@ -88,7 +88,7 @@ fn main() {
             shortest(|| {
                 for k in 0..POSES {
                     let crank = drive.start + angle(k);
-                    let _ = black_box(poses.solve(black_box(crank), omega, 0.0, deepest).unwrap().torque);
+                    let _ = black_box(poses.solve(black_box(crank), omega, 0.0, deepest).unwrap().torques[0]);
                 }
             })
         };

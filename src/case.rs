@@ -106,8 +106,10 @@ pub struct Case {
     pub mechanism: Mechanism,
     /// Its driving link and Assur groups.
     pub structure: Structure,
-    /// Prescribed motion of the driving link.
+    /// Prescribed motion of the driving link by whose angle instants are told: the crank.
     pub drive: Drive,
+    /// Prescribed motions of further driving links.
+    pub further_drives: Vec<Drive>,
     /// Loads besides gravity and inertia.
     pub loads: Vec<Load>,
     /// Acceleration of gravity (m/s^2).
@@ -123,7 +125,7 @@ pub struct Case {
 }
 
 impl Case {
-    /// The wanted channels in the order of columns: links, points, joints, sliders, frame, drive; within each as in [`CHANNELS`].
+    /// The wanted channels in the order of columns: links, points, joints, sliders, frame, drive, further drives; within each as in [`CHANNELS`].
     #[must_use]
     pub fn channels(&self) -> Vec<Channel> {
         let links = self.mechanism.links()[1..].iter().map(|link| (Subject::Link, link.name.as_str()));
@@ -132,12 +134,33 @@ impl Case {
         let sliders = self.mechanism.joints().iter().filter(|joint| joint.is_prismatic());
         let sliders = sliders.map(|joint| (Subject::Slider, joint.name.as_str()));
         let whole = [(Subject::Frame, ""), (Subject::Drive, "")];
-        let subjects = links.chain(points).chain(joints).chain(sliders).chain(whole);
+        let motors = self.further_drives.iter().map(|drive| &self.mechanism.joints()[drive.joint]);
+        let motors = motors.map(|joint| (Subject::Motor, joint.name.as_str()));
+        let subjects = links.chain(points).chain(joints).chain(sliders).chain(whole).chain(motors);
         let rows = |(subject, of): (Subject, &str)| {
             let kinds = CHANNELS.iter().filter(move |kind| kind.subject == subject && self.wanted.has(kind.stage));
             kinds.map(|kind| Channel { of: of.to_string(), kind }).collect::<Vec<_>>()
         };
         subjects.flat_map(rows).collect()
+    }
+
+    /// All drives, the crank's first, in the order of [`Structure::drivers`].
+    pub fn drives(&self) -> impl Iterator<Item = &Drive> {
+        std::iter::once(&self.drive).chain(&self.further_drives)
+    }
+
+    /// World angles of the driving links' x axes (rad) where the crank angle is `crank` (rad, as the scenario states it).
+    #[must_use]
+    pub fn drive_angles(&self, crank: f64) -> Vec<f64> {
+        let t = self.drive.time_of(crank);
+        let further = self.further_drives.iter().map(|drive| drive.world_angle(drive.at(t).angle));
+        std::iter::once(self.drive.world_angle(crank)).chain(further).collect()
+    }
+
+    /// Angular velocities of the driving links as shares of the crank's at the time `t` (s); the crank's own is 1.
+    pub fn ratios(&self, t: f64) -> impl Iterator<Item = f64> {
+        let omega = self.drive.at(t).omega;
+        self.drives().enumerate().map(move |(index, drive)| if index == 0 { 1.0 } else { drive.at(t).omega / omega })
     }
 
     /// The same problem on another grid.

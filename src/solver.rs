@@ -61,8 +61,8 @@ pub struct State {
     pub forces: Vec<Vec2>,
     /// Moment of the first link on the second in every joint, about the joint's place on the second (N m); 0 in revolute joints.
     pub moments: Vec<f64>,
-    /// Balancing moment on the driving link (N m).
-    pub torque: f64,
+    /// Balancing moment on every driving link (N m), in the order of [`Case::drives`].
+    pub torques: Vec<f64>,
 }
 
 impl State {
@@ -74,7 +74,7 @@ impl State {
             angles: vec![0.0; case.mechanism.links().len()],
             forces: vec![Vec2::zeros(); case.mechanism.joints().len()],
             moments: vec![0.0; case.mechanism.joints().len()],
-            torque: 0.0,
+            torques: vec![0.0; case.drives().count()],
         }
     }
 }
@@ -97,8 +97,8 @@ impl State {
     /// exert on the frame.
     #[must_use]
     pub fn shaking(&self, case: &Case) -> (Vec2, f64) {
-        // The drive stands on the frame: its reaction there is opposite to the balancing moment.
-        let (mut force, mut moment) = (Vec2::zeros(), -self.torque);
+        // Drives stand on the frame: their reactions there are opposite to the balancing moments.
+        let (mut force, mut moment) = (Vec2::zeros(), -self.torques.iter().sum::<f64>());
         for (index, joint) in case.mechanism.joints().iter().enumerate() {
             let sign = match (joint.first.link, joint.second.link) {
                 (GROUND, _) => -1.0,
@@ -189,7 +189,7 @@ impl Sampler {
             put(force.x);
             put(force.y);
             put(moment);
-            put(state.torque);
+            state.torques.iter().copied().for_each(&mut put);
         }
     }
 

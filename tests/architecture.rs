@@ -24,7 +24,7 @@ const ALLOWED: &[(&str, &str)] = &[
     ("mechanism", "error math"),
     ("proof", "case compare engine error math reference scenario solver tolerance trajectory"),
     ("record", "error math mechanism trajectory"),
-    ("reference", "assur case error math mechanism solver trajectory"),
+    ("reference", "assur case drive error math mechanism solver trajectory"),
     ("report", "compare error proof solver"),
     ("scenario", "case drive error math mechanism trajectory"),
     ("solver", "case error math mechanism trajectory"),

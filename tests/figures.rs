@@ -92,8 +92,8 @@ fn balancing_moment_from_equilibrium_and_from_powers() {
         for solver in [&AssurSolver as &dyn Solver, &NewtonSolver] {
             let (mut amplitude, mut worst): (f64, f64) = (0.0, 0.0);
             let mut visit = |_: usize, state: &State| {
-                amplitude = amplitude.max(state.torque.abs());
-                worst = worst.max((state.torque - power::balancing_moment(&case, &state.motions)).abs());
+                amplitude = amplitude.max(state.torques[0].abs());
+                worst = worst.max((state.torques[0] - power::balancing_moment(&case, &state.motions)).abs());
                 Ok(())
             };
             solver.sweep(&case, &mut visit, &mut |_| {}).unwrap();

@@ -95,7 +95,7 @@ fn every_link_is_in_equilibrium() {
                 let mut force = (case.gravity - centre_acceleration(case, &state, index)) * link.mass;
                 let mut moment = -link.inertia * state.motions[index].alpha;
                 if index == case.drive.link {
-                    moment += state.torque;
+                    moment += state.torques[0];
                 }
                 for (joint, (reaction, own)) in
                     case.mechanism.joints().iter().zip(state.forces.iter().zip(&state.moments))
@@ -141,9 +141,9 @@ fn drive_and_frame_agree_with_power_and_momentum() {
     each(|sample, solver| {
         let case = &sample.case;
         let states = solved(solver, case);
-        let size = states.iter().fold(0.0, |max: f64, (_, _, state)| max.max(state.torque.abs()));
+        let size = states.iter().fold(0.0, |max: f64, (_, _, state)| max.max(state.torques[0].abs()));
         for (time, _, state) in &states {
-            let error = (state.torque - power::balancing_moment(case, &state.motions)).abs();
+            let error = (state.torques[0] - power::balancing_moment(case, &state.motions)).abs();
             assert!(error <= 1e-11 * size, "{} at {time}: {error:e} of {size}", sample.name);
             let (mut force, mut moment, mut weight) = (Vec2::zeros(), 0.0, 0.0);
             for (index, link) in case.mechanism.links().iter().enumerate().skip(1) {

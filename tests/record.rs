@@ -130,7 +130,7 @@ fn value(mechanism: &Mechanism, channel: &Channel, time: f64) -> f64 {
             }
         }
         Subject::Drive => reactions(mechanism, &motions).1,
-        Subject::Slider => panic!("a four-bar has no slider"),
+        Subject::Slider | Subject::Motor => panic!("a four-bar on a crank has no {channel}"),
     }
 }
 

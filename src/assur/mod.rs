@@ -63,7 +63,7 @@ fn of_dyad<'a>(mechanism: &'a Mechanism, group: &Group, is_first: impl Fn(&Joint
 pub struct Plan {
     drivers: Vec<Driver>,
     steps: Vec<Step>,
-    /// World angle of the driving link at the last pose (rad).
+    /// World angle of the first driving link at the last pose (rad).
     angle: f64,
 }
 
@@ -137,14 +137,16 @@ impl Plan {
         !self.steps.iter().any(|step| matches!(step, Step::Chain(_)))
     }
 
-    /// Positions of all links for the world angle of the driving link (rad). Higher groups start from the last pose in `motions`.
+    /// Positions of all links for the world angles of the driving links (rad), in the order of [`Structure::drivers`]. Higher groups
+    /// start from the last pose in `motions`.
     ///
     /// # Errors
     /// The first group that cannot be placed.
     #[inline]
-    pub fn positions(&mut self, angle: f64, motions: &mut [Motion]) -> std::result::Result<(), OutOfReach> {
-        let direction = unit(angle);
-        for driver in &self.drivers {
+    pub fn positions(&mut self, angles: &[f64], motions: &mut [Motion]) -> std::result::Result<(), OutOfReach> {
+        let angle = angles[0];
+        for (driver, &angle) in self.drivers.iter().zip(angles) {
+            let direction = unit(angle);
             let pivot = motions[driver.base.link].point(driver.base.local);
             let motion = &mut motions[driver.link];
             motion.direction = direction;
@@ -168,10 +170,10 @@ impl Plan {
         Ok(())
     }
 
-    /// Velocities of all links, once their positions are known; `omega` is the driving link's (rad/s).
+    /// Velocities of all links, once their positions are known; `omegas` are the driving links' (rad/s).
     #[inline]
-    pub fn velocities(&mut self, omega: f64, motions: &mut [Motion]) {
-        for driver in &self.drivers {
+    pub fn velocities(&mut self, omegas: &[f64], motions: &mut [Motion]) {
+        for (driver, &omega) in self.drivers.iter().zip(omegas) {
             let motion = &mut motions[driver.link];
             motion.omega = omega;
             motion.velocity = turned(motion.arm(driver.pivot)) * -omega;
@@ -188,10 +190,10 @@ impl Plan {
         }
     }
 
-    /// Accelerations of all links, once their velocities are known; `alpha` is the driving link's (rad/s^2).
+    /// Accelerations of all links, once their velocities are known; `alphas` are the driving links' (rad/s^2).
     #[inline]
-    pub fn accelerations(&mut self, alpha: f64, motions: &mut [Motion]) {
-        for driver in &self.drivers {
+    pub fn accelerations(&mut self, alphas: &[f64], motions: &mut [Motion]) {
+        for (driver, &alpha) in self.drivers.iter().zip(alphas) {
             let motion = &mut motions[driver.link];
             let arm = motion.arm(driver.pivot);
             motion.alpha = alpha;

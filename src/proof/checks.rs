@@ -85,8 +85,7 @@ fn between_sides(sides: &[(&'static str, Observed); 2]) -> Vec<Check> {
 
 /// Largest difference between the balancing moment of the trajectory and that of the powers, over the moments that make it up: where it vanishes they balance, and their rounding is left.
 fn two_ways(side: &Observed) -> f64 {
-    let torque = side.trajectory.column(&torque_channel()).expect("the balancing moment is wanted");
-    let difference = torque.iter().zip(&side.power).fold(0.0, |max: f64, (a, b)| max.max((a - b).abs()));
+    let difference = side.torque.iter().zip(&side.power).fold(0.0, |max: f64, (a, b)| max.max((a - b).abs()));
     if difference == 0.0 { 0.0 } else { difference / side.moment }
 }
 
@@ -112,16 +111,15 @@ pub(super) fn of_engine(scenario: &Scenario, engine: &dyn Engine, runs: &[Observ
 /// The engine's driving moment against the balance of powers of its own motion: two estimates of one number, each within its own
 /// discretisation error.
 fn power_balance(case: &Case, engine: &dyn Engine, runs: &[Observed; 3]) -> Check {
-    let channel = torque_channel();
-    let kind: &ChannelKind = channel.kind;
-    let torques = [0, 1, 2].map(|k| runs[k].trajectory.column(&channel).expect("the moment is wanted"));
+    let kind: &ChannelKind = Channel::named("drive.torque_N_m").expect("the table has the moment").kind;
     let scale = runs[1].moment;
     let noise = engine.with_step(engine.step() / 2.0).noise(case, kind);
     let estimate = |of: [&[f64]; 3]| {
         let convergence = Convergence::of(of[0], of[1], of[2], false, engine.formal_order(kind), noise);
         convergence.tolerance(engine.step(), engine.noise(case, kind))
     };
-    let (own, power) = (estimate(torques), estimate([0, 1, 2].map(|k| runs[k].power.as_slice())));
+    let (own, power) =
+        (estimate([0, 1, 2].map(|k| runs[k].torque.as_slice())), estimate([0, 1, 2].map(|k| runs[k].power.as_slice())));
     let bound = (own.bound(scale) + power.bound(scale)) / scale.max(f64::MIN_POSITIVE);
     let tolerance = Tolerance { abs: bound, rel: 0.0, basis: power.basis };
     Check::new(
@@ -130,8 +128,4 @@ fn power_balance(case: &Case, engine: &dyn Engine, runs: &[Observed; 3]) -> Chec
         tolerance,
         "",
     )
-}
-
-fn torque_channel() -> Channel {
-    Channel::named("drive.torque_N_m").expect("the table has the moment")
 }

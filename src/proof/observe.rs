@@ -16,6 +16,8 @@ pub(super) struct Observed {
     pub(super) reach: f64,
     /// Balancing moment from the balance of powers (N m) at every instant; empty if no balancing moment is wanted.
     pub(super) power: Vec<f64>,
+    /// Balancing moments reduced to the crank (N m) at every instant; empty likewise.
+    pub(super) torque: Vec<f64>,
     /// Largest difference at any instant between the shaking force from reactions and from momentum, over the largest force in
     /// a joint, or the same of the shaking moment, over the largest moment of such a force about the origin.
     pub(super) unbalance: Option<f64>,
@@ -28,7 +30,8 @@ pub(super) fn observe(case: &Case, solver: &dyn Solver, progress: &mut dyn FnMut
     let mut sampler = Sampler::new(case);
     let with_power = case.wanted.has(Stage::BalancingMoment);
     let mut power = if with_power { vec![0.0; case.grid.len()] } else { Vec::new() };
-    let arm = case.mechanism.links()[case.drive.link].size();
+    let mut torque = power.clone();
+    let arm = case.drives().fold(0.0, |most: f64, drive| most.max(case.mechanism.links()[drive.link].size()));
     let size = case.mechanism.size();
     let (mut closure, mut reach, mut moment): (f64, f64, f64) = (0.0, 0.0, 0.0);
     let mut unbalance = Unbalance::default();
@@ -42,8 +45,9 @@ pub(super) fn observe(case: &Case, solver: &dyn Solver, progress: &mut dyn FnMut
         }
         if with_power {
             power[row] = power::balancing_moment(case, &state.motions);
+            torque[row] = reduced_torque(case, state);
             let forces = state.forces.iter().map(|force| force.norm() * arm);
-            moment = forces.fold(moment.max(state.torque.abs()), f64::max);
+            moment = forces.fold(state.torques.iter().fold(moment, |most, torque| most.max(torque.abs())), f64::max);
             unbalance.add(case, state);
         }
         sampler.put(case, row, state);
@@ -55,9 +59,18 @@ pub(super) fn observe(case: &Case, solver: &dyn Solver, progress: &mut dyn FnMut
         closure,
         reach,
         power,
+        torque,
         unbalance: with_power.then(|| unbalance.share()),
         moment,
     })
+}
+
+/// Balancing moments of all drives (N m), reduced to the crank by their powers.
+fn reduced_torque(case: &Case, state: &State) -> f64 {
+    let omega = |link: usize| state.motions[link].omega;
+    let further = case.further_drives.iter().zip(&state.torques[1..]);
+    let further = further.map(|(drive, torque)| torque * (omega(drive.link) / omega(case.drive.link)));
+    state.torques[0] + further.sum::<f64>()
 }
 
 /// Equilibrium of the whole mechanism, watched over a run.

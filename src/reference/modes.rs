@@ -31,7 +31,9 @@ pub struct Mode {
 pub fn all(case: &Case, crank: f64) -> Result<Vec<Vec<Mode>>> {
     let mechanism = &case.mechanism;
     let mut poses = PoseSolver::new(case)?;
-    let omega = case.drive.at(case.drive.time_of(crank)).omega;
+    let t = case.drive.time_of(crank);
+    let omega = case.drive.at(t).omega;
+    let (angles, omegas) = (case.drive_angles(crank), case.ratios(t).map(|ratio| ratio * omega).collect::<Vec<f64>>());
     poses.solve(crank, omega, 0.0, Stage::Velocities)?;
     let state = poses.with_angles().clone();
     let followed: Vec<LinkPose> =
@@ -51,13 +53,13 @@ pub fn all(case: &Case, crank: f64) -> Result<Vec<Vec<Mode>>> {
             chosen[index] = one.mode;
             let mut plan = Plan::of(mechanism, &part, &chosen);
             // The configurations are exact: solving them again only prepares the velocities.
-            let solved = plan.positions(case.drive.world_angle(crank), &mut motions).is_ok();
+            let solved = plan.positions(&angles, &mut motions).is_ok();
             let mut placed = pose.clone();
             for (&link, place) in group.links.iter().zip(&one.links) {
                 placed.0[link] = *place;
             }
             let omegas = (solved && !is_singular(mechanism, group, &placed)).then(|| {
-                plan.velocities(omega, &mut motions);
+                plan.velocities(&omegas, &mut motions);
                 group.links.iter().map(|&link| motions[link].omega).collect()
             });
             let near =

@@ -11,9 +11,11 @@ use std::f64::consts::PI;
 
 use super::range;
 use crate::case::Case;
+use crate::drive::Drive;
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::dense::Lu;
 use crate::math::{Motion, Vec2, unit};
+use crate::mechanism::EQUATIONS;
 use crate::solver::{Progress, Provision, Solver, State};
 use crate::trajectory::{Channel, Stage};
 
@@ -74,7 +76,7 @@ struct System<'a> {
     q: Vec<f64>,
     rate: Vec<f64>,
     second: Vec<f64>,
-    /// Multipliers: two a joint, then the drive's.
+    /// Multipliers: two a joint, then the drives'.
     lambda: Vec<f64>,
     /// Of every joint: see [`constraint::twist`].
     twists: Vec<f64>,
@@ -124,8 +126,8 @@ impl<'a> System<'a> {
 
     /// Follows the branch to time `t`, in small turns of the crank.
     fn go_to(&mut self, t: f64) -> Result<()> {
-        let drive = &self.case.drive;
-        let turn = (drive.at(t).angle - drive.at(self.time).angle).abs();
+        let turned = |drive: &Drive| (drive.at(t).angle - drive.at(self.time).angle).abs();
+        let turn = self.case.drives().map(turned).fold(0.0, f64::max);
         let parts = (turn / TRACKING_STEP).ceil().max(1.0);
         let from = self.time;
         for part in 1..parts as usize {
@@ -195,23 +197,25 @@ impl<'a> System<'a> {
         for (index, joint) in case.mechanism.joints().iter().enumerate() {
             self.assemble_joint(2 * index, joint);
         }
-        let (last, theta) = (self.q.len() - 1, self.drive_column());
-        self.residual[last] = self.q[theta] - self.case.drive.world_angle(self.case.drive.at(self.time).angle);
-        self.jacobian.add(last, theta, 1.0);
+        for (row, drive) in self.drives() {
+            let theta = 3 * (drive.link - 1) + 2;
+            self.residual[row] = self.q[theta] - drive.world_angle(drive.at(self.time).angle);
+            self.jacobian.add(row, theta, 1.0);
+        }
     }
 
     /// Velocities and accelerations from the factored Jacobian.
     fn differentiate(&mut self) {
-        let drive = self.case.drive.at(self.time);
-        let last = self.q.len() - 1;
         self.rate.fill(0.0);
-        self.rate[last] = drive.omega;
+        for (row, drive) in self.drives() {
+            let state = drive.at(self.time);
+            (self.rate[row], self.second[row]) = (state.omega, state.alpha);
+        }
         self.jacobian.solve(&mut self.rate);
         for (index, joint) in self.case.mechanism.joints().iter().enumerate() {
             let gamma = self.gamma(joint);
             self.second[2 * index..2 * index + 2].copy_from_slice(&gamma);
         }
-        self.second[last] = drive.alpha;
         self.jacobian.solve(&mut self.second);
     }
 
@@ -258,11 +262,15 @@ impl<'a> System<'a> {
             let multipliers = [self.lambda[2 * index], self.lambda[2 * index + 1]];
             (state.forces[index], state.moments[index]) = self.reaction(joint, multipliers);
         }
-        state.torque = self.lambda[self.q.len() - 1];
+        for ((row, _), torque) in self.drives().zip(&mut state.torques) {
+            *torque = self.lambda[row];
+        }
     }
 
-    fn drive_column(&self) -> usize {
-        3 * (self.case.drive.link - 1) + 2
+    /// The drives with their rows, which stand below those of the joints.
+    fn drives(&self) -> impl Iterator<Item = (usize, &'a Drive)> + use<'a> {
+        let first = EQUATIONS * self.case.mechanism.joints().len();
+        self.case.drives().enumerate().map(move |(index, drive)| (first + index, drive))
     }
 
     fn lost(&self, why: &str) -> Error {

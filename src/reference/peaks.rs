@@ -31,7 +31,7 @@ pub struct Peaks {
     pub moments: Vec<Option<Peak>>,
     /// Magnitude of the shaking force (N).
     pub shaking_force: Peak,
-    /// Magnitude of the balancing moment (N m).
+    /// Magnitude of the balancing moment on the crank (N m).
     pub balancing_moment: Peak,
 }
 
@@ -92,7 +92,7 @@ impl Quantity {
             Quantity::Reaction(joint) => state.forces[joint].norm(),
             Quantity::Moment(joint) => state.moments[joint].abs(),
             Quantity::ShakingForce => state.shaking(case).0.norm(),
-            Quantity::BalancingMoment => state.torque.abs(),
+            Quantity::BalancingMoment => state.torques[0].abs(),
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::kinetostatics::{Kinetostatics, Reactions};
+use super::kinetostatics::Kinetostatics;
 use super::range;
 use crate::assur::{Misfit, OutOfReach, Plan};
 use crate::case::Case;
@@ -28,6 +28,8 @@ pub struct PoseSolver<'a> {
     /// Direction of every link at the last pose, and its whole turns.
     directions: Vec<Vec2>,
     turns: Vec<f64>,
+    /// Angles, angular velocities or accelerations of all driving links, as each stage needs them.
+    inputs: Vec<f64>,
     crank: f64,
     step: f64,
 }
@@ -41,15 +43,17 @@ impl<'a> PoseSolver<'a> {
         let plan = Plan::of(&case.mechanism, &case.structure, &case.modes);
         let step = if plan.is_closed_form() { CLOSED_FORM_STEP } else { FOLLOWED_STEP };
         let (statics, state) = (Kinetostatics::of(case, &plan), State::at_start(case));
+        let inputs = vec![0.0; case.drives().count()];
         let directions = state.motions.iter().map(|motion| motion.direction).collect();
         let turns = case.start.0.iter().map(|pose| ((pose.angle - angle::wrapped(pose.angle)) / TAU).round()).collect();
-        let mut solver = PoseSolver { case, plan, statics, state, directions, turns, crank: case.drive.start, step };
+        let mut solver =
+            PoseSolver { case, plan, statics, state, directions, turns, inputs, crank: case.drive.start, step };
         solver.step_to(case.drive.start, 0)?;
         Ok(solver)
     }
 
-    /// The state at the crank angle `crank` (rad, as the scenario states it) for the driving link's angular velocity `omega` (rad/s)
-    /// and acceleration `alpha` (rad/s^2), computed as far as `deepest`; what lies beyond is left from before, and so are the angles:
+    /// The state at the crank angle `crank` (rad, as the scenario states it) for the crank's angular velocity `omega` (rad/s)
+    /// and acceleration `alpha` (rad/s^2), to which further drives are geared as at that instant, computed as far as `deepest`; what lies beyond is left from before, and so are the angles:
     /// see [`PoseSolver::with_angles`].
     ///
     /// # Errors
@@ -58,14 +62,15 @@ impl<'a> PoseSolver<'a> {
     pub fn solve(&mut self, crank: f64, omega: f64, alpha: f64, deepest: Stage) -> Result<&State> {
         self.go_to(crank)?;
         if deepest >= Stage::Velocities {
-            self.plan.velocities(omega, &mut self.state.motions);
+            self.drive(omega);
+            self.plan.velocities(&self.inputs, &mut self.state.motions);
         }
         if deepest >= Stage::Accelerations {
-            self.plan.accelerations(alpha, &mut self.state.motions);
+            self.drive(alpha);
+            self.plan.accelerations(&self.inputs, &mut self.state.motions);
         }
         if deepest >= Stage::Reactions {
-            let State { motions, forces, moments, torque, .. } = &mut self.state;
-            *torque = self.statics.solve(self.case, &self.plan, motions, Reactions { forces, moments });
+            self.statics.solve(self.case, &self.plan, &mut self.state);
         }
         Ok(&self.state)
     }
@@ -83,10 +88,34 @@ impl<'a> PoseSolver<'a> {
         self.step_to(target, HALVINGS)
     }
 
+    /// World angles of all driving links at a crank angle into the inputs.
+    #[inline]
+    fn turn(&mut self, crank: f64) {
+        let (first, further) = self.inputs.split_first_mut().expect("there is a drive");
+        *first = self.case.drive.world_angle(crank);
+        if !further.is_empty() {
+            let t = self.case.drive.time_of(crank);
+            for (angle, drive) in further.iter_mut().zip(&self.case.further_drives) {
+                *angle = drive.world_angle(drive.at(t).angle);
+            }
+        }
+    }
+
+    /// The crank's `rate` and those of further driving links, which are geared to it, into the inputs.
+    #[inline]
+    fn drive(&mut self, rate: f64) {
+        let (first, further) = self.inputs.split_first_mut().expect("there is a drive");
+        *first = rate;
+        if !further.is_empty() {
+            let ratios = self.case.ratios(self.case.drive.time_of(self.crank));
+            further.iter_mut().zip(ratios.skip(1)).for_each(|(own, ratio)| *own = rate * ratio);
+        }
+    }
+
     /// One step; where a group cannot be followed over it, two of half the size.
     fn step_to(&mut self, target: f64, halvings: u32) -> Result<()> {
-        let world = self.case.drive.world_angle(target);
-        match self.plan.positions(world, &mut self.state.motions) {
+        self.turn(target);
+        match self.plan.positions(&self.inputs, &mut self.state.motions) {
             Ok(()) => {
                 self.crank = target;
                 self.count_turns();
@@ -124,7 +153,10 @@ impl<'a> PoseSolver<'a> {
             // Adding zero makes -0 a 0: on the axis -x the angle is +pi, as it is counted.
             *angle = (motion.direction.y + 0.0).atan2(motion.direction.x) + TAU * turns;
         }
-        self.state.angles[self.case.drive.link] = self.case.drive.world_angle(self.crank);
+        self.turn(self.crank);
+        for (drive, &angle) in self.case.drives().zip(&self.inputs) {
+            self.state.angles[drive.link] = angle;
+        }
         &self.state
     }
 

@@ -15,8 +15,8 @@ pub fn of_known_forces(case: &Case, motions: &[Motion]) -> f64 {
     motions.iter().enumerate().skip(1).map(power).sum()
 }
 
-/// Balancing moment on the driving link (N m) with which the powers of all forces vanish. Ideal joints do no work, so
-/// no reaction enters. The driving link must turn.
+/// Balancing moment on the crank (N m) with which the powers of all forces vanish, those of further drives reduced to it: the sum of
+/// their moments times the ratios of speed. Ideal joints do no work, so no reaction enters. The crank must turn.
 #[must_use]
 pub fn balancing_moment(case: &Case, motions: &[Motion]) -> f64 {
     -of_known_forces(case, motions) / motions[case.drive.link].omega

@@ -26,7 +26,7 @@ use self::source::Source;
 use crate::case::{Case, Wanted};
 use crate::error::{Error, ErrorKind, Result};
 use crate::mechanism::assembly::{Choice, first_choices};
-use crate::mechanism::{Mechanism, StartGroup, Structure};
+use crate::mechanism::{Mechanism, Pose, StartGroup, Structure};
 
 /// Version of the file format that this crate reads.
 pub const FORMAT: i64 = 1;
@@ -98,7 +98,7 @@ impl Scenario {
             let (index, start) = start::asked(text, &case.mechanism, &case.structure)?;
             changed.starts[index] = start;
         }
-        let angles = [case.drive.world_angle(case.drive.start)];
+        let angles = case.drive_angles(case.drive.start);
         let (pose, choices) = first_choices(&case.mechanism, &case.structure, &angles, &changed.starts)?;
         if pose != case.start {
             changed.oracles.clear();
@@ -117,7 +117,8 @@ fn read(root: &mut Table) -> Result<Scenario> {
     let cited = root.optional_string("source")?;
     // All sections are fetched before any is read: a misspelt section is the cause of whatever else is wrong.
     let (ground, links, joints) = (root.table("ground")?, root.table("links")?, root.tables("joints")?);
-    let (drive, gravity, loads) = (root.table("drive")?, root.optional_table("gravity")?, root.tables("loads")?);
+    let (drives, gravity, loads) =
+        (root.needed_tables("drive")?, root.optional_table("gravity")?, root.tables("loads")?);
     let (mut start, grid, channels) = (root.table("start")?, root.table("grid")?, root.optional_table("channels")?);
     let (engine, tolerances) = (root.table("engine")?, root.optional_table("tolerances")?);
     let oracles = root.tables("oracle")?;
@@ -129,18 +130,22 @@ fn read(root: &mut Table) -> Result<Scenario> {
     let crank = start.quantity("crank", &unit::ANGLE, Sign::Any)?;
     let groups = start.tables("groups")?;
     start.finish()?;
-    let drive = motion::drive(drive, &mechanism, crank)?;
+    let (drive, further_drives) = motion::drives(drives, &mechanism, crank)?;
     let loads = motion::loads(loads, &mechanism)?;
     let gravity = motion::gravity(gravity)?;
-    let structure = Structure::of(&mechanism, &[drive.joint])?;
+    let driven: Vec<usize> = std::iter::once(&drive).chain(&further_drives).map(|drive| drive.joint).collect();
+    let structure = Structure::of(&mechanism, &driven)?;
     let starts = start::groups(&start, groups, &mechanism, &structure)?;
-    let (pose, choices) = first_choices(&mechanism, &structure, &[drive.world_angle(crank)], &starts)?;
-    let modes = choices.iter().map(|choice| choice.mode).collect();
     let grid = grid::read(grid, &drive)?;
     let wanted = settings::wanted(channels)?;
     let dt = settings::engine_step(engine, &drive)?;
     let engine_rel = settings::engine_rel(tolerances)?;
-    let mut case = Case { mechanism, structure, drive, loads, gravity, start: pose, modes, grid, wanted: Wanted::ALL };
+    let (start, modes) = (Pose(Vec::new()), Vec::new());
+    let mut case =
+        Case { mechanism, structure, drive, further_drives, loads, gravity, start, modes, grid, wanted: Wanted::ALL };
+    let (pose, choices) = first_choices(&case.mechanism, &case.structure, &case.drive_angles(crank), &starts)?;
+    case.modes = choices.iter().map(|choice| choice.mode).collect();
+    case.start = pose;
     let oracles = oracle::read(oracles, &case.channels(), wanted)?;
     case.wanted = wanted;
     let source = root.source();

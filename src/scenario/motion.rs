@@ -9,8 +9,26 @@ use crate::error::{ErrorKind, Result};
 use crate::math::Vec2;
 use crate::mechanism::{GROUND, Mechanism};
 
-/// The drive, with `start` as the crank angle at t = 0 (rad).
-pub fn drive(mut table: Table, mechanism: &Mechanism, start: f64) -> Result<Drive> {
+/// The crank's drive, with `start` as the crank angle at t = 0 (rad), and further drives, which say their own.
+pub fn drives(tables: Vec<Table>, mechanism: &Mechanism, start: f64) -> Result<(Drive, Vec<Drive>)> {
+    let mut drives: Vec<Drive> = Vec::new();
+    for mut table in tables {
+        let start = match drives.is_empty() {
+            true => start,
+            false => table.quantity("start", &ANGLE, Sign::Any)?,
+        };
+        let drive = drive(&mut table, mechanism, start)?;
+        if drives.iter().any(|other| other.joint == drive.joint) {
+            let message = "this joint is driven already";
+            return Err(table.wrong(ErrorKind::Input, "joint", message).help("give every drive a joint of its own"));
+        }
+        drives.push(drive);
+    }
+    let crank = drives.remove(0);
+    Ok((crank, drives))
+}
+
+fn drive(table: &mut Table, mechanism: &Mechanism, start: f64) -> Result<Drive> {
     let name = table.string("joint")?;
     let speed = table.quantity("speed", &ANGULAR_SPEED, Sign::NotZero)?;
     let zero = table.optional_quantity("zero", &ANGLE, Sign::Any)?.unwrap_or(0.0);

@@ -225,6 +225,12 @@ impl<'a> Table<'a> {
         }
     }
 
+    /// As [`Table::table_or_tables`], with at least one table.
+    pub fn needed_tables(&mut self, key: &str) -> Result<Vec<Table<'a>>> {
+        let tables = self.table_or_tables(key)?;
+        if tables.is_empty() { Ok(vec![self.table(key)?]) } else { Ok(tables) }
+    }
+
     /// All entries, each of which must be a table, in the order of the file.
     pub fn all_tables(&mut self) -> Result<Vec<Table<'a>>> {
         self.used = self.entries.iter().map(|entry| entry.key).collect();

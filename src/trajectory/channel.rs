@@ -17,6 +17,8 @@ pub enum Subject {
     Frame,
     /// The drive.
     Drive,
+    /// A further drive, called by its joint.
+    Motor,
 }
 
 impl Subject {
@@ -34,7 +36,7 @@ impl Subject {
             Subject::Point => "point",
             Subject::Joint | Subject::Slider => "joint",
             Subject::Frame => "frame",
-            Subject::Drive => "drive",
+            Subject::Drive | Subject::Motor => "drive",
         }
     }
 }
@@ -104,9 +106,9 @@ const fn row(
 /// way along its axis from the place on its first link to that on its second, its moment that of the first link on the
 /// second about the place on the second; what acts on the frame is the sum over its joints and the drive, its
 /// moment about the origin; the drive's torque acts on the driving link. Moments are counter-clockwise positive.
-pub static CHANNELS: [ChannelKind; 25] = {
+pub static CHANNELS: [ChannelKind; 26] = {
     use Stage::{Accelerations, BalancingMoment, Positions, Reactions, Velocities};
-    use Subject::{Drive, Frame, Joint, Link, Point, Slider};
+    use Subject::{Drive, Frame, Joint, Link, Motor, Point, Slider};
     [
         ChannelKind { periodic: true, ..row(Link, "angle_rad", "angle", "rad", Positions) },
         row(Link, "omega_rad_s", "angular velocity", "rad/s", Velocities),
@@ -133,6 +135,7 @@ pub static CHANNELS: [ChannelKind; 25] = {
         row(Frame, "fy_N", "shaking force", "N", BalancingMoment),
         row(Frame, "moment_N_m", "shaking moment", "N m", BalancingMoment),
         row(Drive, "torque_N_m", "balancing moment", "N m", BalancingMoment),
+        row(Motor, "torque_N_m", "balancing moment", "N m", BalancingMoment),
     ]
 };
 

@@ -81,6 +81,7 @@ fn case(links: Vec<Link>, joints: Vec<Joint>, mode: AssemblyMode, start: f64, to
         mechanism,
         structure,
         drive,
+        further_drives: Vec::new(),
         loads: Vec::new(),
         gravity: Vec2::new(0.0, -9.81),
         start: Pose(pose),

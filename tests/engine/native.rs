@@ -49,8 +49,8 @@ fn errors(case: &Case, dt: f64, end: f64, from: f64) -> [f64; 2] {
     let truth = states(&AssurSolver, case, &times).unwrap();
     let (mut worst, mut size) = ([0.0f64; 2], [0.0f64; 2]);
     for (reading, state) in readings.iter().zip(&truth) {
-        let wrong = [(reading.force - state.forces[joint]).norm(), (reading.torque - state.torque).abs()];
-        let true_size = [state.forces[joint].norm(), state.torque.abs()];
+        let wrong = [(reading.force - state.forces[joint]).norm(), (reading.torque - state.torques[0]).abs()];
+        let true_size = [state.forces[joint].norm(), state.torques[0].abs()];
         for k in 0..2 {
             worst[k] = worst[k].max(wrong[k]);
             size[k] = size[k].max(true_size[k]);

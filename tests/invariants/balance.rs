@@ -88,7 +88,7 @@ fn ground_reactions_drive_loads_and_gravity_change_the_angular_momentum() {
             .masses()
             .map(|(link, body)| cross(centre(case, at.here(), link), case.gravity * body.mass) + at.load(link));
         let ground = at.on(0).into_iter().map(|(place, force)| -cross(place, force));
-        let outer: f64 = weight.chain(ground).sum::<f64>() + at.here().torque;
+        let outer: f64 = weight.chain(ground).sum::<f64>() + at.here().torques[0];
         at.around.is_slope("angular momentum", at.mass * REACH * REACH * at.fastest, momentum, outer)
     });
 }
@@ -101,7 +101,7 @@ fn every_link_is_in_equilibrium() {
             let middle = centre(case, at.here(), link);
             let force: Vec2 = at.on(link).iter().map(|(_, force)| *force).sum();
             let arms: f64 = at.on(link).iter().map(|(place, force)| cross(place - middle, *force)).sum();
-            let drive = if link == case.drive.link { at.here().torque } else { 0.0 };
+            let drive = if link == case.drive.link { at.here().torques[0] } else { 0.0 };
             let scale = body.mass * REACH * at.fastest;
             let push = |s: &State| centre_velocity(case, s, link) * body.mass;
             at.around.are_slopes("force", scale, push, force + case.gravity * body.mass)?;
@@ -125,7 +125,7 @@ fn drive_and_loads_change_the_energy() {
             at.masses().map(of).sum()
         };
         let loads: f64 = at.masses().map(|(link, _)| at.load(link) * at.here().motions[link].omega).sum();
-        let power = at.here().torque * case.drive.at(0.0).omega + loads;
+        let power = at.here().torques[0] * case.drive.at(0.0).omega + loads;
         at.around.is_slope("energy", at.mass * (REACH * at.fastest).powi(2), energy, power)
     });
 }

@@ -8,6 +8,7 @@ use crate::case::Case;
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::dense::Lu;
 use crate::math::{Vec2, cross, turned};
+use crate::mechanism::EQUATIONS;
 use crate::mechanism::Joint;
 use crate::solver::State;
 
@@ -49,8 +50,10 @@ impl NewtonEuler {
                 }
             }
         }
-        let last = self.unknown.len() - 1;
-        self.matrix.add(3 * case.drive.link - 1, last, 1.0);
+        let first = EQUATIONS * case.mechanism.joints().len();
+        for (index, drive) in case.drives().enumerate() {
+            self.matrix.add(3 * drive.link - 1, first + index, 1.0);
+        }
         for (index, link) in case.mechanism.links().iter().enumerate().skip(1) {
             let motion = &state.motions[index];
             let inertial = (motion.point_acceleration(link.mass_centre) - case.gravity) * link.mass;
@@ -75,7 +78,7 @@ impl NewtonEuler {
             };
             (state.forces[index], state.moments[index]) = reaction;
         }
-        state.torque = self.unknown[last];
+        state.torques.copy_from_slice(&self.unknown[first..]);
         Ok(())
     }
 }

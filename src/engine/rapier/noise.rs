@@ -15,7 +15,7 @@ const DIFFERENCE_ULPS: f64 = 4.0;
 /// measured); lengths, forces and moments follow with the mechanism's size and mass.
 pub(super) fn bound(case: &Case, step: f64, channel: &ChannelKind) -> f64 {
     let longest = case.grid.times.iter().fold(0.0, |max: f64, t| max.max(t.abs()));
-    let speed = case.drive.at(0.0).omega.abs();
+    let speed = case.drives().fold(0.0, |most: f64, drive| most.max(drive.at(0.0).omega.abs()));
     let size = case.mechanism.size();
     let mass: f64 = case.mechanism.links().iter().map(|link| link.mass).sum();
     let turned = case.start.0.iter().fold(speed * longest, |max: f64, pose| max.max(pose.angle.abs())).max(1.0);
@@ -43,7 +43,10 @@ pub(super) fn bound(case: &Case, step: f64, channel: &ChannelKind) -> f64 {
 /// mechanism, on the frame they are taken about the origin.
 fn lever(case: &Case, reach: f64, subject: Subject) -> f64 {
     match subject {
-        Subject::Drive => case.mechanism.links()[case.drive.link].size(),
+        // The lever of a drive is that of the largest driving link.
+        Subject::Drive | Subject::Motor => {
+            case.drives().fold(0.0, |most: f64, drive| most.max(case.mechanism.links()[drive.link].size()))
+        }
         Subject::Frame => reach,
         _ => case.mechanism.size(),
     }

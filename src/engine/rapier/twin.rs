@@ -40,7 +40,8 @@ pub struct Twin {
     /// Number of every branch's link in the multibody.
     ids: Vec<usize>,
     cuts: Vec<Cut>,
-    motor: ImpulseJointHandle,
+    /// One a drive, in the case's order.
+    motors: Vec<ImpulseJointHandle>,
     largest_gap: f64,
     drive: Drive,
     names: Vec<String>,
@@ -87,7 +88,7 @@ impl Twin {
             Cut { joint, sides, handle: world.impulse_joints.insert(first, second, data, true) }
         });
         let cuts = cuts.collect();
-        let motor = insert_motor(&mut world, case, &bodies);
+        let motors = case.drives().map(|drive| insert_motor(&mut world, case, drive, &bodies)).collect();
         let twists = tree.branches.iter().map(|branch| {
             let angle = |link: usize| case.start.0[link].angle;
             mechanism.joints()[branch.joint].is_prismatic().then(|| angle(branch.link) - angle(branch.parent))
@@ -100,7 +101,7 @@ impl Twin {
             dofs: Vec::new(),
             ids: Vec::new(),
             cuts,
-            motor,
+            motors,
             largest_gap: LARGEST_GAP * mechanism.size(),
             drive: case.drive,
             names: mechanism.joints().iter().map(|joint| joint.name.clone()).collect(),
@@ -136,12 +137,14 @@ impl Twin {
         multibody.update_rigid_bodies(bodies, true);
     }
 
-    /// Sets the motor to the drive's speed times `sense` (-1 runs the mechanism backwards).
+    /// Sets the motors to their drives' speeds times `sense` (-1 runs the mechanism backwards).
     pub fn drive_at(&mut self, case: &Case, sense: f64) {
-        let MotionLaw::ConstantSpeed(omega) = case.drive.law;
-        let speed = omega * sense * motor_sense(case);
-        let motor = self.world.impulse_joints.get_mut(self.motor, true).expect("the motor exists");
-        motor.data.set_motor_velocity(JointAxis::AngX, speed, RIGID_MOTOR);
+        for (drive, &motor) in case.drives().zip(&self.motors) {
+            let MotionLaw::ConstantSpeed(omega) = drive.law;
+            let speed = omega * sense * motor_sense(case, drive);
+            let motor = self.world.impulse_joints.get_mut(motor, true).expect("the motor exists");
+            motor.data.set_motor_velocity(JointAxis::AngX, speed, RIGID_MOTOR);
+        }
     }
 
     /// One time step.
@@ -221,18 +224,18 @@ impl Twin {
         Some(rotated(unit(before), force))
     }
 
-    /// Moment of the drive on the driving link (N m), from the motor's impulse in the last step. First order in the step.
+    /// Moment of the crank's drive on the crank (N m), from the motor's impulse in the last step. First order in the step.
     #[must_use]
     pub fn native_torque(&self, case: &Case) -> f64 {
-        let motor = self.world.impulse_joints.get(self.motor).expect("the motor exists");
+        let motor = self.world.impulse_joints.get(self.motors[0]).expect("the motor exists");
         let on_second = -motor.data.motors[2].impulse / self.world.integration_parameters.dt;
-        on_second * motor_sense(case)
+        on_second * motor_sense(case, &case.drive)
     }
 }
 
 /// +1 if the driving link is the second of the driven joint, as the motor counts, else -1.
-fn motor_sense(case: &Case) -> f64 {
-    if case.mechanism.joints()[case.drive.joint].second.link == case.drive.link { 1.0 } else { -1.0 }
+fn motor_sense(case: &Case, drive: &Drive) -> f64 {
+    if case.mechanism.joints()[drive.joint].second.link == drive.link { 1.0 } else { -1.0 }
 }
 
 fn parameters(step: f64, sweeps: usize) -> IntegrationParameters {
@@ -272,8 +275,13 @@ fn mass_properties(link: &Link, stand_in: f64, size: f64) -> MassProperties {
     MassProperties::new(vector(link.mass_centre), mass, inertia)
 }
 
-fn insert_motor(world: &mut PhysicsWorld, case: &Case, bodies: &[RigidBodyHandle]) -> ImpulseJointHandle {
-    let joint = &case.mechanism.joints()[case.drive.joint];
+fn insert_motor(
+    world: &mut PhysicsWorld,
+    case: &Case,
+    drive: &Drive,
+    bodies: &[RigidBodyHandle],
+) -> ImpulseJointHandle {
+    let joint = &case.mechanism.joints()[drive.joint];
     let links = [joint.first.link, joint.second.link];
     let data = joints::holding(JointAxesMask::empty(), joint, links)
         .motor_model(JointAxis::AngX, MotorModel::ForceBased)

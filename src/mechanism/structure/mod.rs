@@ -100,7 +100,7 @@ impl Group {
 pub struct Structure {
     /// Mobility by Chebyshev-Gruebler, W = 3 n - 2 p (n moving links, p lower pairs).
     pub mobility: i64,
-    /// Driving links in the order in which they can be solved: (link, driven joint).
+    /// Driving links in the order in which the drives were given: (link, driven joint).
     pub drivers: Vec<(usize, usize)>,
     /// Assur groups in the order in which they can be solved.
     pub groups: Vec<Group>,
@@ -141,6 +141,7 @@ impl Structure {
                 known[link] = true;
             }
         }
+        structure.drivers.sort_by_key(|&(_, joint)| drives.iter().position(|&drive| drive == joint));
         Ok(structure)
     }
 

@@ -6,11 +6,11 @@ use crate::mechanism::Side;
 
 /// What the first link of every joint exerts on the second, filled in from the last group to the first.
 #[derive(Debug)]
-pub(crate) struct Reactions<'a> {
+pub(super) struct Reactions<'a> {
     /// Forces (N).
-    pub(crate) forces: &'a mut [Vec2],
+    pub(super) forces: &'a mut [Vec2],
     /// Moments about the joint's place on the second link (N m); 0 in revolute joints.
-    pub(crate) moments: &'a mut [f64],
+    pub(super) moments: &'a mut [f64],
 }
 
 /// A joint as it acts on one of its links: `sign` times its reaction, at the place where the reaction is told.

@@ -10,13 +10,11 @@ mod sliding;
 
 use crate::assur::{Plan, Step};
 use crate::case::Case;
-use crate::math::Motion;
-use body::{Action, Body};
+use crate::solver::State;
+use body::{Action, Body, Reactions};
 use higher::Higher;
 use rrr::Pinned;
 use sliding::Sliding;
-
-pub(crate) use body::Reactions;
 
 /// One group, seen from its forces.
 #[derive(Clone, Debug)]
@@ -30,8 +28,8 @@ enum Part {
 #[derive(Clone, Debug)]
 pub(super) struct Kinetostatics {
     parts: Vec<Part>,
-    driver: Body,
-    pivot: Action,
+    /// The driving links and their pivots, in the order of the drives.
+    drivers: Vec<(Body, Action)>,
 }
 
 impl Kinetostatics {
@@ -47,14 +45,17 @@ impl Kinetostatics {
             });
             group.inner.iter().chain(&group.outer).for_each(|&joint| settled[joint] = true);
         }
-        let driver = Body::of(case, case.drive.link, &settled);
-        Kinetostatics { parts, driver, pivot: Action::of(case, case.drive.joint, case.drive.link) }
+        let drivers = case
+            .drives()
+            .map(|drive| (Body::of(case, drive.link, &settled), Action::of(case, drive.joint, drive.link)));
+        Kinetostatics { parts, drivers: drivers.collect() }
     }
 
-    /// Fills in what the first link exerts on the second in every joint and returns the balancing moment on the driving
-    /// link (N m), from its equilibrium about the pivot. The pose must be the last one that `plan` has solved.
-    pub(super) fn solve(&mut self, case: &Case, plan: &Plan, motions: &[Motion], mut reactions: Reactions) -> f64 {
-        let reactions = &mut reactions;
+    /// Fills in what the first link exerts on the second in every joint, and the balancing moments on the driving
+    /// links (N m), from their equilibrium about the pivots. The pose must be the last one that `plan` has solved.
+    pub(super) fn solve(&mut self, case: &Case, plan: &Plan, state: &mut State) {
+        let State { motions, forces, moments, torques, .. } = state;
+        let reactions = &mut Reactions { forces, moments };
         for part in &mut self.parts {
             match part {
                 Part::Pinned(part) => {
@@ -65,9 +66,11 @@ impl Kinetostatics {
                 Part::Higher(higher) => higher.solve(case, plan, motions, reactions),
             }
         }
-        let pole = self.pivot.place(motions);
-        let (force, moment) = self.driver.resultant(case, motions, reactions, pole);
-        self.pivot.put(-force, reactions);
-        -moment
+        for ((driver, pivot), torque) in self.drivers.iter().zip(torques) {
+            let pole = pivot.place(motions);
+            let (force, moment) = driver.resultant(case, motions, reactions, pole);
+            pivot.put(-force, reactions);
+            *torque = -moment;
+        }
     }
 }

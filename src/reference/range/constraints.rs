@@ -6,6 +6,16 @@
 use crate::math::{Column, Matrix, Vec2, cross, rotated, unit};
 use crate::mechanism::{EQUATIONS, Group, Joint, JointKind, LinkPose, Mechanism, Pose, Side};
 
+/// A driving link that is geared to the crank: its angle follows the crank's.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Gearing {
+    pub(super) crank: usize,
+    pub(super) link: usize,
+    /// Turns of the link in a turn of the crank, and its angle where the crank's is zero (rad).
+    pub(super) ratio: f64,
+    pub(super) offset: f64,
+}
+
 /// The equations of a mechanism.
 #[derive(Debug)]
 pub(super) struct Constraints<'a> {
@@ -14,6 +24,7 @@ pub(super) struct Constraints<'a> {
     origin: Vec2,
     /// What lengths are divided by (m).
     size: f64,
+    gearings: Vec<Gearing>,
     /// Middle of the joints of every link, in its frame (m).
     middles: Vec<Vec2>,
 }
@@ -27,7 +38,7 @@ pub(super) struct Equations {
 
 impl<'a> Constraints<'a> {
     /// The equations of `mechanism`, counted from the place `origin` (m).
-    pub(super) fn of(mechanism: &'a Mechanism, origin: Vec2) -> Self {
+    pub(super) fn of(mechanism: &'a Mechanism, origin: Vec2, gearings: Vec<Gearing>) -> Self {
         let middle = |link: usize| {
             let locals: Vec<Vec2> = mechanism.joints().iter().filter_map(|joint| joint.on(link)).collect();
             locals.iter().sum::<Vec2>() / locals.len().max(1) as f64
@@ -36,6 +47,7 @@ impl<'a> Constraints<'a> {
             mechanism,
             origin,
             size: mechanism.size().max(f64::MIN_POSITIVE),
+            gearings,
             middles: (0..mechanism.links().len()).map(middle).collect(),
         }
     }
@@ -47,7 +59,7 @@ impl<'a> Constraints<'a> {
 
     /// Number of equations.
     pub(super) fn rows(&self) -> usize {
-        EQUATIONS * self.mechanism.joints().len()
+        EQUATIONS * self.mechanism.joints().len() + self.gearings.len()
     }
 
     /// Coordinate that is the angle of `link`.
@@ -84,6 +96,13 @@ impl<'a> Constraints<'a> {
                 JointKind::Revolute => self.revolute(joint, q, row, &mut equations),
                 JointKind::Prismatic { axes } => self.prismatic(joint, axes, q, row, &mut equations),
             }
+        }
+        for (index, gearing) in self.gearings.iter().enumerate() {
+            let (row, [own, crank]) =
+                (EQUATIONS * self.mechanism.joints().len() + index, [gearing.link, gearing.crank].map(Self::angle));
+            equations.residual[row] = q[own] - gearing.ratio * q[crank] - gearing.offset;
+            equations.jacobian[(row, own)] += 1.0;
+            equations.jacobian[(row, crank)] -= gearing.ratio;
         }
         equations
     }

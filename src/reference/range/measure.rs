@@ -65,7 +65,7 @@ mod tests {
         let mechanism = four_bar();
         let structure = Structure::of(&mechanism, &[0]).unwrap();
         let group = &structure.groups[0];
-        let constraints = Constraints::of(&mechanism, Vec2::new(1.0, -2.0));
+        let constraints = Constraints::of(&mechanism, Vec2::new(1.0, -2.0), Vec::new());
         for degrees in (0..360).step_by(5) {
             for mode in [AssemblyMode::Left, AssemblyMode::Right] {
                 let wanted = [StartGroup { mode: Some(mode), ..StartGroup::default() }];
@@ -85,7 +85,7 @@ mod tests {
     #[test]
     fn the_jacobian_is_the_derivative_of_the_residual() {
         let mechanism = four_bar();
-        let constraints = Constraints::of(&mechanism, Vec2::zeros());
+        let constraints = Constraints::of(&mechanism, Vec2::zeros(), Vec::new());
         let q = crate::math::Column::from_fn(9, |k, _| 0.3 + 0.7 * k as f64);
         let jacobian = constraints.at(&q).jacobian;
         for k in 0..9 {

@@ -180,7 +180,7 @@ fn interval([from, to]: [Singularity; 2]) -> String {
 /// Whether two configurations of a group meet in this pose to rounding, so that velocities are not determined.
 #[must_use]
 pub fn is_singular(mechanism: &Mechanism, group: &Group, pose: &Pose) -> bool {
-    let constraints = Constraints::of(mechanism, Vec2::zeros());
+    let constraints = Constraints::of(mechanism, Vec2::zeros(), Vec::new());
     let jacobian = constraints.at(&constraints.coordinates_of(pose)).jacobian;
     !(measure::of(&constraints.block(&jacobian, group), mechanism, group, pose).determinant.abs() > SINGULAR)
 }

@@ -7,10 +7,11 @@
 
 use std::f64::consts::TAU;
 
-use super::constraints::Constraints;
+use super::constraints::{Constraints, Gearing};
 use super::measure::{self, Measure};
 use super::{Kind, Singularity};
 use crate::case::Case;
+use crate::drive::Drive;
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::{Column, Matrix, unit};
 
@@ -77,7 +78,7 @@ impl<'a> Tracker<'a> {
     pub(super) fn new(case: &'a Case) -> Result<(Self, Point)> {
         let drive = &case.drive;
         let joint = &case.mechanism.joints()[drive.joint];
-        let constraints = Constraints::of(&case.mechanism, joint.other(drive.link).local);
+        let constraints = Constraints::of(&case.mechanism, joint.other(drive.link).local, gearings(case));
         let q = constraints.coordinates_of(&case.start);
         let mut tracker = Tracker {
             case,
@@ -351,4 +352,14 @@ fn neville_at_zero(known: &[(f64, &Column)]) -> Column {
         }
     }
     row.swap_remove(0)
+}
+/// Further drives as gearings. With constant speeds the ratios are constant.
+fn gearings(case: &Case) -> Vec<Gearing> {
+    let crank = &case.drive;
+    let further = case.further_drives.iter().zip(case.ratios(0.0).skip(1));
+    let gearing = |(drive, ratio): (&Drive, f64)| {
+        let offset = drive.world_angle(drive.start) - ratio * crank.world_angle(crank.start);
+        Gearing { crank: crank.link, link: drive.link, ratio, offset }
+    };
+    further.map(gearing).collect()
 }
