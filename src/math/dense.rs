@@ -8,6 +8,8 @@ pub struct Lu {
     n: usize,
     a: Vec<f64>,
     pivot: Vec<usize>,
+    /// Inverses of the factored matrix's diagonal.
+    inverse: Vec<f64>,
     swap_sign: f64,
 }
 
@@ -15,7 +17,7 @@ impl Lu {
     /// Storage for `n` equations; all coefficients zero.
     #[must_use]
     pub fn new(n: usize) -> Self {
-        Lu { n, a: vec![0.0; n * n], pivot: vec![0; n], swap_sign: 1.0 }
+        Lu { n, a: vec![0.0; n * n], pivot: vec![0; n], inverse: vec![0.0; n], swap_sign: 1.0 }
     }
 
     /// Sets all coefficients to zero, ready for the next matrix.
@@ -36,8 +38,8 @@ impl Lu {
         self.swap_sign = 1.0;
         for k in 0..n {
             let (mut best, mut size) = (k, self.a[k * n + k].abs());
-            for row in k + 1..n {
-                let candidate = self.a[row * n + k].abs();
+            for (row, entries) in self.a.chunks_exact(n).enumerate().skip(k + 1) {
+                let candidate = entries[k].abs();
                 if candidate > size {
                     (best, size) = (row, candidate);
                 }
@@ -46,19 +48,20 @@ impl Lu {
             if !(size > f64::MIN_POSITIVE && size.is_finite()) {
                 return false;
             }
+            let (above, below) = self.a.split_at_mut((k + 1) * n);
+            let pivot = &mut above[k * n..];
             if best != k {
                 self.swap_sign = -self.swap_sign;
-                for column in 0..n {
-                    self.a.swap(k * n + column, best * n + column);
-                }
+                pivot.swap_with_slice(&mut below[(best - k - 1) * n..(best - k) * n]);
             }
-            let inverse = 1.0 / self.a[k * n + k];
-            for row in k + 1..n {
-                let factor = self.a[row * n + k] * inverse;
-                self.a[row * n + k] = factor;
+            let inverse = 1.0 / pivot[k];
+            self.inverse[k] = inverse;
+            for entries in below.chunks_exact_mut(n) {
+                let factor = entries[k] * inverse;
+                entries[k] = factor;
                 if factor != 0.0 {
-                    for column in k + 1..n {
-                        self.a[row * n + column] -= factor * self.a[k * n + column];
+                    for (entry, above) in entries[k + 1..].iter_mut().zip(&pivot[k + 1..]) {
+                        *entry -= factor * above;
                     }
                 }
             }
@@ -75,32 +78,39 @@ impl Lu {
     /// Solves A x = b for the factored matrix; `b` is replaced by `x`.
     pub fn solve(&self, b: &mut [f64]) {
         let n = self.n;
-        for k in 0..n {
-            b.swap(k, self.pivot[k]);
+        for (k, &pivot) in self.pivot.iter().enumerate() {
+            b.swap(k, pivot);
         }
-        for row in 1..n {
-            let sum: f64 = (0..row).map(|k| self.a[row * n + k] * b[k]).sum();
-            b[row] -= sum;
+        for (row, entries) in self.a.chunks_exact(n).enumerate().skip(1) {
+            let (known, rest) = b.split_at_mut(row);
+            rest[0] -= entries.iter().zip(known).map(|(a, x)| a * *x).sum::<f64>();
         }
-        for row in (0..n).rev() {
-            let sum: f64 = (row + 1..n).map(|k| self.a[row * n + k] * b[k]).sum();
-            b[row] = (b[row] - sum) / self.a[row * n + row];
+        for (row, entries) in self.a.chunks_exact(n).enumerate().rev() {
+            let (rest, known) = b.split_at_mut(row + 1);
+            let sum: f64 = entries[row + 1..].iter().zip(known).map(|(a, x)| a * *x).sum();
+            rest[row] = (rest[row] - sum) * self.inverse[row];
         }
     }
 
     /// Solves A^T x = b for the factored matrix; `y` is replaced by `x`.
     pub fn solve_transposed(&self, y: &mut [f64]) {
         let n = self.n;
-        for row in 0..n {
-            let sum: f64 = (0..row).map(|k| self.a[k * n + row] * y[k]).sum();
-            y[row] = (y[row] - sum) / self.a[row * n + row];
+        // Row by row: each solved number is taken off all that come after it.
+        for (row, entries) in self.a.chunks_exact(n).enumerate() {
+            let (solved, rest) = y[row..].split_first_mut().expect("as many numbers as rows");
+            *solved *= self.inverse[row];
+            for (y, a) in rest.iter_mut().zip(&entries[row + 1..]) {
+                *y -= a * *solved;
+            }
         }
-        for row in (0..n).rev() {
-            let sum: f64 = (row + 1..n).map(|k| self.a[k * n + row] * y[k]).sum();
-            y[row] -= sum;
+        for (row, entries) in self.a.chunks_exact(n).enumerate().rev() {
+            let (rest, solved) = y.split_at_mut(row);
+            for (y, a) in rest.iter_mut().zip(entries) {
+                *y -= a * solved[0];
+            }
         }
-        for k in (0..n).rev() {
-            y.swap(k, self.pivot[k]);
+        for (k, &pivot) in self.pivot.iter().enumerate().rev() {
+            y.swap(k, pivot);
         }
     }
 }

@@ -73,7 +73,7 @@ impl Body {
     }
 
     /// Resultant of all known forces on the link and their moment about the world point `pole`.
-    #[inline]
+    #[inline(always)]
     pub(super) fn resultant(&self, case: &Case, motions: &[Motion], reactions: &Reactions, pole: Vec2) -> (Vec2, f64) {
         let body = &case.mechanism.links()[self.link];
         let motion = &motions[self.link];
