@@ -174,6 +174,23 @@ fn rapier_shows_second_order_in_every_channel_of_both_mechanisms() {
     }
 }
 
+/// Motor law, gear ratio and resistance of the course; the printed speeds divide the resistance by the ratio twice.
+#[test]
+fn val_crank_rocker_steady_speed() {
+    let scenario = common::shipped("crank_rocker.toml");
+    let (ratio, a, b): (f64, f64, f64) = (2745.0 / 130.0, 22.51, 0.0716);
+    // i (a - b i omega) = M.
+    let speed = |resistance: f64| (a - resistance / ratio) / (b * ratio);
+    for solver in linkproof::reference::all() {
+        let mean = reduced::means_over_turn(&scenario.case, solver).unwrap().resistance;
+        assert!((speed(mean) - 14.33204).abs() < 0.5e-5 && (ratio * speed(mean) - 302.6266).abs() < 0.5e-4, "{mean}");
+    }
+    // As printed: the ratio rounded to 21.14 there, and the motor's speed from the rounded crank's.
+    let printed = 21.14;
+    let twice = (a - 17.76 / (printed * printed)) / (b * printed);
+    assert!((twice - 14.85).abs() < 0.005 && (14.85 * ratio - 313.6).abs() < 0.05, "{twice}");
+}
+
 /// The headings of the findings, as anchors.
 fn anchors() -> Vec<String> {
     let text = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/findings.md")).unwrap();
