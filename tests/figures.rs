@@ -177,7 +177,7 @@ fn rapier_shows_second_order_in_every_channel_of_both_mechanisms() {
 /// Motor law, gear ratio and resistance of the course; the printed speeds divide the resistance by the ratio twice.
 #[test]
 fn val_crank_rocker_steady_speed() {
-    let scenario = common::shipped("crank_rocker.toml");
+    let scenario = scenario("crank_rocker");
     let (ratio, a, b): (f64, f64, f64) = (2745.0 / 130.0, 22.51, 0.0716);
     // i (a - b i omega) = M.
     let speed = |resistance: f64| (a - resistance / ratio) / (b * ratio);
