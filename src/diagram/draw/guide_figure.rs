@@ -46,7 +46,7 @@ pub fn rails(figure: &mut Figure, scheme: &Scheme, pivots: &[[Vec2; 2]], obstacl
             for piece in pieces(rail, pivots) {
                 figure.line(piece, solid(BLACK, 0.5));
                 // Hatching of two guides on one axis would fill the gaps of each other.
-                let feet = feet(piece).into_iter().filter(|foot| !drawn.iter().any(|other| on(*foot, other)));
+                let feet = feet(piece).filter(|foot| !drawn.iter().any(|other| on(*foot, other)));
                 for foot in feet {
                     figure.line([foot, foot + (side - guide.axis) * HATCH], solid(BLACK, 0.2));
                 }
