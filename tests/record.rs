@@ -1,5 +1,8 @@
 //! Recordings are read back bit for bit, are equal for equal runs, and never cost an older recording.
 
+#[path = "record/sliders.rs"]
+mod sliders;
+
 use linkproof::ErrorKind;
 use linkproof::math::{Motion, Vec2, cross, turned, unit};
 use linkproof::mechanism::{Joint, JointKind, Link, Mechanism, Point, Side as On};

@@ -22,8 +22,8 @@ Examples:
   linkproof plan scenarios/fourth_class.toml --svg plans.svg      drawn to scale, at the start
   linkproof plan scenarios/ov7_base.toml --crank-deg -120 --with newton --json -
 
-Letters: a, b, ... are the points A, B, ..., s2 the mass centre of link 2, n1, n2, ... ends of normal parts; points of the ground lie in the
-pole (p of velocities, π of accelerations).";
+Letters: a, b, ... are the points A, B, ..., s2 the mass centre of link 2, n1, n2, ... ends of normal parts; a3 is the point of
+link 3 under A, which slides on it, k1, k2, ... ends of Coriolis parts; points of the ground lie in the pole (p of velocities, π of accelerations).";
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
@@ -51,7 +51,7 @@ pub(super) fn plan(args: &Args) -> Result<()> {
     let crank = args.crank_deg.map_or(case.drive.start, f64::to_radians);
     let solver = reference::named(&args.with).expect("the argument parser knows all names");
     let state = state_at(case, solver, crank)?;
-    let plans = Plans::of(case, &state, crank);
+    let plans = Plans::of(case, solver, &state, crank);
     let singular: Vec<Result<SingularPoint>> = case
         .structure
         .groups

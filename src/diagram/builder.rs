@@ -1,16 +1,17 @@
 //! How the vectors of a plan are found: from the motions of the links, pair of points by pair of points.
 
-use super::names::{Place, pair, pivot};
+use super::names::{Place, fixed_guide, pair, pivot};
 use super::plan::{Part, Plan, Quantity, Tip, TipKind, Vector};
 use super::scale::factor;
+use super::sliding::{Slide, translates};
 use crate::math::{Motion, Vec2, turned};
-use crate::mechanism::{JointKind, Mechanism};
+use crate::mechanism::Mechanism;
 use crate::solver::State;
 
 /// Length (mm) that the longest vector of a plan is drawn with, at most.
 const ROOM: f64 = 100.0;
 /// A tangential part shorter than this on paper (mm) is none: the link turns uniformly.
-const NOTHING: f64 = 1e-9;
+pub(super) const NOTHING: f64 = 1e-9;
 
 /// A point of a link and its letter.
 struct On<'a> {
@@ -26,22 +27,30 @@ pub(super) struct Builder<'a> {
     mechanism: &'a Mechanism,
     state: &'a State,
     places: &'a [Place],
+    slides: &'a [Slide],
     tips: Vec<Tip>,
     vectors: Vec<Vector>,
 }
 
 impl<'a> Builder<'a> {
-    pub(super) fn new(quantity: Quantity, mechanism: &'a Mechanism, state: &'a State, places: &'a [Place]) -> Self {
+    pub(super) fn new(
+        quantity: Quantity,
+        mechanism: &'a Mechanism,
+        state: &'a State,
+        places: &'a [Place],
+        slides: &'a [Slide],
+    ) -> Self {
         let pole = Tip { letter: quantity.pole().into(), kind: TipKind::Fixed, at: Vec2::zeros() };
-        Builder { quantity, mechanism, state, places, tips: vec![pole], vectors: Vec::new() }
+        Builder { quantity, mechanism, state, places, slides, tips: vec![pole], vectors: Vec::new() }
     }
 
     pub(super) fn plan(mut self) -> Plan {
         self.absolute();
+        self.coincident();
         for link in 1..self.mechanism.links().len() {
             self.relative(link);
         }
-        self.joints();
+        self.sliding();
         let longest = self.vectors.iter().map(|vector| vector.value.norm()).fold(0.0, f64::max);
         let scale = factor(longest, ROOM);
         if self.quantity == Quantity::Acceleration {
@@ -67,10 +76,7 @@ impl<'a> Builder<'a> {
             if place.fixed {
                 continue;
             }
-            let mut meaning = format!("{word} of {}", place.name);
-            if let (Quantity::Velocity, Some((_, pivot))) = (self.quantity, pivot(self.mechanism, place.side.link)) {
-                meaning += &format!(", perpendicular to {}", pair(&pivot, &place.name));
-            }
+            let meaning = format!("{word} of {}{}", place.name, self.direction(place.side.link, &place.name));
             self.push(
                 format!("{symbol}_{}", place.name),
                 Part::Absolute,
@@ -81,14 +87,36 @@ impl<'a> Builder<'a> {
             );
         }
         for (number, link) in self.mechanism.links().iter().enumerate().skip(1).filter(|(_, link)| link.mass > 0.0) {
-            let mut letter = format!("s{number}");
-            while self.tips.iter().any(|tip| tip.letter == letter) {
-                letter.push('\'');
-            }
+            let letter = self.unused(format!("s{number}"));
             let value = self.of_point(&self.state.motions[number], link.mass_centre);
             self.tips.push(Tip { letter: letter.clone(), kind: TipKind::MassCentre, at: value });
-            let meaning = format!("{word} of the mass centre of link {number} ({})", link.name);
+            let guide = fixed_guide(self.mechanism, number).map_or_else(String::new, |guide| along(&guide.name));
+            let meaning = format!("{word} of the mass centre of link {number} ({}){guide}", link.name);
             self.push(format!("{symbol}_S{number}"), Part::MassCentre, [pole, &letter], value, number, meaning);
+        }
+    }
+
+    /// What is known beforehand of the direction of the vector of a point of `link`.
+    fn direction(&self, link: usize, name: &str) -> String {
+        match (self.quantity, pivot(self.mechanism, link), fixed_guide(self.mechanism, link)) {
+            (Quantity::Velocity, Some((_, pivot)), _) => format!(", perpendicular to {}", pair(&pivot, name)),
+            (_, None, Some(guide)) => along(&guide.name),
+            _ => String::new(),
+        }
+    }
+
+    /// Vectors from the pole of the points of moving guides that lie under the sliding ones.
+    fn coincident(&mut self) {
+        let (pole, symbol, word) = (self.quantity.pole(), self.quantity.symbol(), self.quantity.word());
+        for slide in self.slides {
+            let Some(under) = &slide.under else { continue };
+            let guide = slide.guide.link;
+            let value = self.of_point(&self.state.motions[guide], slide.place_under(self.state));
+            self.tips.push(Tip { letter: under.letter.clone(), kind: TipKind::Coincident, at: value });
+            let direction = self.direction(guide, &under.name);
+            let meaning =
+                format!("{word} of {}, the point of link {guide} under {}{direction}", under.name, slide.name);
+            self.push(format!("{symbol}_{}", under.name), Part::Absolute, [pole, &under.letter], value, guide, meaning);
         }
     }
 
@@ -112,14 +140,45 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// What pairs add to the vectors of links: nothing by a revolute pair, whose two points move as one. A pair that slides
-    /// adds its relative velocity, its relative acceleration and the Coriolis part 2 omega x v here.
-    fn joints(&mut self) {
-        for joint in self.mechanism.joints() {
-            match joint.kind {
-                JointKind::Revolute | JointKind::Prismatic { .. } => {}
+    /// What a sliding pair on a moving guide adds: the relative velocity, or the Coriolis part and the relative acceleration. A fixed guide
+    /// adds nothing but the direction of the absolute vectors, a revolute pair nothing at all.
+    fn sliding(&mut self) {
+        let mut number = 0;
+        for slide in self.slides {
+            let Some(under) = &slide.under else { continue };
+            let along_guide = along(&slide.joint_name);
+            let (from, link) = (under.letter.as_str(), slide.block.link);
+            let to = if slide.fixed { self.quantity.pole() } else { &slide.letter };
+            let of = pair(&slide.name, &under.name);
+            let Some([speed, growth]) = slide.rates(self.mechanism, self.state) else { continue };
+            if self.quantity == Quantity::Velocity {
+                let meaning = format!("velocity of {} relative to {}{along_guide}", slide.name, under.name);
+                self.push(format!("v_{of}"), Part::Sliding, [from, to], speed, link, meaning);
+                continue;
             }
+            let meaning = format!("acceleration of {} relative to {}{along_guide}", slide.name, under.name);
+            let coriolis = turned(speed) * (2.0 * self.state.motions[slide.guide.link].omega);
+            let start = self.tips.iter().find(|tip| tip.letter == *from).map_or_else(Vec2::zeros, |tip| tip.at);
+            let end = if translates(self.mechanism, slide.guide.link) {
+                from.to_string()
+            } else {
+                number += 1;
+                let letter = self.unused(format!("k{number}"));
+                self.tips.push(Tip { letter: letter.clone(), kind: TipKind::Coriolis, at: start + coriolis });
+                let meaning = format!("Coriolis part, 2 omega x v, perpendicular to the guide {}", slide.joint_name);
+                self.push(format!("a_{of}^cor"), Part::Coriolis, [from, &letter], coriolis, link, meaning);
+                letter
+            };
+            self.push(format!("a_{of}^r"), Part::Sliding, [&end, to], growth, link, meaning);
         }
+    }
+
+    /// `letter`, with as many primes as no other end of a vector has.
+    fn unused(&self, mut letter: String) -> String {
+        while self.tips.iter().any(|tip| tip.letter == letter) {
+            letter.push('\'');
+        }
+        letter
     }
 
     /// Normal and tangential parts of every relative acceleration, and of those about a pivot on the ground.
@@ -138,10 +197,7 @@ impl<'a> Builder<'a> {
                     number += 1;
                     let at =
                         self.tips.iter().find(|tip| tip.letter == from.letter).map_or(normal, |tip| tip.at + normal);
-                    let mut letter = format!("n{number}");
-                    while self.tips.iter().any(|tip| tip.letter == letter) {
-                        letter.push('\'');
-                    }
+                    let letter = self.unused(format!("n{number}"));
                     self.tips.push(Tip { letter: letter.clone(), kind: TipKind::Normal, at });
                     letter
                 };
@@ -156,8 +212,12 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Pairs of points of a link: first its pivot on the ground with every other, then the moving ones among themselves.
+    /// Pairs of points of a link: first its pivot on the ground with every other, then the moving ones among themselves, last those under
+    /// sliding points with its pivot or, where it has none, with its moving points. None of a link that never turns: all its points move alike.
     fn pairs(&self, link: usize) -> Vec<(On<'a>, On<'a>)> {
+        if translates(self.mechanism, link) {
+            return Vec::new();
+        }
         let places = self.places;
         let pivot = pivot(self.mechanism, link);
         let own = self.mechanism.links()[link].points.iter();
@@ -178,6 +238,15 @@ impl<'a> Builder<'a> {
         for (index, from) in moving.iter().enumerate() {
             pairs.extend(moving[index + 1..].iter().map(|to| (on(from), on(to))));
         }
+        for slide in self.slides.iter().filter(|slide| slide.guide.link == link) {
+            let Some(under) = &slide.under else { continue };
+            let local = slide.place_under(self.state);
+            let to = || On { name: &under.name, letter: &under.letter, local, fixed: false };
+            match &base {
+                Some(base) => pairs.push((On { fixed: true, ..on(base) }, to())),
+                None => pairs.extend(moving.iter().map(|from| (on(from), to()))),
+            }
+        }
         pairs
     }
 
@@ -185,4 +254,9 @@ impl<'a> Builder<'a> {
         let start = self.tips.iter().find(|tip| tip.letter == from).map_or_else(Vec2::zeros, |tip| tip.at);
         self.vectors.push(Vector { name, part, from: from.into(), to: to.into(), start, value, link, meaning });
     }
+}
+
+/// The direction along the guide of a joint, as meanings have it.
+fn along(joint: &str) -> String {
+    format!(", along the guide {joint}")
 }

@@ -10,6 +10,7 @@ pub mod plan;
 pub mod scale;
 pub mod scheme;
 pub mod singular;
+mod sliding;
 
 pub use motion::{Course, MotionDiagram};
 pub use plan::{Part, Plan, Plans, Quantity, Tip, TipKind, Vector};

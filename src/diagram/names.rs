@@ -1,7 +1,7 @@
 //! Letters of the plans: points A, B are a, b there, mass centres s2, ends of normal parts n1; the pole has its own.
 
 use crate::math::Vec2;
-use crate::mechanism::{GROUND, JointKind, Mechanism, Side};
+use crate::mechanism::{GROUND, Joint, JointKind, Mechanism, Side};
 
 /// A named point of the mechanism, once for all links that carry it.
 #[derive(Clone, Debug, PartialEq)]
@@ -10,7 +10,7 @@ pub struct Place {
     pub name: String,
     /// Letter in the plans.
     pub letter: String,
-    /// A link that carries it, one hinged to the ground where there is one, and where.
+    /// A link that carries it, and where: one hinged to the ground or in a fixed guide, where there is one.
     pub side: Side,
     /// Whether it is a point of the ground.
     pub fixed: bool,
@@ -23,6 +23,12 @@ pub fn pivot(mechanism: &Mechanism, link: usize) -> Option<(Vec2, String)> {
     let (own, ground) = (joint.on(link)?, joint.other(link).local);
     let named = mechanism.links()[GROUND].points.iter().find(|point| point.local == ground);
     Some((own, named.map_or_else(|| joint.name.clone(), |point| point.name.clone())))
+}
+
+/// The prismatic joint that leads `link` along a guide of the ground.
+pub fn fixed_guide(mechanism: &Mechanism, link: usize) -> Option<&Joint> {
+    let mut sliding = mechanism.joints().iter().filter(|joint| joint.is_prismatic());
+    sliding.find(|joint| joint.on(link).is_some() && joint.other(link).link == GROUND)
 }
 
 /// All named points, those of the ground first, each with a letter of its own.
@@ -45,7 +51,8 @@ pub fn places(mechanism: &Mechanism, poles: &[&str]) -> Vec<Place> {
         let carriers = mechanism.links().iter().enumerate().skip(1).filter_map(|(link, body)| {
             body.points.iter().find(|point| point.name == name).map(|point| Side { link, local: point.local })
         });
-        let side = carriers.into_iter().find(|side| pivot(mechanism, side.link).is_some()).unwrap_or(first);
+        let led = |side: &Side| pivot(mechanism, side.link).is_some() || fixed_guide(mechanism, side.link).is_some();
+        let side = carriers.into_iter().find(led).unwrap_or(first);
         all.push(Place { name: name.to_string(), letter: letter(name), side, fixed: false });
     }
     all

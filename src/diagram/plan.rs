@@ -5,11 +5,16 @@
 //! plan is the link itself, turned by 90 deg and enlarged omega times; in the acceleration plan it is turned by
 //! 180 deg - atan2(alpha, omega^2) and enlarged sqrt(alpha^2 + omega^4) times (Mehmke's and Burmester's theorems).
 //!
-//! Each vector comes from the motion of its own link, none from the difference of two others: that the polygons close is a result.
+//! A point A that slides on a moving guide of link 3 lies over a point A3 of that link. In the axes of the guide it moves along it by s(t); differentiated
+//! in resting axes, v_A = v_A3 + s' e and a_A = a_A3 + 2 omega x (s' e) + s'' e with the guide's unit vector e and angular velocity omega (Coriolis 1835).
+//!
+//! Each vector comes from the motion of its own link, those along a guide from the slide, none from the difference of two others: that the polygons
+//! close is a result.
 
 use super::builder::Builder;
 use super::names::places;
 use super::scheme::Scheme;
+use super::sliding::{slides, travels};
 use crate::case::{Case, Grid, Wanted};
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::Vec2;
@@ -74,6 +79,10 @@ pub enum TipKind {
     MassCentre,
     /// The end of a normal part: n and a running number.
     Normal,
+    /// A point of a moving guide's link under a sliding point: letter of that point and number of the link, a3.
+    Coincident,
+    /// The end of a Coriolis part: k and a running number.
+    Coriolis,
 }
 
 /// A point of a plan.
@@ -100,12 +109,16 @@ pub enum Part {
     Normal,
     /// Tangential part of an acceleration: alpha l, perpendicular to the line of both points.
     Tangential,
+    /// Along a moving guide: velocity or acceleration of a sliding point relative to the guide's link.
+    Sliding,
+    /// Coriolis part of the acceleration of a point that slides on a turning guide: 2 omega x v, across the guide.
+    Coriolis,
 }
 
 /// One vector of a plan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Vector {
-    /// Name as the field writes it: `v_B`, `v_BA`, `a_BA^n`, `a_BA^t`, `v_S2`.
+    /// Name as the field writes it: `v_B`, `v_BA`, `a_BA^n`, `a_BA^t`, `v_S2`; `v_A3`, `v_A,A3`, `a_A,A3^cor`, `a_A,A3^r` where A slides on link 3.
     pub name: String,
     /// Sort.
     pub part: Part,
@@ -175,15 +188,18 @@ impl Plans {
     /// # Errors
     /// [`ErrorKind::Input`] for a crank angle too far away to be followed; those of the solver.
     pub fn at(case: &Case, solver: &dyn Solver, crank: f64) -> Result<Self> {
-        Ok(Plans::of(case, &state_at(case, solver, crank)?, crank))
+        Ok(Plans::of(case, solver, &state_at(case, solver, crank)?, crank))
     }
 
-    /// The plans of a state that holds motions up to accelerations.
+    /// The plans of a state that holds motions up to accelerations. `solver` finds how far sliders travel on the case's grid: so long are
+    /// the guides in the kinematic diagram.
     #[must_use]
-    pub fn of(case: &Case, state: &State, crank: f64) -> Self {
-        let all = places(&case.mechanism, &[Quantity::Velocity.pole(), Quantity::Acceleration.pole()]);
-        let plan = |quantity| Builder::new(quantity, &case.mechanism, state, &all).plan();
-        let scheme = Scheme::of(case, state, &all);
+    pub fn of(case: &Case, solver: &dyn Solver, state: &State, crank: f64) -> Self {
+        let mut all = places(&case.mechanism, &[Quantity::Velocity.pole(), Quantity::Acceleration.pole()]);
+        let slides = slides(&case.mechanism, &mut all);
+        let plan = |quantity| Builder::new(quantity, &case.mechanism, state, &all, &slides).plan();
+        let travels = travels(case, solver, state, &slides);
+        let scheme = Scheme::of(case, state, &all, &slides, &travels);
         Plans { crank, scheme, velocity: plan(Quantity::Velocity), acceleration: plan(Quantity::Acceleration) }
     }
 }

@@ -3,8 +3,10 @@
 use super::names::{Place, pivot};
 use super::scale::factor;
 use super::singular::SingularPoint;
+use super::sliding::Slide;
 use crate::case::Case;
 use crate::math::Vec2;
+use crate::mechanism::{GROUND, Joint};
 use crate::solver::State;
 
 /// Width and height (mm) that the kinematic diagram may take on paper.
@@ -29,6 +31,25 @@ pub struct SchemeLink {
     pub alpha: f64,
 }
 
+/// A guide of the diagram and the block on it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SchemeGuide {
+    /// Number of the link that the guide belongs to: 0 for a fixed guide.
+    pub link: usize,
+    /// Number of the block's link.
+    pub block: usize,
+    /// Unit vector along the guide, in the world.
+    pub axis: Vec2,
+    /// World position of the joint's place on the guide (m).
+    pub origin: Vec2,
+    /// World position of the sliding point (m).
+    pub at: Vec2,
+    /// Ends of the sliding point's travel on the guide as it stands now, in the world (m).
+    pub ends: [Vec2; 2],
+    /// Names of the sliding point and of the point of a moving guide's link under it.
+    pub under: Option<[String; 2]>,
+}
+
 /// The mechanism at one instant, ready to be drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scheme {
@@ -40,6 +61,10 @@ pub struct Scheme {
     pub points: Vec<(String, Vec2)>,
     /// Number of points of the ground.
     pub fixed: usize,
+    /// World positions of the points of the ground that are no pivots but only lie on a guide (m).
+    pub marks: Vec<Vec2>,
+    /// Guides, fixed and moving.
+    pub guides: Vec<SchemeGuide>,
     /// Number of the driving link.
     pub driver: usize,
     /// Singular points of class IV groups, where they have one.
@@ -48,7 +73,7 @@ pub struct Scheme {
 
 impl Scheme {
     /// The diagram of a state.
-    pub(super) fn of(case: &Case, state: &State, places: &[Place]) -> Self {
+    pub(super) fn of(case: &Case, state: &State, places: &[Place], slides: &[Slide], travels: &[[f64; 2]]) -> Self {
         let mechanism = &case.mechanism;
         let points: Vec<(String, Vec2)> = places
             .iter()
@@ -70,7 +95,23 @@ impl Scheme {
             }
         });
         let links: Vec<SchemeLink> = links.collect();
+        let guide = |(slide, travel): (&Slide, &[f64; 2])| {
+            let motion = &state.motions[slide.guide.link];
+            let axis = motion.arm(mechanism.joints()[slide.joint].axis_on(slide.guide.link)?);
+            let origin = motion.point(slide.guide.local);
+            Some(SchemeGuide {
+                link: slide.guide.link,
+                block: slide.block.link,
+                axis,
+                origin,
+                at: state.motions[slide.block.link].point(slide.block.local),
+                ends: travel.map(|way| origin + axis * way),
+                under: slide.under.as_ref().map(|under| [slide.name.clone(), under.name.clone()]),
+            })
+        };
+        let guides: Vec<SchemeGuide> = slides.iter().zip(travels).filter_map(guide).collect();
         let all = links.iter().flat_map(|link| link.places.iter().chain(&link.mass_centre).copied());
+        let all = all.chain(guides.iter().flat_map(|guide| guide.ends));
         let all: Vec<Vec2> = all.chain(points.iter().map(|(_, at)| *at)).collect();
         let extent = |of: fn(&Vec2) -> f64| {
             let (low, high) =
@@ -78,11 +119,18 @@ impl Scheme {
             high - low
         };
         let scale = factor(extent(|v| v.x), ROOM[0]).max(factor(extent(|v| v.y), ROOM[1]));
+        let grounded = |joint: &&Joint| joint.on(GROUND).is_some();
+        let sliding = mechanism.joints().iter().filter(grounded).filter(|joint| joint.is_prismatic());
+        let pinned = |local: Vec2| {
+            let mut pins = mechanism.joints().iter().filter(grounded).filter(|joint| !joint.is_prismatic());
+            pins.any(|joint| joint.on(GROUND) == Some(local))
+        };
+        let marks = sliding.filter_map(|joint| joint.on(GROUND)).filter(|local| !pinned(*local)).collect();
         let fixed = places.iter().filter(|place| place.fixed).count();
         // Parallel leads have no point that could be drawn.
         let groups = case.structure.groups.iter();
         let singular =
             groups.filter_map(|group| SingularPoint::of(case, group, &state.motions).ok().flatten()).collect();
-        Scheme { scale, links, points, fixed, driver: case.drive.link, singular }
+        Scheme { scale, links, points, fixed, marks, guides, driver: case.drive.link, singular }
     }
 }

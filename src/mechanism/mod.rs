@@ -202,6 +202,15 @@ impl Mechanism {
         self.joints.iter().position(|joint| joint.name == name)
     }
 
+    /// Guide and block of a prismatic joint: the ground is a guide, and so is the larger of two moving links, of equal ones the first. `None` for
+    /// a revolute joint.
+    #[must_use]
+    pub fn guide_and_block(&self, joint: &Joint) -> Option<[Side; 2]> {
+        let size = |side: Side| if side.link == GROUND { f64::INFINITY } else { self.links[side.link].size() };
+        let (first, second) = (joint.first, joint.second);
+        joint.is_prismatic().then(|| if size(first) >= size(second) { [first, second] } else { [second, first] })
+    }
+
     /// Points that move, each name once: the link that carries it first, and its place there.
     pub fn moving_points(&self) -> impl Iterator<Item = (&str, Side)> {
         let on_ground = |name: &str| self.links[GROUND].points.iter().any(|point| point.name == name);

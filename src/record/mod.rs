@@ -3,7 +3,7 @@
 //! | topic | schema | when |
 //! |---|---|---|
 //! | `/<side>/grid` | `linkproof.Grid` | every sample |
-//! | `/<side>/link/<name>`, `/<side>/point/<name>`, `/<side>/joint/<name>`, `/<side>/drive` | `linkproof.Link`, ... | every sample |
+//! | `/<side>/link/<name>`, `/<side>/point/<name>`, `/<side>/joint/<name>`, `/<side>/frame`, `/<side>/drive` | `linkproof.Link`, ...; `linkproof.Slider` of a prismatic joint | every sample |
 //! | `/error/link/<name>`, ... | `linkproof.LinkError`, ...: um, urad, mN | every sample |
 //! | `/mechanism/links` | `foxglove.SceneUpdate` | once |
 //! | `/tf`, `/mechanism/forces` | `foxglove.FrameTransforms`, `foxglove.SceneUpdate` | every frame |
@@ -19,6 +19,7 @@
 //! named like the suffixes of [`CHANNELS`](crate::trajectory::CHANNELS); their numbers are looked up in the file.
 
 mod forces;
+mod guides;
 mod outline;
 mod output;
 mod read;

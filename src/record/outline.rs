@@ -25,8 +25,7 @@ pub struct Outline<'a> {
 impl<'a> Outline<'a> {
     /// The outlines of a scene.
     pub fn new(scene: &'a Scene<'a>) -> Self {
-        let links =
-            (0..scene.mechanism.links().len()).map(|link| along(&scene.places(link), link, scene.size)).collect();
+        let links = (0..scene.mechanism.links().len()).map(|link| of_link(scene, link)).collect();
         // A power of two, so that the rounded numbers end in zeros.
         let quantum = (scene.size / STEPS).log2().floor().exp2();
         Outline { scene, links, quantum }
@@ -80,13 +79,21 @@ fn fields() -> Vec<PackedElementField> {
     fields
 }
 
-/// Points along a link's outline; the ground is no more than its pivots.
-fn along(places: &[Vec2], link: usize, size: f64) -> Vec<Vec2> {
-    let (corners, closed) = outline(places);
-    if link == GROUND || corners.len() < 2 {
-        return corners;
-    }
-    let segments = if closed { corners.len() } else { corners.len() - 1 };
+/// Points along a link's outline, its guides and its blocks; the ground is no more than its pivots and rails.
+fn of_link(scene: &Scene, link: usize) -> Vec<Vec2> {
+    let mut points = if link == GROUND {
+        outline(&scene.pivots()).0
+    } else {
+        let (corners, closed) = outline(&scene.places(link));
+        along(&corners, closed, scene.size)
+    };
+    points.extend(scene.strips(link).flat_map(|strip| along(&strip.points, strip.closed, scene.size)));
+    points
+}
+
+/// Points along a line; a line of one corner is that corner.
+fn along(corners: &[Vec2], closed: bool, size: f64) -> Vec<Vec2> {
+    let segments = if closed { corners.len() } else { corners.len().saturating_sub(1) };
     let mut points = Vec::new();
     for start in 0..segments {
         let (a, b) = (corners[start], corners[(start + 1) % corners.len()]);

@@ -1,6 +1,7 @@
 //! The moving mechanism: where each side's links are, their frames, and what they look like.
 
 use super::Side;
+use super::guides::{Guide, Strip};
 use super::shapes::{Paint, extent, grey, point, pose, stamp, turn, vector};
 use crate::math::Vec2;
 use crate::math::statistics::ascending;
@@ -25,6 +26,8 @@ pub struct Scene<'a> {
     pub sides: Vec<Placed<'a>>,
     /// Length that all drawing is proportional to (m).
     pub size: f64,
+    /// Guides and blocks.
+    guides: Vec<Guide>,
 }
 
 /// A side with the positions of its links.
@@ -64,7 +67,8 @@ impl<'a> Scene<'a> {
         let ground = &mechanism.links()[GROUND].points;
         let reach = ground.iter().map(|point| point.local.norm()).fold(0.0, f64::max);
         let size = if mechanism.size() > 0.0 { mechanism.size() } else { reach.max(f64::MIN_POSITIVE) };
-        (!sides.is_empty()).then_some(Scene { mechanism, sides, size })
+        let guides = Guide::all(mechanism, &sides, size);
+        (!sides.is_empty()).then_some(Scene { mechanism, sides, size, guides })
     }
 
     /// Distance between the sides above each other (m): enough to be told apart by a viewer's depth, not by the eye,
@@ -129,6 +133,18 @@ impl<'a> Scene<'a> {
         places
     }
 
+    /// Places of the ground that are drawn as pivots: all but those that only lie on a guide.
+    pub fn pivots(&self) -> Vec<Vec2> {
+        let joints = |at: Vec2| self.mechanism.joints().iter().filter(move |joint| joint.on(GROUND) == Some(at));
+        let pivot = |at: &Vec2| joints(*at).count() == 0 || joints(*at).any(|joint| !joint.is_prismatic());
+        self.places(GROUND).into_iter().filter(pivot).collect()
+    }
+
+    /// Guides and blocks of a link.
+    pub fn strips(&self, link: usize) -> impl Iterator<Item = Strip> + '_ {
+        self.guides.iter().flat_map(move |guide| guide.strips(link))
+    }
+
     fn link(&self, side: &Placed, index: usize, lettered: bool) -> SceneEntity {
         let link = &self.mechanism.links()[index];
         let (colour, broad) = (Some(side.paint.colour()), side.paint.broad);
@@ -143,7 +159,15 @@ impl<'a> Scene<'a> {
             color: colour,
             ..Default::default()
         };
-        let is_joint = |local: &Vec2| self.mechanism.joints().iter().any(|joint| joint.on(index) == Some(*local));
+        let strip = |strip: Strip| LinePrimitive {
+            r#type: if strip.closed { LineType::LineLoop } else { LineType::LineStrip } as i32,
+            thickness: (if strip.closed { 0.012 } else { 0.02 }) * self.size * broad,
+            points: strip.points.iter().map(|&local| point(local, 0.0)).collect(),
+            ..line.clone()
+        };
+        let strips: Vec<LinePrimitive> = self.strips(index).map(strip).collect();
+        let pins = self.mechanism.joints().iter().filter(|joint| !joint.is_prismatic());
+        let is_joint = |local: &Vec2| pins.clone().any(|joint| joint.on(index) == Some(*local));
         let (joints, others): (Vec<Vec2>, Vec<Vec2>) = places.iter().partition(|local| is_joint(local));
         let pin = |&local: &Vec2| CylinderPrimitive {
             pose: pose(local, z, 0.0),
@@ -163,7 +187,7 @@ impl<'a> Scene<'a> {
             frame_id: format!("{}/{}", side.name, link.name),
             id: format!("{}/{}", side.name, link.name),
             frame_locked: true,
-            lines: if outline.len() > 1 { vec![line] } else { Vec::new() },
+            lines: (outline.len() > 1).then_some(line).into_iter().chain(strips).collect(),
             cylinders: joints.iter().map(pin).collect(),
             spheres: others.iter().map(ball).collect(),
             texts: letters.map(|letter| self.text(&letter.name, letter.local)).collect(),
@@ -188,24 +212,26 @@ impl<'a> Scene<'a> {
         }
     }
 
-    /// Pivots as triangles standing below their points, as textbooks draw them.
+    /// Pivots as triangles standing below their points, as textbooks draw them, and the rails of fixed guides.
     fn ground(&self) -> SceneEntity {
         let (half, down) = (0.03 * self.size, -0.05 * self.size);
         let below = -0.01 * self.size;
-        let places = self.places(GROUND);
+        let places = self.pivots();
         let mut corners: Vec<Point3> = Vec::new();
+        let line = |ends: [Vec2; 2]| LinePrimitive {
+            thickness: 0.008 * self.size,
+            points: ends.iter().map(|&end| point(end, below)).collect(),
+            color: Some(grey()),
+            ..Default::default()
+        };
         let mut lines = Vec::new();
         for &at in &places {
             let [left, right] = [-half, half].map(|x| at + Vec2::new(x, down));
             corners.extend([at, left, right].map(|corner| point(corner, below)));
-            let ends = [left - Vec2::new(half, 0.0), right + Vec2::new(half, 0.0)];
-            lines.push(LinePrimitive {
-                thickness: 0.008 * self.size,
-                points: ends.iter().map(|&end| point(end, below)).collect(),
-                color: Some(grey()),
-                ..Default::default()
-            });
+            lines.push(line([left - Vec2::new(half, 0.0), right + Vec2::new(half, 0.0)]));
         }
+        let rails = self.strips(GROUND).filter_map(|strip| Some([*strip.points.first()?, *strip.points.last()?]));
+        lines.extend(rails.map(line));
         let points = &self.mechanism.links()[GROUND].points;
         SceneEntity {
             timestamp: stamp(0),

@@ -95,12 +95,15 @@ pub fn field_names(descriptor: &[u8], full_name: &str) -> Result<BTreeMap<u32, S
     Ok(names)
 }
 
+/// What the message of a subject holds; that of a sliding joint all that any joint has, and more.
 fn kinds(subject: Subject) -> impl Iterator<Item = &'static ChannelKind> {
-    CHANNELS.iter().filter(move |kind| kind.subject == subject)
+    let joint = subject == Subject::Slider;
+    CHANNELS.iter().filter(move |kind| kind.subject == subject || joint && kind.subject == Subject::Joint)
 }
 
 fn type_name(subject: Subject) -> String {
-    let word = subject.word();
+    // A name of its own: two messages of one name with different fields confuse viewers.
+    let word = if subject == Subject::Slider { "slider" } else { subject.word() };
     word[..1].to_uppercase() + &word[1..]
 }
 

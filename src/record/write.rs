@@ -225,15 +225,19 @@ fn topic_name(side: &str, subject: Subject, of: &str) -> String {
 
 type Columns<'a> = Vec<(&'static ChannelKind, &'a [f64])>;
 
-/// The columns of each link, point, joint and of the drive, in the order of their first column.
+/// The columns of each link, point, joint (all of a sliding one together) and of frame and drive, in the order of their first column.
 fn by_subject(trajectory: &Trajectory) -> Vec<(Subject, &str, Columns<'_>)> {
     let mut subjects: Vec<(Subject, &str, Columns)> = Vec::new();
     for (channel, column) in trajectory.iter() {
         let (subject, of) = (channel.kind.subject, channel.of.as_str());
-        let place = subjects.iter().position(|own| (own.0, own.1) == (subject, of)).unwrap_or_else(|| {
+        let same = |own: &(Subject, &str, Columns)| (own.0.word(), own.1) == (subject.word(), of);
+        let place = subjects.iter().position(same).unwrap_or_else(|| {
             subjects.push((subject, of, Vec::new()));
             subjects.len() - 1
         });
+        if subject == Subject::Slider {
+            subjects[place].0 = subject;
+        }
         subjects[place].2.push((channel.kind, column));
     }
     subjects

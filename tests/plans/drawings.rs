@@ -3,12 +3,13 @@
 use linkproof::diagram::draw;
 use linkproof::math::Vec2;
 
-use crate::{ALL, angles, plans};
+use crate::{REVOLUTE, SLIDERS, all, degrees_of, plans};
 
 #[test]
 fn drawings_are_well_formed_and_hold_every_vector() {
-    for (name, degrees) in ALL.into_iter().flat_map(|name| [0.0, 70.0, -150.0].map(|degrees| (name, degrees))) {
-        let plans = plans(name, degrees);
+    let names = REVOLUTE.into_iter().chain(SLIDERS);
+    for (name, degrees) in names.flat_map(|name| [0.0, 70.0, -150.0].map(|degrees| (name, degrees))) {
+        let plans = plans(name, degrees_of(name, degrees));
         let text = draw::plans(&plans, name, "a < b & \"c\"");
         let document = roxmltree::Document::parse(&text).unwrap_or_else(|error| panic!("{name}: {error}"));
         let root = document.root_element();
@@ -47,7 +48,7 @@ fn drawings_are_well_formed_and_hold_every_vector() {
 #[test]
 fn letters_can_be_read() {
     let (mut letters, mut crossed) = (0, 0);
-    for (name, degrees) in ALL.into_iter().flat_map(|name| angles().step_by(2).map(move |degrees| (name, degrees))) {
+    for (name, degrees) in all().step_by(2) {
         let text = draw::plans(&plans(name, degrees), name, "");
         let document = roxmltree::Document::parse(&text).unwrap();
         let number = |node: &roxmltree::Node, key: &str| node.attribute(key).unwrap().parse::<f64>().unwrap();

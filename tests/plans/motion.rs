@@ -1,6 +1,6 @@
 //! Motion diagrams by chords and by graphical integration.
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 use linkproof::diagram::motion::Method;
 use linkproof::diagram::{Course, MotionDiagram, Plans, draw};
@@ -52,6 +52,61 @@ fn the_error_of_all_four_methods_is_of_second_order() {
     // What a draughtsman takes: 12 divisions, then 24 and 48.
     for found in &motion("crank_rocker", "link.coupler.angle_rad", 12).found {
         assert!((found.orders[1].unwrap() - 2.0).abs() <= 0.05, "{:?}", found.orders);
+    }
+}
+
+/// The example of a graphical course: a piston of the two-stage compressor, its velocity and acceleration from its displacement by chords, and back.
+/// Displacement, velocity and acceleration by the closed form that its authors give (phi clockwise from +y), and all four methods by hand on it.
+#[test]
+fn a_piston_by_chords_errs_as_its_closed_form_says() {
+    let (crank, rod, omega) = (0.06, 0.24, 104.71975511965978);
+    let at = |phi: f64| {
+        let (s1, c1) = phi.sin_cos();
+        let (s2, c2) = (-(crank * s1 / rod).asin()).sin_cos();
+        let omega2 = -crank * omega * c1 / (rod * c2);
+        let eps2 = (crank * omega * omega * s1 + rod * omega2 * omega2 * s2) / (rod * c2);
+        let velocity = -crank * omega * s1 + crank * omega * c1 * (s2 / c2);
+        let acceleration = -crank * omega * omega * c1 - rod * omega2 * omega2 * c2 - rod * eps2 * s2;
+        [crank * c1 + rod * c2, velocity, acceleration]
+    };
+    let largest = [12, 24].map(|n| {
+        let diagram = motion("compressor", "point.B.y_m", n);
+        let angle = |row: usize| TAU * row as f64 / (n * diagram.stride) as f64;
+        let scale = |which: usize| diagram.half_range(which);
+        for which in 0..3 {
+            let gap = |row: usize| (diagram.exact[which][row] - at(angle(row))[which]).abs();
+            let worst = (0..diagram.cranks.len()).map(gap).fold(0.0, f64::max);
+            // Rounding of lengths of 0.3 m and of what follows from them.
+            assert!(worst <= 1e-12 * scale(which), "{worst:e}");
+        }
+        let h = TAU / n as f64;
+        let step = h / omega;
+        let middle = |k: usize| at((k as f64 + 0.5) * h);
+        let chord = |k: usize| (at((k + 1) as f64 * h)[0] - at(k as f64 * h)[0]) / step;
+        let by_hand = |method: Method, k: usize| match method {
+            Method::ChordVelocity => chord(k),
+            Method::ChordAcceleration => (chord(k + 1) - chord(k)) / step,
+            Method::IntegratedDisplacement => at(0.0)[0] + (0..k).map(|j| middle(j)[1] * step).sum::<f64>(),
+            Method::IntegratedVelocity => at(0.0)[1] + (0..k).map(|j| middle(j)[2] * step).sum::<f64>(),
+        };
+        diagram
+            .found
+            .iter()
+            .map(|found| {
+                for (k, value) in found.values.iter().enumerate() {
+                    // Rounding of displacements (1e-16 of 0.3 m) over the square of the step, at most.
+                    let bound = 1e-12 * scale(found.method.gives());
+                    assert!((value - by_hand(found.method, k)).abs() <= bound, "{:?} {k}", found.method);
+                }
+                found.share
+            })
+            .collect::<Vec<f64>>()
+    });
+    // The figures of docs/plans.md.
+    let text = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/plans.md")).unwrap();
+    for (found, (coarse, fine)) in Method::ALL.iter().zip(largest[0].iter().zip(&largest[1])) {
+        let row = format!("| {} | {:.2} % | {:.2} % |", found.words(), coarse * 100.0, fine * 100.0);
+        assert!(text.contains(&row), "{row}");
     }
 }
 

@@ -15,7 +15,7 @@ import numpy as np
 from mcap.reader import make_reader
 from mcap_protobuf.decoder import DecoderFactory
 
-OWN = {"grid": "Grid", "link": "Link", "point": "Point", "joint": "Joint", "drive": "Drive"}
+OWN = {"grid": "Grid", "link": "Link", "point": "Point", "joint": "Joint", "frame": "Frame", "drive": "Drive"}
 FOXGLOVE = {
     "/tf": "FrameTransforms",
     "/mechanism/links": "SceneUpdate",
@@ -65,7 +65,8 @@ def load(path):
 
 def check_numbers(schemas, messages):
     """The topics of every sample."""
-    wrong = [f"{t} is {s}" for t, s in schemas.items() if s != expected_schema(t)]
+    # A joint that slides has more fields, and a schema of its own.
+    wrong = [f"{t} is {s}" for t, s in schemas.items() if s.replace("Slider", "Joint") != expected_schema(t)]
     check("every topic has the schema of its name", not wrong, ", ".join(wrong) or f"{len(schemas)} topics")
     disorder = [t for t, ms in messages.items() if any(b[0] < a[0] for a, b in zip(ms, ms[1:]))]
     check("log times ascend in every topic", not disorder, ", ".join(disorder))
@@ -97,7 +98,7 @@ def placed(transform, point):
     return np.array([transform.translation.x + c * point.x - s * point.y, transform.translation.y + s * point.x + c * point.y])
 
 
-def check_scene(messages, sides):
+def check_scene(schemas, messages, sides):
     """Frames, links and outline."""
     if "/tf" not in messages:
         positions = [t for t in messages if "/link/" in t and "x_m" in values(messages[t][0][2])]
@@ -126,6 +127,13 @@ def check_scene(messages, sides):
                 gap = placed(transform, local) - np.array([track[time]["x_m"], track[time]["y_m"]])
                 worst, compared = max(worst, float(np.abs(gap).max())), compared + 1
     check("lettered points are drawn where the numbers say", worst < 4 * DRAWING * max(size, 1.0), f"{compared} compared, {worst:.1e} m")
+
+    sliding = sorted({t.split("/", 3)[3] for t, s in schemas.items() if s == "linkproof.Slider"})
+    if sliding:
+        blocks = [line for e in framed for line in e.lines if line.type == 1 and len(line.points) == 4]
+        check("every sliding joint has its block", len(blocks) >= len(sliding) * len(sides), f"{', '.join(sliding)}: {len(blocks)} blocks")
+        slides = [values(m) for s in sides for j in sliding for _, _, m in messages[f"/{s}/joint/{j}"]]
+        check("every sliding joint has force, slide and moment", all({"fx_N", "slide_m", "moment_N_m"} <= set(v) for v in slides))
 
     strides = {f.name: f.offset for f in messages["/mechanism/outline"][0][2].fields}
     check("the outline has places and colours", list(strides) == ["x", "y", "z", "red", "green", "blue", "alpha"])
@@ -181,7 +189,7 @@ def check_file(path):
     check("the scenario is attached", attachments.get("scenario.toml"), f"{len(attachments.get('scenario.toml', b''))} bytes")
     check("metadata tells the scenario", metadata.get("linkproof", {}).get("scenario"), metadata.get("linkproof"))
     sides = check_numbers(schemas, messages)
-    check_scene(messages, sides)
+    check_scene(schemas, messages, sides)
     check_forces(messages, metadata)
     run("pymcap-cli doctor", "pymcap-cli", "doctor", path)
     with tempfile.TemporaryDirectory() as directory:

@@ -134,15 +134,20 @@ fn cost(index: usize, place: Vec2, labels: &[Label], places: &[Option<Vec2>], ob
     cost
 }
 
-/// Length of the part of a segment inside the box around `centre` (Liang and Barsky 1984).
+/// Length of the part of a segment inside the box around `centre`.
 fn length_inside(segment: &[Vec2; 2], centre: Vec2, half: Vec2) -> f64 {
+    inside(segment, centre, half).map_or(0.0, |[from, to]| (to - from) * (segment[1] - segment[0]).norm())
+}
+
+/// Shares of a segment's length at which it enters and leaves the box around `centre` (Liang and Barsky 1984).
+pub fn inside(segment: &[Vec2; 2], centre: Vec2, half: Vec2) -> Option<[f64; 2]> {
     let [start, end] = segment.map(|point| point - centre);
     let along = end - start;
     let (mut from, mut to) = (0.0f64, 1.0f64);
     for axis in 0..2 {
         if along[axis] == 0.0 {
             if start[axis].abs() >= half[axis] {
-                return 0.0;
+                return None;
             }
             continue;
         }
@@ -150,7 +155,7 @@ fn length_inside(segment: &[Vec2; 2], centre: Vec2, half: Vec2) -> f64 {
         from = from.max(a.min(b));
         to = to.min(a.max(b));
     }
-    (to - from).max(0.0) * along.norm()
+    (to > from).then_some([from, to])
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! Drawings as SVG, one unit a millimetre: printed at full size they are true to the scale factors written on them.
 
 mod figure;
+mod guide_figure;
 mod labels;
 mod motion_sheet;
 mod plan_figure;

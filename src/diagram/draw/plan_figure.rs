@@ -4,6 +4,7 @@ use super::figure::{Figure, Style, Type, scripted, solid, sub, width, words};
 use super::labels::{Label, Obstacles, place};
 use super::table::Table;
 use super::{BLACK, GREY, colour, significant};
+use crate::diagram::builder::NOTHING;
 use crate::diagram::plan::{Part, Plan, Tip, TipKind, Vector};
 use crate::math::Vec2;
 
@@ -24,6 +25,8 @@ pub fn style(vector: &Vector) -> Style {
         Part::Relative => solid(colour(vector.link), 0.5),
         Part::Normal => Style { colour: colour(vector.link), width: 0.35, dash: "1.8 1.1" },
         Part::Tangential => Style { colour: colour(vector.link), width: 0.35, dash: "0.5 1" },
+        Part::Sliding => solid(colour(vector.link), 0.5),
+        Part::Coriolis => Style { colour: colour(vector.link), width: 0.35, dash: "3 0.9 0.5 0.9" },
     }
 }
 
@@ -31,7 +34,15 @@ pub fn style(vector: &Vector) -> Style {
 pub fn plan(plan: &Plan) -> Figure {
     let mut figure = Figure::default();
     let mut obstacles = Obstacles::default();
-    let order = [Part::MassCentre, Part::Absolute, Part::Relative, Part::Normal, Part::Tangential];
+    let order = [
+        Part::MassCentre,
+        Part::Absolute,
+        Part::Relative,
+        Part::Sliding,
+        Part::Normal,
+        Part::Tangential,
+        Part::Coriolis,
+    ];
     for vector in order.into_iter().flat_map(|part| plan.vectors.iter().filter(move |vector| vector.part == part)) {
         let ends = [vector.start, vector.start + vector.value].map(|end| end / plan.scale);
         if (ends[1] - ends[0]).norm() > POINT {
@@ -89,8 +100,8 @@ fn marks(plan: &Plan) -> Vec<(Vec2, String)> {
     for tip in &plan.tips {
         let at = tip.at / plan.scale;
         match marks.iter_mut().find(|(place, _)| (place - at).norm() < ONE) {
-            // An end of a normal part that no eye can tell from another point needs no letter.
-            Some(_) if tip.kind == TipKind::Normal => {}
+            // An end of a part that no eye can tell from another point needs no letter.
+            Some(_) if matches!(tip.kind, TipKind::Normal | TipKind::Coriolis) => {}
             Some((_, text)) => *text += &format!(", {}", letters(tip)),
             None => marks.push((at, letters(tip))),
         }
@@ -101,7 +112,9 @@ fn marks(plan: &Plan) -> Vec<(Vec2, String)> {
 fn letters(tip: &Tip) -> String {
     let mut signs = tip.letter.chars();
     match (tip.kind, signs.next()) {
-        (TipKind::MassCentre | TipKind::Normal, Some(first)) => format!("{first}{}", sub(signs.as_str())),
+        (TipKind::MassCentre | TipKind::Normal | TipKind::Coincident | TipKind::Coriolis, Some(first)) => {
+            format!("{first}{}", sub(signs.as_str()))
+        }
         _ => tip.letter.clone(),
     }
 }
@@ -110,12 +123,15 @@ fn letters(tip: &Tip) -> String {
 pub fn table(plan: &Plan) -> Table {
     let letter = |name: &String| plan.tips.iter().find(|tip| tip.letter == *name).map_or_else(|| name.clone(), letters);
     let rows = plan.vectors.iter().map(|vector| {
-        let meaning =
-            vector.meaning.replace(", perpendicular to ", " ⊥ ").replace("omega^2", "ω²").replace("alpha", "α");
+        let meaning = vector.meaning.replace(", perpendicular to the ", " ⊥ ").replace(", along the ", " ∥ ");
+        let meaning = meaning.replace(", perpendicular to ", " ⊥ ");
+        let meaning = meaning.replace("omega^2", "ω²").replace("omega x", "ω ×").replace("alpha", "α");
+        // In a dead position nothing but rounding is left of some vectors.
+        let size = if plan.paper(vector) > NOTHING { vector.value.norm() } else { 0.0 };
         let cells = vec![
             scripted(&vector.name),
             format!("{} → {}", letter(&vector.from), letter(&vector.to)),
-            significant(vector.value.norm()),
+            significant(size),
             format!("{:.1}", plan.paper(vector)),
             meaning,
         ];

@@ -1,6 +1,7 @@
 //! The kinematic diagram as a figure.
 
 use super::figure::{Figure, Style, Type, solid, sub, words};
+use super::guide_figure;
 use super::labels::{Label, Obstacles, place};
 use super::plan_figure::{LETTER, label_size, letter};
 use super::table::Table;
@@ -16,6 +17,8 @@ const MASS: f64 = 1.0;
 /// Radius of the arrow that shows the sense of the crank's rotation, and its angle (rad).
 const SENSE: f64 = 8.0;
 const SWEEP: f64 = 1.7;
+/// Share of what is natural below which an angular velocity or acceleration is rounding.
+const ROUNDING: f64 = 1e-12;
 /// A singular point farther than this (mm) from the leads' ends is not drawn.
 const NEAR: f64 = 120.0;
 
@@ -23,8 +26,13 @@ const NEAR: f64 = 120.0;
 pub fn scheme(scheme: &Scheme) -> Figure {
     let (mut figure, mut obstacles) = (Figure::default(), Obstacles::default());
     let paper = |at: &Vec2| at / scheme.scale;
-    for (_, at) in &scheme.points[..scheme.fixed] {
-        ground(&mut figure, paper(at), &mut obstacles);
+    let is_mark = |at: &Vec2| scheme.marks.contains(at);
+    let pivots = scheme.points[..scheme.fixed].iter().map(|(_, at)| at).filter(|at| !is_mark(at)).map(paper);
+    let pivots: Vec<Vec2> = pivots.collect();
+    let taken: Vec<[Vec2; 2]> = pivots.iter().map(|at| [at - Vec2::new(0.0, 2.0), Vec2::new(5.2, 5.0)]).collect();
+    guide_figure::rails(&mut figure, scheme, &taken, &mut obstacles);
+    for at in pivots {
+        ground(&mut figure, at, &mut obstacles);
     }
     let mut labels: Vec<(Label, String, &'static str)> = Vec::new();
     for (at, leads) in scheme.singular.iter().filter_map(|point| lines_through(scheme, point)) {
@@ -49,6 +57,7 @@ pub fn scheme(scheme: &Scheme) -> Figure {
         let longest = (0..sides).map(side).max_by(|a, b| (a[1] - a[0]).norm().total_cmp(&(b[1] - b[0]).norm()));
         let anchor = match longest {
             Some([a, b]) if !closed => (a + b) / 2.0,
+            None => link.places.first().map_or_else(Vec2::zeros, paper),
             _ => corners.iter().sum::<Vec2>() / corners.len().max(1) as f64,
         };
         let size = Vec2::new(2.0 * NUMBER, 2.0 * NUMBER);
@@ -58,6 +67,8 @@ pub fn scheme(scheme: &Scheme) -> Figure {
             obstacles.discs.push((at, MASS));
         }
     }
+    guide_figure::slots(&mut figure, scheme, &mut obstacles);
+    guide_figure::blocks(&mut figure, scheme, &mut obstacles);
     if let Some(driver) = scheme.links.iter().find(|link| link.number == scheme.driver) {
         labels.extend(rotation(&mut figure, driver, scheme.scale, &mut obstacles));
     }
@@ -67,11 +78,18 @@ pub fn scheme(scheme: &Scheme) -> Figure {
         }
     }
     let mut named: Vec<(Vec2, String)> = Vec::new();
-    for (name, at) in &scheme.points {
-        let at = paper(at);
-        figure.disc(at, PIN, "white", solid(BLACK, 0.45));
+    for (index, (name, place)) in scheme.points.iter().enumerate() {
+        let at = paper(place);
+        let guide = scheme.guides.iter().find(|guide| guide.link == 0 && guide.origin == *place);
+        match guide.filter(|_| index < scheme.fixed && is_mark(place)) {
+            Some(guide) => guide_figure::mark(&mut figure, at, guide.axis),
+            None => figure.disc(at, PIN, "white", solid(BLACK, 0.45)),
+        }
         obstacles.discs.push((at, PIN));
-        named.push((at, name.clone()));
+        let unders = scheme.guides.iter().filter_map(|guide| guide.under.as_ref());
+        let lowered = |under: &str| under.strip_prefix(name.as_str()).map(|number| format!("{name}{}", sub(number)));
+        let unders = unders.filter(|[over, _]| over == name).filter_map(|[_, under]| lowered(under));
+        named.push((at, std::iter::once(name.clone()).chain(unders).collect::<Vec<_>>().join(", ")));
     }
     for link in &scheme.links {
         if let Some(at) = link.mass_centre.as_ref().map(paper) {
@@ -183,8 +201,12 @@ fn hull(mut places: Vec<Vec2>) -> Vec<Vec2> {
 
 /// The links with their numbers and rotations.
 pub fn table(scheme: &Scheme) -> Table {
+    let driver = scheme.links.iter().find(|link| link.number == scheme.driver).map_or(0.0, |link| link.omega.abs());
+    // In a dead position nothing but rounding is left, of the crank's speed and its square.
+    let shown = |value: f64, scale: f64| significant(if value.abs() > ROUNDING * scale { value } else { 0.0 });
     let row = |link: &SchemeLink| {
-        let cells = vec![link.number.to_string(), link.name.clone(), significant(link.omega), significant(link.alpha)];
+        let (omega, alpha) = (shown(link.omega, driver), shown(link.alpha, driver * driver));
+        let cells = vec![link.number.to_string(), link.name.clone(), omega, alpha];
         (solid(colour(link.number), 0.9), cells)
     };
     let head = vec!["link", "name", "ω, rad/s", "α, rad/s²"];
