@@ -51,6 +51,9 @@ struct Half<'a> {
     outer: &'a Joint,
 }
 
+/// Sine of the angle between two axes below which it is rounding.
+const PARALLEL: f64 = 1e-14;
+
 /// The two halves of a dyad, the one that `is_first` holds for at the front.
 fn of_dyad<'a>(mechanism: &'a Mechanism, group: &Group, is_first: impl Fn(&Joint, usize) -> bool) -> [Half<'a>; 2] {
     let half = |k: usize| Half { link: group.links[k], outer: &mechanism.joints()[group.outer[k]] };
@@ -104,6 +107,13 @@ pub enum Misfit {
     Parallel,
     /// A higher group, whose branch could not be followed.
     Lost,
+}
+
+/// Side on which two axes lie to each other, from the sine of their angle, once `side` is known: a dyad that went through infinity is on
+/// another branch, and one whose axes are parallel to rounding is nowhere.
+fn kept_side(side: f64, sine: f64) -> Result<f64, Misfit> {
+    let now = sine.signum();
+    if !(sine.abs() > PARALLEL) || side * now < 0.0 { Err(Misfit::Parallel) } else { Ok(now) }
 }
 
 impl Plan {

@@ -5,8 +5,8 @@
 //! v_E1 + s' e = v_E2 + t' b and the accelerations with their Coriolis parts. Artobolevsky, "Theory of mechanisms and
 //! machines", kinematics of class II groups of the fourth kind.
 
-use super::Misfit;
 use super::guide::Guide;
+use super::{Misfit, kept_side};
 use crate::math::{Motion, Vec2, cross, turned};
 use crate::mechanism::{Group, Mechanism};
 
@@ -16,6 +16,8 @@ pub struct Prp {
     guides: [Guide; 2],
     /// The inner joint in each slider's frame.
     inner: [Vec2; 2],
+    /// Sign of the sine of the angle between the axes on the branch that is followed; 0 before the first pose.
+    side: f64,
 }
 
 impl Prp {
@@ -28,6 +30,7 @@ impl Prp {
         Prp {
             guides: [0, 1].map(|k| Guide::of(&joints[group.outer[k]], sliders[k])),
             inner: sliders.map(|link| inner.on(link).expect("the inner joint is on both links")),
+            side: 0.0,
         }
     }
 
@@ -37,14 +40,13 @@ impl Prp {
     }
 
     #[inline]
-    pub(super) fn positions(&self, motions: &mut [Motion]) -> Result<(), Misfit> {
+    pub(super) fn positions(&mut self, motions: &mut [Motion]) -> Result<(), Misfit> {
         self.guides.iter().for_each(|guide| guide.aim(motions));
         let [e, b] = self.axes(motions);
         let [from, other] = [0, 1].map(|k| self.guides[k].at_zero(self.inner[k], motions));
-        let slide = cross(b, other - from) / cross(b, e);
-        if !slide.is_finite() {
-            return Err(Misfit::Parallel);
-        }
+        let sine = cross(b, e);
+        self.side = kept_side(self.side, sine)?;
+        let slide = cross(b, other - from) / sine;
         for (guide, inner) in self.guides.iter().zip(self.inner) {
             guide.put(inner, from + e * slide, motions);
         }

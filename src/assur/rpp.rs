@@ -8,7 +8,7 @@
 
 use super::guide::{Guide, turn_between};
 use super::pin::Pin;
-use super::{Misfit, of_dyad};
+use super::{Misfit, kept_side, of_dyad};
 use crate::math::{Motion, Vec2, cross, turned};
 use crate::mechanism::{Group, Mechanism};
 
@@ -21,6 +21,8 @@ pub struct Rpp {
     axes: [Vec2; 2],
     /// The inner joint's place in the same frames.
     inner: [Vec2; 2],
+    /// Sign of the sine of the angle between the axes on the branch that is followed; 0 before the first pose.
+    side: f64,
 }
 
 /// What is needed again at every derivative.
@@ -43,20 +45,20 @@ impl Rpp {
             guide: Guide::of(slider.outer, slider.link),
             axes: links.map(|link| inner.axis_on(link).expect("the inner joint is prismatic")),
             inner: links.map(|link| inner.on(link).expect("the inner joint is on both links")),
+            side: 0.0,
         }
     }
 
     #[inline]
-    pub(super) fn positions(&self, motions: &mut [Motion]) -> Result<(), Misfit> {
+    pub(super) fn positions(&mut self, motions: &mut [Motion]) -> Result<(), Misfit> {
         self.guide.aim(motions);
         let inner_axis = motions[self.guide.link].arm(self.axes[1]);
         self.pinned.put(turn_between(inner_axis, self.axes[0]), motions);
         let axis = self.guide.axis(motions);
         let from = self.guide.at_zero(self.inner[1], motions);
-        let slide = cross(inner_axis, motions[self.pinned.link].point(self.inner[0]) - from) / cross(inner_axis, axis);
-        if !slide.is_finite() {
-            return Err(Misfit::Parallel);
-        }
+        let sine = cross(inner_axis, axis);
+        self.side = kept_side(self.side, sine)?;
+        let slide = cross(inner_axis, motions[self.pinned.link].point(self.inner[0]) - from) / sine;
         self.guide.put(self.inner[1], from + axis * slide, motions);
         Ok(())
     }

@@ -236,9 +236,10 @@ impl<'a> System<'a> {
         if self.jacobian.determinant_sign() != self.branch {
             return Err(self.lost("the mechanism has passed a dead point on the way there"));
         }
-        for theta in (2..self.q.len()).step_by(3) {
-            let moved = (dt * self.rate[theta]).abs() + TRACKING_STEP;
-            if (self.q[theta] - self.predicted[theta]).abs() > moved {
+        let size = self.case.mechanism.size();
+        for (index, rate) in self.rate.iter().enumerate() {
+            let allowed = (dt * rate).abs() + if index % 3 == 2 { TRACKING_STEP } else { size };
+            if !((self.q[index] - self.predicted[index]).abs() <= allowed) {
                 return Err(self.lost("the solution has jumped to another branch"));
             }
         }

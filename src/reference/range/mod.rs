@@ -36,6 +36,8 @@ pub enum Kind {
     DeadPoint,
     /// Branches cross: the determinant changes its sign, linear in the crank angle, and the crank can go on.
     ChangePoint,
+    /// The two axes of an RPP or PRP dyad are parallel: towards there its slides grow without bound.
+    ParallelAxes,
     /// Another branch comes so near that the determinant is below 1e-3, without changing its sign.
     BranchContact,
 }
@@ -47,6 +49,7 @@ impl Kind {
         match self {
             Kind::DeadPoint => "limit of rotation (dead point)",
             Kind::ChangePoint => "change point",
+            Kind::ParallelAxes => "parallel axes",
             Kind::BranchContact => "branch contact",
         }
     }

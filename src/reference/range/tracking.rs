@@ -59,6 +59,9 @@ pub(super) struct Track {
     pub(super) end: End,
 }
 
+/// Distance from the crank's pivot, in sizes of the mechanism, at which a link is on its way to infinity.
+const FAR: f64 = 50.0;
+
 /// Follows the curve of one case.
 #[derive(Debug)]
 pub(super) struct Tracker<'a> {
@@ -245,7 +248,11 @@ impl<'a> Tracker<'a> {
                 }
             }
             let is_near = next.sigma < MEET;
+            let is_far = next.q.iter().enumerate().any(|(k, x)| k % 3 < 2 && x.abs() > FAR);
             points.push(next);
+            if is_far {
+                return self.escaped(points);
+            }
             if is_near {
                 return self.met(points);
             }
@@ -275,16 +282,8 @@ impl<'a> Tracker<'a> {
     /// function of the determinant that vanishes: its value at zero follows from poses at a distance (Neville's scheme).
     fn met(&self, mut points: Vec<Point>) -> Result<Track> {
         let last = &points[points.len() - 1];
-        let smallest = |point: &Point| weakest(&point.measures);
-        let Some(group) = smallest(last) else { return Err(lost(self.crank_of(&last.q))) };
-        let mut known: Vec<(f64, &Column)> = Vec::new();
-        for point in points.iter().rev().filter(|point| point.sigma > 1e-4) {
-            let determinant = point.measures[group].determinant;
-            let apart = known.last().is_none_or(|(nearer, _)| determinant.abs() > 1.5 * nearer.abs());
-            if apart && known.len() < 9 {
-                known.push((determinant, &point.q));
-            }
-        }
+        let Some(group) = weakest(&last.measures) else { return Err(lost(self.crank_of(&last.q))) };
+        let known = by_determinant(&points, group);
         let q = if known.len() < 3 { last.q.clone() } else { neville_at_zero(&known) };
         let moved = (&q - &last.q).norm();
         let q = if moved < 1e-3 { q } else { last.q.clone() };
@@ -293,6 +292,22 @@ impl<'a> Tracker<'a> {
         let mut end = Point { q, ..last.clone() };
         end.measures[group] = Measure { determinant: 0.0, condition: f64::MAX };
         let singularity = self.singularity(kind, &end);
+        points.push(end);
+        Ok(Track { points, end: End::Limit(singularity) })
+    }
+
+    /// The end of a track along which a slide grows without bound: the crank angle is a smooth function of the determinant there too.
+    fn escaped(&self, mut points: Vec<Point>) -> Result<Track> {
+        let last = &points[points.len() - 1];
+        let Some(group) = weakest(&last.measures) else { return Err(lost(self.crank_of(&last.q))) };
+        let known = by_determinant(&points, group);
+        if known.len() < 3 {
+            return Err(lost(self.crank_of(&last.q)));
+        }
+        let mut end = last.clone();
+        end.q[self.crank] = neville_at_zero(&known)[self.crank];
+        end.measures[group] = Measure { determinant: 0.0, condition: f64::MAX };
+        let singularity = self.singularity(Kind::ParallelAxes, &end);
         points.push(end);
         Ok(Track { points, end: End::Limit(singularity) })
     }
@@ -310,6 +325,19 @@ impl<'a> Tracker<'a> {
             .map(Constraints::angle)
             .all(|k| (unit(a.q[k]) - unit(b.q[k])).norm() < 1e-6)
     }
+}
+
+/// Coordinates of the last regular poses by the determinant of a group, the nearest to zero first, each half as far again as the one before.
+fn by_determinant(points: &[Point], group: usize) -> Vec<(f64, &Column)> {
+    let mut known: Vec<(f64, &Column)> = Vec::new();
+    for point in points.iter().rev().filter(|point| point.sigma > 1e-4) {
+        let determinant = point.measures[group].determinant;
+        let apart = known.last().is_none_or(|(nearer, _)| determinant.abs() > 1.5 * nearer.abs());
+        if apart && known.len() < 9 {
+            known.push((determinant, &point.q));
+        }
+    }
+    known
 }
 
 /// The group of smallest determinant.
