@@ -65,6 +65,7 @@ const HOMES: &[(&str, &str)] = &[
     ("toml", "scenario"),
     ("petgraph", "mechanism"),
     ("nalgebra", "math"),
+    ("pulp", "reference"),
     ("comfy_table", "report"),
     ("svg", "diagram"),
     ("serde", "report"),

@@ -1,0 +1,169 @@
+//! Many poses of one case in one call.
+//!
+//! A case of driving links and RRR dyads is solved for as many crank angles at once as the machine's registers hold: such poses
+//! do not depend on each other. Any other case is solved pose by pose.
+
+mod dyads;
+mod equations;
+mod lanes;
+mod poses;
+
+use std::f64::consts::PI;
+
+use pulp::{Arch, Simd, WithSimd};
+
+use self::dyads::Dyads;
+use self::equations::OF_DYAD;
+use self::lanes::{Eight, TILE, Window};
+pub use self::poses::Poses;
+use self::poses::{ALPHA, DIRECTION, Layout, OMEGA};
+use super::PoseSolver;
+use crate::case::Case;
+use crate::error::Result;
+use crate::solver::State;
+use crate::trajectory::Stage;
+
+/// Crank angle between two rows (rad) beyond which the way between them is looked at too; not more than
+/// [`PoseSolver`]'s step for poses in closed form.
+const STEP: f64 = PI / 12.0;
+
+/// Solves a case for many crank angles in one call, on the branch of its start pose.
+#[derive(Debug)]
+pub struct Batch<'a> {
+    case: &'a Case,
+    layout: Layout,
+    dyads: Option<Dyads>,
+    work: Vec<Eight>,
+    arch: Arch,
+    /// Solves what the dyads do not, and says what is wrong.
+    poses: PoseSolver<'a>,
+    /// Last crank angle reached (rad).
+    crank: f64,
+}
+
+impl<'a> Batch<'a> {
+    /// At the start pose of the case, which fixes the branch.
+    ///
+    /// # Errors
+    /// Those of [`PoseSolver::new`].
+    pub fn of(case: &'a Case) -> Result<Self> {
+        let poses = PoseSolver::new(case)?;
+        let dyads = Dyads::of(case, Layout::of(case, false));
+        Ok(Batch {
+            case,
+            layout: Layout::of(case, dyads.is_none()),
+            dyads,
+            work: vec![Eight([0.0; TILE]); OF_DYAD * case.structure.groups.len()],
+            arch: Arch::new(),
+            poses,
+            crank: case.drive.start,
+        })
+    }
+
+    /// Whether many poses are solved at once; if not, the case has other groups than RRR dyads and goes pose by pose.
+    #[must_use]
+    pub fn is_vectorised(&self) -> bool {
+        self.dyads.is_some()
+    }
+
+    /// The poses at the crank angles `cranks` (rad, as the scenario states them) for one angular velocity `omega` (rad/s) and
+    /// acceleration `alpha` (rad/s^2) of the crank, computed as far as `deepest`: what [`PoseSolver::solve`] finds for one after the
+    /// other. The same crank angle gives the same bits wherever it stands, as long as it is [vectorised](Batch::is_vectorised). Rows that are more than
+    /// 15 degrees apart cost a walk from one to the next.
+    ///
+    /// # Errors
+    /// Those of [`PoseSolver::solve`] at the first crank angle that cannot be reached; the poses before it are in `out`.
+    pub fn solve(&mut self, cranks: &[f64], omega: f64, alpha: f64, deepest: Stage, out: &mut Poses) -> Result<()> {
+        out.prepare(self.layout, cranks.len());
+        if let Some(dyads) = &self.dyads {
+            let asked = Asked { cranks, omega, alpha, deepest };
+            self.arch.dispatch(Tiles { case: self.case, dyads, asked, work: &mut self.work, out });
+        }
+        for (row, &crank) in cranks.iter().enumerate() {
+            let is_placed = self.is_vectorised() && out.is_placed(row);
+            if !(is_placed && (crank - self.crank).abs() <= STEP) {
+                let deepest = if is_placed { Stage::Positions } else { deepest };
+                match self.walk(crank, omega, alpha, deepest) {
+                    Ok(_) if is_placed => {}
+                    Ok(state) => out.put(row, state),
+                    Err(error) => {
+                        out.truncate(row);
+                        return Err(error);
+                    }
+                }
+            }
+            self.crank = crank;
+        }
+        Ok(())
+    }
+
+    /// Goes to a crank angle pose by pose, from the last one reached.
+    fn walk(&mut self, crank: f64, omega: f64, alpha: f64, deepest: Stage) -> Result<&State> {
+        if self.is_vectorised() {
+            self.poses.solve(self.crank, omega, alpha, Stage::Positions)?;
+        }
+        self.poses.solve(crank, omega, alpha, deepest)
+    }
+}
+
+/// What is asked of a batch.
+#[derive(Clone, Copy, Debug)]
+struct Asked<'a> {
+    cranks: &'a [f64],
+    omega: f64,
+    alpha: f64,
+    deepest: Stage,
+}
+
+/// All tiles of a batch, to be solved with the instructions that the machine has.
+struct Tiles<'a> {
+    case: &'a Case,
+    dyads: &'a Dyads,
+    asked: Asked<'a>,
+    work: &'a mut [Eight],
+    out: &'a mut Poses,
+}
+
+/// What the drives do in one tile: directions, angular velocities and accelerations of the driving links. Rows that
+/// are left over repeat the last crank angle.
+#[inline(always)]
+fn drive(case: &Case, dyads: &Dyads, asked: Asked, cranks: &[f64], tile: &mut [Eight]) {
+    for row in 0..TILE {
+        let crank = cranks[row.min(cranks.len() - 1)];
+        let mut set = |index: usize, angle: f64, ratio: f64| {
+            let link = dyads.drivers[index].body.link;
+            let (sin, cos) = angle.sin_cos();
+            tile[link + DIRECTION].0[row] = cos;
+            tile[link + DIRECTION + 1].0[row] = sin;
+            tile[link + OMEGA].0[row] = asked.omega * ratio;
+            tile[link + ALPHA].0[row] = asked.alpha * ratio;
+        };
+        set(0, case.drive.world_angle(crank), 1.0);
+        if !case.further_drives.is_empty() {
+            let t = case.drive.time_of(crank);
+            for (index, (drive, ratio)) in case.drives().zip(case.ratios(t)).enumerate().skip(1) {
+                set(index, drive.world_angle(drive.at(t).angle), ratio);
+            }
+        }
+    }
+}
+
+impl WithSimd for Tiles<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Tiles { case, dyads, asked, work, out } = self;
+        for (cranks, tile) in asked.cranks.chunks(TILE).zip(out.tiles()) {
+            drive(case, dyads, asked, cranks, tile);
+            for part in 0..Window::<S>::PARTS {
+                let mut tile = Window { simd, columns: &mut *tile, part };
+                let mut work = Window { simd, columns: &mut *work, part };
+                dyads.move_links(asked.deepest, &mut tile, &mut work);
+                if asked.deepest >= Stage::Reactions {
+                    dyads.load_joints(&mut tile, &work);
+                }
+            }
+        }
+    }
+}
