@@ -167,3 +167,31 @@ impl WithSimd for Tiles<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenario::Scenario;
+
+    /// Every width that this machine has.
+    fn widths() -> Vec<Arch> {
+        let mut widths = vec![Arch::Scalar, Arch::new()];
+        #[cfg(target_arch = "x86_64")]
+        widths.extend(pulp::x86::V3::try_new().map(Arch::V3));
+        widths
+    }
+
+    #[test]
+    fn the_width_of_registers_does_not_show() {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/scenarios/ov7_base.toml");
+        let case = Scenario::load(path.as_ref()).unwrap().case;
+        let cranks: Vec<f64> = (0..500).map(|k| -0.0123 * f64::from(k)).collect();
+        let solve = |arch: Arch| {
+            let (mut batch, mut poses) = (Batch { arch, ..Batch::of(&case).unwrap() }, Poses::new());
+            batch.solve(&cranks, -97.2, 3.0, Stage::BalancingMoment, &mut poses).unwrap();
+            poses.tiles().flatten().flat_map(|column| column.0.map(f64::to_bits)).collect::<Vec<_>>()
+        };
+        let found: Vec<_> = widths().into_iter().map(solve).collect();
+        assert!(found.iter().all(|bits| *bits == found[0]));
+    }
+}
