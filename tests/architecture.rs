@@ -66,6 +66,7 @@ const HOMES: &[(&str, &str)] = &[
     ("petgraph", "mechanism"),
     ("nalgebra", "math"),
     ("pulp", "reference"),
+    ("wide", "reference"),
     ("comfy_table", "report"),
     ("svg", "diagram"),
     ("serde", "report"),
