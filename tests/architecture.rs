@@ -66,7 +66,7 @@ const HOMES: &[(&str, &str)] = &[
     ("petgraph", "mechanism"),
     ("nalgebra", "math"),
     ("pulp", "reference"),
-    ("wide", "reference"),
+    ("f64x8", "reference"),
     ("comfy_table", "report"),
     ("svg", "diagram"),
     ("serde", "report"),

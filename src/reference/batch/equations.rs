@@ -1,7 +1,7 @@
 //! The equations of driving links and RRR dyads on several poses at once.
 //!
-//! They are those of [`crate::assur::Rrr`] for motions and of the module `reference::kinetostatics` for forces, where their sources
-//! are named; arms of forces are taken from the pole in the link's frame, which spares the places in the world.
+//! They are those of [`crate::assur::Rrr`] for motions and of the module `reference::kinetostatics` for forces, where their
+//! sources are named; arms of forces are taken from the pole in the link's frame, which spares the places in the world.
 
 use pulp::Simd;
 
@@ -66,7 +66,7 @@ impl Driver {
 }
 
 impl Arm {
-    /// World vector from the base link's origin to the outer joint, and the base's columns; for the ground the joint's place and none.
+    /// World vector from the base link's origin to the outer joint, and the base's first column; none for the ground.
     #[inline(always)]
     fn base<S: Simd>(&self, tile: &Window<S>) -> (Plane<S>, Option<usize>) {
         match self.base {

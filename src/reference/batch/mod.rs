@@ -71,9 +71,10 @@ impl<'a> Batch<'a> {
     }
 
     /// The poses at the crank angles `cranks` (rad, as the scenario states them) for one angular velocity `omega` (rad/s) and
-    /// acceleration `alpha` (rad/s^2) of the crank, computed as far as `deepest`: what [`PoseSolver::solve`] finds for one after the
-    /// other. The same crank angle gives the same bits wherever it stands, as long as it is [vectorised](Batch::is_vectorised). Rows that are more than
-    /// 15 degrees apart cost a walk from one to the next.
+    /// acceleration `alpha` (rad/s^2) of the crank, computed as far as `deepest`: to rounding, what [`PoseSolver::solve`]
+    /// finds for one after the other. It starts from the last crank angle reached, at first from the start pose. Where poses are
+    /// [vectorised](Batch::is_vectorised), a crank angle gives the same bits wherever it stands; rows that are more than 15
+    /// degrees apart cost a walk from one to the next.
     ///
     /// # Errors
     /// Those of [`PoseSolver::solve`] at the first crank angle that cannot be reached; the poses before it are in `out`.
