@@ -14,7 +14,8 @@ use linkproof::reference::batch::{Batch, Poses};
 use linkproof::solver::State;
 use linkproof::trajectory::Stage;
 
-/// Share of the largest value of its sort: a few hundred roundings of 1.1e-16 on the way from the crank to the last dyad and back.
+/// Share of the largest value of its sort: a few hundred roundings of 1.1e-16 on the way from the crank to the last
+/// dyad and back.
 const ROUNDING: f64 = 1e-13;
 /// Acceleration of the crank (rad/s^2), so that its terms count.
 const ALPHA: f64 = 3.7;

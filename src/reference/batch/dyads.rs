@@ -6,7 +6,8 @@ use crate::drive::Load;
 use crate::math::Vec2;
 use crate::mechanism::{AssemblyMode, Group, GroupKind, Side};
 
-/// A joint as it acts on one of its links: `sign` times its reaction, at `arm` from the link's pole, in the link's frame.
+/// A joint as it acts on one of its links: `sign` times its reaction, at `arm` from the link's pole, in the link's
+/// frame.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Action {
     /// Column of the reaction.

@@ -1,7 +1,8 @@
 //! The equations of driving links and RRR dyads on several poses at once.
 //!
-//! They are those of [`crate::assur::Rrr`] for motions and of the module `reference::kinetostatics` for forces, where their
-//! sources are named; arms of forces are taken from the pole in the link's frame, which spares the places in the world.
+//! They are those of [`crate::assur::Rrr`] for motions and of the module `reference::kinetostatics` for forces, where
+//! their sources are named; arms of forces are taken from the pole in the link's frame, which spares the places in
+//! the world.
 
 use pulp::Simd;
 
@@ -21,7 +22,8 @@ fn swung<S: Simd>(v: Plane<S>, omega: Lanes<S>, alpha: Lanes<S>) -> Plane<S> {
 }
 
 impl Dyads {
-    /// Motion of all links, as deep as asked for; directions and rates of the driving links are in their columns already.
+    /// Motion of all links, as deep as asked for; directions and rates of the driving links are in their columns
+    /// already.
     #[inline(always)]
     pub(super) fn move_links<S: Simd>(&self, deepest: Stage, tile: &mut Window<S>, work: &mut Window<S>) {
         for driver in &self.drivers {

@@ -1,7 +1,7 @@
 //! Many poses of one case in one call.
 //!
-//! A case of driving links and RRR dyads is solved for as many crank angles at once as the machine's registers hold: such poses
-//! do not depend on each other. Any other case is solved pose by pose.
+//! A case of driving links and RRR dyads is solved for as many crank angles at once as the machine's registers hold:
+//! such poses do not depend on each other. Any other case is solved pose by pose.
 
 mod dyads;
 mod equations;
@@ -70,14 +70,15 @@ impl<'a> Batch<'a> {
         self.dyads.is_some()
     }
 
-    /// The poses at the crank angles `cranks` (rad, as the scenario states them) for one angular velocity `omega` (rad/s) and
-    /// acceleration `alpha` (rad/s^2) of the crank, computed as far as `deepest`: to rounding, what [`PoseSolver::solve`]
-    /// finds for one after the other. It starts from the last crank angle reached, at first from the start pose. Where poses are
-    /// [vectorised](Batch::is_vectorised), a crank angle gives the same bits wherever it stands; rows that are more than 15
-    /// degrees apart cost a walk from one to the next.
+    /// The poses at the crank angles `cranks` (rad, as the scenario states them) for one angular velocity `omega`
+    /// (rad/s) and acceleration `alpha` (rad/s^2) of the crank, computed as far as `deepest`: to rounding, what
+    /// [`PoseSolver::solve`] finds for one after the other. It starts from the last crank angle reached, at first
+    /// from the start pose. Where poses are [vectorised](Batch::is_vectorised), a crank angle gives the same bits
+    /// wherever it stands; rows that are more than 15 degrees apart cost a walk from one to the next.
     ///
     /// # Errors
-    /// Those of [`PoseSolver::solve`] at the first crank angle that cannot be reached; the poses before it are in `out`.
+    /// Those of [`PoseSolver::solve`] at the first crank angle that cannot be reached; the poses before it are in
+    /// `out`.
     pub fn solve(&mut self, cranks: &[f64], omega: f64, alpha: f64, deepest: Stage, out: &mut Poses) -> Result<()> {
         out.prepare(self.layout, cranks.len());
         if let Some(dyads) = &self.dyads {
@@ -197,7 +198,8 @@ mod tests {
         widths
     }
 
-    /// An error of each of one unit in the last place of 1: the standard library's has half of it at most, the rest is the vector's.
+    /// An error of each of one unit in the last place of 1: the standard library's has half of it at most, the rest
+    /// is the vector's.
     #[test]
     fn units_are_those_of_the_standard_library() {
         for k in -400_000..400_000 {

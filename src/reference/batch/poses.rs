@@ -66,8 +66,9 @@ impl Layout {
     }
 }
 
-/// The poses that [`Batch::solve`](super::Batch::solve) has found, a row for every crank angle. Kept between calls, its memory
-/// is used again. What lies beyond the stage that was asked for is meaningless. Methods panic on a row that is not there.
+/// The poses that [`Batch::solve`](super::Batch::solve) has found, a row for every crank angle. Kept between calls,
+/// its memory is used again. What lies beyond the stage that was asked for is meaningless. Methods panic on a row
+/// that is not there.
 #[derive(Clone, Debug, Default)]
 pub struct Poses {
     layout: Layout,
@@ -114,8 +115,8 @@ impl Poses {
         self.vector(row, self.layout.force(joint))
     }
 
-    /// Moment of the first link on the second in a joint, about the joint's place on the second (N m), in the pose `row`; 0
-    /// in revolute joints.
+    /// Moment of the first link on the second in a joint, about the joint's place on the second (N m), in the pose
+    /// `row`; 0 in revolute joints.
     #[must_use]
     pub fn moment(&self, row: usize, joint: usize) -> f64 {
         if self.layout.has_moments { self.get(row, self.layout.moment(joint)) } else { 0.0 }
