@@ -9,6 +9,7 @@ use std::time::Instant;
 
 use four_bar::FourBar;
 use linkproof::reference::PoseSolver;
+use linkproof::reference::batch::{Batch, Poses};
 use linkproof::scenario::Scenario;
 use linkproof::trajectory::Stage;
 
@@ -78,7 +79,7 @@ fn main() {
         }
     });
     println!("four-bar by hand: 1 ({measure:.0} ns a pose on this machine, now)\n");
-    println!("{:20} {:>10} {:>10}", "scenario", "all", "positions");
+    println!("{:20} {:>10} {:>10} {:>10}", "scenario", "all", "positions", "batch");
     for name in ["crank_rocker", "ov7_base", "ov7_new", "fourth_class"] {
         let scenario = scenario(name);
         let drive = scenario.case.drive;
@@ -93,6 +94,12 @@ fn main() {
             })
         };
         let (all, positions) = (time(Stage::BalancingMoment) / measure, time(Stage::Positions) / measure);
-        println!("{name:20} {all:>10.2} {positions:>10.2}");
+        let cranks: Vec<f64> = (0..POSES).map(|k| drive.start + angle(k)).collect();
+        let (mut batch, mut found) = (Batch::of(&scenario.case).unwrap(), Poses::new());
+        let at_once = shortest(|| {
+            batch.solve(black_box(&cranks), omega, 0.0, Stage::BalancingMoment, &mut found).unwrap();
+            black_box(&found);
+        });
+        println!("{name:20} {all:>10.2} {positions:>10.2} {:>10.2}", at_once / measure);
     }
 }

@@ -65,6 +65,8 @@ const HOMES: &[(&str, &str)] = &[
     ("toml", "scenario"),
     ("petgraph", "mechanism"),
     ("nalgebra", "math"),
+    ("pulp", "reference"),
+    ("f64x8", "reference"),
     ("comfy_table", "report"),
     ("svg", "diagram"),
     ("serde", "report"),

@@ -1,6 +1,7 @@
 //! The analytic side: two solvers that share nothing but the mechanism and small mathematics.
 
 mod assur_solver;
+pub mod batch;
 mod kinetostatics;
 pub mod modes;
 pub mod momentum;
