@@ -5,6 +5,7 @@
 
 pub mod four_link;
 pub mod random;
+pub mod sketch;
 pub mod sliders;
 pub mod spec;
 
