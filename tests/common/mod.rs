@@ -4,6 +4,7 @@
 #![allow(dead_code)]
 
 pub mod four_link;
+pub mod higher;
 pub mod random;
 pub mod sketch;
 pub mod sliders;

@@ -118,6 +118,11 @@ impl<'a> Sketch<'a> {
         if link == 0 { "ground".into() } else { self.spec.links[link - 1].name.clone() }
     }
 
+    /// Name of the joint that is drawn next.
+    pub fn next_joint(&self) -> String {
+        format!("J{}", self.joints)
+    }
+
     fn local(&self, link: usize, at: Vec2) -> Vec2 {
         let pose = self.poses[link];
         rotated(unit(-pose.angle), at - pose.origin)
@@ -131,7 +136,7 @@ impl<'a> Sketch<'a> {
 
     /// Joins links `a` and `b`, either of which may be named first, at the place `at` of `a`.
     pub fn join(&mut self, slides: bool, a: usize, b: usize, at: Vec2) -> Drawn {
-        let name = format!("J{}", self.joints);
+        let name = self.next_joint();
         self.joints += 1;
         let is_turned = self.random.yes();
         let order = |pair: [usize; 2]| if is_turned { [pair[1], pair[0]] } else { pair };
