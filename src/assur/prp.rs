@@ -16,6 +16,8 @@ pub struct Prp {
     guides: [Guide; 2],
     /// The inner joint in each slider's frame.
     inner: [Vec2; 2],
+    /// Sign of e x b, kept from the first pose on: where it changes the sliders have gone through infinity.
+    branch: f64,
 }
 
 impl Prp {
@@ -28,6 +30,7 @@ impl Prp {
         Prp {
             guides: [0, 1].map(|k| Guide::of(&joints[group.outer[k]], sliders[k])),
             inner: sliders.map(|link| inner.on(link).expect("the inner joint is on both links")),
+            branch: 0.0,
         }
     }
 
@@ -37,14 +40,16 @@ impl Prp {
     }
 
     #[inline]
-    pub(super) fn positions(&self, motions: &mut [Motion]) -> Result<(), Misfit> {
+    pub(super) fn positions(&mut self, motions: &mut [Motion]) -> Result<(), Misfit> {
         self.guides.iter().for_each(|guide| guide.aim(motions));
         let [e, b] = self.axes(motions);
         let [from, other] = [0, 1].map(|k| self.guides[k].at_zero(self.inner[k], motions));
-        let slide = cross(b, other - from) / cross(b, e);
-        if !slide.is_finite() {
+        let sine = cross(b, e);
+        let slide = cross(b, other - from) / sine;
+        if !slide.is_finite() || sine * self.branch < 0.0 {
             return Err(Misfit::Parallel);
         }
+        self.branch = sine.signum();
         for (guide, inner) in self.guides.iter().zip(self.inner) {
             guide.put(inner, from + e * slide, motions);
         }

@@ -232,9 +232,11 @@ impl<'a> System<'a> {
         if self.jacobian.determinant_sign() != self.branch {
             return Err(self.lost("the mechanism has passed a dead point on the way there"));
         }
-        for theta in (2..self.q.len()).step_by(3) {
-            let moved = (dt * self.rate[theta]).abs() + TRACKING_STEP;
-            if (self.q[theta] - self.predicted[theta]).abs() > moved {
+        let size = self.case.mechanism.size();
+        for i in 0..self.q.len() {
+            // Places too: where axes become parallel, a slider comes back from infinity on the other side.
+            let moved = (dt * self.rate[i]).abs() + TRACKING_STEP * if i % 3 == 2 { 1.0 } else { size };
+            if (self.q[i] - self.predicted[i]).abs() > moved {
                 return Err(self.lost("the solution has jumped to another branch"));
             }
         }

@@ -42,6 +42,10 @@ pub(super) struct Point {
     pub(super) measures: Vec<Measure>,
 }
 
+/// A pose in which the links have moved as many sizes of the mechanism counts as on its way to infinity, where two axes of prismatic joints
+/// become parallel.
+const FARTHEST: f64 = 100.0;
+
 /// How a track ends.
 #[derive(Clone, Debug)]
 pub(super) enum End {
@@ -243,10 +247,13 @@ impl<'a> Tracker<'a> {
                     break;
                 }
             }
-            let is_near = next.sigma < MEET;
+            let (is_near, is_far) = (next.sigma < MEET, self.moved(&points[0], &next) > FARTHEST);
             points.push(next);
             if is_near {
                 return self.met(points);
+            }
+            if is_far {
+                return Ok(self.run_away(points));
             }
         }
         Err(lost(self.crank_of(&points[points.len() - 1].q)))
@@ -294,6 +301,31 @@ impl<'a> Tracker<'a> {
         let singularity = self.singularity(kind, &end);
         points.push(end);
         Ok(Track { points, end: End::Limit(singularity) })
+    }
+
+    /// How far the links have moved (sizes), without their turning.
+    fn moved(&self, from: &Point, to: &Point) -> f64 {
+        let places = (0..from.q.len()).filter(|k| k % 3 != 2).map(|k| (to.q[k] - from.q[k]).powi(2));
+        places.sum::<f64>().sqrt()
+    }
+
+    /// The end of a track on which a slide goes to infinity. The crank angle is a smooth function of the reciprocal of the way; its value
+    /// at zero follows from poses on the way (Neville's scheme).
+    fn run_away(&self, mut points: Vec<Point>) -> Track {
+        let mut known: Vec<(f64, Column)> = Vec::new();
+        for point in points.iter().rev() {
+            let nearness = 1.0 / self.moved(&points[0], point);
+            let apart = known.last().is_none_or(|(farther, _)| nearness > 1.5 * farther);
+            if apart && known.len() < 9 && nearness < 1.0 {
+                known.push((nearness, Column::from_element(1, point.q[self.crank])));
+            }
+        }
+        let known: Vec<(f64, &Column)> = known.iter().map(|(nearness, crank)| (*nearness, crank)).collect();
+        let mut end = points[points.len() - 1].clone();
+        end.q[self.crank] = neville_at_zero(&known)[0];
+        let singularity = self.singularity(Kind::DeadPoint, &end);
+        points.push(end);
+        Track { points, end: End::Limit(singularity) }
     }
 
     /// A singular pose, at the group of smallest determinant.
