@@ -1,4 +1,4 @@
-//! What holds for every mechanism, whatever its numbers, on random chains of one to three dyads. Nothing here knows a
+//! What holds for every mechanism, whatever its numbers, on random mechanisms of one to three dyads of all sorts. Nothing here knows a
 //! formula of the solvers: derivatives are taken by differences, forces are judged by the laws of momentum and energy.
 
 #[path = "invariants/balance.rs"]
@@ -9,7 +9,7 @@ mod symmetry;
 #[path = "invariants/turns.rs"]
 mod turns;
 
-use common::random::{Sample, for_each, within};
+use common::random::{REACH, Sample, for_each, within};
 use common::{centre, centre_acceleration, centre_velocity, states};
 use linkproof::compare::residuals;
 use linkproof::math::Vec2;
@@ -20,8 +20,6 @@ use proptest::test_runner::TestCaseError;
 
 /// Mechanisms that every invariant is tried on.
 const COUNT: u32 = 128;
-/// How far the mechanisms reach (m), and how far their links turn (rad).
-const REACH: f64 = 4.0;
 
 /// Crank angle (rad) of a difference quotient: a little above eps^(1/5), where truncation and rounding are equal.
 const TURN: f64 = 1e-3;

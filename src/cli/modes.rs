@@ -5,20 +5,24 @@ use std::fmt::Write;
 use serde_json::Value;
 
 use crate::mechanism::AssemblyMode;
-use crate::reference::modes::Mode;
+use crate::reference::modes::Modes;
 use crate::scenario::Scenario;
 
 /// Why a configuration has no angular velocities.
 const SINGULAR: &str = "the configuration is singular: angular velocities are not determined";
 
 /// As text.
-pub(super) fn text(scenario: &Scenario, crank: f64, all: &[Vec<Mode>]) -> String {
+pub(super) fn text(scenario: &Scenario, crank: f64, all: &[Modes]) -> String {
     let mechanism = &scenario.case.mechanism;
     let mut text = String::new();
     let _ = writeln!(text, "{} at crank angle {:.4} deg", scenario.name, crank.to_degrees());
-    for (group, modes) in scenario.case.structure.groups.iter().zip(all) {
-        let _ = writeln!(text, "\n{}: {} real configurations", group.names(mechanism), modes.len());
-        for (number, mode) in modes.iter().enumerate() {
+    for (group, found) in scenario.case.structure.groups.iter().zip(all) {
+        let names = group.names(mechanism);
+        let _ = match &found.unknown {
+            None => writeln!(text, "\n{names}: {} real configurations", found.modes.len()),
+            Some(why) => writeln!(text, "\n{names}: only the followed one is shown; {why}"),
+        };
+        for (number, mode) in found.modes.iter().enumerate() {
             let name =
                 if mode.mode == AssemblyMode::Followed { String::new() } else { format!(", {}", mode.mode.name()) };
             let followed = if mode.is_followed { ", followed by the scenario" } else { "" };
@@ -41,10 +45,10 @@ pub(super) fn text(scenario: &Scenario, crank: f64, all: &[Vec<Mode>]) -> String
 }
 
 /// As JSON.
-pub(super) fn json(scenario: &Scenario, crank: f64, all: &[Vec<Mode>]) -> Value {
+pub(super) fn json(scenario: &Scenario, crank: f64, all: &[Modes]) -> Value {
     let mechanism = &scenario.case.mechanism;
-    let groups = scenario.case.structure.groups.iter().zip(all).map(|(group, modes)| {
-        let modes = modes.iter().map(|mode| {
+    let groups = scenario.case.structure.groups.iter().zip(all).map(|(group, found)| {
+        let modes = found.modes.iter().map(|mode| {
             let links = group.links.iter().zip(&mode.poses).enumerate().map(|(k, (&link, pose))| {
                 let omega = mode.omegas.as_ref().map(|all| all[k]);
                 let link = &mechanism.links()[link];
@@ -60,7 +64,12 @@ pub(super) fn json(scenario: &Scenario, crank: f64, all: &[Vec<Mode>]) -> Value 
             }
             value
         });
-        serde_json::json!({"links": group.links.iter().map(|&l| mechanism.links()[l].name.as_str()).collect::<Vec<_>>(), "modes": modes.collect::<Vec<_>>()})
+        let links: Vec<&str> = group.links.iter().map(|&l| mechanism.links()[l].name.as_str()).collect();
+        let mut value = serde_json::json!({"links": links, "all_known": found.unknown.is_none(), "modes": modes.collect::<Vec<_>>()});
+        if let Some(why) = &found.unknown {
+            value["others_absent"] = why.as_str().into();
+        }
+        value
     });
     serde_json::json!({"crank_rad": crank, "groups": groups.collect::<Vec<_>>()})
 }

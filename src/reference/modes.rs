@@ -4,9 +4,9 @@ use super::PoseSolver;
 use super::range::is_singular;
 use crate::assur::Plan;
 use crate::case::Case;
-use crate::error::Result;
+use crate::error::{ErrorKind, Result};
 use crate::math::unit;
-use crate::mechanism::assembly::configurations;
+use crate::mechanism::assembly::{Configuration, configurations};
 use crate::mechanism::{AssemblyMode, LinkPose, Pose, Structure};
 use crate::trajectory::Stage;
 
@@ -23,12 +23,21 @@ pub struct Mode {
     pub is_followed: bool,
 }
 
-/// All real configurations of every group (in the order of the structure) at the crank angle `crank` (rad, as the scenario states
+/// What is known of one group's real configurations.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Modes {
+    /// Its configurations; the followed one alone if not all are known.
+    pub modes: Vec<Mode>,
+    /// Why not all are known, for groups of more than four links; `None` if these are all there are.
+    pub unknown: Option<String>,
+}
+
+/// The real configurations of every group (in the order of the structure) at the crank angle `crank` (rad, as the scenario states
 /// it), each group hung on the links before it as the case follows them.
 ///
 /// # Errors
 /// [`ErrorKind::Geometry`](crate::ErrorKind::Geometry) if the crank angle cannot be reached on the case's branch.
-pub fn all(case: &Case, crank: f64) -> Result<Vec<Vec<Mode>>> {
+pub fn all(case: &Case, crank: f64) -> Result<Vec<Modes>> {
     let mechanism = &case.mechanism;
     let mut poses = PoseSolver::new(case)?;
     let t = case.drive.time_of(crank);
@@ -43,7 +52,15 @@ pub fn all(case: &Case, crank: f64) -> Result<Vec<Vec<Mode>>> {
     for (index, group) in case.structure.groups.iter().enumerate() {
         let part = Structure { groups: case.structure.groups[..=index].to_vec(), ..case.structure.clone() };
         let mut modes = Vec::new();
-        for one in configurations(mechanism, group, &pose)? {
+        let (found, unknown) = match configurations(mechanism, group, &pose) {
+            Ok(found) => (found, None),
+            Err(error) if error.kind() == ErrorKind::Unsupported => {
+                let links = group.links.iter().map(|&link| pose.0[link]).collect();
+                (vec![Configuration { mode: case.modes[index], links }], Some(error.message().to_string()))
+            }
+            Err(error) => return Err(error),
+        };
+        for one in found {
             let mut motions = state.motions.clone();
             for (&link, place) in group.links.iter().zip(&one.links) {
                 motions[link].origin = place.origin;
@@ -67,7 +84,7 @@ pub fn all(case: &Case, crank: f64) -> Result<Vec<Vec<Mode>>> {
             let is_followed = group.links.iter().zip(&one.links).all(near);
             modes.push(Mode { mode: one.mode, poses: one.links, omegas, is_followed });
         }
-        groups.push(modes);
+        groups.push(Modes { modes, unknown });
     }
     Ok(groups)
 }

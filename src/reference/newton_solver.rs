@@ -236,6 +236,7 @@ impl<'a> System<'a> {
         if self.jacobian.determinant_sign() != self.branch {
             return Err(self.lost("the mechanism has passed a dead point on the way there"));
         }
+        // Places too: where axes become parallel, a slider comes back from infinity on the other side.
         let size = self.case.mechanism.size();
         for (index, rate) in self.rate.iter().enumerate() {
             let allowed = (dt * rate).abs() + if index % 3 == 2 { TRACKING_STEP } else { size };

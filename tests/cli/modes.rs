@@ -221,6 +221,33 @@ fn a_group_of_six_links_starts_from_a_rough_drawing() {
 }
 
 #[test]
+fn of_a_group_of_six_links_the_followed_configuration_is_listed() {
+    let place = Place::new();
+    let drawn = [("B", 50.0, 120.0), ("C", 200.0, 110.0), ("E", 450.0, 100.0)];
+    six(&place, &near(&drawn));
+    let text = place.ok("inspect scenarios/six.toml --modes --at-crank-deg 5");
+    let words = "only the followed one is shown; the configurations of a group of 6 links of class 3 are not all known";
+    assert!(text.contains(words) && text.contains("1, followed by the scenario"), "{text}");
+    let found: Value =
+        serde_json::from_str(&place.ok("inspect scenarios/six.toml --modes --at-crank-deg 5 --json -")).unwrap();
+    let group = &found["modes"]["groups"][0];
+    assert_eq!((&group["all_known"], group["modes"].as_array().unwrap().len()), (&json!(false), 1), "{group}");
+    assert!(group["others_absent"].as_str().unwrap().contains("not all known"), "{group}");
+    let table = Table::of(&place.ok("solve scenarios/six.toml --with newton --crank-deg 5:5:1"));
+    for link in group["modes"][0]["links"].as_array().unwrap() {
+        for (key, column) in [("angle_rad", "angle_rad"), ("omega_rad_s", "omega_rad_s")] {
+            let name = format!("link.{}.{column}", link["name"].as_str().unwrap());
+            let (own, newton) = (link[key].as_f64().unwrap(), table.column(&name)[0]);
+            // Rounding of angular velocities up to ten times the crank's.
+            assert!((own - newton).abs() < 1e-10, "{name}: {own} {newton}");
+        }
+    }
+    let dyad = place.ok("inspect scenarios/crank_rocker.toml --modes --json -");
+    let found: Value = serde_json::from_str(&dyad).unwrap();
+    assert_eq!(found["modes"]["groups"][0]["all_known"], json!(true));
+}
+
+#[test]
 fn a_rough_drawing_that_does_not_do_is_refused() {
     let place = Place::new();
     let inspect = "inspect scenarios/six.toml";

@@ -4,33 +4,18 @@ use std::fmt::Write;
 use std::path::Path;
 
 use linkproof::scenario::Scenario;
-use proptest::prelude::Rng;
-use proptest::test_runner::{RngAlgorithm, TestRng};
 
-/// Source of random numbers.
-pub struct Random(TestRng);
+pub use super::sketch::Random;
 
-impl Random {
-    /// The numbers that follow from `seed`.
-    pub fn from_seed(seed: u8) -> Self {
-        Random(TestRng::from_seed(RngAlgorithm::ChaCha, &[seed; 32]))
-    }
-
-    /// The next one.
-    pub fn number(&mut self, from: f64, to: f64) -> f64 {
-        from + (to - from) * (self.0.next_u64() >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    fn place(&mut self) -> [f64; 2] {
-        [self.number(-0.5, 0.5), self.number(-0.5, 0.5)]
-    }
+fn place(random: &mut Random) -> [f64; 2] {
+    [random.number(-0.5, 0.5), random.number(-0.5, 0.5)]
 }
 
 /// A link whose frame has its origin in its first point and lies as in the world, so that its points are differences.
 fn link(text: &mut String, random: &mut Random, name: &str, points: &[(&str, [f64; 2])]) {
     let origin = points[0].1;
     let local = |p: [f64; 2]| format!("{{ x_m = {:?}, y_m = {:?} }}", p[0] - origin[0], p[1] - origin[1]);
-    let (mass, inertia, centre) = (random.number(0.2, 3.0), random.number(0.01, 0.1), random.place());
+    let (mass, inertia, centre) = (random.number(0.2, 3.0), random.number(0.01, 0.1), place(random));
     let _ = write!(
         text,
         "[links.{name}]\nmass_kg = {mass:?}\ninertia_kg_m2 = {inertia:?}\nmass_centre = {}\n[links.{name}.points]\n",
@@ -44,7 +29,7 @@ fn link(text: &mut String, random: &mut Random, name: &str, points: &[(&str, [f6
 /// A mechanism with one group of four links, described in a pose it can take: links, joints, ground points.
 pub fn scenario(random: &mut Random, triad: bool) -> Scenario {
     let mut text = String::from("format = 1\nname = \"random\"\ntitle = \"random\"\n[ground.points]\n");
-    let places: Vec<[f64; 2]> = (0..8).map(|_| random.place()).collect();
+    let places: Vec<[f64; 2]> = (0..8).map(|_| place(random)).collect();
     let at = |k: usize| places[k];
     let crank = random.number(0.02, 0.05);
     let c = [at(0)[0] + crank, at(0)[1]];

@@ -4,7 +4,9 @@
 #![allow(dead_code)]
 
 pub mod four_link;
+pub mod higher;
 pub mod random;
+pub mod sketch;
 pub mod sliders;
 pub mod spec;
 

@@ -6,9 +6,9 @@ use linkproof::reference;
 use linkproof::solver::State;
 use proptest::test_runner::TestCaseError;
 
-use crate::common::random::for_each;
+use crate::common::random::{REACH, for_each, within};
 use crate::common::{centre, centre_velocity};
-use crate::{Around, COUNT, REACH};
+use crate::{Around, COUNT};
 
 /// Five states around an instant, and what the balances are measured by.
 struct Instant<'a> {
@@ -33,15 +33,29 @@ impl Instant<'_> {
         self.case.load_moment(link, self.here().motions[link].omega)
     }
 
-    /// Forces and their places, in the world, that the joints put on `link` (0 for the ground).
-    fn on(&self, link: usize) -> Vec<(Vec2, Vec2)> {
-        let joints = self.case.mechanism.joints().iter().zip(&self.here().forces);
-        let own = joints.filter_map(|(joint, &force)| {
-            let local = joint.on(link)?;
+    /// What the joints put on `link` (0 for the ground). A joint acts at its place on its second link, on either link.
+    fn on(&self, link: usize) -> Vec<Action> {
+        let here = self.here();
+        let joints = self.case.mechanism.joints().iter().zip(here.forces.iter().zip(&here.moments));
+        let own = joints.filter(|(joint, _)| joint.on(link).is_some()).map(|(joint, (&force, moment))| {
             let sign = if joint.second.link == link { 1.0 } else { -1.0 };
-            Some((self.here().motions[link].point(local), force * sign))
+            let place = here.motions[joint.second.link].point(joint.second.local);
+            Action { place, force: force * sign, moment: moment * sign }
         });
         own.collect()
+    }
+}
+
+/// A force at its place in the world, and a moment.
+struct Action {
+    place: Vec2,
+    force: Vec2,
+    moment: f64,
+}
+
+impl Action {
+    fn about(&self, point: Vec2) -> f64 {
+        cross(self.place - point, self.force) + self.moment
     }
 }
 
@@ -68,7 +82,7 @@ fn ground_reactions_and_gravity_change_the_momentum() {
         let momentum =
             |s: &State| -> Vec2 { at.masses().map(|(link, body)| centre_velocity(case, s, link) * body.mass).sum() };
         let weight: Vec2 = at.masses().map(|(_, body)| case.gravity * body.mass).sum();
-        let ground: Vec2 = at.on(0).iter().map(|(_, force)| -force).sum();
+        let ground: Vec2 = at.on(0).iter().map(|action| -action.force).sum();
         at.around.are_slopes("momentum", at.mass * REACH * at.fastest, momentum, weight + ground)
     });
 }
@@ -87,7 +101,7 @@ fn ground_reactions_drive_loads_and_gravity_change_the_angular_momentum() {
         let weight = at
             .masses()
             .map(|(link, body)| cross(centre(case, at.here(), link), case.gravity * body.mass) + at.load(link));
-        let ground = at.on(0).into_iter().map(|(place, force)| -cross(place, force));
+        let ground = at.on(0).into_iter().map(|action| -action.about(Vec2::zeros()));
         let outer: f64 = weight.chain(ground).sum::<f64>() + at.here().torques[0];
         at.around.is_slope("angular momentum", at.mass * REACH * REACH * at.fastest, momentum, outer)
     });
@@ -99,8 +113,8 @@ fn every_link_is_in_equilibrium() {
         let case = at.case;
         for (link, body) in at.masses() {
             let middle = centre(case, at.here(), link);
-            let force: Vec2 = at.on(link).iter().map(|(_, force)| *force).sum();
-            let arms: f64 = at.on(link).iter().map(|(place, force)| cross(place - middle, *force)).sum();
+            let force: Vec2 = at.on(link).iter().map(|action| action.force).sum();
+            let arms: f64 = at.on(link).iter().map(|action| action.about(middle)).sum();
             let drive = if link == case.drive.link { at.here().torques[0] } else { 0.0 };
             let scale = body.mass * REACH * at.fastest;
             let push = |s: &State| centre_velocity(case, s, link) * body.mass;
@@ -127,5 +141,27 @@ fn drive_and_loads_change_the_energy() {
         let loads: f64 = at.masses().map(|(link, _)| at.load(link) * at.here().motions[link].omega).sum();
         let power = at.here().torques[0] * case.drive.at(0.0).omega + loads;
         at.around.is_slope("energy", at.mass * (REACH * at.fastest).powi(2), energy, power)
+    });
+}
+
+#[test]
+fn joints_hold_together_and_guides_push_across_their_axes_only() {
+    at_instants(|at| {
+        let here = at.here();
+        let largest = here.forces.iter().map(|force| force.norm()).fold(0.0, f64::max);
+        for (joint, force) in at.case.mechanism.joints().iter().zip(&here.forces) {
+            let sides = [joint.first, joint.second].map(|side| (&here.motions[side.link], side.local));
+            let places = sides.map(|(motion, local)| motion.point(local));
+            let (gap, turn) = joint.opening(places, sides.map(|(motion, _)| motion.direction));
+            // Rounding of coordinates up to the reach, from one dyad to the next.
+            let rounding = 10.0 * f64::EPSILON * at.around.condition;
+            within("gap", gap, REACH * rounding)?;
+            within("turn of a guide", turn, rounding)?;
+            if let Some(axis) = joint.axis_on(joint.first.link) {
+                let along = sides[0].0.arm(axis).dot(force).abs();
+                within("push along a guide", along, 10.0 * f64::EPSILON * largest)?;
+            }
+        }
+        Ok(())
     });
 }

@@ -1,14 +1,17 @@
 //! What happens to a solution when the whole problem is moved, turned, mirrored, reversed or made heavier.
 
+use std::f64::consts::PI;
+
 use linkproof::case::Case;
-use linkproof::math::{Vec2, rotated, unit};
+use linkproof::math::{Vec2, cross, rotated, unit};
+use linkproof::mechanism::GroupKind;
 use linkproof::reference;
 use linkproof::solver::{Solver, State};
 use proptest::test_runner::TestCaseError;
 
 use crate::COUNT;
 use crate::common::random::{Sample, for_each, within};
-use crate::common::spec::Spec;
+use crate::common::spec::{Spec, Start};
 use crate::common::states;
 
 /// Rounding of two solutions of one problem in different clothes, relative to the size of what is compared, times the
@@ -62,8 +65,8 @@ fn compare(
     let spin = ours.motions.iter().map(|m| m.omega.abs()).fold(0.0, f64::max);
     let force = ours.forces.iter().map(|f| f.norm()).fold(0.0, f64::max);
     for (link, body) in case.mechanism.links().iter().enumerate().skip(1) {
-        let (a, b, c) = (&ours.motions[link], &theirs.motions[link], body.points[0].local);
-        let d = other.mechanism.links()[link].points[0].local;
+        let (a, b, c) = (&ours.motions[link], &theirs.motions[link], body.mass_centre);
+        let d = other.mechanism.links()[link].mass_centre;
         let turn = theirs.angles[link] - (expected.angle)(ours.angles[link]);
         within("angle", linkproof::math::angle::wrapped(turn).abs(), bound)?;
         within("omega", (b.omega - expected.omega * a.omega).abs(), bound * spin)?;
@@ -76,6 +79,10 @@ fn compare(
     }
     for (a, b) in ours.forces.iter().zip(&theirs.forces) {
         within("force", (b - (expected.vector)(*a)).norm(), bound * force)?;
+    }
+    // Moments change their sense as the driving one does.
+    for (a, b) in ours.moments.iter().zip(&theirs.moments) {
+        within("moment", (b - expected.torque * a).abs(), bound * force.max(ours.torques[0].abs()))?;
     }
     within(
         "torque",
@@ -139,27 +146,86 @@ fn a_mirror_image_has_mirrored_motion_and_forces() {
     });
 }
 
+fn same() -> Expected {
+    Expected {
+        place: Box::new(|v| v),
+        angle: Box::new(|a| a),
+        omega: 1.0,
+        alpha: 1.0,
+        torque: 1.0,
+        velocity: Box::new(|v| v),
+        vector: Box::new(|v| v),
+    }
+}
+
 #[test]
 fn joints_read_the_other_way_round_flip_their_own_force_only() {
     for_each(COUNT, |sample| {
-        for index in 0..sample.spec.pins.len() {
+        let case = &sample.scenario.case;
+        for (index, joint) in case.mechanism.joints().iter().enumerate() {
             let mut other = sample.spec.clone();
-            other.pins[index].links.reverse();
+            other.pins.iter_mut().filter(|pin| pin.name == joint.name).for_each(|pin| pin.links.reverse());
+            other.guides.iter_mut().filter(|guide| guide.name == joint.name).for_each(|guide| guide.reverse());
+            turn_modes(case, &mut other, index, |kind| kind == GroupKind::Rpr);
             let other = case_of(&other);
             for solver in reference::all() {
                 for (ours, mut theirs) in pairs(solver, sample, &other, 1.0) {
                     theirs.forces[index] = -theirs.forces[index];
-                    let same = |v: Vec2| v;
-                    let expected = Expected {
-                        place: Box::new(same),
-                        angle: Box::new(|a| a),
-                        omega: 1.0,
-                        alpha: 1.0,
-                        torque: 1.0,
-                        velocity: Box::new(same),
-                        vector: Box::new(same),
-                    };
-                    compare(sample, &other, [&ours, &theirs], &expected)?;
+                    // About the place on the link that was second before.
+                    let [first, second] =
+                        [joint.first, joint.second].map(|side| ours.motions[side.link].point(side.local));
+                    if joint.is_prismatic() {
+                        theirs.moments[index] = cross(first - second, theirs.forces[index]) - theirs.moments[index];
+                    }
+                    compare(sample, &other, [&ours, &theirs], &same())?;
+                }
+            }
+        }
+        Ok(())
+    });
+}
+
+/// Turns about the mode of the group whose inner or outer joint `joint` is, if it is of a sort for which that matters.
+fn turn_modes(case: &Case, spec: &mut Spec, joint: usize, matters: impl Fn(GroupKind) -> bool) {
+    for group in case.structure.groups.iter().filter(|group| matters(group.kind)) {
+        let has = |start: &Start| {
+            start.links.iter().all(|name| group.links.contains(&case.mechanism.link_named(name).expect("a link")))
+        };
+        if group.inner.contains(&joint) || group.outer.contains(&joint) && group.kind == GroupKind::Rrp {
+            spec.starts.iter_mut().filter(|start| has(start)).for_each(|start| start.ask.reverse());
+        }
+    }
+}
+
+/// A guide is a line: neither the sense in which its axis is read nor the place on the line that names it matters.
+#[test]
+fn guides_read_against_their_axes_and_named_elsewhere_work_alike() {
+    for_each(COUNT, |sample| {
+        let case = &sample.scenario.case;
+        for (index, joint) in case.mechanism.joints().iter().enumerate().filter(|(_, joint)| joint.is_prismatic()) {
+            let mut turned = sample.spec.clone();
+            let guide = turned.guides.iter_mut().find(|guide| guide.name == joint.name).expect("a guide");
+            guide.axes.iter_mut().for_each(|axis| *axis += PI);
+            turn_modes(case, &mut turned, index, |kind| matches!(kind, GroupKind::Rpr | GroupKind::Rrp));
+            check(sample, &turned, 1.0, &same())?;
+            let mut moved = sample.spec.clone();
+            let guide = moved.guides.iter().find(|guide| guide.name == joint.name).expect("a guide").clone();
+            for (k, by) in [(0, 0.3), (1, -0.2)] {
+                let points = match guide.links[k].as_str() {
+                    "ground" => &mut moved.ground,
+                    link => &mut moved.links.iter_mut().find(|body| body.name == link).expect("a link").points,
+                };
+                let (_, at) = points.iter_mut().find(|(name, _)| *name == guide.points[k]).expect("a point");
+                *at += unit(guide.axes[k]) * by;
+            }
+            let moved = case_of(&moved);
+            for solver in reference::all() {
+                for (ours, mut theirs) in pairs(solver, sample, &moved, 1.0) {
+                    let place = |state: &State| state.motions[joint.second.link].point(joint.second.local);
+                    let second = moved.mechanism.joints()[index].second;
+                    let shift = place(&ours) - ours.motions[second.link].point(second.local);
+                    theirs.moments[index] -= cross(shift, theirs.forces[index]);
+                    compare(sample, &moved, [&ours, &theirs], &same())?;
                 }
             }
         }
@@ -179,6 +245,8 @@ fn twice_the_masses_make_exactly_twice_the_forces() {
                 // A factor of two changes no rounding, so that the equality is exact.
                 let doubled: Vec<Vec2> = ours.forces.iter().map(|force| force * 2.0).collect();
                 proptest::prop_assert_eq!(&theirs.forces, &doubled);
+                let doubled: Vec<f64> = ours.moments.iter().map(|moment| moment * 2.0).collect();
+                proptest::prop_assert_eq!(&theirs.moments, &doubled);
                 proptest::prop_assert_eq!(theirs.torques[0], 2.0 * ours.torques[0]);
                 proptest::prop_assert_eq!(&theirs.motions, &ours.motions);
             }

@@ -73,8 +73,8 @@ pub(super) struct Segment {
 pub struct Closing {
     /// The joint.
     pub joint: usize,
-    /// Nodes of the joint's first and second link.
-    pub nodes: [usize; 2],
+    /// Nodes of the joint's first and second link; none of a link outside the group.
+    pub nodes: [Option<usize>; 2],
     /// The joint on its second link.
     place: Side,
     /// Known points from which the two ways start: second with sign +1, first with -1.
@@ -124,9 +124,9 @@ fn closing(mechanism: &Mechanism, nodes: &[Node], joint: usize) -> Closing {
     let found = &mechanism.joints()[joint];
     let mut segments = Vec::new();
     let mut way = |side: Side, sign: f64| {
-        let node =
-            nodes.iter().position(|node| node.link == side.link).expect("outer joints carry the links they are on");
-        let (mut next, mut local, mut end) = (Some(node), side.local, side);
+        // Where sliders carry all links, an outer pin is left over too: the way to it over the link outside is none.
+        let node = nodes.iter().position(|node| node.link == side.link);
+        let (mut next, mut local, mut end) = (node, side.local, side);
         while let Some(index) = next {
             let own = &nodes[index];
             segments.push(Segment { node: index, local: Some(local - own.own), sign });

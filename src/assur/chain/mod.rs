@@ -308,6 +308,9 @@ impl Chain {
     }
 
     pub(super) fn velocities(&mut self, motions: &mut [Motion]) {
+        for node in self.led() {
+            motions[node.link].omega = motions[node.parent.link].omega;
+        }
         for (index, closing) in self.closings.iter().enumerate() {
             let mut rate = Vec2::zeros();
             for (side, sign) in closing.ends {
@@ -339,6 +342,9 @@ impl Chain {
     }
 
     pub(super) fn accelerations(&mut self, motions: &mut [Motion]) {
+        for node in self.led() {
+            motions[node.link].alpha = motions[node.parent.link].alpha;
+        }
         for (index, closing) in self.closings.iter().enumerate() {
             let mut second = Vec2::zeros();
             for (side, sign) in closing.ends {
@@ -374,6 +380,12 @@ impl Chain {
             motion.alpha = alpha;
             motion.acceleration = at - turned(own) * alpha + own * (motion.omega * motion.omega);
         }
+    }
+
+    /// The nodes that links outside the group lead in their turning, parents first: no unknown of the group's is their angle, so their
+    /// turning is known before it is solved.
+    fn led(&self) -> impl Iterator<Item = &Node> {
+        self.nodes.iter().filter(|node| self.is_sliding && node.spin.is_none())
     }
 
     /// Coriolis acceleration of a sliding node along the normal of its axis.

@@ -118,6 +118,9 @@ impl Solver for Rapier {
             while !window.covers(t) {
                 twin.step()?;
                 window.push(&twin, case);
+                if window.newest() == 0 {
+                    twin.check_start(case)?;
+                }
                 if window.newest() % 256 == 0 {
                     progress((window.newest() - start) as f64 / total);
                 }

@@ -172,6 +172,31 @@ impl Twin {
         Ok(())
     }
 
+    /// That the twin stands in the case's start pose again, after it has driven itself away and back.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Numeric`] if a link is farther away than a loop may open: on the way it went past a dead point, into another
+    /// configuration.
+    pub fn check_start(&self, case: &Case) -> Result<()> {
+        for (index, (link, pose)) in case.mechanism.links().iter().zip(&case.start.0).enumerate().skip(1) {
+            let off = |local: Vec2| (self.point(Side { link: index, local }) - pose.point(local)).norm();
+            let far = link.points.iter().map(|point| off(point.local)).fold(off(link.mass_centre), f64::max);
+            // Written so that NaN stops the run too.
+            if !(far <= self.largest_gap) {
+                let crank = case.drive.start.to_degrees();
+                return Err(Error::new(
+                    ErrorKind::Numeric,
+                    format!(
+                        "the engine ran up from a few steps before the grid and came back to the start at crank angle {crank:.4} deg with link \"{}\" {far:.3e} m off: it has passed a dead point on the way",
+                        link.name
+                    ),
+                )
+                .help("choose a smaller time step (--dt), or begin the grid farther from the dead point"));
+            }
+        }
+        Ok(())
+    }
+
     fn multibody(&self) -> &Multibody {
         self.world.multibody_joints.get(self.any_link).expect("the multibody exists").0
     }

@@ -53,6 +53,7 @@ impl Higher {
             let force = Vec2::new(self.multipliers[2 * index], self.multipliers[2 * index + 1]);
             reactions.forces[closing.joint] = force;
             for (node, sign) in closing.nodes.into_iter().zip([-1.0, 1.0]) {
+                let Some(node) = node else { continue };
                 let (total, moment) = &mut self.cut[node];
                 *total += force * sign;
                 *moment += cross(closing.place(motions) - pole(&nodes[node], motions), force) * sign;
