@@ -24,7 +24,7 @@ fn regress_a_slide_that_goes_to_infinity_ends_the_range() {
     let range = Range::of(&shipped("tangent.toml").case).unwrap();
     let Extent::Limited(limits) = range.extent else { panic!("{:?}", range.extent) };
     for (limit, expected) in limits.iter().zip([-FRAC_PI_2, FRAC_PI_2]) {
-        assert_eq!((limit.kind, limit.group), (Kind::DeadPoint, 0));
+        assert_eq!((limit.kind, limit.group), (Kind::ParallelAxes, 0));
         // To what limits are promised.
         assert!((limit.crank - expected).abs() <= 1e-9, "{:e}", limit.crank - expected);
     }

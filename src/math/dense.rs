@@ -69,7 +69,13 @@ impl Lu {
         true
     }
 
-    /// Sign of the determinant of the factored matrix, +1 or -1.
+    /// Determinant of the factored matrix.
+    #[must_use]
+    pub fn determinant(&self) -> f64 {
+        (0..self.n).fold(self.swap_sign, |product, k| product * self.a[k * self.n + k])
+    }
+
+    /// Sign of the determinant of the factored matrix, +1 or -1; right where the determinant itself would be too small for a number.
     #[must_use]
     pub fn determinant_sign(&self) -> f64 {
         (0..self.n).fold(self.swap_sign, |sign, k| sign * self.a[k * self.n + k].signum())
@@ -135,6 +141,7 @@ mod tests {
             }
             prop_assert!(lu.factor());
             prop_assert_eq!(lu.determinant_sign(), matrix.determinant().signum());
+            prop_assert!((lu.determinant() - matrix.determinant()).abs() <= 1e-13);
             let b = DVector::from_vec(rhs);
             let bound = 1e-13 * condition.max() / condition.min() * b.norm() / condition.min();
             let (mut x, mut y) = (b.as_slice().to_vec(), b.as_slice().to_vec());

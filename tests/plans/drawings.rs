@@ -8,7 +8,7 @@ use crate::{REVOLUTE, SLIDERS, all, degrees_of, plans};
 #[test]
 fn drawings_are_well_formed_and_hold_every_vector() {
     let names = REVOLUTE.into_iter().chain(SLIDERS);
-    for (name, degrees) in names.flat_map(|name| [0.0, 70.0, -150.0].map(|degrees| (name, degrees))) {
+    for (name, degrees) in names.flat_map(|name| [0.0, 70.0, 210.0].map(|degrees| (name, degrees))) {
         let plans = plans(name, degrees_of(name, degrees));
         let text = draw::plans(&plans, name, "a < b & \"c\"");
         let document = roxmltree::Document::parse(&text).unwrap_or_else(|error| panic!("{name}: {error}"));

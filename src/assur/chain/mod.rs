@@ -28,6 +28,12 @@ const LAST_CHANGE: f64 = 1e-8;
 /// Change of the last iteration (rad) up to which the Jacobian is that of the pose itself, to rounding: predictions from five steps
 /// magnify the rounding of a turn up to 31 times, and come this near on a turn in steps of a tenth of a degree.
 const SAME_POSE: f64 = 4e-14;
+/// Largest correction of a predicted pose (rad): near a dead point predictions go astray, and what they come to may be another branch.
+const MAX_CORRECTION: f64 = 0.01;
+/// Share of the squared determinant that must be left after a step, as the last step lets expect.
+const LEAST_LEFT: f64 = 0.25;
+/// Steps of the driving angle (rad) below which no branch is jumped to any more.
+const SMALLEST_STEP: f64 = 1e-6;
 /// Steps that the next one is predicted from.
 const MEMORY: usize = 5;
 /// Weights of the last steps, the newest first, where one to five of them are known: binomial coefficients with alternating signs.
@@ -63,6 +69,9 @@ pub struct Chain {
     jacobian: Lu,
     unknown: Vec<f64>,
     branch: f64,
+    /// Square of the determinant at the last pose, and its derivative by the driving angle (1/rad).
+    square: f64,
+    slope: f64,
     /// Directions of the links at the last pose, to go back to.
     kept: Vec<Vec2>,
     /// Slides at this pose and at the last one, and their rates (m, m, m/s); 0 for revolute joints.
@@ -92,6 +101,8 @@ impl Chain {
             jacobian: Lu::new(n),
             unknown: vec![0.0; n],
             branch: 0.0,
+            square: f64::NAN,
+            slope: 0.0,
             kept: vec![Vec2::zeros(); n],
             slides: vec![f64::NAN; n],
             kept_slides: vec![0.0; n],
@@ -204,10 +215,15 @@ impl Chain {
             *kept = motions[node.link].direction;
         }
         self.kept_slides.copy_from_slice(&self.slides);
-        self.predict(step, motions);
-        let followed = self.follow(motions) && self.is_near(motions);
+        let allowed = if self.predict(step, motions) { MAX_CORRECTION } else { MAX_TURN };
+        let followed = !self.is_bold(step) && self.follow(allowed, motions) && self.is_near(motions);
         if followed {
             self.remember(step, motions);
+            let square = self.jacobian.determinant().powi(2);
+            if step != 0.0 && self.square.is_finite() {
+                self.slope = (square - self.square) / step;
+            }
+            self.square = square;
         } else {
             self.last_step = f64::NAN;
             for (kept, node) in self.kept.iter().zip(&self.nodes) {
@@ -223,16 +239,18 @@ impl Chain {
         (step - self.last_step).abs() <= 1e-6 * step.abs()
     }
 
-    /// Turns the links as the last steps let expect, if this one is of the same size: the polynomial through them goes on, so that its next
+    /// Turns the links as the last steps let expect, if this one is of the same size, and says whether it was: the polynomial through them goes on, so that its next
     /// difference vanishes.
-    fn predict(&mut self, step: f64, motions: &mut [Motion]) {
-        if self.is_repeated(step) {
+    fn predict(&mut self, step: f64, motions: &mut [Motion]) -> bool {
+        let repeated = self.is_repeated(step);
+        if repeated {
             let weights = &EXTRAPOLATION[self.equal_steps.min(MEMORY) - 1];
             for (index, turned) in self.turned.iter().enumerate() {
                 let change = turned.iter().zip(weights).map(|(turn, weight)| turn * weight).sum();
                 advance(&self.nodes[index], &mut self.slides[index], change, self.size, motions);
             }
         }
+        repeated
     }
 
     /// Keeps the turns of this step for the next prediction.
@@ -261,7 +279,7 @@ impl Chain {
     }
 
     /// Newton's method to rounding; leaves the Jacobian factored at the pose it ends in.
-    fn follow(&mut self, motions: &mut [Motion]) -> bool {
+    fn follow(&mut self, allowed: f64, motions: &mut [Motion]) -> bool {
         for _ in 0..MAX_ITERATIONS {
             self.assemble(motions);
             if !self.jacobian.factor() {
@@ -269,7 +287,7 @@ impl Chain {
             }
             self.jacobian.solve(&mut self.unknown);
             let change = self.unknown.iter().fold(0.0f64, |max, turn| max.max(turn.abs()));
-            if !(change <= MAX_TURN) {
+            if !(change <= allowed) {
                 return false;
             }
             for (index, change) in self.unknown.iter().enumerate() {
@@ -305,6 +323,12 @@ impl Chain {
             self.branch = sign;
         }
         sign == self.branch
+    }
+
+    /// Whether a step may lead over a dead point. The square of the determinant is linear in the driving angle near one; a step on which it would
+    /// lose most of itself must be a smaller one, or it might end on the other side of a gap between two branches.
+    fn is_bold(&self, step: f64) -> bool {
+        step.abs() > SMALLEST_STEP && self.square + self.slope * step < LEAST_LEFT * self.square
     }
 
     pub(super) fn velocities(&mut self, motions: &mut [Motion]) {
