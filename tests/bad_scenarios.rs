@@ -35,8 +35,8 @@ fn line_of(text: &str, marker: &str) -> usize {
 }
 
 /// Applies the edits, parses, and asserts everything that is expected of the error.
-fn assert_refused(bad: &Bad) {
-    let mut text = GOOD.to_string();
+fn assert_refused(good: &str, bad: &Bad) {
+    let mut text = good.to_string();
     for (from, to) in bad.edits {
         assert!(text.contains(from), "the edit `{from}` does not apply");
         text = text.replacen(from, to, 1);
@@ -54,7 +54,7 @@ fn assert_refused(bad: &Bad) {
 }
 
 fn assert_all_refused(cases: &[Bad]) {
-    cases.iter().for_each(assert_refused);
+    cases.iter().for_each(|bad| assert_refused(GOOD, bad));
 }
 
 const INPUT: ErrorKind = ErrorKind::Input;
@@ -65,6 +65,9 @@ macro_rules! bad {
         Bad { edits: &[($from, $to)], kind: $kind, at: $at, key: $key, words: &[$($word),+] }
     };
 }
+
+#[path = "bad_scenarios/sliders.rs"]
+mod sliders;
 
 #[test]
 fn the_good_scenario_is_good() {

@@ -73,8 +73,8 @@ fn agree(among: Among, tries: usize) {
         let (worst, solved, as_drawn) = worst(family, among, tries);
         let what = format!("{}, sliding {:?}, {among:?}", family.topology.name, family.slides);
         println!("{what}: {solved} solved, {as_drawn} as drawn, {}", worst.map(|w| format!("{w:.1e}")).join(" "));
-        // Where many die at dead points, a fifth must be left to compare.
-        assert!(solved * 5 >= tries && as_drawn * 2 > tries, "{what}: only {solved}, {as_drawn} of {tries}");
+        // Where many die at dead points, a tenth must be left to compare.
+        assert!(solved * 10 > tries && as_drawn * 2 > tries, "{what}: only {solved}, {as_drawn} of {tries}");
         for stage in Stage::ALL {
             // The bounds of the published mechanisms, times the square of the nearness.
             let bound = match stage {
@@ -94,10 +94,10 @@ fn both_sides_agree_on_random_higher_groups() {
 
 #[test]
 fn both_sides_agree_on_higher_groups_behind_a_dyad() {
-    agree(Among::BehindADyad, TRIES / 3);
+    agree(Among::BehindADyad, TRIES / 2);
 }
 
 #[test]
 fn both_sides_agree_on_higher_groups_that_carry_a_dyad() {
-    agree(Among::CarryingADyad, TRIES / 3);
+    agree(Among::CarryingADyad, TRIES / 2);
 }

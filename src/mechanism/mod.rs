@@ -233,6 +233,23 @@ impl Mechanism {
         self.links.iter().map(Link::size).fold(0.0, f64::max)
     }
 
+    /// Whether a link can turn: it cannot if prismatic joints alone connect it with the ground.
+    #[must_use]
+    pub fn can_turn(&self, link: usize) -> bool {
+        let mut still = vec![GROUND];
+        let mut next = 0;
+        while let Some(&own) = still.get(next) {
+            next += 1;
+            for joint in self.joints.iter().filter(|joint| joint.is_prismatic() && joint.on(own).is_some()) {
+                let other = joint.other(own).link;
+                if !still.contains(&other) {
+                    still.push(other);
+                }
+            }
+        }
+        !still.contains(&link)
+    }
+
     fn check_names(&self) -> Result<()> {
         for (i, link) in self.links.iter().enumerate() {
             if self.links[..i].iter().any(|other| other.name == link.name) {

@@ -86,5 +86,10 @@ fn load(mut table: Table, mechanism: &Mechanism) -> Result<Load> {
     if link == GROUND {
         return Err(table.wrong(ErrorKind::Input, "link", "the ground does not turn").help("name a moving link"));
     }
+    // Its angular velocity would be the rounding of zero, and so would the sense of the moment.
+    if !mechanism.can_turn(link) {
+        let message = format!("link \"{name}\" does not turn: prismatic joints alone connect it with the ground");
+        return Err(table.wrong(ErrorKind::Input, "link", message).help("name a link that turns"));
+    }
     Ok(Load::Resistance { link, moment })
 }
