@@ -36,7 +36,7 @@ pub struct Modes {
 /// it), each group hung on the links before it as the case follows them.
 ///
 /// # Errors
-/// [`ErrorKind::Geometry`](crate::ErrorKind::Geometry) if the crank angle cannot be reached on the case's branch.
+/// [`ErrorKind::Geometry`] if the crank angle cannot be reached on the case's branch.
 pub fn all(case: &Case, crank: f64) -> Result<Vec<Modes>> {
     let mechanism = &case.mechanism;
     let mut poses = PoseSolver::new(case)?;
