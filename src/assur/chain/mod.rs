@@ -211,12 +211,16 @@ impl Chain {
         if self.slides[0].is_nan() {
             self.read_slides(motions);
         }
+        if self.is_bold(step) {
+            self.last_step = f64::NAN;
+            return false;
+        }
         for (kept, node) in self.kept.iter_mut().zip(&self.nodes) {
             *kept = motions[node.link].direction;
         }
         self.kept_slides.copy_from_slice(&self.slides);
         let allowed = if self.predict(step, motions) { MAX_CORRECTION } else { MAX_TURN };
-        let followed = !self.is_bold(step) && self.follow(allowed, motions) && self.is_near(motions);
+        let followed = self.follow(allowed, motions) && self.is_near(motions);
         if followed {
             self.remember(step, motions);
             let square = self.jacobian.determinant().powi(2);
