@@ -27,6 +27,19 @@ pub struct FourBar {
 pub type Forces = [f64; 9];
 
 impl FourBar {
+    /// Positions alone: vectors OA, AB, CB. A frame of each link, as the general solver gives, would come on top.
+    #[inline(never)]
+    pub fn positions(&self, angle: f64) -> [f64; 6] {
+        let (s, c) = angle.sin_cos();
+        let (ax, ay) = (self.crank * c, self.crank * s);
+        let (dx, dy) = (self.pivot[0] - ax, self.pivot[1] - ay);
+        let d2 = dx * dx + dy * dy;
+        let f = 0.5 * (self.coupler * self.coupler - self.rocker * self.rocker + d2) / d2;
+        let h = (self.coupler * self.coupler / d2 - f * f).sqrt();
+        let (px, py) = (dx * f - dy * h, dy * f + dx * h);
+        [ax, ay, px, py, px - dx, py - dy]
+    }
+
     /// Positions, velocities, accelerations, all reactions and the moment at one crank angle (constant speed).
     #[inline(never)]
     pub fn solve(&self, angle: f64, w1: f64) -> Forces {

@@ -78,7 +78,12 @@ fn main() {
             black_box(hand.solve(black_box(angle(k)), omega));
         }
     });
-    println!("four-bar by hand: 1 ({measure:.0} ns a pose on this machine, now)\n");
+    let placed = shortest(|| {
+        for k in 0..POSES {
+            black_box(hand.positions(black_box(angle(k))));
+        }
+    });
+    println!("four-bar by hand: 1 ({measure:.0} ns a pose on this machine, now), positions {:.2}\n", placed / measure);
     println!("{:20} {:>10} {:>10} {:>10}", "scenario", "all", "positions", "batch");
     for name in ["crank_rocker", "ov7_base", "ov7_new", "fourth_class"] {
         let scenario = scenario(name);

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::drive::{Drive, Load};
+use crate::drive::{Drive, Load, Motor};
 use crate::math::Vec2;
 use crate::math::statistics::ascending;
 use crate::mechanism::{AssemblyMode, Mechanism, Pose, Structure};
@@ -110,6 +110,8 @@ pub struct Case {
     pub drive: Drive,
     /// Prescribed motions of further driving links.
     pub further_drives: Vec<Drive>,
+    /// Motor whose speed under the load is asked for; under a prescribed motion it moves nothing.
+    pub motor: Option<Motor>,
     /// Loads besides gravity and inertia.
     pub loads: Vec<Load>,
     /// Acceleration of gravity (m/s^2).

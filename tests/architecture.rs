@@ -22,7 +22,7 @@ const ALLOWED: &[(&str, &str)] = &[
     ("error", ""),
     ("math", ""),
     ("mechanism", "error math"),
-    ("proof", "case compare engine error math reference scenario solver tolerance trajectory"),
+    ("proof", "case compare engine error math mechanism reference scenario solver tolerance trajectory"),
     ("record", "error math mechanism trajectory"),
     ("reference", "assur case drive error math mechanism solver trajectory"),
     ("report", "compare error proof solver"),

@@ -11,16 +11,16 @@ const GOOD: &str = include_str!("bad_scenarios/good.toml");
 const TABLE: &str = "crank_deg,Bx_mm\n0,301.12\n90,298.5\n";
 
 /// One bad scenario.
-struct Bad {
+struct Bad<'a> {
     /// Replacements in the good scenario, each of which must apply.
-    edits: &'static [(&'static str, &'static str)],
+    edits: &'a [(&'static str, &'static str)],
     kind: ErrorKind,
     /// Text of the edited scenario on whose line the error must point; its first occurrence.
     at: &'static str,
     /// Key the error names.
     key: &'static str,
     /// Words of the message or the help.
-    words: &'static [&'static str],
+    words: &'a [&'static str],
 }
 
 fn parse(text: &str, table: &str) -> Result<Scenario, Error> {
@@ -298,6 +298,21 @@ fn grid_channels_and_engine() {
 }
 
 #[test]
+fn motors() {
+    let motor = |text: &'static str| [("[start]", text)];
+    let law = motor("[motor]\nlaw = \"kubic\"\ntorque_at_rest_N_m = 1\nslope_N_m_s = -1\nratio = 1\n[start]");
+    let slope = motor("[motor]\nlaw = \"linear\"\ntorque_at_rest_N_m = 1\nslope_N_m_s = 1\nratio = 1\n[start]");
+    let ratio = motor("[motor]\nlaw = \"linear\"\ntorque_at_rest_N_m = 1\nslope_N_m_s = -1\nratio = 0\n[start]");
+    for (edits, at, key, words) in [
+        (law, "law =", "motor.law", ["no law of a motor", "\"linear\""]),
+        (slope, "slope_N", "motor.slope_N_m_s", ["must be negative", "less than zero"]),
+        (ratio, "ratio =", "motor.ratio", ["found 0", "without a reducer"]),
+    ] {
+        assert_refused(GOOD, &Bad { edits: &edits, kind: INPUT, at, key, words: &words });
+    }
+}
+
+#[test]
 fn oracles() {
     assert_all_refused(&[
         bad!("source = \"a table\"\n" => "", INPUT, at "[[oracle]]", key "oracle[1]", ["`source` is missing"]),
@@ -324,6 +339,14 @@ fn oracles() {
             ["found 99", "from -20 to 20"]),
         bad!("reduced_inertia_mean_kg_m2" => "reduced_inertia_kg_m2", INPUT, at "figures =", key
             "oracle[3].figures[1].figure", ["no figure", "reduced_inertia_mean_kg_m2"]),
+        bad!("\"reduced_inertia_mean_kg_m2\"" => "\"steady_motor_speed_rad_s\"", INPUT, at "figures =", key
+            "oracle[3].figures[1].figure", ["needs a motor", "[motor]"]),
+        bad!("\"reduced_inertia_mean_kg_m2\"" => "\"distance_mm\", points = [\"A\"]", INPUT, at "figures =", key
+            "oracle[3].figures[1].points", ["between two points, found 1"]),
+        bad!("\"reduced_inertia_mean_kg_m2\"" => "\"distance_mm\", points = [\"A\", \"X\"]", INPUT, at "figures =", key
+            "oracle[3].figures[1].points", ["no point \"X\""]),
+        bad!("\"reduced_inertia_mean_kg_m2\"" => "\"mass_kg\", link = \"ground\"", INPUT, at "figures =", key
+            "oracle[3].figures[1].link", ["ground has no mass"]),
         bad!("figures = [" => "file = \"table.csv\"\nfigures = [", INPUT, at "[[oracle]]\nsource = \"a figure\"",
             key "oracle[3]", ["exactly one of"]),
     ]);

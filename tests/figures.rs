@@ -204,7 +204,7 @@ fn anchors() -> Vec<String> {
 #[test]
 fn every_expected_disagreement_has_its_finding() {
     let anchors = anchors();
-    for name in ["ov7_new", "ov7_new_tabulated"] {
+    for (name, numbers) in [("crank_rocker", 6), ("ov7_new", 2), ("ov7_new_tabulated", 12)] {
         let proof = proof(name, None);
         assert!(matches!(proof.verdict, Verdict::Agree { .. }), "{name}: {:?}", proof.verdict);
         let expected: Vec<&String> = proof
@@ -215,7 +215,7 @@ fn every_expected_disagreement_has_its_finding() {
                 _ => None,
             })
             .collect();
-        assert_eq!(expected.len(), if name == "ov7_new" { 2 * 2 } else { 2 * 12 });
+        assert_eq!(expected.len(), 2 * numbers, "{name}, each number on both sides");
         for finding in expected {
             assert!(anchors.contains(finding), "{finding} is not in docs/findings.md: {anchors:?}");
         }

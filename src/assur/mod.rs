@@ -18,14 +18,15 @@ pub use rrp::Rrp;
 pub use rrr::Rrr;
 
 use crate::math::{Motion, Vec2, rotated, turned, unit};
-use crate::mechanism::{AssemblyMode, Group, GroupKind, Joint, Mechanism, Side, Structure};
+use crate::mechanism::{AssemblyMode, Group, GroupKind, Joint, Mechanism, Structure};
 
 /// Driving link that turns about a joint with the ground.
 #[derive(Clone, Copy, Debug)]
 struct Driver {
     link: usize,
+    /// The joint in the link's own frame, and in the world.
     pivot: Vec2,
-    base: Side,
+    place: Vec2,
 }
 
 /// An Assur group, ready for solving.
@@ -122,7 +123,8 @@ impl Plan {
     pub fn of(mechanism: &Mechanism, structure: &Structure, modes: &[AssemblyMode]) -> Self {
         let drivers = structure.drivers.iter().map(|&(link, joint)| {
             let joint = &mechanism.joints()[joint];
-            Driver { link, pivot: joint.on(link).expect("the driven joint is on its link"), base: joint.other(link) }
+            let pivot = joint.on(link).expect("the driven joint is on its link");
+            Driver { link, pivot, place: joint.other(link).local }
         });
         let steps = structure.groups.iter().zip(modes).map(|(group, &mode)| match group.kind {
             GroupKind::Rrr => Step::Rrr(Rrr::of(mechanism, group, mode)),
@@ -157,10 +159,9 @@ impl Plan {
         let angle = angles[0];
         for (driver, &angle) in self.drivers.iter().zip(angles) {
             let direction = unit(angle);
-            let pivot = motions[driver.base.link].point(driver.base.local);
             let motion = &mut motions[driver.link];
             motion.direction = direction;
-            motion.origin = pivot - rotated(direction, driver.pivot);
+            motion.origin = driver.place - rotated(direction, driver.pivot);
         }
         for (group, step) in self.steps.iter_mut().enumerate() {
             let placed = match step {

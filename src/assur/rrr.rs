@@ -18,8 +18,8 @@ struct Arm {
     base: Side,
     /// The outer joint in the link's own frame.
     outer: Vec2,
-    /// Vector from outer to inner joint in the link's own frame.
-    span: Vec2,
+    /// Vector from outer to inner joint in the link's own frame, divided by the square of its length (1/m).
+    inverse_span: Vec2,
 }
 
 /// RRR dyad, ready for solving.
@@ -27,9 +27,11 @@ struct Arm {
 pub struct Rrr {
     arms: [Arm; 2],
     squared: [f64; 2],
-    /// Their inverses: a product is cheaper than a quotient.
-    inverse_squared: [f64; 2],
     side: f64,
+    /// World vectors from the origins of the known links to the outer joints (m).
+    bases: [Vec2; 2],
+    /// World vectors from the origins of the dyad's own links to the outer joints (m).
+    outers: [Vec2; 2],
     /// World vectors from the outer joints to the inner one, r1 and r2 (m).
     spans: [Vec2; 2],
     /// 1 / D (1/m^2).
@@ -40,24 +42,21 @@ impl Rrr {
     /// Prepares the dyad `group` in the assembly mode `mode`.
     #[must_use]
     pub fn of(mechanism: &Mechanism, group: &Group, mode: AssemblyMode) -> Self {
-        let arms = [0, 1].map(|k| {
-            let link = group.links[k];
-            let on_link = |joint: usize| mechanism.joints()[joint].on(link).expect("the joint is on the link");
-            let outer = on_link(group.outer[k]);
-            Arm {
-                link,
-                base: mechanism.joints()[group.outer[k]].other(link),
-                outer,
-                span: on_link(group.inner[0]) - outer,
-            }
+        let on = |joint: usize, link: usize| mechanism.joints()[joint].on(link).expect("the joint is on the link");
+        let spans = [0, 1].map(|k| on(group.inner[0], group.links[k]) - on(group.outer[k], group.links[k]));
+        let squared = spans.map(|span| span.norm_squared());
+        let arms = [0, 1].map(|k| Arm {
+            link: group.links[k],
+            base: mechanism.joints()[group.outer[k]].other(group.links[k]),
+            outer: on(group.outer[k], group.links[k]),
+            inverse_span: spans[k] / squared[k],
         });
-        let squared = arms.map(|arm| arm.span.norm_squared());
         Rrr {
             arms,
             squared,
-            inverse_squared: squared.map(|squared| 1.0 / squared),
-
             side: if mode == AssemblyMode::Right { -1.0 } else { 1.0 },
+            bases: [Vec2::zeros(); 2],
+            outers: [Vec2::zeros(); 2],
             spans: [Vec2::zeros(); 2],
             inverse: f64::NAN,
         }
@@ -73,7 +72,8 @@ impl Rrr {
 
     #[inline]
     pub(super) fn positions(&mut self, motions: &mut [Motion]) -> Result<(), Misfit> {
-        let [p1, p2] = self.arms.map(|arm| motions[arm.base.link].point(arm.base.local));
+        self.bases = self.arms.map(|arm| motions[arm.base.link].arm(arm.base.local));
+        let [p1, p2] = [0, 1].map(|k| motions[self.arms[k].base.link].origin + self.bases[k]);
         let d = p2 - p1;
         let d_squared = d.norm_squared();
         let along = 0.5 * (self.squared[0] - self.squared[1] + d_squared) / d_squared;
@@ -86,11 +86,12 @@ impl Rrr {
         let r1 = d * along + turned(d) * (self.side * across_squared.sqrt());
         self.spans = [r1, r1 - d];
         for (k, (pivot, r)) in [p1, p2].into_iter().zip(self.spans).enumerate() {
-            let Arm { link, outer, span, .. } = self.arms[k];
+            let Arm { link, outer, inverse_span, .. } = self.arms[k];
             let motion = &mut motions[link];
             // Quotient of the world and the body vector as complex numbers: the direction of the frame.
-            motion.direction = Vec2::new(span.dot(&r), cross(span, r)) * self.inverse_squared[k];
-            motion.origin = pivot - motion.arm(outer);
+            motion.direction = Vec2::new(inverse_span.dot(&r), cross(inverse_span, r));
+            self.outers[k] = motion.arm(outer);
+            motion.origin = pivot - self.outers[k];
         }
         Ok(())
     }
@@ -99,24 +100,24 @@ impl Rrr {
     pub(super) fn velocities(&mut self, motions: &mut [Motion]) {
         let [r1, r2] = self.spans;
         self.inverse = 1.0 / cross(r1, r2);
-        let [v1, v2] = self.arms.map(|arm| motions[arm.base.link].point_velocity(arm.base.local));
+        let [v1, v2] = [0, 1].map(|k| motions[self.arms[k].base.link].velocity_beyond(self.bases[k]));
         let quotient = (v2 - v1) * self.inverse;
-        for (arm, (v, omega)) in self.arms.iter().zip([(v1, quotient.dot(&r2)), (v2, quotient.dot(&r1))]) {
-            let motion = &mut motions[arm.link];
+        for (k, (v, omega)) in [(v1, quotient.dot(&r2)), (v2, quotient.dot(&r1))].into_iter().enumerate() {
+            let motion = &mut motions[self.arms[k].link];
             motion.omega = omega;
-            motion.velocity = v - turned(motion.arm(arm.outer)) * omega;
+            motion.velocity = v - turned(self.outers[k]) * omega;
         }
     }
 
     #[inline]
     pub(super) fn accelerations(&self, motions: &mut [Motion]) {
         let [r1, r2] = self.spans;
-        let [a1, a2] = self.arms.map(|arm| motions[arm.base.link].point_acceleration(arm.base.local));
+        let [a1, a2] = [0, 1].map(|k| motions[self.arms[k].base.link].acceleration_beyond(self.bases[k]));
         let [w1, w2] = self.arms.map(|arm| motions[arm.link].omega);
         let quotient = ((a2 - r2 * (w2 * w2)) - (a1 - r1 * (w1 * w1))) * self.inverse;
-        for (arm, (a, alpha)) in self.arms.iter().zip([(a1, quotient.dot(&r2)), (a2, quotient.dot(&r1))]) {
-            let motion = &mut motions[arm.link];
-            let outer = motion.arm(arm.outer);
+        for (k, (a, alpha)) in [(a1, quotient.dot(&r2)), (a2, quotient.dot(&r1))].into_iter().enumerate() {
+            let motion = &mut motions[self.arms[k].link];
+            let outer = self.outers[k];
             motion.alpha = alpha;
             motion.acceleration = a - turned(outer) * alpha + outer * (motion.omega * motion.omega);
         }

@@ -2,6 +2,8 @@
 
 pub mod load;
 pub mod motion;
+pub mod motor;
 
 pub use load::Load;
 pub use motion::{Drive, MotionLaw};
+pub use motor::{Motor, MotorLaw};

@@ -70,30 +70,42 @@ impl Motion {
     #[inline]
     #[must_use]
     pub fn point_velocity(&self, local: Vec2) -> Vec2 {
-        self.velocity + turned(self.arm(local)) * self.omega
+        self.velocity_beyond(self.arm(local))
+    }
+
+    /// Velocity of the body point at the world vector `arm` from the origin (m/s).
+    #[inline]
+    #[must_use]
+    pub fn velocity_beyond(&self, arm: Vec2) -> Vec2 {
+        self.velocity + turned(arm) * self.omega
     }
 
     /// Velocity of the body point that is at the world point `place` at this instant (m/s).
     #[inline]
     #[must_use]
     pub fn velocity_at(&self, place: Vec2) -> Vec2 {
-        self.velocity + turned(place - self.origin) * self.omega
-    }
-
-    /// Acceleration of the body point that is at the world point `place` at this instant (m/s^2).
-    #[inline]
-    #[must_use]
-    pub fn acceleration_at(&self, place: Vec2) -> Vec2 {
-        let arm = place - self.origin;
-        self.acceleration + turned(arm) * self.alpha - arm * (self.omega * self.omega)
+        self.velocity_beyond(place - self.origin)
     }
 
     /// Acceleration of a body point (m/s^2): a0 + alpha x r - omega^2 r.
     #[inline]
     #[must_use]
     pub fn point_acceleration(&self, local: Vec2) -> Vec2 {
-        let arm = self.arm(local);
+        self.acceleration_beyond(self.arm(local))
+    }
+
+    /// Acceleration of the body point at the world vector `arm` from the origin (m/s^2).
+    #[inline]
+    #[must_use]
+    pub fn acceleration_beyond(&self, arm: Vec2) -> Vec2 {
         self.acceleration + turned(arm) * self.alpha - arm * (self.omega * self.omega)
+    }
+
+    /// Acceleration of the body point that is at the world point `place` at this instant (m/s^2).
+    #[inline]
+    #[must_use]
+    pub fn acceleration_at(&self, place: Vec2) -> Vec2 {
+        self.acceleration_beyond(place - self.origin)
     }
 }
 

@@ -4,9 +4,11 @@ use crate::case::{Case, Grid, Wanted};
 use crate::compare::Check;
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::angle::wrapped;
-use crate::reference::{self, reduced};
+use crate::mechanism::Side;
+use crate::reference;
+use crate::reference::reduced::{self, Means};
 use crate::scenario::{Figure, Oracle, OraclePoint, OracleSeries, Scenario};
-use crate::solver::Solver;
+use crate::solver::{Solver, State};
 use crate::tolerance::{Basis, Tolerance};
 use crate::trajectory::{Channel, Stage, Trajectory};
 
@@ -55,8 +57,7 @@ fn of_one(oracle: &Oracle, series: &OracleSeries, solved: &Trajectory, side: &st
         Check::new(family, deviation, Tolerance { abs: point.bound, rel: 0.0, basis }, series.channel.kind.unit)
             .located(|| format!("at crank angle {:.3} deg", point.crank.to_degrees()))
     };
-    let family = format!("published {} ({side})", oracle.name);
-    let wrong = format!("published {}, known to be wrong ({side})", oracle.name);
+    let [family, wrong] = [false, true].map(|wrong| family(oracle, wrong, side));
     // Each cell has its own bound: the worst is the one that uses most of it.
     let all = series.points.iter().map(|point| check(family.clone(), point).of(&series.name));
     let worst = all.max_by(|a, b| a.used().total_cmp(&b.used()));
@@ -89,19 +90,81 @@ fn column(oracle: &Oracle, series: &OracleSeries, solved: &Trajectory) -> Result
 
 fn of_figures(scenario: &Scenario, solver: &dyn Solver) -> Result<Vec<Check>> {
     let all = || scenario.oracles.iter().flat_map(|oracle| oracle.figures.iter().map(move |figure| (oracle, figure)));
-    if all().next().is_none() {
-        return Ok(Vec::new());
+    let mut measured = Measured { scenario, solver, means: None };
+    let mut checks = Vec::new();
+    for (oracle, printed) in all() {
+        let value = measured.value(printed.figure)?;
+        let basis = Basis::Published { digits: printed.digits, source: oracle.source.clone() };
+        let tolerance = Tolerance { abs: printed.bound, rel: 0.0, basis };
+        let (family, unit) = (family(oracle, printed.finding.is_some(), solver.name()), printed.figure.unit());
+        let check = Check::new(family, (value - printed.value).abs(), tolerance, unit).of(&printed.name);
+        let found = format!("printed {} {unit}, found {value:.10}", printed.value);
+        checks.push(match &printed.finding {
+            Some(finding) => check.expected(finding),
+            None => check.located(|| found),
+        });
     }
-    let means = reduced::means_over_turn(&scenario.case, solver)?;
-    let check = |(oracle, figure): (&Oracle, &crate::scenario::OracleFigure)| {
-        let value = match figure.figure {
-            Figure::ReducedInertiaMean => means.inertia,
-            Figure::ReducedResistanceMean => means.resistance,
+    Ok(checks)
+}
+
+/// Figures as one analytic side finds them; the means over a turn once, where one is asked for.
+struct Measured<'a> {
+    scenario: &'a Scenario,
+    solver: &'a dyn Solver,
+    means: Option<Means>,
+}
+
+impl Measured<'_> {
+    fn value(&mut self, figure: Figure) -> Result<f64> {
+        let case = &self.scenario.case;
+        Ok(match figure {
+            Figure::ReducedInertiaMean => self.means()?.inertia,
+            Figure::ReducedResistanceMean => self.means()?.resistance,
+            Figure::SteadyCrankSpeed => self.steady()?[0],
+            Figure::SteadyMotorSpeed => self.steady()?[1],
+            Figure::Distance(ends) => self.distance(ends)?,
+            Figure::Mass(link) => case.mechanism.links()[link].mass,
+            Figure::Inertia(link) => case.mechanism.links()[link].inertia,
+        })
+    }
+
+    fn means(&mut self) -> Result<Means> {
+        let found = match self.means {
+            Some(means) => means,
+            None => reduced::means_over_turn(&self.scenario.case, self.solver)?,
         };
-        let basis = Basis::Published { digits: figure.digits, source: oracle.source.clone() };
-        let tolerance = Tolerance { abs: figure.bound, rel: 0.0, basis };
-        let family = format!("published {} ({})", oracle.name, solver.name());
-        Check::new(family, (value - figure.value).abs(), tolerance, figure.figure.unit()).of(figure.figure.name())
-    };
-    Ok(all().map(check).collect())
+        self.means = Some(found);
+        Ok(found)
+    }
+
+    /// Steady speeds of the crank and of the motor (rad/s).
+    fn steady(&mut self) -> Result<[f64; 2]> {
+        let case = &self.scenario.case;
+        let motor = case.motor.expect("a scenario with this figure has a motor");
+        // The motor works in the sense in which the crank is driven.
+        let sense = case.drive.at(0.0).omega.signum();
+        let crank = sense * motor.steady_speed(sense * self.means()?.resistance);
+        Ok([crank, crank * motor.ratio])
+    }
+
+    /// Distance of two points as the side places them at t = 0 (m).
+    fn distance(&self, ends: [Side; 2]) -> Result<f64> {
+        let base = &self.scenario.case;
+        let grid = Grid::of_times(&base.drive, vec![0.0]);
+        let case = Case { wanted: Wanted::of(&[Stage::Positions]), ..base.on(grid) };
+        let mut distance = f64::NAN;
+        let mut visit = |_: usize, state: &State| {
+            let [first, second] = ends.map(|end| state.motions[end.link].point(end.local));
+            distance = (second - first).norm();
+            Ok(())
+        };
+        self.solver.sweep(&case, &mut visit, &mut |_| {})?;
+        Ok(distance)
+    }
+}
+
+/// Heading of the checks of an oracle.
+fn family(oracle: &Oracle, wrong: bool, side: &str) -> String {
+    let known = if wrong { ", known to be wrong" } else { "" };
+    format!("published {}{known} ({side})", oracle.name)
 }

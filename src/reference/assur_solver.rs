@@ -20,7 +20,7 @@ impl Solver for AssurSolver {
     }
 
     fn sweep(&self, case: &Case, visit: &mut dyn FnMut(usize, &State) -> Result<()>, progress: Progress) -> Result<()> {
-        let mut poses = PoseSolver::new(case)?;
+        let mut poses = PoseSolver::counting_turns(case)?;
         let deepest = case.wanted.deepest();
         for (done, row) in case.grid.ascending().into_iter().enumerate() {
             let drive = case.drive.at(case.grid.times[row]);

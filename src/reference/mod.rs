@@ -12,6 +12,7 @@ pub mod power;
 pub mod range;
 pub mod reduced;
 pub mod triad;
+mod turns;
 
 pub use assur_solver::AssurSolver;
 pub use newton_solver::NewtonSolver;

@@ -39,7 +39,7 @@ pub struct Modes {
 /// [`ErrorKind::Geometry`] if the crank angle cannot be reached on the case's branch.
 pub fn all(case: &Case, crank: f64) -> Result<Vec<Modes>> {
     let mechanism = &case.mechanism;
-    let mut poses = PoseSolver::new(case)?;
+    let mut poses = PoseSolver::counting_turns(case)?;
     let t = case.drive.time_of(crank);
     let omega = case.drive.at(t).omega;
     let (angles, omegas) = (case.drive_angles(crank), case.ratios(t).map(|ratio| ratio * omega).collect::<Vec<f64>>());

@@ -1,13 +1,11 @@
 //! Pose after pose by Assur groups: the part of side 1 that is fast.
 
-use std::f64::consts::TAU;
-
 use super::kinetostatics::Kinetostatics;
 use super::range;
+use super::turns::Turns;
 use crate::assur::{Misfit, OutOfReach, Plan};
 use crate::case::Case;
 use crate::error::{Error, ErrorKind, Result};
-use crate::math::{Vec2, angle, cross};
 use crate::solver::State;
 use crate::trajectory::Stage;
 
@@ -25,9 +23,8 @@ pub struct PoseSolver<'a> {
     plan: Plan,
     statics: Kinetostatics,
     state: State,
-    /// Direction of every link at the last pose, and its whole turns.
-    directions: Vec<Vec2>,
-    turns: Vec<f64>,
+    /// Turns of the links, where somebody asks for their angles.
+    turns: Option<Turns>,
     /// Angles, angular velocities or accelerations of all driving links, as each stage needs them.
     inputs: Vec<f64>,
     crank: f64,
@@ -44,11 +41,18 @@ impl<'a> PoseSolver<'a> {
         let step = if plan.is_closed_form() { CLOSED_FORM_STEP } else { FOLLOWED_STEP };
         let (statics, state) = (Kinetostatics::of(case, &plan), State::at_start(case));
         let inputs = vec![0.0; case.drives().count()];
-        let directions = state.motions.iter().map(|motion| motion.direction).collect();
-        let turns = case.start.0.iter().map(|pose| ((pose.angle - angle::wrapped(pose.angle)) / TAU).round()).collect();
-        let mut solver =
-            PoseSolver { case, plan, statics, state, directions, turns, inputs, crank: case.drive.start, step };
+        let mut solver = PoseSolver { case, plan, statics, state, turns: None, inputs, crank: case.drive.start, step };
         solver.step_to(case.drive.start, 0)?;
+        Ok(solver)
+    }
+
+    /// The same, and counts the turns of all links on the way.
+    ///
+    /// # Errors
+    /// Those of [`PoseSolver::new`].
+    pub fn counting_turns(case: &'a Case) -> Result<Self> {
+        let mut solver = PoseSolver::new(case)?;
+        solver.turns = Some(Turns::from(&case.start, &solver.state.motions));
         Ok(solver)
     }
 
@@ -76,11 +80,18 @@ impl<'a> PoseSolver<'a> {
     }
 
     /// Places the mechanism at the crank angle `target`, in small steps from where it is.
+    #[inline]
     fn go_to(&mut self, target: f64) -> Result<()> {
-        let from = self.crank;
-        if (target - from).abs() <= self.step {
-            return self.step_to(target, HALVINGS);
+        if (target - self.crank).abs() <= self.step && self.place(target).is_ok() {
+            return Ok(());
         }
+        self.go_far_to(target)
+    }
+
+    /// The same where one step does not do.
+    #[cold]
+    fn go_far_to(&mut self, target: f64) -> Result<()> {
+        let from = self.crank;
         let parts = ((target - from).abs() / self.step).ceil();
         for part in 1..parts as usize {
             self.step_to(from + (target - from) * (part as f64 / parts), HALVINGS)?;
@@ -112,15 +123,22 @@ impl<'a> PoseSolver<'a> {
         }
     }
 
+    /// One step as a whole.
+    #[inline]
+    fn place(&mut self, target: f64) -> std::result::Result<(), OutOfReach> {
+        self.turn(target);
+        self.plan.positions(&self.inputs, &mut self.state.motions)?;
+        self.crank = target;
+        if let Some(turns) = &mut self.turns {
+            turns.count(&self.state.motions);
+        }
+        Ok(())
+    }
+
     /// One step; where a group cannot be followed over it, two of half the size.
     fn step_to(&mut self, target: f64, halvings: u32) -> Result<()> {
-        self.turn(target);
-        match self.plan.positions(&self.inputs, &mut self.state.motions) {
-            Ok(()) => {
-                self.crank = target;
-                self.count_turns();
-                Ok(())
-            }
+        match self.place(target) {
+            Ok(()) => Ok(()),
             Err(OutOfReach { why: Misfit::Lost, .. }) if halvings > 0 => {
                 self.step_to((self.crank + target) / 2.0, halvings - 1)?;
                 self.step_to(target, halvings - 1)
@@ -129,29 +147,11 @@ impl<'a> PoseSolver<'a> {
         }
     }
 
-    /// Counts the turns of every link: it has gone past the direction -x since the last pose, one way or the other.
-    #[inline]
-    fn count_turns(&mut self) {
-        for ((turns, last), motion) in self.turns.iter_mut().zip(&mut self.directions).zip(&self.state.motions) {
-            let now = motion.direction;
-            let (was_up, is_up) = (last.y >= 0.0, now.y >= 0.0);
-            if was_up != is_up {
-                let sense = cross(*last, now);
-                if was_up && sense > 0.0 {
-                    *turns += 1.0;
-                } else if is_up && sense < 0.0 {
-                    *turns -= 1.0;
-                }
-            }
-            *last = now;
-        }
-    }
-
-    /// The last state with its links' angles (rad), turns kept.
+    /// The last state with its links' angles (rad): turns kept if they are [counted](PoseSolver::counting_turns), else as they were at the
+    /// start of the case.
     pub fn with_angles(&mut self) -> &State {
-        for ((angle, turns), motion) in self.state.angles.iter_mut().zip(&self.turns).zip(&self.state.motions) {
-            // Adding zero makes -0 a 0: on the axis -x the angle is +pi, as it is counted.
-            *angle = (motion.direction.y + 0.0).atan2(motion.direction.x) + TAU * turns;
+        if let Some(turns) = &self.turns {
+            self.state.angles.iter_mut().zip(turns.angles()).for_each(|(angle, found)| *angle = found);
         }
         self.turn(self.crank);
         for (drive, &angle) in self.case.drives().zip(&self.inputs) {

@@ -1,6 +1,7 @@
 //! Scenario files: TOML in, a [`Case`] out. The only place where units are converted; docs/scenario.md describes the
 //! format. Every error points at file, line and key, says what was found, and the way out.
 
+mod figure;
 pub mod grid;
 mod joints;
 mod links;
@@ -17,13 +18,14 @@ mod tests;
 pub mod unit;
 mod words;
 
-pub use oracle::{ExpectedCell, Figure, Oracle, OracleFigure, OraclePoint, OracleSeries};
+pub use figure::{Figure, OracleFigure};
+pub use oracle::{ExpectedCell, Oracle, OraclePoint, OracleSeries};
 
 use std::path::{Path, PathBuf};
 
 use self::reader::{Sign, Table};
 use self::source::Source;
-use crate::case::{Case, Wanted};
+use crate::case::Case;
 use crate::error::{Error, ErrorKind, Result};
 use crate::mechanism::assembly::{Choice, first_choices};
 use crate::mechanism::{Mechanism, Pose, StartGroup, Structure};
@@ -117,8 +119,8 @@ fn read(root: &mut Table) -> Result<Scenario> {
     let cited = root.optional_string("source")?;
     // All sections are fetched before any is read: a misspelt section is the cause of whatever else is wrong.
     let (ground, links, joints) = (root.table("ground")?, root.table("links")?, root.tables("joints")?);
-    let (drives, gravity, loads) =
-        (root.needed_tables("drive")?, root.optional_table("gravity")?, root.tables("loads")?);
+    let (drives, motor) = (root.needed_tables("drive")?, root.optional_table("motor")?);
+    let (gravity, loads) = (root.optional_table("gravity")?, root.tables("loads")?);
     let (mut start, grid, channels) = (root.table("start")?, root.table("grid")?, root.optional_table("channels")?);
     let (engine, tolerances) = (root.table("engine")?, root.optional_table("tolerances")?);
     let oracles = root.tables("oracle")?;
@@ -131,6 +133,7 @@ fn read(root: &mut Table) -> Result<Scenario> {
     let groups = start.tables("groups")?;
     start.finish()?;
     let (drive, further_drives) = motion::drives(drives, &mechanism, crank)?;
+    let motor = motor.map(motion::motor).transpose()?;
     let loads = motion::loads(loads, &mechanism)?;
     let gravity = motion::gravity(gravity)?;
     let driven: Vec<usize> = std::iter::once(&drive).chain(&further_drives).map(|drive| drive.joint).collect();
@@ -142,12 +145,11 @@ fn read(root: &mut Table) -> Result<Scenario> {
     let engine_rel = settings::engine_rel(tolerances)?;
     let (start, modes) = (Pose(Vec::new()), Vec::new());
     let mut case =
-        Case { mechanism, structure, drive, further_drives, loads, gravity, start, modes, grid, wanted: Wanted::ALL };
+        Case { mechanism, structure, drive, further_drives, motor, loads, gravity, start, modes, grid, wanted };
     let (pose, choices) = first_choices(&case.mechanism, &case.structure, &case.drive_angles(crank), &starts)?;
     case.modes = choices.iter().map(|choice| choice.mode).collect();
     case.start = pose;
-    let oracles = oracle::read(oracles, &case.channels(), wanted)?;
-    case.wanted = wanted;
+    let oracles = oracle::read(oracles, &case)?;
     let source = root.source();
     let (path, text) = (source.path.to_path_buf(), source.text.to_string());
     Ok(Scenario { name, title, source: cited, path, text, case, dt, engine_rel, oracles, starts, choices })

@@ -1,11 +1,12 @@
 //! `[[oracle]]`: published numbers that the mechanism must reproduce, each with the bound its printed digits give.
 
+use super::figure::{self, OracleFigure};
 use super::printed::{self, MOST_DIGITS, Printed, PrintedChannel};
 use super::reader::{Sign, Table};
 use super::table_file;
 use super::unit::ANGLE;
 use super::words::suggestion;
-use crate::case::Wanted;
+use crate::case::{Case, Wanted};
 use crate::error::{ErrorKind, Result};
 use crate::trajectory::{CHANNELS, Channel};
 
@@ -19,7 +20,7 @@ pub struct Oracle {
     pub source: String,
     /// Values of channels at crank angles.
     pub series: Vec<OracleSeries>,
-    /// Figures of the whole turn.
+    /// Figures of the mechanism.
     pub figures: Vec<OracleFigure>,
 }
 
@@ -62,54 +63,10 @@ pub struct ExpectedCell {
     pub finding: String,
 }
 
-/// One published figure of the whole turn.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct OracleFigure {
-    /// Which figure.
-    pub figure: Figure,
-    /// Value in the figure's SI unit.
-    pub value: f64,
-    /// Half a unit of the last printed digit, in the figure's SI unit.
-    pub bound: f64,
-    /// Number of printed decimals.
-    pub digits: i32,
-}
-
-/// Figure of the model reduced to the crank, over one turn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum Figure {
-    /// Mean over the turn of the moment of inertia reduced to the crank (kg m^2).
-    ReducedInertiaMean,
-    /// Mean over the turn of the moment of resistance reduced to the crank (N m).
-    ReducedResistanceMean,
-}
-
-impl Figure {
-    /// All figures.
-    pub const ALL: [Figure; 2] = [Figure::ReducedInertiaMean, Figure::ReducedResistanceMean];
-
-    /// Name in scenario files, unit included.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Figure::ReducedInertiaMean => "reduced_inertia_mean_kg_m2",
-            Figure::ReducedResistanceMean => "reduced_resistance_mean_N_m",
-        }
-    }
-
-    /// SI unit.
-    #[must_use]
-    pub fn unit(self) -> &'static str {
-        match self {
-            Figure::ReducedInertiaMean => "kg m^2",
-            Figure::ReducedResistanceMean => "N m",
-        }
-    }
-}
-
-/// All oracles. `channels` are all that the case has, `wanted` those that the run computes.
-pub(super) fn read(tables: Vec<Table>, channels: &[Channel], wanted: Wanted) -> Result<Vec<Oracle>> {
+/// All oracles of a case.
+pub(super) fn read(tables: Vec<Table>, case: &Case) -> Result<Vec<Oracle>> {
+    let (wanted, all) = (case.wanted, Case { wanted: Wanted::ALL, ..case.clone() }.channels());
+    let channels = all.as_slice();
     let mut inline = 0;
     let mut oracles = Vec::with_capacity(tables.len());
     for mut table in tables {
@@ -125,7 +82,7 @@ pub(super) fn read(tables: Vec<Table>, channels: &[Channel], wanted: Wanted) -> 
             [false, true, false] => {
                 oracle.series = values(&mut table, &Known { channels, wanted, digits: None, slack: 0.0 })?
             }
-            [false, false, true] => oracle.figures = figures(&mut table)?,
+            [false, false, true] => oracle.figures = figure::read(&mut table, case)?,
             _ => {
                 return Err(table
                     .fault("an oracle has exactly one of `file`, `values` and `figures`")
@@ -223,27 +180,8 @@ fn values(table: &mut Table, known: &Known) -> Result<Vec<OracleSeries>> {
 
 const VALUE_HELP: &str = "write `values = [{ channel = \"link.rocker.angle_deg\", value = 82, digits = 3 }]`";
 
-fn figures(table: &mut Table) -> Result<Vec<OracleFigure>> {
-    let mut figures = Vec::new();
-    for mut entry in table.tables("figures")? {
-        let name = entry.string("figure")?;
-        let Some(figure) = Figure::ALL.into_iter().find(|figure| figure.name() == name) else {
-            let error = entry.wrong(ErrorKind::Input, "figure", format!("there is no figure \"{name}\""));
-            return Err(error.help(suggestion(&name, Figure::ALL.map(Figure::name), "\"")));
-        };
-        let printed = number(&mut entry)?;
-        entry.finish()?;
-        figures.push(OracleFigure { figure, value: printed.value, bound: printed.half_unit(), digits: printed.digits });
-    }
-    if figures.is_empty() {
-        let names = suggestion("", Figure::ALL.map(Figure::name), "\"");
-        return Err(table.wrong(ErrorKind::Input, "figures", "there is no figure").help(names));
-    }
-    Ok(figures)
-}
-
 /// `value` and `digits` of a number in the scenario itself, where TOML does not keep the printed text.
-fn number(entry: &mut Table) -> Result<Printed> {
+pub(super) fn number(entry: &mut Table) -> Result<Printed> {
     let value = entry.number("value")?;
     let digits = digits(entry)?;
     Ok(Printed { value, digits })

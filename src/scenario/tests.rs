@@ -83,8 +83,21 @@ fn crank_rocker_starts_where_two_circles_meet() {
     assert!((about_pivot - 2.6 * a.norm_squared() / 3.0).abs() < 1e-18, "I_O = m l^2 / 3");
     assert_eq!((scenario.dt, scenario.engine_rel, scenario.case.grid.len()), (1e-3, 1e-2, 361));
     let names: Vec<&str> = scenario.oracles.iter().map(|oracle| oracle.name.as_str()).collect();
-    assert_eq!(names, ["extreme position, stretched", "extreme position, folded", "reduced model"]);
+    assert_eq!(
+        names,
+        [
+            "extreme position, stretched",
+            "extreme position, folded",
+            "reduced model",
+            "steady speed",
+            "lengths and masses",
+            "steady speed as printed"
+        ]
+    );
     assert_eq!(scenario.oracles[2].figures[0].figure, Figure::ReducedInertiaMean);
+    let printed = &scenario.oracles[4].figures;
+    assert_eq!((printed[3].figure, printed[3].value, printed[3].bound), (Figure::Mass(1), 22.6, 0.05 * (1.0 + 1e-9)));
+    assert!(printed[3].finding.is_some() && printed[2].finding.is_none());
 }
 
 #[test]
@@ -157,7 +170,7 @@ fn cells_known_to_be_wrong_keep_their_finding() {
         + "[[oracle]]\nsource = \"t\"\nfile = \"table.csv\"\ncrank = \"turn_rad\"\n[oracle.columns]\n\
            B = { channel = \"link.rocker.angle_deg\", offset_deg = 2.5, expect = [{ crank_rad = 0.5, finding = \"misprint\" }] }\n";
     let scenario = Scenario::parse(&text, &directory.path().join("x.toml")).unwrap_or_else(|error| panic!("{error}"));
-    let oracle = &scenario.oracles[3];
+    let oracle = scenario.oracles.last().unwrap();
     assert_eq!((oracle.name.as_str(), oracle.series[0].name.as_str()), ("table.csv", "B"));
     let expected = &oracle.series[0].expected;
     assert_eq!((expected.len(), expected[0].point.crank, expected[0].point.digits), (1, 0.5, 2));

@@ -69,6 +69,9 @@ pub static INERTIA: Family = Family { noun: "a moment of inertia", units: &[si("
 pub static ACCELERATION: Family = Family { noun: "an acceleration", units: &[si("m_s2")] };
 /// Moments of forces.
 pub static MOMENT: Family = Family { noun: "a moment", units: &[si("N_m")] };
+/// Changes of a moment with an angular velocity.
+pub static MOMENT_PER_SPEED: Family =
+    Family { noun: "a change of a moment with an angular velocity", units: &[si("N_m_s")] };
 
 #[cfg(test)]
 mod tests {
@@ -90,7 +93,9 @@ mod tests {
 
     #[test]
     fn every_family_starts_with_its_si_unit() {
-        for family in [&LENGTH, &ANGLE, &ANGULAR_SPEED, &TIME, &MASS, &INERTIA, &ACCELERATION, &MOMENT] {
+        for family in
+            [&LENGTH, &ANGLE, &ANGULAR_SPEED, &TIME, &MASS, &INERTIA, &ACCELERATION, &MOMENT, &MOMENT_PER_SPEED]
+        {
             assert_eq!(family.units[0].to_si(2.5), 2.5, "{}", family.noun);
         }
     }

@@ -59,9 +59,15 @@ fn both_scenarios_agree_and_the_json_is_as_promised() {
             assert!(q75 <= q99 && q99 <= max && max <= bound, "{channel}");
         }
         for check in run["checks"].as_array().unwrap() {
-            let promised = "basis:text bound:number name:text reason:null unit:text value:number verdict:text";
-            assert_eq!(keys(check), promised);
-            assert!(check["verdict"] == "agree" && check["value"].as_f64() <= check["bound"].as_f64(), "{check}");
+            let (finding, reason) =
+                if check["verdict"] == "expected" { (" finding:text", "text") } else { ("", "null") };
+            let rest = format!("name:text reason:{reason} unit:text value:number verdict:text");
+            assert_eq!(keys(check), format!("basis:text bound:number{finding} {rest}"));
+            let within = check["value"].as_f64() <= check["bound"].as_f64();
+            let known_wrong = check["name"].as_str().unwrap().contains("known to be wrong");
+            assert_eq!(within, !known_wrong, "{check}");
+            assert_eq!(check["verdict"], if known_wrong { "expected" } else { "agree" }, "{check}");
+            assert_eq!(check["finding"].is_string(), known_wrong, "{check}");
         }
         for list in [texts(&run["channels"], "channel"), texts(&run["checks"], "name")] {
             assert_eq!(list.iter().collect::<BTreeSet<_>>().len(), list.len(), "every name once: {list:?}");
@@ -107,9 +113,29 @@ fn every_check_is_there() {
             }
         }
     }
-    let figures = ["link.rocker.angle_deg", "reduced_inertia_mean_kg_m2", "reduced_resistance_mean_N_m"];
+    let figures = [
+        "link.rocker.angle_deg",
+        "reduced_inertia_mean_kg_m2",
+        "reduced_resistance_mean_N_m",
+        "steady_motor_speed_rad_s",
+    ];
     for figure in figures {
         assert!(crank_rocker.iter().any(|name| name.starts_with("published") && name.ends_with(figure)), "{figure}");
+    }
+    // What was printed wrong: both lengths, the crank's mass and inertia, and both steady speeds.
+    for side in ["assur", "newton"] {
+        for (oracle, wrong) in [
+            (
+                "lengths and masses",
+                ["distance_m of O A", "distance_m of A B", "mass_kg of crank", "inertia_kg_m2 of crank"].as_slice(),
+            ),
+            ("steady speed as printed", ["steady_crank_speed_rad_s", "steady_motor_speed_rad_s"].as_slice()),
+        ] {
+            for figure in wrong {
+                let name = format!("published {oracle}, known to be wrong ({side}), {figure}");
+                assert!(crank_rocker.contains(name.as_str()), "{name}");
+            }
+        }
     }
 }
 

@@ -82,6 +82,7 @@ fn case(links: Vec<Link>, joints: Vec<Joint>, mode: AssemblyMode, start: f64, to
         structure,
         drive,
         further_drives: Vec::new(),
+        motor: None,
         loads: Vec::new(),
         gravity: Vec2::new(0.0, -9.81),
         start: Pose(pose),

@@ -16,6 +16,8 @@ pub enum Sign {
     NotNegative,
     /// Greater than zero.
     Positive,
+    /// Less than zero.
+    Negative,
     /// Anything but zero.
     NotZero,
 }
@@ -26,6 +28,7 @@ impl Sign {
         match self {
             Sign::NotNegative if value < 0.0 => Some(("must not be negative", "give zero or a positive number")),
             Sign::Positive if value <= 0.0 => Some(("must be positive", "give a number greater than zero")),
+            Sign::Negative if value >= 0.0 => Some(("must be negative", "give a number less than zero")),
             Sign::NotZero if value == 0.0 => Some(("must not be zero", "give a positive or a negative number")),
             _ => None,
         }
