@@ -4,10 +4,12 @@ pub mod assembly;
 #[cfg(test)]
 pub(crate) mod fixtures;
 pub mod pose;
+pub mod spanning_tree;
 pub mod structure;
 
 pub use assembly::{AssemblyMode, StartGroup, first_pose};
 pub use pose::{LinkPose, Pose};
+pub use spanning_tree::{Branch, Tree};
 pub use structure::{Group, GroupKind, Structure};
 
 use crate::error::{Error, ErrorKind, Result};
