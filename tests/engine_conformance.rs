@@ -29,7 +29,7 @@ fn solve(solver: &dyn Solver, case: &Case) -> Trajectory {
 
 fn engine_runs(engine: &dyn Engine, case: &Case, factors: [f64; 3]) -> [Trajectory; 3] {
     factors.map(|factor| {
-        let engine = engine.with_step(engine.step() * factor);
+        let engine = engine.at(engine.settings().resolution * factor);
         engine.solve(case, &mut |_| {}).unwrap_or_else(|error| panic!("{error}"))
     })
 }
@@ -44,7 +44,7 @@ fn has_formal_order(case: &Case, dt: f64, solver: &dyn Solver) {
         for residual in finest {
             let kind = residual.channel.kind;
             // A hundredth of rounding in the error moves an order by less than 0.02.
-            let noise = engine.with_step(engine.step() / 4.0).noise(case, kind);
+            let noise = engine.at(engine.settings().resolution / 4.0).noise(case, kind);
             if residual.rms <= 100.0 * noise {
                 continue;
             }
@@ -84,7 +84,7 @@ fn regress_01_the_motor_holds_its_speed_over_many_turns() {
         for engine in engine::all(1e-3) {
             let run = solve(engine.as_ref(), &case);
             let angles = run.column(&Channel::named("link.crank.angle_rad").unwrap()).unwrap();
-            let steps = case.grid.times.last().unwrap() / engine.step();
+            let steps = case.grid.times.last().unwrap() / engine.settings().resolution;
             for (angle, crank) in angles.iter().zip(run.cranks()) {
                 // Half a unit in the last place of the largest angle a step.
                 let bound = 0.5 * f64::EPSILON * 128.0 * steps;

@@ -1,39 +1,56 @@
 //! The simulating side: a family of engines behind one contract, judged by the conformance tests.
 
 pub mod rapier;
+mod settings;
+
+pub use settings::{Route, Settings};
 
 use crate::case::Case;
 use crate::solver::Solver;
 use crate::trajectory::ChannelKind;
 
-/// An engine: a solver that integrates in time steps.
+/// An engine: a solver that integrates numerically, with settings that decide how well.
 pub trait Engine: Solver {
     /// Name and version of the software behind it.
     fn version(&self) -> String;
 
-    /// Time step (s).
-    fn step(&self) -> f64;
+    /// Its settings.
+    fn settings(&self) -> Settings;
 
-    /// The same engine with another time step (s).
-    fn with_step(&self, step: f64) -> Box<dyn Engine>;
+    /// The same engine with other settings. What it does not know of them is left out of its results: see [`Engine::told`].
+    fn with(&self, settings: Settings) -> Box<dyn Engine>;
 
-    /// Order of convergence that the method should show in a channel.
+    /// The same engine at another resolution and else as it is.
+    fn at(&self, resolution: f64) -> Box<dyn Engine> {
+        self.with(Settings { resolution, ..self.settings() })
+    }
+
+    /// Whether [`Settings::resolution`] is an accuracy that the engine keeps by steps of its own choice, and not a time step.
+    fn controls_error(&self) -> bool {
+        false
+    }
+
+    /// Ways to reactions and balancing moment that are on offer, the cheapest first.
+    fn routes(&self) -> &'static [Route];
+
+    /// Order of convergence that a channel should show with the present route and extrapolation.
     fn formal_order(&self, channel: &ChannelKind) -> f64;
 
     /// Bound on the rounding noise of a channel on the grid of a case, in the channel's unit.
     fn noise(&self, case: &Case, channel: &ChannelKind) -> f64;
 
-    /// Settings that influence the result, by name.
-    fn settings(&self) -> Vec<(&'static str, String)>;
+    /// Settings that influence the result, by name, for people.
+    fn told(&self) -> Vec<(&'static str, String)>;
 }
 
-/// Every engine, with the time step `step` (s), the default first.
+/// Every engine, the default first, each with its own default settings: those with a fixed step at the time step `step` (s), those
+/// that control their error at an accuracy of their own.
 #[must_use]
 pub fn all(step: f64) -> Vec<Box<dyn Engine>> {
     vec![Box::new(rapier::Rapier::new(step))]
 }
 
-/// The engine called `name`, with the time step `step` (s).
+/// The engine called `name`, as [`all`] has it.
 #[must_use]
 pub fn named(name: &str, step: f64) -> Option<Box<dyn Engine>> {
     all(step).into_iter().find(|engine| engine.name() == name)

@@ -113,10 +113,10 @@ pub(super) fn of_engine(scenario: &Scenario, engine: &dyn Engine, runs: &[Observ
 fn power_balance(case: &Case, engine: &dyn Engine, runs: &[Observed; 3]) -> Check {
     let kind: &ChannelKind = Channel::named("drive.torque_N_m").expect("the table has the moment").kind;
     let scale = runs[1].moment;
-    let noise = engine.with_step(engine.step() / 2.0).noise(case, kind);
+    let noise = engine.at(engine.settings().resolution / 2.0).noise(case, kind);
     let estimate = |of: [&[f64]; 3]| {
         let convergence = Convergence::of(of[0], of[1], of[2], false, engine.formal_order(kind), noise);
-        convergence.tolerance(engine.step(), engine.noise(case, kind))
+        convergence.tolerance(engine.settings().resolution, engine.noise(case, kind))
     };
     let (own, power) =
         (estimate([0, 1, 2].map(|k| runs[k].torque.as_slice())), estimate([0, 1, 2].map(|k| runs[k].power.as_slice())));

@@ -152,9 +152,15 @@ pub fn prove_against(
 fn run_ladder(case: &Case, engine: &dyn Engine, progress: &mut dyn FnMut(f64)) -> Result<[Observed; 3]> {
     // The single step first: if it fails, its own message is the one that helps.
     let mut run = |factor: f64, from: f64, to: f64| {
-        let run = engine.with_step(engine.step() * factor);
+        let run = engine.at(engine.settings().resolution * factor);
         let observed = observe(case, run.as_ref(), &mut |part| progress(from + (to - from) * part));
-        observed.map_err(|error| if factor == 1.0 { error } else { in_ladder(&error, run.step(), engine.step()) })
+        observed.map_err(|error| {
+            if factor == 1.0 {
+                error
+            } else {
+                in_ladder(&error, run.settings().resolution, engine.settings().resolution)
+            }
+        })
     };
     let single = run(1.0, 0.0, 2.0 / 7.0)?;
     let half = run(0.5, 2.0 / 7.0, 6.0 / 7.0)?;
@@ -183,13 +189,13 @@ fn judge(
 ) -> Result<Vec<ChannelProof>> {
     let ladder = [0, 1, 2].map(|k| &runs[k].trajectory);
     let case = &scenario.case;
-    let finest = engine.with_step(engine.step() / 2.0);
+    let finest = engine.at(engine.settings().resolution / 2.0);
     let judged = residuals(reference, ladder[1])?.into_iter().map(|residual| {
         let kind = residual.channel.kind;
         let convergence =
             Convergence::of_channel(ladder, &residual.channel, engine.formal_order(kind), finest.noise(case, kind))
                 .expect("all runs of an engine have the same channels");
-        let tolerance = convergence.tolerance(engine.step(), engine.noise(case, kind));
+        let tolerance = convergence.tolerance(engine.settings().resolution, engine.noise(case, kind));
         let bound = tolerance.bound(residual.scale);
         let mut verdict = Verdict::of_engine(&residual, &convergence, bound, scenario.engine_rel);
         if let (Verdict::Disagree { place }, true) = (&verdict, kind.stage >= Stage::Reactions)
@@ -229,8 +235,8 @@ fn describe(engine: &dyn Engine) -> EngineInfo {
     EngineInfo {
         name: engine.name(),
         version: engine.version(),
-        step: engine.step(),
-        settings: engine.settings(),
+        step: engine.settings().resolution,
+        settings: engine.told(),
         provides: provides.into(),
     }
 }

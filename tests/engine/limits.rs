@@ -23,7 +23,7 @@ fn regress_40_steps_that_are_too_large_prove_nothing() {
                 Err(error) => assert_helpful(&error),
             }
         }
-        let error = engine.with_step(0.1).solve(&scenario.case, &mut |_| {}).unwrap_err();
+        let error = engine.at(0.1).solve(&scenario.case, &mut |_| {}).unwrap_err();
         assert_helpful(&error);
     }
 }

@@ -11,7 +11,7 @@ pub mod tree;
 pub mod twin;
 mod window;
 
-use super::Engine;
+use super::{Engine, Route, Settings};
 use crate::case::Case;
 use crate::error::{Error, ErrorKind, Result};
 use crate::solver::{Progress, Provision, Solver, State};
@@ -28,8 +28,7 @@ const MAX_STEPS: f64 = 2e7;
 /// Rapier multibody, `rapier2d-f64`.
 #[derive(Clone, Copy, Debug)]
 pub struct Rapier {
-    step: f64,
-    sweeps: usize,
+    settings: Settings,
 }
 
 impl Rapier {
@@ -40,7 +39,8 @@ impl Rapier {
     /// The engine with the time step `step` (s).
     #[must_use]
     pub fn new(step: f64) -> Self {
-        Rapier { step, sweeps: Self::SWEEPS }
+        let (sweeps, substeps, route) = (Self::SWEEPS, 1, Route::Differences);
+        Rapier { settings: Settings { resolution: step, sweeps, substeps, route, extrapolated: false } }
     }
 }
 
@@ -49,12 +49,16 @@ impl Engine for Rapier {
         "rapier2d-f64 0.36.1".into()
     }
 
-    fn step(&self) -> f64 {
-        self.step
+    fn settings(&self) -> Settings {
+        self.settings
     }
 
-    fn with_step(&self, step: f64) -> Box<dyn Engine> {
-        Box::new(Rapier { step, ..*self })
+    fn with(&self, settings: Settings) -> Box<dyn Engine> {
+        Box::new(Rapier { settings })
+    }
+
+    fn routes(&self) -> &'static [Route] {
+        &[Route::Differences]
     }
 
     fn formal_order(&self, _: &ChannelKind) -> f64 {
@@ -62,14 +66,14 @@ impl Engine for Rapier {
     }
 
     fn noise(&self, case: &Case, channel: &ChannelKind) -> f64 {
-        noise::bound(case, self.step, channel)
+        noise::bound(case, self.settings.resolution, channel)
     }
 
-    fn settings(&self) -> Vec<(&'static str, String)> {
+    fn told(&self) -> Vec<(&'static str, String)> {
         vec![
             ("build", "spanning tree as multibody, loops closed by impulse joints".into()),
             ("drive", "ground-crank motor, force-based, damping 1e30".into()),
-            ("sweeps", self.sweeps.to_string()),
+            ("sweeps", self.settings.sweeps.to_string()),
             ("substeps", "1".into()),
             ("reactions", "Newton-Euler on centred second differences of positions".into()),
         ]
@@ -97,19 +101,20 @@ impl Solver for Rapier {
     fn sweep(&self, case: &Case, visit: &mut dyn FnMut(usize, &State) -> Result<()>, progress: Progress) -> Result<()> {
         let rows = case.grid.ascending();
         let (Some(&first), Some(&last)) = (rows.first(), rows.last()) else { return Ok(()) };
-        let begin = (case.grid.times[first].min(0.0) / self.step).floor();
-        let end = (case.grid.times[last] / self.step).floor();
-        check_steps(self.step, end - begin)?;
+        let step = self.settings.resolution;
+        let begin = (case.grid.times[first].min(0.0) / step).floor();
+        let end = (case.grid.times[last] / step).floor();
+        check_steps(step, end - begin)?;
         let start = begin as i64 - Window::BEHIND - SETTLING_STEPS;
         let total = (end as i64 + Window::AHEAD - start) as f64;
 
-        let mut twin = Twin::new(case, self.step, self.sweeps)?;
+        let mut twin = Twin::new(case, step, self.settings.sweeps)?;
         twin.drive_at(case, -1.0);
         for _ in start..0 {
             twin.step()?;
         }
         twin.drive_at(case, 1.0);
-        let mut window = Window::new(case, self.step, start);
+        let mut window = Window::new(case, step, start);
         let mut statics = (case.wanted.deepest() >= Stage::Reactions).then(|| NewtonEuler::new(case));
         let mut state = State::at_rest(case);
         window.push(&twin, case);
