@@ -44,10 +44,10 @@ impl Place {
 }
 
 /// An error with its message, its place where there is one, and the way out.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Error(Box<Inner>);
 
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Inner {
     kind: ErrorKind,
     message: String,

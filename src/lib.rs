@@ -25,5 +25,6 @@ pub mod scenario;
 pub mod solver;
 pub mod tolerance;
 pub mod trajectory;
+pub mod tune;
 
 pub use error::{Error, ErrorKind, Result};

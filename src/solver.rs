@@ -132,6 +132,7 @@ pub struct Sampler {
     points: Vec<Side>,
     channels: Vec<Channel>,
     columns: Vec<Vec<f64>>,
+    rows: Vec<usize>,
 }
 
 impl Sampler {
@@ -141,11 +142,12 @@ impl Sampler {
         let channels = case.channels();
         let columns = vec![vec![f64::NAN; case.grid.len()]; channels.len()];
         let points = case.mechanism.moving_points().map(|(_, side)| side).collect();
-        Sampler { wanted: case.wanted, points, channels, columns }
+        Sampler { wanted: case.wanted, points, channels, columns, rows: Vec::new() }
     }
 
     /// Stores a state in a row. The order of values is that of [`Case::channels`].
     pub fn put(&mut self, case: &Case, row: usize, state: &State) {
+        self.rows.push(row);
         let mut columns = self.columns.iter_mut();
         let mut put = |value: f64| columns.next().expect("as many values as channels")[row] = value;
         let has = |stage| self.wanted.has(stage);
@@ -201,6 +203,20 @@ impl Sampler {
         let present = |channel: &Channel| !matches!(provides(channel), Provision::Absent(_));
         let (channels, columns) = self.channels.into_iter().zip(self.columns).filter(|(c, _)| present(c)).unzip();
         Trajectory::new(case.grid.times.clone(), case.grid.cranks.clone(), channels, columns)
+    }
+
+    /// What there is of the trajectory: the rows stored so far, in the order in which they came. `None` if there is none, or if
+    /// their numbers are not finite.
+    #[must_use]
+    pub fn so_far(self, case: &Case, provides: impl Fn(&Channel) -> Provision) -> Option<Trajectory> {
+        if self.rows.is_empty() {
+            return None;
+        }
+        let present = |channel: &Channel| !matches!(provides(channel), Provision::Absent(_));
+        let stored = |values: &[f64]| self.rows.iter().map(|&row| values[row]).collect::<Vec<f64>>();
+        let kept = self.channels.iter().zip(&self.columns).filter(|(channel, _)| present(channel));
+        let (channels, columns) = kept.map(|(channel, column)| (channel.clone(), stored(column))).unzip();
+        Trajectory::new(stored(&case.grid.times), stored(&case.grid.cranks), channels, columns).ok()
     }
 }
 

@@ -7,16 +7,18 @@ use std::fmt;
 pub enum Basis {
     /// Rounding of double precision only; the text says how it grows.
     RoundOff(&'static str),
-    /// Discretisation error of the engine, estimated from its own runs at several step sizes.
+    /// Error of the engine, estimated from its own runs at three resolutions and with half the sweeps.
     Truncation {
         /// Order of convergence observed between the runs; NaN where the differences are rounding.
         observed: f64,
         /// Order that the method should have.
         formal: f64,
-        /// Step (s) of the run that is judged.
-        step: f64,
-        /// Safety factor on the estimate.
+        /// Step (s) or accuracy of the run that is judged.
+        resolution: f64,
+        /// Safety factor on the estimate of the discretisation error.
         safety: f64,
+        /// What the bound is made of, safety factors included, in the channel's unit.
+        parts: Parts,
     },
     /// Half a unit of the last printed digit of a published figure.
     Published {
@@ -27,24 +29,42 @@ pub enum Basis {
     },
 }
 
+/// The parts of a bound on an engine's error, safety factors included.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Parts {
+    /// Discretisation: what a finer step makes smaller.
+    pub discretisation: f64,
+    /// Iteration: what more sweeps make smaller.
+    pub iteration: f64,
+    /// Rounding: what neither makes smaller.
+    pub rounding: f64,
+}
+
+impl Parts {
+    /// The bound.
+    #[must_use]
+    pub fn sum(&self) -> f64 {
+        self.discretisation + self.iteration + self.rounding
+    }
+}
+
 impl fmt::Display for Basis {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Basis::RoundOff(why) => write!(f, "round-off: {why}"),
-            Basis::Truncation { observed, formal, step, safety } if observed.is_nan() => {
+            Basis::Truncation { observed, formal, resolution, safety, parts } => {
+                let Parts { discretisation, iteration, rounding } = parts;
+                let order = match observed.is_nan() {
+                    true => format!("below round-off, order {formal} assumed"),
+                    false => format!("observed order {observed:.2} (formal {formal})"),
+                };
                 write!(
                     f,
-                    "truncation below round-off at steps {:e}, {step:e} and {:e} s, order {formal} assumed, safety factor {safety}",
-                    2.0 * step,
-                    step / 2.0
+                    "truncation: {order} at resolutions {:e}, {resolution:e} and {:e}, safety factor {safety}; discretisation {discretisation:.1e}, iteration {iteration:.1e}, rounding {rounding:.1e}",
+                    2.0 * resolution,
+                    resolution / 2.0
                 )
             }
-            Basis::Truncation { observed, formal, step, safety } => write!(
-                f,
-                "truncation: observed order {observed:.2} (formal {formal}) over steps {:e}, {step:e} and {:e} s, safety factor {safety}",
-                2.0 * step,
-                step / 2.0
-            ),
             Basis::Published { digits, source } => write!(f, "published with {digits} decimals: {source}"),
         }
     }

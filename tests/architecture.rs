@@ -14,7 +14,7 @@ use imports::{code_words, imports};
 const ALLOWED: &[(&str, &str)] = &[
     ("assur", "math mechanism"),
     ("case", "drive math mechanism trajectory"),
-    ("cli", "case compare diagram engine error math mechanism proof record reference report scenario trajectory"),
+    ("cli", "case compare diagram engine error math mechanism proof record reference report scenario trajectory tune"),
     ("compare", "error math tolerance trajectory"),
     ("diagram", "case error math mechanism solver trajectory"),
     ("drive", ""),
@@ -25,11 +25,13 @@ const ALLOWED: &[(&str, &str)] = &[
     ("proof", "case compare engine error math mechanism reference scenario solver tolerance trajectory"),
     ("record", "error math mechanism trajectory"),
     ("reference", "assur case drive error math mechanism solver trajectory"),
-    ("report", "compare error proof solver"),
+    ("report", "compare error proof solver trajectory"),
     ("scenario", "case drive error math mechanism trajectory"),
     ("solver", "case error math mechanism trajectory"),
     ("tolerance", ""),
     ("trajectory", "error"),
+    // A join like the proof: engines are priced against the reference.
+    ("tune", "case compare engine error proof reference scenario solver trajectory"),
 ];
 
 /// What must never be, whatever the table above comes to allow: module, and what it must not name.
@@ -52,6 +54,7 @@ const NEVER: &[(&str, &str)] = &[
     ("record", "compare proof solver assur reference engine"),
     ("report", "assur reference engine record scenario mechanism"),
     ("proof", "record report"),
+    ("tune", "record report cli"),
 ];
 
 /// What only some modules may name: other people's crates stay behind the module that wraps them, the clock and the
@@ -63,6 +66,7 @@ const HOMES: &[(&str, &str)] = &[
     ("prost", "record"),
     ("prost_types", "record"),
     ("toml", "scenario"),
+    ("toml_edit", "scenario"),
     ("petgraph", "mechanism"),
     ("nalgebra", "math"),
     ("pulp", "reference"),

@@ -26,7 +26,7 @@ fn against(wrong: &str) -> Proof {
 
 /// Channels that disagree.
 fn found(proof: &Proof) -> Vec<(String, Stage)> {
-    let wrong = proof.channels.iter().filter(|channel| channel.verdict.word() == "disagree");
+    let wrong = proof.engine().channels.iter().filter(|channel| channel.verdict.word() == "disagree");
     wrong.map(|channel| (channel.residual.channel.to_string(), channel.residual.channel.kind.stage)).collect()
 }
 

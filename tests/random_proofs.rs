@@ -34,7 +34,7 @@ fn never_disagree(sorts: &[[bool; 3]], most: usize) {
         match prove(&scenario, &Options::default(), &mut |_| {}) {
             Ok(proof) => {
                 let word = proof.verdict.word();
-                let wrong = proof.channels.iter().filter(|channel| channel.verdict.word() == "disagree");
+                let wrong = proof.engine().channels.iter().filter(|channel| channel.verdict.word() == "disagree");
                 let wrong: Vec<_> = wrong
                     .map(|c| {
                         format!(
@@ -75,7 +75,7 @@ fn positions_of_random_higher_groups_never_disagree() {
             scenario.dt = 0.005 / scenario.case.drive.at(0.0).omega.abs();
             let word = match prove(&scenario, &Options::default(), &mut |_| {}) {
                 Ok(proof) => {
-                    for channel in &proof.channels {
+                    for channel in &proof.engine().channels {
                         let is_position = channel.residual.channel.kind.stage == Stage::Positions;
                         let wrong = is_position && channel.verdict.word() == "disagree";
                         assert!(!wrong, "{family:?} {among:?}: {:?}\n{}", channel.residual, spec.toml());

@@ -2,6 +2,7 @@
 
 mod bearings;
 mod diagram;
+mod engine_args;
 mod grid;
 mod inspect;
 mod list;
@@ -12,6 +13,7 @@ mod progress;
 mod range;
 mod run;
 mod solve;
+mod tune;
 
 use std::process::ExitCode;
 
@@ -32,6 +34,7 @@ Examples:
   linkproof run scenarios/crank_rocker.toml             prove one, record it to recordings/
   linkproof run scenarios/*.toml --no-record --json -   prove all, as JSON
   linkproof solve scenarios/ov7_base.toml --with assur --crank-deg 0:-360:-30
+  linkproof tune scenarios/crank_rocker.toml --within 1e-4   the settings that this accuracy needs
   linkproof inspect scenarios/ov7_base.toml             links, joints, Assur groups
 
 Exit codes: 0 all agree, 1 something disagrees, 2 bad input or usage, 3 nothing proven either way.";
@@ -50,6 +53,8 @@ enum Command {
     Run(run::Args),
     /// Solve a scenario one way and write the solution as CSV, one row an instant
     Solve(solve::Args),
+    /// Find the cheapest settings of an engine that meet a wanted error, by measurement
+    Tune(tune::Args),
     /// Show the structure of a mechanism: links, joints, mobility, driving link and Assur groups; its configurations; its range of motion
     Inspect(inspect::Args),
     /// Largest reactions over the range of the grid, and the smallest journals that carry them
@@ -69,6 +74,7 @@ pub fn main() -> ExitCode {
     let code = match cli.command {
         Command::Run(args) => run::run(&args),
         Command::Solve(args) => output::exit(solve::solve(&args)),
+        Command::Tune(args) => output::exit(tune::run(&args)),
         Command::Inspect(args) => output::exit(inspect::inspect(&args)),
         Command::Bearings(args) => output::exit(bearings::bearings(&args)),
         Command::Plan(args) => output::exit(plan::plan(&args)),

@@ -6,12 +6,12 @@ use std::path::{Path, PathBuf};
 
 use clap::builder::PossibleValuesParser;
 
+use super::engine_args::EngineArgs;
 use super::output;
 use super::progress::Bar;
 use crate::compare::Verdict;
-use crate::engine;
 use crate::error::{Error, ErrorKind, Result};
-use crate::proof::{Options, Proof, prove};
+use crate::proof::{EngineProof, Proof, prove};
 use crate::record::{self as recorder, Level, LogEntry, Recording, Side};
 use crate::reference;
 use crate::report::{json, text};
@@ -22,6 +22,8 @@ Examples:
   linkproof run scenarios/crank_rocker.toml
   linkproof run scenarios/crank_rocker.toml --dt 1e-4          a finer engine step
   linkproof run scenarios/*.toml --reference newton            the other analytic side as reference
+  linkproof run scenarios/crank_rocker.toml --engine all       every engine side by side, and who stands alone
+  linkproof run scenarios/ov7_base.toml --sweeps 4096 --extrapolate   other settings of the engine
   linkproof run scenarios/fourth_class.toml --no-record --mode link_2,link_3,link_4,link_5=2   another configuration
   linkproof run scenarios/*.toml --no-record --json out.json   no recording, results for a script
 
@@ -36,12 +38,8 @@ pub(super) struct Args {
     /// Analytic solver that the engine is compared with; the other one checks it
     #[arg(long, default_value = "assur", value_parser = PossibleValuesParser::new(reference_names()))]
     reference: String,
-    /// Engine
-    #[arg(long, default_value = "rapier", value_parser = PossibleValuesParser::new(engine_names()))]
-    engine: String,
-    /// Time step of the engine in seconds [default: the scenario's]
-    #[arg(long, value_name = "S", allow_hyphen_values = true)]
-    dt: Option<f64>,
+    #[command(flatten)]
+    engine: EngineArgs,
     /// Start a group in another mode than the file says, or in the configuration of that number in `inspect --modes`;
     /// published numbers, which belong to the file's own modes, are left out then. May be given for several groups
     #[arg(long, value_name = "LINK,LINK=MODE")]
@@ -65,10 +63,6 @@ pub(super) fn load(file: &Path, modes: &[String]) -> Result<Scenario> {
 
 pub(super) fn reference_names() -> Vec<&'static str> {
     reference::all().iter().map(|solver| solver.name()).collect()
-}
-
-pub(super) fn engine_names() -> Vec<&'static str> {
-    engine::all(1.0).iter().map(|engine| engine.name()).collect()
 }
 
 /// Proves every file; one that is bad does not keep the others from being proven.
@@ -96,6 +90,11 @@ pub(super) fn run(args: &Args) -> u8 {
             None
         });
         worst = graver(worst, exit_code(&proof.verdict));
+        // One engine's failure beside others is told in the report; alone, it is the outcome.
+        if let [EngineProof { failure: Some(error), .. }] = proof.engines.as_slice() {
+            output::show(error);
+            worst = super::BAD_INPUT;
+        }
         document.add(&proof, recording.map(|path| path.display().to_string()));
     }
     if let Some(to) = &args.json
@@ -109,7 +108,7 @@ pub(super) fn run(args: &Args) -> u8 {
 
 fn prove_file(args: &Args, file: &Path, quiet: bool) -> Result<(Scenario, Proof)> {
     let scenario = load(file, &args.mode)?;
-    let options = Options { reference: args.reference.clone(), engine: args.engine.clone(), step: args.dt };
+    let options = args.engine.options(&args.reference);
     let mut bar = Bar::new(&scenario.name);
     let proof = prove(&scenario, &options, &mut |part| bar.at(part))?;
     drop(bar);
@@ -156,10 +155,11 @@ fn write_recording(scenario: &Scenario, proof: &Proof, args: &Args, path: &Path)
         // The text of the scenario in the recording does not say so.
         metadata.insert("modes".into(), args.mode.join(" "));
     }
-    let sides = [
-        Side { name: "reference", trajectory: &proof.reference_trajectory },
-        Side { name: "engine", trajectory: &proof.engine_trajectory },
-    ];
+    let mut sides = vec![Side { name: "reference", trajectory: &proof.reference_trajectory }];
+    for engine in &proof.engines {
+        let name = if proof.engines.len() == 1 { "engine" } else { engine.info.name };
+        sides.extend(engine.trajectory.as_ref().map(|trajectory| Side { name, trajectory }));
+    }
     let log = log(proof);
     let recording = Recording {
         name: &scenario.name,
@@ -167,25 +167,31 @@ fn write_recording(scenario: &Scenario, proof: &Proof, args: &Args, path: &Path)
         metadata: &metadata,
         mechanism: &scenario.case.mechanism,
         sides: &sides,
-        errors: Some(&proof.errors),
+        errors: proof.engine().errors.as_ref(),
         log: &log,
     };
     recorder::write(&recording, path)
 }
 
 fn metadata(proof: &Proof) -> BTreeMap<String, String> {
-    let engine = &proof.engine;
     let mut metadata = BTreeMap::from([
         ("linkproof".to_string(), env!("CARGO_PKG_VERSION").to_string()),
         ("reference".into(), proof.reference.into()),
         ("structure".into(), proof.formula.clone()),
-        ("engine".into(), engine.version.clone()),
-        ("engine_step_s".into(), format!("{:e}", engine.step)),
         ("verdict".into(), proof.verdict.word().into()),
     ]);
-    metadata.extend(engine.settings.iter().map(|(name, value)| (format!("engine_{name}"), value.clone())));
-    let provides = engine.provides.iter().map(|(stage, how)| (format!("provides_{stage}"), json::provision(how)));
-    metadata.extend(provides);
+    for EngineProof { info, .. } in &proof.engines {
+        let (engine, provides) = match proof.engines.len() {
+            1 => ("engine".to_string(), "provides".to_string()),
+            _ => (format!("engine_{}", info.name), format!("provides_{}", info.name)),
+        };
+        let resolution = if info.controls_error { "accuracy" } else { "step_s" };
+        metadata.insert(engine.clone(), info.version.clone());
+        metadata.insert(format!("{engine}_{resolution}"), format!("{:e}", info.settings.resolution));
+        metadata.extend(info.told.iter().map(|(name, value)| (format!("{engine}_{name}"), value.clone())));
+        let provided = info.provides.iter().map(|(stage, how)| (format!("{provides}_{stage}"), json::provision(how)));
+        metadata.extend(provided);
+    }
     metadata
 }
 
@@ -202,14 +208,15 @@ fn log(proof: &Proof) -> Vec<LogEntry> {
         level: level(&proof.verdict),
         text: format!("{}: {}", proof.scenario, proof.verdict.word()),
     }];
-    for channel in &proof.channels {
+    let channels = proof.engines.iter().flat_map(|engine| &engine.channels);
+    for channel in channels {
         if let Verdict::Disagree { place: why } | Verdict::Inconclusive { reason: why } = &channel.verdict {
             let residual = &channel.residual;
             let text = format!("{}: {why}", residual.channel);
             log.push(LogEntry { time: residual.worst_time, level: level(&channel.verdict), text });
         }
     }
-    for check in &proof.checks {
+    for check in proof.all_checks() {
         if let Verdict::Disagree { place: why } | Verdict::Inconclusive { reason: why } = &check.verdict {
             let text = format!("{}: {why}", check.name());
             log.push(LogEntry { time: start, level: level(&check.verdict), text });

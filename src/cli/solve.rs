@@ -4,10 +4,11 @@ use std::path::PathBuf;
 
 use clap::builder::PossibleValuesParser;
 
+use super::engine_args::engine_names;
 use super::grid::Range;
 use super::output;
 use super::progress::Bar;
-use super::run::{engine_names, load, reference_names};
+use super::run::{load, reference_names};
 use crate::case::{Case, Grid};
 use crate::engine;
 use crate::error::{Error, ErrorKind, Result};

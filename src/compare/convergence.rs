@@ -1,22 +1,40 @@
-//! Discretisation error of an engine, from its own runs at three step sizes.
+//! Error of an engine, from its own runs: at three resolutions, and with half the sweeps.
 //!
 //! With differences e1 = y(2h) - y(h) and e2 = y(h) - y(h/2), the observed order is p = log2(|e1| / |e2|), and the error
 //! of the run at h is estimated as |e2| 2^p / (2^p - 1) (Richardson), times a safety factor: 1.25 with the formal order where
 //! the observed one is as good as that, else 3 with the smaller of the two (Oberkampf and Roy, "Verification and
 //! validation in scientific computing", 2010, section 8.7; grid convergence index of Roache and ASME V&V 20). They allow a
 //! tenth of the order for 1.25; here it is a fiftieth, because errors of two orders can cancel in the differences.
+//!
+//! Sweeps converge geometrically: if half of them leave q of the error of none, all leave q^2, and the two runs differ by q - q^2. What is
+//! left is q / (1 - q) of the difference; the factor 3 covers q up to 3/4 (ASME V&V 20 counts iteration apart as well).
 
-use super::residual::differences;
+use super::residual::{differences, largest_difference};
 use crate::error::Result;
 use crate::math::statistics::rms;
-use crate::tolerance::{Basis, Tolerance};
+use crate::tolerance::{Basis, Parts, Tolerance};
 use crate::trajectory::{Channel, Trajectory};
 
 /// Share of the formal order within which the observed one is as good. With a tenth, random chains with an order of 1.91 had
 /// errors 1.1 times the bound.
 const AS_GOOD: f64 = 0.02;
 
-/// What three runs say about the error of the middle one, in one channel.
+/// Share of the formal order within which the runs have a limit that can be told.
+const BEARS_OUT: f64 = 0.1;
+
+/// Runs of one engine on one grid.
+#[derive(Clone, Copy, Debug)]
+pub struct Ladder<'a> {
+    /// At double, single and half the step (or accuracy).
+    pub resolutions: [&'a Trajectory; 3],
+    /// At the single one, with half the sweeps; `None` for an engine that does not iterate.
+    pub fewer_sweeps: Option<&'a Trajectory>,
+}
+
+/// Factor on the difference that half the sweeps make: see above.
+const SWEEPS_SAFETY: f64 = 3.0;
+
+/// What the runs say about the error of the middle one, in one channel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Convergence {
     /// Observed order; NaN where the differences are rounding.
@@ -27,6 +45,8 @@ pub struct Convergence {
     pub error: f64,
     /// Safety factor.
     pub safety: f64,
+    /// Largest difference that half the sweeps make, in the channel's unit; 0 for an engine that does not iterate.
+    pub iteration: f64,
 }
 
 impl Convergence {
@@ -47,14 +67,40 @@ impl Convergence {
             (observed.clamp(0.5, formal), 3.0)
         };
         let error = largest / (1.0 - 0.5f64.powf(order));
-        Convergence { observed, formal, error, safety }
+        Convergence { observed, formal, error, safety, iteration: 0.0 }
     }
 
-    /// The same for a channel of three trajectories on one grid; `None` if one of them does not have it.
+    /// The same for a channel of three trajectories on one grid, and of a fourth with half the sweeps of the middle one; `None` if one of
+    /// them does not have it.
     #[must_use]
-    pub fn of_channel(runs: [&Trajectory; 3], channel: &Channel, formal: f64, noise: f64) -> Option<Self> {
-        let [double, single, half] = [runs[0].column(channel)?, runs[1].column(channel)?, runs[2].column(channel)?];
-        Some(Convergence::of(double, single, half, channel.kind.periodic, formal, noise))
+    pub fn of_channel(runs: Ladder<'_>, channel: &Channel, formal: f64, noise: f64) -> Option<Self> {
+        let [double, single, half] = runs.resolutions.map(|run| run.column(channel));
+        let (double, single, half, periodic) = (double?, single?, half?, channel.kind.periodic);
+        let found = Convergence::of(double, single, half, periodic, formal, noise);
+        let fewer = match runs.fewer_sweeps {
+            Some(run) => Some(run.column(channel)?),
+            None => None,
+        };
+        Some(found.with_fewer_sweeps(single, fewer, periodic))
+    }
+
+    /// The same with the difference that half the sweeps make to the middle run, if there is such a run.
+    #[must_use]
+    pub fn with_fewer_sweeps(self, single: &[f64], fewer: Option<&[f64]>, periodic: bool) -> Self {
+        let iteration = fewer.map_or(0.0, |fewer| largest_difference(fewer, single, periodic));
+        Convergence { iteration, ..self }
+    }
+
+    /// The value that the runs tend to, from the middle and the finest: y(h/2) + (y(h/2) - y(h)) / (2^p - 1) with the formal order p. `None`
+    /// where the observed order does not bear it out.
+    #[must_use]
+    pub fn limit(&self, single: &[f64], half: &[f64], periodic: bool) -> Option<Vec<f64>> {
+        if !((self.observed - self.formal).abs() <= BEARS_OUT * self.formal) {
+            return None;
+        }
+        let share = 1.0 / (2f64.powf(self.formal) - 1.0);
+        let steps = differences(single, half, periodic);
+        Some(half.iter().zip(steps).map(|(value, step)| value + step * share).collect())
     }
 
     /// Whether the runs converge as they should, so that the estimate can be trusted.
@@ -63,14 +109,16 @@ impl Convergence {
         self.observed.is_nan() || self.observed >= 0.5 * self.formal
     }
 
-    /// Bound on the error of the middle run at step `step` (s); `noise` is the rounding added to it, in the channel's unit.
+    /// Bound on the error of the middle run at `resolution`; `noise` is the rounding added to it, in the channel's unit.
     #[must_use]
-    pub fn tolerance(&self, step: f64, noise: f64) -> Tolerance {
+    pub fn tolerance(&self, resolution: f64, noise: f64) -> Tolerance {
         let Convergence { observed, formal, safety, .. } = *self;
+        let parts =
+            Parts { discretisation: safety * self.error, iteration: SWEEPS_SAFETY * self.iteration, rounding: noise };
         Tolerance {
-            abs: safety * self.error + noise,
+            abs: parts.sum(),
             rel: 0.0,
-            basis: Basis::Truncation { observed, formal, step, safety },
+            basis: Basis::Truncation { observed, formal, resolution, safety, parts },
         }
     }
 }
@@ -111,6 +159,34 @@ mod tests {
         assert!(found.is_trusted() && found.safety == 3.0 && (found.error - 2e-3).abs() < 1e-12);
         let stuck = Convergence::of(&[1.0], &[0.9], &[0.8], false, 2.0, 0.0);
         assert!(!stuck.is_trusted());
+    }
+
+    #[test]
+    fn the_limit_is_exact_where_the_order_is() {
+        let [double, single, half] = runs(2, 7.0);
+        let found = Convergence::of(&double, &single, &half, false, 2.0, 0.0);
+        let limit = found.limit(&single, &half, false).unwrap();
+        assert!(limit.iter().all(|value| (value - 7.0).abs() < 1e-12), "{limit:?}");
+        let [double, single, half] = runs(1, 7.0);
+        let first = Convergence::of(&double, &single, &half, false, 2.0, 0.0);
+        assert_eq!(first.limit(&single, &half, false), None);
+    }
+
+    #[test]
+    fn fewer_sweeps_tell_the_error_of_the_iteration() {
+        let of = |values: &[f64]| {
+            let times = vec![0.0, 1.0];
+            let channels = vec![Channel::named("joint.A.fx_N").unwrap()];
+            Trajectory::new(times.clone(), times, channels, vec![values.to_vec()]).unwrap()
+        };
+        let [double, single, half] = runs(2, 7.0).map(|values| of(&values));
+        // Half the sweeps leave 0.1 of 1, all leave 0.01: that much the bound must allow besides the step's error.
+        let values = single.column(&single.channels()[0]).unwrap();
+        let fewer = of(&[values[0] + 0.09, values[1]]);
+        let ladder = Ladder { resolutions: [&double, &single, &half], fewer_sweeps: Some(&fewer) };
+        let found = Convergence::of_channel(ladder, &single.channels()[0], 2.0, 0.0).unwrap();
+        assert!((found.iteration - 0.09).abs() < 1e-15);
+        assert!(found.tolerance(1.0, 0.0).abs >= 2e-3 + 0.01);
     }
 
     #[test]

@@ -4,6 +4,6 @@ pub mod convergence;
 pub mod residual;
 pub mod verdict;
 
-pub use convergence::Convergence;
-pub use residual::{Residual, difference, magnitudes, residuals, scales};
+pub use convergence::{Convergence, Ladder};
+pub use residual::{Residual, difference, largest_difference, magnitudes, residuals, scales};
 pub use verdict::{Check, Verdict, overall};

@@ -104,6 +104,14 @@ pub(super) fn differences(ours: &[f64], theirs: &[f64], periodic: bool) -> Vec<f
     ours.iter().zip(theirs).map(|(a, b)| b - a - turns).collect()
 }
 
+/// Largest absolute difference between two columns of one channel; of angles, but for whole turns between the first samples.
+#[must_use]
+pub fn largest_difference(ours: &[f64], theirs: &[f64], periodic: bool) -> f64 {
+    differences(ours, theirs, periodic)
+        .into_iter()
+        .fold(0.0, |most: f64, e| if e.is_nan() { e } else { most.max(e.abs()) })
+}
+
 /// Residuals of all channels that both trajectories have, on the reference's scales.
 ///
 /// # Errors

@@ -1,7 +1,7 @@
 //! Agree, disagree, or not decided.
 
 use super::{Convergence, Residual};
-use crate::tolerance::{Basis, Tolerance};
+use crate::tolerance::{Basis, Parts, Tolerance};
 
 /// Outcome of one comparison.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,7 +53,8 @@ impl Verdict {
     /// Verdict on an engine's channel. Where the engine does not converge, or its error may be larger than the share
     /// `wanted` of the channel's scale, a small residual proves nothing.
     #[must_use]
-    pub fn of_engine(residual: &Residual, convergence: &Convergence, bound: f64, wanted: f64) -> Self {
+    pub fn of_engine(residual: &Residual, convergence: &Convergence, parts: Parts, wanted: f64) -> Self {
+        let bound = parts.sum();
         if residual.scale == 0.0 && residual.max > 0.0 {
             let reason = "the grid has no extent that an error could be measured by; give it more than one instant";
             return Verdict::Inconclusive { reason: reason.into() };
@@ -61,8 +62,10 @@ impl Verdict {
         if !convergence.is_trusted() {
             return Verdict::Inconclusive {
                 reason: format!(
-                    "the engine converges with order {:.2} instead of {:.0} here: its error cannot be estimated; choose a smaller step (--dt)",
-                    convergence.observed, convergence.formal
+                    "the engine converges with order {:.2} instead of {:.0} here: its error cannot be estimated; {}",
+                    convergence.observed,
+                    convergence.formal,
+                    way_out(parts)
                 ),
             };
         }
@@ -73,12 +76,25 @@ impl Verdict {
         match Verdict::of(residual.max, bound, place) {
             Verdict::Agree { .. } if bound > wanted * residual.scale => Verdict::Inconclusive {
                 reason: format!(
-                    "the engine's error may reach {:.1e} of the channel's scale, more than the {wanted:.0e} that still proves something; choose a smaller step (--dt)",
-                    bound / residual.scale
+                    "the engine's error may reach {:.1e} of the channel's scale, more than the {wanted:.0e} that still proves something; {}",
+                    bound / residual.scale,
+                    way_out(parts)
                 ),
             },
             verdict => verdict,
         }
+    }
+}
+
+/// How to make the largest part of an engine's error smaller.
+fn way_out(parts: Parts) -> &'static str {
+    let Parts { discretisation, iteration, rounding } = parts;
+    if rounding >= discretisation && rounding >= iteration {
+        "most of it is rounding: choose a larger step (--dt), or an engine in double precision"
+    } else if iteration >= discretisation {
+        "most of it is left by the sweeps: raise their number (--sweeps)"
+    } else {
+        "choose a smaller step (--dt)"
     }
 }
 
@@ -185,7 +201,7 @@ mod tests {
     }
 
     fn converging(observed: f64) -> Convergence {
-        Convergence { observed, formal: 2.0, error: 1e-3, safety: 1.25 }
+        Convergence { observed, formal: 2.0, error: 1e-3, safety: 1.25, iteration: 0.0 }
     }
 
     #[test]
@@ -199,13 +215,29 @@ mod tests {
         assert_eq!(Verdict::of(0.0, 0.0, String::new), Verdict::Agree { margin: f64::INFINITY });
     }
 
+    fn judged(max: f64, observed: f64, discretisation: f64) -> Verdict {
+        let parts = Parts { discretisation, ..Parts::default() };
+        Verdict::of_engine(&residual(max), &converging(observed), parts, 1e-2)
+    }
+
+    #[test]
+    fn what_is_open_says_what_would_close_it() {
+        let reason = |parts: Parts| match Verdict::of_engine(&residual(1e-4), &converging(2.0), parts, 1e-2) {
+            Verdict::Inconclusive { reason } => reason,
+            other => panic!("{other:?}"),
+        };
+        assert!(reason(Parts { discretisation: 0.5, iteration: 0.1, rounding: 0.1 }).contains("--dt"));
+        assert!(reason(Parts { discretisation: 0.1, iteration: 0.5, rounding: 0.1 }).contains("--sweeps"));
+        assert!(reason(Parts { discretisation: 0.1, iteration: 0.1, rounding: 0.5 }).contains("rounding"));
+    }
+
     #[test]
     fn an_engine_that_does_not_converge_or_is_too_coarse_proves_nothing() {
-        assert_eq!(Verdict::of_engine(&residual(1e-4), &converging(2.0), 1e-3, 1e-2).word(), "agree");
-        assert_eq!(Verdict::of_engine(&residual(1e-2), &converging(2.0), 1e-3, 1e-2).word(), "disagree");
-        assert_eq!(Verdict::of_engine(&residual(1e-4), &converging(0.3), 1e-3, 1e-2).word(), "inconclusive");
-        assert_eq!(Verdict::of_engine(&residual(1e-4), &converging(2.0), 5e-2, 1e-2).word(), "inconclusive");
-        assert_eq!(Verdict::of_engine(&residual(1e-4), &converging(f64::NAN), 1e-3, 1e-2).word(), "agree");
+        assert_eq!(judged(1e-4, 2.0, 1e-3).word(), "agree");
+        assert_eq!(judged(1e-2, 2.0, 1e-3).word(), "disagree");
+        assert_eq!(judged(1e-4, 0.3, 1e-3).word(), "inconclusive");
+        assert_eq!(judged(1e-4, 2.0, 5e-2).word(), "inconclusive");
+        assert_eq!(judged(1e-4, f64::NAN, 1e-3).word(), "agree");
     }
 
     #[test]

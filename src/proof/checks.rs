@@ -1,5 +1,6 @@
 //! Checks besides the comparison of the two sides: closure, side against side, powers.
 
+use super::engines::Runs;
 use super::observe::Observed;
 use crate::case::Case;
 use crate::compare::{Check, Convergence, magnitudes, residuals};
@@ -90,11 +91,11 @@ fn two_ways(side: &Observed) -> f64 {
 }
 
 /// Checks on the engine, from its runs at double, single and half step.
-pub(super) fn of_engine(scenario: &Scenario, engine: &dyn Engine, runs: &[Observed; 3]) -> Vec<Check> {
+pub(super) fn of_engine(scenario: &Scenario, engine: &dyn Engine, runs: &Runs) -> Vec<Check> {
     let (case, name) = (&scenario.case, engine.name());
     let mut checks = vec![Check::new(
         format!("closure of all joints ({name})"),
-        runs[1].closure / case.mechanism.size(),
+        runs.single().closure / case.mechanism.size(),
         Tolerance {
             abs: scenario.engine_rel,
             rel: 0.0,
@@ -102,7 +103,7 @@ pub(super) fn of_engine(scenario: &Scenario, engine: &dyn Engine, runs: &[Observ
         },
         "",
     )];
-    if !runs[1].power.is_empty() {
+    if !runs.single().power.is_empty() {
         checks.push(power_balance(case, engine, runs));
     }
     checks
@@ -110,21 +111,22 @@ pub(super) fn of_engine(scenario: &Scenario, engine: &dyn Engine, runs: &[Observ
 
 /// The engine's driving moment against the balance of powers of its own motion: two estimates of one number, each within its own
 /// discretisation error.
-fn power_balance(case: &Case, engine: &dyn Engine, runs: &[Observed; 3]) -> Check {
+fn power_balance(case: &Case, engine: &dyn Engine, runs: &Runs) -> Check {
     let kind: &ChannelKind = Channel::named("drive.torque_N_m").expect("the table has the moment").kind;
-    let scale = runs[1].moment;
-    let noise = engine.at(engine.settings().resolution / 2.0).noise(case, kind);
-    let estimate = |of: [&[f64]; 3]| {
-        let convergence = Convergence::of(of[0], of[1], of[2], false, engine.formal_order(kind), noise);
-        convergence.tolerance(engine.settings().resolution, engine.noise(case, kind))
+    let (scale, resolution) = (runs.single().moment, engine.settings().resolution);
+    let noise = engine.at(resolution / 2.0).noise(case, kind);
+    let estimate = |of: fn(&Observed) -> &[f64]| {
+        let [double, single, half] = [0, 1, 2].map(|k| of(&runs.resolutions[k]));
+        let found = Convergence::of(double, single, half, false, engine.formal_order(kind), noise);
+        let fewer = runs.fewer_sweeps.as_ref().map(of);
+        found.with_fewer_sweeps(single, fewer, false).tolerance(resolution, engine.noise(case, kind))
     };
-    let (own, power) =
-        (estimate([0, 1, 2].map(|k| runs[k].torque.as_slice())), estimate([0, 1, 2].map(|k| runs[k].power.as_slice())));
+    let (own, power) = (estimate(|run| &run.torque), estimate(|run| &run.power));
     let bound = (own.bound(scale) + power.bound(scale)) / scale.max(f64::MIN_POSITIVE);
     let tolerance = Tolerance { abs: bound, rel: 0.0, basis: power.basis };
     Check::new(
         format!("driving moment from reactions and from powers ({})", engine.name()),
-        two_ways(&runs[1]),
+        two_ways(runs.single()),
         tolerance,
         "",
     )

@@ -1,67 +1,25 @@
-//! The join: a scenario solved by both sides, compared, checked, and judged.
+//! The join: a scenario solved by both analytic sides and by engines, compared, checked, and judged.
 
 mod checks;
+mod engines;
 mod methods;
 mod observe;
+mod options;
 mod oracle;
+mod parties;
+
+pub use engines::{ChannelProof, EngineInfo, EngineProof};
+pub use options::Options;
+pub use parties::Dispute;
 
 use crate::case::Case;
-use crate::compare::{Check, Convergence, Residual, Verdict, difference, overall, residuals};
-use crate::engine::{self, Engine};
+use crate::compare::{Check, Verdict, overall};
 use crate::error::{Error, ErrorKind, Result};
 use crate::reference;
 use crate::scenario::Scenario;
-use crate::solver::{Provision, Solver};
-use crate::tolerance::Basis;
-use crate::trajectory::{Channel, Stage, Trajectory};
-use observe::{Observed, observe};
-
-/// What to prove a scenario with.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Options {
-    /// Analytic solver whose trajectory is the reference; the other one checks it.
-    pub reference: String,
-    /// Engine.
-    pub engine: String,
-    /// Time step of the engine (s); the scenario's if none is given.
-    pub step: Option<f64>,
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        Options { reference: "assur".into(), engine: "rapier".into(), step: None }
-    }
-}
-
-/// What is known of the engine that was run.
-#[derive(Clone, Debug, PartialEq)]
-pub struct EngineInfo {
-    /// Name, as on the command line.
-    pub name: &'static str,
-    /// Software and version behind it.
-    pub version: String,
-    /// Time step (s).
-    pub step: f64,
-    /// Settings that influence the result.
-    pub settings: Vec<(&'static str, String)>,
-    /// How it comes by each sort of channel: stage and provision.
-    pub provides: Vec<(&'static str, Provision)>,
-}
-
-/// Comparison of one channel.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ChannelProof {
-    /// Residual of the engine against the reference.
-    pub residual: Residual,
-    /// Bound, in the channel's unit.
-    pub bound: f64,
-    /// Convergence of the engine in this channel.
-    pub convergence: Convergence,
-    /// What the bound rests on.
-    pub basis: Basis,
-    /// The outcome.
-    pub verdict: Verdict,
-}
+use crate::solver::Solver;
+use crate::trajectory::Trajectory;
+use observe::observe;
 
 /// Everything that one proof found out.
 #[derive(Clone, Debug)]
@@ -74,32 +32,42 @@ pub struct Proof {
     pub formula: String,
     /// Name of the reference solver.
     pub reference: &'static str,
-    /// The engine.
-    pub engine: EngineInfo,
-    /// Channels, in the order of columns.
-    pub channels: Vec<ChannelProof>,
-    /// Checks besides the comparison.
+    /// Checks on the analytic sides, published numbers among them.
     pub checks: Vec<Check>,
+    /// The engines, in the order asked for.
+    pub engines: Vec<EngineProof>,
+    /// Channels in which reference and engines do not all agree; empty with a single engine, whose own verdicts say it.
+    pub disputes: Vec<Dispute>,
     /// Verdict on the whole.
     pub verdict: Verdict,
     /// The reference's trajectory.
     pub reference_trajectory: Trajectory,
-    /// The engine's trajectory.
-    pub engine_trajectory: Trajectory,
-    /// Engine minus reference.
-    pub errors: Trajectory,
 }
 
-/// Solves a scenario with both analytic sides and an engine at three step sizes, and judges what comes out.
+impl Proof {
+    /// The first engine, which recordings and short reports are about.
+    #[must_use]
+    pub fn engine(&self) -> &EngineProof {
+        &self.engines[0]
+    }
+
+    /// Checks on the analytic sides and on all engines.
+    pub fn all_checks(&self) -> impl Iterator<Item = &Check> {
+        self.checks.iter().chain(self.engines.iter().flat_map(|engine| &engine.checks))
+    }
+}
+
+/// Solves a scenario with both analytic sides and engines, each at three resolutions, and judges what comes out.
 /// `progress` is told how far the work is, from 0 to 1.
 ///
 /// # Errors
-/// If a solver cannot solve the case, with the crank angle; if a solver is not known.
+/// If an analytic side cannot solve the case, with the crank angle; if a solver is not known; if the only engine cannot even begin. An engine that
+/// fails later, or beside others, is part of the proof, with what it had computed until then.
 pub fn prove(scenario: &Scenario, options: &Options, progress: &mut dyn FnMut(f64)) -> Result<Proof> {
     prove_against(scenario, &scenario.case, options, progress)
 }
 
-/// As [`prove`], with an engine that is given a case of its own, on the scenario's instants. With a fault planted in it, what a proof
+/// As [`prove`], with engines that are given a case of their own, on the scenario's instants. With a fault planted in it, what a proof
 /// can find is seen.
 ///
 /// # Errors
@@ -111,134 +79,55 @@ pub fn prove_against(
     progress: &mut dyn FnMut(f64),
 ) -> Result<Proof> {
     let case = &scenario.case;
-    let step = options.step.unwrap_or(scenario.dt);
-    let main = reference::named(&options.reference).ok_or_else(|| {
-        unknown("analytic solver", &options.reference, reference::all().iter().map(|solver| solver.name()))
-    })?;
-    let engine = engine::named(&options.engine, step).ok_or_else(|| {
-        let known = engine::all(step);
-        unknown("engine", &options.engine, known.iter().map(|engine| engine.name()))
-    })?;
+    let main = options.reference()?;
+    let engines = options.engines(scenario)?;
     let observed = |solver: &dyn Solver| -> Result<_> { Ok((solver.name(), observe(case, solver, &mut |_| {})?)) };
     let [first, second] = reference::all();
     let sides = [observed(first)?, observed(second)?];
-    let runs = run_ladder(&engine_case.on(case.grid.clone()), engine.as_ref(), progress)?;
     let own = &sides.iter().find(|(name, _)| *name == main.name()).expect("the reference is one of the sides").1;
-
-    let channels = judge(scenario, engine.as_ref(), &own.trajectory, &runs)?;
     let mut checks = checks::of_sides(case, &sides);
     checks.extend(methods::checks(case, main)?);
-    checks.extend(checks::of_engine(scenario, engine.as_ref(), &runs));
     checks.extend(oracle::checks(scenario)?);
-    let verdict = overall(channels.iter().map(|c| &c.verdict).chain(checks.iter().map(|c| &c.verdict)));
-    let errors = difference(&own.trajectory, &runs[1].trajectory)?;
-    let [_, single, _] = runs;
+
+    let engine_case = engine_case.on(case.grid.clone());
+    let mut proofs = Vec::with_capacity(engines.len());
+    for (index, engine) in engines.iter().enumerate() {
+        let mut part = |part: f64| progress((index as f64 + part) / engines.len() as f64);
+        proofs.push(engines::prove(scenario, &engine_case, engine.as_ref(), &own.trajectory, &mut part)?);
+    }
+    if let [EngineProof { failure: Some(error), trajectory: None, .. }] = proofs.as_slice() {
+        return Err(error.clone());
+    }
+    let disputes = match proofs.len() {
+        1 => Vec::new(),
+        _ => parties::disputes(main.name(), &own.trajectory, &proofs),
+    };
+    let analytic = overall(checks.iter().map(|check| &check.verdict));
+    let verdict = overall([&analytic, &of_engines(&proofs)]);
     Ok(Proof {
         scenario: scenario.name.clone(),
         title: scenario.title.clone(),
         formula: case.structure.formula(&case.mechanism),
         reference: main.name(),
-        engine: describe(engine.as_ref()),
-        channels,
         checks,
+        engines: proofs,
+        disputes,
         verdict,
         reference_trajectory: own.trajectory.clone(),
-        engine_trajectory: single.trajectory,
-        errors,
     })
 }
 
-/// The engine at double, single and half step.
-fn run_ladder(case: &Case, engine: &dyn Engine, progress: &mut dyn FnMut(f64)) -> Result<[Observed; 3]> {
-    // The single step first: if it fails, its own message is the one that helps.
-    let mut run = |factor: f64, from: f64, to: f64| {
-        let run = engine.at(engine.settings().resolution * factor);
-        let observed = observe(case, run.as_ref(), &mut |part| progress(from + (to - from) * part));
-        observed.map_err(|error| {
-            if factor == 1.0 {
-                error
-            } else {
-                in_ladder(&error, run.settings().resolution, engine.settings().resolution)
-            }
-        })
-    };
-    let single = run(1.0, 0.0, 2.0 / 7.0)?;
-    let half = run(0.5, 2.0 / 7.0, 6.0 / 7.0)?;
-    let double = run(2.0, 6.0 / 7.0, 1.0)?;
-    Ok([double, single, half])
-}
-
-/// The same error, told as that of a run which nobody asked for.
-fn in_ladder(error: &Error, step: f64, asked: f64) -> Error {
-    let message = format!(
-        "the run at {step:e} s, from which the error of the run at {asked:e} s is estimated, failed: {}",
-        error.message()
-    );
-    let told = Error::new(error.kind(), message);
-    match error.way_out() {
-        Some(help) => told.help(help),
-        None => told,
-    }
-}
-
-fn judge(
-    scenario: &Scenario,
-    engine: &dyn Engine,
-    reference: &Trajectory,
-    runs: &[Observed; 3],
-) -> Result<Vec<ChannelProof>> {
-    let ladder = [0, 1, 2].map(|k| &runs[k].trajectory);
-    let case = &scenario.case;
-    let finest = engine.at(engine.settings().resolution / 2.0);
-    let judged = residuals(reference, ladder[1])?.into_iter().map(|residual| {
-        let kind = residual.channel.kind;
-        let convergence =
-            Convergence::of_channel(ladder, &residual.channel, engine.formal_order(kind), finest.noise(case, kind))
-                .expect("all runs of an engine have the same channels");
-        let tolerance = convergence.tolerance(engine.settings().resolution, engine.noise(case, kind));
-        let bound = tolerance.bound(residual.scale);
-        let mut verdict = Verdict::of_engine(&residual, &convergence, bound, scenario.engine_rel);
-        if let (Verdict::Disagree { place }, true) = (&verdict, kind.stage >= Stage::Reactions)
-            && let Some(link) = turning_about(case, [reference, ladder[1]], residual.worst_time)
-        {
-            verdict = Verdict::Inconclusive {
-                reason: format!(
-                    "{place}, but there link \"{link}\" turns about and its load jumps: leave that instant out of the grid"
-                ),
-            };
-        }
-        ChannelProof { residual, bound, convergence, basis: tolerance.basis, verdict }
-    });
-    Ok(judged.collect())
-}
-
-/// The link whose load turns about at an instant: it turns one way on one side and the other way on the other. The load's
-/// moment jumps there, so that the smallest error of the engine makes a difference of twice the moment.
-fn turning_about<'a>(case: &'a Case, sides: [&Trajectory; 2], time: f64) -> Option<&'a str> {
-    let row = sides[0].times().iter().position(|&t| t == time)?;
-    let speed =
-        |side: &Trajectory, name: &str| Some(side.column(&Channel::named(&format!("link.{name}.omega_rad_s"))?)?[row]);
-    let names = case.loads.iter().map(|load| case.mechanism.links()[load.link()].name.as_str());
-    let mut turning = names.filter(|name| match (speed(sides[0], name), speed(sides[1], name)) {
-        (Some(ours), Some(theirs)) => ours * theirs <= 0.0,
-        _ => false,
-    });
-    turning.next()
-}
-
-fn describe(engine: &dyn Engine) -> EngineInfo {
-    let provides = Stage::ALL.map(|stage| {
-        let kind =
-            crate::trajectory::CHANNELS.iter().find(|kind| kind.stage == stage).expect("every stage has a channel");
-        (stage.name(), engine.provides(&Channel { of: String::new(), kind }))
-    });
-    EngineInfo {
-        name: engine.name(),
-        version: engine.version(),
-        step: engine.settings().resolution,
-        settings: engine.told(),
-        provides: provides.into(),
-    }
+/// Verdict on all engines: a disagreement of one is one, else one engine that proves everything is enough.
+fn of_engines(proofs: &[EngineProof]) -> Verdict {
+    let verdicts = || proofs.iter().map(|proof| &proof.verdict);
+    let disagrees = |verdict: &&Verdict| matches!(verdict, Verdict::Disagree { .. });
+    let agrees = |verdict: &&Verdict| matches!(verdict, Verdict::Agree { .. });
+    verdicts()
+        .find(disagrees)
+        .or_else(|| verdicts().find(agrees))
+        .or_else(|| verdicts().next())
+        .cloned()
+        .unwrap_or_else(|| Verdict::Inconclusive { reason: "no engine was asked for".into() })
 }
 
 fn unknown<'a>(what: &str, asked: &str, known: impl Iterator<Item = &'a str>) -> Error {

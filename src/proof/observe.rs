@@ -1,7 +1,7 @@
 //! One solver over one case, with everything that is watched on the way.
 
 use crate::case::Case;
-use crate::error::Result;
+use crate::error::Error;
 use crate::reference::{momentum, power};
 use crate::solver::{Sampler, Solver, State};
 use crate::trajectory::{Stage, Trajectory};
@@ -25,8 +25,31 @@ pub(super) struct Observed {
     pub(super) moment: f64,
 }
 
+/// A run that failed, and what it had computed until then.
+#[derive(Clone, Debug)]
+pub(super) struct Stopped {
+    pub(super) error: Error,
+    pub(super) kept: Option<Box<Trajectory>>,
+}
+
+impl From<Error> for Stopped {
+    fn from(error: Error) -> Self {
+        Stopped { error, kept: None }
+    }
+}
+
+impl From<Stopped> for Error {
+    fn from(stopped: Stopped) -> Self {
+        stopped.error
+    }
+}
+
 /// Solves `case` with `solver`, watching the closure of all joints and the balance of powers.
-pub(super) fn observe(case: &Case, solver: &dyn Solver, progress: &mut dyn FnMut(f64)) -> Result<Observed> {
+pub(super) fn observe(
+    case: &Case,
+    solver: &dyn Solver,
+    progress: &mut dyn FnMut(f64),
+) -> std::result::Result<Observed, Stopped> {
     let mut sampler = Sampler::new(case);
     let with_power = case.wanted.has(Stage::BalancingMoment);
     let mut power = if with_power { vec![0.0; case.grid.len()] } else { Vec::new() };
@@ -53,7 +76,10 @@ pub(super) fn observe(case: &Case, solver: &dyn Solver, progress: &mut dyn FnMut
         sampler.put(case, row, state);
         Ok(())
     };
-    solver.sweep(case, &mut visit, progress)?;
+    if let Err(error) = solver.sweep(case, &mut visit, progress) {
+        let kept = sampler.so_far(case, |channel| solver.provides(channel)).map(Box::new);
+        return Err(Stopped { error, kept });
+    }
     Ok(Observed {
         trajectory: sampler.finish(case, |channel| solver.provides(channel))?,
         closure,

@@ -1,10 +1,10 @@
-//! Proofs as JSON, schema 1. Numbers that are not finite (an order that rounding hides) are `null`.
+//! Proofs as JSON, schema 2. Numbers that are not finite (an order that rounding hides) are `null`.
 
 use serde::Serialize;
 
 use crate::compare::{Check, Verdict};
 use crate::error::Error;
-use crate::proof::{ChannelProof, Proof};
+use crate::proof::{ChannelProof, Dispute, EngineProof, Proof};
 use crate::solver::Provision;
 
 /// The whole document.
@@ -24,9 +24,11 @@ struct Run {
     reason: Option<String>,
     structure: String,
     reference: Reference,
-    engine: Engine,
-    channels: Vec<Channel>,
+    /// On the analytic sides.
     checks: Vec<CheckRow>,
+    engines: Vec<Engine>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    disputes: Vec<DisputeRow>,
     #[serde(skip_serializing_if = "Option::is_none")]
     recording: Option<String>,
 }
@@ -43,9 +45,25 @@ struct Reference {
 struct Engine {
     name: &'static str,
     version: String,
-    dt_s: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    dt_s: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    accuracy: Option<f64>,
     settings: serde_json::Map<String, serde_json::Value>,
     provides: serde_json::Map<String, serde_json::Value>,
+    verdict: &'static str,
+    reason: Option<String>,
+    channels: Vec<Channel>,
+    checks: Vec<CheckRow>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    failure: Option<String>,
+}
+
+#[derive(Debug, Serialize)]
+struct DisputeRow {
+    channel: String,
+    pairs: Vec<[&'static str; 2]>,
+    odd_one_out: Option<&'static str>,
 }
 
 #[derive(Debug, Serialize)]
@@ -58,10 +76,14 @@ struct Channel {
     q75: f64,
     q99: f64,
     bound: f64,
+    discretisation: f64,
+    iteration: f64,
+    rounding: f64,
     basis: String,
     verdict: &'static str,
     reason: Option<String>,
     observed_order: f64,
+    limit: Option<f64>,
     worst_t_s: f64,
     worst_crank_rad: f64,
 }
@@ -92,7 +114,7 @@ impl Document {
     /// An empty document.
     #[must_use]
     pub fn new() -> Self {
-        Document { schema: 1, runs: Vec::new(), errors: Vec::new() }
+        Document { schema: 2, runs: Vec::new(), errors: Vec::new() }
     }
 
     /// Adds a proof and the path of its recording, if one was written.
@@ -140,17 +162,33 @@ fn run(proof: &Proof, recording: Option<String>) -> Run {
             from_s: times.first().copied().unwrap_or(0.0),
             to_s: times.last().copied().unwrap_or(0.0),
         },
-        engine: Engine {
-            name: proof.engine.name,
-            version: proof.engine.version.clone(),
-            dt_s: proof.engine.step,
-            settings: proof.engine.settings.iter().map(|(k, v)| ((*k).into(), v.clone().into())).collect(),
-            provides: proof.engine.provides.iter().map(|(k, v)| ((*k).into(), provision(v).into())).collect(),
-        },
-        channels: proof.channels.iter().map(channel).collect(),
         checks: proof.checks.iter().map(check).collect(),
+        engines: proof.engines.iter().map(engine).collect(),
+        disputes: proof.disputes.iter().map(dispute).collect(),
         recording,
     }
+}
+
+fn engine(proof: &EngineProof) -> Engine {
+    let info = &proof.info;
+    let resolution = Some(info.settings.resolution);
+    Engine {
+        name: info.name,
+        version: info.version.clone(),
+        dt_s: resolution.filter(|_| !info.controls_error),
+        accuracy: resolution.filter(|_| info.controls_error),
+        settings: info.told.iter().map(|(k, v)| ((*k).into(), v.clone().into())).collect(),
+        provides: info.provides.iter().map(|(k, v)| ((*k).into(), provision(v).into())).collect(),
+        verdict: proof.verdict.word(),
+        reason: reason(&proof.verdict),
+        channels: proof.channels.iter().map(channel).collect(),
+        checks: proof.checks.iter().map(check).collect(),
+        failure: proof.failure.as_ref().map(|error| error.message().to_string()),
+    }
+}
+
+fn dispute(dispute: &Dispute) -> DisputeRow {
+    DisputeRow { channel: dispute.channel.clone(), pairs: dispute.pairs.clone(), odd_one_out: dispute.odd }
 }
 
 fn channel(proof: &ChannelProof) -> Channel {
@@ -164,10 +202,14 @@ fn channel(proof: &ChannelProof) -> Channel {
         q75: residual.q75,
         q99: residual.q99,
         bound: proof.bound,
+        discretisation: proof.parts.discretisation,
+        iteration: proof.parts.iteration,
+        rounding: proof.parts.rounding,
         basis: proof.basis.to_string(),
         verdict: proof.verdict.word(),
         reason: reason(&proof.verdict),
         observed_order: proof.convergence.observed,
+        limit: proof.limit,
         worst_t_s: residual.worst_time,
         worst_crank_rad: residual.worst_crank,
     }

@@ -4,8 +4,9 @@ use std::fmt::Write;
 
 use comfy_table::{CellAlignment, Table, presets};
 
+use super::engines;
 use crate::compare::{Check, Verdict};
-use crate::proof::{ChannelProof, Proof};
+use crate::proof::{ChannelProof, EngineInfo, EngineProof, Proof};
 
 /// Reasons shown in full before the rest is only counted.
 const REASONS: usize = 5;
@@ -14,24 +15,43 @@ const REASONS: usize = 5;
 #[must_use]
 pub fn proof(proof: &Proof) -> String {
     let mut text = String::new();
-    let engine = &proof.engine;
     let _ = writeln!(text, "{}: {}", proof.scenario, proof.title);
     let _ = writeln!(text, "structure  {}", proof.formula);
     let _ = writeln!(text, "reference  {}, {} instants", proof.reference, proof.reference_trajectory.times().len());
-    let _ = writeln!(
-        text,
-        "engine     {}, step {} s, and its own error from {} and {} s",
-        engine.version,
-        seconds(engine.step),
-        seconds(2.0 * engine.step),
-        seconds(engine.step / 2.0)
-    );
-    let _ = writeln!(text, "\nEngine against reference, the worst channel of each quantity:\n{}", channels(proof));
-    let _ = writeln!(text, "\nChecks:\n{}", checks(&proof.checks));
+    for engine in &proof.engines {
+        let _ = writeln!(text, "engine     {}", described(&engine.info));
+    }
+    match proof.engines.as_slice() {
+        [only] => {
+            let _ =
+                writeln!(text, "\nEngine against reference, the worst channel of each quantity:\n{}", channels(only));
+        }
+        several => {
+            let _ = writeln!(
+                text,
+                "\nSide by side, the largest error over its scale (and its bound):\n{}",
+                engines::table(several)
+            );
+            let _ = writeln!(text, "\n{}", engines::disputes(proof));
+        }
+    }
+    let all: Vec<&Check> = proof.all_checks().collect();
+    let _ = writeln!(text, "\nChecks:\n{}", checks(&all));
     expected(proof, &mut text);
     reasons(proof, &mut text);
     let _ = writeln!(text, "\n{}", sentence(&proof.verdict, proof));
     text
+}
+
+/// An engine, its resolution and what its own error comes from.
+fn described(info: &EngineInfo) -> String {
+    let resolution = info.settings.resolution;
+    let [at, coarse, fine] = [resolution, 2.0 * resolution, resolution / 2.0].map(seconds);
+    let name = &info.version;
+    match info.controls_error {
+        true => format!("{name}, accuracy {at}, and its own error from {coarse} and {fine}"),
+        false => format!("{name}, step {at} s, and its own error from {coarse} and {fine} s"),
+    }
 }
 
 /// A step with five significant digits at most; the JSON has all of them.
@@ -41,27 +61,45 @@ fn seconds(step: f64) -> String {
 }
 
 fn sentence(verdict: &Verdict, proof: &Proof) -> String {
-    let (channels, checks) = (proof.channels.len(), proof.checks.len());
+    let channels = proof.engines.iter().map(|engine| engine.channels.len()).sum::<usize>();
+    let checks = proof.all_checks().count();
+    let count = |is: fn(&Verdict) -> bool| verdicts(proof).filter(|(_, verdict)| is(verdict)).count();
     match verdict {
         Verdict::Agree { .. } | Verdict::Expected { .. } => {
-            let known = verdicts(proof).filter(|(_, verdict)| matches!(verdict, Verdict::Expected { .. })).count();
+            let known = count(|verdict| matches!(verdict, Verdict::Expected { .. }));
+            let open = count(|verdict| matches!(verdict, Verdict::Inconclusive { .. }));
             let expected = if known == 0 { String::new() } else { format!(", {known} disagree as expected") };
-            format!("AGREE: {channels} channels and {} checks are within their bounds{expected}.", checks - known)
+            let open = if open == 0 { String::new() } else { format!(", {open} of engines beside it prove nothing") };
+            let within = verdicts(proof).filter(|(_, verdict)| matches!(verdict, Verdict::Agree { .. })).count();
+            match proof.engines.len() {
+                1 => format!(
+                    "AGREE: {channels} channels and {} checks are within their bounds{expected}.",
+                    checks - known
+                ),
+                _ => format!("AGREE: {within} channels and checks are within their bounds{expected}{open}."),
+            }
         }
         Verdict::Disagree { .. } => {
-            let wrong = verdicts(proof).filter(|(_, verdict)| matches!(verdict, Verdict::Disagree { .. })).count();
+            let wrong = count(|verdict| matches!(verdict, Verdict::Disagree { .. }));
             format!("DISAGREE: {wrong} of {channels} channels and {checks} checks are beyond their bounds.")
         }
         Verdict::Inconclusive { .. } => {
-            let open = verdicts(proof).filter(|(_, verdict)| matches!(verdict, Verdict::Inconclusive { .. })).count();
+            let open = count(|verdict| matches!(verdict, Verdict::Inconclusive { .. }));
             format!("INCONCLUSIVE: {open} of {channels} channels and {checks} checks prove nothing either way.")
         }
     }
 }
 
 fn verdicts(proof: &Proof) -> impl Iterator<Item = (String, &Verdict)> {
-    let channels = proof.channels.iter().map(|c| (c.residual.channel.to_string(), &c.verdict));
-    channels.chain(proof.checks.iter().map(|c| (c.name(), &c.verdict)))
+    let several = proof.engines.len() > 1;
+    let channels = proof.engines.iter().flat_map(move |engine| {
+        let name = move |channel: &ChannelProof| match several {
+            true => format!("{} ({})", channel.residual.channel, engine.info.name),
+            false => channel.residual.channel.to_string(),
+        };
+        engine.channels.iter().map(move |channel| (name(channel), &channel.verdict))
+    });
+    channels.chain(proof.all_checks().map(|c| (c.name(), &c.verdict)))
 }
 
 fn reasons(proof: &Proof, text: &mut String) {
@@ -90,7 +128,7 @@ fn family_word<'a>(family: impl Iterator<Item = &'a Check> + Clone) -> &'static 
 /// Which published numbers are wrong as expected, finding by finding.
 fn expected(proof: &Proof, text: &mut String) {
     let mut findings: Vec<(&str, usize)> = Vec::new();
-    for check in &proof.checks {
+    for check in proof.all_checks() {
         if let Verdict::Expected { finding } = &check.verdict {
             match findings.iter_mut().find(|(known, _)| known == finding) {
                 Some((_, count)) => *count += 1,
@@ -115,7 +153,7 @@ pub(crate) fn table<const N: usize>(header: [&str; N], numbers: &[usize]) -> Tab
     table
 }
 
-fn channels(proof: &Proof) -> Table {
+fn channels(proof: &EngineProof) -> Table {
     let header = ["quantity", "worst channel", "crank deg", "error", "of scale", "bound", "order", "verdict"];
     let mut table = table(header, &[2, 3, 4, 5, 6]);
     let mut seen: Vec<&str> = Vec::new();
@@ -143,7 +181,7 @@ fn channels(proof: &Proof) -> Table {
 }
 
 /// Share of its bound that a channel uses; a verdict that is not agreement counts more than any share.
-fn used(channel: &ChannelProof) -> f64 {
+pub(super) fn used(channel: &ChannelProof) -> f64 {
     let share = if channel.residual.max == 0.0 { 0.0 } else { channel.residual.max / channel.bound };
     match channel.verdict {
         Verdict::Agree { .. } | Verdict::Expected { .. } => share,
@@ -152,7 +190,7 @@ fn used(channel: &ChannelProof) -> f64 {
     }
 }
 
-fn share(value: f64, scale: f64) -> String {
+pub(super) fn share(value: f64, scale: f64) -> String {
     if value == 0.0 { "0".into() } else { format!("{:.1e}", value / scale) }
 }
 
@@ -160,7 +198,7 @@ fn order(observed: f64) -> String {
     if observed.is_nan() { "rounding".into() } else { format!("{observed:.2}") }
 }
 
-fn checks(checks: &[Check]) -> Table {
+fn checks(checks: &[&Check]) -> Table {
     let mut table = table(["check", "numbers", "worst", "bound", "verdict"], &[1, 2, 3]);
     let mut seen: Vec<&str> = Vec::new();
     for first in checks {
@@ -168,7 +206,7 @@ fn checks(checks: &[Check]) -> Table {
             continue;
         }
         seen.push(&first.family);
-        let family = || checks.iter().filter(|check| check.family == first.family);
+        let family = || checks.iter().copied().filter(|check| check.family == first.family);
         let worst = family().max_by(|a, b| a.used().total_cmp(&b.used())).unwrap_or(first);
         let unit = |value: f64| format!("{value:.1e} {}", worst.unit).trim_end().to_string();
         let detail = if worst.detail.is_empty() { String::new() } else { format!(", worst in {}", worst.detail) };

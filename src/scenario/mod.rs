@@ -1,6 +1,7 @@
 //! Scenario files: TOML in, a [`Case`] out. The only place where units are converted; docs/scenario.md describes the
 //! format. Every error points at file, line and key, says what was found, and the way out.
 
+pub mod edit;
 mod figure;
 pub mod grid;
 mod joints;
@@ -20,6 +21,7 @@ mod words;
 
 pub use figure::{Figure, OracleFigure};
 pub use oracle::{ExpectedCell, Oracle, OraclePoint, OracleSeries};
+pub use settings::EngineKeys;
 
 use std::path::{Path, PathBuf};
 
@@ -50,6 +52,8 @@ pub struct Scenario {
     pub case: Case,
     /// Step of the engine (s).
     pub dt: f64,
+    /// What else it says of the engine.
+    pub engine: EngineKeys,
     /// Largest discretisation error of the engine, as a share of a channel's scale, with which agreement still proves
     /// something.
     pub engine_rel: f64,
@@ -141,7 +145,7 @@ fn read(root: &mut Table) -> Result<Scenario> {
     let starts = start::groups(&start, groups, &mechanism, &structure)?;
     let grid = grid::read(grid, &drive)?;
     let wanted = settings::wanted(channels)?;
-    let dt = settings::engine_step(engine, &drive)?;
+    let (dt, engine) = settings::engine(engine, &drive)?;
     let engine_rel = settings::engine_rel(tolerances)?;
     let (start, modes) = (Pose(Vec::new()), Vec::new());
     let mut case =
@@ -152,7 +156,7 @@ fn read(root: &mut Table) -> Result<Scenario> {
     let oracles = oracle::read(oracles, &case)?;
     let source = root.source();
     let (path, text) = (source.path.to_path_buf(), source.text.to_string());
-    Ok(Scenario { name, title, source: cited, path, text, case, dt, engine_rel, oracles, starts, choices })
+    Ok(Scenario { name, title, source: cited, path, text, case, dt, engine, engine_rel, oracles, starts, choices })
 }
 
 fn check_format(root: &mut Table) -> Result<()> {

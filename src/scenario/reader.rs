@@ -156,14 +156,24 @@ impl<'a> Table<'a> {
         self.required(key, value)
     }
 
+    /// Whole number, if the key is there.
+    pub fn optional_integer(&mut self, key: &str) -> Result<Option<i64>> {
+        let Some(value) = self.take(key) else { return Ok(None) };
+        let integer = value.get_ref().as_integer();
+        let integer = integer.and_then(|number| i64::from_str_radix(number.as_str(), number.radix()).ok());
+        integer.map(Some).ok_or_else(|| self.mistyped(key, value, "a whole number"))
+    }
+
     /// Whole number.
     pub fn integer(&mut self, key: &str) -> Result<i64> {
-        let value = self.take(key);
-        let value = self.required(key, value)?;
-        let integer = value.get_ref().as_integer();
-        integer
-            .and_then(|number| i64::from_str_radix(number.as_str(), number.radix()).ok())
-            .ok_or_else(|| self.mistyped(key, value, "a whole number"))
+        let value = self.optional_integer(key)?;
+        self.required(key, value)
+    }
+
+    /// `true` or `false`, if the key is there.
+    pub fn optional_boolean(&mut self, key: &str) -> Result<Option<bool>> {
+        let Some(value) = self.take(key) else { return Ok(None) };
+        value.get_ref().as_bool().map(Some).ok_or_else(|| self.mistyped(key, value, "true or false"))
     }
 
     /// Finite number without a unit, if the key is there.

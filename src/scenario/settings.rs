@@ -28,8 +28,47 @@ pub fn wanted(table: Option<Table>) -> Result<Wanted> {
     Ok(Wanted::of(&stages))
 }
 
+/// What a scenario says of the engine besides its step; what it leaves out is the engine's default. The format knows no engine: names
+/// are looked up where engines are known.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct EngineKeys {
+    /// Name of the engine.
+    pub name: Option<String>,
+    /// Sweeps of the iteration in a step.
+    pub sweeps: Option<usize>,
+    /// Parts that the engine itself divides a step into.
+    pub substeps: Option<usize>,
+    /// The way to reactions and balancing moment.
+    pub route: Option<String>,
+    /// Whether runs at the step and at half of it are combined.
+    pub extrapolated: Option<bool>,
+}
+
+/// Step of the engine (s), and what else is said of it.
+pub fn engine(mut table: Table, drive: &Drive) -> Result<(f64, EngineKeys)> {
+    let keys = EngineKeys {
+        name: table.optional_string("name")?,
+        sweeps: count(&mut table, "sweeps")?,
+        substeps: count(&mut table, "substeps")?,
+        route: table.optional_string("route")?,
+        extrapolated: table.optional_boolean("extrapolated")?,
+    };
+    Ok((engine_step(table, drive)?, keys))
+}
+
+/// A whole number greater than zero.
+fn count(table: &mut Table, key: &str) -> Result<Option<usize>> {
+    let Some(number) = table.optional_integer(key)? else { return Ok(None) };
+    match usize::try_from(number) {
+        Ok(count) if count > 0 => Ok(Some(count)),
+        _ => Err(table
+            .wrong(ErrorKind::Input, key, format!("found {number}, but an engine needs at least one"))
+            .help("give a whole number greater than zero")),
+    }
+}
+
 /// Step of the engine (s).
-pub fn engine_step(mut table: Table, drive: &Drive) -> Result<f64> {
+fn engine_step(mut table: Table, drive: &Drive) -> Result<f64> {
     let time = table.optional_quantity("dt", &TIME, Sign::Positive)?;
     let angle = table.optional_quantity("step", &ANGLE, Sign::NotZero)?;
     table.finish()?;

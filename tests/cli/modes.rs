@@ -64,7 +64,7 @@ fn another_mode_is_proven_without_the_numbers_of_the_first() {
     };
     let published = |proof: &Value| proof["checks"].to_string().contains("published with");
     let agree = |proof: &Value| {
-        let channels = proof["channels"].as_array().unwrap();
+        let channels = proof["engines"][0]["channels"].as_array().unwrap();
         !channels.is_empty() && channels.iter().all(|channel| channel["verdict"] == json!("agree"))
     };
     let (code, own) = run("");

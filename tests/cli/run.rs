@@ -29,6 +29,11 @@ fn keys(object: &Value) -> String {
     all.join(" ")
 }
 
+/// Names of the checks on the analytic sides and on the first engine.
+fn all_checks(run: &Value) -> Vec<&str> {
+    [texts(&run["checks"], "name"), texts(&run["engines"][0]["checks"], "name")].concat()
+}
+
 #[test]
 fn both_scenarios_agree_and_the_json_is_as_promised() {
     let place = Place::new();
@@ -36,29 +41,34 @@ fn both_scenarios_agree_and_the_json_is_as_promised() {
     assert_eq!((outcome.code, outcome.stderr.as_str()), (0, ""), "{}", outcome.stdout);
     let document = outcome.json();
     assert_eq!(keys(&document), "runs:array schema:number");
-    assert_eq!(document["schema"], 1);
+    assert_eq!(document["schema"], 2);
     assert_eq!(texts(&document["runs"], "scenario"), ["crank_rocker", "ov7_base"]);
     for run in document["runs"].as_array().unwrap() {
         assert_eq!(
             keys(run),
-            "channels:array checks:array engine:object reason:null reference:object scenario:text structure:text title:text verdict:text"
+            "checks:array engines:array reason:null reference:object scenario:text structure:text title:text verdict:text"
         );
         assert_eq!(run["verdict"], "agree");
         assert_eq!(keys(&run["reference"]), "from_s:number name:text samples:number to_s:number");
-        assert_eq!(keys(&run["engine"]), "dt_s:number name:text provides:object settings:object version:text");
+        let engine = &run["engines"][0];
+        assert_eq!(
+            keys(engine),
+            "channels:array checks:array dt_s:number name:text provides:object reason:null settings:object verdict:text version:text"
+        );
         let provides = "accelerations:text balancing_moment:text positions:text reactions:text velocities:text";
-        assert_eq!(keys(&run["engine"]["provides"]), provides);
-        for channel in run["channels"].as_array().unwrap() {
-            let promised = "basis:text bound:number channel:text max:number";
-            let rest = "q75:number q99:number reason:null rms:number scale:number unit:text verdict:text worst_crank_rad:number worst_t_s:number";
+        assert_eq!(keys(&engine["provides"]), provides);
+        for channel in engine["channels"].as_array().unwrap() {
+            let promised = "basis:text bound:number channel:text discretisation:number iteration:number";
+            let limit = if channel["limit"].is_null() { "null" } else { "number" };
+            let rest = "q75:number q99:number reason:null rms:number rounding:number scale:number unit:text verdict:text worst_crank_rad:number worst_t_s:number";
             // An order that rounding hides is null.
             let order = if channel["observed_order"].is_null() { "null" } else { "number" };
-            assert_eq!(keys(channel), format!("{promised} observed_order:{order} {rest}"));
+            assert_eq!(keys(channel), format!("{promised} limit:{limit} max:number observed_order:{order} {rest}"));
             assert_eq!(channel["verdict"], "agree", "{channel}");
             let [q75, q99, max, bound] = ["q75", "q99", "max", "bound"].map(|key| channel[key].as_f64().unwrap());
             assert!(q75 <= q99 && q99 <= max && max <= bound, "{channel}");
         }
-        for check in run["checks"].as_array().unwrap() {
+        for check in run["checks"].as_array().unwrap().iter().chain(engine["checks"].as_array().unwrap()) {
             let (finding, reason) =
                 if check["verdict"] == "expected" { (" finding:text", "text") } else { ("", "null") };
             let rest = format!("name:text reason:{reason} unit:text value:number verdict:text");
@@ -69,16 +79,16 @@ fn both_scenarios_agree_and_the_json_is_as_promised() {
             assert_eq!(check["verdict"], if known_wrong { "expected" } else { "agree" }, "{check}");
             assert_eq!(check["finding"].is_string(), known_wrong, "{check}");
         }
-        for list in [texts(&run["channels"], "channel"), texts(&run["checks"], "name")] {
+        for list in [texts(&engine["channels"], "channel"), texts(&run["checks"], "name")] {
             assert_eq!(list.iter().collect::<BTreeSet<_>>().len(), list.len(), "every name once: {list:?}");
         }
     }
     let [crank_rocker, ov7] = [0, 1].map(|k| &document["runs"][k]);
     assert_eq!(
-        (crank_rocker["channels"].as_array().unwrap().len(), crank_rocker["engine"]["dt_s"].as_f64()),
+        (crank_rocker["engines"][0]["channels"].as_array().unwrap().len(), crank_rocker["engines"][0]["dt_s"].as_f64()),
         (57, Some(1e-3))
     );
-    assert_eq!(ov7["channels"].as_array().unwrap().len(), 117);
+    assert_eq!(ov7["engines"][0]["channels"].as_array().unwrap().len(), 117);
 }
 
 #[test]
@@ -99,7 +109,8 @@ fn every_check_is_there() {
         }
         assert!(names.contains("driving moment from reactions and from powers (rapier)"));
     };
-    let [crank_rocker, ov7] = [0, 1].map(|k| texts(&document["runs"][k]["checks"], "name").into_iter().collect());
+    let names = [0, 1].map(|k| all_checks(&document["runs"][k]));
+    let [crank_rocker, ov7] = [0, 1].map(|k| names[k].iter().copied().collect::<BTreeSet<&str>>());
     common(&crank_rocker);
     common(&ov7);
     // Columns of the published tables besides the crank angle, each checked against both sides.
@@ -233,7 +244,7 @@ fn a_finer_step_agrees_within_finer_bounds() {
     let place = Place::new();
     let bound = |step: &str| {
         let run = place.run(&format!("run scenarios/crank_rocker.toml --no-record --json - --dt {step}")).json();
-        let channels = run["runs"][0]["channels"].as_array().unwrap().clone();
+        let channels = run["runs"][0]["engines"][0]["channels"].as_array().unwrap().clone();
         let torque = channels.iter().find(|channel| channel["channel"] == "drive.torque_N_m").unwrap();
         assert_eq!(torque["verdict"], "agree");
         torque["bound"].as_f64().unwrap()
@@ -286,6 +297,11 @@ fn channels_that_are_not_wanted_are_neither_compared_nor_checked() {
     place.edited("crank_rocker.toml", "few.toml", &[("[engine]", only)]);
     let document = place.run("run scenarios/few.toml --no-record --json -").json();
     let run = &document["runs"][0];
-    assert_eq!((run["verdict"].as_str(), run["channels"].as_array().unwrap().len()), (Some("agree"), 30));
-    assert!(!texts(&run["checks"], "name").iter().any(|name| name.contains("moment from")));
+    assert_eq!((run["verdict"].as_str(), run["engines"][0]["channels"].as_array().unwrap().len()), (Some("agree"), 30));
+    assert!(
+        ![texts(&run["checks"], "name"), texts(&run["engines"][0]["checks"], "name")]
+            .concat()
+            .iter()
+            .any(|name| name.contains("moment from"))
+    );
 }

@@ -17,9 +17,12 @@ fn regress_40_steps_that_are_too_large_prove_nothing() {
     let scenario = shipped("crank_rocker.toml");
     for engine in engine::all(1e-3) {
         for step in [0.05, 0.02, 0.01] {
-            let options = Options { engine: engine.name().into(), step: Some(step), ..Options::default() };
+            let options = Options { step: Some(step), ..Options::of_engine(engine.name()) };
             match prove(&scenario, &options, &mut |_| {}) {
-                Ok(proof) => assert_eq!(proof.verdict.word(), "inconclusive", "{step}: {:?}", proof.verdict),
+                Ok(proof) => {
+                    assert_eq!(proof.verdict.word(), "inconclusive", "{step}: {:?}", proof.verdict);
+                    proof.engine().failure.iter().for_each(assert_helpful);
+                }
                 Err(error) => assert_helpful(&error),
             }
         }

@@ -1,0 +1,236 @@
+//! One engine against the reference: its runs, the error they estimate, and the verdict channel by channel.
+
+use super::checks;
+use super::observe::{Observed, Stopped, observe};
+use crate::case::Case;
+use crate::compare::{Check, Convergence, Ladder, Residual, Verdict, difference, overall, residuals};
+use crate::engine::{Engine, Settings};
+use crate::error::{Error, Result};
+use crate::scenario::Scenario;
+use crate::solver::Provision;
+use crate::tolerance::{Basis, Parts};
+use crate::trajectory::{CHANNELS, Channel, Stage, Trajectory};
+
+/// What is known of an engine that was run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EngineInfo {
+    /// Name, as on the command line.
+    pub name: &'static str,
+    /// Software and version behind it.
+    pub version: String,
+    /// Its settings.
+    pub settings: Settings,
+    /// Whether its resolution is an accuracy, not a step.
+    pub controls_error: bool,
+    /// Settings that influence the result, by name, for people.
+    pub told: Vec<(&'static str, String)>,
+    /// How it comes by each sort of channel: stage and provision.
+    pub provides: Vec<(&'static str, Provision)>,
+}
+
+/// Comparison of one channel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ChannelProof {
+    /// Residual of the engine against the reference.
+    pub residual: Residual,
+    /// Bound, in the channel's unit.
+    pub bound: f64,
+    /// What the bound is made of, in the channel's unit.
+    pub parts: Parts,
+    /// Convergence of the engine in this channel.
+    pub convergence: Convergence,
+    /// Largest difference between the limit of the engine's runs and the reference, in the channel's unit; `None` where the runs have no
+    /// limit that can be told.
+    pub limit: Option<f64>,
+    /// What the bound rests on.
+    pub basis: Basis,
+    /// The outcome.
+    pub verdict: Verdict,
+}
+
+/// One engine's part of a proof.
+#[derive(Clone, Debug)]
+pub struct EngineProof {
+    /// The engine.
+    pub info: EngineInfo,
+    /// Channels, in the order of columns; none if the engine failed.
+    pub channels: Vec<ChannelProof>,
+    /// Checks on the engine alone.
+    pub checks: Vec<Check>,
+    /// Verdict on all of these.
+    pub verdict: Verdict,
+    /// What it computed: all instants, or as many as there are before it failed.
+    pub trajectory: Option<Trajectory>,
+    /// Engine minus reference; `None` if the engine failed.
+    pub errors: Option<Trajectory>,
+    /// Why there is no comparison.
+    pub failure: Option<Error>,
+}
+
+/// Runs an engine on `case` and compares it with `reference`.
+pub(super) fn prove(
+    scenario: &Scenario,
+    case: &Case,
+    engine: &dyn Engine,
+    reference: &Trajectory,
+    progress: &mut dyn FnMut(f64),
+) -> Result<EngineProof> {
+    let info = describe(engine);
+    let runs = match run_ladder(case, engine, progress) {
+        Ok(runs) => runs,
+        Err(Stopped { error, kept }) => {
+            return Ok(EngineProof {
+                info,
+                channels: Vec::new(),
+                checks: Vec::new(),
+                verdict: Verdict::Inconclusive { reason: error.message().into() },
+                trajectory: kept.map(|kept| *kept),
+                errors: None,
+                failure: Some(error),
+            });
+        }
+    };
+    let channels = judge(scenario, engine, reference, &runs)?;
+    let checks = checks::of_engine(scenario, engine, &runs);
+    let verdict = overall(channels.iter().map(|c| &c.verdict).chain(checks.iter().map(|c| &c.verdict)));
+    let errors = difference(reference, &runs.single().trajectory)?;
+    let [_, single, _] = runs.resolutions;
+    Ok(EngineProof {
+        info,
+        channels,
+        checks,
+        verdict,
+        trajectory: Some(single.trajectory),
+        errors: Some(errors),
+        failure: None,
+    })
+}
+
+/// An engine's runs.
+pub(super) struct Runs {
+    /// At double, single and half the resolution.
+    pub(super) resolutions: [Observed; 3],
+    /// At the single one with half the sweeps; `None` for an engine that does not iterate.
+    pub(super) fewer_sweeps: Option<Observed>,
+}
+
+impl Runs {
+    pub(super) fn single(&self) -> &Observed {
+        &self.resolutions[1]
+    }
+
+    fn ladder(&self) -> Ladder<'_> {
+        Ladder {
+            resolutions: [0, 1, 2].map(|k| &self.resolutions[k].trajectory),
+            fewer_sweeps: self.fewer_sweeps.as_ref().map(|run| &run.trajectory),
+        }
+    }
+}
+
+/// The engine at double, single and half the resolution, and with half the sweeps.
+fn run_ladder(case: &Case, engine: &dyn Engine, progress: &mut dyn FnMut(f64)) -> std::result::Result<Runs, Stopped> {
+    let settings = engine.settings();
+    let iterates = settings.sweeps > 1;
+    // The finest run costs as much as two of the single step, the coarsest half of one.
+    let whole = if iterates { 4.0 } else { 3.5 };
+    let mut done = 0.0;
+    let mut run = |settings: Settings, cost: f64| {
+        let run = engine.with(settings);
+        let observed = observe(case, run.as_ref(), &mut |part| progress((done + cost * part) / whole));
+        done += cost;
+        observed
+    };
+    let asked = settings.resolution;
+    let at = |factor: f64| Settings { resolution: asked * factor, ..settings };
+    let unit = if engine.controls_error() { "" } else { " s" };
+    let of_ladder = |what: String| move |stopped: Stopped| in_ladder(stopped, &what);
+    // The single step first: if it fails, its own message is the one that helps.
+    let single = run(settings, 1.0)?;
+    let half = run(at(0.5), 2.0).map_err(of_ladder(format!("at {:e}{unit}", asked / 2.0)))?;
+    let double = run(at(2.0), 0.5).map_err(of_ladder(format!("at {:e}{unit}", asked * 2.0)))?;
+    let sweeps = settings.sweeps / 2;
+    let fewer_sweeps = match iterates {
+        true => Some(run(Settings { sweeps, ..settings }, 0.5).map_err(of_ladder(format!("with {sweeps} sweeps")))?),
+        false => None,
+    };
+    Ok(Runs { resolutions: [double, single, half], fewer_sweeps })
+}
+
+/// The same stop, told as that of a run which nobody asked for.
+fn in_ladder(stopped: Stopped, what: &str) -> Stopped {
+    let error = stopped.error;
+    let message =
+        format!("the run {what}, from which the error of the run asked for is estimated, failed: {}", error.message());
+    let told = Error::new(error.kind(), message);
+    let error = match error.way_out() {
+        Some(help) => told.help(help),
+        None => told,
+    };
+    Stopped { error, kept: None }
+}
+
+fn judge(scenario: &Scenario, engine: &dyn Engine, reference: &Trajectory, runs: &Runs) -> Result<Vec<ChannelProof>> {
+    let ladder = runs.ladder();
+    let [_, single, half] = ladder.resolutions;
+    let (case, resolution) = (&scenario.case, engine.settings().resolution);
+    let finest = engine.at(resolution / 2.0);
+    let judged = residuals(reference, single)?.into_iter().map(|residual| {
+        let (channel, kind) = (residual.channel.clone(), residual.channel.kind);
+        let convergence =
+            Convergence::of_channel(ladder, &channel, engine.formal_order(kind), finest.noise(case, kind))
+                .expect("all runs of an engine have the same channels");
+        let tolerance = convergence.tolerance(resolution, engine.noise(case, kind));
+        let Basis::Truncation { parts, .. } = tolerance.basis else { unreachable!("that is what it rests on") };
+        let verdict = Verdict::of_engine(&residual, &convergence, parts, scenario.engine_rel);
+        let verdict = unless_turning_about(case, [reference, single], &residual, verdict);
+        let column = |side: &'_ Trajectory| side.column(&channel).expect("both sides have the channel").to_vec();
+        let limit = convergence.limit(&column(single), &column(half), kind.periodic);
+        let limit = limit.map(|limit| crate::compare::largest_difference(&column(reference), &limit, kind.periodic));
+        ChannelProof { residual, bound: parts.sum(), parts, convergence, limit, basis: tolerance.basis, verdict }
+    });
+    Ok(judged.collect())
+}
+
+/// A disagreement in a force where a load jumps proves nothing.
+fn unless_turning_about(case: &Case, sides: [&Trajectory; 2], residual: &Residual, verdict: Verdict) -> Verdict {
+    if residual.channel.kind.stage < Stage::Reactions {
+        return verdict;
+    }
+    match (&verdict, turning_about(case, sides, residual.worst_time)) {
+        (Verdict::Disagree { place }, Some(link)) => Verdict::Inconclusive {
+            reason: format!(
+                "{place}, but there link \"{link}\" turns about and its load jumps: leave that instant out of the grid"
+            ),
+        },
+        _ => verdict,
+    }
+}
+
+/// The link whose load turns about at an instant: it turns one way on one side and the other way on the other. The load's
+/// moment jumps there, so that the smallest error of the engine makes a difference of twice the moment.
+fn turning_about<'a>(case: &'a Case, sides: [&Trajectory; 2], time: f64) -> Option<&'a str> {
+    let row = sides[0].times().iter().position(|&t| t == time)?;
+    let speed =
+        |side: &Trajectory, name: &str| Some(side.column(&Channel::named(&format!("link.{name}.omega_rad_s"))?)?[row]);
+    let names = case.loads.iter().map(|load| case.mechanism.links()[load.link()].name.as_str());
+    let mut turning = names.filter(|name| match (speed(sides[0], name), speed(sides[1], name)) {
+        (Some(ours), Some(theirs)) => ours * theirs <= 0.0,
+        _ => false,
+    });
+    turning.next()
+}
+
+fn describe(engine: &dyn Engine) -> EngineInfo {
+    let provides = Stage::ALL.map(|stage| {
+        let kind = CHANNELS.iter().find(|kind| kind.stage == stage).expect("every stage has a channel");
+        (stage.name(), engine.provides(&Channel { of: String::new(), kind }))
+    });
+    EngineInfo {
+        name: engine.name(),
+        version: engine.version(),
+        settings: engine.settings(),
+        controls_error: engine.controls_error(),
+        told: engine.told(),
+        provides: provides.into(),
+    }
+}

@@ -1,0 +1,154 @@
+//! The largest step that meets an error.
+
+use super::Measured;
+
+/// Runs that one search may take.
+const MOST_RUNS: usize = 9;
+/// An error of at least this share of the wanted one is near enough: a larger step would save less than an eighth at order 2.
+const NEAR_ENOUGH: f64 = 0.8;
+/// What is aimed at, as a share of the wanted error.
+const AIM: f64 = 0.92;
+/// A step that is known to be too large by no more than this factor is not worth another run.
+const CLOSE: f64 = 1.06;
+/// Order below which an error does not fall with the step: something else makes it.
+const FLAT: f64 = 0.3;
+/// Largest factor from one step to the next.
+const LEAP: f64 = 16.0;
+
+/// Outcome of a search.
+#[derive(Clone, Debug)]
+pub(super) enum Found {
+    /// The largest step (or accuracy) found that meets the error.
+    Step {
+        /// The step.
+        resolution: f64,
+        /// Its run.
+        measured: Measured,
+    },
+    /// It would cost more than the limit.
+    TooDear,
+    /// No step meets the error; the smallest error seen.
+    TooCoarse(f64),
+}
+
+/// Searches from `start` for the largest step whose error is at most `within`; `order` is that of the method. Stops where a run costs more
+/// than `limit`.
+pub(super) fn largest_step(
+    start: f64,
+    order: f64,
+    within: f64,
+    limit: f64,
+    run: &mut dyn FnMut(f64) -> Measured,
+) -> Found {
+    let mut met: Option<(f64, Measured)> = None;
+    let mut missed: Option<f64> = None;
+    let mut last: Option<(f64, f64)> = None;
+    let (mut least, mut order, mut step) = (f64::INFINITY, order, start);
+    for _ in 0..MOST_RUNS {
+        let measured = run(step);
+        let (error, price) = (measured.error, measured.price);
+        if error.is_finite() {
+            least = least.min(error);
+            if let Some((before, its_error)) = last.replace((step, error)) {
+                let observed = (error / its_error).ln() / (step / before).ln();
+                if observed < FLAT && error > within && step < before {
+                    return settled(met, least);
+                }
+                if observed.is_finite() {
+                    order = observed.clamp(0.5, 6.0);
+                }
+            }
+        }
+        if error <= within {
+            let larger = met.as_ref().is_none_or(|(known, _)| step > *known);
+            if larger {
+                met = Some((step, measured));
+            }
+            if error >= NEAR_ENOUGH * within {
+                break;
+            }
+        } else {
+            missed = Some(missed.map_or(step, |known: f64| known.min(step)));
+            if price > limit && error.is_finite() {
+                // Too coarse and already too dear: finer is dearer still.
+                return Found::TooDear;
+            }
+        }
+        let factor = match error {
+            error if error == 0.0 => LEAP,
+            error if error.is_finite() => (AIM * within / error).powf(1.0 / order).clamp(1.0 / LEAP, LEAP),
+            _ => 0.25,
+        };
+        step *= factor;
+        if let (Some((good, _)), Some(bad)) = (&met, missed) {
+            if bad / good < CLOSE {
+                break;
+            }
+            if !(step > *good && step < bad) {
+                step = (good * bad).sqrt();
+            }
+        }
+    }
+    settled(met, least)
+}
+
+fn settled(met: Option<(f64, Measured)>, least: f64) -> Found {
+    match met {
+        Some((resolution, measured)) => Found::Step { resolution, measured },
+        None => Found::TooCoarse(least),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// An error that falls with a power of the step down to a floor; the price is one over the step.
+    fn model(order: f64, floor: f64) -> impl FnMut(f64) -> Measured {
+        move |step: f64| Measured { error: (step.powf(order)).max(floor), worst: "x".into(), price: 1.0 / step }
+    }
+
+    #[test]
+    fn the_step_is_found_whatever_the_order() {
+        for order in [1.0, 2.0, 4.0] {
+            for start in [1e-6, 1e-3, 1.0] {
+                let found = largest_step(start, 2.0, 1e-4, f64::INFINITY, &mut model(order, 0.0));
+                let Found::Step { resolution, measured } = found else { panic!("{found:?}") };
+                let exact = 1e-4f64.powf(1.0 / order);
+                assert!(
+                    measured.error <= 1e-4 && resolution > exact / 1.5,
+                    "order {order} from {start}: {resolution} of {exact}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_floor_above_the_wish_is_too_coarse() {
+        let found = largest_step(1.0, 2.0, 1e-4, f64::INFINITY, &mut model(2.0, 1e-3));
+        assert!(matches!(found, Found::TooCoarse(error) if error == 1e-3), "{found:?}");
+    }
+
+    #[test]
+    fn what_costs_more_than_the_limit_is_given_up() {
+        let found = largest_step(1.0, 2.0, 1e-8, 100.0, &mut model(2.0, 0.0));
+        assert!(matches!(found, Found::Step { .. } | Found::TooDear));
+        let mut runs = 0;
+        let mut counted = |step: f64| {
+            runs += 1;
+            model(1.0, 0.0)(step)
+        };
+        let found = largest_step(1e-3, 2.0, 1e-8, 100.0, &mut counted);
+        assert!(matches!(found, Found::TooDear) && runs == 1, "{found:?} after {runs}");
+    }
+
+    #[test]
+    fn a_run_that_fails_is_too_coarse_a_step() {
+        let mut fails = |step: f64| match step > 1e-2 {
+            true => Measured { error: f64::INFINITY, worst: String::new(), price: 0.0 },
+            false => model(2.0, 0.0)(step),
+        };
+        let found = largest_step(1.0, 2.0, 1e-6, f64::INFINITY, &mut fails);
+        assert!(matches!(found, Found::Step { resolution, .. } if resolution > 5e-4), "{found:?}");
+    }
+}
