@@ -132,6 +132,7 @@ unsafe extern "C" {
         gravity: &[f64; 2],
         accuracy: f64,
         tolerance: f64,
+        time_scale: f64,
         run: &mut *mut RawRun,
         text: *mut c_char,
         size: usize,
@@ -174,9 +175,15 @@ fn told(call: impl FnOnce(*mut c_char, usize) -> c_int) -> Result<(), Failure> {
         return Ok(());
     }
     let length = text.iter().position(|&byte| byte == 0).unwrap_or(text.len());
-    let words = String::from_utf8_lossy(&text[..length]);
-    // Simbody breaks its messages into lines.
-    Err(Failure::of(words.split_whitespace().collect::<Vec<_>>().join(" ")))
+    Err(Failure::of(plain(&String::from_utf8_lossy(&text[..length]))))
+}
+
+/// Simbody's words in one line, without the places in its source that it threw them at.
+fn plain(words: &str) -> String {
+    let line = words.split_whitespace().collect::<Vec<_>>().join(" ");
+    let mut parts = line.split("SimTK Exception thrown at ");
+    let first = parts.next().unwrap_or_default().to_string();
+    parts.fold(first, |told, part| told + part.split_once(": ").map_or(part, |(_, rest)| rest))
 }
 
 /// A run of a linkage, forwards in time.
@@ -197,7 +204,7 @@ impl Run {
     ) -> Result<Self, Failure> {
         let mut raw = ptr::null_mut();
         told(|text, size| {
-            let (accuracy, tolerance) = (settings.accuracy, settings.tolerance);
+            let Settings { accuracy, tolerance, time_scale, .. } = settings;
             // SAFETY: pointers and counts are those of slices that outlive the call, the shim copies what it keeps; the model has checked
             // that bodies and loops refer only to bodies before them; the shim writes at most `size` bytes of text.
             unsafe {
@@ -209,6 +216,7 @@ impl Run {
                     &gravity,
                     accuracy,
                     tolerance,
+                    time_scale,
                     &mut raw,
                     text,
                     size,
@@ -308,6 +316,13 @@ impl LoopState {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn messages_are_told_without_places_in_the_source() {
+        let thrown = "SimTK Exception thrown at Integrator.cpp:431:\n  Initialization failed because:\nSimTK Exception thrown at A.cpp:4:\n  no.";
+        assert_eq!(plain(thrown), "Initialization failed because: no.");
+        assert_eq!(plain("bad alloc"), "bad alloc");
+    }
 
     #[test]
     fn both_sides_of_the_boundary_have_the_same_structures() {

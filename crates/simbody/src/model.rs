@@ -87,13 +87,15 @@ pub struct Settings {
     pub accuracy: f64,
     /// Largest constraint error that projections leave (m).
     pub tolerance: f64,
+    /// Time in which something happens (s): rates of constraint errors are held to `tolerance` divided by it.
+    pub time_scale: f64,
     /// Internal steps allowed between two instants.
     pub steps: usize,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Settings { accuracy: 1e-10, tolerance: 1e-12, steps: 1_000_000 }
+        Settings { accuracy: 1e-10, tolerance: 1e-12, time_scale: 0.1, steps: 1_000_000 }
     }
 }
 
@@ -195,14 +197,17 @@ impl Model {
     /// Assembles the linkage at time 0 and starts its run.
     ///
     /// # Errors
-    /// Settings that are not greater than zero; whatever Simbody has against the model: it cannot be assembled from the coordinates
+    /// Settings out of their ranges; whatever Simbody has against the model: it cannot be assembled from the coordinates
     /// given, or a free mobilizer carries no inertia.
     pub fn run(&self, settings: Settings) -> Result<Run, Failure> {
-        let Settings { accuracy, tolerance, .. } = settings;
-        if !(accuracy > 0.0 && accuracy < 1.0 && tolerance > 0.0 && tolerance.is_finite()) {
-            return Err(Failure::of(format!(
-                "accuracy {accuracy} and tolerance {tolerance}: the first must lie between 0 and 1, the second must be greater than 0"
-            )));
+        let Settings { accuracy, tolerance, time_scale, .. } = settings;
+        if !(accuracy > 0.0 && accuracy < 1.0) {
+            return Err(Failure::of(format!("the accuracy is {accuracy}, it must lie between 0 and 1")));
+        }
+        for (what, value) in [("tolerance", tolerance), ("time scale", time_scale)] {
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(Failure::of(format!("the {what} is {value}, it must be greater than 0")));
+            }
         }
         if !self.gravity.iter().all(|component| component.is_finite()) {
             return Err(Failure::of("gravity is not finite"));

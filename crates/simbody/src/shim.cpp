@@ -3,6 +3,7 @@
 
 #include "shim.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <exception>
@@ -145,6 +146,7 @@ struct linkproof_run {
         system.realizeModel(state);
         integrator.setAccuracy(accuracy);
         integrator.setConstraintTolerance(tolerance);
+        integrator.setUseInfinityNorm(true);
         integrator.setProjectEveryStep(true);
         // States between steps would be interpolated: every instant asked for ends a step instead.
         integrator.setAllowInterpolation(false);
@@ -169,16 +171,20 @@ struct linkproof_run {
     // Applied forces that carry the extra masses, so that no mobilizer has to. They follow from accelerations, and these do not
     // depend on them as long as every freedom is prescribed.
     void relieve(State &state) const {
+        // Accelerations are all read before a force is set: that takes the state back to before them.
+        std::vector<SpatialVec> carried(given.size(), SpatialVec(Vec3(0)));
         for (size_t index = 0; index < given.size(); ++index) {
             const linkproof_body &body = given[index];
-            if (body.extra_mass == 0 && body.extra_inertia == 0)
-                continue;
             const MobilizedBody &mobile = bodies[index + 1];
             const Vec3 centre = in_plane(body.centre);
             const Vec3 arm = mobile.getBodyRotation(state) * centre;
             const Vec3 force = (mobile.findStationAccelerationInGround(state, centre) - gravity) * body.extra_mass;
             const Vec3 torque = mobile.getBodyAngularAcceleration(state) * body.extra_inertia + arm % force;
-            relief.setOneBodyForce(state, mobile, SpatialVec(torque, force));
+            carried[index] = SpatialVec(torque, force);
+        }
+        for (size_t index = 0; index < given.size(); ++index) {
+            if (given[index].extra_mass != 0 || given[index].extra_inertia != 0)
+                relief.setOneBodyForce(state, bodies[index + 1], carried[index]);
         }
     }
 
@@ -241,13 +247,14 @@ struct linkproof_run {
 };
 
 int linkproof_simbody_new(const linkproof_body *bodies, size_t body_count, const linkproof_loop *loops, size_t loop_count,
-                          const double gravity[2], double accuracy, double tolerance, linkproof_run **run, char *text,
-                          size_t size) {
+                          const double gravity[2], double accuracy, double tolerance, double time_scale,
+                          linkproof_run **run, char *text, size_t size) {
     *run = nullptr;
     return guarded(text, size, [&] {
         std::unique_ptr<linkproof_run> made(new linkproof_run(bodies, body_count, in_plane(gravity)));
         for (size_t index = 0; index < loop_count; ++index)
             made->close(loops[index]);
+        made->system.setDefaultTimeScale(time_scale);
         made->start(accuracy, tolerance);
         *run = made.release();
     });

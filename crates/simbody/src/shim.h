@@ -60,11 +60,11 @@ typedef struct linkproof_run linkproof_run;
 
 /* Texts are cut to `size` bytes, the final zero included. All of these return 0, or else they write a text. */
 
-/* Builds the system and assembles it to `tolerance` (constraint errors, m and m/s scaled by Simbody's 0.1 s). `accuracy` is that
- * of the integrator. */
+/* Builds the system and assembles it to `tolerance`: no constraint error is larger (m), nor any of their rates times `time_scale`
+ * (s). `accuracy` is that of the integrator. */
 int linkproof_simbody_new(const linkproof_body *bodies, size_t body_count, const linkproof_loop *loops, size_t loop_count,
-                          const double gravity[2], double accuracy, double tolerance, linkproof_run **run, char *text,
-                          size_t size);
+                          const double gravity[2], double accuracy, double tolerance, double time_scale,
+                          linkproof_run **run, char *text, size_t size);
 
 /* Integrates on to `time` (not before the time reached), in at most `steps` internal steps. */
 int linkproof_simbody_advance(linkproof_run *run, double time, size_t steps, char *text, size_t size);

@@ -80,6 +80,24 @@ fn a_massless_coupler_needs_extra_mass_and_its_reactions_do_not_see_it() {
 }
 
 #[test]
+fn no_link_needs_a_mass() {
+    let extra = Inertia { extra_mass: 1.0, extra_inertia: 0.1, ..Inertia::default() };
+    let mut model = Model::new([0.0, -G]);
+    let law = Some(Law { rate: 4.0 });
+    let first = model.add(Body { law, ..body(GROUND, pin([0.0, 0.0]), extra, 0.7) }).unwrap();
+    let coupler = model.add(body(first, pin([1.0, 0.0]), extra, -0.7)).unwrap();
+    let loaded = Body { resistance: 6.0, ..body(GROUND, pin([2.0, 0.0]), extra, 0.7) };
+    let second = model.add(loaded).unwrap();
+    model.close(Closing { bodies: [coupler, second], places: [[2.0, 0.0], [1.0, 0.0]] }).unwrap();
+    let mut run = model.run(Settings::default()).unwrap();
+    run.advance(0.1).unwrap();
+    let state = run.read(true).unwrap();
+    // The coupler turns the loaded crank against 6 N m with its force along itself, the drive bears the same moment.
+    close_to(state.loops[0].force, [-6.0 / 1.1_f64.sin(), 0.0], 1e-11);
+    assert!((state.bodies[0].drive - 6.0).abs() < 1e-11);
+}
+
+#[test]
 fn a_slider_carries_force_and_moment_across_its_axis() {
     // A block of 2 kg on a guide inclined by 0.3, pushed at 1.5 m/s, its mass centre off the joint's place.
     let (angle, axis) = (0.3_f64, [0.3_f64.cos(), 0.3_f64.sin()]);
