@@ -61,6 +61,7 @@ const NEVER: &[(&str, &str)] = &[
 /// terminal behind the command line, and no result depends on the order of a hash.
 const HOMES: &[(&str, &str)] = &[
     ("rapier2d_f64", "engine"),
+    ("linkproof_simbody", "engine"),
     ("mcap", "record"),
     ("foxglove", "record"),
     ("prost", "record"),
@@ -222,6 +223,26 @@ fn what_has_a_home_stays_there() {
         }
     }
     nothing(wrong);
+}
+
+/// The word that only one file of the repository may hold, and there with a reason at every place.
+#[test]
+fn unsafe_code_is_at_the_boundary_to_simbody_alone() {
+    let unsafe_word = BANNED[0];
+    let mut places = 0;
+    for file in rust_files(&top().join("crates")) {
+        let text = fs::read_to_string(&file).unwrap();
+        if !file.ends_with("crates/simbody/src/ffi.rs") {
+            let words = code_words(&text);
+            assert!(words.iter().all(|word| word != unsafe_word), "{}: holds `{unsafe_word}`", file.display());
+            continue;
+        }
+        let code = text.lines().map(|line| line.split("//").next().unwrap_or(""));
+        places = code.map(|line| line.matches(&format!("{unsafe_word} {{")).count()).sum();
+        let reasons = text.matches("// SAFETY: ").count();
+        assert_eq!(places, reasons, "{}: as many reasons as places", file.display());
+    }
+    assert!(places > 0, "the boundary is not found any more");
 }
 
 #[test]

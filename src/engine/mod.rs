@@ -2,6 +2,8 @@
 
 pub mod rapier;
 mod settings;
+#[cfg(feature = "simbody")]
+pub mod simbody;
 
 pub use settings::{Route, Settings};
 
@@ -47,7 +49,11 @@ pub trait Engine: Solver {
 /// that control their error at an accuracy of their own.
 #[must_use]
 pub fn all(step: f64) -> Vec<Box<dyn Engine>> {
-    vec![Box::new(rapier::Rapier::new(step))]
+    vec![
+        Box::new(rapier::Rapier::new(step)),
+        #[cfg(feature = "simbody")]
+        Box::new(simbody::Simbody::new(simbody::Simbody::ACCURACY)),
+    ]
 }
 
 /// The engine called `name`, as [`all`] has it.

@@ -32,9 +32,21 @@ impl Tree {
     /// The spanning tree of a connected mechanism.
     #[must_use]
     pub fn of(mechanism: &Mechanism) -> Self {
+        Tree::with(mechanism, &[])
+    }
+
+    /// The same with the given joints of the ground in it, whatever else could reach their links: in an Oldham coupling the driven
+    /// disc is reached by sliding alone, and a drive that is to be a coordinate of the tree would be cut.
+    #[must_use]
+    pub fn with(mechanism: &Mechanism, joints: &[usize]) -> Self {
         let mut tree = Tree { branches: Vec::new(), cut: Vec::new() };
         let mut reached = Vec::new();
         tree.reach(mechanism, GROUND, &mut reached);
+        for &joint in joints {
+            let link = mechanism.joints()[joint].other(GROUND).link;
+            tree.branches.push(Branch { link, parent: GROUND, joint });
+            tree.reach(mechanism, link, &mut reached);
+        }
         let mut next = 0;
         while let Some(&parent) = reached.get(next) {
             next += 1;
@@ -77,6 +89,26 @@ mod tests {
         let tree = Tree::of(&four_bar());
         assert_eq!(tree.cut, [2]);
         assert_eq!(tree.branches.iter().map(|b| (b.parent, b.link)).collect::<Vec<_>>(), [(0, 1), (0, 3), (1, 2)]);
+    }
+
+    #[test]
+    fn a_joint_can_be_asked_for() {
+        let pairs = |tree: &Tree| tree.branches.iter().map(|b| (b.parent, b.link)).collect::<Vec<_>>();
+        assert_eq!(pairs(&Tree::with(&four_bar(), &[3])), [(0, 3), (0, 1), (1, 2)]);
+        // With the coupler sliding on both cranks, the second would be reached by sliding alone.
+        let kind = JointKind::Prismatic { axes: [Vec2::new(1.0, 0.0); 2] };
+        let mut joints = four_bar().joints().to_vec();
+        for slide in [1, 2] {
+            joints[slide] = Joint { kind, ..joints[slide].clone() };
+        }
+        let mut links = four_bar().links().to_vec();
+        for (link, name) in [(2, "E"), (3, "F")] {
+            links[link].points.iter_mut().for_each(|point| point.name += name);
+        }
+        let mechanism = Mechanism::new(links, joints).unwrap();
+        assert_eq!((pairs(&Tree::of(&mechanism)), Tree::of(&mechanism).cut), (vec![(0, 1), (1, 2), (2, 3)], vec![3]));
+        let asked = Tree::with(&mechanism, &[3]);
+        assert_eq!((pairs(&asked), asked.cut), (vec![(0, 3), (3, 2), (2, 1)], vec![0]));
     }
 
     #[test]

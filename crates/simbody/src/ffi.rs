@@ -1,0 +1,334 @@
+//! The boundary to C++: the only unsafe code. Every declaration repeats one of `shim.h`.
+
+use std::ffi::{c_char, c_int};
+use std::ptr::{self, NonNull};
+
+use crate::model::{Body, Closing, Failure, Joint, Settings, State};
+
+/// `linkproof_body`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RawBody {
+    parent: usize,
+    slides: c_int,
+    on_parent: [f64; 2],
+    on_child: [f64; 2],
+    axis_parent: [f64; 2],
+    axis_child: [f64; 2],
+    mass: f64,
+    centre: [f64; 2],
+    inertia: f64,
+    extra_mass: f64,
+    extra_inertia: f64,
+    resistance: f64,
+    coordinate: f64,
+    driven: c_int,
+    rate: f64,
+}
+
+impl RawBody {
+    pub(crate) fn of(body: &Body) -> Self {
+        let x = [1.0, 0.0];
+        let (slides, on_parent, on_child, axis_parent, axis_child) = match body.joint {
+            Joint::Pin { on_parent, on_child } => (0, on_parent, on_child, x, x),
+            Joint::Slider { on_parent, on_child, axis_parent, axis_child } => {
+                (1, on_parent, on_child, axis_parent, axis_child)
+            }
+        };
+        RawBody {
+            parent: body.parent,
+            slides,
+            on_parent,
+            on_child,
+            axis_parent,
+            axis_child,
+            mass: body.inertia.mass,
+            centre: body.inertia.centre,
+            inertia: body.inertia.inertia,
+            extra_mass: body.inertia.extra_mass,
+            extra_inertia: body.inertia.extra_inertia,
+            resistance: body.resistance,
+            coordinate: body.coordinate,
+            driven: body.law.is_some().into(),
+            rate: body.law.map_or(0.0, |law| law.rate),
+        }
+    }
+
+    /// All floating-point numbers in it.
+    pub(crate) fn numbers(&self) -> impl Iterator<Item = f64> {
+        let pairs = [self.on_parent, self.on_child, self.axis_parent, self.axis_child, self.centre];
+        let masses = [self.mass, self.inertia, self.extra_mass, self.extra_inertia];
+        let others = [self.resistance, self.coordinate, self.rate];
+        pairs.into_iter().flatten().chain(masses).chain(others)
+    }
+}
+
+/// `linkproof_loop`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RawLoop {
+    first: usize,
+    second: usize,
+    on_first: [f64; 2],
+    on_second: [f64; 2],
+}
+
+impl RawLoop {
+    pub(crate) fn of(closing: &Closing) -> Self {
+        let ([first, second], [on_first, on_second]) = (closing.bodies, closing.places);
+        RawLoop { first, second, on_first, on_second }
+    }
+}
+
+/// State of a body at one instant, world axes. Force, moment and drive are 0 where reactions were not asked for.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct BodyState {
+    /// Coordinate of its joint (rad, turns kept, or m).
+    pub coordinate: f64,
+    /// Position of the origin of its frame (m).
+    pub origin: [f64; 2],
+    /// Unit vector of its x axis.
+    pub direction: [f64; 2],
+    /// Velocity of the origin (m/s).
+    pub velocity: [f64; 2],
+    /// Angular velocity (rad/s).
+    pub omega: f64,
+    /// Acceleration of the origin (m/s^2).
+    pub acceleration: [f64; 2],
+    /// Angular acceleration (rad/s^2).
+    pub alpha: f64,
+    /// Force of its joint with the parent on it (N).
+    pub force: [f64; 2],
+    /// Moment of that joint on it, about the joint's place on it (N m); the drive's moment is part of it.
+    pub moment: f64,
+    /// Generalised force of the prescribed motion (N m in a pin, N in a slider).
+    pub drive: f64,
+}
+
+/// State of a loop at one instant.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct LoopState {
+    /// Force of the first body on the second (N, world axes).
+    pub force: [f64; 2],
+    /// Distance of the two places (m).
+    pub gap: f64,
+}
+
+/// `linkproof_run`, which only C++ looks into.
+#[repr(C)]
+struct RawRun {
+    private: [u8; 0],
+}
+
+// `safe` are those that cannot be called wrongly with the types given.
+unsafe extern "C" {
+    fn linkproof_simbody_new(
+        bodies: *const RawBody,
+        body_count: usize,
+        loops: *const RawLoop,
+        loop_count: usize,
+        gravity: &[f64; 2],
+        accuracy: f64,
+        tolerance: f64,
+        time_scale: f64,
+        run: &mut *mut RawRun,
+        text: *mut c_char,
+        size: usize,
+    ) -> c_int;
+    fn linkproof_simbody_advance(run: *mut RawRun, time: f64, steps: usize, text: *mut c_char, size: usize) -> c_int;
+    fn linkproof_simbody_read(
+        run: *mut RawRun,
+        reactions: c_int,
+        bodies: *mut BodyState,
+        loops: *mut LoopState,
+        text: *mut c_char,
+        size: usize,
+    ) -> c_int;
+    fn linkproof_simbody_gaps(
+        run: *mut RawRun,
+        time: &mut f64,
+        gaps: *mut f64,
+        text: *mut c_char,
+        size: usize,
+    ) -> c_int;
+    fn linkproof_simbody_steps(run: *const RawRun) -> usize;
+    fn linkproof_simbody_free(run: *mut RawRun);
+    safe fn linkproof_simbody_version(version: &mut [c_int; 3]);
+    #[cfg(test)]
+    safe fn linkproof_simbody_sizes(sizes: &mut [usize; 4]);
+}
+
+/// Version of the Simbody library in use, as "3.7.0".
+#[must_use]
+pub fn version() -> String {
+    let mut version = [0; 3];
+    linkproof_simbody_version(&mut version);
+    version.map(|part| part.to_string()).join(".")
+}
+
+/// Calls the shim with a buffer for its text.
+fn told(call: impl FnOnce(*mut c_char, usize) -> c_int) -> Result<(), Failure> {
+    let mut text = [0_u8; 1024];
+    if call(text.as_mut_ptr().cast(), text.len()) == 0 {
+        return Ok(());
+    }
+    let length = text.iter().position(|&byte| byte == 0).unwrap_or(text.len());
+    Err(Failure::of(plain(&String::from_utf8_lossy(&text[..length]))))
+}
+
+/// Simbody's words in one line, without the places in its source that it threw them at.
+fn plain(words: &str) -> String {
+    let line = words.split_whitespace().collect::<Vec<_>>().join(" ");
+    let mut parts = line.split("SimTK Exception thrown at ");
+    let first = parts.next().unwrap_or_default().to_string();
+    parts.fold(first, |told, part| told + part.split_once(": ").map_or(part, |(_, rest)| rest))
+}
+
+/// A run of a linkage, forwards in time.
+#[derive(Debug)]
+pub struct Run {
+    raw: NonNull<RawRun>,
+    state: State,
+    time: f64,
+    steps: usize,
+}
+
+impl Run {
+    pub(crate) fn start(
+        bodies: &[RawBody],
+        loops: &[RawLoop],
+        gravity: [f64; 2],
+        settings: Settings,
+    ) -> Result<Self, Failure> {
+        let mut raw = ptr::null_mut();
+        told(|text, size| {
+            let Settings { accuracy, tolerance, time_scale, .. } = settings;
+            // SAFETY: pointers and counts are those of slices that outlive the call, the shim copies what it keeps; the model has checked
+            // that bodies and loops refer only to bodies before them; the shim writes at most `size` bytes of text.
+            unsafe {
+                linkproof_simbody_new(
+                    bodies.as_ptr(),
+                    bodies.len(),
+                    loops.as_ptr(),
+                    loops.len(),
+                    &gravity,
+                    accuracy,
+                    tolerance,
+                    time_scale,
+                    &mut raw,
+                    text,
+                    size,
+                )
+            }
+        })?;
+        let raw = NonNull::new(raw).ok_or_else(|| Failure::of("Simbody gave no system"))?;
+        let state =
+            State { bodies: vec![BodyState::default(); bodies.len()], loops: vec![LoopState::default(); loops.len()] };
+        let mut run = Run { raw, state, time: 0.0, steps: settings.steps };
+        // A free mobilizer without inertia is no error of Simbody's, but gives no acceleration.
+        run.read(false)?;
+        Ok(run)
+    }
+
+    /// Time of the state (s).
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// Integrates on to `time` (s) exactly. After a failure the run is of no more use.
+    ///
+    /// # Errors
+    /// A time before the one reached; whatever keeps Simbody from it, with its words, the time reached and all gaps there.
+    pub fn advance(&mut self, time: f64) -> Result<(), Failure> {
+        if !(time >= self.time && time.is_finite()) {
+            return Err(Failure::of(format!("t = {time} s is asked for after t = {} s", self.time)));
+        }
+        let (raw, steps) = (self.raw.as_ptr(), self.steps);
+        // SAFETY: the run is alive and nobody else has it; the shim writes at most `size` bytes of text.
+        told(|text, size| unsafe { linkproof_simbody_advance(raw, time, steps, text, size) })
+            .map_err(|failure| self.located(failure))?;
+        self.time = time;
+        Ok(())
+    }
+
+    /// Reads the state; without `reactions`, no forces.
+    ///
+    /// # Errors
+    /// Simbody's own, as of [`Run::advance`]: loops that cannot take any force, a number that is not finite.
+    pub fn read(&mut self, reactions: bool) -> Result<&State, Failure> {
+        let State { bodies, loops } = &mut self.state;
+        let raw = self.raw.as_ptr();
+        // SAFETY: the run is alive and nobody else has it; the vectors are as long as the bodies and loops that it was made of, the
+        // shim fills all of them; it writes at most `size` bytes of text.
+        let read = told(|text, size| unsafe {
+            linkproof_simbody_read(raw, reactions.into(), bodies.as_mut_ptr(), loops.as_mut_ptr(), text, size)
+        });
+        read.map_err(|failure| self.located(failure))?;
+        if !(self.state.bodies.iter().all(BodyState::is_finite) && self.state.loops.iter().all(LoopState::is_finite)) {
+            return Err(self.located(Failure::of("Simbody answered with a number that is not finite")));
+        }
+        Ok(&self.state)
+    }
+
+    /// Steps that the integrator has attempted.
+    #[must_use]
+    pub fn steps(&self) -> usize {
+        // SAFETY: the run is alive, and the shim only looks.
+        unsafe { linkproof_simbody_steps(self.raw.as_ptr()) }
+    }
+
+    /// Adds to a failure where the integrator stands.
+    fn located(&self, failure: Failure) -> Failure {
+        let (mut time, mut gaps) = (0.0, vec![0.0; self.state.loops.len()]);
+        let raw = self.raw.as_ptr();
+        // SAFETY: the run is alive and nobody else has it; there are as many gaps as loops; at most `size` bytes of text.
+        match told(|text, size| unsafe { linkproof_simbody_gaps(raw, &mut time, gaps.as_mut_ptr(), text, size) }) {
+            Ok(()) => Failure { time: Some(time), gaps, ..failure },
+            Err(_) => failure,
+        }
+    }
+}
+
+impl Drop for Run {
+    fn drop(&mut self) {
+        // SAFETY: the run came from `linkproof_simbody_new` and is freed only here.
+        unsafe { linkproof_simbody_free(self.raw.as_ptr()) }
+    }
+}
+
+impl BodyState {
+    fn is_finite(&self) -> bool {
+        let pairs = [self.origin, self.direction, self.velocity, self.acceleration, self.force];
+        let others = [self.coordinate, self.omega, self.alpha, self.moment, self.drive];
+        pairs.as_flattened().iter().chain(&others).all(|number| number.is_finite())
+    }
+}
+
+impl LoopState {
+    fn is_finite(&self) -> bool {
+        self.force.iter().chain([&self.gap]).all(|number| number.is_finite())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn messages_are_told_without_places_in_the_source() {
+        let thrown = "SimTK Exception thrown at Integrator.cpp:431:\n  Initialization failed because:\nSimTK Exception thrown at A.cpp:4:\n  no.";
+        assert_eq!(plain(thrown), "Initialization failed because: no.");
+        assert_eq!(plain("bad alloc"), "bad alloc");
+    }
+
+    #[test]
+    fn both_sides_of_the_boundary_have_the_same_structures() {
+        let mut sizes = [0; 4];
+        linkproof_simbody_sizes(&mut sizes);
+        let own = [size_of::<RawBody>(), size_of::<RawLoop>(), size_of::<BodyState>(), size_of::<LoopState>()];
+        assert_eq!(sizes, own);
+    }
+}

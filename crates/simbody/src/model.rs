@@ -1,0 +1,220 @@
+//! The description of a linkage, checked before any of it reaches C++.
+
+use std::fmt;
+
+use crate::ffi::{BodyState, LoopState, RawBody, RawLoop, Run};
+
+/// Number of the ground; bodies are numbered from 1 in the order in which they were added.
+pub const GROUND: usize = 0;
+
+/// How a body hangs on its parent. Places (m) and unit vectors of axes are in the frame of the body they are on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Joint {
+    /// A pin: its coordinate is the angle of the child in its parent (rad).
+    Pin {
+        /// Place on the parent (m).
+        on_parent: [f64; 2],
+        /// Place on the child (m).
+        on_child: [f64; 2],
+    },
+    /// A slider: its coordinate is the way of the child's place along the axis, from the parent's place (m).
+    Slider {
+        /// Place on the parent (m).
+        on_parent: [f64; 2],
+        /// Place on the child (m).
+        on_child: [f64; 2],
+        /// Axis in the parent's frame.
+        axis_parent: [f64; 2],
+        /// The same axis in the child's frame.
+        axis_child: [f64; 2],
+    },
+}
+
+/// Inertia of a body.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Inertia {
+    /// Mass (kg).
+    pub mass: f64,
+    /// Mass centre in the body's frame (m).
+    pub centre: [f64; 2],
+    /// Moment of inertia about the mass centre (kg m^2).
+    pub inertia: f64,
+    /// Mass at the same centre that the body carries for the integrator's sake only (kg): gravity does not act on it, and applied
+    /// forces carry it wherever reactions are read. Exact while every freedom is prescribed, since
+    /// accelerations do not depend on masses then. Simbody cannot move a free mobilizer with no inertia on it.
+    pub extra_mass: f64,
+    /// Moment of inertia of the same kind (kg m^2).
+    pub extra_inertia: f64,
+}
+
+/// A prescribed coordinate: where the body starts plus `rate` times the time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Law {
+    /// Rate of the coordinate (rad/s or m/s).
+    pub rate: f64,
+}
+
+/// A body of the tree.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Body {
+    /// The body it hangs on, added before, or [`GROUND`].
+    pub parent: usize,
+    /// The joint it hangs by.
+    pub joint: Joint,
+    /// Its inertia.
+    pub inertia: Inertia,
+    /// Moment of constant size against its rotation (N m), nothing while it stands.
+    pub resistance: f64,
+    /// Coordinate of its joint at time 0 (rad or m).
+    pub coordinate: f64,
+    /// Its prescribed motion, where it has one.
+    pub law: Option<Law>,
+}
+
+/// A revolute joint between two bodies that are in the tree already: it closes a loop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Closing {
+    /// First and second body.
+    pub bodies: [usize; 2],
+    /// The joint's place on either (m).
+    pub places: [[f64; 2]; 2],
+}
+
+/// How exactly to integrate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// Accuracy of the integrator: bound on its weighted local error.
+    pub accuracy: f64,
+    /// Largest constraint error that projections leave (m).
+    pub tolerance: f64,
+    /// Time in which something happens (s): rates of constraint errors are held to `tolerance` divided by it.
+    pub time_scale: f64,
+    /// Internal steps allowed between two instants.
+    pub steps: usize,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Settings { accuracy: 1e-10, tolerance: 1e-12, time_scale: 0.1, steps: 1_000_000 }
+    }
+}
+
+/// What was read at one instant: bodies from 1 on, and loops, in the order in which they were added.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct State {
+    /// Every body but the ground.
+    pub bodies: Vec<BodyState>,
+    /// Every loop.
+    pub loops: Vec<LoopState>,
+}
+
+/// What kept Simbody from going on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Failure {
+    /// What was wrong with the model, or Simbody's own words.
+    pub message: String,
+    /// Time that was reached (s), where there was a run.
+    pub time: Option<f64>,
+    /// Gap of every loop there (m).
+    pub gaps: Vec<f64>,
+}
+
+impl Failure {
+    pub(crate) fn of(message: impl Into<String>) -> Self {
+        Failure { message: message.into(), time: None, gaps: Vec::new() }
+    }
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message)?;
+        self.time.map_or(Ok(()), |time| write!(f, " (at t = {time} s)"))
+    }
+}
+
+impl std::error::Error for Failure {}
+
+/// A linkage.
+#[derive(Clone, Debug)]
+pub struct Model {
+    gravity: [f64; 2],
+    bodies: Vec<RawBody>,
+    loops: Vec<RawLoop>,
+}
+
+impl Model {
+    /// The ground alone, under the acceleration of gravity `gravity` (m/s^2).
+    #[must_use]
+    pub fn new(gravity: [f64; 2]) -> Self {
+        Model { gravity, bodies: Vec::new(), loops: Vec::new() }
+    }
+
+    /// Adds a body and returns its number.
+    ///
+    /// # Errors
+    /// A parent that is not there, a number that is not finite, a negative mass or inertia, an axis that is no unit vector.
+    pub fn add(&mut self, body: Body) -> Result<usize, Failure> {
+        let number = self.bodies.len() + 1;
+        let wrong = |what: &str| Err(Failure::of(format!("body {number}: {what}")));
+        if body.parent >= number {
+            return wrong(&format!("its parent is {}, which has not been added", body.parent));
+        }
+        let raw = RawBody::of(&body);
+        if !raw.numbers().all(f64::is_finite) {
+            return wrong("it holds a number that is not finite");
+        }
+        let Inertia { mass, inertia, extra_mass, extra_inertia, .. } = body.inertia;
+        if [mass, inertia, extra_mass, extra_inertia].iter().any(|&value| value < 0.0) {
+            return wrong("a mass or a moment of inertia is negative");
+        }
+        if let Joint::Slider { axis_parent, axis_child, .. } = body.joint
+            && [axis_parent, axis_child].iter().any(|axis| (axis[0].hypot(axis[1]) - 1.0).abs() > 1e-9)
+        {
+            return wrong("the axis of its slider is no unit vector");
+        }
+        self.bodies.push(raw);
+        Ok(number)
+    }
+
+    /// Closes a loop and returns its number, counted from 0.
+    ///
+    /// # Errors
+    /// A body that is not there, one body twice, a place that is not finite.
+    pub fn close(&mut self, closing: Closing) -> Result<usize, Failure> {
+        let number = self.loops.len();
+        let wrong = |what: &str| Err(Failure::of(format!("loop {number}: {what}")));
+        let [first, second] = closing.bodies;
+        if first.max(second) > self.bodies.len() || first == second {
+            return wrong(&format!("bodies {first} and {second} cannot be joined"));
+        }
+        if !closing.places.as_flattened().iter().all(|place| place.is_finite()) {
+            return wrong("it holds a number that is not finite");
+        }
+        self.loops.push(RawLoop::of(&closing));
+        Ok(number)
+    }
+
+    /// Assembles the linkage at time 0 and starts its run.
+    ///
+    /// # Errors
+    /// Settings out of their ranges; whatever Simbody has against the model: it cannot be assembled from the coordinates
+    /// given, or a free mobilizer carries no inertia.
+    pub fn run(&self, settings: Settings) -> Result<Run, Failure> {
+        let Settings { accuracy, tolerance, time_scale, .. } = settings;
+        if !(accuracy > 0.0 && accuracy < 1.0) {
+            return Err(Failure::of(format!("the accuracy is {accuracy}, it must lie between 0 and 1")));
+        }
+        for (what, value) in [("tolerance", tolerance), ("time scale", time_scale)] {
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(Failure::of(format!("the {what} is {value}, it must be greater than 0")));
+            }
+        }
+        if !self.gravity.iter().all(|component| component.is_finite()) {
+            return Err(Failure::of("gravity is not finite"));
+        }
+        if self.bodies.is_empty() {
+            return Err(Failure::of("there is no body"));
+        }
+        Run::start(&self.bodies, &self.loops, self.gravity, settings)
+    }
+}

@@ -1,0 +1,193 @@
+//! Simbody: bodies on mobilizers, loops closed by constraints, an integrator that controls its error. It shares no code with the
+//! other engines, and none of its numbers are derived here: motion, reactions and drives' moments are Simbody's own.
+//!
+//! It takes from the case its geometry, masses, drive and the pose at t = 0, nothing later. Instants before t = 0 are reached by a second
+//! run whose time goes the other way.
+
+mod model;
+mod noise;
+
+use linkproof_simbody::{Failure, Run};
+
+use super::{Engine, Route, Settings};
+use crate::case::Case;
+use crate::error::{Error, ErrorKind, Result};
+use crate::math::unit;
+use crate::solver::{Progress, Provision, Solver, State};
+use crate::trajectory::{Channel, ChannelKind, Stage};
+use model::Linkage;
+
+/// Constraint tolerance as a share of how far the mechanism reaches from the origin. Under prescribed motion the pose follows from the
+/// constraints alone, so nothing is won by a looser one. Projections aim at a tenth of it, and rounding keeps them from less: on
+/// `fourth_class` they fail at 1e-14.
+const TOLERANCE: f64 = 1e-12;
+/// Share of the mechanism's size to which the start pose may be open: far more than rounding, less than anyone would notice.
+const LARGEST_GAP: f64 = 1e-9;
+/// More internal steps than this are refused: they would take minutes.
+const MAX_STEPS: usize = 5_000_000;
+
+/// Simbody 3.
+#[derive(Clone, Copy, Debug)]
+pub struct Simbody {
+    accuracy: f64,
+}
+
+impl Simbody {
+    /// Accuracy if nothing else is asked for. Steps are then about a degree of the crank: projections start close to their branch.
+    pub const ACCURACY: f64 = 1e-8;
+
+    /// The engine with the given accuracy of its integrator (a share of what coordinates usually are: 1 rad or 1 m).
+    #[must_use]
+    pub fn new(accuracy: f64) -> Self {
+        Simbody { accuracy }
+    }
+
+    fn start(self, case: &Case, sense: f64) -> Result<(Linkage, Run)> {
+        if !(self.accuracy > 0.0 && self.accuracy < 1.0) {
+            let message = format!("the engine's accuracy is {}", self.accuracy);
+            return Err(Error::new(ErrorKind::Input, message).help("give an accuracy between 0 and 1, 1e-8 for one"));
+        }
+        check_start(case)?;
+        let linkage = Linkage::new(case, sense)
+            .map_err(|message| Error::new(ErrorKind::Input, format!("Simbody cannot take the mechanism: {message}")))?;
+        let speed = case.drives().fold(0.0, |most: f64, drive| most.max(drive.at(0.0).omega.abs()));
+        let settings = linkproof_simbody::Settings {
+            accuracy: self.accuracy,
+            tolerance: tolerance(case),
+            time_scale: 1.0 / speed,
+            steps: MAX_STEPS,
+        };
+        let run = linkage.model.run(settings).map_err(|failure| stopped(case, &linkage, sense, &failure))?;
+        Ok((linkage, run))
+    }
+}
+
+impl Engine for Simbody {
+    fn version(&self) -> String {
+        format!("Simbody {}", linkproof_simbody::version())
+    }
+
+    fn settings(&self) -> Settings {
+        let (resolution, route) = (self.accuracy, Route::Native);
+        Settings { resolution, sweeps: 0, substeps: 1, route, extrapolated: false }
+    }
+
+    fn with(&self, settings: Settings) -> Box<dyn Engine> {
+        Box::new(Simbody { accuracy: settings.resolution })
+    }
+
+    fn controls_error(&self) -> bool {
+        true
+    }
+
+    fn routes(&self) -> &'static [Route] {
+        &[Route::Native]
+    }
+
+    fn formal_order(&self, _: &ChannelKind) -> f64 {
+        // Errors are held in proportion to the accuracy.
+        1.0
+    }
+
+    fn noise(&self, case: &Case, channel: &ChannelKind) -> f64 {
+        noise::bound(case, tolerance(case), channel)
+    }
+
+    fn told(&self) -> Vec<(&'static str, String)> {
+        vec![
+            ("build", "spanning tree of pins and sliders, loops closed by two point-in-plane constraints each".into()),
+            ("drive", "prescribed coordinates".into()),
+            ("integrator", "Runge-Kutta-Merson, every step projected".into()),
+            ("accuracy", format!("{:e}", self.accuracy)),
+            ("constraint tolerance", format!("{TOLERANCE:e} of the mechanism's reach")),
+            ("reactions", "mobilizer reactions and multipliers".into()),
+        ]
+    }
+}
+
+impl Solver for Simbody {
+    fn name(&self) -> &'static str {
+        "simbody"
+    }
+
+    fn provides(&self, _: &Channel) -> Provision {
+        Provision::Computed
+    }
+
+    fn sweep(&self, case: &Case, visit: &mut dyn FnMut(usize, &State) -> Result<()>, progress: Progress) -> Result<()> {
+        let rows = case.grid.ascending();
+        let (before, after) = rows.split_at(rows.partition_point(|&row| case.grid.times[row] < 0.0));
+        let reactions = case.wanted.deepest() >= Stage::Reactions;
+        let ends = [before.first(), after.last()].map(|row| row.map_or(0.0, |&row| case.grid.times[row].abs()));
+        let (total, mut done) = (ends[0] + ends[1], 0.0);
+        let backwards: Vec<usize> = before.iter().rev().copied().collect();
+        let mut state = State::at_rest(case);
+        for (sense, rows, end) in [(-1.0, backwards.as_slice(), ends[0]), (1.0, after, ends[1])] {
+            if rows.is_empty() {
+                continue;
+            }
+            let (linkage, mut run) = self.start(case, sense)?;
+            for &row in rows {
+                let t = case.grid.times[row];
+                run.advance(t.abs()).map_err(|failure| stopped(case, &linkage, sense, &failure))?;
+                let found = run.read(reactions).map_err(|failure| stopped(case, &linkage, sense, &failure))?;
+                // Written so that NaN stops the run too.
+                if !found.loops.iter().all(|closed| closed.gap <= 2.0 * tolerance(case)) {
+                    let gaps = found.loops.iter().map(|closed| closed.gap).collect();
+                    let message = "a loop is open by more than its tolerance".into();
+                    return Err(stopped(case, &linkage, sense, &Failure { message, time: Some(t.abs()), gaps }));
+                }
+                linkage.motion(&found.bodies, &mut state);
+                if reactions {
+                    linkage.reactions(case, &found.bodies, &found.loops, &mut state);
+                }
+                visit(row, &state)?;
+                if total > 0.0 {
+                    progress((done + t.abs()) / total);
+                }
+            }
+            done += end;
+        }
+        progress(1.0);
+        Ok(())
+    }
+}
+
+/// Largest error of a constraint (m).
+fn tolerance(case: &Case) -> f64 {
+    let size = case.mechanism.size();
+    TOLERANCE * case.start.0.iter().fold(size, |most: f64, pose| most.max(pose.origin.norm()))
+}
+
+/// That the start pose is closed. Simbody would assemble another one nearby without a word.
+fn check_start(case: &Case) -> Result<()> {
+    let closure = case.start.closure(&case.mechanism);
+    if closure <= LARGEST_GAP * case.mechanism.size() {
+        return Ok(());
+    }
+    let gap = |joint: &crate::mechanism::Joint| {
+        let places = [joint.first, joint.second].map(|side| case.start.0[side.link].point(side.local));
+        joint.opening(places, [joint.first, joint.second].map(|side| unit(case.start.0[side.link].angle))).0
+    };
+    let widest = case.mechanism.joints().iter().reduce(|a, b| if gap(a) >= gap(b) { a } else { b });
+    let name = widest.map_or("", |joint| joint.name.as_str());
+    let crank = case.drive.start.to_degrees();
+    let message =
+        format!("the pose at t = 0, crank angle {crank:.4} deg, is open by {closure:.3e} m, most at joint \"{name}\"");
+    Err(Error::new(ErrorKind::Geometry, message).help("give a start pose in which all joints are closed"))
+}
+
+/// What stopped a run, in the case's terms.
+fn stopped(case: &Case, linkage: &Linkage, sense: f64, failure: &Failure) -> Error {
+    let t = failure.time.unwrap_or(0.0) * sense;
+    let crank = case.drive.at(t).angle.to_degrees();
+    // Written so that NaN is the largest.
+    let widest = failure.gaps.iter().zip(&linkage.tree.cut).reduce(|a, b| if a.0 >= b.0 { a } else { b });
+    let gap = widest.map_or(String::new(), |(gap, &joint)| {
+        format!(", joint \"{}\" open by {gap:.3e} m", case.mechanism.joints()[joint].name)
+    });
+    let message = format!("Simbody stopped at t = {t:.6} s, crank angle {crank:.4} deg{gap}: {}", failure.message);
+    Error::new(ErrorKind::Numeric, message).help(
+        "check that the pose can be assembled there, or shorten the grid to the crank angles before the dead point",
+    )
+}
