@@ -36,7 +36,7 @@ CLEAR, DOUBTFUL = 1.25, 3.0
 # carry the rounding of a constraint problem with inertias twelve orders apart.
 REST = {POSITION: 2e-8, FORCE: 1e-6}
 # What is promised of the finest run, over half the range of the channel.
-PROMISED = {"positions": 1e-5, "forces": 1e-2, "forces extrapolated": 1e-3}
+PROMISED = {"positions": 1e-5, "forces": 1e-2, "positions extrapolated": 1e-6, "forces extrapolated": 1e-3}
 # Half the range counts for at least this share of the largest of its unit: a coordinate that hardly changes takes its errors from its neighbours.
 LEAST = 0.1
 # Falsifications: a place on a link by this share of the mechanism's size, and the heaviest link's mass by this share of it.
@@ -153,12 +153,16 @@ def order_of(channel):
     return FORCE if channel.endswith(("_N", "_N_m")) else POSITION
 
 
-def distance(channel, a, b, first):
-    """Largest difference of two columns from the row `first` on; of angles the shorter way round."""
-    gap = a - b
+def gap(channel, a, b):
+    """Differences of two columns; of angles the shorter way round."""
     if channel.endswith("angle_rad"):
-        gap = (gap + math.pi) % (2.0 * math.pi) - math.pi
-    return float(np.abs(gap[first:]).max())
+        return (a - b + math.pi) % (2.0 * math.pi) - math.pi
+    return a - b
+
+
+def distance(channel, a, b, first):
+    """Largest difference of two columns from the row `first` on."""
+    return float(np.abs(gap(channel, a, b)[first:]).max())
 
 
 def scales(solution, channels):
@@ -195,6 +199,8 @@ class Judgement:
                 self.orders[channel] = math.log2(coarse / fine) if fine > 10.0 * rest else None
                 self.estimates[channel] = CLEAR * fine / 3.0 + rest
                 self.within[channel] = self.errors[channel][-1] <= self.estimates[channel]
+                coarse, fine = (gap(channel, run, solution[channel]) for run in runs[2:])
+                self.extrapolated[channel] = float(np.abs((4.0 * fine - coarse) / 3.0).max()) / scale[channel]
             else:
                 wise = [2.0 * b - a for a, b in zip(runs, runs[1:])]
                 self.extrapolated[channel] = apart(wise[-1], solution[channel])
@@ -283,8 +289,9 @@ def check_promises(judgement):
     orders = {c: order for c, order in judgement.orders.items() if order is not None}
     off = [f"{channel} {order:.2f}" for channel, order in orders.items() if not abs(order - POSITION) <= ORDER]
     check("positions are of second order", orders and not off, ", ".join(off) or f"{min(orders.values()):.3f} to {max(orders.values()):.3f}")
-    error, channel = max((error, channel) for channel, error in judgement.extrapolated.items())
-    check("forces extrapolated are as good as promised", error <= PROMISED["forces extrapolated"], f"{error:.1e}, worst in {channel}")
+    for order, what in ((POSITION, "positions extrapolated"), (FORCE, "forces extrapolated")):
+        error, channel = max((judgement.extrapolated[channel], channel) for channel in judgement.of(order))
+        check(f"{what} are as good as promised", error <= PROMISED[what], f"{error:.1e}, worst in {channel}")
 
 
 def main(arguments):

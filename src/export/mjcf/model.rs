@@ -12,9 +12,12 @@ use crate::solver::State;
 /// Inertia of a drive's rotor over the largest moment of inertia that the mechanism could have about one of its points. Inertia forces are of the
 /// size of that moment times the speed squared, so that they change the speed by 1e-9 of it in a radian.
 const ROTOR: f64 = 1e9;
-/// Mass and inertia of a link that has none, over those of the whole mechanism: MuJoCo refuses zero. A smaller share would falsify reactions less, but
-/// MuJoCo softens every loop in proportion to the inverse of what it holds together. docs/mjcf.md has the figures.
+/// Mass of a link that has none, over that of the whole mechanism: MuJoCo refuses zero. A smaller share would falsify reactions less, but MuJoCo softens
+/// every loop in proportion to the inverse of the masses that it holds together. docs/mjcf.md has the figures.
 const LIGHT: f64 = 1e-5;
+/// Radius of gyration of a link that has no inertia, over its size; and what its size counts for at least, over the mechanism's.
+const GYRATION: f64 = 0.3;
+const SHORTEST: f64 = 0.1;
 
 /// Dry friction on the rotation of one link.
 #[derive(Clone, Debug, PartialEq)]
@@ -90,12 +93,14 @@ impl<'a> Model<'a> {
         ROTOR * self.bulk()
     }
 
-    /// Mass (kg) and moment of inertia (kg m^2) of a link as MuJoCo gets them: its own, or a small share of the mechanism's where it has none.
+    /// Mass (kg) and moment of inertia (kg m^2) of a link as MuJoCo gets them: its own, or those of a light rod where it has none.
     #[must_use]
     pub fn inertial(&self, link: usize) -> (f64, f64) {
         let link = &self.case.mechanism.links()[link];
-        let own_or = |own: f64, light: f64| if own > 0.0 { own } else { light };
-        (own_or(link.mass, LIGHT * self.mass()), own_or(link.inertia, LIGHT * self.bulk()))
+        let light = LIGHT * self.mass();
+        let radius = GYRATION * link.size().max(SHORTEST * self.size());
+        let own_or = |own: f64, lent: f64| if own > 0.0 { own } else { lent };
+        (own_or(link.mass, light), own_or(link.inertia, light * radius * radius))
     }
 
     /// Whether MuJoCo gets a mass or inertia that the link does not have.
