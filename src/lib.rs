@@ -15,6 +15,7 @@ pub mod diagram;
 pub mod drive;
 pub mod engine;
 pub mod error;
+pub mod export;
 pub mod math;
 pub mod mechanism;
 pub mod proof;

@@ -14,12 +14,16 @@ use imports::{code_words, imports};
 const ALLOWED: &[(&str, &str)] = &[
     ("assur", "math mechanism"),
     ("case", "drive math mechanism trajectory"),
-    ("cli", "case compare diagram engine error math mechanism proof record reference report scenario trajectory tune"),
+    (
+        "cli",
+        "case compare diagram engine error export math mechanism proof record reference report scenario trajectory tune",
+    ),
     ("compare", "error math tolerance trajectory"),
     ("diagram", "case error math mechanism solver trajectory"),
     ("drive", ""),
     ("engine", "case drive error math mechanism solver trajectory"),
     ("error", ""),
+    ("export", "case drive error math mechanism solver trajectory"),
     ("math", ""),
     ("mechanism", "error math"),
     ("proof", "case compare engine error math mechanism reference scenario solver tolerance trajectory"),
@@ -51,6 +55,8 @@ const NEVER: &[(&str, &str)] = &[
     ("compare", "mechanism case solver assur reference engine scenario"),
     // Any solver's states are drawn.
     ("diagram", "drive assur reference engine compare proof record scenario"),
+    // A model is built from the mechanism and its first state, whoever solved it.
+    ("export", "assur reference engine compare proof record scenario"),
     ("record", "compare proof solver assur reference engine"),
     ("report", "assur reference engine record scenario mechanism"),
     ("proof", "record report"),
@@ -74,6 +80,7 @@ const HOMES: &[(&str, &str)] = &[
     ("f64x8", "reference"),
     ("comfy_table", "report"),
     ("svg", "diagram"),
+    ("quick_xml", "export"),
     ("serde", "report"),
     ("serde_json", "report cli"),
     ("clap", "cli"),

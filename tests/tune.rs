@@ -55,13 +55,22 @@ fn tune_comes_near_the_cheapest_of_an_exhaustive_search_and_keeps_its_promise() 
         let rows: Vec<usize> = (0..scenario.case.grid.len()).step_by(8).collect();
         let times = rows.iter().map(|&row| scenario.case.grid.times[row]).collect();
         scenario.case.grid = linkproof::case::Grid::of_times(&scenario.case.drive, times);
-        let options = Options { extrapolated: Some(false), substeps: Some(1), route: Some("differences".into()), ..Options::of_engine("rapier") };
+        let options = Options {
+            extrapolated: Some(false),
+            substeps: Some(1),
+            route: Some("differences".into()),
+            ..Options::of_engine("rapier")
+        };
         let within = 1e-3;
         let found = tuned(&scenario, within, &[], &options).unwrap_or_else(|error| panic!("{name}: {error}"));
         let engine = &options.engines(&scenario).unwrap()[0];
         let verified = error_of(&scenario, engine.with(found.best.settings).as_ref());
         assert!(verified <= within, "{name}: {verified:e} with {:?}", found.best);
-        assert!((verified - found.best.verified).abs() <= 1e-6 * within, "{name}: {verified:e} {:e}", found.best.verified);
+        assert!(
+            (verified - found.best.verified).abs() <= 1e-6 * within,
+            "{name}: {verified:e} {:e}",
+            found.best.verified
+        );
 
         let mut cheapest = f64::INFINITY;
         for sweeps in [8, 16, 32, 64, 128, 256, 512] {
@@ -80,7 +89,10 @@ fn tune_comes_near_the_cheapest_of_an_exhaustive_search_and_keeps_its_promise() 
             }
         }
         let ratio = found.best.price / cheapest.min(found.best.price);
-        eprintln!("{name}: {ratio:.2} of the cheapest, {:?}, {} runs, expected {:e}", found.best, found.runs, found.predicted);
+        eprintln!(
+            "{name}: {ratio:.2} of the cheapest, {:?}, {} runs, expected {:e}",
+            found.best, found.runs, found.predicted
+        );
         assert!(ratio <= 1.5, "{name}: {ratio} times the cheapest: {:?}", found.best);
     }
 }
@@ -100,7 +112,8 @@ fn wishes_that_make_no_sense_say_so() {
 #[test]
 fn a_wish_beyond_rounding_tells_how_far_the_engine_comes() {
     let scenario = shipped("crank_rocker.toml");
-    let options = Options { extrapolated: Some(false), sweeps: Some(64), substeps: Some(1), ..Options::of_engine("rapier") };
+    let options =
+        Options { extrapolated: Some(false), sweeps: Some(64), substeps: Some(1), ..Options::of_engine("rapier") };
     let error = tuned(&scenario, 1e-15, &["accelerations"], &options).unwrap_err();
     assert!(error.message().contains("rapier comes to"), "{error}");
 }

@@ -3,6 +3,7 @@
 mod bearings;
 mod diagram;
 mod engine_args;
+mod export;
 mod grid;
 mod inspect;
 mod list;
@@ -63,6 +64,8 @@ enum Command {
     Plan(plan::Args),
     /// Velocity and acceleration from a displacement by the chord method, and back, with their errors
     Diagram(diagram::Args),
+    /// Write a mechanism as a model of another program: MuJoCo's MJCF
+    Export(export::Args),
     /// List scenarios, or the channels and solvers there are
     List(list::Args),
 }
@@ -79,6 +82,7 @@ pub fn main() -> ExitCode {
         Command::Bearings(args) => output::exit(bearings::bearings(&args)),
         Command::Plan(args) => output::exit(plan::plan(&args)),
         Command::Diagram(args) => output::exit(diagram::diagram(&args)),
+        Command::Export(args) => output::exit(export::export(&args)),
         Command::List(args) => output::exit(list::list(&args)),
     };
     ExitCode::from(code)

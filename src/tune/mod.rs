@@ -283,7 +283,7 @@ fn ways(engine: &dyn Engine, case: &Case, options: &Options) -> Vec<Settings> {
         false => vec![defaults.route],
     };
     let substeps = match (options.substeps, defaults.substeps) {
-        (None, 1..) => SUBSTEPS.to_vec(),
+        (None, 1..) if !engine.controls_error() => SUBSTEPS.to_vec(),
         _ => vec![defaults.substeps],
     };
     let extrapolated = match options.extrapolated {

@@ -1,25 +1,61 @@
 #!/bin/sh
-# Opens recordings with programs that are not ours: tests/viewers/run.sh [FILE...], default recordings/*.mcap
-# and, of a mechanism with sliders, a recording made for the purpose: scenarios/compressor.toml.
+# Opens what we write with programs that are not ours: tests/viewers/run.sh [FILE...]
+#
+# Recordings (*.mcap) go to their readers, scenarios (*.toml) to MuJoCo. Default: recordings/*.mcap, a recording made for the purpose of a mechanism with
+# sliders (scenarios/compressor.toml), and all scenarios.
 # Python packages go into target/viewers-venv.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 top=$(cd "$here/../.." && pwd)
 environment="$top/target/viewers-venv"
+linkproof="${CARGO_TARGET_DIR:-$top/target}/release/linkproof"
 
+everything=
 if [ $# -eq 0 ]; then
+    everything=yes
     set -- "$top"/recordings/*.mcap
     if [ ! -e "$1" ]; then
         echo "no recordings in $top/recordings: record a scenario first, or name files" >&2
         exit 1
     fi
+fi
+cargo build --quiet --release --manifest-path "$top/Cargo.toml"
+if [ "$everything" ]; then
     fresh="$top/target/viewers-recordings"
-    cargo run --quiet --release --manifest-path "$top/Cargo.toml" -- run --record "$fresh" "$top/scenarios/compressor.toml" >/dev/null
-    set -- "$@" "$fresh/compressor.mcap"
+    "$linkproof" run --record "$fresh" "$top/scenarios/compressor.toml" >/dev/null
+    set -- "$@" "$fresh/compressor.mcap" "$top"/scenarios/*.toml
 fi
 if ! cmp -s "$here/requirements.txt" "$environment/installed.txt"; then
     python3 -m venv "$environment"
     "$environment/bin/pip" install --quiet --disable-pip-version-check -r "$here/requirements.txt"
     cp "$here/requirements.txt" "$environment/installed.txt"
 fi
-PATH="$environment/bin:$PATH" exec "$environment/bin/python" "$here/check.py" "$@"
+PATH="$environment/bin:$PATH"
+
+# The list is taken apart by kind, in its order.
+count=$#
+scenarios=0
+for file in "$@"; do
+    case "$file" in *.toml) scenarios=$((scenarios + 1)) ;; esac
+done
+sorted() {
+    kind=$1
+    shift
+    for file in "$@"; do
+        shift
+        case "$file" in *.toml) this=toml ;; *) this=other ;; esac
+        [ "$this" = "$kind" ] && set -- "$@" "$file"
+    done
+    if [ "$kind" = toml ]; then
+        python "$here/mujoco_check.py" "$linkproof" "$@"
+    else
+        python "$here/check.py" "$@"
+    fi
+}
+failed=0
+if [ "$count" -gt "$scenarios" ]; then sorted other "$@" || failed=1; fi
+if [ "$scenarios" -gt 0 ]; then sorted toml "$@" || failed=1; fi
+if [ "$everything" ]; then
+    python "$here/mujoco_check.py" "$linkproof" --singular "$top"/scenarios/variants60/*.toml || failed=1
+fi
+exit $failed

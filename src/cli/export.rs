@@ -1,0 +1,50 @@
+//! `linkproof export`.
+
+use std::path::{Path, PathBuf};
+
+use super::output;
+use super::run::load;
+use crate::error::Result;
+use crate::export::mjcf;
+use crate::reference::AssurSolver;
+
+const EXAMPLES: &str = "\
+Examples:
+  linkproof export scenarios/crank_rocker.toml --mjcf              write crank_rocker.xml
+  linkproof export scenarios/compressor.toml --mjcf compressor.mjcf --dt 1e-4
+  linkproof export scenarios/ov7_base.toml --mjcf - | head
+  python -m mujoco.viewer --mjcf=crank_rocker.xml                  look at it; load the keyframe \"start\" to set it going
+
+docs/mjcf.md tells what is in the file and how exactly MuJoCo simulates it.";
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Args {
+    /// Scenario file
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+    /// Write MJCF to a file, to standard output with `-`, to NAME.xml in this directory without a value; NAME is the scenario's
+    #[arg(long, value_name = "PATH", required = true, num_args = 0..=1, value_parser = output::target)]
+    mjcf: Option<Option<PathBuf>>,
+    /// Time step in seconds that the file starts with [default: the scenario's]
+    #[arg(long, value_name = "S", allow_hyphen_values = true)]
+    dt: Option<f64>,
+    /// Start a group in another mode than the file says, or in the configuration of that number in `inspect --modes`. May be
+    /// given for several groups
+    #[arg(long, value_name = "LINK,LINK=MODE")]
+    mode: Vec<String>,
+}
+
+pub(super) fn export(args: &Args) -> Result<()> {
+    let scenario = load(&args.file, &args.mode)?;
+    let text = mjcf::mjcf(&scenario.case, &AssurSolver, &scenario.name, args.dt.unwrap_or(scenario.dt))?;
+    match args.mjcf.as_ref().and_then(Option::as_ref) {
+        Some(to) => output::write(&text, to),
+        None => {
+            // The name was not the user's choice: it is told.
+            let name = format!("{}.xml", scenario.name);
+            output::write(&text, Path::new(&name))?;
+            output::print(&format!("{name}\n"))
+        }
+    }
+}
