@@ -1,6 +1,7 @@
 //! Reference and engines as equals: who stands against all others.
 
 use super::engines::EngineProof;
+use crate::compare::largest_difference;
 use crate::trajectory::{Channel, Trajectory};
 
 /// A channel in which not all agree.
@@ -38,14 +39,20 @@ fn dispute(name: &'static str, channel: &Channel, values: &[f64], engines: &[Eng
             parties.push(Party { name: engine.info.name, values, bound: judged.bound });
         }
     }
-    let apart = |a: &Party, b: &Party| {
-        let largest = crate::compare::largest_difference(a.values, b.values, channel.kind.periodic);
+    let (pairs, odd) = apart(&parties, channel.kind.periodic)?;
+    Some(Dispute { channel: channel.to_string(), pairs, odd })
+}
+
+/// Pairs that differ by more than both may be wrong, and who stands alone; `None` if there are no such pairs.
+fn apart(parties: &[Party], periodic: bool) -> Option<(Vec<[&'static str; 2]>, Option<&'static str>)> {
+    let differ = |a: &Party, b: &Party| {
+        let largest = largest_difference(a.values, b.values, periodic);
         // Written so that NaN is a difference.
         !(largest <= a.bound + b.bound)
     };
     let mut pairs = Vec::new();
     for (index, a) in parties.iter().enumerate() {
-        pairs.extend(parties[index + 1..].iter().filter(|b| apart(a, b)).map(|b| [a.name, b.name]));
+        pairs.extend(parties[index + 1..].iter().filter(|b| differ(a, b)).map(|b| [a.name, b.name]));
     }
     if pairs.is_empty() {
         return None;
@@ -55,5 +62,46 @@ fn dispute(name: &'static str, channel: &Channel, values: &[f64], engines: &[Eng
         (3.., Some(one), None) => Some(one),
         _ => None,
     };
-    Some(Dispute { channel: channel.to_string(), pairs, odd })
+    Some((pairs, odd))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn party(name: &'static str, values: &'static [f64], bound: f64) -> Party<'static> {
+        Party { name, values, bound }
+    }
+
+    #[test]
+    fn the_one_that_all_others_contradict_stands_alone() {
+        let reference = party("assur", &[1.0, 2.0], 0.0);
+        let close = party("rapier", &[1.001, 2.0], 0.01);
+        let wrong = party("impulse", &[1.0, 2.5], 0.01);
+        let (pairs, odd) = apart(&[reference, close, wrong], false).unwrap();
+        assert_eq!((pairs, odd), (vec![["assur", "impulse"], ["rapier", "impulse"]], Some("impulse")));
+    }
+
+    #[test]
+    fn the_reference_is_a_party_like_any_other() {
+        let wrong = party("assur", &[1.5], 0.0);
+        let found = apart(&[wrong, party("rapier", &[1.0], 0.01), party("simbody", &[1.0], 1e-9)], false);
+        assert_eq!(found.unwrap().1, Some("assur"));
+    }
+
+    #[test]
+    fn of_two_nobody_stands_alone_nor_where_all_differ() {
+        let two = [party("assur", &[1.0], 0.0), party("rapier", &[2.0], 0.01)];
+        assert_eq!(apart(&two, false), Some((vec![["assur", "rapier"]], None)));
+        let three = [party("assur", &[1.0], 0.0), party("rapier", &[2.0], 0.01), party("simbody", &[3.0], 0.01)];
+        assert_eq!(apart(&three, false).unwrap().1, None);
+        let agreed = [party("assur", &[1.0], 0.0), party("rapier", &[1.005], 0.01)];
+        assert_eq!(apart(&agreed, false), None);
+    }
+
+    #[test]
+    fn what_is_not_a_number_differs_from_everything() {
+        let parties = [party("a", &[1.0], 0.0), party("b", &[1.0], 0.1), party("c", &[f64::NAN], 0.1)];
+        assert_eq!(apart(&parties, false).unwrap().1, Some("c"));
+    }
 }

@@ -1,0 +1,92 @@
+//! Error against time of every engine, by every route, raw and extrapolated: a table in Markdown for docs/engines.md.
+//! `cargo bench --bench work_precision [-- SCENARIO]`, with `--features simbody` for that engine too.
+
+use std::path::Path;
+use std::time::Instant;
+
+use linkproof::compare::residuals;
+use linkproof::engine::{self, Engine, Settings};
+use linkproof::reference::AssurSolver;
+use linkproof::scenario::Scenario;
+use linkproof::solver::Solver;
+use linkproof::trajectory::{Stage, Trajectory};
+
+/// Steps of fixed-step engines, in degrees of crank angle.
+const STEPS: [f64; 4] = [0.8, 0.32, 0.08, 0.02];
+/// Accuracies of engines that control their error.
+const ACCURACIES: [f64; 2] = [1e-4, 1e-10];
+/// Timings, of which the shortest counts.
+const REPEATS: usize = 3;
+
+struct Row {
+    engine: &'static str,
+    settings: Settings,
+    resolution: String,
+    errors: [f64; 4],
+    seconds: f64,
+}
+
+/// Largest error over the scale in the channels of some stages.
+fn error(reference: &Trajectory, found: &Trajectory, stages: &[Stage]) -> f64 {
+    let residuals = residuals(reference, found).expect("both stand on one grid");
+    let own = residuals.iter().filter(|r| stages.contains(&r.channel.kind.stage));
+    own.map(|r| if r.max == 0.0 { 0.0 } else { r.max / r.scale }).fold(0.0, f64::max)
+}
+
+fn measure(engine: &dyn Engine, scenario: &Scenario, reference: &Trajectory, resolution: String) -> Option<Row> {
+    let mut shortest = f64::INFINITY;
+    let mut found = None;
+    for _ in 0..REPEATS {
+        let since = Instant::now();
+        found = Some(engine.solve(&scenario.case, &mut |_| {}).ok()?);
+        shortest = shortest.min(since.elapsed().as_secs_f64());
+    }
+    let found = found?;
+    let stages = [Stage::Positions, Stage::Velocities, Stage::Accelerations, Stage::Reactions];
+    let errors = stages.map(|stage| match stage {
+        Stage::Reactions => error(reference, &found, &[Stage::Reactions, Stage::BalancingMoment]),
+        stage => error(reference, &found, &[stage]),
+    });
+    Some(Row { engine: engine.name(), settings: engine.settings(), resolution, errors, seconds: shortest })
+}
+
+fn main() {
+    let name = std::env::args().skip(1).find(|word| !word.starts_with('-')).unwrap_or_else(|| "crank_rocker".into());
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios").join(format!("{name}.toml"));
+    let scenario = Scenario::load(&path).unwrap_or_else(|error| panic!("{error}"));
+    let reference = AssurSolver.solve(&scenario.case, &mut |_| {}).unwrap_or_else(|error| panic!("{error}"));
+    let omega = scenario.case.drive.at(0.0).omega.abs();
+    let mut rows = Vec::new();
+    for engine in engine::all(scenario.dt) {
+        let resolutions: Vec<(f64, String)> = match engine.controls_error() {
+            true => ACCURACIES.map(|accuracy| (accuracy, format!("{accuracy:e}"))).to_vec(),
+            false => STEPS.map(|degrees: f64| (degrees.to_radians() / omega, format!("{degrees} deg"))).to_vec(),
+        };
+        let ways: &[bool] = if engine.controls_error() { &[false] } else { &[false, true] };
+        for &route in engine.routes() {
+            for &extrapolated in ways {
+                for (resolution, told) in &resolutions {
+                    let settings = Settings { resolution: *resolution, route, extrapolated, ..engine.settings() };
+                    rows.extend(measure(engine.with(settings).as_ref(), &scenario, &reference, told.clone()));
+                }
+            }
+        }
+    }
+    let least = rows.iter().map(|row| row.seconds).fold(f64::INFINITY, f64::min);
+    println!("`{name}`, {} instants; time as a ratio to the fastest run of the table\n", scenario.case.grid.len());
+    println!(
+        "| engine | route | sweeps | step or accuracy | extrapolated | positions | velocities | accelerations | reactions, moment | time |"
+    );
+    println!("|---|---|---|---|---|---|---|---|---|---|");
+    for row in rows {
+        let Row { engine, settings, resolution, errors, seconds } = row;
+        let extrapolated = if settings.extrapolated { "yes" } else { "" };
+        let [positions, velocities, accelerations, reactions] = errors.map(|error| format!("{error:.1e}"));
+        println!(
+            "| {engine} | {} | {} | {resolution} | {extrapolated} | {positions} | {velocities} | {accelerations} | {reactions} | {:.1} |",
+            settings.route.name(),
+            settings.sweeps,
+            seconds / least
+        );
+    }
+}
