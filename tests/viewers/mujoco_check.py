@@ -92,7 +92,22 @@ class Scenario:
         return float(self.model.stat.extent)
 
 
-def reaction(model, data, name):
+def moment_of(scenario, model, data, name):
+    """Moment on the body that a joint of the tree carries, about the joint's place on it, in world axes."""
+    read = data.sensor(f"{name}.moment").data[2]
+    carried = model.jnt_bodyid[model.joint(name).id]
+    # Sensors work backwards from motion, forces in loops and gravity: they do not know of moments that resist links farther out.
+    for load in scenario.toml.get("loads", []):
+        body = model.body(load["link"]).id
+        while body not in (0, carried):
+            body = model.body_parentid[body]
+        if body == carried:
+            spin = data.body(load["link"]).cvel[2]
+            read += math.copysign(load["moment_N_m"], spin)
+    return read
+
+
+def reaction(scenario, model, data, name):
     """Force and moment of a joint's first link on its second, about its place there, in world axes."""
     sensor = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_SENSOR, f"{name}.force")
     if sensor < 0:
@@ -105,7 +120,7 @@ def reaction(model, data, name):
     sense = 1.0 if model.site(site).name == f"{name}.second" else -1.0
     force = data.site_xmat[site].reshape(3, 3) @ data.sensor(f"{name}.force").data * sense
     moment = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_SENSOR, f"{name}.moment")
-    return force[:2], None if moment < 0 else data.sensor(f"{name}.moment").data[2] * sense
+    return force[:2], None if moment < 0 else moment_of(scenario, model, data, name) * sense
 
 
 def sample(scenario, model, data):
@@ -118,7 +133,7 @@ def sample(scenario, model, data):
         found[f"point.{point}.x_m"], found[f"point.{point}.y_m"], _ = data.site(point).xpos
     for table in scenario.toml["joints"]:
         name = table["name"]
-        force, moment = reaction(model, data, name)
+        force, moment = reaction(scenario, model, data, name)
         found[f"joint.{name}.fx_N"], found[f"joint.{name}.fy_N"] = force
         if table["type"] == "prismatic" and moment is not None:
             found[f"joint.{name}.slide_m"] = data.joint(name).qpos[0]
@@ -130,7 +145,7 @@ def sample(scenario, model, data):
     for index, name in enumerate(scenario.drives):
         channel = "drive.torque_N_m" if index == 0 else f"drive.{name}.torque_N_m"
         # What drives the link, whichever link the joint names first.
-        found[channel] = data.sensor(f"{name}.moment").data[2]
+        found[channel] = moment_of(scenario, model, data, name)
     return found
 
 
