@@ -66,6 +66,7 @@ const NEVER: &[(&str, &str)] = &[
 /// What only some modules may name: other people's crates stay behind the module that wraps them, the clock and the
 /// terminal behind the command line, and no result depends on the order of a hash.
 const HOMES: &[(&str, &str)] = &[
+    ("rapier2d", "engine"),
     ("rapier2d_f64", "engine"),
     ("linkproof_simbody", "engine"),
     ("mcap", "record"),

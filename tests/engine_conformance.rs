@@ -34,10 +34,25 @@ fn engine_runs(engine: &dyn Engine, case: &Case, factors: [f64; 3]) -> [Trajecto
     })
 }
 
+/// Whether an engine computes in single precision.
+fn single(engine: &dyn Engine) -> bool {
+    engine.name().ends_with("-f32")
+}
+
+/// Distance from one of an engine's numbers to the next.
+fn epsilon(engine: &dyn Engine) -> f64 {
+    if single(engine) { f64::from(f32::EPSILON) } else { f64::EPSILON }
+}
+
+/// The engines that compute in double precision: in single precision, rounding hides orders (story 60).
+fn double(dt: f64) -> impl Iterator<Item = Box<dyn Engine>> {
+    engine::all(dt).into_iter().filter(|engine| !single(engine.as_ref()))
+}
+
 /// Order 2 in every channel whose error is not rounding, over the steps h, h/2 and h/4.
-fn has_formal_order(case: &Case, dt: f64, solver: &dyn Solver) {
+fn has_formal_order(case: &Case, engines: impl Iterator<Item = Box<dyn Engine>>, solver: &dyn Solver) {
     let reference = solve(solver, case);
-    for engine in engine::all(dt) {
+    for engine in engines {
         let runs = engine_runs(engine.as_ref(), case, [1.0, 0.5, 0.25]);
         let finest = residuals(&reference, &runs[2]).unwrap();
         let mut seen = 0;
@@ -55,21 +70,24 @@ fn has_formal_order(case: &Case, dt: f64, solver: &dyn Solver) {
                 assert!((order - formal).abs() <= 0.1, "{} {}: order {order}", engine.name(), residual.channel);
             }
         }
-        // Cranks are exact, and in a Scotch yoke all angles and speeds.
-        assert!(seen > reference.channels().len() / 3, "only {seen} channels have more than rounding errors");
+        // Cranks are exact, and in a Scotch yoke all angles and speeds; in single precision nearly all is rounding.
+        assert!(
+            single(engine.as_ref()) || seen > reference.channels().len() / 3,
+            "only {seen} channels have more than rounding errors"
+        );
     }
 }
 
 #[test]
 fn crank_rocker_converges_with_the_formal_order() {
     let scenario = shipped("crank_rocker.toml");
-    has_formal_order(&scenario.case, scenario.dt, &AssurSolver);
+    has_formal_order(&scenario.case, double(scenario.dt), &AssurSolver);
 }
 
 #[test]
 fn ov7_base_converges_with_the_formal_order() {
     let scenario = shipped("ov7_base.toml");
-    has_formal_order(&scenario.case, scenario.dt, &AssurSolver);
+    has_formal_order(&scenario.case, double(scenario.dt), &AssurSolver);
 }
 
 /// Story 1. Symptom: the crank falls behind a little every step, so that all other errors look like errors of phase.
@@ -87,11 +105,12 @@ fn regress_01_the_motor_holds_its_speed_over_many_turns() {
             let steps = case.grid.times.last().unwrap() / engine.settings().resolution;
             for (angle, crank) in angles.iter().zip(run.cranks()) {
                 // Half a unit in the last place of the largest angle a step.
-                let bound = 0.5 * f64::EPSILON * 128.0 * steps;
+                let bound = 0.5 * epsilon(engine.as_ref()) * 128.0 * steps;
                 assert!((angle - crank).abs() <= bound, "{}: {angle} at {crank}", engine.name());
             }
             let speeds = run.column(&Channel::named("link.crank.omega_rad_s").unwrap()).unwrap();
-            assert!(speeds.iter().all(|omega| (omega - speed).abs() <= 1e-12 * speed.abs()));
+            let bound = 4096.0 * epsilon(engine.as_ref()) * speed.abs();
+            assert!(speeds.iter().all(|omega| (omega - speed).abs() <= bound), "{}", engine.name());
         }
     }
 }
@@ -105,12 +124,16 @@ fn regress_02_the_driven_joint_may_name_the_crank_first() {
     other.pins.iter_mut().for_each(|pin| pin.links.reverse());
     let [one, two] = [&spec, &other].map(|spec| spec.scenario().unwrap().case);
     for engine in engine::all(1e-3) {
+        // The impulse build corrects loops along the first body's axes: another way round is another error of second order.
+        let share = if engine.name() == "rapier" { 1e-7 } else { 1e-3 };
+        let case = &one;
         let (one, two) = (solve(engine.as_ref(), &one), solve(engine.as_ref(), &two));
         for ((channel, a), (_, b)) in one.iter().zip(two.iter()) {
             let sign = if channel.to_string().starts_with("joint.") { -1.0 } else { 1.0 };
             let scale = a.iter().fold(0.0, |max: f64, v| max.max(v.abs()));
+            let bound = share * scale + 2.0 * engine.noise(case, channel.kind);
             for (a, b) in a.iter().zip(b) {
-                assert!((a - sign * b).abs() <= 1e-7 * scale, "{} {channel}: {a} {b}", engine.name());
+                assert!((a - sign * b).abs() <= bound, "{} {channel}: {a} {b}", engine.name());
             }
         }
     }
@@ -125,6 +148,7 @@ fn regress_03_massless_links_move_alike_and_carry_no_force() {
     without.links.iter_mut().for_each(|link| link.mass = None);
     let [with, without] = [&with, &without].map(|spec| spec.scenario().unwrap().case);
     for engine in engine::all(1e-3) {
+        let case = &with;
         let (with, without) = (solve(engine.as_ref(), &with), solve(engine.as_ref(), &without));
         for (channel, values) in without.iter() {
             // The mass centre of a massless link is its frame's origin, another point.
@@ -133,11 +157,17 @@ fn regress_03_massless_links_move_alike_and_carry_no_force() {
                 assert!(values.iter().all(|value| *value == 0.0), "{} {channel}", engine.name());
             } else if !centre {
                 // Places hang on the tree, and the loop's small gap is shared out by mass: accelerations see it first.
-                let bound = if channel.kind.stage == Stage::Accelerations { 1e-4 } else { 1e-11 };
+                // In the impulse build they are of second order, as everything is.
+                let bound = match (engine.name(), channel.kind.stage) {
+                    ("rapier", Stage::Accelerations) => 1e-4,
+                    ("rapier", _) => 1e-11,
+                    _ => 1e-3,
+                };
                 let other = with.column(channel).unwrap();
                 let scale = other.iter().fold(0.0, |max: f64, v| max.max(v.abs()));
                 let worst = values.iter().zip(other).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-                assert!(worst <= bound * scale, "{} {channel}: {worst:e} of {scale:e}", engine.name());
+                let bound = bound * scale + 2.0 * engine.noise(case, channel.kind);
+                assert!(worst <= bound, "{} {channel}: {worst:e} of {scale:e}", engine.name());
             }
         }
     }

@@ -5,7 +5,7 @@ use std::path::Path;
 use approx::assert_abs_diff_eq;
 use linkproof::case::{Case, Grid};
 use linkproof::compare::{Verdict, difference, residuals, scales};
-use linkproof::engine::rapier::Rapier;
+use linkproof::engine;
 use linkproof::proof::{Options, Proof, prove};
 use linkproof::reference::{AssurSolver, NewtonSolver, power, reduced};
 use linkproof::scenario::Scenario;
@@ -150,7 +150,8 @@ fn rapier_on_the_crank_rocker_is_within_a_thousandth_and_a_hundred_times_less() 
     let case = scenario("crank_rocker").case;
     let reference = solve(&AssurSolver, &case);
     let stages = [Stage::Positions, Stage::Reactions, Stage::BalancingMoment];
-    let [coarse, fine] = [1e-3, 1e-4].map(|step| worst_share(&reference, &solve(&Rapier::new(step), &case), &stages));
+    let error = |step| worst_share(&reference, &solve(engine::named("rapier", step).unwrap().as_ref(), &case), &stages);
+    let [coarse, fine] = [1e-3, 1e-4].map(error);
     assert!(coarse <= 1e-3, "{coarse:e}");
     assert!(fine <= 1e-5 && fine <= coarse / 95.0, "{fine:e} against {coarse:e}");
 }

@@ -1,5 +1,6 @@
 //! The simulating side: a family of engines behind one contract, judged by the conformance tests.
 
+mod extrapolated;
 pub mod rapier;
 mod settings;
 #[cfg(feature = "simbody")]
@@ -49,11 +50,10 @@ pub trait Engine: Solver {
 /// that control their error at an accuracy of their own.
 #[must_use]
 pub fn all(step: f64) -> Vec<Box<dyn Engine>> {
-    vec![
-        Box::new(rapier::Rapier::new(step)),
-        #[cfg(feature = "simbody")]
-        Box::new(simbody::Simbody::new(simbody::Simbody::ACCURACY)),
-    ]
+    let rapier = rapier::Rapier::all(step).into_iter().map(|engine| Box::new(engine) as Box<dyn Engine>);
+    #[cfg(feature = "simbody")]
+    let rapier = rapier.chain([Box::new(simbody::Simbody::new(simbody::Simbody::ACCURACY)) as Box<dyn Engine>]);
+    rapier.collect()
 }
 
 /// The engine called `name`, as [`all`] has it.

@@ -1,11 +1,12 @@
 //! Spanning tree of a linkage: which joint carries which link, and which joints are cut.
 //!
-//! Prismatic joints are never cut: they close no loop by themselves (structural analysis refuses that), so all of them fit into
-//! the tree, where they hold exactly. As cuts they work too, in Rapier with order 2. Largest error over the half range in any channel at a
+//! In the tree that a run moves with, prismatic joints are never cut: they close no loop by themselves (structural analysis refuses that), so all of them fit into
+//! the tree, where they hold exactly. As cuts they work too, with order 2. Largest error over the half range in any channel at a
 //! step of 1e-3 s, with prismatic joints kept and with the innermost joint cut whatever its kind: slider-crank 1.4e-4 and 2.0e-4,
 //! swinging guide 8.3e-4 and 1.2e-3, Scotch yoke 7.8e-5 and 6.5e-5, a crank with a slot 1.9e-3 and an Oldham coupling 9.0e-5 both ways.
 
-use super::{GROUND, Mechanism};
+use super::{GROUND, Joint, LinkPose, Mechanism};
+use crate::math::{rotated, unit};
 
 /// A link hung on its parent by a joint of the tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,8 +19,7 @@ pub struct Branch {
     pub joint: usize,
 }
 
-/// Spanning tree from the ground, breadth first with all that slides on a link taken along with it, and the joints left over,
-/// which close the loops: revolute ones.
+/// Links hung on the ground by branches, and the joints left over, which close the loops. Links without a branch are bodies of their own.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Tree {
     /// Branches; a parent always comes before its children.
@@ -29,7 +29,72 @@ pub struct Tree {
 }
 
 impl Tree {
-    /// The spanning tree of a connected mechanism.
+    /// No tree: every link a body of its own, every joint left over.
+    #[must_use]
+    pub fn none(mechanism: &Mechanism) -> Self {
+        Tree { branches: Vec::new(), cut: (0..mechanism.joints().len()).collect() }
+    }
+
+    /// Trees such that every joint is cut in one of them: that of [`Tree::of`] first, then each with as many joints cut that no tree
+    /// before it cuts as a tree can have.
+    #[must_use]
+    pub fn covering(mechanism: &Mechanism) -> Vec<Self> {
+        let mut trees = vec![Tree::of(mechanism)];
+        loop {
+            let covered = |joint: &usize| trees.iter().any(|tree| tree.cut.contains(joint));
+            let (kept, wanted): (Vec<usize>, Vec<usize>) = (0..mechanism.joints().len()).partition(covered);
+            if wanted.is_empty() {
+                return trees;
+            }
+            let mut tree = Tree::along(mechanism, kept.into_iter().chain(wanted.iter().copied()));
+            // What nothing else holds to the ground, a crank alone on its pin, is cut off as a whole.
+            if !tree.cut.iter().any(|joint| wanted.contains(joint)) {
+                let mut held = vec![GROUND];
+                let (kept, lost): (Vec<Branch>, Vec<Branch>) = tree.branches.into_iter().partition(|branch| {
+                    let stays = held.contains(&branch.parent) && !wanted.contains(&branch.joint);
+                    held.extend(stays.then_some(branch.link));
+                    stays
+                });
+                tree.branches = kept;
+                tree.cut.extend(lost.iter().map(|branch| branch.joint));
+                tree.cut.sort_unstable();
+            }
+            trees.push(tree);
+        }
+    }
+
+    /// The spanning tree that takes joints in the order given as long as they close no loop (Kruskal's algorithm).
+    fn along(mechanism: &Mechanism, order: impl Iterator<Item = usize>) -> Self {
+        let mut part: Vec<usize> = (0..mechanism.links().len()).collect();
+        let (mut taken, mut cut) = (Vec::new(), Vec::new());
+        for index in order {
+            let joint = &mechanism.joints()[index];
+            let [first, second] = [part[joint.first.link], part[joint.second.link]];
+            if first == second {
+                cut.push(index);
+            } else {
+                taken.push(index);
+                part.iter_mut().filter(|part| **part == second).for_each(|part| *part = first);
+            }
+        }
+        cut.sort_unstable();
+        let (mut branches, mut reached, mut next) = (Vec::new(), vec![GROUND], 0);
+        while let Some(&parent) = reached.get(next) {
+            next += 1;
+            for &joint in &taken {
+                let found = &mechanism.joints()[joint];
+                let link = found.other(parent).link;
+                if found.on(parent).is_some() && !reached.contains(&link) {
+                    branches.push(Branch { link, parent, joint });
+                    reached.push(link);
+                }
+            }
+        }
+        Tree { branches, cut }
+    }
+
+    /// The spanning tree that runs move with: breadth first, with all that slides on a link taken along with it, so that only revolute
+    /// joints are left over.
     #[must_use]
     pub fn of(mechanism: &Mechanism) -> Self {
         Tree::with(mechanism, &[])
@@ -77,18 +142,60 @@ impl Tree {
     }
 }
 
+/// Coordinate of a branch's joint in poses: angle of the child in its parent (rad), or way along the parent's axis from the place
+/// on the parent to that on the child (m), whichever of the two is the joint's first link.
+#[must_use]
+pub fn coordinate(joint: &Joint, branch: &Branch, poses: &[LinkPose]) -> f64 {
+    let [parent, child] = [branch.parent, branch.link].map(|link| poses[link]);
+    match (joint.axis_on(branch.parent), joint.on(branch.parent), joint.on(branch.link)) {
+        (Some(axis), Some(on_parent), Some(on_child)) => {
+            rotated(unit(parent.angle), axis).dot(&(child.point(on_child) - parent.point(on_parent)))
+        }
+        _ => child.angle - parent.angle,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::math::Vec2;
-    use crate::mechanism::fixtures::four_bar;
-    use crate::mechanism::{Joint, JointKind};
+    use crate::mechanism::JointKind;
+    use crate::mechanism::fixtures::{class_four, four_bar};
 
     #[test]
     fn four_bar_is_cut_once() {
         let tree = Tree::of(&four_bar());
         assert_eq!(tree.cut, [2]);
         assert_eq!(tree.branches.iter().map(|b| (b.parent, b.link)).collect::<Vec<_>>(), [(0, 1), (0, 3), (1, 2)]);
+    }
+
+    #[test]
+    fn every_joint_is_cut_in_one_of_the_covering_trees() {
+        let trees = Tree::covering(&four_bar());
+        // One cut a tree, four joints.
+        assert_eq!(trees.iter().map(|tree| tree.cut.clone()).collect::<Vec<_>>(), [[2], [3], [1], [0]]);
+        let class_four = class_four(1.0, 1.0);
+        let trees = Tree::covering(&class_four);
+        for tree in &trees {
+            assert_eq!((tree.branches.len(), tree.cut.len()), (5, 2));
+            let mut reached = vec![GROUND];
+            for branch in &tree.branches {
+                assert!(reached.contains(&branch.parent));
+                reached.push(branch.link);
+            }
+        }
+        // Seven joints, two at a time.
+        assert_eq!(trees.len(), 4);
+        assert!((0..7).all(|joint| trees.iter().any(|tree| tree.cut.contains(&joint))));
+    }
+
+    #[test]
+    fn a_crank_alone_is_cut_off_as_a_whole() {
+        let four_bar = four_bar();
+        let alone = Mechanism::new(four_bar.links()[..2].to_vec(), four_bar.joints()[..1].to_vec()).unwrap();
+        let trees = Tree::covering(&alone);
+        assert_eq!(trees.len(), 2);
+        assert_eq!((trees[1].branches.len(), &trees[1].cut), (0, &vec![0]));
     }
 
     #[test]

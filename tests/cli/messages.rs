@@ -103,7 +103,7 @@ fn list_shows_channels_and_solvers() {
     }
     let solvers = place.ok("list --solvers");
     let names: Vec<&str> = solvers.lines().filter_map(|line| line.split_whitespace().next()).collect();
-    assert_eq!(names, ["assur", "newton", "rapier"]);
+    assert_eq!(names, ["assur", "newton", "rapier", "rapier-f32", "impulse", "impulse-f32"]);
     assert!(solvers.contains("rapier2d-f64 0."));
     place.refused("list --solvers --channels", &["cannot be used with"]);
 }

@@ -6,7 +6,7 @@ use linkproof::engine;
 use linkproof::trajectory::Trajectory;
 
 use crate::common::spec::four_bar;
-use crate::solve;
+use crate::{double, solve};
 
 const DT: f64 = 1e-3;
 
@@ -47,11 +47,11 @@ fn regress_20_samples_on_steps_do_not_depend_on_the_grid() {
 }
 
 /// Story 21. Symptom: a sample between two steps is worse than its neighbours. Interpolation of order six adds far
-/// less than the engine's own error of order two.
+/// less than the engine's own error of order two. (In single precision rounding is larger than that.)
 #[test]
 fn regress_21_samples_between_steps_are_as_good_as_samples_on_steps() {
     let case = case();
-    for engine in engine::all(DT) {
+    for engine in double(DT) {
         for shift in [0.1, 0.5, 0.777, 0.999_999] {
             let on = at(&case, (0..600).map(|k| f64::from(k) * DT).collect());
             let between = at(&case, (0..600).map(|k| (f64::from(k) + shift) * DT).collect());
@@ -79,12 +79,12 @@ fn regress_22_instants_before_the_start_are_as_good_as_others() {
         for (channel, values) in half.iter() {
             let (noise, whole_values) = (engine.noise(&whole, channel.kind), run.column(channel).unwrap());
             for (a, b) in values.iter().zip(&whole_values[300..]) {
-                assert!((a - b).abs() <= 2.0 * noise, "{channel}: {a} {b}, noise {noise:e}");
+                assert!((a - b).abs() <= 2.0 * noise, "{} {channel}: {a} {b}, noise {noise:e}", engine.name());
             }
         }
         for residual in residuals(&truth, &run).unwrap() {
-            let (error, limit) = (residual.max / residual.scale, 1e-3);
-            assert!(error <= limit, "{}: {error:e}", residual.channel);
+            let limit = 1e-3 * residual.scale + engine.noise(&whole, residual.channel.kind);
+            assert!(residual.max <= limit, "{} {}: {:e}", engine.name(), residual.channel, residual.max);
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The engine's recipe on a free compound pendulum, whose period is known in closed form. There is no drive here, so that
 //! what the multibody itself does in free motion is seen: order one, and the damping that nobody asked for.
 
-use parry2d_f64::mass_properties::MassProperties;
+use rapier2d_f64::parry::mass_properties::MassProperties;
 use rapier2d_f64::prelude::*;
 
 const MASS: f64 = 2.0;

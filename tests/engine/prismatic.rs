@@ -2,14 +2,15 @@
 
 use linkproof::case::{Case, Grid};
 use linkproof::engine;
-use linkproof::engine::rapier::Rapier;
-use linkproof::engine::rapier::twin::Twin;
+use linkproof::engine::rapier::tree::Tree;
+use linkproof::engine::rapier::{Build, Precision, Rapier};
 use linkproof::mechanism::{Link, Mechanism, Side};
 use linkproof::reference::NewtonSolver;
 use linkproof::solver::Solver;
 
 use crate::common::sliders::{self, SPEED, swapped};
 use crate::common::states;
+use crate::native::moving;
 use crate::{has_formal_order, solve};
 
 /// The same case with a massless first link behind the crank: a rod, block or disc.
@@ -27,8 +28,9 @@ fn lighter(case: &Case) -> Case {
 fn regress_50_all_sorts_of_sliders_converge_with_the_formal_order() {
     for sample in sliders::all() {
         for case in [sample.case.clone(), swapped(&sample.case), lighter(&sample.case)] {
-            has_formal_order(&case, 1e-3, &NewtonSolver);
+            has_formal_order(&case, engine::named("rapier", 1e-3).into_iter(), &NewtonSolver);
         }
+        has_formal_order(&sample.case, engine::named("impulse", 2e-3).into_iter(), &NewtonSolver);
     }
 }
 
@@ -42,12 +44,12 @@ fn regress_51_slide_speeds_are_one_step_late() {
             let steps = (case.grid.times.last().unwrap() / dt) as usize;
             let times: Vec<f64> = (0..=steps).map(|n| n as f64 * dt).collect();
             let truth = states(&NewtonSolver, &case, &times).unwrap();
-            let mut twin = Twin::new(&case, dt, Rapier::SWEEPS).unwrap();
-            twin.drive_at(&case, 1.0);
+            let tree = Tree::of(&case.mechanism);
+            let mut twin = moving(&case, Build::Multibody, tree.clone(), dt);
             let (mut now, mut late, mut size) = (0.0f64, 0.0f64, 0.0f64);
             for n in 1..=steps {
-                twin.step().unwrap();
-                for (index, branch) in twin.tree().branches.iter().enumerate() {
+                twin.step();
+                for (index, branch) in tree.branches.iter().enumerate() {
                     let joint = &case.mechanism.joints()[branch.joint];
                     let sign = if joint.first.link == branch.parent { 1.0 } else { -1.0 };
                     let Some([_, is, _]) = truth[n].slide(joint) else { continue };
@@ -75,7 +77,7 @@ fn regress_52_links_in_sliders_turn_together() {
     let cranks = (0..=40).map(|k| case.drive.start + f64::from(k) * std::f64::consts::PI).collect();
     let case = case.on(Grid::of_cranks(&case.drive, cranks));
     let mut solvers: Vec<Box<dyn Solver>> = vec![Box::new(NewtonSolver)];
-    solvers.push(Box::new(Rapier::new(1e-3)));
+    solvers.push(Box::new(Rapier::new(Build::Multibody, Precision::Double, 1e-3)));
     for solver in solvers {
         for (state, &crank) in states(solver.as_ref(), &case, &case.grid.times).unwrap().iter().zip(&case.grid.cranks) {
             for link in 1..case.mechanism.links().len() {
@@ -97,7 +99,7 @@ fn regress_53_errors_of_sliders_are_as_measured() {
     let measured = [1.4e-6, 8.3e-6, 7.8e-7, 2.0e-5, 1.7e-6];
     for (sample, measured) in sliders::all().into_iter().zip(measured) {
         let truth = solve(&NewtonSolver, &sample.case);
-        for engine in engine::all(1e-4) {
+        for engine in [engine::named("rapier", 1e-4).unwrap()] {
             let found = linkproof::compare::residuals(&truth, &solve(engine.as_ref(), &sample.case)).unwrap();
             for residual in found {
                 let error = residual.max / residual.scale;
@@ -113,12 +115,16 @@ fn regress_53_errors_of_sliders_are_as_measured() {
 fn regress_54_the_twin_starts_in_the_start_pose() {
     for sample in sliders::all() {
         for case in [sample.case.clone(), swapped(&sample.case)] {
-            let twin = Twin::new(&case, 1e-3, 1).unwrap();
-            for (link, body) in case.mechanism.links().iter().enumerate() {
-                for point in &body.points {
-                    let gap = twin.point(Side { link, local: point.local }) - case.start.0[link].point(point.local);
-                    // A chain of three links below half a metre.
-                    assert!(gap.norm() <= 1e-15, "{} {} {}: {gap}", sample.name, body.name, point.name);
+            for build in [Build::Multibody, Build::Impulse] {
+                let tree =
+                    if build == Build::Impulse { Tree::none(&case.mechanism) } else { Tree::of(&case.mechanism) };
+                let twin = moving(&case, build, tree, 1e-3);
+                for (link, body) in case.mechanism.links().iter().enumerate() {
+                    for point in &body.points {
+                        let gap = twin.point(Side { link, local: point.local }) - case.start.0[link].point(point.local);
+                        // A chain of three links below half a metre.
+                        assert!(gap.norm() <= 1e-15, "{} {} {}: {gap}", sample.name, body.name, point.name);
+                    }
                 }
             }
         }

@@ -1,33 +1,66 @@
-//! Rapier multibody in double precision.
+//! Rapier, in two builds and two precisions.
 //!
-//! The twin takes from the case its geometry, masses, drive and the pose at t = 0, nothing later. It first drives itself
+//! A world takes from the case its geometry, masses, drives and the pose at t = 0, nothing later. It first drives itself
 //! backwards to a little before the first instant wanted and then forwards, so that the transient of
 //! the first steps has died away before anything is read.
 
-mod joints;
+mod double;
+mod ghost;
+mod guard;
+mod native;
 mod newton_euler;
 mod noise;
+mod probe;
+mod ring;
+mod run;
+mod single;
 pub mod tree;
-pub mod twin;
 mod window;
+pub mod world;
 
+use super::extrapolated::Extrapolated;
 use super::{Engine, Route, Settings};
 use crate::case::Case;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::Result;
 use crate::solver::{Progress, Provision, Solver, State};
 use crate::trajectory::{Channel, ChannelKind, Stage};
-use newton_euler::NewtonEuler;
-use twin::Twin;
-use window::Window;
+use tree::Tree;
+use world::World;
 
-/// Steps that the transient of a start or of a turn-about takes to fall below rounding (one does; the rest is margin).
-const SETTLING_STEPS: i64 = 3;
-/// More steps than this are refused: they would take minutes, and most likely a unit is wrong.
-const MAX_STEPS: f64 = 2e7;
+/// How a mechanism is put together in Rapier.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Build {
+    /// A spanning tree as a multibody, loops closed by impulse joints.
+    Multibody,
+    /// Bodies of their own, every joint an impulse joint.
+    Impulse,
+}
 
-/// Rapier multibody, `rapier2d-f64`.
+/// Length of Rapier's numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Precision {
+    /// f64: the crate `rapier2d-f64`.
+    Double,
+    /// f32: the crate `rapier2d`.
+    Single,
+}
+
+impl Precision {
+    /// Distance from one to the next number.
+    #[must_use]
+    pub fn epsilon(self) -> f64 {
+        match self {
+            Precision::Double => f64::EPSILON,
+            Precision::Single => f64::from(f32::EPSILON),
+        }
+    }
+}
+
+/// Rapier.
 #[derive(Clone, Copy, Debug)]
 pub struct Rapier {
+    build: Build,
+    precision: Precision,
     settings: Settings,
 }
 
@@ -35,18 +68,63 @@ impl Rapier {
     /// Solver sweeps a step. With 256, random chains of three dyads keep a first-order error in their velocities that the ladder of
     /// steps does not see; with 512 one in a hundred channels does, with 1024 none of those tried.
     pub const SWEEPS: usize = 1024;
+    /// Sweeps of the impulse build, whose errors go along the chain joint by joint: with 1024 `crank_rocker` keeps a first-order error in
+    /// its velocities, with 4096 none.
+    pub const IMPULSE_SWEEPS: usize = 4096;
 
-    /// The engine with the time step `step` (s).
+    /// The engine with the time step `step` (s) and else its default settings.
     #[must_use]
-    pub fn new(step: f64) -> Self {
-        let (sweeps, substeps, route) = (Self::SWEEPS, 1, Route::Differences);
-        Rapier { settings: Settings { resolution: step, sweeps, substeps, route, extrapolated: false } }
+    pub fn new(build: Build, precision: Precision, step: f64) -> Self {
+        let (substeps, route) = (1, Route::Differences);
+        let sweeps = match build {
+            Build::Multibody => Self::SWEEPS,
+            Build::Impulse => Self::IMPULSE_SWEEPS,
+        };
+        Rapier {
+            build,
+            precision,
+            settings: Settings { resolution: step, sweeps, substeps, route, extrapolated: false },
+        }
+    }
+
+    /// The same build and precision with other settings, not extrapolated.
+    #[must_use]
+    pub fn set(&self, settings: Settings) -> Self {
+        Rapier { settings: Settings { extrapolated: false, ..settings }, ..*self }
+    }
+
+    /// Both builds in both precisions, the default first.
+    #[must_use]
+    pub fn all(step: f64) -> [Self; 4] {
+        let of = |(build, precision)| Rapier::new(build, precision, step);
+        [
+            (Build::Multibody, Precision::Double),
+            (Build::Multibody, Precision::Single),
+            (Build::Impulse, Precision::Double),
+            (Build::Impulse, Precision::Single),
+        ]
+        .map(of)
+    }
+
+    /// The bare world of a case in its start pose, at rest, with the tree given; `read` if its reactions will be read. For looking at
+    /// what Rapier itself does; a run is [`Solver::sweep`].
+    ///
+    /// # Errors
+    /// [`ErrorKind::Unsupported`](crate::ErrorKind::Unsupported) if Rapier refuses a joint.
+    pub fn world(&self, case: &Case, tree: Tree, read: bool) -> Result<Box<dyn World>> {
+        Ok(match self.precision {
+            Precision::Double => Box::new(double::twins::Twin::new(case, tree, &self.settings, read)?),
+            Precision::Single => Box::new(single::twins::Twin::new(case, tree, &self.settings, read)?),
+        })
     }
 }
 
 impl Engine for Rapier {
     fn version(&self) -> String {
-        "rapier2d-f64 0.36.1".into()
+        match self.precision {
+            Precision::Double => "rapier2d-f64 0.36.1".into(),
+            Precision::Single => "rapier2d 0.36.1".into(),
+        }
     }
 
     fn settings(&self) -> Settings {
@@ -54,103 +132,83 @@ impl Engine for Rapier {
     }
 
     fn with(&self, settings: Settings) -> Box<dyn Engine> {
-        Box::new(Rapier { settings })
+        let plain = self.set(settings);
+        if settings.extrapolated { Box::new(Extrapolated::new(Box::new(plain))) } else { Box::new(plain) }
     }
 
     fn routes(&self) -> &'static [Route] {
-        &[Route::Differences]
+        &Route::ALL
     }
 
-    fn formal_order(&self, _: &ChannelKind) -> f64 {
-        2.0
+    fn formal_order(&self, channel: &ChannelKind) -> f64 {
+        let native = self.settings.route == Route::Native && channel.stage >= Stage::Reactions;
+        if native { 1.0 } else { 2.0 }
     }
 
     fn noise(&self, case: &Case, channel: &ChannelKind) -> f64 {
-        noise::bound(case, self.settings.resolution, channel)
+        noise::bound(case, self, channel)
     }
 
     fn told(&self) -> Vec<(&'static str, String)> {
+        let build = match self.build {
+            Build::Multibody => "spanning tree as multibody, loops closed by impulse joints",
+            Build::Impulse => "bodies of their own, every joint an impulse joint",
+        };
+        let drive = match self.build {
+            Build::Multibody => "ground-crank motor, force-based, damping 1e30",
+            Build::Impulse => "ground-crank motor, force-based, damping 1e30, speed tan(omega dt) / dt",
+        };
         vec![
-            ("build", "spanning tree as multibody, loops closed by impulse joints".into()),
-            ("drive", "ground-crank motor, force-based, damping 1e30".into()),
+            ("build", build.into()),
+            ("drive", drive.into()),
+            ("flywheel", "on driving links: all masses times the square of the largest length".into()),
             ("sweeps", self.settings.sweeps.to_string()),
-            ("substeps", "1".into()),
-            ("reactions", "Newton-Euler on centred second differences of positions".into()),
+            ("substeps", self.settings.substeps.to_string()),
+            ("reactions", self.how().into()),
         ]
+    }
+}
+
+impl Rapier {
+    /// How reactions and moments come about.
+    fn how(&self) -> &'static str {
+        match (self.settings.route, self.build) {
+            (Route::Differences, _) => "Newton-Euler on centred second differences of the engine's positions",
+            (Route::Native, Build::Multibody) => "the engine's impulses, each joint in a world whose tree is cut there",
+            (Route::Native, Build::Impulse) => "the engine's impulses",
+            (Route::Probe, Build::Multibody) => {
+                "the engine's impulses in tiny steps from its own poses, each joint in a world whose tree is cut there"
+            }
+            (Route::Probe, Build::Impulse) => "the engine's impulses in tiny steps from its own poses",
+        }
     }
 }
 
 impl Solver for Rapier {
     fn name(&self) -> &'static str {
-        "rapier"
+        match (self.build, self.precision) {
+            (Build::Multibody, Precision::Double) => "rapier",
+            (Build::Multibody, Precision::Single) => "rapier-f32",
+            (Build::Impulse, Precision::Double) => "impulse",
+            (Build::Impulse, Precision::Single) => "impulse-f32",
+        }
     }
 
     fn provides(&self, channel: &Channel) -> Provision {
-        match channel.kind.stage {
-            Stage::Positions => Provision::Computed,
-            Stage::Velocities => {
+        match (channel.kind.stage, self.build) {
+            (Stage::Positions, _) => Provision::Computed,
+            (Stage::Velocities, Build::Multibody) => {
                 Provision::Derived("read as generalised velocities, one step old, and carried along the tree")
             }
-            Stage::Accelerations => Provision::Derived("centred second differences of the engine's positions"),
-            Stage::Reactions | Stage::BalancingMoment => {
-                Provision::Derived("Newton-Euler on centred second differences of the engine's positions")
+            (Stage::Velocities, Build::Impulse) => {
+                Provision::Derived("read as the bodies' velocities, one step old; of omega what a step turns by")
             }
+            (Stage::Accelerations, _) => Provision::Derived("centred second differences of the engine's positions"),
+            (Stage::Reactions | Stage::BalancingMoment, _) => Provision::Derived(self.how()),
         }
     }
 
     fn sweep(&self, case: &Case, visit: &mut dyn FnMut(usize, &State) -> Result<()>, progress: Progress) -> Result<()> {
-        let rows = case.grid.ascending();
-        let (Some(&first), Some(&last)) = (rows.first(), rows.last()) else { return Ok(()) };
-        let step = self.settings.resolution;
-        let begin = (case.grid.times[first].min(0.0) / step).floor();
-        let end = (case.grid.times[last] / step).floor();
-        check_steps(step, end - begin)?;
-        let start = begin as i64 - Window::BEHIND - SETTLING_STEPS;
-        let total = (end as i64 + Window::AHEAD - start) as f64;
-
-        let mut twin = Twin::new(case, step, self.settings.sweeps)?;
-        twin.drive_at(case, -1.0);
-        for _ in start..0 {
-            twin.step()?;
-        }
-        twin.drive_at(case, 1.0);
-        let mut window = Window::new(case, step, start);
-        let mut statics = (case.wanted.deepest() >= Stage::Reactions).then(|| NewtonEuler::new(case));
-        let mut state = State::at_rest(case);
-        window.push(&twin, case);
-        for row in rows {
-            let t = case.grid.times[row];
-            while !window.covers(t) {
-                twin.step()?;
-                window.push(&twin, case);
-                if window.newest() == 0 {
-                    twin.check_start(case)?;
-                }
-                if window.newest() % 256 == 0 {
-                    progress((window.newest() - start) as f64 / total);
-                }
-            }
-            window.sample(case, t, &mut state);
-            if let Some(statics) = &mut statics {
-                statics.solve(case, &mut state, t)?;
-            }
-            visit(row, &state)?;
-        }
-        progress(1.0);
-        Ok(())
+        run::sweep(self, case, visit, progress)
     }
-}
-
-fn check_steps(step: f64, steps: f64) -> Result<()> {
-    let wrong = |message: String, help: &str| Err(Error::new(ErrorKind::Input, message).help(help));
-    if !(step > 0.0 && step.is_finite()) {
-        return wrong(format!("the engine's time step is {step} s"), "give a time step greater than zero");
-    }
-    if !(steps <= MAX_STEPS) {
-        return wrong(
-            format!("a time step of {step:e} s needs {steps:.3e} steps for this grid, the limit is {MAX_STEPS:e}"),
-            "choose a larger time step or a shorter grid",
-        );
-    }
-    Ok(())
 }

@@ -17,12 +17,22 @@ use crate::solver::State;
 pub(super) struct NewtonEuler {
     matrix: Lu,
     unknown: Vec<f64>,
+    /// Mass and moment of inertia of every link.
+    masses: Vec<[f64; 2]>,
+    /// Share of the loads that is counted.
+    load_share: f64,
 }
 
 impl NewtonEuler {
     pub(super) fn new(case: &Case) -> Self {
-        let n = 3 * (case.mechanism.links().len() - 1);
-        NewtonEuler { matrix: Lu::new(n), unknown: vec![0.0; n] }
+        let masses = case.mechanism.links().iter().map(|link| [link.mass, link.inertia]).collect();
+        NewtonEuler::of(masses, 1.0)
+    }
+
+    /// The equations with other masses and moments of inertia, and with a share of the loads.
+    pub(super) fn of(masses: Vec<[f64; 2]>, load_share: f64) -> Self {
+        let n = 3 * (masses.len() - 1);
+        NewtonEuler { matrix: Lu::new(n), unknown: vec![0.0; n], masses, load_share }
     }
 
     /// Fills in the forces and the driving moment of a state whose motion is known.
@@ -56,11 +66,13 @@ impl NewtonEuler {
         }
         for (index, link) in case.mechanism.links().iter().enumerate().skip(1) {
             let motion = &state.motions[index];
-            let inertial = (motion.point_acceleration(link.mass_centre) - case.gravity) * link.mass;
+            let [mass, inertia] = self.masses[index];
+            let load = self.load_share * case.load_moment(index, motion.omega);
+            let inertial = (motion.point_acceleration(link.mass_centre) - case.gravity) * mass;
             let row = 3 * (index - 1);
             self.unknown[row] = inertial.x;
             self.unknown[row + 1] = inertial.y;
-            self.unknown[row + 2] = link.inertia * motion.alpha - case.load_moment(index, motion.omega);
+            self.unknown[row + 2] = inertia * motion.alpha - load;
         }
         if !self.matrix.factor() {
             return Err(Error::new(

@@ -1,7 +1,10 @@
 //! How much rounding there is in what the engine answers.
 
+use super::Rapier;
+use super::run::probe_turn;
 use crate::case::Case;
-use crate::trajectory::{ChannelKind, Subject};
+use crate::engine::Route;
+use crate::trajectory::{ChannelKind, Stage, Subject};
 
 /// Rounding of a speed in the solver's sweeps, in units of the last place; 12 were measured on the crank-rocker, 2 on `ov7_base`.
 const SPEED_ULPS: f64 = 20.0;
@@ -9,23 +12,31 @@ const SPEED_ULPS: f64 = 20.0;
 /// difference itself (12.6 epsilon over a turn; 11.7 were measured), doubled for the links behind the crank.
 const DIFFERENCE_ULPS: f64 = 4.0;
 
-/// Bound on the rounding noise of a channel for the time step `step` (s), in the channel's unit.
+/// Bound on the rounding noise of a channel, in the channel's unit.
 ///
 /// Angles are sums of as many rounded increments as there are steps, each off by up to a unit in the last place (0.7 were
 /// measured); lengths, forces and moments follow with the mechanism's size and mass.
-pub(super) fn bound(case: &Case, step: f64, channel: &ChannelKind) -> f64 {
+pub(super) fn bound(case: &Case, engine: &Rapier, channel: &ChannelKind) -> f64 {
+    let (step, epsilon) = (engine.settings.resolution, engine.precision.epsilon());
     let longest = case.grid.times.iter().fold(0.0, |max: f64, t| max.max(t.abs()));
     let speed = case.drives().fold(0.0, |most: f64, drive| most.max(drive.at(0.0).omega.abs()));
     let size = case.mechanism.size();
     let mass: f64 = case.mechanism.links().iter().map(|link| link.mass).sum();
     let turned = case.start.0.iter().fold(speed * longest, |max: f64, pose| max.max(pose.angle.abs())).max(1.0);
 
-    let angle = f64::EPSILON * (longest / step + turned);
-    let rate = (angle + SPEED_ULPS * f64::EPSILON) * speed;
-    let second = angle * speed * speed + DIFFERENCE_ULPS * f64::EPSILON * turned / (step * step);
+    let angle = epsilon * (longest / step + turned);
+    let rate = (angle + SPEED_ULPS * epsilon) * speed;
+    let second = angle * speed * speed + DIFFERENCE_ULPS * epsilon * turned / (step * step);
     // Places are world coordinates: far from the origin they are coarser than the mechanism's size lets expect.
     let reach = case.start.0.iter().fold(size, |max: f64, pose| max.max(pose.origin.norm() + size));
-    let place = f64::EPSILON * reach;
+    let place = epsilon * reach;
+    let second = match engine.settings.route {
+        _ if channel.stage < Stage::Reactions => second,
+        Route::Differences => second,
+        // Speeds a step apart, whose difference an impulse makes.
+        Route::Native => rate / step,
+        Route::Probe => rate * speed / probe_turn(engine.precision),
+    };
     let linear = second * size + DIFFERENCE_ULPS * place / (step * step);
     match channel.unit {
         "rad" => angle,
@@ -35,6 +46,8 @@ pub(super) fn bound(case: &Case, step: f64, channel: &ChannelKind) -> f64 {
         "m/s" => rate * size,
         "m/s^2" => linear,
         "N" => linear * mass,
+        // The impulse of a drive is read off a flywheel of the mechanism's size.
+        _ if engine.settings.route != Route::Differences => linear * mass * reach,
         _ => linear * mass * lever(case, reach, channel.subject),
     }
 }

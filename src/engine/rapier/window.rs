@@ -1,24 +1,21 @@
 //! The last few steps of a run, and the motion between them.
 
-use super::twin::Twin;
+use super::ring::{Place, Ring};
+use super::world::World;
 use crate::case::Case;
-use crate::math::interpolate::{POINTS, lagrange_weights};
+use crate::math::interpolate::POINTS;
 use crate::math::{Motion, Vec2, rotated, turned, unit};
-use crate::mechanism::Side;
+use crate::mechanism::{LinkPose, Side};
 use crate::solver::State;
 
-/// Steps in the window: six for the interpolation, and one more on either side for second differences.
-const NODES: usize = POINTS + 2;
 /// Numbers a link and step: position of the mass centre and angle, and their rates.
 const WIDTH: usize = 6;
 
-/// Ring of the last steps, filled as the run goes on.
+/// The motion of the last steps, filled as the run goes on.
 #[derive(Debug)]
 pub(super) struct Window {
     step: f64,
-    newest: i64,
-    links: usize,
-    nodes: Vec<f64>,
+    ring: Ring,
     /// Velocity and angular velocity of every link while they are carried along the tree.
     rates: Vec<(Vec2, f64)>,
 }
@@ -32,57 +29,44 @@ impl Window {
     /// An empty window of a run whose first state, pushed next, is that of step `start`.
     pub(super) fn new(case: &Case, step: f64, start: i64) -> Self {
         let links = case.mechanism.links().len();
-        Window {
-            step,
-            newest: start - 1,
-            links,
-            nodes: vec![f64::NAN; NODES * 2 * links * WIDTH],
-            rates: vec![(Vec2::zeros(), 0.0); links],
-        }
+        Window { step, ring: Ring::new(links * WIDTH, start), rates: vec![(Vec2::zeros(), 0.0); links] }
     }
 
     /// Number of the newest step.
     pub(super) fn newest(&self) -> i64 {
-        self.newest
+        self.ring.newest()
+    }
+
+    fn place(&self, t: f64) -> Place {
+        Place::of(t / self.step)
     }
 
     /// Whether the window reaches far enough for a sample at `t`.
     pub(super) fn covers(&self, t: f64) -> bool {
-        self.newest >= self.node_before(t) + Self::AHEAD
-    }
-
-    /// The step at or before `t`. Instants within 1e-9 of a step are that step: grids and steps are computed differently.
-    fn node_before(&self, t: f64) -> i64 {
-        (t / self.step + 1e-9).floor() as i64
-    }
-
-    fn slot(&self, node: i64, link: usize) -> usize {
-        let ring = node.rem_euclid(2 * NODES as i64) as usize;
-        (ring * self.links + link) * WIDTH
+        self.newest() >= self.place(t).before + Self::AHEAD
     }
 
     /// Takes the state after a step. Poses belong to this step, the engine's velocities to the one before.
-    pub(super) fn push(&mut self, twin: &Twin, case: &Case) {
-        self.newest += 1;
+    pub(super) fn push(&mut self, world: &dyn World, case: &Case) {
+        let row = self.ring.push();
         for (link, body) in case.mechanism.links().iter().enumerate().skip(1) {
-            let centre = twin.point(Side { link, local: body.mass_centre });
-            let slot = self.slot(self.newest, link);
-            self.nodes[slot..slot + 3].copy_from_slice(&[centre.x, centre.y, twin.angle(link)]);
+            let centre = world.point(Side { link, local: body.mass_centre });
+            row[link * WIDTH..link * WIDTH + 3].copy_from_slice(&[centre.x, centre.y, world.angle(link)]);
         }
-        self.carry_rates(twin, case);
+        self.carry_rates(world, case);
     }
 
     /// Carries the joints' speeds from the ground along the tree, over the poses of the step they belong to.
-    fn carry_rates(&mut self, twin: &Twin, case: &Case) {
-        let before = self.newest - 1;
+    fn carry_rates(&mut self, world: &dyn World, case: &Case) {
+        let before = self.ring.row_mut(self.ring.newest() - 1);
         self.rates[0] = (Vec2::zeros(), 0.0);
-        for (index, branch) in twin.tree().branches.iter().enumerate() {
+        for (index, branch) in world.tree().branches.iter().enumerate() {
             let joint = &case.mechanism.joints()[branch.joint];
             let along = |link: usize, local: Vec2| {
-                if link == 0 { local } else { rotated(unit(self.nodes[self.slot(before, link) + 2]), local) }
+                if link == 0 { local } else { rotated(unit(before[link * WIDTH + 2]), local) }
             };
             let (velocity, omega) = self.rates[branch.parent];
-            let speed = twin.relative_speed(index);
+            let speed = world.relative_speed(index);
             self.rates[branch.link] = match joint.axis_on(branch.parent) {
                 None => {
                     let arm = |link: usize| {
@@ -93,29 +77,46 @@ impl Window {
                     (velocity + turned(arm(branch.parent)) * omega - turned(arm(branch.link)) * spin, spin)
                 }
                 Some(axis) => {
-                    let centre = |link: usize| {
-                        let slot = self.slot(before, link);
-                        if link == 0 { Vec2::zeros() } else { Vec2::new(self.nodes[slot], self.nodes[slot + 1]) }
+                    let centre = |link: usize| match link {
+                        0 => Vec2::zeros(),
+                        _ => Vec2::new(before[link * WIDTH], before[link * WIDTH + 1]),
                     };
                     let reach = centre(branch.link) - centre(branch.parent);
                     (velocity + turned(reach) * omega + along(branch.parent, axis) * speed, omega)
                 }
             };
         }
-        for link in 1..self.links {
+        for link in 1..self.rates.len() {
+            if let Some(own) = world.velocity(link) {
+                self.rates[link] = own;
+            }
             let (velocity, omega) = self.rates[link];
-            let slot = self.slot(before, link) + 3;
-            self.nodes[slot..slot + 3].copy_from_slice(&[velocity.x, velocity.y, omega]);
+            before[link * WIDTH + 3..][..3].copy_from_slice(&[velocity.x, velocity.y, omega]);
+        }
+    }
+
+    /// Poses of all links `back` seconds before `t`.
+    pub(super) fn poses(&self, case: &Case, t: f64, back: f64, into: &mut Vec<LinkPose>) {
+        let place = self.place(t);
+        let weights = place.weights(back / self.step);
+        into.clear();
+        into.push(LinkPose::GROUND);
+        for (link, body) in case.mechanism.links().iter().enumerate().skip(1) {
+            let mut sum = [0.0; 3];
+            for (k, weight) in weights.iter().enumerate() {
+                let row = &self.ring.row(place.before - 2 + k as i64)[link * WIDTH..];
+                (0..3).for_each(|c| sum[c] += weight * row[c]);
+            }
+            into.push(LinkPose::through(body.mass_centre, Vec2::new(sum[0], sum[1]), sum[2]));
         }
     }
 
     /// The motion of all links at `t`: positions and rates interpolated between steps, accelerations from centred second
     /// differences of the positions.
     pub(super) fn sample(&self, case: &Case, t: f64, state: &mut State) {
-        let before = self.node_before(t);
-        let place = (t / self.step - before as f64).clamp(0.0, 1.0);
-        let weights = lagrange_weights(if place < 1e-9 { 2.0 } else { 2.0 + place });
-        let mut second = [0.0; NODES];
+        let place = self.place(t);
+        let weights = place.weights(0.0);
+        let mut second = [0.0; POINTS + 2];
         for (k, weight) in weights.iter().enumerate() {
             second[k] += weight;
             second[k + 1] -= 2.0 * weight;
@@ -124,15 +125,14 @@ impl Window {
         let scale = 1.0 / (self.step * self.step);
         for (link, body) in case.mechanism.links().iter().enumerate().skip(1) {
             let (mut value, mut rate, mut acceleration) = ([0.0; 3], [0.0; 3], [0.0; 3]);
-            for (k, second) in second.iter().enumerate() {
-                let slot = self.slot(before - Self::BEHIND + k as i64, link);
+            for (k, second) in second.iter().enumerate().filter(|(_, second)| **second != 0.0) {
+                let row = &self.ring.row(place.before - Self::BEHIND + k as i64)[link * WIDTH..];
                 let inner = if (1..=POINTS).contains(&k) { weights[k - 1] } else { 0.0 };
                 for c in 0..3 {
-                    let position = self.nodes[slot + c];
-                    acceleration[c] += second * position;
+                    acceleration[c] += second * row[c];
                     if inner != 0.0 {
-                        value[c] += inner * position;
-                        rate[c] += inner * self.nodes[slot + 3 + c];
+                        value[c] += inner * row[c];
+                        rate[c] += inner * row[3 + c];
                     }
                 }
             }

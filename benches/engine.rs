@@ -1,0 +1,82 @@
+//! Cost of the harness: a run of an engine as a ratio to a bare loop of the same Rapier world with the same settings, timed in turns in the
+//! same run. `cargo bench --bench engine`.
+
+use std::hint::black_box;
+use std::path::Path;
+use std::time::Instant;
+
+use linkproof::case::{Case, Grid, Wanted};
+use linkproof::engine::rapier::tree::Tree;
+use linkproof::engine::rapier::{Build, Precision, Rapier};
+use linkproof::engine::{Engine, Settings};
+use linkproof::scenario::Scenario;
+use linkproof::solver::Solver;
+
+/// Steps a run.
+const STEPS: usize = 2000;
+/// Timings, of which the shortest counts: whatever else the machine does only adds.
+const REPEATS: usize = 15;
+
+fn scenario(name: &str) -> Scenario {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios").join(format!("{name}.toml"));
+    Scenario::load(&path).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn seconds(run: impl FnOnce()) -> f64 {
+    let since = Instant::now();
+    run();
+    since.elapsed().as_secs_f64()
+}
+
+/// What anybody would write who wants nothing but steps.
+fn bare(engine: &Rapier, build: Build, case: &Case, steps: usize) {
+    let tree = if build == Build::Impulse { Tree::none(&case.mechanism) } else { Tree::of(&case.mechanism) };
+    let mut world = engine.world(case, tree, false).expect("Rapier takes the mechanism");
+    for (index, drive) in case.drives().enumerate() {
+        world.set_drive(index, drive.at(0.0).omega);
+    }
+    for _ in 0..steps {
+        world.bare_step();
+    }
+    black_box(world.angle(1));
+}
+
+fn main() {
+    let step = 1e-4;
+    println!(
+        "{:14} {:10} {:>7} {:>12} {:>14} {:>12}",
+        "scenario", "build", "sweeps", "us a step", "without reading", "all channels"
+    );
+    for name in ["crank_rocker", "ov7_base", "quick_return"] {
+        let base = scenario(name).case;
+        for build in [Build::Multibody, Build::Impulse] {
+            for sweeps in [16, 64, 1024] {
+                let engine = Rapier::new(build, Precision::Double, step);
+                let engine = engine.set(Settings { sweeps, ..engine.settings() });
+                let last = STEPS as f64 * step;
+                // Ten steps come before the start and after the end: the same work for both.
+                let none = base.on(Grid::of_times(&base.drive, vec![last]));
+                let none = Case { wanted: Wanted::of(&[]), ..none };
+                let all =
+                    base.on(Grid::of_times(&base.drive, (0..=STEPS / 10).map(|k| 10.0 * step * k as f64).collect()));
+                let all = Case { wanted: Wanted::ALL, ..all };
+                let mut best = [f64::INFINITY; 3];
+                for _ in 0..REPEATS {
+                    let times = [
+                        seconds(|| bare(&engine, build, &base, STEPS + 16)),
+                        seconds(|| drop(black_box(engine.solve(&none, &mut |_| {}).expect("it runs")))),
+                        seconds(|| drop(black_box(engine.solve(&all, &mut |_| {}).expect("it runs")))),
+                    ];
+                    (0..3).for_each(|k| best[k] = best[k].min(times[k]));
+                }
+                let cost = best[0] * 1e6 / (STEPS + 16) as f64;
+                println!(
+                    "{name:14} {:10} {sweeps:>7} {cost:>12.2} {:>14.3} {:>12.3}",
+                    format!("{build:?}").to_lowercase(),
+                    best[1] / best[0],
+                    best[2] / best[0]
+                );
+            }
+        }
+    }
+}

@@ -1,0 +1,245 @@
+//! A world that is watched: a loop that opens, a link that turns wildly, a number that is none, a panic inside the engine. All become an
+//! error that says when, at which crank angle and where.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use super::world::{World, opening};
+use crate::case::Case;
+use crate::drive::Drive;
+use crate::error::{Error, ErrorKind, Result};
+use crate::mechanism::{LinkPose, Side};
+
+/// Share of the mechanism's size to which a loop may open before the run is stopped.
+const LARGEST_GAP: f64 = 0.05;
+/// Turn of a link in one step (rad) beyond which there is no trajectory left to speak of. Energy is watched by it too: it
+/// cannot grow beyond what speeds of that size hold.
+const LARGEST_TURN: f64 = std::f64::consts::FRAC_PI_2;
+
+/// A world and what is watched in it.
+pub(super) struct Guard<'a> {
+    case: &'a Case,
+    world: Box<dyn World>,
+    largest_gap: f64,
+    angles: Vec<f64>,
+}
+
+impl<'a> Guard<'a> {
+    pub(super) fn new(case: &'a Case, world: Box<dyn World>) -> Self {
+        let angles = case.start.0.iter().map(|pose| pose.angle).collect();
+        Guard { case, world, largest_gap: LARGEST_GAP * case.mechanism.size(), angles }
+    }
+
+    pub(super) fn world(&self) -> &dyn World {
+        self.world.as_ref()
+    }
+
+    /// Sets all drives to their speeds at `t` times `sense` (-1 runs the mechanism backwards).
+    pub(super) fn drive(&mut self, t: f64, sense: f64) {
+        for (index, drive) in self.case.drives().enumerate() {
+            self.world.set_drive(index, drive.at(t).omega * sense);
+        }
+    }
+
+    /// Sets the loads of all links that turn with the speeds given.
+    pub(super) fn load(&mut self, spin: impl Fn(usize) -> f64) {
+        for link in self.case.loads.iter().map(crate::drive::Load::link) {
+            self.world.set_load(link, self.case.load_moment(link, spin(link)));
+        }
+    }
+
+    /// Sets the time step (s).
+    pub(super) fn set_step(&mut self, step: f64) {
+        self.world.set_step(step);
+    }
+
+    /// Puts all links into poses; velocities stay as they are.
+    pub(super) fn place(&mut self, poses: &[LinkPose]) {
+        self.world.place(poses);
+        for (angle, pose) in self.angles.iter_mut().zip(poses) {
+            *angle = pose.angle;
+        }
+    }
+
+    /// One time step, after which the time is `t` (s).
+    ///
+    /// # Errors
+    /// [`ErrorKind::Numeric`] if a loop has opened, a link has turned by more than a quarter turn, a number is not finite, or the
+    /// engine has panicked.
+    pub(super) fn step(&mut self, t: f64) -> Result<()> {
+        let world = &mut self.world;
+        catch_unwind(AssertUnwindSafe(|| world.step()))
+            .map_err(|cause| panicked(&self.case.drive, t, cause.as_ref()))?;
+        let crank = || at(&self.case.drive, t);
+        for (link, before) in self.angles.iter_mut().enumerate().skip(1) {
+            let angle = self.world.angle(link);
+            let turn = (angle - *before).abs();
+            // Written so that NaN stops the run too.
+            if !(turn <= LARGEST_TURN) {
+                let name = &self.case.mechanism.links()[link].name;
+                let turn = turn.to_degrees();
+                let message =
+                    format!("the engine's link \"{name}\" has turned by {turn:.1} deg in one step, {}", crank());
+                return Err(failed(message));
+            }
+            *before = angle;
+        }
+        for &joint in &self.world.tree().cut {
+            let joint = &self.case.mechanism.joints()[joint];
+            let gap = opening(self.world.as_ref(), joint, self.case.mechanism.size());
+            if !(gap <= self.largest_gap) {
+                let message =
+                    format!("the engine's loop has opened by {gap:.3e} m at joint \"{}\", {}", joint.name, crank());
+                return Err(failed(message));
+            }
+        }
+        Ok(())
+    }
+
+    /// That the world stands in the case's start pose again, after it has driven itself away and back.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Numeric`] if a link is farther away than a loop may open: on the way it went past a dead point, into another
+    /// configuration.
+    pub(super) fn check_start(&self) -> Result<()> {
+        let case = self.case;
+        for (index, (link, pose)) in case.mechanism.links().iter().zip(&case.start.0).enumerate().skip(1) {
+            let off = |local| (self.world.point(Side { link: index, local }) - pose.point(local)).norm();
+            let far = link.points.iter().map(|point| off(point.local)).fold(off(link.mass_centre), f64::max);
+            // Written so that NaN stops the run too.
+            if !(far <= self.largest_gap) {
+                let crank = case.drive.start.to_degrees();
+                let message = format!(
+                    "the engine ran up from a few steps before the grid and came back to the start at crank angle {crank:.4} deg with link \"{}\" {far:.3e} m off: it has passed a dead point on the way",
+                    link.name
+                );
+                return Err(Error::new(ErrorKind::Numeric, message)
+                    .help("choose a smaller time step (--dt), or begin the grid farther from the dead point"));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// When and where, for messages.
+fn at(drive: &Drive, t: f64) -> String {
+    format!("t = {t:.6} s, crank angle {:.4} deg", drive.at(t).angle.to_degrees())
+}
+
+fn failed(message: String) -> Error {
+    Error::new(ErrorKind::Numeric, message)
+        .help("choose a smaller time step (--dt), or check that the pose can be assembled there")
+}
+
+fn panicked(drive: &Drive, t: f64, cause: &(dyn std::any::Any + Send)) -> Error {
+    let words = cause.downcast_ref::<&str>().copied().or_else(|| cause.downcast_ref::<String>().map(String::as_str));
+    let words = words.unwrap_or("no message");
+    Error::new(ErrorKind::Numeric, format!("the engine has panicked (\"{words}\"), {}", at(drive, t)))
+        .help("choose a smaller time step (--dt), or another engine")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::rapier::tree::Tree;
+    use crate::engine::rapier::{Build, Precision, Rapier};
+    use crate::math::Vec2;
+    use crate::mechanism::Pose;
+
+    /// A world whose steps go wrong.
+    struct Broken {
+        world: Box<dyn World>,
+        wrong: fn(&mut dyn World),
+        angle: f64,
+        after: f64,
+    }
+
+    impl World for Broken {
+        fn tree(&self) -> &Tree {
+            self.world.tree()
+        }
+        fn step(&mut self) {
+            (self.wrong)(self.world.as_mut());
+            self.angle = self.after;
+        }
+        fn bare_step(&mut self) {
+            self.world.bare_step();
+        }
+        fn set_step(&mut self, step: f64) {
+            self.world.set_step(step);
+        }
+        fn set_drive(&mut self, drive: usize, omega: f64) {
+            self.world.set_drive(drive, omega);
+        }
+        fn set_load(&mut self, link: usize, moment: f64) {
+            self.world.set_load(link, moment);
+        }
+        fn place(&mut self, poses: &[LinkPose]) {
+            self.world.place(poses);
+        }
+        fn angle(&self, link: usize) -> f64 {
+            self.world.angle(link) + self.angle
+        }
+        fn point(&self, side: Side) -> Vec2 {
+            self.world.point(side)
+        }
+        fn relative_speed(&self, index: usize) -> f64 {
+            self.world.relative_speed(index)
+        }
+        fn velocity(&self, link: usize) -> Option<(Vec2, f64)> {
+            self.world.velocity(link)
+        }
+        fn reaction(&self, joint: usize) -> Option<(Vec2, f64)> {
+            self.world.reaction(joint)
+        }
+        fn torque(&self, drive: usize) -> f64 {
+            self.world.torque(drive)
+        }
+    }
+
+    /// What a guard says of a step that goes wrong, after which angles are off by `after`.
+    fn step(wrong: fn(&mut dyn World), after: f64) -> Error {
+        let mechanism = crate::mechanism::fixtures::four_bar();
+        let start = [(0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (1.0, 0.0, 0.8410686705679303), (4.0, 0.0, 1.6821373411358607)];
+        let pose = |(x, y, angle)| LinkPose { origin: Vec2::new(x, y), angle };
+        let drive =
+            Drive { joint: 0, link: 1, zero: 0.0, start: 0.0, law: crate::drive::MotionLaw::ConstantSpeed(1.0) };
+        let case = Case {
+            structure: crate::mechanism::Structure::of(&mechanism, &[0]).unwrap(),
+            mechanism,
+            drive,
+            further_drives: Vec::new(),
+            motor: None,
+            loads: Vec::new(),
+            gravity: Vec2::zeros(),
+            start: Pose(start.map(pose).to_vec()),
+            modes: Vec::new(),
+            grid: crate::case::Grid::default(),
+            wanted: crate::case::Wanted::ALL,
+        };
+        let engine = Rapier::new(Build::Multibody, Precision::Double, 1e-3);
+        let world = engine.world(&case, Tree::of(&case.mechanism), false).unwrap();
+        let mut guard = Guard::new(&case, Box::new(Broken { world, wrong, angle: 0.0, after }));
+        guard.step(0.25).unwrap_err()
+    }
+
+    #[test]
+    fn a_panic_of_the_engine_becomes_an_error_of_that_engine() {
+        let error = step(|_| panic!("index out of bounds"), 0.0);
+        assert_eq!(error.kind(), ErrorKind::Numeric);
+        for part in ["index out of bounds", "t = 0.250000 s", "crank angle"] {
+            assert!(error.message().contains(part), "{error}");
+        }
+    }
+
+    #[test]
+    fn a_number_that_is_none_stops_the_run() {
+        let error = step(|_| {}, f64::NAN);
+        assert!(error.message().contains("has turned by NaN deg in one step, t = 0.250000 s"), "{error}");
+    }
+
+    #[test]
+    fn a_wild_turn_stops_the_run() {
+        let error = step(|_| {}, 1.6);
+        assert!(error.message().contains("has turned by 91.7 deg in one step"), "{error}");
+    }
+}

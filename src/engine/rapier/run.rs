@@ -1,0 +1,188 @@
+//! One run: worlds side by side in time, and what is read of them.
+
+use super::guard::Guard;
+use super::native::Native;
+use super::newton_euler::NewtonEuler;
+use super::probe::Probe;
+use super::tree::Tree;
+use super::window::Window;
+use super::{Build, Precision, Rapier};
+use crate::case::Case;
+use crate::engine::{Route, Settings};
+use crate::error::{Error, ErrorKind, Result};
+use crate::solver::{Progress, State};
+use crate::trajectory::Stage;
+
+/// Steps that the transient of a start or of a turn-about takes to fall below rounding (one does; the rest is margin).
+const SETTLING_STEPS: i64 = 3;
+/// More steps than this are refused: they would take minutes, and most likely a unit is wrong.
+const MAX_STEPS: f64 = 2e7;
+
+/// What reactions and moments come from.
+enum Reader<'a> {
+    Nothing,
+    Differences(NewtonEuler),
+    Native(Native),
+    Probe(Probe<'a>),
+}
+
+/// Solves a case: see [`Solver::sweep`](crate::solver::Solver::sweep).
+pub(super) fn sweep(
+    engine: &Rapier,
+    case: &Case,
+    visit: &mut dyn FnMut(usize, &State) -> Result<()>,
+    progress: Progress,
+) -> Result<()> {
+    let rows = case.grid.ascending();
+    let (Some(&first), Some(&last)) = (rows.first(), rows.last()) else { return Ok(()) };
+    let step = engine.settings.resolution;
+    let begin = (case.grid.times[first].min(0.0) / step).floor();
+    let end = (case.grid.times[last] / step).floor();
+    check(&engine.settings, end - begin)?;
+    let start = begin as i64 - Window::BEHIND - SETTLING_STEPS;
+    let total = (end as i64 + Window::AHEAD - start) as f64;
+    let mut visited = None;
+    let mut run = Run::new(engine, case, start)?;
+    let go = || {
+        run.back_up()?;
+        let mut state = State::at_rest(case);
+        for row in rows {
+            let t = case.grid.times[row];
+            while !run.window.covers(t) {
+                run.step()?;
+                if run.window.newest() % 256 == 0 {
+                    progress((run.window.newest() - start) as f64 / total);
+                }
+            }
+            run.window.sample(case, t, &mut state);
+            run.read(&mut state, t)?;
+            visit(row, &state)?;
+            visited = Some(row);
+        }
+        progress(1.0);
+        Ok(())
+    };
+    go().map_err(|error| reached(error, case, visited))
+}
+
+/// Says in the way out how far the run has come: what has been visited stands.
+fn reached(error: Error, case: &Case, visited: Option<usize>) -> Error {
+    let (Some(row), ErrorKind::Numeric) = (visited, error.kind()) else { return error };
+    let until = format!("the run stands up to crank angle {:.4} deg", case.grid.cranks[row].to_degrees());
+    match error.way_out().map(str::to_string) {
+        Some(way) => error.help(format!("{way}; {until}")),
+        None => error.help(until),
+    }
+}
+
+struct Run<'a> {
+    case: &'a Case,
+    step: f64,
+    start: i64,
+    /// The first moves the mechanism; the others only report joints that the first does not.
+    worlds: Vec<Guard<'a>>,
+    window: Window,
+    reader: Reader<'a>,
+}
+
+impl<'a> Run<'a> {
+    fn new(engine: &Rapier, case: &'a Case, start: i64) -> Result<Self> {
+        let settings = &engine.settings;
+        let route = (case.wanted.deepest() >= Stage::Reactions).then_some(settings.route);
+        let mechanism = &case.mechanism;
+        let (moving, reporting) = match engine.build {
+            Build::Multibody => (Tree::of(mechanism), Tree::covering(mechanism)),
+            Build::Impulse => (Tree::none(mechanism), vec![Tree::none(mechanism)]),
+        };
+        let native = route == Some(Route::Native);
+        let trees = if native { reporting.clone() } else { vec![moving] };
+        let worlds: Result<Vec<Guard>> =
+            trees.into_iter().map(|tree| Ok(Guard::new(case, engine.world(case, tree, native)?))).collect();
+        let worlds = worlds?;
+        let reader = match route {
+            None => Reader::Nothing,
+            Some(Route::Differences) => Reader::Differences(NewtonEuler::new(case)),
+            Some(Route::Native) => Reader::Native(Native::new(case, &worlds, settings.resolution, start)),
+            Some(Route::Probe) => {
+                let probed: Result<Vec<Guard>> =
+                    reporting.into_iter().map(|tree| Ok(Guard::new(case, engine.world(case, tree, true)?))).collect();
+                Reader::Probe(Probe::new(case, probed?, probe_turn(engine.precision)))
+            }
+        };
+        let window = Window::new(case, settings.resolution, start);
+        Ok(Run { case, step: settings.resolution, start, worlds, window, reader })
+    }
+
+    /// Drives all worlds backwards from the start to where they turn about.
+    fn back_up(&mut self) -> Result<()> {
+        for guard in &mut self.worlds {
+            guard.drive(0.0, -1.0);
+            for step in (self.start..0).rev() {
+                guard.step(step as f64 * self.step)?;
+            }
+            guard.drive(0.0, 1.0);
+        }
+        self.window.push(self.worlds[0].world(), self.case);
+        self.report();
+        Ok(())
+    }
+
+    fn step(&mut self) -> Result<()> {
+        let step = self.window.newest() + 1;
+        for guard in &mut self.worlds {
+            guard.step(step as f64 * self.step)?;
+            if step == 0 {
+                guard.check_start()?;
+            }
+        }
+        self.window.push(self.worlds[0].world(), self.case);
+        self.report();
+        Ok(())
+    }
+
+    fn report(&mut self) {
+        if let Reader::Native(native) = &mut self.reader {
+            native.push(&self.worlds);
+        }
+    }
+
+    /// Fills in the reactions and moments of a state whose motion is known.
+    fn read(&mut self, state: &mut State, t: f64) -> Result<()> {
+        match &mut self.reader {
+            Reader::Nothing => Ok(()),
+            Reader::Differences(statics) => statics.solve(self.case, state, t),
+            Reader::Native(native) => native.solve(self.case, state, t),
+            Reader::Probe(probe) => probe.solve(self.case, &self.window, state, t),
+        }
+    }
+}
+
+/// Turn of the fastest driving link in a tiny step (rad). After 2 y(h / 2) - y(h) the error is in proportion to its square, rounding to its
+/// inverse; the optimum is flat.
+pub(super) fn probe_turn(precision: Precision) -> f64 {
+    match precision {
+        Precision::Double => 1e-4,
+        Precision::Single => 5e-3,
+    }
+}
+
+fn check(settings: &Settings, steps: f64) -> Result<()> {
+    let wrong = |message: String, help: &str| Err(Error::new(ErrorKind::Input, message).help(help));
+    let Settings { resolution: step, sweeps, substeps, .. } = *settings;
+    if !(step > 0.0 && step.is_finite()) {
+        return wrong(format!("the engine's time step is {step} s"), "give a time step greater than zero");
+    }
+    if sweeps == 0 || substeps == 0 {
+        return wrong(
+            format!("the engine has {sweeps} sweeps and {substeps} substeps a step"),
+            "give at least one of each",
+        );
+    }
+    if !(steps <= MAX_STEPS) {
+        return wrong(
+            format!("a time step of {step:e} s needs {steps:.3e} steps for this grid, the limit is {MAX_STEPS:e}"),
+            "choose a larger time step or a shorter grid",
+        );
+    }
+    Ok(())
+}

@@ -1,0 +1,136 @@
+//! Poses and velocities in and out, and the step itself.
+
+use super::rapier::prelude::{JointAxis, Multibody, PhysicsWorld, Pose, Rotation};
+use super::{RIGID_MOTOR, Twin, joints, real, wide};
+use crate::engine::rapier::tree::{Tree, coordinate};
+use crate::engine::rapier::world::World;
+use crate::math::angle::wrapped;
+use crate::math::{Vec2, rotated};
+use crate::mechanism::{LinkPose, Side};
+
+impl Twin {
+    fn multibody(&self) -> Option<&Multibody> {
+        Some(self.world.multibody_joints.get(self.any_link?)?.0)
+    }
+
+    pub(super) fn put_tree(&mut self, poses: &[LinkPose]) {
+        let Some(any_link) = self.any_link else { return };
+        let PhysicsWorld { multibody_joints, bodies, .. } = &mut self.world;
+        let (multibody, _) = multibody_joints.get_mut(any_link).expect("the multibody exists");
+        let mut displacements = vec![0.0; multibody.ndofs()];
+        for ((branch, &dof), &id) in self.tree.branches.iter().zip(&self.dofs).zip(&self.ids) {
+            let joint = &self.joints[branch.joint];
+            let coords = multibody.link(id).expect("known link").joint().coords();
+            // The free coordinate of a slider is the first, of a pin the last.
+            let now = coords[if joint.is_prismatic() { 0 } else { 2 }];
+            displacements[dof] = real(coordinate(joint, branch, poses)) - now;
+        }
+        multibody.apply_displacements(&displacements);
+        multibody.forward_kinematics(bodies, false);
+        multibody.update_rigid_bodies(bodies, true);
+    }
+
+    pub(super) fn put_bodies(&mut self, poses: &[LinkPose]) {
+        for &link in &self.plain {
+            let pose = Pose::from_parts(joints::vector(poses[link].origin), Rotation::new(real(poses[link].angle)));
+            self.world.bodies[self.bodies[link]].set_position(pose, true);
+        }
+    }
+
+    /// Direction of a link's x axis, as the engine has it.
+    pub(super) fn direction(&self, link: usize) -> Vec2 {
+        let rotation = self.world.bodies[self.bodies[link]].position().rotation;
+        Vec2::new(wide(rotation.re), wide(rotation.im))
+    }
+
+    fn read_angles(&mut self) {
+        for &link in &self.plain {
+            let direction = self.direction(link);
+            self.angles[link] += wrapped(direction.y.atan2(direction.x) - self.angles[link]);
+        }
+        let Some(any_link) = self.any_link else { return };
+        let (multibody, _) = self.world.multibody_joints.get(any_link).expect("the multibody exists");
+        for ((branch, &id), twist) in self.tree.branches.iter().zip(&self.ids).zip(&self.twists) {
+            let coordinate = || wide(multibody.link(id).expect("known link").joint().coords()[2]);
+            self.angles[branch.link] = self.angles[branch.parent] + twist.unwrap_or_else(coordinate);
+        }
+    }
+
+    fn step_size(&self) -> f64 {
+        wide(self.world.integration_parameters.dt)
+    }
+}
+
+impl World for Twin {
+    fn tree(&self) -> &Tree {
+        &self.tree
+    }
+
+    fn step(&mut self) {
+        if self.read {
+            self.keep_frames();
+        }
+        self.world.step();
+        self.read_angles();
+    }
+
+    fn bare_step(&mut self) {
+        self.world.step();
+    }
+
+    fn set_step(&mut self, step: f64) {
+        self.world.integration_parameters.dt = real(step);
+    }
+
+    fn set_drive(&mut self, drive: usize, omega: f64) {
+        let motor = &self.motors[drive];
+        let turn = omega * self.step_size();
+        // A body of its own turns by atan(omega dt) a step; that much more is asked for. Beyond a radian a step nothing would hold anyway.
+        let omega = if motor.plain && turn.abs() < 1.0 { turn.tan() / self.step_size() } else { omega };
+        let joint = self.world.impulse_joints.get_mut(motor.handle, true).expect("the motor exists");
+        joint.data.set_motor_velocity(JointAxis::AngX, real(omega * motor.sense), real(RIGID_MOTOR));
+    }
+
+    fn set_load(&mut self, link: usize, moment: f64) {
+        let body = &mut self.world.bodies[self.bodies[link]];
+        body.reset_torques(true);
+        body.add_torque(real(moment), true);
+    }
+
+    fn place(&mut self, poses: &[LinkPose]) {
+        self.put(poses);
+    }
+
+    fn angle(&self, link: usize) -> f64 {
+        self.angles[link]
+    }
+
+    fn point(&self, side: Side) -> Vec2 {
+        let at = self.world.bodies[self.bodies[side.link]].position().translation;
+        Vec2::new(wide(at.x), wide(at.y)) + rotated(self.direction(side.link), side.local)
+    }
+
+    fn relative_speed(&self, index: usize) -> f64 {
+        let multibody = self.multibody().expect("a branch is in the multibody");
+        wide(multibody.generalized_velocity()[self.dofs[index]])
+    }
+
+    fn velocity(&self, link: usize) -> Option<(Vec2, f64)> {
+        if !self.plain.contains(&link) {
+            return None;
+        }
+        let body = &self.world.bodies[self.bodies[link]];
+        let (velocity, step) = (body.linvel(), self.step_size());
+        // What it turned in the step: see `set_drive`.
+        let omega = (wide(body.angvel()) * step).atan() / step;
+        Some((Vec2::new(wide(velocity.x), wide(velocity.y)), omega))
+    }
+
+    fn reaction(&self, joint: usize) -> Option<(Vec2, f64)> {
+        self.read_reaction(joint)
+    }
+
+    fn torque(&self, drive: usize) -> f64 {
+        self.read_torque(drive)
+    }
+}
