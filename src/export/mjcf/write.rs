@@ -268,7 +268,7 @@ fn tendons(xml: &mut Xml, model: &Model) {
 /// Reactions in the joints of the tree, and moments where there is one.
 fn sensors(xml: &mut Xml, model: &Model) {
     xml.comment(
-        "What acts on the body in the joint that carries it, in the body's frame, moments about the joint's place.",
+        "What acts on the body in the joint that carries it, in the body's frame; moments about the joint's place, without frictionloss.",
     );
     xml.nest("sensor", &[], |xml| {
         for branch in &model.tree.branches {
