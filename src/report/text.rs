@@ -19,7 +19,8 @@ pub fn proof(proof: &Proof) -> String {
     let _ = writeln!(text, "structure  {}", proof.formula);
     let _ = writeln!(text, "reference  {}, {} instants", proof.reference, proof.reference_trajectory.times().len());
     for engine in &proof.engines {
-        let _ = writeln!(text, "engine     {}", described(&engine.info));
+        let name = if proof.engines.len() > 1 { format!("{}: ", engine.info.name) } else { String::new() };
+        let _ = writeln!(text, "engine     {name}{}", described(&engine.info));
     }
     match proof.engines.as_slice() {
         [only] => {

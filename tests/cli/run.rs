@@ -5,13 +5,9 @@ use std::fs;
 
 use serde_json::Value;
 
-use crate::tools::Place;
+use crate::tools::{Place, texts};
 
 const BOTH: &str = "scenarios/crank_rocker.toml scenarios/ov7_base.toml";
-
-fn texts<'a>(rows: &'a Value, key: &str) -> Vec<&'a str> {
-    rows.as_array().unwrap().iter().map(|row| row[key].as_str().unwrap()).collect()
-}
 
 /// The keys of an object, each with the type of its value, in the order of the alphabet.
 fn keys(object: &Value) -> String {

@@ -84,6 +84,11 @@ fn copy(from: &Path, to: &Path) {
     }
 }
 
+/// Texts under `key` in the objects of an array.
+pub fn texts<'a>(rows: &'a Value, key: &str) -> Vec<&'a str> {
+    rows.as_array().unwrap().iter().map(|row| row[key].as_str().unwrap()).collect()
+}
+
 /// A table of `solve`: header and rows.
 pub struct Table {
     pub header: Vec<String>,

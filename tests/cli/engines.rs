@@ -1,0 +1,87 @@
+//! `run` with several engines and other settings, and `tune`.
+
+use std::fs;
+
+use super::tools::{Place, texts};
+
+#[test]
+fn all_engines_stand_side_by_side() {
+    let place = Place::new();
+    let outcome = place.run("run scenarios/crank_rocker.toml --engine all --dt 2e-3 --no-record --json -");
+    let document = outcome.json();
+    let run = &document["runs"][0];
+    let names = texts(&run["engines"], "name");
+    assert!(names.starts_with(&["rapier", "rapier-f32", "impulse", "impulse-f32"]), "{names:?}");
+    // Single precision proves less, but nothing may be contradicted.
+    assert_eq!((outcome.code, run["verdict"].as_str()), (0, Some("agree")), "{run}");
+    for engine in run["engines"].as_array().unwrap() {
+        assert_ne!(engine["verdict"], "disagree", "{engine}");
+    }
+    assert!(run["disputes"].is_null());
+
+    let report = place.ok("run scenarios/crank_rocker.toml --engine rapier --engine impulse --no-record");
+    for word in ["Side by side", "rapier ", "impulse ", "No two of them differ by more than both may be wrong"] {
+        assert!(report.contains(word), "{word}: {report}");
+    }
+}
+
+#[test]
+fn every_engine_is_a_side_of_the_recording() {
+    let place = Place::new();
+    place.ok("run scenarios/crank_rocker.toml --engine rapier --engine impulse --dt 2e-3");
+    let sides = linkproof::record::read(&place.path("recordings/crank_rocker.mcap")).unwrap();
+    assert_eq!(sides.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>(), ["reference", "rapier", "impulse"]);
+}
+
+#[test]
+fn settings_that_make_no_sense_are_refused() {
+    let place = Place::new();
+    place.refused("run scenarios/crank_rocker.toml --sweeps 0", &["found 0 sweeps", "greater than zero"]);
+    place.refused("run scenarios/crank_rocker.toml --substeps 0", &["found 0 substeps"]);
+    place.refused("run scenarios/crank_rocker.toml --engine bullet", &["bullet", "rapier"]);
+    place.refused("run scenarios/crank_rocker.toml --route guess", &["guess", "differences"]);
+    place.refused("tune scenarios/crank_rocker.toml --within 0", &["between 0 and 1"]);
+    place.refused(
+        "tune scenarios/crank_rocker.toml --within 1e-4 --channel joint.X.fx_N",
+        &["joint.X.fx_N", "reactions"],
+    );
+}
+
+#[test]
+fn settings_of_the_scenario_are_used_and_the_command_line_goes_first() {
+    let place = Place::new();
+    let path = place.path("scenarios/crank_rocker.toml");
+    let text = fs::read_to_string(&path).unwrap();
+    fs::write(&path, text.replace("dt_s = 1e-3", "dt_s = 1e-3\nsweeps = 256\nextrapolated = true")).unwrap();
+    let sweeps = |outcome: super::tools::Outcome| outcome.json()["runs"][0]["engines"][0]["settings"]["sweeps"].clone();
+    assert_eq!(sweeps(place.run("run scenarios/crank_rocker.toml --no-record --json -")), "256");
+    assert_eq!(sweeps(place.run("run scenarios/crank_rocker.toml --no-record --json - --sweeps 512")), "512");
+    fs::write(&path, text.replace("dt_s = 1e-3", "dt_s = 1e-3\nname = \"bullet\"")).unwrap();
+    place.refused("run scenarios/crank_rocker.toml", &["engine.name", "bullet", "rapier"]);
+    fs::write(&path, text.replace("dt_s = 1e-3", "dt_s = 1e-3\nsweeps = -4")).unwrap();
+    place.refused("run scenarios/crank_rocker.toml", &["engine.sweeps", "found -4"]);
+}
+
+#[test]
+fn tune_writes_settings_that_keep_the_promise() {
+    let place = Place::new();
+    let command = "tune scenarios/crank_rocker.toml --within 1e-3 --engine rapier --extrapolate --route differences";
+    let report = place.ok(command);
+    assert!(
+        report.contains("[engine]") && report.contains("--write") && report.contains("against the reference"),
+        "{report}"
+    );
+    place.ok(&format!("{command} --write"));
+    let text = fs::read_to_string(place.path("scenarios/crank_rocker.toml")).unwrap();
+    assert!(text.contains("name = \"rapier\"") && text.contains("# Stable branch of the chosen motor"), "{text}");
+    let document = place.run("run scenarios/crank_rocker.toml --no-record --json -").json();
+    for channel in document["runs"][0]["engines"][0]["channels"].as_array().unwrap() {
+        let [max, scale] = ["max", "scale"].map(|key| channel[key].as_f64().unwrap());
+        assert!(max <= 1e-3 * scale, "{channel}");
+    }
+    let found = place.run(&format!("{command} --json -")).json();
+    assert!(
+        found["best"]["error"].as_f64().unwrap() <= 1e-3 && found["best"]["dt_s"].as_f64().unwrap() > 0.0,
+        "{found}"
+    );
+}
