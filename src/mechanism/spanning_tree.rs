@@ -201,7 +201,8 @@ mod tests {
     #[test]
     fn a_joint_can_be_asked_for() {
         let pairs = |tree: &Tree| tree.branches.iter().map(|b| (b.parent, b.link)).collect::<Vec<_>>();
-        assert_eq!(pairs(&Tree::with(&four_bar(), &[3])), [(0, 3), (0, 1), (1, 2)]);
+        let asked = Tree::with(&four_bar(), &[3]);
+        assert_eq!((pairs(&asked), asked.cut), (vec![(0, 3), (0, 1), (3, 2)], vec![1]));
         // With the coupler sliding on both cranks, the second would be reached by sliding alone.
         let kind = JointKind::Prismatic { axes: [Vec2::new(1.0, 0.0); 2] };
         let mut joints = four_bar().joints().to_vec();

@@ -192,7 +192,8 @@ pub struct Run {
     raw: NonNull<RawRun>,
     state: State,
     time: f64,
-    steps: usize,
+    /// Internal steps allowed in a time scale, and the time scale (s).
+    pace: (usize, f64),
 }
 
 impl Run {
@@ -226,7 +227,7 @@ impl Run {
         let raw = NonNull::new(raw).ok_or_else(|| Failure::of("Simbody gave no system"))?;
         let state =
             State { bodies: vec![BodyState::default(); bodies.len()], loops: vec![LoopState::default(); loops.len()] };
-        let mut run = Run { raw, state, time: 0.0, steps: settings.steps };
+        let mut run = Run { raw, state, time: 0.0, pace: (settings.steps, settings.time_scale) };
         // A free mobilizer without inertia is no error of Simbody's, but gives no acceleration.
         run.read(false)?;
         Ok(run)
@@ -246,7 +247,9 @@ impl Run {
         if !(time >= self.time && time.is_finite()) {
             return Err(Failure::of(format!("t = {time} s is asked for after t = {} s", self.time)));
         }
-        let (raw, steps) = (self.raw.as_ptr(), self.steps);
+        let (raw, (steps, time_scale)) = (self.raw.as_ptr(), self.pace);
+        // A cast of a number that is too large gives the largest.
+        let steps = (steps as f64 * ((time - self.time) / time_scale).max(1.0)) as usize;
         // SAFETY: the run is alive and nobody else has it; the shim writes at most `size` bytes of text.
         told(|text, size| unsafe { linkproof_simbody_advance(raw, time, steps, text, size) })
             .map_err(|failure| self.located(failure))?;

@@ -89,13 +89,14 @@ pub struct Settings {
     pub tolerance: f64,
     /// Time in which something happens (s): rates of constraint errors are held to `tolerance` divided by it.
     pub time_scale: f64,
-    /// Internal steps allowed between two instants.
+    /// Internal steps allowed in a time scale, or between two instants nearer than that: before a dead point the integrator would creep on
+    /// for hours.
     pub steps: usize,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Settings { accuracy: 1e-10, tolerance: 1e-12, time_scale: 0.1, steps: 1_000_000 }
+        Settings { accuracy: 1e-10, tolerance: 1e-12, time_scale: 0.1, steps: 30_000 }
     }
 }
 

@@ -154,13 +154,13 @@ struct linkproof_run {
     }
 
     void advance(double time, size_t steps) {
-        const size_t most = steps + taken();
+        const size_t before = taken();
         // An instant that has been reached already, the start for one.
         while (integrator.getAdvancedTime() < time) {
-            integrator.setInternalStepLimit(1000);
+            integrator.setInternalStepLimit(100);
             integrator.stepTo(time);
-            if (taken() > most)
-                throw std::runtime_error("more internal steps than allowed");
+            if (taken() - before > steps)
+                throw std::runtime_error("more than " + std::to_string(steps) + " internal steps to the next instant");
             if (integrator.isSimulationOver())
                 throw std::runtime_error("the integrator has ended the simulation");
         }
