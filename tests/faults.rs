@@ -178,3 +178,17 @@ fn how_small_a_fault_is_found() {
         assert!(smallest <= enough, "{what}: only {smallest:e} is found");
     }
 }
+
+/// Two builds of the engine are given the fault, so that they agree with one another: then it is the reference that stands alone.
+#[test]
+fn engines_that_agree_against_the_reference_make_it_the_odd_one_out() {
+    let options = Options { engines: vec!["rapier".into(), "impulse".into()], ..Options::default() };
+    let wrong = scenario(&edited("mass_kg = 34.7", "mass_kg = 34.8"));
+    let proof = prove_against(&scenario(TEXT), &wrong.case, &options, &mut |_| {}).unwrap();
+    assert_eq!(proof.verdict.word(), "disagree");
+    let odd: Vec<&str> = proof.disputes.iter().filter_map(|dispute| dispute.odd).collect();
+    assert!(odd.len() > 3 && odd.iter().all(|name| *name == "assur"), "{:?}", proof.disputes);
+
+    let right = prove_against(&scenario(TEXT), &scenario(TEXT).case, &options, &mut |_| {}).unwrap();
+    assert!(right.disputes.is_empty(), "{:?}", right.disputes);
+}
