@@ -1,6 +1,8 @@
 //! What every engine must do, and what was once measured to go wrong: each trap is a story with a number, its symptom and
 //! its cause.
 
+#[path = "engine/accuracy.rs"]
+mod accuracy;
 mod common;
 #[path = "engine/grids.rs"]
 mod grids;
