@@ -51,7 +51,11 @@ fn never_disagree(sorts: &[[bool; 3]], most: usize) {
             // The run-up of some leads beyond what can be assembled.
             Err(error) => {
                 let says = |words| error.message().contains(words);
-                proptest::prop_assert!(says("loop has opened") || says("came back to the start"), "{}", error);
+                proptest::prop_assert!(
+                    says("loop has opened") || says("in one step") || says("came back to the start"),
+                    "{}",
+                    error
+                );
                 refused.set(refused.get() + 1);
             }
         }
