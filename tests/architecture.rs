@@ -78,6 +78,7 @@ const HOMES: &[(&str, &str)] = &[
     ("petgraph", "mechanism"),
     ("nalgebra", "math"),
     ("pulp", "reference"),
+    ("differential_equations", "reference"),
     ("f64x8", "reference"),
     ("comfy_table", "report"),
     ("svg", "diagram"),

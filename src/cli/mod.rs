@@ -2,6 +2,7 @@
 
 mod bearings;
 mod diagram;
+mod drive;
 mod engine_args;
 mod export;
 mod grid;
@@ -60,6 +61,8 @@ enum Command {
     Inspect(inspect::Args),
     /// Largest reactions over the range of the grid, and the smallest journals that carry them
     Bearings(bearings::Args),
+    /// The mechanism reduced to its crank, its steady motion under its motor, flywheel and run-up
+    Drive(drive::Args),
     /// Velocity and acceleration plans at one crank angle, as a table, as JSON or drawn to scale
     Plan(plan::Args),
     /// Velocity and acceleration from a displacement by the chord method, and back, with their errors
@@ -80,6 +83,7 @@ pub fn main() -> ExitCode {
         Command::Tune(args) => output::exit(tune::run(&args)),
         Command::Inspect(args) => output::exit(inspect::inspect(&args)),
         Command::Bearings(args) => output::exit(bearings::bearings(&args)),
+        Command::Drive(args) => output::exit(drive::drive(&args)),
         Command::Plan(args) => output::exit(plan::plan(&args)),
         Command::Diagram(args) => output::exit(diagram::diagram(&args)),
         Command::Export(args) => output::exit(export::export(&args)),

@@ -1,9 +1,11 @@
 //! What moves a mechanism and what loads it.
 
+mod branch;
 pub mod load;
 pub mod motion;
 pub mod motor;
 
+pub use branch::Branch;
 pub use load::Load;
 pub use motion::{Drive, MotionLaw};
-pub use motor::{Motor, MotorLaw};
+pub use motor::{Motor, MotorLaw, ShaftInertia};

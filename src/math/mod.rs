@@ -5,6 +5,7 @@ pub mod dense;
 pub mod harmonic;
 pub mod interpolate;
 pub mod motion;
+pub mod quadrature;
 pub mod statistics;
 
 pub use motion::Motion;

@@ -140,10 +140,14 @@ impl Measured<'_> {
     /// Steady speeds of the crank and of the motor (rad/s).
     fn steady(&mut self) -> Result<[f64; 2]> {
         let case = &self.scenario.case;
-        let motor = case.motor.expect("a scenario with this figure has a motor");
+        let motor = case.motor.as_ref().expect("a scenario with this figure has a motor");
         // The motor works in the sense in which the crank is driven.
         let sense = case.drive.at(0.0).omega.signum();
-        let crank = sense * motor.steady_speed(sense * self.means()?.resistance);
+        let resistance = sense * self.means()?.resistance;
+        let Some(speed) = motor.steady_speed(resistance) else {
+            return Err(reduced::no_steady_speed(resistance));
+        };
+        let crank = sense * speed;
         Ok([crank, crank * motor.ratio])
     }
 

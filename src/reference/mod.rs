@@ -2,6 +2,7 @@
 
 mod assur_solver;
 pub mod batch;
+pub mod dynamics;
 mod kinetostatics;
 pub mod modes;
 pub mod momentum;

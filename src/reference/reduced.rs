@@ -1,8 +1,12 @@
 //! The mechanism reduced to its driving link: moment of inertia and moment of resistance as functions of the crank angle.
 
+use std::f64::consts::{PI, TAU};
+
+use super::PoseSolver;
+use super::range::{Extent, Range};
 use crate::case::{Case, Grid, Wanted};
-use crate::error::Result;
-use crate::math::Motion;
+use crate::error::{Error, ErrorKind, Result};
+use crate::math::{Motion, quadrature};
 use crate::solver::Solver;
 use crate::trajectory::Stage;
 
@@ -31,7 +35,53 @@ pub fn moment_of_resistance(case: &Case, motions: &[Motion]) -> f64 {
     -sum / motions[case.drive.link].omega
 }
 
-/// Means of the reduced quantities over one turn of the crank.
+/// Over which crank angles the reduced quantities repeat, and where they have kinks.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Kinks {
+    /// Crank angle after which the mechanism is back at its first pose (rad): a whole turn, or several with higher groups.
+    /// `None` if the crank cannot turn fully.
+    pub period: Option<f64>,
+    /// Crank angles (rad) at which a loaded link turns about, so that its load changes its sense: ascending, of one period that begins at
+    /// the start, or all that can be reached.
+    pub cranks: Vec<f64>,
+    /// Crank angles (rad) that can be reached, if there are limits.
+    pub limits: Option<[f64; 2]>,
+}
+
+/// Newton steps from a crank angle known to 1e-9 rad to rounding.
+const POLISHING: usize = 3;
+
+/// Kinks of the reduced quantities of a case.
+///
+/// # Errors
+/// Those of [`Range::of`].
+pub fn kinks(case: &Case) -> Result<Kinks> {
+    let range = Range::of(case)?;
+    let (period, limits) = match range.extent {
+        Extent::FullTurn(turns) => (Some(TAU * f64::from(turns.abs())), None),
+        Extent::Limited([from, to]) => (None, Some([from.crank, to.crank])),
+    };
+    let mut poses = PoseSolver::new(case)?;
+    let mut cranks = Vec::new();
+    for link in range.links.iter().filter(|link| case.loads.iter().any(|load| load.link() == link.link)) {
+        for extreme in &link.extremes {
+            let mut crank = extreme.crank;
+            for _ in 0..POLISHING {
+                let motion = &poses.solve(crank, 1.0, 0.0, Stage::Accelerations)?.motions[link.link];
+                let step = motion.omega / motion.alpha;
+                // A flat extreme stays where it was found.
+                crank -= if step.abs() < 1e-6 { step } else { 0.0 };
+            }
+            let start = case.drive.start;
+            cranks.push(period.map_or(crank, |period| start + (crank - start).rem_euclid(period)));
+        }
+    }
+    cranks.sort_by(f64::total_cmp);
+    cranks.dedup_by(|a, b| (*a - *b).abs() < 1e-12);
+    Ok(Kinks { period, cranks, limits })
+}
+
+/// Means of the reduced quantities over one turn of the crank, or as many as bring the mechanism back to its first pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Means {
     /// Mean reduced moment of inertia (kg m^2).
@@ -40,24 +90,50 @@ pub struct Means {
     pub resistance: f64,
 }
 
-/// Number of equally spaced crank angles that the means are taken over. The mean of a smooth periodic function converges faster
-/// than any power; a kink, where a load changes its sense, leaves an error of the order of the squared spacing: below 1e-6 of the mean.
-pub const TURN_POINTS: usize = 3600;
+/// Longest panel of the quadrature (rad), on eight nodes each: quantities whose nearest singularity lies a tenth of a radian off the real axis are
+/// integrated to 1e-16.
+const PANEL: f64 = PI / 90.0;
 
-/// Means over one turn, with the motion of the given solver.
+/// Means over one turn, with the motion of the given solver: Gauss's rule between the kinks.
 ///
 /// # Errors
-/// Those of the solver, for mechanisms whose crank cannot turn fully.
+/// Those of the solver, [`ErrorKind::Geometry`] for mechanisms whose crank cannot turn fully.
 pub fn means_over_turn(case: &Case, solver: &dyn Solver) -> Result<Means> {
-    let step = std::f64::consts::TAU / TURN_POINTS as f64;
-    let cranks = (0..TURN_POINTS).map(|k| case.drive.start + step * k as f64).collect();
+    let found = kinks(case)?;
+    let Some(period) = found.period else { return Err(no_turn(&found)) };
+    let start = case.drive.start;
+    let mut breaks = vec![start];
+    breaks.extend(found.cranks.iter().filter(|&&kink| kink > start));
+    breaks.push(start + period);
+    let nodes = quadrature::composite(&breaks, PANEL);
+    let cranks = nodes.iter().map(|&(crank, _)| crank).collect();
     let turn = Case { wanted: Wanted::of(&[Stage::Velocities]), ..case.on(Grid::of_cranks(&case.drive, cranks)) };
     let mut means = Means { inertia: 0.0, resistance: 0.0 };
-    let mut visit = |_: usize, state: &crate::solver::State| {
-        means.inertia += moment_of_inertia(&turn, &state.motions) / TURN_POINTS as f64;
-        means.resistance += moment_of_resistance(&turn, &state.motions) / TURN_POINTS as f64;
+    let mut visit = |row: usize, state: &crate::solver::State| {
+        means.inertia += moment_of_inertia(&turn, &state.motions) * nodes[row].1 / period;
+        means.resistance += moment_of_resistance(&turn, &state.motions) * nodes[row].1 / period;
         Ok(())
     };
     solver.sweep(&turn, &mut visit, &mut |_| {})?;
     Ok(means)
+}
+
+/// The error for a question about whole turns, where there are none.
+pub(super) fn no_turn(kinks: &Kinks) -> Error {
+    let reached = kinks.limits.map_or(String::new(), |[from, to]| {
+        format!(": it can be turned from {:.6} to {:.6} deg only", from.to_degrees(), to.to_degrees())
+    });
+    Error::new(
+        ErrorKind::Geometry,
+        format!("means over a turn are asked for, but the crank does not turn fully{reached}"),
+    )
+    .help("`linkproof inspect FILE --range` shows what limits the crank")
+}
+
+/// The error for a resistance that no speed of the motor balances.
+#[must_use]
+pub fn no_steady_speed(resistance: f64) -> Error {
+    let message = format!("the motor has no stable speed at which its moment on the crank is {resistance:.6} N m");
+    Error::new(ErrorKind::Numeric, message)
+        .help("choose a stronger motor or a larger ratio; a constant torque balances nothing")
 }

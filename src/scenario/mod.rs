@@ -7,6 +7,7 @@ pub mod grid;
 mod joints;
 mod links;
 mod motion;
+mod motor;
 pub mod oracle;
 mod printed;
 mod reader;
@@ -137,7 +138,7 @@ fn read(root: &mut Table) -> Result<Scenario> {
     let groups = start.tables("groups")?;
     start.finish()?;
     let (drive, further_drives) = motion::drives(drives, &mechanism, crank)?;
-    let motor = motor.map(motion::motor).transpose()?;
+    let motor = motor.map(motor::read).transpose()?;
     let loads = motion::loads(loads, &mechanism)?;
     let gravity = motion::gravity(gravity)?;
     let driven: Vec<usize> = std::iter::once(&drive).chain(&further_drives).map(|drive| drive.joint).collect();

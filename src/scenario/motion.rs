@@ -1,10 +1,10 @@
-//! `[drive]`, `[motor]`, `[gravity]` and `[[loads]]`.
+//! `[drive]`, `[gravity]` and `[[loads]]`.
 
 use super::joints::link;
 use super::reader::{Sign, Table};
-use super::unit::{ACCELERATION, ANGLE, ANGULAR_SPEED, MOMENT, MOMENT_PER_SPEED};
+use super::unit::{ACCELERATION, ANGLE, ANGULAR_SPEED, MOMENT};
 use super::words::suggestion;
-use crate::drive::{Drive, Load, MotionLaw, Motor, MotorLaw};
+use crate::drive::{Drive, Load, MotionLaw};
 use crate::error::{ErrorKind, Result};
 use crate::math::Vec2;
 use crate::mechanism::{GROUND, Mechanism};
@@ -55,24 +55,6 @@ fn drive(table: &mut Table, mechanism: &Mechanism, start: f64) -> Result<Drive> 
         return Err(table.wrong(ErrorKind::Unsupported, "joint", message).help(help));
     }
     Ok(Drive { joint: index, link: joint.other(GROUND).link, zero, start, law: MotionLaw::ConstantSpeed(speed) })
-}
-
-/// The motor whose speed under the load is asked for.
-pub fn motor(mut table: Table) -> Result<Motor> {
-    let kind = table.string("law")?;
-    if kind != "linear" {
-        let error = table.wrong(ErrorKind::Input, "law", format!("\"{kind}\" is no law of a motor"));
-        return Err(error.help(suggestion(&kind, ["linear"], "\"")));
-    }
-    let at_rest = table.quantity("torque_at_rest", &MOMENT, Sign::Positive)?;
-    let slope = table.quantity("slope", &MOMENT_PER_SPEED, Sign::Negative)?;
-    let ratio = table.number("ratio")?;
-    if ratio <= 0.0 {
-        let error = table.wrong(ErrorKind::Input, "ratio", format!("found {ratio}, but a ratio of speeds is positive"));
-        return Err(error.help("give the speed of the motor over that of the crank; 1 without a reducer"));
-    }
-    table.finish()?;
-    Ok(Motor { law: MotorLaw::Linear { at_rest, slope }, ratio })
 }
 
 /// Acceleration of gravity (m/s^2); none without a table.

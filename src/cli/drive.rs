@@ -1,0 +1,276 @@
+//! `linkproof drive`.
+
+use std::fmt::Write;
+use std::path::PathBuf;
+
+use serde_json::{Value, json};
+
+use super::output;
+use super::run::load;
+use crate::error::{Error, ErrorKind, Result};
+use crate::reference::AssurSolver;
+use crate::reference::dynamics::course::{Extremes, Row};
+use crate::reference::dynamics::regime::At;
+use crate::reference::dynamics::{ACCURACY, End, Flywheel, Model, Regime, RunUp};
+use crate::reference::reduced::{self, Means};
+use crate::report::text::table;
+use crate::scenario::Scenario;
+
+const EXAMPLES: &str = "\
+Examples:
+  linkproof drive scenarios/crank_rocker.toml
+  linkproof drive scenarios/crank_rocker.toml --non-uniformity 0.02
+  linkproof drive scenarios/crank_rocker.toml --step-deg 5 --table
+  linkproof drive scenarios/crank_rocker.toml --step-deg 1 --json drive.json
+  linkproof drive scenarios/crank_rocker.toml --run-up run_up.csv --seconds 0.5 --points 500
+
+The mechanism is reduced to its crank: moment of inertia I* = sum of m (v / omega)^2 + J (omega_k / omega)^2, moment of resistance from the
+powers of gravity and loads. With a `[motor]` section: the steady speed of the averaged model, the steady motion of the true one from
+omega^2 / 2 dI*/dphi + I* domega/dt = M, its coefficient of non-uniformity (fastest - slowest) / mean over time, and the flywheel on the
+crank's shaft for a wanted one. A run-up begins at the start of the scenario.";
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Args {
+    /// Scenario file
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+    /// Start a group in another mode than the file says, as in `linkproof run`
+    #[arg(long, value_name = "LINK,LINK=MODE")]
+    mode: Vec<String>,
+    /// Find the flywheel on the crank's shaft for this coefficient of non-uniformity
+    #[arg(long, value_name = "SHARE", allow_hyphen_values = true)]
+    non_uniformity: Option<f64>,
+    /// Show the reduced quantities and the steady motion by crank angle
+    #[arg(long)]
+    table: bool,
+    /// Crank angle between two rows of the table, in degrees
+    #[arg(long, value_name = "DEG", default_value = "10", allow_hyphen_values = true)]
+    step_deg: f64,
+    /// Write the run-up with all wanted channels as CSV to a file, or to standard output instead of the text with `-`
+    #[arg(long, value_name = "FILE", value_parser = output::target)]
+    run_up: Option<PathBuf>,
+    /// Duration of the run-up
+    #[arg(long, value_name = "S", default_value = "0.5", allow_hyphen_values = true, requires = "run_up")]
+    seconds: f64,
+    /// Equal parts of the run-up, at whose ends it is written
+    #[arg(long, value_name = "N", default_value = "500", requires = "run_up")]
+    points: usize,
+    /// Speed of the crank at its start, in turns a minute, counter-clockwise positive
+    #[arg(long, value_name = "RPM", default_value = "0", allow_hyphen_values = true, requires = "run_up")]
+    from_rpm: f64,
+    /// Write everything as JSON to a file, or to standard output instead of the text with `-`
+    #[arg(long, value_name = "FILE", value_parser = output::target)]
+    json: Option<PathBuf>,
+}
+
+/// Most rows of a table or a run-up.
+const MOST_ROWS: f64 = 1e6;
+
+/// What is known of a drive.
+struct Found {
+    means: Means,
+    extremes: [Extremes; 2],
+    /// Inertia of motor and reducer on the crank (kg m^2).
+    added: f64,
+    rows: Vec<Row>,
+    /// Speeds of crank and motor of the averaged model, and the steady motion; where there is a motor.
+    steady: Option<([f64; 2], Regime)>,
+    flywheel: Option<Flywheel>,
+}
+
+pub(super) fn drive(args: &Args) -> Result<()> {
+    check(args)?;
+    let scenario = load(&args.file, &args.mode)?;
+    let model = Model::of(&scenario.case)?;
+    if let Some(to) = &args.run_up {
+        let run_up = run_up(args, &model)?;
+        output::write(&csv(&run_up)?, to)?;
+        if to.as_os_str() == "-" {
+            return Ok(());
+        }
+        output::print(&told(&run_up))?;
+    }
+    let found = find(args, &scenario, &model)?;
+    match &args.json {
+        Some(to) => output::write(&format!("{}\n", as_json(args, &scenario, &found)), to),
+        None => output::print(&as_text(args, &scenario, &found)),
+    }
+}
+
+fn check(args: &Args) -> Result<()> {
+    let wrong = |message: String, help: &str| Err(Error::new(ErrorKind::Input, message).help(help));
+    if !(args.step_deg > 0.0 && 360.0 / args.step_deg <= MOST_ROWS) {
+        return wrong(format!("--step-deg is {}", args.step_deg), "give a number of degrees above zero, such as 10");
+    }
+    if !(args.seconds > 0.0 && args.seconds.is_finite()) {
+        return wrong(format!("--seconds is {}", args.seconds), "give a number above zero, such as 0.5");
+    }
+    if !(args.points >= 1 && args.points as f64 <= MOST_ROWS) {
+        return wrong(format!("--points is {}", args.points), "give a number from 1 to 1000000");
+    }
+    if !args.from_rpm.is_finite() {
+        return wrong(format!("--from-rpm is {}", args.from_rpm), "give a finite number; 0 for a start from rest");
+    }
+    if args.run_up.is_some() && args.json.is_some() && args.run_up == args.json {
+        return wrong("--run-up and --json name the same file".into(), "give two files, or leave one of the two out");
+    }
+    Ok(())
+}
+
+fn find(args: &Args, scenario: &Scenario, model: &Model) -> Result<Found> {
+    let case = &scenario.case;
+    let means = reduced::means_over_turn(case, &AssurSolver)?;
+    let sense = case.drive.at(0.0).omega.signum();
+    let period = model.kinks().period.unwrap_or(std::f64::consts::TAU).to_degrees();
+    let count = (period / args.step_deg + 1e-9).floor() as usize;
+    let cranks: Vec<f64> =
+        (0..=count).map(|k| case.drive.start + sense * (args.step_deg * k as f64).to_radians()).collect();
+    let steady = match &case.motor {
+        None => None,
+        Some(motor) => {
+            let resistance = sense * means.resistance;
+            let Some(speed) = motor.steady_speed(resistance) else { return Err(reduced::no_steady_speed(resistance)) };
+            Some(([sense * speed, sense * speed * motor.ratio], model.regime(&cranks, ACCURACY)?))
+        }
+    };
+    let flywheel = args.non_uniformity.map(|wanted| model.flywheel(wanted, ACCURACY)).transpose()?;
+    let (extremes, rows) = (model.extremes()?, model.rows(&cranks)?);
+    Ok(Found { means, extremes, added: model.added_inertia(), rows, steady, flywheel })
+}
+
+fn as_text(args: &Args, scenario: &Scenario, found: &Found) -> String {
+    let mut text = String::new();
+    let _ = writeln!(text, "{}: {}\n", scenario.name, scenario.title);
+    let names = [("reduced moment of inertia", "kg m^2"), ("reduced moment of resistance", "N m")];
+    let means = [found.means.inertia, found.means.resistance * scenario.case.drive.at(0.0).omega.signum()];
+    for (((name, unit), mean), extremes) in names.into_iter().zip(means).zip(&found.extremes) {
+        let end = |(crank, value): (f64, f64)| format!("{value:.9} {unit} at {:.4} deg", crank.to_degrees());
+        let _ = writeln!(text, "{name}\n  mean      {mean:.9} {unit}");
+        let _ = writeln!(text, "  least     {}\n  greatest  {}", end(extremes.least), end(extremes.greatest));
+    }
+    if found.added > 0.0 {
+        let _ = writeln!(text, "motor and reducer on the crank\n  inertia   {:.9} kg m^2", found.added);
+    }
+    match &found.steady {
+        None => text.push_str("no motor: add a `[motor]` section to learn the steady motion\n"),
+        Some(([crank, motor], regime)) => {
+            let _ = writeln!(text, "averaged model\n  crank     {crank:.6} rad/s\n  motor     {motor:.6} rad/s");
+            let _ = writeln!(text, "steady motion\n{}", of_regime(regime));
+        }
+    }
+    if let (Some(flywheel), Some(wanted)) = (&found.flywheel, args.non_uniformity) {
+        let _ = writeln!(text, "flywheel for a non-uniformity of {wanted}\n  inertia   {:.9} kg m^2", flywheel.inertia);
+        let _ = writeln!(text, "{}", of_regime(&flywheel.regime));
+    }
+    if args.table {
+        let _ = writeln!(text, "\n{}", by_angle(found));
+    }
+    text
+}
+
+fn of_regime(regime: &Regime) -> String {
+    let at = |at: &At| format!("{:.9} rad/s at {:.4} deg", at.omega, at.crank.to_degrees());
+    let mut text = String::new();
+    let _ = writeln!(text, "  mean      {:.10} rad/s, period {:.13} s", regime.mean_speed, regime.period);
+    let _ = writeln!(text, "  at start  {:.10} rad/s", regime.start_speed);
+    let _ = writeln!(text, "  slowest   {}\n  fastest   {}", at(&regime.slowest), at(&regime.fastest));
+    let _ = write!(text, "  non-uniformity {:.6}", regime.non_uniformity());
+    text
+}
+
+fn by_angle(found: &Found) -> String {
+    let header = ["crank deg", "I* kg m^2", "dI*/dphi kg m^2", "resistance N m", "omega rad/s", "alpha rad/s^2"];
+    let mut table = table(header, &[0, 1, 2, 3, 4, 5]);
+    for (index, row) in found.rows.iter().enumerate() {
+        let at = found.steady.as_ref().map(|(_, regime)| regime.samples[index]);
+        let steady = |of: fn(At) -> f64| at.map_or("-".into(), |at| format!("{:.6}", of(at)));
+        table.add_row([
+            format!("{:.3}", row.crank.to_degrees()),
+            format!("{:.9}", row.inertia),
+            format!("{:.9}", row.slope),
+            format!("{:.6}", row.resistance),
+            steady(|at| at.omega),
+            steady(|at| at.alpha),
+        ]);
+    }
+    table.to_string()
+}
+
+fn as_json(args: &Args, scenario: &Scenario, found: &Found) -> String {
+    let sense = scenario.case.drive.at(0.0).omega.signum();
+    let extremes = |extremes: &Extremes, mean: f64| {
+        let end = |(crank, value): (f64, f64)| json!({"crank_rad": crank, "value": value});
+        json!({"mean": mean, "least": end(extremes.least), "greatest": end(extremes.greatest)})
+    };
+    let at = |at: &At| json!({"crank_rad": at.crank, "omega_rad_s": at.omega, "alpha_rad_s2": at.alpha});
+    let regime = |regime: &Regime| {
+        json!({
+            "period_s": regime.period, "turns": regime.turns, "mean_rad_s": regime.mean_speed,
+            "at_start_rad_s": regime.start_speed, "slowest": at(&regime.slowest), "fastest": at(&regime.fastest),
+            "non_uniformity": regime.non_uniformity(), "multiplier": regime.multiplier,
+        })
+    };
+    let column = |of: fn(&Row) -> f64| found.rows.iter().map(of).collect::<Vec<f64>>();
+    let mut by_angle = json!({
+        "crank_rad": column(|row| row.crank), "inertia_kg_m2": column(|row| row.inertia),
+        "inertia_slope_kg_m2": column(|row| row.slope), "resistance_N_m": column(|row| row.resistance),
+    });
+    if let Some((_, steady)) = &found.steady {
+        by_angle["omega_rad_s"] = steady.samples.iter().map(|at| at.omega).collect();
+        by_angle["alpha_rad_s2"] = steady.samples.iter().map(|at| at.alpha).collect();
+    }
+    let mut value = json!({
+        "schema": 1, "scenario": scenario.name,
+        "inertia_kg_m2": extremes(&found.extremes[0], found.means.inertia),
+        "resistance_N_m": extremes(&found.extremes[1], sense * found.means.resistance),
+        "motor_and_reducer_kg_m2": found.added,
+        "averaged": found.steady.as_ref().map(|([crank, motor], _)| json!({"crank_rad_s": crank, "motor_rad_s": motor})),
+        "steady": found.steady.as_ref().map(|(_, steady)| regime(steady)),
+        "flywheel": found.flywheel.as_ref().map(|wheel| {
+            json!({"non_uniformity": args.non_uniformity, "inertia_kg_m2": wheel.inertia, "steady": regime(&wheel.regime)})
+        }),
+        "by_angle": by_angle,
+    });
+    if found.steady.is_none() {
+        value["steady_absent"] = Value::from("the scenario has no motor");
+    }
+    serde_json::to_string_pretty(&value).expect("plain values are always JSON")
+}
+
+fn run_up(args: &Args, model: &Model) -> Result<RunUp> {
+    let times: Vec<f64> = (0..=args.points).map(|k| args.seconds * (k as f64 / args.points as f64)).collect();
+    RunUp::of(model, args.from_rpm * std::f64::consts::TAU / 60.0, &times, ACCURACY)
+}
+
+/// How a run-up ended.
+fn told(run_up: &RunUp) -> String {
+    let mut text = match run_up.end {
+        End::Reached => "run-up followed to its end".to_string(),
+        End::Held(t, crank) => format!("run-up: held at {t:.9} s, crank angle {:.6} deg", crank.to_degrees()),
+        End::Limit(t, crank) => {
+            format!("run-up: at a limit of rotation at {t:.9} s, crank angle {:.6} deg", crank.to_degrees())
+        }
+    };
+    if let Some(residual) = run_up.power_residual() {
+        let _ = write!(text, "; motor against reactions: {residual:.1e} of the largest moment");
+    }
+    text.push_str("\n\n");
+    text
+}
+
+/// One row an instant: the crank, the motor's moment, then all wanted channels; 17 significant digits.
+fn csv(run_up: &RunUp) -> Result<String> {
+    let failed = |error: csv::Error| Error::new(ErrorKind::Io, format!("the table cannot be written: {error}"));
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let own = ["t_s", "crank_rad", "crank_omega_rad_s", "crank_alpha_rad_s2", "motor_on_crank_N_m", "shaft_N_m"];
+    let names = run_up.trajectory.channels().iter().map(ToString::to_string);
+    writer.write_record(own.map(String::from).into_iter().chain(names)).map_err(failed)?;
+    for (row, at) in run_up.motion.iter().enumerate() {
+        let own = [at.t, at.crank, at.omega, at.alpha, at.motor, at.shaft];
+        let channels = run_up.trajectory.iter().map(|(_, values)| values[row]);
+        writer.write_record(own.into_iter().chain(channels).map(|v| format!("{v:.16e}"))).map_err(failed)?;
+    }
+    let bytes = writer.into_inner().map_err(|error| failed(error.into_error().into()))?;
+    Ok(String::from_utf8(bytes).expect("names and numbers are text"))
+}

@@ -1,0 +1,106 @@
+//! Reduced quantities over the turn: their course and their extremes.
+
+use super::super::{PoseSolver, reduced::no_turn};
+use super::model::Model;
+use crate::error::Result;
+use std::f64::consts::PI;
+
+/// Crank angle between two samples, at most (rad): a reduced quantity has a few extremes in a turn, not hundreds.
+const SAMPLE_STEP: f64 = PI / 360.0;
+/// Golden section steps: the bracket shrinks to 1e-9 of a sample step, where the value is exact to rounding.
+const REFINEMENTS: usize = 44;
+
+/// The reduced quantities at one crank angle, motor, reducer and flywheel left out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Row {
+    /// Crank angle (rad, as the scenario states it).
+    pub crank: f64,
+    /// Reduced moment of inertia I* (kg m^2).
+    pub inertia: f64,
+    /// dI*/dphi (kg m^2).
+    pub slope: f64,
+    /// Reduced moment of resistance (N m): of gravity and loads, positive where the drive must work against them; in the sense of the scenario's speed.
+    pub resistance: f64,
+}
+
+/// Least and greatest value of a quantity.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Extremes {
+    /// Crank angle (rad) and value of the least.
+    pub least: (f64, f64),
+    /// Crank angle (rad) and value of the greatest.
+    pub greatest: (f64, f64),
+}
+
+impl Model<'_> {
+    /// The reduced quantities at crank angles (rad).
+    ///
+    /// # Errors
+    /// [`ErrorKind::Geometry`](crate::error::ErrorKind::Geometry) for crank angles that cannot be reached.
+    pub fn rows(&self, cranks: &[f64]) -> Result<Vec<Row>> {
+        let mut poses = PoseSolver::new(self.case)?;
+        cranks.iter().map(|&crank| self.row(&mut poses, crank)).collect()
+    }
+
+    fn row(&self, poses: &mut PoseSolver, crank: f64) -> Result<Row> {
+        let found = self.at(poses, crank, self.sense)?;
+        // Against the motion counts as positive, whichever way the crank turns.
+        let resistance = -self.sense * found.applied;
+        Ok(Row { crank, inertia: found.inertia, slope: found.slope, resistance })
+    }
+
+    /// Extremes over one period of the reduced moment of inertia and of the reduced moment of resistance, refined between samples.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Geometry`](crate::error::ErrorKind::Geometry) for a crank that does not turn fully.
+    pub fn extremes(&self) -> Result<[Extremes; 2]> {
+        let Some(period) = self.kinks().period else { return Err(no_turn(self.kinks())) };
+        let count = (period / SAMPLE_STEP).ceil();
+        let start = self.case.drive.start;
+        let mut cranks: Vec<f64> = (0..=count as usize).map(|k| start + period * (k as f64 / count)).collect();
+        // A kink may be an extreme, and has no flat top.
+        cranks.extend(&self.kinks().cranks);
+        cranks.sort_by(f64::total_cmp);
+        let mut poses = PoseSolver::new(self.case)?;
+        let rows = cranks.iter().map(|&crank| self.row(&mut poses, crank)).collect::<Result<Vec<Row>>>()?;
+        let mut extremes = |of: fn(&Row) -> f64| -> Result<Extremes> {
+            let mut end = |sign: f64| -> Result<(f64, f64)> {
+                let values: Vec<f64> = rows.iter().map(|row| sign * of(row)).collect();
+                let (crank, value) =
+                    greatest(&cranks, &values, &mut |crank| Ok(sign * of(&self.row(&mut poses, crank)?)))?;
+                Ok((crank, sign * value))
+            };
+            Ok(Extremes { least: end(-1.0)?, greatest: end(1.0)? })
+        };
+        Ok([extremes(|row| row.inertia)?, extremes(|row| row.resistance)?])
+    }
+}
+
+/// The greatest sample and, by golden section between its neighbours, the greatest value there.
+fn greatest(cranks: &[f64], values: &[f64], value: &mut dyn FnMut(f64) -> Result<f64>) -> Result<(f64, f64)> {
+    let top = (0..values.len()).max_by(|&a, &b| values[a].total_cmp(&values[b])).expect("there is a sample");
+    let mut best = (cranks[top], values[top]);
+    let (mut low, mut high) = (cranks[top.saturating_sub(1)], cranks[(top + 1).min(cranks.len() - 1)]);
+    let ratio = (5f64.sqrt() - 1.0) / 2.0;
+    let mut at = |crank: f64| -> Result<f64> {
+        let found = value(crank)?;
+        if found > best.1 {
+            best = (crank, found);
+        }
+        Ok(found)
+    };
+    let (mut left, mut right) = (high - ratio * (high - low), low + ratio * (high - low));
+    let (mut at_left, mut at_right) = (at(left)?, at(right)?);
+    for _ in 0..REFINEMENTS {
+        if at_left > at_right {
+            (high, right, at_right) = (right, left, at_left);
+            left = high - ratio * (high - low);
+            at_left = at(left)?;
+        } else {
+            (low, left, at_left) = (left, right, at_right);
+            right = low + ratio * (high - low);
+            at_right = at(right)?;
+        }
+    }
+    Ok(best)
+}

@@ -1,0 +1,234 @@
+//! Motion in time from a given speed of the crank: run-up, run-down, swinging.
+
+use super::super::PoseSolver;
+use super::flow::{Forces, InTime};
+use super::march::{Place, Step, Stop, march};
+use super::model::{Model, Piece};
+use crate::case::{Case, Grid};
+use crate::error::{Error, ErrorKind, Result};
+use crate::solver::{Provision, Sampler};
+use crate::trajectory::{Channel, Trajectory};
+
+/// Relative and absolute error that each step may make, by its own estimate, which is cautious: the run-up of `crank_rocker` is then exact to 2e-14 rad.
+pub const ACCURACY: f64 = 1e-11;
+/// Speed (rad/s) with which a crank at rest that is about to turn is told from one that stands: its square vanishes.
+const SETTING_OFF: f64 = 1e-200;
+/// Pieces in a row that take no time: the motion does not get away from a kink.
+const MOST_EMPTY: usize = 8;
+
+/// The crank at one instant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Instant {
+    /// Time (s).
+    pub t: f64,
+    /// Crank angle (rad, as the scenario states it), turns kept.
+    pub crank: f64,
+    /// Angular velocity of the crank (rad/s).
+    pub omega: f64,
+    /// Its angular acceleration (rad/s^2).
+    pub alpha: f64,
+    /// Static moment of the motor on the crank (N m), counter-clockwise positive; what accelerates rotor and reducer is not taken off.
+    pub motor: f64,
+    /// Moment that the crank's shaft passes on to the mechanism (N m): the motor's, less what accelerates rotor, reducer and flywheel.
+    pub shaft: f64,
+}
+
+/// How a motion ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum End {
+    /// At the last instant wanted.
+    Reached,
+    /// At a standstill that loads and losses hold, at this time (s) and crank angle (rad).
+    Held(f64, f64),
+    /// Before a limit of rotation, at this time (s) and crank angle (rad).
+    Limit(f64, f64),
+}
+
+/// Motion of the crank at wanted times (s, from 0, ascending), from the start of the case with the speed `omega` (rad/s); and how it ended: instants
+/// after the end are left out.
+///
+/// # Errors
+/// [`ErrorKind::Input`] for times that do not ascend from 0, [`ErrorKind::Numeric`] where the equation cannot be integrated on, and those of
+/// [`PoseSolver::solve`].
+pub fn motion(model: &Model, omega: f64, times: &[f64], accuracy: f64) -> Result<(Vec<Instant>, End)> {
+    if times.iter().chain(&[omega]).any(|value| !value.is_finite())
+        || times.first().is_some_and(|&first| first < 0.0)
+        || times.windows(2).any(|pair| !(pair[0] < pair[1]))
+    {
+        let error = Error::new(
+            ErrorKind::Input,
+            "the instants of a motion do not ascend from zero, or the speed is not finite",
+        );
+        return Err(error.help("give finite times in ascending order, from 0 s on"));
+    }
+    let mut runner = Runner::begin(model, omega)?;
+    let mut found = Vec::with_capacity(times.len());
+    let end = runner.run(times, accuracy, &mut found)?;
+    Ok((found, end))
+}
+
+struct Runner<'m, 'a> {
+    flow: InTime<'m, 'a>,
+    place: Place<2>,
+}
+
+impl<'m, 'a> Runner<'m, 'a> {
+    fn begin(model: &'m Model<'a>, omega: f64) -> Result<Self> {
+        let crank = model.case.drive.start;
+        let somewhere = Piece::unbounded();
+        let flow = InTime(Forces::of(model, somewhere, 1f64.copysign(omega))?);
+        Ok(Runner { flow, place: Place { x: 0.0, y: [crank, omega], h: 0.0 } })
+    }
+
+    fn run(&mut self, times: &[f64], accuracy: f64, found: &mut Vec<Instant>) -> Result<End> {
+        let Some(&last) = times.last() else { return Ok(End::Reached) };
+        let mut empty = 0;
+        if let Some(end) = self.enter()? {
+            self.held(times, found, end);
+            return Ok(end);
+        }
+        if times[0] == 0.0 {
+            found.push(self.here(0.0, self.place.y));
+        }
+        while self.place.x < last {
+            let from = self.place.x;
+            let mut visit = |flow: &InTime, &[_, (x, y)]: &Step<2>| {
+                if times.get(found.len()) == Some(&x) {
+                    found.push(instant(flow, x, y));
+                }
+                Ok(())
+            };
+            let stop = march(&self.flow, &mut self.place, times, accuracy, &mut visit)?;
+            empty = if self.place.x > from { 0 } else { empty + 1 };
+            if empty > MOST_EMPTY {
+                let crank = self.place.y[0].to_degrees();
+                let message = format!("the motion does not get away from crank angle {crank:.6} deg at {from:.9} s");
+                return Err(Error::new(ErrorKind::Numeric, message)
+                    .help("a load that turns about just there holds and lets go in turn: start it a little aside"));
+            }
+            if let Stop::Bound(bound) = stop {
+                self.arrive(bound);
+                if let Some(end) = self.enter()? {
+                    self.held(times, found, end);
+                    return Ok(end);
+                }
+            } else {
+                break;
+            }
+        }
+        Ok(End::Reached)
+    }
+
+    /// Puts the coordinate that has reached a bound exactly there.
+    fn arrive(&mut self, bound: usize) {
+        let forces = &self.flow.0;
+        let [from, to] = forces.piece.get().ends;
+        match bound {
+            InTime::UPPER => self.place.y[0] = to,
+            InTime::LOWER => self.place.y[0] = from,
+            InTime::STANDSTILL => self.place.y[1] = 0.0,
+            _ => {
+                let ends = forces.branch.get().map_or([0.0; 2], |branch| branch.speeds);
+                let speed = if bound == InTime::FAST { ends[1] } else { ends[0] };
+                self.place.y[1] = forces.model.sense * speed;
+            }
+        }
+    }
+
+    /// Chooses sense, piece and branch in which the motion goes on from where it is. The end, if it does not.
+    fn enter(&mut self) -> Result<Option<End>> {
+        let (t, [crank, omega]) = (self.place.x, self.place.y);
+        // At a standstill the crank goes where it is accelerated with what then resists it.
+        let ways: &[f64] = if omega == 0.0 { &[1.0, -1.0] } else { &[omega.signum()] };
+        for &way in ways {
+            let Some(piece) = self.flow.0.model.piece_at(crank, way) else {
+                if omega == 0.0 {
+                    continue;
+                }
+                return Ok(Some(End::Limit(t, crank)));
+            };
+            let forces = &self.flow.0;
+            forces.piece.set(piece);
+            forces.way.set(way);
+            forces.branch.set(forces.model.branch(omega, way));
+            let alpha = forces.acceleration(crank, omega);
+            if omega == 0.0 && !(way * alpha > 0.0) {
+                continue;
+            }
+            if omega != 0.0 {
+                forces.branch.set(forces.model.branch(omega, alpha));
+            }
+            return Ok(None);
+        }
+        Ok(Some(End::Held(t, crank)))
+    }
+
+    /// The instant at which a motion is held, if it is wanted.
+    fn held(&self, times: &[f64], found: &mut Vec<Instant>, end: End) {
+        if let End::Held(t, crank) = end
+            && times.get(found.len()) == Some(&t)
+        {
+            // Whatever holds the crank balances the motor.
+            let motor = self.flow.0.motor_moment(0.0);
+            found.push(Instant { t, crank, omega: 0.0, alpha: 0.0, motor, shaft: motor });
+        }
+    }
+
+    fn here(&self, t: f64, y: [f64; 2]) -> Instant {
+        instant(&self.flow, t, y)
+    }
+}
+
+fn instant(flow: &InTime, t: f64, [crank, omega]: [f64; 2]) -> Instant {
+    let alpha = flow.0.acceleration(crank, omega);
+    let motor = flow.0.motor_moment(omega);
+    Instant { t, crank, omega, alpha, motor, shaft: motor - flow.0.model.added * alpha }
+}
+
+/// A motion with everything that it does to the mechanism.
+#[derive(Clone, Debug)]
+pub struct RunUp {
+    /// The crank at every instant.
+    pub motion: Vec<Instant>,
+    /// All wanted channels at these instants. `drive.torque_N_m` is the moment on the crank that its equilibrium asks for, from the reactions.
+    pub trajectory: Trajectory,
+    /// How it ended.
+    pub end: End,
+}
+
+impl RunUp {
+    /// Motion of the case's mechanism at the given times, with the case's wanted channels: kinetostatics with the true speed and acceleration.
+    ///
+    /// # Errors
+    /// Those of [`motion`].
+    pub fn of(model: &Model, omega: f64, times: &[f64], accuracy: f64) -> Result<Self> {
+        let (motion, end) = motion(model, omega, times, accuracy)?;
+        let grid = Grid {
+            times: motion.iter().map(|instant| instant.t).collect(),
+            cranks: motion.iter().map(|instant| instant.crank).collect(),
+        };
+        let case: Case = model.case.on(grid);
+        let mut poses = PoseSolver::counting_turns(model.case)?;
+        let mut sampler = Sampler::new(&case);
+        let deepest = case.wanted.deepest();
+        for (row, instant) in motion.iter().enumerate() {
+            // At the very moment of setting off, loads act against the motion that begins.
+            let omega = if instant.omega == 0.0 { SETTING_OFF.copysign(instant.alpha) } else { instant.omega };
+            let omega = if instant.alpha == 0.0 { instant.omega } else { omega };
+            poses.solve(instant.crank, omega, instant.alpha, deepest)?;
+            sampler.put(&case, row, poses.with_angles());
+        }
+        let trajectory = sampler.finish(&case, |_| Provision::Computed)?;
+        Ok(RunUp { motion, trajectory, end })
+    }
+
+    /// Largest difference between the moment that the shaft passes on and the one that the crank's equilibrium asks for, over the largest moment: the
+    /// equation of motion against the reactions, which know nothing of reduced quantities. `None` if the balancing moment is not wanted.
+    #[must_use]
+    pub fn power_residual(&self) -> Option<f64> {
+        let asked = self.trajectory.column(&Channel::named("drive.torque_N_m")?)?;
+        let scale = asked.iter().chain(self.motion.iter().map(|i| &i.motor)).fold(0.0f64, |most, m| most.max(m.abs()));
+        let worst = self.motion.iter().zip(asked).fold(0.0f64, |most, (i, &asked)| most.max((i.shaft - asked).abs()));
+        Some(if scale > 0.0 { worst / scale } else { worst })
+    }
+}

@@ -1,0 +1,119 @@
+//! `[motor]`: the motor's law and the reducer behind it.
+
+use super::reader::{Sign, Table};
+use super::unit::{ANGULAR_SPEED, INERTIA, MOMENT, MOMENT_PER_SPEED};
+use super::words::suggestion;
+use crate::drive::{Motor, MotorLaw, ShaftInertia};
+use crate::error::{ErrorKind, Result};
+
+/// A law: its name in scenario files, and its reader.
+type Law = (&'static str, fn(&mut Table) -> Result<MotorLaw>);
+
+const LAWS: [Law; 4] = [("constant", constant), ("linear", linear), ("kloss", kloss), ("table", points)];
+
+/// The motor.
+pub fn read(mut table: Table) -> Result<Motor> {
+    let kind = table.string("law")?;
+    let Some((_, law)) = LAWS.iter().find(|(name, _)| *name == kind) else {
+        let error = table.wrong(ErrorKind::Input, "law", format!("\"{kind}\" is no law of a motor"));
+        return Err(error.help(suggestion(&kind, LAWS.map(|(name, _)| name), "\"")));
+    };
+    let law = law(&mut table)?;
+    let ratio = table.number("ratio")?;
+    if ratio <= 0.0 {
+        let error = table.wrong(ErrorKind::Input, "ratio", format!("found {ratio}, but a ratio of speeds is positive"));
+        return Err(error.help("give the speed of the motor over that of the crank; 1 without a reducer"));
+    }
+    let efficiency = table.optional_number("efficiency")?.unwrap_or(1.0);
+    if !(efficiency > 0.0 && efficiency <= 1.0) {
+        let message = format!("found {efficiency}, but an efficiency lies above 0 and at most at 1");
+        return Err(table.wrong(ErrorKind::Input, "efficiency", message).help("give a share: 0.92 for 92 %"));
+    }
+    let inertia = inertia(&mut table)?;
+    table.finish()?;
+    Ok(Motor { law, ratio, efficiency, inertia })
+}
+
+fn constant(table: &mut Table) -> Result<MotorLaw> {
+    Ok(MotorLaw::Constant { torque: table.quantity("torque", &MOMENT, Sign::Positive)? })
+}
+
+fn linear(table: &mut Table) -> Result<MotorLaw> {
+    let at_rest = table.quantity("torque_at_rest", &MOMENT, Sign::Positive)?;
+    Ok(MotorLaw::Linear { at_rest, slope: table.quantity("slope", &MOMENT_PER_SPEED, Sign::Negative)? })
+}
+
+/// Breakdown is told by its slip or by its speed, whichever the catalogue has.
+fn kloss(table: &mut Table) -> Result<MotorLaw> {
+    let breakdown_torque = table.quantity("breakdown_torque", &MOMENT, Sign::Positive)?;
+    let synchronous_speed = table.quantity("synchronous_speed", &ANGULAR_SPEED, Sign::Positive)?;
+    let slip = table.optional_number("breakdown_slip")?;
+    let speed = table.optional_quantity("breakdown_speed", &ANGULAR_SPEED, Sign::NotNegative)?;
+    let help = "give one of the two: `breakdown_slip`, or `breakdown_speed_rpm` or `breakdown_speed_rad_s`";
+    let breakdown_slip = match (slip, speed) {
+        (Some(_), Some(_)) => {
+            let message = "the slip and the speed of breakdown are both given";
+            return Err(table.wrong(ErrorKind::Input, "breakdown_slip", message).help(help));
+        }
+        (None, None) => return Err(table.fault("neither slip nor speed of breakdown is given").help(help)),
+        (Some(slip), None) if slip > 0.0 => slip,
+        (Some(slip), None) => {
+            let message = format!("found {slip}, but the slip of breakdown is positive");
+            let help = "give (synchronous speed - speed of breakdown) over synchronous speed";
+            return Err(table.wrong(ErrorKind::Input, "breakdown_slip", message).help(help));
+        }
+        (None, Some(speed)) if speed < synchronous_speed => 1.0 - speed / synchronous_speed,
+        (None, Some(speed)) => {
+            let message = format!(
+                "the motor breaks down at {speed:.6} rad/s, not below synchronous speed, {synchronous_speed:.6} rad/s"
+            );
+            return Err(table.fault(message).help("check `breakdown_speed` and `synchronous_speed` and their units"));
+        }
+    };
+    Ok(MotorLaw::Kloss { breakdown_torque, breakdown_slip, synchronous_speed })
+}
+
+fn points(table: &mut Table) -> Result<MotorLaw> {
+    let (mut speeds, mut torques) = (Vec::new(), Vec::new());
+    for mut point in table.tables("points")? {
+        let speed = point.quantity("speed", &ANGULAR_SPEED, Sign::Any)?;
+        torques.push(point.quantity("torque", &MOMENT, Sign::Any)?);
+        point.finish()?;
+        if let Some(last) = speeds.last()
+            && !(speed > *last)
+        {
+            let message = format!("the speeds do not ascend: {speed} rad/s comes after {last} rad/s");
+            return Err(point.fault(message).help("write the points in ascending order of speed, each speed once"));
+        }
+        speeds.push(speed);
+    }
+    if speeds.len() < 2 {
+        let help = "write `points = [{ speed_rpm = 0, torque_N_m = 4 }, { speed_rpm = 3000, torque_N_m = 0 }]`";
+        let message = format!("a table of torques needs two points or more, found {}", speeds.len());
+        return Err(table.wrong(ErrorKind::Input, "points", message).help(help));
+    }
+    Ok(MotorLaw::Table { speeds, torques })
+}
+
+/// What turns with the motor and the reducer; nothing without a table.
+fn inertia(table: &mut Table) -> Result<ShaftInertia> {
+    let mut shaft =
+        |name: &str| -> Result<f64> { Ok(table.optional_quantity(name, &INERTIA, Sign::NotNegative)?.unwrap_or(0.0)) };
+    let (rotor, input) = (shaft("rotor_inertia")?, shaft("input_inertia")?);
+    let (intermediate, output) = (shaft("intermediate_inertia")?, shaft("output_inertia")?);
+    let ratio = table.optional_number("intermediate_ratio")?;
+    match ratio {
+        Some(ratio) if ratio <= 0.0 => {
+            let message = format!("found {ratio}, but a ratio of speeds is positive");
+            let help = "give the speed of the intermediate shaft over that of the crank";
+            return Err(table.wrong(ErrorKind::Input, "intermediate_ratio", message).help(help));
+        }
+        None if intermediate > 0.0 => {
+            let message = "the intermediate shaft has a moment of inertia, but its speed is not known";
+            let help = "add `intermediate_ratio`: its speed over that of the crank";
+            return Err(table.wrong(ErrorKind::Input, "intermediate_inertia_kg_m2", message).help(help));
+        }
+        _ => {}
+    }
+    Ok(ShaftInertia { rotor, input, intermediate, intermediate_ratio: ratio.unwrap_or(1.0), output })
+}
