@@ -67,6 +67,8 @@ pub type Price<'a> = &'a mut dyn FnMut(&dyn Engine, &mut dyn FnMut() -> Result<(
 
 /// Numbers of sweeps that are tried.
 const SWEEPS: [usize; 11] = [4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096];
+/// Coarsest accuracy that is tried of an engine that controls its error: less is none.
+const COARSEST: f64 = 0.1;
 /// Numbers of substeps that are tried.
 const SUBSTEPS: [usize; 2] = [1, 2];
 
@@ -174,6 +176,7 @@ impl Bench<'_> {
         let mut best: Option<Candidate> = None;
         let (mut least, mut dear) = (f64::INFINITY, false);
         let ways = ways(engine, self.case, options);
+        let most = if engine.controls_error() { COARSEST } else { f64::INFINITY };
         for (done, way) in ways.iter().enumerate() {
             progress(done as f64 / ways.len() as f64);
             // Sweeps from few to many: the price falls, and rises again once they are more than needed.
@@ -183,11 +186,12 @@ impl Bench<'_> {
                 let limit = best.as_ref().map_or(limit, |best| best.price.min(limit));
                 let order = engine.with(settings).formal_order(self.wanted[0].kind);
                 let mut run = |resolution: f64| self.measure(engine, Settings { resolution, ..settings });
-                match largest_step(settings.resolution, order, within, limit, &mut run) {
+                match largest_step([settings.resolution, most], order, within, limit, &mut run) {
                     Found::Step { resolution, measured } => {
                         let Measured { error, worst, price } = measured;
                         rising = if price > last { rising + 1 } else { 0 };
                         last = price;
+                        dear |= price >= limit;
                         if price < limit {
                             let settings = Settings { resolution, ..settings };
                             best = Some(Candidate {

@@ -31,10 +31,10 @@ pub(super) enum Found {
     TooCoarse(f64),
 }
 
-/// Searches from `start` for the largest step whose error is at most `within`; `order` is that of the method. Stops where a run costs more
-/// than `limit`.
+/// Searches from `start` for the largest step, up to `most`, whose error is at most `within`; `order` is that of the method. Stops where a run
+/// costs more than `limit`.
 pub(super) fn largest_step(
-    start: f64,
+    [start, most]: [f64; 2],
     order: f64,
     within: f64,
     limit: f64,
@@ -64,7 +64,7 @@ pub(super) fn largest_step(
             if larger {
                 met = Some((step, measured));
             }
-            if error >= NEAR_ENOUGH * within {
+            if error >= NEAR_ENOUGH * within || step >= most {
                 break;
             }
         } else {
@@ -79,7 +79,7 @@ pub(super) fn largest_step(
             error if error.is_finite() => (AIM * within / error).powf(1.0 / order).clamp(1.0 / LEAP, LEAP),
             _ => 0.25,
         };
-        step *= factor;
+        step = (step * factor).min(most);
         if let (Some((good, _)), Some(bad)) = (&met, missed) {
             if bad / good < CLOSE {
                 break;
@@ -112,7 +112,7 @@ mod tests {
     fn the_step_is_found_whatever_the_order() {
         for order in [1.0, 2.0, 4.0] {
             for start in [1e-6, 1e-3, 1.0] {
-                let found = largest_step(start, 2.0, 1e-4, f64::INFINITY, &mut model(order, 0.0));
+                let found = largest_step([start, 1e9], 2.0, 1e-4, f64::INFINITY, &mut model(order, 0.0));
                 let Found::Step { resolution, measured } = found else { panic!("{found:?}") };
                 let exact = 1e-4f64.powf(1.0 / order);
                 assert!(
@@ -124,21 +124,31 @@ mod tests {
     }
 
     #[test]
+    fn an_error_that_is_met_everywhere_ends_at_the_largest_step() {
+        let found = largest_step([1e-8, 0.1], 1.0, 1e-4, f64::INFINITY, &mut |step| Measured {
+            error: 1e-14,
+            worst: "x".into(),
+            price: 1.0 / step,
+        });
+        assert!(matches!(found, Found::Step { resolution, .. } if resolution == 0.1), "{found:?}");
+    }
+
+    #[test]
     fn a_floor_above_the_wish_is_too_coarse() {
-        let found = largest_step(1.0, 2.0, 1e-4, f64::INFINITY, &mut model(2.0, 1e-3));
+        let found = largest_step([1.0, 1e9], 2.0, 1e-4, f64::INFINITY, &mut model(2.0, 1e-3));
         assert!(matches!(found, Found::TooCoarse(error) if error == 1e-3), "{found:?}");
     }
 
     #[test]
     fn what_costs_more_than_the_limit_is_given_up() {
-        let found = largest_step(1.0, 2.0, 1e-8, 100.0, &mut model(2.0, 0.0));
+        let found = largest_step([1.0, 1e9], 2.0, 1e-8, 100.0, &mut model(2.0, 0.0));
         assert!(matches!(found, Found::Step { .. } | Found::TooDear));
         let mut runs = 0;
         let mut counted = |step: f64| {
             runs += 1;
             model(1.0, 0.0)(step)
         };
-        let found = largest_step(1e-3, 2.0, 1e-8, 100.0, &mut counted);
+        let found = largest_step([1e-3, 1e9], 2.0, 1e-8, 100.0, &mut counted);
         assert!(matches!(found, Found::TooDear) && runs == 1, "{found:?} after {runs}");
     }
 
@@ -148,7 +158,7 @@ mod tests {
             true => Measured { error: f64::INFINITY, worst: String::new(), price: 0.0 },
             false => model(2.0, 0.0)(step),
         };
-        let found = largest_step(1.0, 2.0, 1e-6, f64::INFINITY, &mut fails);
+        let found = largest_step([1.0, 1e9], 2.0, 1e-6, f64::INFINITY, &mut fails);
         assert!(matches!(found, Found::Step { resolution, .. } if resolution > 5e-4), "{found:?}");
     }
 }
