@@ -75,7 +75,7 @@ pub(super) fn largest_step(
             }
         }
         let factor = match error {
-            error if error == 0.0 => LEAP,
+            0.0 => LEAP,
             error if error.is_finite() => (AIM * within / error).powf(1.0 / order).clamp(1.0 / LEAP, LEAP),
             _ => 0.25,
         };
