@@ -66,6 +66,8 @@ macro_rules! bad {
     };
 }
 
+#[path = "bad_scenarios/motors.rs"]
+mod motors;
 #[path = "bad_scenarios/sliders.rs"]
 mod sliders;
 

@@ -1,5 +1,7 @@
 //! The contract of the command line: exit codes, streams, JSON, CSV and messages, on the built command.
 
+#[path = "cli/drive.rs"]
+mod drive;
 #[path = "cli/export.rs"]
 mod export;
 #[path = "cli/messages.rs"]

@@ -14,8 +14,8 @@ use super::model::{Model, Piece, Reduced};
 use crate::drive::Branch;
 use crate::error::{Error, Result};
 
-/// Farthest that a stage of a step may lie from the last one (rad). A first try of a step may lead anywhere; it is to be refused, not followed.
-const FARTHEST: f64 = 1.0;
+/// Farthest that a stage of a step may lie from its beginning (rad). A first try of a step may lead anywhere; it is to be refused, not followed.
+const FARTHEST: f64 = std::f64::consts::TAU;
 
 /// What both forms evaluate.
 #[derive(Debug)]
@@ -23,8 +23,8 @@ pub(super) struct Forces<'m, 'a> {
     pub(super) model: &'m Model<'a>,
     poses: RefCell<PoseSolver<'a>>,
     fault: RefCell<Option<Error>>,
-    /// Crank angle of the last evaluation.
-    last: Cell<f64>,
+    /// Crank angle at which the present step began.
+    origin: Cell<f64>,
     pub(super) piece: Cell<Piece>,
     /// Sense of the crank's speed: +1 or -1.
     pub(super) way: Cell<f64>,
@@ -37,25 +37,24 @@ impl<'m, 'a> Forces<'m, 'a> {
             model,
             poses: RefCell::new(PoseSolver::new(model.case)?),
             fault: RefCell::new(None),
-            last: Cell::new(model.case.drive.start),
+            origin: Cell::new(model.case.drive.start),
             piece: Cell::new(piece),
             way: Cell::new(way),
             branch: Cell::new(model.branch(0.0, way)),
         })
     }
 
-    /// Goes to a crank angle however far it is.
+    /// A step begins at this crank angle, however far it is.
     pub(super) fn begin_at(&self, crank: f64) {
-        self.last.set(crank);
+        self.origin.set(crank);
     }
 
     /// Reduced quantities on the present piece, with what turns with the crank. Not a number too far away, so that the step is taken again, and after
     /// a fault, which is kept.
     pub(super) fn reduced(&self, crank: f64) -> Reduced {
-        if !((crank - self.last.get()).abs() <= FARTHEST) {
+        if !((crank - self.origin.get()).abs() <= FARTHEST) {
             return Reduced { inertia: f64::NAN, slope: f64::NAN, applied: f64::NAN };
         }
-        self.last.set(crank);
         let piece = self.piece.get();
         match self.model.on_piece(&mut self.poses.borrow_mut(), crank, self.way.get(), piece) {
             Ok(found) => Reduced { inertia: found.inertia + self.model.added, ..found },
@@ -123,6 +122,10 @@ impl Flow<2> for InTime<'_, '_> {
         }
     }
 
+    fn begin(&self, _: f64, &[crank, _]: &[f64; 2]) {
+        self.0.begin_at(crank);
+    }
+
     fn fault(&self) -> Option<Error> {
         self.0.take_fault()
     }
@@ -155,6 +158,10 @@ impl Flow<3> for OverAngle<'_, '_> {
 
     fn margin(&self, bound: usize, x: f64, y: &[f64; 3]) -> f64 {
         self.0.branch_margins(self.speed(x, y[0]))[bound]
+    }
+
+    fn begin(&self, x: f64, _: &[f64; 3]) {
+        self.0.begin_at(self.0.way.get() * x);
     }
 
     fn fault(&self) -> Option<Error> {

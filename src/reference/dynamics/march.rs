@@ -16,6 +16,8 @@ pub(super) type Method<const N: usize> = ExplicitRungeKutta<Ordinary, DormandPri
 
 /// Most steps of one piece: a hundred turns of a mechanism take some ten thousand.
 const MOST_STEPS: usize = 10_000_000;
+/// How much longer than wished a step may be to reach a target at once: no sliver is left before it.
+const STRETCH: f64 = 1.001;
 /// Bisections of a step for a first guess of the place where a bound is passed.
 const BISECTIONS: usize = 30;
 /// Times that a shortened step is taken again, at most: secants from a guess of order 4 take three.
@@ -28,6 +30,9 @@ pub(super) trait Flow<const N: usize>: ODE<f64, [f64; N]> {
 
     /// How far within a bound the state is: negative beyond it.
     fn margin(&self, bound: usize, x: f64, y: &[f64; N]) -> f64;
+
+    /// Told where every step begins.
+    fn begin(&self, x: f64, y: &[f64; N]);
 
     /// What went wrong in an evaluation since the last call.
     fn fault(&self) -> Option<Error>;
@@ -69,13 +74,14 @@ pub(super) fn march<const N: usize, F: Flow<N>>(
     let begun_at = place.x;
     let mut targets = targets.iter().copied().skip_while(|&target| target <= begun_at);
     let Some(mut target) = targets.next() else { return Ok(Stop::End) };
+    flow.begin(place.x, &place.y);
     let h0 = if place.h > 0.0 { place.h.min(last - place.x) } else { 0.0 };
     let mut method: Method<N> = ExplicitRungeKutta::dop853().rtol(accuracy).atol(accuracy).max_steps(MOST_STEPS).h0(h0);
     let begun = method.init(flow, place.x, last, &place.y);
     checked(flow, begun, place.x)?;
     loop {
         let (from, wished) = (method.t(), method.h());
-        let cut = wished >= target - from;
+        let cut = wished * STRETCH >= target - from;
         if cut {
             method.set_h(target - from);
         }
@@ -93,6 +99,7 @@ pub(super) fn march<const N: usize, F: Flow<N>>(
         let before = (place.x, place.y);
         (place.x, place.y) = (if cut { target } else { method.t() }, *method.y());
         visit(flow, &[before, (place.x, place.y)])?;
+        flow.begin(place.x, &place.y);
         if cut {
             match targets.next() {
                 Some(next) => target = next,
@@ -156,7 +163,7 @@ fn shortened<const N: usize, F: Flow<N>>(
     for _ in 0..CORRECTIONS {
         let margin = flow.margin(bound, end.0, &end.1);
         let shift = margin * (h - known.0) / (margin - known.1);
-        if !(shift.abs() > 4.0 * f64::EPSILON * end.0.abs() && shift.abs() < h) {
+        if !(shift.abs() > 4.0 * f64::EPSILON * h && shift.abs() < h) {
             break;
         }
         known = (h, margin);
@@ -168,6 +175,7 @@ fn shortened<const N: usize, F: Flow<N>>(
 
 /// State after one step of a given length, whatever its error estimate: it is part of one that was accepted.
 pub(super) fn one_step<const N: usize, F: Flow<N>>(flow: &F, x: f64, y: &[f64; N], h: f64) -> Result<[f64; N]> {
+    flow.begin(x, y);
     let mut method: Method<N> = ExplicitRungeKutta::dop853().rtol(1e6).atol(1e6).h0(h);
     // The interval is longer than the step, or rounding would make it too short for it.
     let begun = method.init(flow, x, x + 2.0 * h, y);

@@ -14,4 +14,4 @@ pub mod run_up;
 pub use flywheel::Flywheel;
 pub use model::{Model, Reduced};
 pub use regime::Regime;
-pub use run_up::{ACCURACY, End, Instant, RunUp, motion};
+pub use run_up::{ACCURACY, CrankState, End, RunUp, motion};

@@ -131,28 +131,37 @@ impl<'a> Model<'a> {
 
     fn find_senses(&mut self) -> Result<()> {
         let mut poses = PoseSolver::new(self.case)?;
-        let count = self.boundaries().len().max(1) as i64;
+        let count = self.boundaries().len() as i64;
         for index in 0..count {
             let piece = self.piece(index);
-            let middle = match piece.ends {
-                [from, to] if from.is_finite() && to.is_finite() => (from + to) / 2.0,
-                _ => self.case.drive.start,
-            };
+            let middle = (piece.ends[0] + piece.ends[1]) / 2.0;
             let motions = &poses.solve(middle, 1.0, 0.0, Stage::Velocities)?.motions;
             self.senses.extend(self.resistances.iter().map(|&(link, _)| 1f64.copysign(motions[link].omega)));
         }
         Ok(())
     }
 
-    /// Crank angles between pieces: the kinks of one period; with limits those as well.
+    /// Crank angles between pieces: the kinks of one period, or its start if there are none; with limits those as well.
     fn boundaries(&self) -> Vec<f64> {
         match self.kinks.limits {
+            None if self.kinks.cranks.is_empty() => vec![self.case.drive.start],
             None => self.kinks.cranks.clone(),
             Some([from, to]) => {
                 let inner = self.kinks.cranks.iter().copied().filter(|&kink| kink > from && kink < to);
                 let ends = [from + LIMIT_MARGIN, to - LIMIT_MARGIN];
                 ends[..1].iter().copied().chain(inner).chain([ends[1]]).collect()
             }
+        }
+    }
+
+    /// How far to go back (rad) so that the crank angle stays small: the period, where `crank` is the end of the last piece going up; minus the
+    /// period, where it is the beginning of the first one going down; else nothing. Small angles keep their last digits.
+    pub(super) fn wrap(&self, crank: f64, way: f64) -> f64 {
+        let first = self.boundaries()[0];
+        match self.kinks.period {
+            Some(period) if way > 0.0 && crank >= first + period => period,
+            Some(period) if way < 0.0 && crank <= first => -period,
+            _ => 0.0,
         }
     }
 
@@ -168,18 +177,12 @@ impl<'a> Model<'a> {
 
     /// The piece above the boundary of the same number.
     fn piece(&self, index: i64) -> Piece {
-        match self.kinks.period {
-            Some(_) if self.kinks.cranks.is_empty() => Piece::unbounded(),
-            _ => Piece { index, ends: [self.boundary(index), self.boundary(index + 1)] },
-        }
+        Piece { index, ends: [self.boundary(index), self.boundary(index + 1)] }
     }
 
     /// The piece at `crank`; at a boundary, the one to which `way` (+1 or -1) leads. `None` beyond a limit.
     pub(super) fn piece_at(&self, crank: f64, way: f64) -> Option<Piece> {
         let all = self.boundaries();
-        if all.is_empty() {
-            return Some(self.piece(0));
-        }
         let (turns, inside) = match self.kinks.period {
             Some(period) => {
                 let turns = ((crank - all[0]) / period).floor();

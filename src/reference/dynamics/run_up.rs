@@ -6,8 +6,8 @@ use super::march::{Place, Step, Stop, march};
 use super::model::{Model, Piece};
 use crate::case::{Case, Grid};
 use crate::error::{Error, ErrorKind, Result};
-use crate::solver::{Provision, Sampler};
-use crate::trajectory::{Channel, Trajectory};
+use crate::solver::{Provision, Sampler, State};
+use crate::trajectory::{Channel, Stage, Trajectory};
 
 /// Relative and absolute error that each step may make, by its own estimate, which is cautious: the run-up of `crank_rocker` is then exact to 2e-14 rad.
 pub const ACCURACY: f64 = 1e-11;
@@ -18,11 +18,13 @@ const MOST_EMPTY: usize = 8;
 
 /// The crank at one instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Instant {
+pub struct CrankState {
     /// Time (s).
     pub t: f64,
     /// Crank angle (rad, as the scenario states it), turns kept.
     pub crank: f64,
+    /// The same without the whole periods gone by, so that after many turns no digits are lost (rad).
+    pub within: f64,
     /// Angular velocity of the crank (rad/s).
     pub omega: f64,
     /// Its angular acceleration (rad/s^2).
@@ -50,7 +52,7 @@ pub enum End {
 /// # Errors
 /// [`ErrorKind::Input`] for times that do not ascend from 0, [`ErrorKind::Numeric`] where the equation cannot be integrated on, and those of
 /// [`PoseSolver::solve`].
-pub fn motion(model: &Model, omega: f64, times: &[f64], accuracy: f64) -> Result<(Vec<Instant>, End)> {
+pub fn motion(model: &Model, omega: f64, times: &[f64], accuracy: f64) -> Result<(Vec<CrankState>, End)> {
     if times.iter().chain(&[omega]).any(|value| !value.is_finite())
         || times.first().is_some_and(|&first| first < 0.0)
         || times.windows(2).any(|pair| !(pair[0] < pair[1]))
@@ -69,7 +71,10 @@ pub fn motion(model: &Model, omega: f64, times: &[f64], accuracy: f64) -> Result
 
 struct Runner<'m, 'a> {
     flow: InTime<'m, 'a>,
+    /// Where it is; the crank angle without the periods gone.
     place: Place<2>,
+    /// Periods gone by, as an angle of the crank (rad).
+    gone: f64,
 }
 
 impl<'m, 'a> Runner<'m, 'a> {
@@ -77,10 +82,10 @@ impl<'m, 'a> Runner<'m, 'a> {
         let crank = model.case.drive.start;
         let somewhere = Piece::unbounded();
         let flow = InTime(Forces::of(model, somewhere, 1f64.copysign(omega))?);
-        Ok(Runner { flow, place: Place { x: 0.0, y: [crank, omega], h: 0.0 } })
+        Ok(Runner { flow, place: Place { x: 0.0, y: [crank, omega], h: 0.0 }, gone: 0.0 })
     }
 
-    fn run(&mut self, times: &[f64], accuracy: f64, found: &mut Vec<Instant>) -> Result<End> {
+    fn run(&mut self, times: &[f64], accuracy: f64, found: &mut Vec<CrankState>) -> Result<End> {
         let Some(&last) = times.last() else { return Ok(End::Reached) };
         let mut empty = 0;
         if let Some(end) = self.enter()? {
@@ -88,13 +93,14 @@ impl<'m, 'a> Runner<'m, 'a> {
             return Ok(end);
         }
         if times[0] == 0.0 {
-            found.push(self.here(0.0, self.place.y));
+            found.push(instant(&self.flow, 0.0, self.place.y, self.gone));
         }
         while self.place.x < last {
             let from = self.place.x;
+            let gone = self.gone;
             let mut visit = |flow: &InTime, &[_, (x, y)]: &Step<2>| {
                 if times.get(found.len()) == Some(&x) {
-                    found.push(instant(flow, x, y));
+                    found.push(instant(flow, x, y, gone));
                 }
                 Ok(())
             };
@@ -124,8 +130,13 @@ impl<'m, 'a> Runner<'m, 'a> {
         let forces = &self.flow.0;
         let [from, to] = forces.piece.get().ends;
         match bound {
-            InTime::UPPER => self.place.y[0] = to,
-            InTime::LOWER => self.place.y[0] = from,
+            InTime::UPPER | InTime::LOWER => {
+                let reached = if bound == InTime::UPPER { to } else { from };
+                let back = forces.model.wrap(reached, forces.way.get());
+                self.gone += back;
+                self.place.y[0] = reached - back;
+                forces.begin_at(self.place.y[0]);
+            }
             InTime::STANDSTILL => self.place.y[1] = 0.0,
             _ => {
                 let ends = forces.branch.get().map_or([0.0; 2], |branch| branch.speeds);
@@ -145,7 +156,7 @@ impl<'m, 'a> Runner<'m, 'a> {
                 if omega == 0.0 {
                     continue;
                 }
-                return Ok(Some(End::Limit(t, crank)));
+                return Ok(Some(End::Limit(t, crank + self.gone)));
             };
             let forces = &self.flow.0;
             forces.piece.set(piece);
@@ -160,40 +171,39 @@ impl<'m, 'a> Runner<'m, 'a> {
             }
             return Ok(None);
         }
-        Ok(Some(End::Held(t, crank)))
+        Ok(Some(End::Held(t, crank + self.gone)))
     }
 
     /// The instant at which a motion is held, if it is wanted.
-    fn held(&self, times: &[f64], found: &mut Vec<Instant>, end: End) {
+    fn held(&self, times: &[f64], found: &mut Vec<CrankState>, end: End) {
         if let End::Held(t, crank) = end
             && times.get(found.len()) == Some(&t)
         {
             // Whatever holds the crank balances the motor.
             let motor = self.flow.0.motor_moment(0.0);
-            found.push(Instant { t, crank, omega: 0.0, alpha: 0.0, motor, shaft: motor });
+            found.push(CrankState { t, crank, within: crank - self.gone, omega: 0.0, alpha: 0.0, motor, shaft: motor });
         }
-    }
-
-    fn here(&self, t: f64, y: [f64; 2]) -> Instant {
-        instant(&self.flow, t, y)
     }
 }
 
-fn instant(flow: &InTime, t: f64, [crank, omega]: [f64; 2]) -> Instant {
+/// The crank at a state, `gone` (rad) of whole periods later.
+fn instant(flow: &InTime, t: f64, [crank, omega]: [f64; 2], gone: f64) -> CrankState {
     let alpha = flow.0.acceleration(crank, omega);
     let motor = flow.0.motor_moment(omega);
-    Instant { t, crank, omega, alpha, motor, shaft: motor - flow.0.model.added * alpha }
+    CrankState { t, crank: crank + gone, within: crank, omega, alpha, motor, shaft: motor - flow.0.model.added * alpha }
 }
 
 /// A motion with everything that it does to the mechanism.
 #[derive(Clone, Debug)]
 pub struct RunUp {
     /// The crank at every instant.
-    pub motion: Vec<Instant>,
+    pub motion: Vec<CrankState>,
     /// All wanted channels at these instants. `drive.torque_N_m` is the moment on the crank that its equilibrium asks for, from the reactions.
     pub trajectory: Trajectory,
     /// How it ended.
     pub end: End,
+    /// Largest reaction times the mechanism's size (N m): what moments are measured by where none acts on the crank.
+    natural: f64,
 }
 
 impl RunUp {
@@ -210,24 +220,34 @@ impl RunUp {
         let case: Case = model.case.on(grid);
         let mut poses = PoseSolver::counting_turns(model.case)?;
         let mut sampler = Sampler::new(&case);
+        let (mut natural, size) = (0.0f64, case.mechanism.size());
         let deepest = case.wanted.deepest();
         for (row, instant) in motion.iter().enumerate() {
+            poses.solve(instant.crank, instant.omega, instant.alpha, deepest)?;
             // At the very moment of setting off, loads act against the motion that begins.
-            let omega = if instant.omega == 0.0 { SETTING_OFF.copysign(instant.alpha) } else { instant.omega };
-            let omega = if instant.alpha == 0.0 { instant.omega } else { omega };
-            poses.solve(instant.crank, omega, instant.alpha, deepest)?;
-            sampler.put(&case, row, poses.with_angles());
+            if instant.omega == 0.0 && instant.alpha != 0.0 && deepest >= Stage::Reactions {
+                let begun = SETTING_OFF.copysign(instant.alpha);
+                let loaded = poses.solve(instant.crank, begun, instant.alpha, deepest)?.clone();
+                poses.solve(instant.crank, 0.0, instant.alpha, Stage::Accelerations)?;
+                let still = poses.with_angles().clone();
+                sampler.put(&case, row, &State { motions: still.motions, angles: still.angles, ..loaded });
+                continue;
+            }
+            let state = poses.with_angles();
+            natural = state.forces.iter().fold(natural, |most, force| most.max(force.norm() * size));
+            sampler.put(&case, row, state);
         }
         let trajectory = sampler.finish(&case, |_| Provision::Computed)?;
-        Ok(RunUp { motion, trajectory, end })
+        Ok(RunUp { motion, trajectory, end, natural })
     }
 
-    /// Largest difference between the moment that the shaft passes on and the one that the crank's equilibrium asks for, over the largest moment: the
+    /// Largest difference between the moment that the shaft passes on and the one that the crank's equilibrium asks for, over the largest moment, or the largest reaction times the mechanism's size: the
     /// equation of motion against the reactions, which know nothing of reduced quantities. `None` if the balancing moment is not wanted.
     #[must_use]
     pub fn power_residual(&self) -> Option<f64> {
         let asked = self.trajectory.column(&Channel::named("drive.torque_N_m")?)?;
-        let scale = asked.iter().chain(self.motion.iter().map(|i| &i.motor)).fold(0.0f64, |most, m| most.max(m.abs()));
+        let scale =
+            asked.iter().chain(self.motion.iter().map(|i| &i.motor)).fold(self.natural, |most, m| most.max(m.abs()));
         let worst = self.motion.iter().zip(asked).fold(0.0f64, |most, (i, &asked)| most.max((i.shaft - asked).abs()));
         Some(if scale > 0.0 { worst / scale } else { worst })
     }

@@ -1,0 +1,145 @@
+//! A crank alone: everything has a closed form.
+
+use std::f64::consts::{PI, TAU};
+use std::path::Path;
+
+use linkproof::case::Case;
+use linkproof::drive::{Motor, MotorLaw, ShaftInertia};
+use linkproof::reference::dynamics::{ACCURACY, End, Model, RunUp, motion};
+use linkproof::scenario::Scenario;
+
+/// A bar of 2 kg and 0.05 kg m^2 about its mass centre, 0.3 m from the pivot; from the direction `start` (deg).
+fn bar(centre: f64, start: f64, gravity: bool) -> Case {
+    let field = if gravity { "[gravity]\nx_m_s2 = 0\ny_m_s2 = -9.81\n" } else { "" };
+    let text = format!(
+        "format = 1\nname = \"bar\"\ntitle = \"A bar on a pivot\"\n[ground.points]\nO = {{ x_m = 0, y_m = 0 }}\n\
+         [links.bar]\nmass_kg = 2\ninertia_kg_m2 = 0.05\nmass_centre = {{ x_m = {centre}, y_m = 0 }}\n\
+         [links.bar.points]\nO = {{ x_m = 0, y_m = 0 }}\nA = {{ x_m = 0.5, y_m = 0 }}\n\
+         [[joints]]\nname = \"O\"\ntype = \"revolute\"\nlinks = [\"ground\", \"bar\"]\n\
+         [drive]\njoint = \"O\"\nspeed_rad_s = 1\n{field}[start]\ncrank_deg = {start}\n\
+         [grid]\nfrom_deg = 0\nto_deg = 10\nstep_deg = 1\n[engine]\ndt_s = 1e-3\n"
+    );
+    Scenario::parse(&text, Path::new("bar.toml")).unwrap_or_else(|error| panic!("{error}")).case
+}
+
+fn evenly(to: f64, parts: u32) -> Vec<f64> {
+    (0..=parts).map(|k| to * f64::from(k) / f64::from(parts)).collect()
+}
+
+/// Complete elliptic integral of the first kind, by the arithmetic-geometric mean.
+fn elliptic(k: f64) -> f64 {
+    let (mut a, mut b) = (1.0, (1.0 - k * k).sqrt());
+    for _ in 0..40 {
+        (a, b) = ((a + b) / 2.0, (a * b).sqrt());
+    }
+    PI / (2.0 * a)
+}
+
+/// I domega/dt = M0 - c omega has omega = M0 / c (1 - exp(-c t / I)).
+#[test]
+fn constant_coefficients_have_their_closed_form() {
+    let mut case = bar(0.0, 0.0, false);
+    let inertia = ShaftInertia { rotor: 1e-3, input: 5e-4, intermediate: 2e-2, intermediate_ratio: 3.0, output: 0.1 };
+    let motor = Motor { inertia, ..Motor::ideal(MotorLaw::Linear { at_rest: 4.0, slope: -0.02 }, 10.0) };
+    case.motor = Some(motor);
+    let model = Model::of(&case).unwrap();
+    let whole = 0.05 + 1.5e-3 * 100.0 + 2e-2 * 9.0 + 0.1;
+    assert!((model.added_inertia() + 0.05 - whole).abs() < 1e-15);
+    let (moment, damping) = (40.0, 2.0);
+    let rate = damping / whole;
+    let (found, _) = motion(&model, 0.0, &evenly(1.5, 300), ACCURACY).unwrap();
+    for at in &found {
+        let omega = moment / damping * (1.0 - (-rate * at.t).exp());
+        let crank = moment / damping * (at.t + ((-rate * at.t).exp() - 1.0) / rate);
+        assert!((at.omega - omega).abs() < 1e-11 && (at.crank - crank).abs() < 1e-11, "{at:?} {omega} {crank}");
+        assert!((at.alpha - (moment - damping * omega) / whole).abs() < 1e-9);
+    }
+}
+
+/// Kloss's run-up time without load: t = I omega_s / (2 M_b) ((1 - s^2) / (2 s_b) + s_b ln(1 / s)).
+#[test]
+fn kloss_runs_up_in_its_known_time() {
+    let mut case = bar(0.0, 0.0, false);
+    let (largest, breakdown, synchronous) = (3.0, 0.2, 100.0);
+    let law = MotorLaw::Kloss { breakdown_torque: largest, breakdown_slip: breakdown, synchronous_speed: synchronous };
+    case.motor = Some(Motor::ideal(law, 1.0));
+    let time = |slip: f64| {
+        0.05 * synchronous / (2.0 * largest) * ((1.0 - slip * slip) / (2.0 * breakdown) + breakdown * (1.0 / slip).ln())
+    };
+    let slips = [0.9, 0.5, 0.2, 0.05, 0.001];
+    let times = slips.map(time);
+    let (found, _) = motion(&Model::of(&case).unwrap(), 0.0, &times, ACCURACY).unwrap();
+    for (at, slip) in found.iter().zip(slips) {
+        assert!((at.omega - synchronous * (1.0 - slip)).abs() < 1e-8, "{at:?} {slip}");
+    }
+}
+
+/// A pendulum let go at rest swings with the period 4 K(sin(amplitude / 2)) / Omega; it turns about twice a swing.
+#[test]
+fn a_pendulum_swings_in_its_known_time() {
+    for degrees in [10.0f64, 90.0, 150.0] {
+        let case = bar(0.3, -90.0 + degrees, true);
+        let model = Model::of(&case).unwrap();
+        let frequency = (2.0 * 9.81 * 0.3 / (0.05 + 2.0 * 0.09f64)).sqrt();
+        let period = 4.0 * elliptic((degrees.to_radians() / 2.0).sin()) / frequency;
+        let times: Vec<f64> = (0..=20).map(|k| period * f64::from(k) / 2.0).collect();
+        let (found, end) = motion(&model, 0.0, &times, 1e-13).unwrap();
+        assert_eq!((found.len(), end), (21, End::Reached));
+        for (half, at) in found.iter().enumerate() {
+            let side = if half % 2 == 0 { 1.0 } else { -1.0 };
+            let expected = (-90.0f64).to_radians() + side * degrees.to_radians();
+            // At a turning point the angle is flat in time: this proves the amplitude, the quarter below the period.
+            assert!((at.crank - expected).abs() < 1e-11, "{degrees} {half}: {at:?}");
+        }
+        let quarters: Vec<f64> = (0..10).map(|k| period * (f64::from(k) + 0.25)).collect();
+        let (found, _) = motion(&model, 0.0, &quarters, 1e-13).unwrap();
+        for at in &found {
+            // What is asked of run-ups.
+            assert!((at.crank + PI / 2.0).abs() < 1e-10, "{degrees}: {at:?}");
+        }
+    }
+}
+
+/// Over the top, a turn takes 4 K(2 Omega / omega_0) / omega_0 from and to the lowest place, turn after turn.
+#[test]
+fn a_pendulum_turns_in_its_known_time() {
+    let case = bar(0.3, -90.0, true);
+    let model = Model::of(&case).unwrap();
+    let frequency = (2.0 * 9.81 * 0.3 / (0.05 + 2.0 * 0.09f64)).sqrt();
+    for factor in [2.02, 3.0, 10.0] {
+        let omega = factor * frequency;
+        let turn = 4.0 * elliptic(2.0 / factor) / omega;
+        for way in [1.0, -1.0] {
+            let times: Vec<f64> = (1..=10).map(|k| turn * f64::from(k)).collect();
+            let (found, _) = motion(&model, way * omega, &times, 1e-13).unwrap();
+            for (k, at) in (1..).zip(&found) {
+                let expected = case.drive.start + way * TAU * f64::from(k);
+                assert!((at.crank - expected).abs() < 1e-10, "{factor} {k}: {}", at.crank - expected);
+            }
+        }
+    }
+}
+
+/// The pivot of a bar that falls from rest carries what Newton's law says.
+#[test]
+fn reactions_follow_the_true_motion() {
+    let case = bar(0.3, 0.0, true);
+    let model = Model::of(&case).unwrap();
+    let run_up = RunUp::of(&model, 0.0, &evenly(0.3, 30), ACCURACY).unwrap();
+    let column = |name: &str| {
+        let place = run_up.trajectory.channels().iter().position(|channel| channel.to_string() == name).unwrap();
+        run_up.trajectory.iter().nth(place).unwrap().1.to_vec()
+    };
+    let (fx, fy) = (column("joint.O.fx_N"), column("joint.O.fy_N"));
+    for (row, at) in run_up.motion.iter().enumerate() {
+        let (sin, cos) = at.crank.sin_cos();
+        let along = -0.3 * at.omega * at.omega;
+        let across = 0.3 * at.alpha;
+        let [x, y] = [along * cos - across * sin, along * sin + across * cos];
+        assert!((fx[row] - 2.0 * x).abs() < 1e-11 && (fy[row] - 2.0 * (y + 9.81)).abs() < 1e-11, "{row}");
+        // Energy: the fall of the mass centre.
+        let energy = 0.5 * (0.05 + 0.18) * at.omega * at.omega + 2.0 * 9.81 * 0.3 * sin;
+        assert!(energy.abs() < 1e-11, "{energy:e}");
+    }
+    assert!(run_up.power_residual().unwrap() < 1e-10);
+}
