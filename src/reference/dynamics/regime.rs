@@ -7,6 +7,7 @@ use super::super::reduced::{self, no_turn};
 use super::flow::{Forces, OverAngle};
 use super::march::{Place, Step, Stop, march, one_step};
 use super::model::{Model, Piece};
+use super::run_up::MOST_EMPTY;
 use crate::error::{Error, ErrorKind, Result};
 
 /// Newton steps of the shooting; it takes three to six.
@@ -118,12 +119,15 @@ impl<'m, 'a> Turn<'m, 'a> {
         let (way, last) = (forces.way.get(), self.start + self.period);
         forces.begin_at(way * self.start);
         let mut place = Place { x: self.start, y: [energy, 0.0, 1.0], h: 0.0 };
+        // A speed at which a branch has just ended: from the energy it would come back with a rounding, on one side or the other.
+        let mut reached: Option<f64> = None;
+        let mut empty = 0;
         while place.x < last {
             let piece = forces.model.piece_at(way * place.x, way).ok_or_else(|| stalled(way * place.x))?;
             forces.piece.set(piece);
             let end = if way > 0.0 { piece.ends[1] } else { -piece.ends[0] };
             // The branch as the speed goes on from here.
-            let omega = self.flow.speed(place.x, place.y[0]);
+            let omega = reached.take().unwrap_or_else(|| self.flow.speed(place.x, place.y[0]));
             forces.branch.set(forces.model.branch(omega, way));
             let alpha = forces.acceleration(way * place.x, omega);
             forces.branch.set(forces.model.branch(omega, alpha));
@@ -138,6 +142,11 @@ impl<'m, 'a> Turn<'m, 'a> {
                 let speeds = forces.branch.get().map_or([0.0; 2], |branch| branch.speeds);
                 let speed = speeds[1 - bound];
                 place.y[0] = forces.reduced(way * place.x).inertia * speed * speed / 2.0;
+                reached = Some(forces.model.sense * speed);
+            }
+            empty = if place.x > from { 0 } else { empty + 1 };
+            if empty > MOST_EMPTY {
+                return Err(stalled(way * from));
             }
         }
         Ok(place.y)

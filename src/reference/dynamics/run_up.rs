@@ -14,7 +14,7 @@ pub const ACCURACY: f64 = 1e-11;
 /// Speed (rad/s) with which a crank at rest that is about to turn is told from one that stands: its square vanishes.
 const SETTING_OFF: f64 = 1e-200;
 /// Pieces in a row that take no time: the motion does not get away from a kink.
-const MOST_EMPTY: usize = 8;
+pub(super) const MOST_EMPTY: usize = 8;
 
 /// The crank at one instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
