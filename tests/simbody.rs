@@ -239,10 +239,10 @@ fn positions_alone_are_the_same_positions() {
 #[test]
 fn a_proof_with_simbody_agrees() {
     for name in ["crank_rocker.toml", "quick_return.toml"] {
-        let proof = prove(&shipped(name), &Options { engine: "simbody".into(), ..Options::default() }, &mut |_| {});
+        let proof = prove(&shipped(name), &Options::of_engine("simbody"), &mut |_| {});
         let proof = proof.unwrap();
         assert_eq!(proof.verdict.word(), "agree", "{name}: {:?}", proof.verdict);
-        assert!(proof.engine.version.starts_with("Simbody 3."), "{}", proof.engine.version);
+        assert!(proof.engine().info.version.starts_with("Simbody 3."), "{}", proof.engine().info.version);
     }
 }
 
