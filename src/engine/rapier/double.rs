@@ -1,5 +1,6 @@
 //! The worlds in double precision.
 
+pub(super) use parry2d_f64 as parry;
 pub(super) use rapier2d_f64 as rapier;
 
 /// The engine's number.

@@ -1,5 +1,6 @@
 //! The worlds in single precision.
 
+pub(super) use parry2d as parry;
 pub(super) use rapier2d as rapier;
 
 /// The engine's number.

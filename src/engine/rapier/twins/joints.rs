@@ -1,6 +1,6 @@
 //! Joints and bodies in Rapier's terms.
 
-use super::rapier::parry::mass_properties::MassProperties;
+use super::parry::mass_properties::MassProperties;
 use super::rapier::prelude::{
     GenericJoint, GenericJointBuilder, IntegrationParameters, JointAxesMask, RigidBodyBuilder, SpringCoefficients,
     Vector,

@@ -5,7 +5,7 @@ mod joints;
 mod motion;
 mod reading;
 
-use super::{Real, rapier, real, wide};
+use super::{Real, parry, rapier, real, wide};
 
 use rapier::prelude::{
     ImpulseJointHandle, JointAxesMask, JointAxis, MotorModel, MultibodyJointHandle, PhysicsWorld, RigidBodyBuilder,
