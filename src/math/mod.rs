@@ -2,6 +2,7 @@
 
 pub mod angle;
 pub mod dense;
+pub mod golden;
 pub mod harmonic;
 pub mod interpolate;
 pub mod motion;

@@ -3,7 +3,9 @@
 use super::checks;
 use super::observe::{Observed, Stopped, observe};
 use crate::case::Case;
-use crate::compare::{Check, Convergence, Ladder, Residual, Verdict, difference, overall, residuals};
+use crate::compare::{
+    Check, Convergence, Ladder, Residual, Verdict, difference, largest_difference, overall, residuals,
+};
 use crate::engine::{Engine, Settings};
 use crate::error::{Error, Result};
 use crate::scenario::Scenario;
@@ -183,9 +185,10 @@ fn judge(scenario: &Scenario, engine: &dyn Engine, reference: &Trajectory, runs:
         let Basis::Truncation { parts, .. } = tolerance.basis else { unreachable!("that is what it rests on") };
         let verdict = Verdict::of_engine(&residual, &convergence, parts, scenario.engine_rel);
         let verdict = unless_turning_about(case, [reference, single], &residual, verdict);
-        let column = |side: &'_ Trajectory| side.column(&channel).expect("both sides have the channel").to_vec();
-        let limit = convergence.limit(&column(single), &column(half), kind.periodic);
-        let limit = limit.map(|limit| crate::compare::largest_difference(&column(reference), &limit, kind.periodic));
+        let [single, half, reference] =
+            [single, half, reference].map(|side| side.column(&channel).expect("all sides have the channel"));
+        let limit = convergence.limit(single, half, kind.periodic);
+        let limit = limit.map(|limit| largest_difference(reference, &limit, kind.periodic));
         ChannelProof { residual, bound: parts.sum(), parts, convergence, limit, basis: tolerance.basis, verdict }
     });
     Ok(judged.collect())

@@ -5,13 +5,12 @@ use std::f64::consts::PI;
 use super::PoseSolver;
 use crate::case::Case;
 use crate::error::Result;
+use crate::math::golden;
 use crate::solver::State;
 use crate::trajectory::Stage;
 
 /// Crank angle between two samples, at most (rad): a reaction has a few maxima in a turn, not hundreds.
 const SAMPLE_STEP: f64 = PI / 360.0;
-/// Golden section steps: the bracket shrinks to 1e-9 of a sample step, where the value is exact to rounding.
-const REFINEMENTS: usize = 44;
 
 /// Largest value of a quantity over a range of crank angles.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -104,29 +103,7 @@ fn at<'p>(case: &Case, poses: &'p mut PoseSolver, crank: f64) -> Result<&'p Stat
 
 /// The largest sample and, by golden section between its neighbours, the largest value there.
 fn refined(case: &Case, poses: &mut PoseSolver, quantity: Quantity, cranks: &[f64], samples: &[f64]) -> Result<Peak> {
-    let top = (0..samples.len()).max_by(|&a, &b| samples[a].total_cmp(&samples[b])).expect("there is a sample");
-    let mut best = Peak { value: samples[top], crank: cranks[top] };
-    let (mut low, mut high) = (cranks[top.saturating_sub(1)], cranks[(top + 1).min(cranks.len() - 1)]);
-    let ratio = (5f64.sqrt() - 1.0) / 2.0;
-    let mut value = |crank: f64| -> Result<f64> {
-        let value = quantity.of(case, at(case, poses, crank)?);
-        if value > best.value {
-            best = Peak { value, crank };
-        }
-        Ok(value)
-    };
-    let (mut left, mut right) = (high - ratio * (high - low), low + ratio * (high - low));
-    let (mut at_left, mut at_right) = (value(left)?, value(right)?);
-    for _ in 0..REFINEMENTS {
-        if at_left > at_right {
-            (high, right, at_right) = (right, left, at_left);
-            left = high - ratio * (high - low);
-            at_left = value(left)?;
-        } else {
-            (low, left, at_left) = (left, right, at_right);
-            right = low + ratio * (high - low);
-            at_right = value(right)?;
-        }
-    }
-    Ok(best)
+    let mut value = |crank: f64| -> Result<f64> { Ok(quantity.of(case, at(case, poses, crank)?)) };
+    let (crank, value) = golden::greatest(cranks, samples, &mut value)?;
+    Ok(Peak { value, crank })
 }

@@ -4,9 +4,9 @@ use linkproof_simbody::{Body, BodyState, Closing, Inertia, Joint, Law, LoopState
 
 use crate::case::Case;
 use crate::drive::{Load, MotionLaw};
-use crate::math::{Vec2, cross, rotated, unit};
+use crate::math::{Vec2, cross};
 use crate::mechanism;
-use crate::mechanism::spanning_tree::{Branch, Tree};
+use crate::mechanism::spanning_tree::{Branch, Tree, coordinate};
 use crate::solver::State;
 
 /// The model of a case, and what links its numbers with the mechanism's.
@@ -45,7 +45,7 @@ impl Linkage {
                 joint: joint(found, branch),
                 inertia: inertia(case, branch.link),
                 resistance: sense * resistance(case, branch.link),
-                coordinate: coordinate(case, found, branch),
+                coordinate: coordinate(found, branch, &case.start.0),
                 law: drive.map(|drive| match drive.law {
                     MotionLaw::ConstantSpeed(omega) => Law { rate: sense * omega },
                 }),
@@ -113,15 +113,6 @@ fn joint(found: &mechanism::Joint, branch: &Branch) -> Joint {
         },
         _ => Joint::Pin { on_parent: on(parent), on_child: on(child) },
     }
-}
-
-/// Coordinate of the branch's mobilizer in the start pose (rad or m).
-fn coordinate(case: &Case, found: &mechanism::Joint, branch: &Branch) -> f64 {
-    let [parent, child] = [branch.parent, branch.link].map(|link| case.start.0[link]);
-    let Some(axis) = found.axis_on(branch.parent) else { return child.angle - parent.angle };
-    let places = [(parent, branch.parent), (child, branch.link)]
-        .map(|(pose, link)| pose.point(found.on(link).expect("the joint is on the link")));
-    rotated(unit(parent.angle), axis).dot(&(places[1] - places[0]))
 }
 
 /// Mass and inertia of a link. Simbody cannot accelerate a free body without them: such a link carries some, which its reactions do not

@@ -3,12 +3,11 @@
 use super::super::{PoseSolver, reduced::no_turn};
 use super::model::Model;
 use crate::error::Result;
+use crate::math::golden;
 use std::f64::consts::PI;
 
 /// Crank angle between two samples, at most (rad): a reduced quantity has a few extremes in a turn, not hundreds.
 const SAMPLE_STEP: f64 = PI / 360.0;
-/// Golden section steps: the bracket shrinks to 1e-9 of a sample step, where the value is exact to rounding.
-const REFINEMENTS: usize = 44;
 
 /// The reduced quantities at one crank angle, motor, reducer and flywheel left out.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,41 +65,12 @@ impl Model<'_> {
         let mut extremes = |of: fn(&Row) -> f64| -> Result<Extremes> {
             let mut end = |sign: f64| -> Result<(f64, f64)> {
                 let values: Vec<f64> = rows.iter().map(|row| sign * of(row)).collect();
-                let (crank, value) =
-                    greatest(&cranks, &values, &mut |crank| Ok(sign * of(&self.row(&mut poses, crank)?)))?;
+                let mut value = |crank: f64| -> Result<f64> { Ok(sign * of(&self.row(&mut poses, crank)?)) };
+                let (crank, value) = golden::greatest(&cranks, &values, &mut value)?;
                 Ok((crank, sign * value))
             };
             Ok(Extremes { least: end(-1.0)?, greatest: end(1.0)? })
         };
         Ok([extremes(|row| row.inertia)?, extremes(|row| row.resistance)?])
     }
-}
-
-/// The greatest sample and, by golden section between its neighbours, the greatest value there.
-fn greatest(cranks: &[f64], values: &[f64], value: &mut dyn FnMut(f64) -> Result<f64>) -> Result<(f64, f64)> {
-    let top = (0..values.len()).max_by(|&a, &b| values[a].total_cmp(&values[b])).expect("there is a sample");
-    let mut best = (cranks[top], values[top]);
-    let (mut low, mut high) = (cranks[top.saturating_sub(1)], cranks[(top + 1).min(cranks.len() - 1)]);
-    let ratio = (5f64.sqrt() - 1.0) / 2.0;
-    let mut at = |crank: f64| -> Result<f64> {
-        let found = value(crank)?;
-        if found > best.1 {
-            best = (crank, found);
-        }
-        Ok(found)
-    };
-    let (mut left, mut right) = (high - ratio * (high - low), low + ratio * (high - low));
-    let (mut at_left, mut at_right) = (at(left)?, at(right)?);
-    for _ in 0..REFINEMENTS {
-        if at_left > at_right {
-            (high, right, at_right) = (right, left, at_left);
-            left = high - ratio * (high - low);
-            at_left = at(left)?;
-        } else {
-            (low, left, at_left) = (left, right, at_right);
-            right = low + ratio * (high - low);
-            at_right = at(right)?;
-        }
-    }
-    Ok(best)
 }

@@ -56,6 +56,8 @@ pub struct Model<'a> {
     /// Loaded links and the sizes of their moments.
     resistances: Vec<(usize, f64)>,
     kinks: Kinks,
+    /// Crank angles between pieces: the kinks of one period, or its start if there are none; with limits those as well.
+    boundaries: Vec<f64>,
     /// Sense of each loaded link's transfer function on each piece of one period: +1 or -1, pieces one after the other.
     senses: Vec<f64>,
     pub(super) motor: Option<Motor>,
@@ -86,11 +88,13 @@ impl<'a> Model<'a> {
         let resistances = case.loads.iter().map(|load| match *load {
             Load::Resistance { link, moment } => (link, moment),
         });
+        let kinks = reduced::kinks(case)?;
         let mut model = Model {
             case,
             masses: masses.collect(),
             resistances: resistances.collect(),
-            kinks: reduced::kinks(case)?,
+            boundaries: boundaries(&kinks, case.drive.start),
+            kinks,
             senses: Vec::new(),
             motor: case.motor.clone(),
             sense: case.drive.at(0.0).omega.signum(),
@@ -131,7 +135,7 @@ impl<'a> Model<'a> {
 
     fn find_senses(&mut self) -> Result<()> {
         let mut poses = PoseSolver::new(self.case)?;
-        let count = self.boundaries().len() as i64;
+        let count = self.boundaries.len() as i64;
         for index in 0..count {
             let piece = self.piece(index);
             let middle = (piece.ends[0] + piece.ends[1]) / 2.0;
@@ -141,23 +145,10 @@ impl<'a> Model<'a> {
         Ok(())
     }
 
-    /// Crank angles between pieces: the kinks of one period, or its start if there are none; with limits those as well.
-    fn boundaries(&self) -> Vec<f64> {
-        match self.kinks.limits {
-            None if self.kinks.cranks.is_empty() => vec![self.case.drive.start],
-            None => self.kinks.cranks.clone(),
-            Some([from, to]) => {
-                let inner = self.kinks.cranks.iter().copied().filter(|&kink| kink > from && kink < to);
-                let ends = [from + LIMIT_MARGIN, to - LIMIT_MARGIN];
-                ends[..1].iter().copied().chain(inner).chain([ends[1]]).collect()
-            }
-        }
-    }
-
     /// How far to go back (rad) so that the crank angle stays small: the period, where `crank` is the end of the last piece going up; minus the
     /// period, where it is the beginning of the first one going down; else nothing. Small angles keep their last digits.
     pub(super) fn wrap(&self, crank: f64, way: f64) -> f64 {
-        let first = self.boundaries()[0];
+        let first = self.boundaries[0];
         match self.kinks.period {
             Some(period) if way > 0.0 && crank >= first + period => period,
             Some(period) if way < 0.0 && crank <= first => -period,
@@ -167,7 +158,7 @@ impl<'a> Model<'a> {
 
     /// Crank angle of a boundary, counted on through the periods.
     fn boundary(&self, index: i64) -> f64 {
-        let all = self.boundaries();
+        let all = &self.boundaries;
         let count = all.len() as i64;
         match self.kinks.period {
             Some(period) => all[index.rem_euclid(count) as usize] + period * index.div_euclid(count) as f64,
@@ -182,7 +173,7 @@ impl<'a> Model<'a> {
 
     /// The piece at `crank`; at a boundary, the one to which `way` (+1 or -1) leads. `None` beyond a limit.
     pub(super) fn piece_at(&self, crank: f64, way: f64) -> Option<Piece> {
-        let all = self.boundaries();
+        let all = &self.boundaries;
         let (turns, inside) = match self.kinks.period {
             Some(period) => {
                 let turns = ((crank - all[0]) / period).floor();
@@ -247,5 +238,18 @@ impl<'a> Model<'a> {
     pub(super) fn branch(&self, omega: f64, towards: f64) -> Option<Branch> {
         let motor = self.motor.as_ref()?;
         Some(motor.branch(self.sense * omega, self.sense * towards))
+    }
+}
+
+/// Crank angles between pieces, of a drive that starts at `start` (rad).
+fn boundaries(kinks: &Kinks, start: f64) -> Vec<f64> {
+    match kinks.limits {
+        None if kinks.cranks.is_empty() => vec![start],
+        None => kinks.cranks.clone(),
+        Some([from, to]) => {
+            let inner = kinks.cranks.iter().copied().filter(|&kink| kink > from && kink < to);
+            let ends = [from + LIMIT_MARGIN, to - LIMIT_MARGIN];
+            ends[..1].iter().copied().chain(inner).chain([ends[1]]).collect()
+        }
     }
 }
