@@ -151,6 +151,13 @@ impl Case {
         std::iter::once(&self.drive).chain(&self.further_drives)
     }
 
+    /// Whether forces decide the motion of a driving link. Then crank angles are known of solved trajectories only: those of the grid are
+    /// of the nominal motion.
+    #[must_use]
+    pub fn is_free(&self) -> bool {
+        self.drives().any(|drive| drive.free.is_some())
+    }
+
     /// World angles of the driving links' x axes (rad) where the crank angle is `crank` (rad, as the scenario states it).
     #[must_use]
     pub fn drive_angles(&self, crank: f64) -> Vec<f64> {

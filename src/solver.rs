@@ -133,6 +133,8 @@ pub struct Sampler {
     channels: Vec<Channel>,
     columns: Vec<Vec<f64>>,
     rows: Vec<usize>,
+    /// Crank angles (rad, as the scenario states them): the grid's, or those of the states where forces decide the motion.
+    cranks: Vec<f64>,
 }
 
 impl Sampler {
@@ -142,12 +144,15 @@ impl Sampler {
         let channels = case.channels();
         let columns = vec![vec![f64::NAN; case.grid.len()]; channels.len()];
         let points = case.mechanism.moving_points().map(|(_, side)| side).collect();
-        Sampler { wanted: case.wanted, points, channels, columns, rows: Vec::new() }
+        Sampler { wanted: case.wanted, points, channels, columns, rows: Vec::new(), cranks: case.grid.cranks.clone() }
     }
 
     /// Stores a state in a row. The order of values is that of [`Case::channels`].
     pub fn put(&mut self, case: &Case, row: usize, state: &State) {
         self.rows.push(row);
+        if case.is_free() {
+            self.cranks[row] = state.angles[case.drive.link] - case.drive.zero;
+        }
         let mut columns = self.columns.iter_mut();
         let mut put = |value: f64| columns.next().expect("as many values as channels")[row] = value;
         let has = |stage| self.wanted.has(stage);
@@ -202,7 +207,7 @@ impl Sampler {
     pub fn finish(self, case: &Case, provides: impl Fn(&Channel) -> Provision) -> Result<Trajectory> {
         let present = |channel: &Channel| !matches!(provides(channel), Provision::Absent(_));
         let (channels, columns) = self.channels.into_iter().zip(self.columns).filter(|(c, _)| present(c)).unzip();
-        Trajectory::new(case.grid.times.clone(), case.grid.cranks.clone(), channels, columns)
+        Trajectory::new(case.grid.times.clone(), self.cranks, channels, columns)
     }
 
     /// What there is of the trajectory: the rows stored so far, in the order in which they came. `None` if there is none, or if
@@ -216,7 +221,7 @@ impl Sampler {
         let stored = |values: &[f64]| self.rows.iter().map(|&row| values[row]).collect::<Vec<f64>>();
         let kept = self.channels.iter().zip(&self.columns).filter(|(channel, _)| present(channel));
         let (channels, columns) = kept.map(|(channel, column)| (channel.clone(), stored(column))).unzip();
-        Trajectory::new(stored(&case.grid.times), stored(&case.grid.cranks), channels, columns).ok()
+        Trajectory::new(stored(&case.grid.times), stored(&self.cranks), channels, columns).ok()
     }
 }
 

@@ -18,13 +18,14 @@ pub use rrp::Rrp;
 pub use rrr::Rrr;
 
 use crate::math::{Motion, Vec2, rotated, turned, unit};
-use crate::mechanism::{AssemblyMode, Group, GroupKind, Joint, Mechanism, Structure};
+use crate::mechanism::{AssemblyMode, GROUND, Group, GroupKind, Joint, Mechanism, Structure};
 
-/// Driving link that turns about a joint with the ground.
+/// Driving link that turns about a joint with the ground, or with a driving link before it.
 #[derive(Clone, Copy, Debug)]
 struct Driver {
     link: usize,
-    /// The joint in the link's own frame, and in the world.
+    base: usize,
+    /// The joint in the link's own frame, and in that of its base.
     pivot: Vec2,
     place: Vec2,
 }
@@ -124,7 +125,8 @@ impl Plan {
         let drivers = structure.drivers.iter().map(|&(link, joint)| {
             let joint = &mechanism.joints()[joint];
             let pivot = joint.on(link).expect("the driven joint is on its link");
-            Driver { link, pivot, place: joint.other(link).local }
+            let base = joint.other(link);
+            Driver { link, base: base.link, pivot, place: base.local }
         });
         let steps = structure.groups.iter().zip(modes).map(|(group, &mode)| match group.kind {
             GroupKind::Rrr => Step::Rrr(Rrr::of(mechanism, group, mode)),
@@ -159,9 +161,10 @@ impl Plan {
         let angle = angles[0];
         for (driver, &angle) in self.drivers.iter().zip(angles) {
             let direction = unit(angle);
+            let place = if driver.base == GROUND { driver.place } else { motions[driver.base].point(driver.place) };
             let motion = &mut motions[driver.link];
             motion.direction = direction;
-            motion.origin = driver.place - rotated(direction, driver.pivot);
+            motion.origin = place - rotated(direction, driver.pivot);
         }
         for (group, step) in self.steps.iter_mut().enumerate() {
             let placed = match step {
@@ -188,6 +191,9 @@ impl Plan {
             let motion = &mut motions[driver.link];
             motion.omega = omega;
             motion.velocity = turned(motion.arm(driver.pivot)) * -omega;
+            if driver.base != GROUND {
+                motions[driver.link].velocity += motions[driver.base].point_velocity(driver.place);
+            }
         }
         for step in &mut self.steps {
             match step {
@@ -209,6 +215,9 @@ impl Plan {
             let arm = motion.arm(driver.pivot);
             motion.alpha = alpha;
             motion.acceleration = arm * (motion.omega * motion.omega) - turned(arm) * alpha;
+            if driver.base != GROUND {
+                motions[driver.link].acceleration += motions[driver.base].point_acceleration(driver.place);
+            }
         }
         for step in &mut self.steps {
             match step {

@@ -7,5 +7,5 @@ pub mod motor;
 
 pub use branch::Branch;
 pub use load::Load;
-pub use motion::{Drive, MotionLaw};
+pub use motion::{Drive, DriveState, MotionLaw};
 pub use motor::{Motor, MotorLaw, ShaftInertia};

@@ -30,8 +30,10 @@ pub struct Drive {
     pub zero: f64,
     /// Crank angle at t = 0 (rad).
     pub start: f64,
-    /// The law.
+    /// The law. Of a free link, its nominal motion: the motor drives in its sense, and its speed is what speeds are measured by.
     pub law: MotionLaw,
+    /// Speed (rad/s, counter-clockwise positive) at t = 0 of a link that motor and loads move from then on; `None` while it follows the law.
+    pub free: Option<f64>,
 }
 
 impl Drive {
@@ -68,7 +70,8 @@ mod tests {
 
     #[test]
     fn time_and_angle_are_inverse() {
-        let drive = Drive { joint: 0, link: 1, zero: 3.0, start: 0.5, law: MotionLaw::ConstantSpeed(-97.2) };
+        let drive =
+            Drive { joint: 0, link: 1, zero: 3.0, start: 0.5, law: MotionLaw::ConstantSpeed(-97.2), free: None };
         let state = drive.at(0.01);
         assert!((drive.time_of(state.angle) - 0.01).abs() < 1e-15);
         assert_eq!((state.omega, state.alpha), (-97.2, 0.0));

@@ -1,8 +1,10 @@
 //! Side 1: group by group, forwards for the motion and backwards for the forces; dyads in closed form.
 
+use super::dynamics::{self, ACCURACY, End, Model, run_up};
+use super::free;
 use super::pose_solver::PoseSolver;
 use crate::case::Case;
-use crate::error::Result;
+use crate::error::{Error, ErrorKind, Result};
 use crate::solver::{Progress, Provision, Solver, State};
 use crate::trajectory::Channel;
 
@@ -20,6 +22,9 @@ impl Solver for AssurSolver {
     }
 
     fn sweep(&self, case: &Case, visit: &mut dyn FnMut(usize, &State) -> Result<()>, progress: Progress) -> Result<()> {
+        if case.is_free() {
+            return free_motion(case, visit, progress);
+        }
         let mut poses = PoseSolver::counting_turns(case)?;
         let deepest = case.wanted.deepest();
         for (done, row) in case.grid.ascending().into_iter().enumerate() {
@@ -30,4 +35,40 @@ impl Solver for AssurSolver {
         }
         Ok(())
     }
+}
+
+/// Motion under forces: of one freedom by its reduced equation of motion, of several by their transfer functions.
+fn free_motion(case: &Case, visit: &mut dyn FnMut(usize, &State) -> Result<()>, progress: Progress) -> Result<()> {
+    if !case.further_drives.is_empty() {
+        return free::sweep(case, &mut free::TransferSide::new(case)?, visit, progress);
+    }
+    free::check(case)?;
+    let rows = case.grid.ascending();
+    let mut times: Vec<f64> = rows.iter().map(|&row| case.grid.times[row]).collect();
+    times.dedup();
+    let model = Model::of(case)?;
+    let (motion, end) = dynamics::motion(&model, case.drive.free.unwrap_or(0.0), &times, ACCURACY)?;
+    if motion.len() < times.len() {
+        return Err(ended(end));
+    }
+    let mut next = 0;
+    run_up::states(case, &motion, &mut |index, state| {
+        while let Some(&row) = rows.get(next).filter(|&&row| case.grid.times[row] == times[index]) {
+            visit(row, state)?;
+            next += 1;
+        }
+        progress(next as f64 / rows.len() as f64);
+        Ok(())
+    })
+}
+
+/// The motion does not last as long as the grid.
+fn ended(end: End) -> Error {
+    let (what, t, crank) = match end {
+        End::Held(t, crank) => ("loads hold the mechanism", t, crank),
+        End::Limit(t, crank) => ("the crank comes to a limit of its rotation", t, crank),
+        End::Reached => ("the motion ends", 0.0, 0.0),
+    };
+    let message = format!("{what} at t = {t:.6} s, crank angle {:.4} deg", crank.to_degrees());
+    Error::new(ErrorKind::Numeric, message).help("let the grid end before, or give the motor more torque")
 }

@@ -3,6 +3,7 @@
 mod assur_solver;
 pub mod batch;
 pub mod dynamics;
+mod free;
 mod kinetostatics;
 pub mod modes;
 pub mod momentum;

@@ -6,12 +6,13 @@
 //! "Computer aided kinematics and dynamics of mechanical systems", 1989, chapters 3 and 8).
 
 mod constraint;
+mod free;
 
 use std::f64::consts::PI;
 
 use super::range;
 use crate::case::Case;
-use crate::drive::Drive;
+use crate::drive::{Drive, DriveState};
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::dense::Lu;
 use crate::math::{Motion, Vec2, unit};
@@ -41,6 +42,10 @@ impl Solver for NewtonSolver {
 
     fn sweep(&self, case: &Case, visit: &mut dyn FnMut(usize, &State) -> Result<()>, progress: Progress) -> Result<()> {
         let mut system = System::new(case);
+        if case.is_free() {
+            system.settle().map_err(|error| range::explained(case, &error))?;
+            return super::free::sweep(case, &mut free::Embedded::new(system), visit, progress);
+        }
         let mut state = State::at_rest(case);
         let rows = case.grid.ascending();
         // Outwards from the start in both directions: first the rows at and after t = 0, then those before it, backwards.
@@ -87,6 +92,8 @@ struct System<'a> {
     predicted: Vec<f64>,
     /// Coordinates before the step, to go back to.
     before: Vec<f64>,
+    /// The driving links now: angles in the world, angular velocities and accelerations.
+    inputs: Vec<DriveState>,
 }
 
 impl<'a> System<'a> {
@@ -113,6 +120,15 @@ impl<'a> System<'a> {
             residual: zeros(),
             predicted: zeros(),
             before: zeros(),
+            inputs: case.drives().map(|drive| by_law(drive, 0.0)).collect(),
+        }
+    }
+
+    /// Sets the time, and the driving links as their laws have them then.
+    fn set_time(&mut self, t: f64) {
+        self.time = t;
+        for (input, drive) in self.inputs.iter_mut().zip(self.case.drives()) {
+            *input = by_law(drive, t);
         }
     }
 
@@ -136,7 +152,8 @@ impl<'a> System<'a> {
         // The last part lands on t itself, not on a rounded neighbour.
         self.step_to(t, HALVINGS)?;
         if self.stage >= Stage::Reactions {
-            self.multipliers();
+            let case = self.case;
+            self.multipliers(|link, omega| case.load_moment(link, omega));
         }
         Ok(())
     }
@@ -148,7 +165,7 @@ impl<'a> System<'a> {
         for i in 0..self.q.len() {
             self.q[i] += dt * (self.rate[i] + 0.5 * dt * self.second[i]);
         }
-        self.time = t;
+        self.set_time(t);
         self.predicted.copy_from_slice(&self.q);
         match self.correct().and_then(|()| self.check_branch(dt)) {
             Ok(()) => {
@@ -158,7 +175,7 @@ impl<'a> System<'a> {
             Err(error) if halvings == 0 => Err(error),
             Err(_) => {
                 self.q.copy_from_slice(&self.before);
-                self.time = from;
+                self.set_time(from);
                 self.step_to(from + dt / 2.0, halvings - 1)?;
                 self.step_to(t, halvings - 1)
             }
@@ -197,9 +214,10 @@ impl<'a> System<'a> {
         for (index, joint) in case.mechanism.joints().iter().enumerate() {
             self.assemble_joint(2 * index, joint);
         }
+        let first = EQUATIONS * case.mechanism.joints().len();
         for (row, drive) in self.drives() {
             let theta = 3 * (drive.link - 1) + 2;
-            self.residual[row] = self.q[theta] - drive.world_angle(drive.at(self.time).angle);
+            self.residual[row] = self.q[theta] - self.inputs[row - first].angle;
             self.jacobian.add(row, theta, 1.0);
         }
     }
@@ -207,9 +225,9 @@ impl<'a> System<'a> {
     /// Velocities and accelerations from the factored Jacobian.
     fn differentiate(&mut self) {
         self.rate.fill(0.0);
-        for (row, drive) in self.drives() {
-            let state = drive.at(self.time);
-            (self.rate[row], self.second[row]) = (state.omega, state.alpha);
+        let first = EQUATIONS * self.case.mechanism.joints().len();
+        for (index, input) in self.inputs.iter().enumerate() {
+            (self.rate[first + index], self.second[first + index]) = (input.omega, input.alpha);
         }
         self.jacobian.solve(&mut self.rate);
         for (index, joint) in self.case.mechanism.joints().iter().enumerate() {
@@ -219,11 +237,11 @@ impl<'a> System<'a> {
         self.jacobian.solve(&mut self.second);
     }
 
-    /// J^T lambda = M q'' - Q.
-    fn multipliers(&mut self) {
+    /// J^T lambda = M q'' - Q, with the moments of the loads on every link from `load`.
+    fn multipliers(&mut self, load: impl Fn(usize, f64) -> f64) {
         for (index, link) in self.case.mechanism.links()[1..].iter().enumerate() {
             let i = 3 * index;
-            let load = self.case.load_moment(index + 1, self.rate[i + 2]);
+            let load = load(index + 1, self.rate[i + 2]);
             self.lambda[i] = link.mass * (self.second[i] - self.case.gravity.x);
             self.lambda[i + 1] = link.mass * (self.second[i + 1] - self.case.gravity.y);
             self.lambda[i + 2] = link.inertia * self.second[i + 2] - load;
@@ -276,8 +294,14 @@ impl<'a> System<'a> {
     }
 
     fn lost(&self, why: &str) -> Error {
-        let crank = self.case.drive.at(self.time).angle.to_degrees();
+        let crank = (self.inputs[0].angle - self.case.drive.zero).to_degrees();
         Error::new(ErrorKind::Numeric, format!("crank angle {crank:.4} deg, t = {:.6} s: {why}", self.time))
             .help("shorten the grid to the crank angles that can be reached on this branch")
     }
+}
+
+/// A driving link as its law has it, with its angle in the world.
+fn by_law(drive: &Drive, t: f64) -> DriveState {
+    let state = drive.at(t);
+    DriveState { angle: drive.world_angle(state.angle), ..state }
 }

@@ -75,7 +75,7 @@ pub fn swapped(case: &Case) -> Case {
 fn case(links: Vec<Link>, joints: Vec<Joint>, mode: AssemblyMode, start: f64, to: f64, pose: Vec<LinkPose>) -> Case {
     let mechanism = Mechanism::new(links, joints).unwrap();
     let structure = Structure::of(&mechanism, &[0]).unwrap();
-    let drive = Drive { joint: 0, link: 1, zero: 0.0, start, law: MotionLaw::ConstantSpeed(SPEED) };
+    let drive = Drive { joint: 0, link: 1, zero: 0.0, start, law: MotionLaw::ConstantSpeed(SPEED), free: None };
     let cranks = (0..=72).map(|k| start + (to - start) * f64::from(k) / 72.0).collect();
     let case = Case {
         mechanism,

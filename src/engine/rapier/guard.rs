@@ -201,8 +201,14 @@ mod tests {
         let mechanism = crate::mechanism::fixtures::four_bar();
         let start = [(0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (1.0, 0.0, 0.8410686705679303), (4.0, 0.0, 1.6821373411358607)];
         let pose = |(x, y, angle)| LinkPose { origin: Vec2::new(x, y), angle };
-        let drive =
-            Drive { joint: 0, link: 1, zero: 0.0, start: 0.0, law: crate::drive::MotionLaw::ConstantSpeed(1.0) };
+        let drive = Drive {
+            joint: 0,
+            link: 1,
+            zero: 0.0,
+            start: 0.0,
+            law: crate::drive::MotionLaw::ConstantSpeed(1.0),
+            free: None,
+        };
         let case = Case {
             structure: crate::mechanism::Structure::of(&mechanism, &[0]).unwrap(),
             mechanism,

@@ -132,7 +132,7 @@ impl Structure {
                 .find(|&joint| owners.owner_of_drive(joint).is_some_and(|link| part.contains(&link)));
             match drive {
                 None => structure.groups.push(group(mechanism, part, &known)),
-                Some(joint) if part.len() == 1 && turns_on_ground(mechanism, joint, part[0]) => {
+                Some(joint) if part.len() == 1 && structure.carries(mechanism, joint, part[0]) => {
                     structure.drivers.push((part[0], joint));
                 }
                 Some(joint) => return Err(unsupported_drive(mechanism, joint)),
@@ -142,14 +142,41 @@ impl Structure {
             }
         }
         structure.drivers.sort_by_key(|&(_, joint)| drives.iter().position(|&drive| drive == joint));
+        structure.check_order(mechanism)?;
         Ok(structure)
+    }
+
+    /// Whether a revolute joint hinges a driving link to the ground or to a driving link found before.
+    fn carries(&self, mechanism: &Mechanism, joint: usize, link: usize) -> bool {
+        let joint = &mechanism.joints()[joint];
+        let base = joint.other(link).link;
+        !joint.is_prismatic() && (base == GROUND || self.drivers.iter().any(|&(driving, _)| driving == base))
+    }
+
+    /// A driving link is placed after the one that carries it.
+    fn check_order(&self, mechanism: &Mechanism) -> Result<()> {
+        for (index, &(link, joint)) in self.drivers.iter().enumerate() {
+            let joint = &mechanism.joints()[joint];
+            let base = joint.other(link).link;
+            if base != GROUND && !self.drivers[..index].iter().any(|&(before, _)| before == base) {
+                let name = &mechanism.links()[base].name;
+                let message = format!("joint \"{}\" hangs on link \"{name}\", which is driven later", joint.name);
+                return Err(Error::new(ErrorKind::Input, message)
+                    .key("drive")
+                    .help("give the drives from the ground outwards: that of the carrying link first"));
+            }
+        }
+        Ok(())
     }
 
     /// Formula of structure, for example `I(ground, crank) -> II.2 RRR(coupler, rocker)`.
     #[must_use]
     pub fn formula(&self, mechanism: &Mechanism) -> String {
         const ROMAN: [&str; 9] = ["", "I", "II", "III", "IV", "V", "VI", "VII", "VIII"];
-        let name = |&(link, _): &(usize, usize)| format!("I(ground, {})", mechanism.links()[link].name);
+        let name = |&(link, joint): &(usize, usize)| {
+            let base = mechanism.joints()[joint].other(link).link;
+            format!("I({}, {})", mechanism.links()[base].name, mechanism.links()[link].name)
+        };
         let mut parts: Vec<String> = self.drivers.iter().map(name).collect();
         for group in &self.groups {
             let class = ROMAN.get(group.class).map_or_else(|| group.class.to_string(), ToString::to_string);
@@ -213,15 +240,13 @@ fn wrong_mobility(mechanism: &Mechanism, mobility: i64, drives: usize) -> Error 
     .help(help)
 }
 
-fn turns_on_ground(mechanism: &Mechanism, joint: usize, link: usize) -> bool {
-    let joint = &mechanism.joints()[joint];
-    !joint.is_prismatic() && joint.other(link).link == GROUND
-}
-
 fn unsupported_drive(mechanism: &Mechanism, joint: usize) -> Error {
     Error::new(
         ErrorKind::Unsupported,
-        format!("the driven joint \"{}\" does not turn a link against the ground", mechanism.joints()[joint].name),
+        format!(
+            "the driven joint \"{}\" does not turn a link against the ground or against another driving link",
+            mechanism.joints()[joint].name
+        ),
     )
     .key("drive.joint")
     .help("drive a link that is hinged to the ground by a revolute joint")

@@ -4,7 +4,7 @@ use super::poses::Layout;
 use crate::case::Case;
 use crate::drive::Load;
 use crate::math::Vec2;
-use crate::mechanism::{AssemblyMode, Group, GroupKind, Side};
+use crate::mechanism::{AssemblyMode, GROUND, Group, GroupKind, Side};
 
 /// A joint as it acts on one of its links: `sign` times its reaction, at `arm` from the link's pole, in the link's
 /// frame.
@@ -74,10 +74,11 @@ pub(super) struct Dyads {
 }
 
 impl Dyads {
-    /// `None` if a group is of another kind.
+    /// `None` if a group is of another kind, or a driving link hangs on another one.
     pub(super) fn of(case: &Case, layout: Layout) -> Option<Self> {
         let groups = &case.structure.groups;
-        if groups.iter().any(|group| group.kind != GroupKind::Rrr) {
+        let hinged = |&(link, joint): &(usize, usize)| case.mechanism.joints()[joint].other(link).link == GROUND;
+        if groups.iter().any(|group| group.kind != GroupKind::Rrr) || !case.structure.drivers.iter().all(hinged) {
             return None;
         }
         let mut settled = vec![false; case.mechanism.joints().len()];

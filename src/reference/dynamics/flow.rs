@@ -110,7 +110,9 @@ impl ODE<f64, [f64; 2]> for InTime<'_, '_> {
 }
 
 impl Flow<2> for InTime<'_, '_> {
-    const BOUNDS: usize = 5;
+    fn bounds(&self) -> usize {
+        5
+    }
 
     fn margin(&self, bound: usize, _: f64, &[crank, omega]: &[f64; 2]) -> f64 {
         let [from, to] = self.0.piece.get().ends;
@@ -154,7 +156,9 @@ impl ODE<f64, [f64; 3]> for OverAngle<'_, '_> {
 }
 
 impl Flow<3> for OverAngle<'_, '_> {
-    const BOUNDS: usize = 2;
+    fn bounds(&self) -> usize {
+        2
+    }
 
     fn margin(&self, bound: usize, x: f64, y: &[f64; 3]) -> f64 {
         self.0.branch_margins(self.speed(x, y[0]))[bound]

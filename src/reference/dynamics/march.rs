@@ -12,7 +12,8 @@ use differential_equations::status::Status;
 use crate::error::{Error, ErrorKind, Result};
 
 /// DOP853 on a state of `N` numbers.
-pub(super) type Method<const N: usize> = ExplicitRungeKutta<Ordinary, DormandPrince, f64, [f64; N], 8, 12, 16>;
+pub(in crate::reference) type Method<const N: usize> =
+    ExplicitRungeKutta<Ordinary, DormandPrince, f64, [f64; N], 8, 12, 16>;
 
 /// Most steps of one piece: a hundred turns of a mechanism take some ten thousand.
 const MOST_STEPS: usize = 10_000_000;
@@ -24,9 +25,9 @@ const BISECTIONS: usize = 30;
 const CORRECTIONS: usize = 6;
 
 /// An equation of motion on one piece.
-pub(super) trait Flow<const N: usize>: ODE<f64, [f64; N]> {
+pub(in crate::reference) trait Flow<const N: usize>: ODE<f64, [f64; N]> {
     /// Number of bounds of the piece.
-    const BOUNDS: usize;
+    fn bounds(&self) -> usize;
 
     /// How far within a bound the state is: negative beyond it.
     fn margin(&self, bound: usize, x: f64, y: &[f64; N]) -> f64;
@@ -40,7 +41,7 @@ pub(super) trait Flow<const N: usize>: ODE<f64, [f64; N]> {
 
 /// Why a march ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Stop {
+pub(in crate::reference) enum Stop {
     /// At the wanted end.
     End,
     /// On a bound of the piece.
@@ -49,21 +50,21 @@ pub(super) enum Stop {
 
 /// Where a march is.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Place<const N: usize> {
+pub(in crate::reference) struct Place<const N: usize> {
     /// Independent variable.
-    pub(super) x: f64,
+    pub(in crate::reference) x: f64,
     /// State.
-    pub(super) y: [f64; N],
+    pub(in crate::reference) y: [f64; N],
     /// Length of the next step; 0 for not known.
-    pub(super) h: f64,
+    pub(in crate::reference) h: f64,
 }
 
 /// One step: where it began, and where it ended.
-pub(super) type Step<const N: usize> = [(f64, [f64; N]); 2];
+pub(in crate::reference) type Step<const N: usize> = [(f64, [f64; N]); 2];
 
 /// Goes on from `place` over all `targets`, which ascend and lie ahead, to the last of them or to the first bound. Every target ends a step, so that
 /// the state there is as exact as the method. `visit` sees every step.
-pub(super) fn march<const N: usize, F: Flow<N>>(
+pub(in crate::reference) fn march<const N: usize, F: Flow<N>>(
     flow: &F,
     place: &mut Place<N>,
     targets: &[f64],
@@ -90,7 +91,7 @@ pub(super) fn march<const N: usize, F: Flow<N>>(
         if matches!(method.status(), Status::RejectedStep) {
             continue;
         }
-        if (0..F::BOUNDS).any(|bound| flow.margin(bound, method.t(), method.y()) < 0.0) {
+        if (0..flow.bounds()).any(|bound| flow.margin(bound, method.t(), method.y()) < 0.0) {
             return end_on_bound(flow, place, &mut method, visit);
         }
         // Of a step that had to be short, nothing is learnt about the length of the next.
@@ -117,7 +118,7 @@ fn end_on_bound<const N: usize, F: Flow<N>>(
     visit: &mut dyn FnMut(&F, &Step<N>) -> Result<()>,
 ) -> Result<Stop> {
     let mut first = (f64::INFINITY, 0);
-    for bound in 0..F::BOUNDS {
+    for bound in 0..flow.bounds() {
         if flow.margin(bound, method.t(), method.y()) < 0.0 {
             let at = crossing(flow, method, bound)?;
             if at < first.0 {
@@ -174,7 +175,12 @@ fn shortened<const N: usize, F: Flow<N>>(
 }
 
 /// State after one step of a given length, whatever its error estimate: it is part of one that was accepted.
-pub(super) fn one_step<const N: usize, F: Flow<N>>(flow: &F, x: f64, y: &[f64; N], h: f64) -> Result<[f64; N]> {
+pub(in crate::reference) fn one_step<const N: usize, F: Flow<N>>(
+    flow: &F,
+    x: f64,
+    y: &[f64; N],
+    h: f64,
+) -> Result<[f64; N]> {
     flow.begin(x, y);
     let mut method: Method<N> = ExplicitRungeKutta::dop853().rtol(1e6).atol(1e6).h0(h);
     // The interval is longer than the step, or rounding would make it too short for it.

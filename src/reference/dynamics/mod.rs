@@ -6,7 +6,7 @@
 pub mod course;
 mod flow;
 pub mod flywheel;
-mod march;
+pub(in crate::reference) mod march;
 mod model;
 pub mod regime;
 pub mod run_up;

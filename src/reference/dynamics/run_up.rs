@@ -14,7 +14,7 @@ pub const ACCURACY: f64 = 1e-11;
 /// Speed (rad/s) with which a crank at rest that is about to turn is told from one that stands: its square vanishes.
 const SETTING_OFF: f64 = 1e-200;
 /// Pieces in a row that take no time: the motion does not get away from a kink.
-pub(super) const MOST_EMPTY: usize = 8;
+pub(in crate::reference) const MOST_EMPTY: usize = 8;
 
 /// The crank at one instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -193,6 +193,30 @@ fn instant(flow: &InTime, t: f64, [crank, omega]: [f64; 2], gone: f64) -> CrankS
     CrankState { t, crank: crank + gone, within: crank, omega, alpha, motor, shaft: motor - flow.0.model.added * alpha }
 }
 
+/// Kinetostatics of a motion: the state at every instant, as far as the case wants it.
+pub(in crate::reference) fn states(
+    case: &Case,
+    motion: &[CrankState],
+    visit: &mut dyn FnMut(usize, &State) -> Result<()>,
+) -> Result<()> {
+    let mut poses = PoseSolver::counting_turns(case)?;
+    let deepest = case.wanted.deepest();
+    for (row, instant) in motion.iter().enumerate() {
+        poses.solve(instant.crank, instant.omega, instant.alpha, deepest)?;
+        // At the very moment of setting off, loads act against the motion that begins.
+        if instant.omega == 0.0 && instant.alpha != 0.0 && deepest >= Stage::Reactions {
+            let begun = SETTING_OFF.copysign(instant.alpha);
+            let loaded = poses.solve(instant.crank, begun, instant.alpha, deepest)?.clone();
+            poses.solve(instant.crank, 0.0, instant.alpha, Stage::Accelerations)?;
+            let still = poses.with_angles().clone();
+            visit(row, &State { motions: still.motions, angles: still.angles, ..loaded })?;
+            continue;
+        }
+        visit(row, poses.with_angles())?;
+    }
+    Ok(())
+}
+
 /// A motion with everything that it does to the mechanism.
 #[derive(Clone, Debug)]
 pub struct RunUp {
@@ -218,25 +242,13 @@ impl RunUp {
             cranks: motion.iter().map(|instant| instant.crank).collect(),
         };
         let case: Case = model.case.on(grid);
-        let mut poses = PoseSolver::counting_turns(model.case)?;
         let mut sampler = Sampler::new(&case);
         let (mut natural, size) = (0.0f64, case.mechanism.size());
-        let deepest = case.wanted.deepest();
-        for (row, instant) in motion.iter().enumerate() {
-            poses.solve(instant.crank, instant.omega, instant.alpha, deepest)?;
-            // At the very moment of setting off, loads act against the motion that begins.
-            if instant.omega == 0.0 && instant.alpha != 0.0 && deepest >= Stage::Reactions {
-                let begun = SETTING_OFF.copysign(instant.alpha);
-                let loaded = poses.solve(instant.crank, begun, instant.alpha, deepest)?.clone();
-                poses.solve(instant.crank, 0.0, instant.alpha, Stage::Accelerations)?;
-                let still = poses.with_angles().clone();
-                sampler.put(&case, row, &State { motions: still.motions, angles: still.angles, ..loaded });
-                continue;
-            }
-            let state = poses.with_angles();
+        states(&case, &motion, &mut |row, state| {
             natural = state.forces.iter().fold(natural, |most, force| most.max(force.norm() * size));
             sampler.put(&case, row, state);
-        }
+            Ok(())
+        })?;
         let trajectory = sampler.finish(&case, |_| Provision::Computed)?;
         Ok(RunUp { motion, trajectory, end, natural })
     }

@@ -10,6 +10,7 @@ mod sliding;
 
 use crate::assur::{Plan, Step};
 use crate::case::Case;
+use crate::drive::Drive;
 use crate::solver::State;
 use body::{Action, Body, Reactions};
 use higher::Higher;
@@ -28,8 +29,8 @@ enum Part {
 #[derive(Clone, Debug)]
 pub(super) struct Kinetostatics {
     parts: Vec<Part>,
-    /// The driving links and their pivots, in the order of the drives.
-    drivers: Vec<(Body, Action)>,
+    /// The driving links, their pivots and the numbers of their drives, the outermost first.
+    drivers: Vec<(Body, Action, usize)>,
 }
 
 impl Kinetostatics {
@@ -45,10 +46,13 @@ impl Kinetostatics {
             });
             group.inner.iter().chain(&group.outer).for_each(|&joint| settled[joint] = true);
         }
-        let drivers = case
-            .drives()
-            .map(|drive| (Body::of(case, drive.link, &settled), Action::of(case, drive.joint, drive.link)));
-        Kinetostatics { parts, drivers: drivers.collect() }
+        let drives: Vec<&Drive> = case.drives().collect();
+        let mut drivers = Vec::with_capacity(drives.len());
+        for (index, drive) in drives.into_iter().enumerate().rev() {
+            drivers.push((Body::of(case, drive.link, &settled), Action::of(case, drive.joint, drive.link), index));
+            settled[drive.joint] = true;
+        }
+        Kinetostatics { parts, drivers }
     }
 
     /// Fills in what the first link exerts on the second in every joint, and the balancing moments on the driving
@@ -66,11 +70,11 @@ impl Kinetostatics {
                 Part::Higher(higher) => higher.solve(case, plan, motions, reactions),
             }
         }
-        for ((driver, pivot), torque) in self.drivers.iter().zip(torques) {
+        for (driver, pivot, index) in &self.drivers {
             let pole = pivot.place(motions);
             let (force, moment) = driver.resultant(case, motions, reactions, pole);
             pivot.put(-force, reactions);
-            *torque = -moment;
+            torques[*index] = -moment;
         }
     }
 }

@@ -1,0 +1,236 @@
+//! The pieces of a free motion: what is held in each, and where it ends.
+
+use std::cell::{Cell, RefCell};
+
+use differential_equations::ode::ODE;
+
+use super::super::dynamics::march::{Flow, Place};
+use super::{Held, Inputs, Side};
+use crate::case::Case;
+use crate::drive::{Branch, Load, Motor};
+use crate::error::{Error, ErrorKind, Result};
+use crate::solver::State;
+
+/// Farthest that a driving link may turn within a step (rad). A first try of a step may lead anywhere; it is to be refused, not followed.
+const FARTHEST: f64 = std::f64::consts::PI;
+/// Bounds of the motor's piece: too fast, too slow.
+const OF_MOTOR: usize = 2;
+
+/// Angles and speeds of the free driving links at t = 0: first all angles in the world, then all speeds.
+pub(super) fn start<const N: usize>(case: &Case) -> [f64; N] {
+    let mut y = [0.0; N];
+    let free = case.drives().filter_map(|drive| Some((drive.world_angle(drive.start), drive.free?)));
+    for (index, (angle, speed)) in free.enumerate() {
+        (y[index], y[N / 2 + index]) = (angle, speed);
+    }
+    y
+}
+
+/// A motion in pieces: first-order equations of the free driving links' angles and speeds.
+pub(super) struct Pieces<'a, const N: usize> {
+    case: &'a Case,
+    work: RefCell<Work<'a>>,
+    /// Sense of every loaded link: +1, -1, or 0 where its load has none.
+    senses: RefCell<Vec<f64>>,
+    branch: Cell<Option<Branch>>,
+    origin: Cell<[f64; N]>,
+}
+
+/// What an evaluation works with.
+struct Work<'a> {
+    side: &'a mut dyn Side,
+    inputs: Inputs,
+    held: Held,
+    fault: Option<Error>,
+}
+
+impl<'a, const N: usize> Pieces<'a, N> {
+    pub(super) fn new(case: &'a Case, side: &'a mut dyn Side) -> Self {
+        let drives = case.drives().count();
+        let zeros = || vec![0.0; drives];
+        let held = Held {
+            motor: 0.0,
+            added: case.motor.as_ref().filter(|_| case.drive.free.is_some()).map_or(0.0, Motor::inertia_on_crank),
+            loads: vec![0.0; case.loads.len()],
+        };
+        let inputs = Inputs { angles: zeros(), speeds: zeros(), accelerations: zeros() };
+        Pieces {
+            case,
+            work: RefCell::new(Work { side, inputs, held, fault: None }),
+            senses: RefCell::new(vec![0.0; case.loads.len()]),
+            branch: Cell::new(None),
+            origin: Cell::new(start(case)),
+        }
+    }
+
+    /// The driving links at time `t` in the state `y`.
+    fn put(&self, inputs: &mut Inputs, t: f64, y: &[f64; N]) {
+        let mut free = 0;
+        for (index, drive) in self.case.drives().enumerate() {
+            if drive.free.is_some() {
+                (inputs.angles[index], inputs.speeds[index]) = (y[free], y[N / 2 + free]);
+                free += 1;
+            } else {
+                let state = drive.at(t);
+                inputs.angles[index] = drive.world_angle(state.angle);
+                (inputs.speeds[index], inputs.accelerations[index]) = (state.omega, state.alpha);
+            }
+        }
+    }
+
+    /// Sense in which the motor drives.
+    fn sense(&self) -> f64 {
+        self.case.drive.at(0.0).omega.signum()
+    }
+
+    fn motor_moment(&self, omega: f64) -> f64 {
+        let sense = self.sense();
+        self.branch.get().map_or(0.0, |branch| sense * branch.moment(sense * omega))
+    }
+
+    /// Accelerations of the driving links, left in the inputs of `work`.
+    fn accelerate(&self, work: &mut Work, t: f64, y: &[f64; N]) -> Result<()> {
+        self.put(&mut work.inputs, t, y);
+        work.held.motor = self.motor_moment(work.inputs.speeds[0]);
+        for ((moment, load), &sense) in
+            work.held.loads.iter_mut().zip(&self.case.loads).zip(self.senses.borrow().iter())
+        {
+            *moment = load.moment(sense);
+        }
+        work.side.accelerate(&mut work.inputs, &work.held)
+    }
+
+    /// The whole state.
+    pub(super) fn fill(&self, t: f64, y: &[f64; N], state: &mut State) -> Result<()> {
+        let work = &mut *self.work.borrow_mut();
+        self.accelerate(work, t, y)?;
+        work.side.fill(&work.inputs, &work.held, state)
+    }
+
+    /// Chooses the senses and the motor's branch with which the motion goes on from where it is, after it has come to a bound.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Numeric`] where a resistance holds a link at rest, and those of the side.
+    pub(super) fn enter(&self, place: &mut Place<N>, bound: Option<usize>) -> Result<()> {
+        let work = &mut *self.work.borrow_mut();
+        if let Some(end) = bound.and_then(|bound| bound.checked_sub(self.case.loads.len())) {
+            // Exactly on the bound, or the same piece would be chosen again.
+            let speeds = self.branch.get().map_or([0.0; 2], |branch| branch.speeds);
+            place.y[N / 2] = self.sense() * speeds[1 - end];
+        }
+        self.origin.set(place.y);
+        let loaded: Vec<usize> = self.case.loads.iter().map(Load::link).collect();
+        self.put(&mut work.inputs, place.x, &place.y);
+        let crank = work.inputs.speeds[0];
+        // At a standstill the branch is chosen by where the crank is going, which is known below.
+        let way = self.sense();
+        let reached_speed = bound.filter(|&bound| bound >= loaded.len());
+        let beyond = match reached_speed {
+            Some(bound) if bound == loaded.len() => 1.0,
+            Some(_) => -1.0,
+            None => 1.0,
+        };
+        if bound.is_none() || reached_speed.is_some() {
+            let motor = self.case.motor.as_ref().filter(|_| self.case.drive.free.is_some());
+            self.branch.set(motor.map(|motor| motor.branch(way * crank, beyond)));
+        }
+        let mut stood: Vec<bool> = Vec::with_capacity(loaded.len());
+        for (index, &link) in loaded.iter().enumerate() {
+            let spin = work.side.spin(&work.inputs, link)?;
+            let at_rest = bound == Some(index) || (bound.is_none() && spin == 0.0);
+            stood.push(at_rest);
+            if !at_rest && bound.is_none() {
+                self.senses.borrow_mut()[index] = spin.signum();
+            }
+        }
+        if !stood.contains(&true) {
+            return self.accelerate(work, place.x, &place.y);
+        }
+        // Links at rest go where they are accelerated without their resistances, if their resistances let them.
+        let before = self.senses.borrow().clone();
+        for (index, _) in stood.iter().enumerate().filter(|(_, stood)| **stood) {
+            self.senses.borrow_mut()[index] = 0.0;
+        }
+        self.accelerate(work, place.x, &place.y)?;
+        for (index, &link) in loaded.iter().enumerate().filter(|&(index, _)| stood[index]) {
+            let [_, alpha] = work.side.link_rates(link);
+            self.senses.borrow_mut()[index] = if alpha == 0.0 { before[index] } else { alpha.signum() };
+        }
+        self.accelerate(work, place.x, &place.y)?;
+        for (index, &link) in loaded.iter().enumerate().filter(|&(index, _)| stood[index]) {
+            let [_, alpha] = work.side.link_rates(link);
+            let sense = self.senses.borrow()[index];
+            if !(alpha * sense >= 0.0) {
+                return Err(self.is_held(place, link));
+            }
+        }
+        Ok(())
+    }
+
+    fn is_held(&self, place: &Place<N>, link: usize) -> Error {
+        let name = &self.case.mechanism.links()[link].name;
+        let message = format!("the resistance of link \"{name}\" holds it at t = {:.6} s", place.x);
+        Error::new(ErrorKind::Numeric, message)
+            .help("give the motor more torque or the mechanism more speed, or let the grid end before")
+    }
+
+    /// How far within the speeds of its branch the motor is.
+    fn branch_margin(&self, bound: usize, y: &[f64; N]) -> f64 {
+        // The crank's own speed: it is the first that is free, wherever there is a branch.
+        let speed = self.sense() * y[N / 2];
+        self.branch.get().map_or(f64::INFINITY, |branch| match bound {
+            0 => branch.speeds[1] - speed,
+            _ => speed - branch.speeds[0],
+        })
+    }
+}
+
+impl<const N: usize> ODE<f64, [f64; N]> for Pieces<'_, N> {
+    fn diff(&self, t: f64, y: &[f64; N], rate: &mut [f64; N]) {
+        let origin = self.origin.get();
+        let near = (0..N / 2).all(|k| (y[k] - origin[k]).abs() <= FARTHEST);
+        let work = &mut *self.work.borrow_mut();
+        if !near {
+            rate.fill(f64::NAN);
+            return;
+        }
+        if let Err(error) = self.accelerate(work, t, y) {
+            work.fault.get_or_insert(error);
+            rate.fill(f64::NAN);
+            return;
+        }
+        let free = self.case.drives().enumerate().filter(|(_, drive)| drive.free.is_some());
+        for (k, (index, _)) in free.enumerate() {
+            (rate[k], rate[N / 2 + k]) = (y[N / 2 + k], work.inputs.accelerations[index]);
+        }
+    }
+}
+
+impl<const N: usize> Flow<N> for Pieces<'_, N> {
+    fn bounds(&self) -> usize {
+        self.case.loads.len() + OF_MOTOR
+    }
+
+    fn margin(&self, bound: usize, t: f64, y: &[f64; N]) -> f64 {
+        let Some(load) = self.case.loads.get(bound) else {
+            return self.branch_margin(bound - self.case.loads.len(), y);
+        };
+        let work = &mut *self.work.borrow_mut();
+        self.put(&mut work.inputs, t, y);
+        match work.side.spin(&work.inputs, load.link()) {
+            Ok(spin) => self.senses.borrow()[bound] * spin,
+            Err(error) => {
+                work.fault.get_or_insert(error);
+                f64::NAN
+            }
+        }
+    }
+
+    fn begin(&self, _: f64, y: &[f64; N]) {
+        self.origin.set(*y);
+    }
+
+    fn fault(&self) -> Option<Error> {
+        self.work.borrow_mut().fault.take()
+    }
+}

@@ -1,0 +1,143 @@
+//! Motion that forces decide, of any number of freedoms: each analytic side gives the accelerations of the driving links in its own way, and the shared
+//! integrator follows them in time.
+//!
+//! Independent coordinates are the angles of the driving links (coordinate partitioning: Wehage and Haug 1982). What jumps with a sense of motion,
+//! a resistance or the losses of a reducer, is held within a piece of the motion; pieces end exactly where the sense changes.
+
+mod flow;
+mod transfer;
+
+pub(super) use transfer::TransferSide;
+
+use super::dynamics::ACCURACY;
+use super::dynamics::march::{Place, Step, Stop, march};
+use super::dynamics::run_up::MOST_EMPTY;
+use crate::case::Case;
+use crate::error::{Error, ErrorKind, Result};
+use crate::solver::{Progress, State};
+use flow::Pieces;
+
+/// Most free driving links.
+pub const MOST_FREEDOMS: usize = 4;
+
+/// The driving links at one instant, in the order of the drives: angles in the world (rad), angular velocities (rad/s) and accelerations (rad/s^2).
+/// Those of a drive that follows its law are the law's.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Inputs {
+    pub(super) angles: Vec<f64>,
+    pub(super) speeds: Vec<f64>,
+    pub(super) accelerations: Vec<f64>,
+}
+
+/// What acts besides gravity while a piece of the motion lasts.
+#[derive(Clone, Debug)]
+pub(super) struct Held {
+    /// Moment of the motor on the crank (N m), counter-clockwise positive.
+    pub(super) motor: f64,
+    /// Moment of inertia that turns with the crank (kg m^2): rotor and reducer.
+    pub(super) added: f64,
+    /// Moment of every load on its link (N m), in the order of the case.
+    pub(super) loads: Vec<f64>,
+}
+
+/// An analytic side's equations of motion in the coordinates of the driving links.
+pub(super) trait Side {
+    /// Solves for the accelerations of the free driving links, and puts them into the inputs. Those of the others are known.
+    fn accelerate(&mut self, inputs: &mut Inputs, held: &Held) -> Result<()>;
+
+    /// Angular velocity (rad/s) of a link at these angles and speeds.
+    fn spin(&mut self, inputs: &Inputs, link: usize) -> Result<f64>;
+
+    /// Angular velocity and acceleration of a link as last [accelerated](Side::accelerate).
+    fn link_rates(&self, link: usize) -> [f64; 2];
+
+    /// The whole state as last [accelerated](Side::accelerate), turns of the links kept, reactions if they are wanted.
+    fn fill(&mut self, inputs: &Inputs, held: &Held, state: &mut State) -> Result<()>;
+}
+
+/// Checks that a case can be solved as a free motion.
+///
+/// # Errors
+/// [`ErrorKind::Input`] for instants before t = 0, and for mechanisms in which nothing has a mass; [`ErrorKind::Unsupported`] for too many freedoms.
+pub(super) fn check(case: &Case) -> Result<()> {
+    if let Some(t) = case.grid.times.iter().copied().find(|&t| t < 0.0) {
+        let message = format!("the motion is free from t = 0 on, but an instant at {t} s is wanted");
+        return Err(Error::new(ErrorKind::Input, message).key("grid").help("let the grid go by time, from 0 s on"));
+    }
+    let free = case.drives().filter(|drive| drive.free.is_some()).count();
+    if free > MOST_FREEDOMS {
+        let message = format!("{free} driving links are free, at most {MOST_FREEDOMS} are solved");
+        return Err(Error::new(ErrorKind::Unsupported, message).help("prescribe the motion of some of them"));
+    }
+    let added = case.motor.as_ref().map_or(0.0, crate::drive::Motor::inertia_on_crank);
+    if added == 0.0 && case.mechanism.links().iter().all(|link| link.mass == 0.0) {
+        let message = "the motion under forces is asked for, but nothing in the mechanism has a mass";
+        return Err(Error::new(ErrorKind::Input, message).help("give the links masses, or the motor a rotor"));
+    }
+    Ok(())
+}
+
+/// Follows the motion over the case's grid.
+///
+/// # Errors
+/// Those of [`check`] and of the side; [`ErrorKind::Numeric`] where a resistance holds the mechanism.
+pub(super) fn sweep(
+    case: &Case,
+    side: &mut dyn Side,
+    visit: &mut dyn FnMut(usize, &State) -> Result<()>,
+    progress: Progress,
+) -> Result<()> {
+    check(case)?;
+    match case.drives().filter(|drive| drive.free.is_some()).count() {
+        1 => run::<2>(case, side, visit, progress),
+        2 => run::<4>(case, side, visit, progress),
+        3 => run::<6>(case, side, visit, progress),
+        _ => run::<8>(case, side, visit, progress),
+    }
+}
+
+fn run<const N: usize>(
+    case: &Case,
+    side: &mut dyn Side,
+    visit: &mut dyn FnMut(usize, &State) -> Result<()>,
+    progress: Progress,
+) -> Result<()> {
+    let rows = case.grid.ascending();
+    let mut targets: Vec<f64> = rows.iter().map(|&row| case.grid.times[row]).collect();
+    targets.dedup();
+    let Some(&last) = targets.last() else { return Ok(()) };
+    let mut place = Place { x: 0.0, y: flow::start::<N>(case), h: 0.0 };
+    let pieces: Pieces<N> = Pieces::new(case, side);
+    pieces.enter(&mut place, None)?;
+    let mut next = 0;
+    let mut state = State::at_rest(case);
+    let mut reach = |pieces: &Pieces<N>, t: f64, y: &[f64; N]| -> Result<()> {
+        if rows.get(next).is_none_or(|&row| case.grid.times[row] != t) {
+            return Ok(());
+        }
+        pieces.fill(t, y, &mut state)?;
+        while let Some(&row) = rows.get(next).filter(|&&row| case.grid.times[row] == t) {
+            visit(row, &state)?;
+            next += 1;
+        }
+        progress(next as f64 / rows.len() as f64);
+        Ok(())
+    };
+    if targets[0] == 0.0 {
+        reach(&pieces, 0.0, &place.y)?;
+    }
+    let mut empty = 0;
+    while place.x < last {
+        let from = place.x;
+        let mut at_step = |pieces: &Pieces<N>, &[_, (t, y)]: &Step<N>| reach(pieces, t, &y);
+        let Stop::Bound(bound) = march(&pieces, &mut place, &targets, ACCURACY, &mut at_step)? else { break };
+        empty = if place.x > from { 0 } else { empty + 1 };
+        if empty > MOST_EMPTY {
+            let message = format!("the motion does not get away from t = {from:.9} s, where a sense of motion changes");
+            return Err(Error::new(ErrorKind::Numeric, message)
+                .help("a load that turns about just there holds and lets go in turn: start a little aside"));
+        }
+        pieces.enter(&mut place, Some(bound))?;
+    }
+    Ok(())
+}

@@ -1,0 +1,185 @@
+//! Side 1 for several freedoms: Jourdain's principle with the transfer functions of every driving link, group by group.
+//!
+//! With the first transfer functions v_j, w_j of a link's mass centre and angle for driving link j alone, A_ij = sum of m v_i . v_j + J w_i w_j, and
+//! A alpha = T + sum of v_i . (F - m a0) + w_i (M - J alpha0), where a0, alpha0 are the accelerations that are left when no free driving link accelerates.
+
+use super::super::kinetostatics::Kinetostatics;
+use super::super::turns::Turns;
+use super::{Held, Inputs, Side};
+use crate::assur::Plan;
+use crate::case::Case;
+use crate::error::{Error, ErrorKind, Result};
+use crate::math::Vec2;
+use crate::math::dense::Lu;
+use crate::mechanism::GROUND;
+use crate::solver::State;
+use crate::trajectory::Stage;
+
+/// A driving link turns at most this much (rad) between two poses, so that no link's turns are miscounted.
+const STEP: f64 = std::f64::consts::PI / 12.0;
+
+/// The equations of motion of a case by its Assur groups.
+pub(in crate::reference) struct TransferSide<'a> {
+    case: &'a Case,
+    plan: Plan,
+    statics: Kinetostatics,
+    state: State,
+    turns: Turns,
+    /// Angles of the driving links at the last pose.
+    at: Vec<f64>,
+    target: Vec<f64>,
+    unit: Vec<f64>,
+    /// Numbers of the free drives.
+    free: Vec<usize>,
+    /// First transfer functions of every link's mass centre and angle, link by link, for one free driving link after the other.
+    transfer: Vec<(Vec2, f64)>,
+    matrix: Lu,
+    right: Vec<f64>,
+}
+
+impl<'a> TransferSide<'a> {
+    /// At the start pose of a case.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Unsupported`] for mechanisms with groups of more than two links; [`ErrorKind::Geometry`] if the start pose is singular.
+    pub(in crate::reference) fn new(case: &'a Case) -> Result<Self> {
+        let plan = Plan::of(&case.mechanism, &case.structure, &case.modes);
+        if !plan.is_closed_form() {
+            let message = "side \"assur\" solves the free motion of several freedoms with dyads only, but the mechanism has a larger group";
+            return Err(Error::new(ErrorKind::Unsupported, message).help("take side \"newton\": --reference newton"));
+        }
+        let (statics, state) = (Kinetostatics::of(case, &plan), State::at_start(case));
+        let free: Vec<usize> =
+            case.drives().enumerate().filter_map(|(index, drive)| drive.free.map(|_| index)).collect();
+        let at: Vec<f64> = case.drives().map(|drive| drive.world_angle(drive.start)).collect();
+        let turns = Turns::from(&case.start, &state.motions);
+        let mut side = TransferSide {
+            case,
+            plan,
+            statics,
+            state,
+            turns,
+            target: at.clone(),
+            unit: vec![0.0; at.len()],
+            at,
+            transfer: vec![(Vec2::zeros(), 0.0); free.len() * case.mechanism.links().len()],
+            matrix: Lu::new(free.len()),
+            right: vec![0.0; free.len()],
+            free,
+        };
+        side.place()?;
+        Ok(side)
+    }
+
+    /// Places the mechanism at the target angles.
+    fn place(&mut self) -> Result<()> {
+        self.plan.positions(&self.target, &mut self.state.motions).map_err(|reach| {
+            let group = self.case.structure.groups[reach.group].names(&self.case.mechanism);
+            let crank = (self.target[0] - self.case.drive.zero).to_degrees();
+            Error::new(
+                ErrorKind::Geometry,
+                format!("the group ({group}) cannot be assembled at crank angle {crank:.4} deg"),
+            )
+            .help("let the grid end before the motion comes there")
+        })?;
+        self.turns.count(&self.state.motions);
+        Ok(())
+    }
+
+    fn go_to(&mut self, angles: &[f64]) -> Result<()> {
+        let farthest = self.at.iter().zip(angles).fold(0.0f64, |most, (a, b)| most.max((b - a).abs()));
+        let parts = (farthest / STEP).ceil().max(1.0);
+        for part in 1..=parts as usize {
+            let share = part as f64 / parts;
+            for ((target, &from), &to) in self.target.iter_mut().zip(&self.at).zip(angles) {
+                *target = if share < 1.0 { from + (to - from) * share } else { to };
+            }
+            self.place()?;
+        }
+        self.at.copy_from_slice(angles);
+        Ok(())
+    }
+
+    fn find_transfer(&mut self) {
+        let links = self.case.mechanism.links();
+        for (k, &index) in self.free.iter().enumerate() {
+            self.unit.fill(0.0);
+            self.unit[index] = 1.0;
+            self.plan.velocities(&self.unit, &mut self.state.motions);
+            for (link, body) in links.iter().enumerate() {
+                let motion = &self.state.motions[link];
+                self.transfer[k * links.len() + link] = (motion.point_velocity(body.mass_centre), motion.omega);
+            }
+        }
+    }
+}
+
+impl Side for TransferSide<'_> {
+    fn accelerate(&mut self, inputs: &mut Inputs, held: &Held) -> Result<()> {
+        self.go_to(&inputs.angles)?;
+        self.find_transfer();
+        for &index in &self.free {
+            inputs.accelerations[index] = 0.0;
+        }
+        self.plan.velocities(&inputs.speeds, &mut self.state.motions);
+        self.plan.accelerations(&inputs.accelerations, &mut self.state.motions);
+        let links = self.case.mechanism.links();
+        self.matrix.clear();
+        for i in 0..self.free.len() {
+            let of_i = &self.transfer[i * links.len()..][..links.len()];
+            let mut right = 0.0;
+            for (link, body) in links.iter().enumerate().filter(|&(link, _)| link != GROUND) {
+                let motion = &self.state.motions[link];
+                let (velocity, omega) = of_i[link];
+                let force = (self.case.gravity - motion.point_acceleration(body.mass_centre)) * body.mass;
+                right += velocity.dot(&force) - omega * body.inertia * motion.alpha;
+                for j in 0..self.free.len() {
+                    let (other, spin) = self.transfer[j * links.len() + link];
+                    self.matrix.add(i, j, body.mass * velocity.dot(&other) + body.inertia * omega * spin);
+                }
+            }
+            for (load, &moment) in self.case.loads.iter().zip(&held.loads) {
+                right += moment * of_i[load.link()].1;
+            }
+            if self.free[i] == 0 {
+                right += held.motor;
+                self.matrix.add(i, i, held.added);
+            }
+            self.right[i] = right;
+        }
+        if !self.matrix.factor() {
+            let message = "the equations of motion are singular: a freedom has no inertia at this pose";
+            return Err(Error::new(ErrorKind::Numeric, message)
+                .help("give its links, or the motor's rotor, a moment of inertia"));
+        }
+        self.matrix.solve(&mut self.right);
+        for (&index, &alpha) in self.free.iter().zip(&self.right) {
+            inputs.accelerations[index] = alpha;
+        }
+        self.plan.accelerations(&inputs.accelerations, &mut self.state.motions);
+        Ok(())
+    }
+
+    fn spin(&mut self, inputs: &Inputs, link: usize) -> Result<f64> {
+        self.go_to(&inputs.angles)?;
+        self.plan.velocities(&inputs.speeds, &mut self.state.motions);
+        Ok(self.state.motions[link].omega)
+    }
+
+    fn link_rates(&self, link: usize) -> [f64; 2] {
+        let motion = &self.state.motions[link];
+        [motion.omega, motion.alpha]
+    }
+
+    fn fill(&mut self, inputs: &Inputs, _: &Held, state: &mut State) -> Result<()> {
+        if self.case.wanted.deepest() >= Stage::Reactions {
+            self.statics.solve(self.case, &self.plan, &mut self.state);
+        }
+        self.state.angles.iter_mut().zip(self.turns.angles()).for_each(|(angle, found)| *angle = found);
+        for (drive, &angle) in self.case.drives().zip(&inputs.angles) {
+            self.state.angles[drive.link] = angle;
+        }
+        state.clone_from(&self.state);
+        Ok(())
+    }
+}
