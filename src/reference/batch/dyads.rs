@@ -28,6 +28,7 @@ pub(super) struct Body {
     pub(super) inertia: f64,
     /// Joints at which later groups hang on it.
     pub(super) hanging: Vec<Action>,
+    /// Loads that act against its rotation.
     pub(super) loads: Vec<Load>,
 }
 
@@ -74,10 +75,12 @@ pub(super) struct Dyads {
 }
 
 impl Dyads {
-    /// `None` if a group is of another kind.
+    /// `None` if a group is of another kind, or a load other than a moment of resistance: what needs places and other links is left to poses one
+    /// by one.
     pub(super) fn of(case: &Case, layout: Layout) -> Option<Self> {
         let groups = &case.structure.groups;
-        if groups.iter().any(|group| group.kind != GroupKind::Rrr) {
+        let simple = |load: &Load| matches!(load, Load::Resistance { .. });
+        if groups.iter().any(|group| group.kind != GroupKind::Rrr) || !case.loads.iter().all(simple) {
             return None;
         }
         let mut settled = vec![false; case.mechanism.joints().len()];
@@ -131,7 +134,7 @@ impl Reader<'_> {
             centre: body.mass_centre - pole,
             inertia: body.inertia,
             hanging: hanging.map(|joint| self.action(joint, link, pole)).collect(),
-            loads: self.case.loads.iter().filter(|load| load.link() == link).copied().collect(),
+            loads: self.case.loads.iter().filter(|load| load.sensed_link() == Some(link)).cloned().collect(),
         }
     }
 

@@ -10,6 +10,7 @@ mod sliding;
 
 use crate::assur::{Plan, Step};
 use crate::case::Case;
+use crate::drive::Wrench;
 use crate::solver::State;
 use body::{Action, Body, Reactions};
 use higher::Higher;
@@ -30,6 +31,8 @@ pub(super) struct Kinetostatics {
     parts: Vec<Part>,
     /// The driving links and their pivots, in the order of the drives.
     drivers: Vec<(Body, Action)>,
+    /// Loads on every link; empty if there are none.
+    loads: Vec<Wrench>,
 }
 
 impl Kinetostatics {
@@ -48,14 +51,17 @@ impl Kinetostatics {
         let drivers = case
             .drives()
             .map(|drive| (Body::of(case, drive.link, &settled), Action::of(case, drive.joint, drive.link)));
-        Kinetostatics { parts, drivers: drivers.collect() }
+        let loads = if case.loads.is_empty() { 0 } else { case.mechanism.links().len() };
+        Kinetostatics { parts, drivers: drivers.collect(), loads: vec![Wrench::ZERO; loads] }
     }
 
     /// Fills in what the first link exerts on the second in every joint, and the balancing moments on the driving
-    /// links (N m), from their equilibrium about the pivots. The pose must be the last one that `plan` has solved.
+    /// links (N m), from their equilibrium about the pivots. The pose must be the last one that `plan` has solved; loads may ask for the state's
+    /// angles.
     pub(super) fn solve(&mut self, case: &Case, plan: &Plan, state: &mut State) {
-        let State { motions, forces, moments, torques, .. } = state;
-        let reactions = &mut Reactions { forces, moments };
+        let State { motions, forces, moments, torques, angles } = state;
+        case.loads_on(motions, angles, &mut self.loads);
+        let reactions = &mut Reactions { forces, moments, loads: &self.loads };
         for part in &mut self.parts {
             match part {
                 Part::Pinned(part) => {
