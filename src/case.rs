@@ -2,9 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use crate::drive::{Drive, Load, Motor};
-use crate::math::Vec2;
+use crate::drive::{Action, Drive, Load, Motor, Setting, Wrench};
 use crate::math::statistics::ascending;
+use crate::math::{Motion, Vec2};
 use crate::mechanism::{AssemblyMode, Mechanism, Pose, Structure};
 use crate::trajectory::{CHANNELS, Channel, Stage, Subject};
 
@@ -178,10 +178,38 @@ impl Case {
         Case { grid, ..self.clone() }
     }
 
-    /// Sum of the load moments on a link (N m) that turns with `omega` (rad/s).
+    /// Hands what every load does to every link, the ground included, to `put`; `motions` and `angles` (rad, turns kept) are those of all
+    /// links, as in [`State`](crate::solver::State). Loads read positions and velocities, no accelerations.
     #[inline]
+    pub fn each_load(&self, motions: &[Motion], angles: &[f64], mut put: impl FnMut(Action)) {
+        if self.loads.is_empty() {
+            return;
+        }
+        let crank = angles[self.drive.link] - self.drive.zero;
+        let setting = Setting { motions, angles, start: &self.start.0, crank };
+        for load in &self.loads {
+            load.act(&setting, &mut put);
+        }
+    }
+
+    /// Fills in the resultant of all loads on every link, the ground included: force at the mass centre and moment about it. Arguments as in
+    /// [`Case::each_load`]; `out` has one entry a link.
+    #[inline]
+    pub fn loads_on(&self, motions: &[Motion], angles: &[f64], out: &mut [Wrench]) {
+        out.fill(Wrench::ZERO);
+        let links = self.mechanism.links();
+        self.each_load(motions, angles, |action| {
+            let centre = motions[action.link].point(links[action.link].mass_centre);
+            out[action.link].force += action.force;
+            out[action.link].moment += action.about(centre);
+        });
+    }
+
+    /// Power of all loads (W). Arguments as in [`Case::each_load`].
     #[must_use]
-    pub fn load_moment(&self, link: usize, omega: f64) -> f64 {
-        self.loads.iter().filter(|load| load.link() == link).map(|load| load.moment(omega)).sum()
+    pub fn load_power(&self, motions: &[Motion], angles: &[f64]) -> f64 {
+        let mut power = 0.0;
+        self.each_load(motions, angles, |action| power += action.power(&motions[action.link]));
+        power
     }
 }

@@ -93,8 +93,8 @@ impl State {
         Some([slide, speed, second_derivative + slide * first.0.omega * first.0.omega])
     }
 
-    /// Shaking force (N) and shaking moment about the origin (N m): the sum of what the joints with the ground and the drive
-    /// exert on the frame.
+    /// Shaking force (N) and shaking moment about the origin (N m): the sum of what the joints with the ground, the drives, and the springs and
+    /// dampers that are fastened to the ground exert on the frame.
     #[must_use]
     pub fn shaking(&self, case: &Case) -> (Vec2, f64) {
         // Drives stand on the frame: their reactions there are opposite to the balancing moments.
@@ -109,6 +109,12 @@ impl State {
             force += self.forces[index] * sign;
             moment += (cross(place, self.forces[index]) + self.moments[index]) * sign;
         }
+        case.each_load(&self.motions, &self.angles, |action| {
+            if action.link == GROUND {
+                force += action.force;
+                moment += action.about(Vec2::zeros());
+            }
+        });
         (force, moment)
     }
 

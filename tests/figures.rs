@@ -93,7 +93,7 @@ fn balancing_moment_from_equilibrium_and_from_powers() {
             let (mut amplitude, mut worst): (f64, f64) = (0.0, 0.0);
             let mut visit = |_: usize, state: &State| {
                 amplitude = amplitude.max(state.torques[0].abs());
-                worst = worst.max((state.torques[0] - power::balancing_moment(&case, &state.motions)).abs());
+                worst = worst.max((state.torques[0] - power::balancing_moment(&case, state)).abs());
                 Ok(())
             };
             solver.sweep(&case, &mut visit, &mut |_| {}).unwrap();

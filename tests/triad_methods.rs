@@ -93,7 +93,7 @@ fn differences(case: &Case, triad: &Triad, states: &[State], times: &[f64]) -> D
             found.limits += usize::from(last.is_some_and(|last| last.1 * now.1 < 0.0));
             last = Some(now);
         }
-        let (places, known) = (triad.places(motions), triad.known(case, motions, &state.forces));
+        let (places, known) = (triad.places(motions), triad.known(case, state));
         let ways = [assur_point::reactions(&places, &known), linear_system::reactions(&places, &known)];
         for (way, worst) in ways.into_iter().zip([&mut found.assur_point, &mut found.linear]) {
             for (joint, own) in triad.joint_forces(&case.mechanism, &way.unwrap()) {

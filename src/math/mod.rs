@@ -1,4 +1,4 @@
-//! Small mathematics without physics: plane vectors, rigid motion fields, dense solves, quantiles, interpolation.
+//! Small mathematics without physics: plane vectors, rigid motion fields, dense solves, quantiles, interpolation, splines.
 
 pub mod angle;
 pub mod dense;
@@ -6,10 +6,12 @@ pub mod golden;
 pub mod harmonic;
 pub mod interpolate;
 pub mod motion;
+pub mod piecewise;
 pub mod quadrature;
 pub mod statistics;
 
 pub use motion::Motion;
+pub use piecewise::Piecewise;
 
 /// Vector in the plane XOY.
 pub type Vec2 = nalgebra::Vector2<f64>;

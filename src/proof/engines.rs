@@ -6,6 +6,7 @@ use crate::case::Case;
 use crate::compare::{
     Check, Convergence, Ladder, Residual, Verdict, difference, largest_difference, overall, residuals,
 };
+use crate::drive::Load;
 use crate::engine::{Engine, Settings};
 use crate::error::{Error, Result};
 use crate::scenario::Scenario;
@@ -209,18 +210,27 @@ fn unless_turning_about(case: &Case, sides: [&Trajectory; 2], residual: &Residua
     }
 }
 
-/// The link whose load turns about at an instant: it turns one way on one side and the other way on the other. The load's
-/// moment jumps there, so that the smallest error of the engine makes a difference of twice the moment.
+/// The link whose load turns about at an instant: it, or its loaded point, moves one way on one side and the other way on the other. The load
+/// jumps there, so that the smallest error of the engine makes a difference of twice the load.
 fn turning_about<'a>(case: &'a Case, sides: [&Trajectory; 2], time: f64) -> Option<&'a str> {
     let row = sides[0].times().iter().position(|&t| t == time)?;
-    let speed =
-        |side: &Trajectory, name: &str| Some(side.column(&Channel::named(&format!("link.{name}.omega_rad_s"))?)?[row]);
-    let names = case.loads.iter().map(|load| case.mechanism.links()[load.link()].name.as_str());
-    let mut turning = names.filter(|name| match (speed(sides[0], name), speed(sides[1], name)) {
-        (Some(ours), Some(theirs)) => ours * theirs <= 0.0,
-        _ => false,
-    });
-    turning.next()
+    let value = |side: &Trajectory, name: &str| Some(side.column(&Channel::named(name)?)?[row]);
+    let both = |name: &str| Some([value(sides[0], name)?, value(sides[1], name)?]);
+    let links = case.mechanism.links();
+    let turns = |load: &Load| {
+        let link = load.sensed_link()?;
+        let [ours, theirs] = both(&format!("link.{}.omega_rad_s", links[link].name))?;
+        (ours * theirs <= 0.0).then_some(link)
+    };
+    let turns_back = |load: &Load| {
+        let at = load.sensed_point()?;
+        let named = links[at.link].points.iter().find(|point| point.local == at.local)?;
+        let [x, y] = ["vx", "vy"].map(|way| both(&format!("point.{}.{way}_m_s", named.name)));
+        let ([x, other_x], [y, other_y]) = (x?, y?);
+        (x * other_x + y * other_y <= 0.0).then_some(at.link)
+    };
+    let turning = case.loads.iter().find_map(|load| turns(load).or_else(|| turns_back(load)))?;
+    Some(links[turning].name.as_str())
 }
 
 fn describe(engine: &dyn Engine) -> EngineInfo {

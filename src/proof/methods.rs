@@ -129,7 +129,7 @@ impl Watch {
             rates(worst, found.rates(drive.omega, drive.alpha));
         }
         if deepest >= Stage::Reactions {
-            let known = self.triad.known(case, &state.motions, &state.forces);
+            let known = self.triad.known(case, state);
             let places = self.triad.places(&state.motions);
             self.forces(case, crank, assur_point::reactions(&places, &known), &state.forces, |own| {
                 &mut own.assur_point

@@ -67,7 +67,7 @@ pub(super) fn observe(
             reach = reach.max(places[0].norm());
         }
         if with_power {
-            power[row] = power::balancing_moment(case, &state.motions);
+            power[row] = power::balancing_moment(case, state);
             torque[row] = reduced_torque(case, state);
             let forces = state.forces.iter().map(|force| force.norm() * arm);
             moment = forces.fold(state.torques.iter().fold(moment, |most, torque| most.max(torque.abs())), f64::max);

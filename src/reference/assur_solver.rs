@@ -4,6 +4,7 @@ use super::dynamics::{self, ACCURACY, End, Model, run_up};
 use super::free;
 use super::pose_solver::PoseSolver;
 use crate::case::Case;
+use crate::drive::Load;
 use crate::error::{Error, ErrorKind, Result};
 use crate::solver::{Progress, Provision, Solver, State};
 use crate::trajectory::Channel;
@@ -39,7 +40,7 @@ impl Solver for AssurSolver {
 
 /// Motion under forces: of one freedom by its reduced equation of motion, of several by their transfer functions.
 fn free_motion(case: &Case, visit: &mut dyn FnMut(usize, &State) -> Result<()>, progress: Progress) -> Result<()> {
-    if !case.further_drives.is_empty() {
+    if !case.further_drives.is_empty() || case.loads.iter().any(Load::is_viscous) {
         return free::sweep(case, &mut free::TransferSide::new(case)?, visit, progress);
     }
     free::check(case)?;

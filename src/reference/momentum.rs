@@ -5,7 +5,8 @@ use crate::math::{Vec2, cross};
 use crate::solver::State;
 
 /// Shaking force (N) and shaking moment about the origin (N m) from d'Alembert's principle for all moving links together: inner
-/// reactions cancel, so that the frame carries F = sum of m (g - a) and M = sum of r x m (g - a) - J alpha + loads.
+/// reactions cancel, and so do loads between two links, the frame being one of them: it carries F = sum of m (g - a) + loads and
+/// M = sum of r x m (g - a) - J alpha + loads.
 #[must_use]
 pub fn shaking(case: &Case, state: &State) -> (Vec2, f64) {
     let (mut force, mut moment) = (Vec2::zeros(), 0.0);
@@ -13,8 +14,11 @@ pub fn shaking(case: &Case, state: &State) -> (Vec2, f64) {
         let motion = &state.motions[index];
         let own = (case.gravity - motion.point_acceleration(link.mass_centre)) * link.mass;
         force += own;
-        moment += cross(motion.point(link.mass_centre), own) - link.inertia * motion.alpha
-            + case.load_moment(index, motion.omega);
+        moment += cross(motion.point(link.mass_centre), own) - link.inertia * motion.alpha;
     }
+    case.each_load(&state.motions, &state.angles, |action| {
+        force += action.force;
+        moment += action.about(Vec2::zeros());
+    });
     (force, moment)
 }

@@ -12,7 +12,7 @@ use std::f64::consts::PI;
 
 use super::range;
 use crate::case::Case;
-use crate::drive::{Drive, DriveState};
+use crate::drive::{Drive, DriveState, Wrench};
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::dense::Lu;
 use crate::math::{Motion, Vec2, unit};
@@ -94,6 +94,10 @@ struct System<'a> {
     before: Vec<f64>,
     /// The driving links now: angles in the world, angular velocities and accelerations.
     inputs: Vec<DriveState>,
+    /// Motions and angles of all links, for their loads, and these.
+    motions: Vec<Motion>,
+    angles: Vec<f64>,
+    loads: Vec<Wrench>,
 }
 
 impl<'a> System<'a> {
@@ -120,6 +124,9 @@ impl<'a> System<'a> {
             residual: zeros(),
             predicted: zeros(),
             before: zeros(),
+            motions: vec![Motion::REST; links.len() + 1],
+            angles: vec![0.0; links.len() + 1],
+            loads: vec![Wrench::ZERO; links.len() + 1],
             inputs: case.drives().map(|drive| by_law(drive, 0.0)).collect(),
         }
     }
@@ -152,8 +159,8 @@ impl<'a> System<'a> {
         // The last part lands on t itself, not on a rounded neighbour.
         self.step_to(t, HALVINGS)?;
         if self.stage >= Stage::Reactions {
-            let case = self.case;
-            self.multipliers(|link, omega| case.load_moment(link, omega));
+            self.find_loads(Case::loads_on);
+            self.multipliers();
         }
         Ok(())
     }
@@ -237,14 +244,24 @@ impl<'a> System<'a> {
         self.jacobian.solve(&mut self.second);
     }
 
-    /// J^T lambda = M q'' - Q, with the moments of the loads on every link from `load`.
-    fn multipliers(&mut self, load: impl Fn(usize, f64) -> f64) {
+    /// Motions and angles of all links from the coordinates, for the loads, which are then found by `of`.
+    fn find_loads(&mut self, of: impl FnOnce(&Case, &[Motion], &[f64], &mut [Wrench])) {
+        if !self.case.loads.is_empty() {
+            for link in 1..self.motions.len() {
+                (self.motions[link], self.angles[link]) = self.motion(link);
+            }
+            of(self.case, &self.motions, &self.angles, &mut self.loads);
+        }
+    }
+
+    /// J^T lambda = M q'' - Q, with the loads last found.
+    fn multipliers(&mut self) {
         for (index, link) in self.case.mechanism.links()[1..].iter().enumerate() {
             let i = 3 * index;
-            let load = load(index + 1, self.rate[i + 2]);
-            self.lambda[i] = link.mass * (self.second[i] - self.case.gravity.x);
-            self.lambda[i + 1] = link.mass * (self.second[i + 1] - self.case.gravity.y);
-            self.lambda[i + 2] = link.inertia * self.second[i + 2] - load;
+            let Wrench { force, moment } = self.loads[index + 1];
+            self.lambda[i] = link.mass * (self.second[i] - self.case.gravity.x) - force.x;
+            self.lambda[i + 1] = link.mass * (self.second[i + 1] - self.case.gravity.y) - force.y;
+            self.lambda[i + 2] = link.inertia * self.second[i + 2] - moment;
         }
         self.jacobian.solve_transposed(&mut self.lambda);
     }
@@ -265,18 +282,23 @@ impl<'a> System<'a> {
         Ok(())
     }
 
+    /// Motion and angle of a moving link's frame.
+    fn motion(&self, link: usize) -> (Motion, f64) {
+        let i = 3 * (link - 1);
+        let pair = |of: &[f64]| Vec2::new(of[i], of[i + 1]);
+        let motion = Motion::of_point(
+            self.case.mechanism.links()[link].mass_centre,
+            [pair(&self.q), pair(&self.rate), pair(&self.second)],
+            unit(self.q[i + 2]),
+            self.rate[i + 2],
+            self.second[i + 2],
+        );
+        (motion, self.q[i + 2])
+    }
+
     fn fill(&self, state: &mut State) {
-        for (index, link) in self.case.mechanism.links().iter().enumerate().skip(1) {
-            let i = 3 * (index - 1);
-            let pair = |of: &[f64]| Vec2::new(of[i], of[i + 1]);
-            state.angles[index] = self.q[i + 2];
-            state.motions[index] = Motion::of_point(
-                link.mass_centre,
-                [pair(&self.q), pair(&self.rate), pair(&self.second)],
-                unit(self.q[i + 2]),
-                self.rate[i + 2],
-                self.second[i + 2],
-            );
+        for link in 1..state.motions.len() {
+            (state.motions[link], state.angles[link]) = self.motion(link);
         }
         for (index, joint) in self.case.mechanism.joints().iter().enumerate() {
             let multipliers = [self.lambda[2 * index], self.lambda[2 * index + 1]];

@@ -5,6 +5,7 @@ use super::range;
 use super::turns::Turns;
 use crate::assur::{Misfit, OutOfReach, Plan};
 use crate::case::Case;
+use crate::drive::Load;
 use crate::error::{Error, ErrorKind, Result};
 use crate::solver::State;
 use crate::trajectory::Stage;
@@ -23,7 +24,7 @@ pub struct PoseSolver<'a> {
     plan: Plan,
     statics: Kinetostatics,
     state: State,
-    /// Turns of the links, where somebody asks for their angles.
+    /// Turns of the links, where somebody or a load asks for their angles.
     turns: Option<Turns>,
     /// Angles, angular velocities or accelerations of all driving links, as each stage needs them.
     inputs: Vec<f64>,
@@ -43,6 +44,9 @@ impl<'a> PoseSolver<'a> {
         let inputs = vec![0.0; case.drives().count()];
         let mut solver = PoseSolver { case, plan, statics, state, turns: None, inputs, crank: case.drive.start, step };
         solver.step_to(case.drive.start, 0)?;
+        if case.loads.iter().any(Load::needs_angles) {
+            solver.turns = Some(Turns::from(&case.start, &solver.state.motions));
+        }
         Ok(solver)
     }
 
@@ -74,6 +78,9 @@ impl<'a> PoseSolver<'a> {
             self.plan.accelerations(&self.inputs, &mut self.state.motions);
         }
         if deepest >= Stage::Reactions {
+            if self.turns.is_some() && !self.case.loads.is_empty() {
+                self.with_angles();
+            }
             self.statics.solve(self.case, &self.plan, &mut self.state);
         }
         Ok(&self.state)
@@ -158,6 +165,11 @@ impl<'a> PoseSolver<'a> {
             self.state.angles[drive.link] = angle;
         }
         &self.state
+    }
+
+    /// The last state, with its links' angles if they are asked for: see [`PoseSolver::with_angles`].
+    pub(super) fn last(&mut self, angles: bool) -> &State {
+        if angles { self.with_angles() } else { &self.state }
     }
 
     fn unreachable(&self, crank: f64, reach: OutOfReach) -> Error {

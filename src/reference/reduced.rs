@@ -5,9 +5,10 @@ use std::f64::consts::{PI, TAU};
 use super::PoseSolver;
 use super::range::{Extent, Range};
 use crate::case::{Case, Grid, Wanted};
+use crate::drive::{Course, Load};
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::{Motion, quadrature};
-use crate::solver::Solver;
+use crate::solver::{Solver, State};
 use crate::trajectory::Stage;
 
 /// Reduced moment of inertia (kg m^2): twice the kinetic energy over the square of the driving link's speed,
@@ -25,24 +26,24 @@ pub fn moment_of_inertia(case: &Case, motions: &[Motion]) -> f64 {
 /// Reduced moment of resistance (N m): minus the power of gravity and loads over the driving link's speed, positive
 /// where the drive must do work against them.
 #[must_use]
-pub fn moment_of_resistance(case: &Case, motions: &[Motion]) -> f64 {
+pub fn moment_of_resistance(case: &Case, state: &State) -> f64 {
     let power = |(link, motion): (usize, &Motion)| {
         let body = &case.mechanism.links()[link];
         case.gravity.dot(&motion.point_velocity(body.mass_centre)) * body.mass
-            + case.load_moment(link, motion.omega) * motion.omega
     };
-    let sum: f64 = motions.iter().enumerate().skip(1).map(power).sum();
-    -sum / motions[case.drive.link].omega
+    let weights: f64 = state.motions.iter().enumerate().skip(1).map(power).sum();
+    -(weights + case.load_power(&state.motions, &state.angles)) / state.motions[case.drive.link].omega
 }
 
 /// Over which crank angles the reduced quantities repeat, and where they have kinks.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Kinks {
-    /// Crank angle after which the mechanism is back at its first pose (rad): a whole turn, or several with higher groups.
+    /// Crank angle after which the mechanism is back at its first pose, under the same loads (rad): a whole turn, or several with higher groups and
+    /// with tables over several turns.
     /// `None` if the crank cannot turn fully.
     pub period: Option<f64>,
-    /// Crank angles (rad) at which a loaded link turns about, so that its load changes its sense: ascending, of one period that begins at
-    /// the start, or all that can be reached.
+    /// Crank angles (rad) at which a loaded link turns about, so that its load changes its sense, and those at which tables of loads have their
+    /// points: ascending, of one period that begins at the start, or all that can be reached.
     pub cranks: Vec<f64>,
     /// Crank angles (rad) that can be reached, if there are limits.
     pub limits: Option<[f64; 2]>,
@@ -57,13 +58,15 @@ const POLISHING: usize = 3;
 /// Those of [`Range::of`].
 pub fn kinks(case: &Case) -> Result<Kinks> {
     let range = Range::of(case)?;
-    let (period, limits) = match range.extent {
-        Extent::FullTurn(turns) => (Some(TAU * f64::from(turns.abs())), None),
+    let (turns, limits) = match range.extent {
+        Extent::FullTurn(turns) => (Some(turns.unsigned_abs()), None),
         Extent::Limited([from, to]) => (None, Some([from.crank, to.crank])),
     };
+    let start = case.drive.start;
+    let within = |crank: f64, period: f64| start + (crank - start).rem_euclid(period);
     let mut poses = PoseSolver::new(case)?;
     let mut cranks = Vec::new();
-    for link in range.links.iter().filter(|link| case.loads.iter().any(|load| load.link() == link.link)) {
+    for link in range.links.iter().filter(|link| case.loads.iter().any(|load| load.sensed_link() == Some(link.link))) {
         for extreme in &link.extremes {
             let mut crank = extreme.crank;
             for _ in 0..POLISHING {
@@ -72,13 +75,40 @@ pub fn kinks(case: &Case) -> Result<Kinks> {
                 // A flat extreme stays where it was found.
                 crank -= if step.abs() < 1e-6 { step } else { 0.0 };
             }
-            let start = case.drive.start;
-            cranks.push(period.map_or(crank, |period| start + (crank - start).rem_euclid(period)));
+            cranks.push(turns.map_or(crank, |turns| within(crank, TAU * f64::from(turns))));
         }
+    }
+    let tables = || case.loads.iter().flat_map(Load::courses).filter_map(Course::knots);
+    let all = turns.map(|turns| tables().fold(turns, |all, (_, own)| least_common_multiple(all, own)));
+    if let (Some(turns), Some(all)) = (turns, all) {
+        let copies = (1..all / turns).map(|copy| TAU * f64::from(copy * turns));
+        let further: Vec<f64> = copies.flat_map(|by| cranks.iter().map(move |crank| crank + by)).collect();
+        cranks.extend(further);
+    }
+    let period = all.map(|all| TAU * f64::from(all));
+    for (knots, own) in tables() {
+        let own = TAU * f64::from(own);
+        let Some([from, to]) = period.map(|period| [start, start + period]).or(limits) else { continue };
+        for &knot in &knots[1..] {
+            let first = knot + ((from - knot) / own).ceil() * own;
+            let copies = ((to - first) / own).floor().max(-1.0) as i64;
+            cranks.extend((0..=copies).map(|copy| first + own * copy as f64));
+        }
+    }
+    if let Some(period) = period {
+        cranks.iter_mut().for_each(|crank| *crank = within(*crank, period));
     }
     cranks.sort_by(f64::total_cmp);
     cranks.dedup_by(|a, b| (*a - *b).abs() < 1e-12);
     Ok(Kinks { period, cranks, limits })
+}
+
+fn least_common_multiple(a: u32, b: u32) -> u32 {
+    let (mut larger, mut smaller) = (a, b);
+    while smaller > 0 {
+        (larger, smaller) = (smaller, larger % smaller);
+    }
+    a / larger * b
 }
 
 /// Means of the reduced quantities over one turn of the crank, or as many as bring the mechanism back to its first pose.
@@ -109,9 +139,9 @@ pub fn means_over_turn(case: &Case, solver: &dyn Solver) -> Result<Means> {
     let cranks = nodes.iter().map(|&(crank, _)| crank).collect();
     let turn = Case { wanted: Wanted::of(&[Stage::Velocities]), ..case.on(Grid::of_cranks(&case.drive, cranks)) };
     let mut means = Means { inertia: 0.0, resistance: 0.0 };
-    let mut visit = |row: usize, state: &crate::solver::State| {
+    let mut visit = |row: usize, state: &State| {
         means.inertia += moment_of_inertia(&turn, &state.motions) * nodes[row].1 / period;
-        means.resistance += moment_of_resistance(&turn, &state.motions) * nodes[row].1 / period;
+        means.resistance += moment_of_resistance(&turn, state) * nodes[row].1 / period;
         Ok(())
     };
     solver.sweep(&turn, &mut visit, &mut |_| {})?;

@@ -1,6 +1,7 @@
 //! Forces against the laws of momentum and energy, with all derivatives taken by differences.
 
 use linkproof::case::Case;
+use linkproof::drive::Wrench;
 use linkproof::math::{Vec2, cross};
 use linkproof::reference;
 use linkproof::solver::State;
@@ -29,8 +30,12 @@ impl Instant<'_> {
         self.case.mechanism.links().iter().enumerate().skip(1)
     }
 
-    fn load(&self, link: usize) -> f64 {
-        self.case.load_moment(link, self.here().motions[link].omega)
+    /// Resultant of the loads on every link, at its mass centre.
+    fn loads(&self) -> Vec<Wrench> {
+        let here = self.here();
+        let mut loads = vec![Wrench::ZERO; here.motions.len()];
+        self.case.loads_on(&here.motions, &here.angles, &mut loads);
+        loads
     }
 
     /// What the joints put on `link` (0 for the ground). A joint acts at its place on its second link, on either link.
@@ -83,7 +88,8 @@ fn ground_reactions_and_gravity_change_the_momentum() {
             |s: &State| -> Vec2 { at.masses().map(|(link, body)| centre_velocity(case, s, link) * body.mass).sum() };
         let weight: Vec2 = at.masses().map(|(_, body)| case.gravity * body.mass).sum();
         let ground: Vec2 = at.on(0).iter().map(|action| -action.force).sum();
-        at.around.are_slopes("momentum", at.mass * REACH * at.fastest, momentum, weight + ground)
+        let loads: Vec2 = at.loads()[1..].iter().map(|load| load.force).sum();
+        at.around.are_slopes("momentum", at.mass * REACH * at.fastest, momentum, weight + ground + loads)
     });
 }
 
@@ -98,9 +104,10 @@ fn ground_reactions_drive_loads_and_gravity_change_the_angular_momentum() {
             };
             at.masses().map(of).sum()
         };
-        let weight = at
-            .masses()
-            .map(|(link, body)| cross(centre(case, at.here(), link), case.gravity * body.mass) + at.load(link));
+        let loads = at.loads();
+        let weight = at.masses().map(|(link, body)| {
+            cross(centre(case, at.here(), link), case.gravity * body.mass + loads[link].force) + loads[link].moment
+        });
         let ground = at.on(0).into_iter().map(|action| -action.about(Vec2::zeros()));
         let outer: f64 = weight.chain(ground).sum::<f64>() + at.here().torques[0];
         at.around.is_slope("angular momentum", at.mass * REACH * REACH * at.fastest, momentum, outer)
@@ -110,7 +117,7 @@ fn ground_reactions_drive_loads_and_gravity_change_the_angular_momentum() {
 #[test]
 fn every_link_is_in_equilibrium() {
     at_instants(|at| {
-        let case = at.case;
+        let (case, loads) = (at.case, at.loads());
         for (link, body) in at.masses() {
             let middle = centre(case, at.here(), link);
             let force: Vec2 = at.on(link).iter().map(|action| action.force).sum();
@@ -118,9 +125,9 @@ fn every_link_is_in_equilibrium() {
             let drive = if link == case.drive.link { at.here().torques[0] } else { 0.0 };
             let scale = body.mass * REACH * at.fastest;
             let push = |s: &State| centre_velocity(case, s, link) * body.mass;
-            at.around.are_slopes("force", scale, push, force + case.gravity * body.mass)?;
+            at.around.are_slopes("force", scale, push, force + case.gravity * body.mass + loads[link].force)?;
             let spin = |s: &State| s.motions[link].omega * body.inertia;
-            at.around.is_slope("moment", scale * REACH, spin, arms + drive + at.load(link))?;
+            at.around.is_slope("moment", scale * REACH, spin, arms + drive + loads[link].moment)?;
         }
         Ok(())
     });
@@ -138,7 +145,7 @@ fn drive_and_loads_change_the_energy() {
             };
             at.masses().map(of).sum()
         };
-        let loads: f64 = at.masses().map(|(link, _)| at.load(link) * at.here().motions[link].omega).sum();
+        let loads = case.load_power(&at.here().motions, &at.here().angles);
         let power = at.here().torques[0] * case.drive.at(0.0).omega + loads;
         at.around.is_slope("energy", at.mass * (REACH * at.fastest).powi(2), energy, power)
     });

@@ -35,6 +35,7 @@ impl Ghost {
     /// Those of [`NewtonEuler::solve`].
     pub(super) fn take_off(&mut self, case: &Case, state: &mut State, t: f64) -> Result<()> {
         self.state.motions.clone_from(&state.motions);
+        self.state.angles.clone_from(&state.angles);
         self.statics.solve(case, &mut self.state, t)?;
         for (own, ghost) in state.forces.iter_mut().zip(&self.state.forces) {
             *own -= ghost;

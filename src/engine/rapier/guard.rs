@@ -5,9 +5,10 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use super::world::{World, opening};
 use crate::case::Case;
-use crate::drive::Drive;
+use crate::drive::{Drive, Wrench};
 use crate::error::{Error, ErrorKind, Result};
 use crate::mechanism::{LinkPose, Side};
+use crate::solver::State;
 
 /// Share of the mechanism's size to which a loop may open before the run is stopped.
 const LARGEST_GAP: f64 = 0.05;
@@ -21,12 +22,14 @@ pub(super) struct Guard<'a> {
     world: Box<dyn World>,
     largest_gap: f64,
     angles: Vec<f64>,
+    loads: Vec<Wrench>,
 }
 
 impl<'a> Guard<'a> {
     pub(super) fn new(case: &'a Case, world: Box<dyn World>) -> Self {
         let angles = case.start.0.iter().map(|pose| pose.angle).collect();
-        Guard { case, world, largest_gap: LARGEST_GAP * case.mechanism.size(), angles }
+        let loads = vec![Wrench::ZERO; case.mechanism.links().len()];
+        Guard { case, world, largest_gap: LARGEST_GAP * case.mechanism.size(), angles, loads }
     }
 
     pub(super) fn world(&self) -> &dyn World {
@@ -40,10 +43,14 @@ impl<'a> Guard<'a> {
         }
     }
 
-    /// Sets the loads of all links that turn with the speeds given.
-    pub(super) fn load(&mut self, spin: impl Fn(usize) -> f64) {
-        for link in self.case.loads.iter().map(crate::drive::Load::link) {
-            self.world.set_load(link, self.case.load_moment(link, spin(link)));
+    /// Sets the loads of all links as they are in a state.
+    pub(super) fn load(&mut self, state: &State) {
+        if self.case.loads.is_empty() {
+            return;
+        }
+        self.case.loads_on(&state.motions, &state.angles, &mut self.loads);
+        for (link, &load) in self.loads.iter().enumerate().skip(1) {
+            self.world.set_load(link, load);
         }
     }
 
@@ -170,8 +177,8 @@ mod tests {
         fn set_drive(&mut self, drive: usize, omega: f64) {
             self.world.set_drive(drive, omega);
         }
-        fn set_load(&mut self, link: usize, moment: f64) {
-            self.world.set_load(link, moment);
+        fn set_load(&mut self, link: usize, load: Wrench) {
+            self.world.set_load(link, load);
         }
         fn place(&mut self, poses: &[LinkPose]) {
             self.world.place(poses);

@@ -1,10 +1,11 @@
 //! Reactions and driving moment from the engine's own motion: the equations of Newton and Euler of all links at once.
 //!
 //! Unknown are two components of every joint's reaction and the driving moment: the force of a revolute joint; of a prismatic one
-//! the force across its axis, at the place on the second link, and the moment. For every link m (a - g) = sum of forces
-//! and J alpha = sum of moments about the mass centre + loads.
+//! the force across its axis, at the place on the second link, and the moment. For every link m (a - g) = sum of forces + loads
+//! and J alpha = sum of moments about the mass centre + those of the loads.
 
 use crate::case::Case;
+use crate::drive::Wrench;
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::dense::Lu;
 use crate::math::{Vec2, cross, turned};
@@ -19,6 +20,7 @@ pub(super) struct NewtonEuler {
     unknown: Vec<f64>,
     /// Mass and moment of inertia of every link.
     masses: Vec<[f64; 2]>,
+    loads: Vec<Wrench>,
     /// Share of the loads that is counted.
     load_share: f64,
 }
@@ -32,7 +34,8 @@ impl NewtonEuler {
     /// The equations with other masses and moments of inertia, and with a share of the loads.
     pub(super) fn of(masses: Vec<[f64; 2]>, load_share: f64) -> Self {
         let n = 3 * (masses.len() - 1);
-        NewtonEuler { matrix: Lu::new(n), unknown: vec![0.0; n], masses, load_share }
+        let loads = vec![Wrench::ZERO; masses.len()];
+        NewtonEuler { matrix: Lu::new(n), unknown: vec![0.0; n], masses, loads, load_share }
     }
 
     /// Fills in the forces and the driving moment of a state whose motion is known.
@@ -64,15 +67,17 @@ impl NewtonEuler {
         for (index, drive) in case.drives().enumerate() {
             self.matrix.add(3 * drive.link - 1, first + index, 1.0);
         }
+        case.loads_on(&state.motions, &state.angles, &mut self.loads);
         for (index, link) in case.mechanism.links().iter().enumerate().skip(1) {
             let motion = &state.motions[index];
             let [mass, inertia] = self.masses[index];
-            let load = self.load_share * case.load_moment(index, motion.omega);
-            let inertial = (motion.point_acceleration(link.mass_centre) - case.gravity) * mass;
+            let Wrench { force, moment } = self.loads[index];
+            let inertial =
+                (motion.point_acceleration(link.mass_centre) - case.gravity) * mass - force * self.load_share;
             let row = 3 * (index - 1);
             self.unknown[row] = inertial.x;
             self.unknown[row + 1] = inertial.y;
-            self.unknown[row + 2] = inertia * motion.alpha - load;
+            self.unknown[row + 2] = inertia * motion.alpha - moment * self.load_share;
         }
         if !self.matrix.factor() {
             return Err(Error::new(

@@ -64,7 +64,7 @@ impl<'a> Probe<'a> {
         let guard = &mut self.worlds[index];
         guard.set_step(step);
         guard.drive(t, 1.0);
-        guard.load(|link| state.motions[link].omega);
+        guard.load(state);
         let [before, now] = &mut self.poses;
         window.poses(case, t, step, before);
         window.poses(case, t, 0.0, now);

@@ -2,6 +2,7 @@
 
 use super::tree::Tree;
 use crate::case::Case;
+use crate::drive::Wrench;
 use crate::math::Vec2;
 use crate::mechanism::{Joint, LinkPose, Side};
 
@@ -23,8 +24,8 @@ pub trait World {
     /// Sets the angular velocity (rad/s, counter-clockwise positive) that a drive, by its number in [`Case::drives`], gives its link.
     fn set_drive(&mut self, drive: usize, omega: f64);
 
-    /// Sets the moment (N m) of the loads on a link.
-    fn set_load(&mut self, link: usize, moment: f64);
+    /// Sets the loads on a link, which stay until they are set again.
+    fn set_load(&mut self, link: usize, load: Wrench);
 
     /// Puts all links into poses; velocities stay as they are.
     fn place(&mut self, poses: &[LinkPose]);

@@ -11,6 +11,7 @@ use linkproof_simbody::{Failure, Run};
 
 use super::{Engine, Route, Settings};
 use crate::case::Case;
+use crate::drive::Load;
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::unit;
 use crate::solver::{Progress, Provision, Solver, State};
@@ -47,6 +48,11 @@ impl Simbody {
         if !(self.accuracy > 0.0 && self.accuracy < 1.0) {
             let message = format!("the engine's accuracy is {}", self.accuracy);
             return Err(Error::new(ErrorKind::Input, message).help("give an accuracy between 0 and 1, 1e-8 for one"));
+        }
+        if let Some(load) = case.loads.iter().find(|load| !matches!(load, Load::Resistance { .. })) {
+            let message = format!("a load of type \"{}\" is not handed to Simbody by this version", load.sort());
+            return Err(Error::new(ErrorKind::Unsupported, message)
+                .help("take another engine: `linkproof list --solvers` names them"));
         }
         check_start(case)?;
         let linkage = Linkage::new(case, sense)

@@ -130,10 +130,9 @@ pub(super) fn inertia(case: &Case, link: usize) -> Inertia {
 
 /// Moment against a link's rotation (N m).
 fn resistance(case: &Case, link: usize) -> f64 {
-    let on_link = case.loads.iter().filter(|load| load.link() == link);
-    on_link
-        .map(|load| match *load {
-            Load::Resistance { moment, .. } => moment,
-        })
-        .sum()
+    let on_link = case.loads.iter().map(|load| match *load {
+        Load::Resistance { link: loaded, moment } if loaded == link => moment,
+        _ => 0.0,
+    });
+    on_link.sum()
 }

@@ -61,6 +61,12 @@ impl<'a> Model<'a> {
                 MotionLaw::ConstantSpeed(_) => {}
             }
         }
+        if let Some(load) = case.loads.iter().find(|load| !matches!(load, Load::Resistance { .. })) {
+            let message = format!("a load of type \"{}\" cannot be written to a model for MuJoCo", load.sort());
+            return Err(Error::new(ErrorKind::Unsupported, message).help(
+                "leave it out of the scenario, and add it to the model by hand: only moments of resistance are written",
+            ));
+        }
         let tree = Tree::of(&case.mechanism);
         let bodies = tree.branches.iter().map(|branch| bodies::body(case, start, branch)).collect();
         let mut model = Model { case, name, step, tree, bodies, frictions: Vec::new() };
@@ -154,8 +160,8 @@ impl<'a> Model<'a> {
     fn frictions(&self) -> Vec<Friction> {
         let mut moments = vec![0.0; self.case.mechanism.links().len()];
         for load in &self.case.loads {
-            match *load {
-                Load::Resistance { link, moment } => moments[link] += moment,
+            if let Load::Resistance { link, moment } = *load {
+                moments[link] += moment;
             }
         }
         let resisted = moments.into_iter().enumerate().filter(|&(_, moment)| moment > 0.0);

@@ -28,6 +28,7 @@ pub(super) struct Body {
     pub(super) inertia: f64,
     /// Joints at which later groups hang on it.
     pub(super) hanging: Vec<Action>,
+    /// Loads that act against its rotation.
     pub(super) loads: Vec<Load>,
 }
 
@@ -74,11 +75,14 @@ pub(super) struct Dyads {
 }
 
 impl Dyads {
-    /// `None` if a group is of another kind, or a driving link hangs on another one.
+    /// `None` if a group is of another kind, a driving link hangs on another one, or a load is other than a moment of resistance: what needs places
+    /// and other links is left to poses one by one.
     pub(super) fn of(case: &Case, layout: Layout) -> Option<Self> {
         let groups = &case.structure.groups;
+        let simple = |load: &Load| matches!(load, Load::Resistance { .. });
         let hinged = |&(link, joint): &(usize, usize)| case.mechanism.joints()[joint].other(link).link == GROUND;
-        if groups.iter().any(|group| group.kind != GroupKind::Rrr) || !case.structure.drivers.iter().all(hinged) {
+        let known = groups.iter().all(|group| group.kind == GroupKind::Rrr) && case.loads.iter().all(simple);
+        if !(known && case.structure.drivers.iter().all(hinged)) {
             return None;
         }
         let mut settled = vec![false; case.mechanism.joints().len()];
@@ -132,7 +136,7 @@ impl Reader<'_> {
             centre: body.mass_centre - pole,
             inertia: body.inertia,
             hanging: hanging.map(|joint| self.action(joint, link, pole)).collect(),
-            loads: self.case.loads.iter().filter(|load| load.link() == link).copied().collect(),
+            loads: self.case.loads.iter().filter(|load| load.sensed_link() == Some(link)).cloned().collect(),
         }
     }
 

@@ -177,7 +177,7 @@ impl Body {
         let mut force = -(centre + -gravity) * self.mass;
         let mut moment = direction.rotate(self.centre).cross(force) - alpha * self.inertia;
         for load in &self.loads {
-            moment = moment + omega.map(|omega| load.moment(omega));
+            moment = moment + omega.map(|omega| load.moment_in(omega, 0.0));
         }
         for action in &self.hanging {
             let hung = tile.vector(action.force) * action.sign;

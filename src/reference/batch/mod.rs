@@ -1,6 +1,6 @@
 //! Many poses of one case in one call.
 //!
-//! A case of driving links and RRR dyads is solved for as many crank angles at once as the machine's registers hold:
+//! A case of driving links and RRR dyads, loaded by moments of resistance only, is solved for as many crank angles at once as the machine's registers hold:
 //! such poses do not depend on each other. Any other case is solved pose by pose.
 
 mod dyads;
@@ -64,7 +64,8 @@ impl<'a> Batch<'a> {
         })
     }
 
-    /// Whether many poses are solved at once; if not, the case has other groups than RRR dyads and goes pose by pose.
+    /// Whether many poses are solved at once; if not, the case has other groups than RRR dyads, or other loads than moments of
+    /// resistance, and goes pose by pose.
     #[must_use]
     pub fn is_vectorised(&self) -> bool {
         self.dyads.is_some()

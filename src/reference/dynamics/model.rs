@@ -3,10 +3,11 @@
 use super::super::PoseSolver;
 use super::super::reduced::{self, Kinks};
 use crate::case::Case;
-use crate::drive::{Branch, Load, Motor};
+use crate::drive::{Branch, Load, Motor, Setting};
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::{Motion, Vec2};
 use crate::mechanism::GROUND;
+use crate::solver::State;
 use crate::trajectory::Stage;
 
 /// How far from a limit of rotation a motion is followed (rad): there the reduced moment of inertia grows without bound.
@@ -53,12 +54,14 @@ impl Piece {
 pub struct Model<'a> {
     pub(super) case: &'a Case,
     masses: Vec<Mass>,
-    /// Loaded links and the sizes of their moments.
-    resistances: Vec<(usize, f64)>,
+    /// Loads that turn with the sense of a link's rotation, and these links.
+    sensed: Vec<(usize, Load)>,
+    /// Loads that depend on the pose alone.
+    steady: Vec<Load>,
     kinks: Kinks,
     /// Crank angles between pieces: the kinks of one period, or its start if there are none; with limits those as well.
     boundaries: Vec<f64>,
-    /// Sense of each loaded link's transfer function on each piece of one period: +1 or -1, pieces one after the other.
+    /// Sense of each such link's transfer function on each piece of one period: +1 or -1, pieces one after the other.
     senses: Vec<f64>,
     pub(super) motor: Option<Motor>,
     /// Sense in which the motor drives the crank: that of the scenario's prescribed speed.
@@ -85,14 +88,15 @@ impl<'a> Model<'a> {
         let masses = links.filter(|(link, body)| *link != GROUND && (body.mass > 0.0 || body.inertia > 0.0));
         let masses =
             masses.map(|(link, body)| Mass { link, mass: body.mass, inertia: body.inertia, centre: body.mass_centre });
-        let resistances = case.loads.iter().map(|load| match *load {
-            Load::Resistance { link, moment } => (link, moment),
-        });
         let kinks = reduced::kinks(case)?;
+        check_loads(case, &kinks)?;
+        let steady = case.loads.iter().filter(|load| load.sensed_link().is_none()).cloned();
+        let sensed = case.loads.iter().filter_map(|load| Some((load.sensed_link()?, load.clone())));
         let mut model = Model {
             case,
             masses: masses.collect(),
-            resistances: resistances.collect(),
+            sensed: sensed.collect(),
+            steady: steady.collect(),
             boundaries: boundaries(&kinks, case.drive.start),
             kinks,
             senses: Vec::new(),
@@ -140,7 +144,7 @@ impl<'a> Model<'a> {
             let piece = self.piece(index);
             let middle = (piece.ends[0] + piece.ends[1]) / 2.0;
             let motions = &poses.solve(middle, 1.0, 0.0, Stage::Velocities)?.motions;
-            self.senses.extend(self.resistances.iter().map(|&(link, _)| 1f64.copysign(motions[link].omega)));
+            self.senses.extend(self.sensed.iter().map(|&(link, _)| 1f64.copysign(motions[link].omega)));
         }
         Ok(())
     }
@@ -193,15 +197,15 @@ impl<'a> Model<'a> {
         (guess - 1..=guess + 1).filter(allowed).map(|index| self.piece(index)).find(holds)
     }
 
-    /// Reduced quantities at `crank` (rad) while the crank turns in the sense of `way` (+1, -1, or 0 for standstill, where no load acts).
-    /// Beyond its ends the piece goes on smoothly.
+    /// Reduced quantities at `crank` (rad) while the crank turns in the sense of `way` (+1, -1, or 0 for standstill, where no load acts that asks
+    /// for a sense). Beyond its ends the piece goes on smoothly.
     pub(super) fn on_piece(&self, poses: &mut PoseSolver, crank: f64, way: f64, piece: Piece) -> Result<Reduced> {
-        let motions = &poses.solve(crank, 1.0, 0.0, Stage::Accelerations)?.motions;
-        let count = self.resistances.len();
+        let state = self.at_unit_speed(poses, crank)?;
+        let count = self.sensed.len();
         let row = piece.index.rem_euclid((self.senses.len() / count.max(1)).max(1) as i64) as usize;
-        let mut found = self.of_masses(motions);
-        for (&(link, moment), sense) in self.resistances.iter().zip(&self.senses[row * count..]) {
-            found.applied -= way * sense * moment * motions[link].omega;
+        let mut found = self.of_pose(state, crank);
+        for ((link, load), sense) in self.sensed.iter().zip(&self.senses[row * count..]) {
+            found.applied += load.moment_in(way * sense, crank) * state.motions[*link].omega;
         }
         Ok(found)
     }
@@ -211,12 +215,30 @@ impl<'a> Model<'a> {
     /// # Errors
     /// [`ErrorKind::Geometry`] if the crank angle cannot be reached.
     pub fn at(&self, poses: &mut PoseSolver, crank: f64, way: f64) -> Result<Reduced> {
-        let motions = &poses.solve(crank, 1.0, 0.0, Stage::Accelerations)?.motions;
-        let mut found = self.of_masses(motions);
-        for &(link, moment) in &self.resistances {
-            found.applied -= way * moment * motions[link].omega.abs();
+        let state = self.at_unit_speed(poses, crank)?;
+        let mut found = self.of_pose(state, crank);
+        for (link, load) in &self.sensed {
+            let omega = state.motions[*link].omega;
+            found.applied += load.moment_in(way * omega, crank) * omega;
         }
         Ok(found)
+    }
+
+    /// The state at a crank speed of 1 rad/s, with angles where a load asks for them.
+    fn at_unit_speed<'p>(&self, poses: &'p mut PoseSolver, crank: f64) -> Result<&'p State> {
+        poses.solve(crank, 1.0, 0.0, Stage::Accelerations)?;
+        Ok(poses.last(self.steady.iter().any(Load::needs_angles)))
+    }
+
+    /// What masses, gravity and steady loads contribute: virtual powers at a crank speed of 1 rad/s.
+    fn of_pose(&self, state: &State, crank: f64) -> Reduced {
+        let mut found = self.of_masses(&state.motions);
+        let (motions, angles) = (state.motions.as_slice(), state.angles.as_slice());
+        let setting = Setting { motions, angles, start: &self.case.start.0, crank };
+        for load in &self.steady {
+            load.act(&setting, &mut |action| found.applied += action.power(&motions[action.link]));
+        }
+        found
     }
 
     /// What masses and gravity contribute, from the motions at a crank speed of 1 rad/s.
@@ -239,6 +261,37 @@ impl<'a> Model<'a> {
         let motor = self.motor.as_ref()?;
         Some(motor.branch(self.sense * omega, self.sense * towards))
     }
+}
+
+/// That the loads are of those that the reduction to the crank knows.
+fn check_loads(case: &Case, kinks: &Kinks) -> Result<()> {
+    let refuse = |load: &Load, why: &str, help: &str| {
+        let message = format!("the motion under forces is asked for, but a load of type \"{}\" {why}", load.sort());
+        Err(Error::new(ErrorKind::Unsupported, message).help(help))
+    };
+    for load in &case.loads {
+        if load.is_viscous() {
+            let why = "depends on the size of speeds, which this reduction to the crank does not know";
+            return refuse(load, why, "leave it out, or take its part into the motor's law");
+        }
+        if load.sensed_point().is_some() {
+            let why = "turns with the motion of a point, which this reduction to the crank does not know";
+            return refuse(load, why, "give it as a table of forces over the crank angle");
+        }
+        if let (&Load::TorsionSpring { links, .. }, Some(period)) = (load, kinks.period) {
+            let (mut poses, start) = (PoseSolver::new(case)?, case.drive.start);
+            let mut twist = |crank: f64| -> Result<f64> {
+                poses.solve(crank, 1.0, 0.0, Stage::Positions)?;
+                let state = poses.with_angles();
+                Ok(state.angles[links[1]] - state.angles[links[0]])
+            };
+            if (twist(start + period)? - twist(start)?).abs() > 1.0 {
+                let why = "is wound up by every turn of the crank";
+                return refuse(load, why, "fasten it to links that do not turn against each other");
+            }
+        }
+    }
+    Ok(())
 }
 
 /// Crank angles between pieces, of a drive that starts at `start` (rad).

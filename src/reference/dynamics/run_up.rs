@@ -12,7 +12,7 @@ use crate::trajectory::{Channel, Stage, Trajectory};
 /// Relative and absolute error that each step may make, by its own estimate, which is cautious: the run-up of `crank_rocker` is then exact to 2e-14 rad.
 pub const ACCURACY: f64 = 1e-11;
 /// Speed (rad/s) with which a crank at rest that is about to turn is told from one that stands: its square vanishes.
-const SETTING_OFF: f64 = 1e-200;
+pub(in crate::reference) const SETTING_OFF: f64 = 1e-200;
 /// Pieces in a row that take no time: the motion does not get away from a kink.
 pub(in crate::reference) const MOST_EMPTY: usize = 8;
 

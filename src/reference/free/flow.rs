@@ -51,7 +51,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
         let held = Held {
             motor: 0.0,
             added: case.motor.as_ref().filter(|_| case.drive.free.is_some()).map_or(0.0, Motor::inertia_on_crank),
-            loads: vec![0.0; case.loads.len()],
+            senses: vec![0.0; case.loads.len()],
         };
         let inputs = Inputs { angles: zeros(), speeds: zeros(), accelerations: zeros() };
         Pieces {
@@ -92,11 +92,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
     fn accelerate(&self, work: &mut Work, t: f64, y: &[f64; N]) -> Result<()> {
         self.put(&mut work.inputs, t, y);
         work.held.motor = self.motor_moment(work.inputs.speeds[0]);
-        for ((moment, load), &sense) in
-            work.held.loads.iter_mut().zip(&self.case.loads).zip(self.senses.borrow().iter())
-        {
-            *moment = load.moment(sense);
-        }
+        work.held.senses.copy_from_slice(&self.senses.borrow());
         work.side.accelerate(&mut work.inputs, &work.held)
     }
 
@@ -104,7 +100,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
     pub(super) fn fill(&self, t: f64, y: &[f64; N], state: &mut State) -> Result<()> {
         let work = &mut *self.work.borrow_mut();
         self.accelerate(work, t, y)?;
-        work.side.fill(&work.inputs, &work.held, state)
+        work.side.fill(&work.inputs, state)
     }
 
     /// Chooses the senses and the motor's branch with which the motion goes on from where it is, after it has come to a bound.
@@ -119,14 +115,14 @@ impl<'a, const N: usize> Pieces<'a, N> {
             place.y[N / 2] = self.sense() * speeds[1 - end];
         }
         self.origin.set(place.y);
-        let loaded: Vec<usize> = self.case.loads.iter().map(Load::link).collect();
+        let sensed: Vec<Option<usize>> = self.case.loads.iter().map(Load::sensed_link).collect();
         self.put(&mut work.inputs, place.x, &place.y);
         let crank = work.inputs.speeds[0];
         // At a standstill the branch is chosen by where the crank is going, which is known below.
         let way = self.sense();
-        let reached_speed = bound.filter(|&bound| bound >= loaded.len());
+        let reached_speed = bound.filter(|&bound| bound >= sensed.len());
         let beyond = match reached_speed {
-            Some(bound) if bound == loaded.len() => 1.0,
+            Some(bound) if bound == sensed.len() => 1.0,
             Some(_) => -1.0,
             None => 1.0,
         };
@@ -134,30 +130,31 @@ impl<'a, const N: usize> Pieces<'a, N> {
             let motor = self.case.motor.as_ref().filter(|_| self.case.drive.free.is_some());
             self.branch.set(motor.map(|motor| motor.branch(way * crank, beyond)));
         }
-        let mut stood: Vec<bool> = Vec::with_capacity(loaded.len());
-        for (index, &link) in loaded.iter().enumerate() {
+        // Loads whose links stand still, with these links.
+        let mut stood: Vec<(usize, usize)> = Vec::new();
+        for (index, link) in sensed.iter().enumerate().filter_map(|(index, link)| Some((index, (*link)?))) {
             let spin = work.side.spin(&work.inputs, link)?;
-            let at_rest = bound == Some(index) || (bound.is_none() && spin == 0.0);
-            stood.push(at_rest);
-            if !at_rest && bound.is_none() {
+            if bound == Some(index) || (bound.is_none() && spin == 0.0) {
+                stood.push((index, link));
+            } else if bound.is_none() {
                 self.senses.borrow_mut()[index] = spin.signum();
             }
         }
-        if !stood.contains(&true) {
+        if stood.is_empty() {
             return self.accelerate(work, place.x, &place.y);
         }
         // Links at rest go where they are accelerated without their resistances, if their resistances let them.
         let before = self.senses.borrow().clone();
-        for (index, _) in stood.iter().enumerate().filter(|(_, stood)| **stood) {
+        for &(index, _) in &stood {
             self.senses.borrow_mut()[index] = 0.0;
         }
         self.accelerate(work, place.x, &place.y)?;
-        for (index, &link) in loaded.iter().enumerate().filter(|&(index, _)| stood[index]) {
+        for &(index, link) in &stood {
             let [_, alpha] = work.side.link_rates(link);
             self.senses.borrow_mut()[index] = if alpha == 0.0 { before[index] } else { alpha.signum() };
         }
         self.accelerate(work, place.x, &place.y)?;
-        for (index, &link) in loaded.iter().enumerate().filter(|&(index, _)| stood[index]) {
+        for &(index, link) in &stood {
             let [_, alpha] = work.side.link_rates(link);
             let sense = self.senses.borrow()[index];
             if !(alpha * sense >= 0.0) {
@@ -217,7 +214,8 @@ impl<const N: usize> Flow<N> for Pieces<'_, N> {
         };
         let work = &mut *self.work.borrow_mut();
         self.put(&mut work.inputs, t, y);
-        match work.side.spin(&work.inputs, load.link()) {
+        let Some(link) = load.sensed_link() else { return f64::INFINITY };
+        match work.side.spin(&work.inputs, link) {
             Ok(spin) => self.senses.borrow()[bound] * spin,
             Err(error) => {
                 work.fault.get_or_insert(error);

@@ -13,7 +13,9 @@ use super::dynamics::ACCURACY;
 use super::dynamics::march::{Place, Step, Stop, march};
 use super::dynamics::run_up::MOST_EMPTY;
 use crate::case::Case;
+use crate::drive::{Action, Setting, Wrench};
 use crate::error::{Error, ErrorKind, Result};
+use crate::math::Motion;
 use crate::solver::{Progress, State};
 use flow::Pieces;
 
@@ -36,8 +38,27 @@ pub(super) struct Held {
     pub(super) motor: f64,
     /// Moment of inertia that turns with the crank (kg m^2): rotor and reducer.
     pub(super) added: f64,
-    /// Moment of every load on its link (N m), in the order of the case.
-    pub(super) loads: Vec<f64>,
+    /// Sense of the link that a load asks for (+1, -1, 0 for standstill), of every load; not read for others.
+    pub(super) senses: Vec<f64>,
+}
+
+/// As [`Case::loads_on`], with the senses held that loads ask for.
+pub(super) fn loads_held(case: &Case, motions: &[Motion], angles: &[f64], senses: &[f64], out: &mut [Wrench]) {
+    out.fill(Wrench::ZERO);
+    let links = case.mechanism.links();
+    let crank = angles[case.drive.link] - case.drive.zero;
+    let setting = Setting { motions, angles, start: &case.start.0, crank };
+    for (load, &sense) in case.loads.iter().zip(senses) {
+        if let Some(link) = load.sensed_link() {
+            out[link].moment += load.moment_in(sense, crank);
+        } else {
+            load.act(&setting, &mut |action: Action| {
+                let centre = motions[action.link].point(links[action.link].mass_centre);
+                out[action.link].force += action.force;
+                out[action.link].moment += action.about(centre);
+            });
+        }
+    }
 }
 
 /// An analytic side's equations of motion in the coordinates of the driving links.
@@ -52,7 +73,7 @@ pub(super) trait Side {
     fn link_rates(&self, link: usize) -> [f64; 2];
 
     /// The whole state as last [accelerated](Side::accelerate), turns of the links kept, reactions if they are wanted.
-    fn fill(&mut self, inputs: &Inputs, held: &Held, state: &mut State) -> Result<()>;
+    fn fill(&mut self, inputs: &Inputs, state: &mut State) -> Result<()>;
 }
 
 /// Checks that a case can be solved as a free motion.
@@ -68,6 +89,13 @@ pub(super) fn check(case: &Case) -> Result<()> {
     if free > MOST_FREEDOMS {
         let message = format!("{free} driving links are free, at most {MOST_FREEDOMS} are solved");
         return Err(Error::new(ErrorKind::Unsupported, message).help("prescribe the motion of some of them"));
+    }
+    if let Some(load) = case.loads.iter().find(|load| load.sensed_point().is_some()) {
+        let message =
+            format!("the motion is free, but a load of type \"{}\" turns with the motion of a point", load.sort());
+        return Err(Error::new(ErrorKind::Unsupported, message)
+            .key("loads")
+            .help("give it as a force over the crank angle, or as a moment against the rotation of its link"));
     }
     let added = case.motor.as_ref().map_or(0.0, crate::drive::Motor::inertia_on_crank);
     if added == 0.0 && case.mechanism.links().iter().all(|link| link.mass == 0.0) {

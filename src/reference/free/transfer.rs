@@ -3,11 +3,13 @@
 //! With the first transfer functions v_j, w_j of a link's mass centre and angle for driving link j alone, A_ij = sum of m v_i . v_j + J w_i w_j, and
 //! A alpha = T + sum of v_i . (F - m a0) + w_i (M - J alpha0), where a0, alpha0 are the accelerations that are left when no free driving link accelerates.
 
+use super::super::dynamics::run_up::SETTING_OFF;
 use super::super::kinetostatics::Kinetostatics;
 use super::super::turns::Turns;
-use super::{Held, Inputs, Side};
+use super::{Held, Inputs, Side, loads_held};
 use crate::assur::Plan;
 use crate::case::Case;
+use crate::drive::Wrench;
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::Vec2;
 use crate::math::dense::Lu;
@@ -35,6 +37,7 @@ pub(in crate::reference) struct TransferSide<'a> {
     transfer: Vec<(Vec2, f64)>,
     matrix: Lu,
     right: Vec<f64>,
+    loads: Vec<Wrench>,
 }
 
 impl<'a> TransferSide<'a> {
@@ -66,6 +69,7 @@ impl<'a> TransferSide<'a> {
             matrix: Lu::new(free.len()),
             right: vec![0.0; free.len()],
             free,
+            loads: vec![Wrench::ZERO; case.mechanism.links().len()],
         };
         side.place()?;
         Ok(side)
@@ -100,6 +104,14 @@ impl<'a> TransferSide<'a> {
         Ok(())
     }
 
+    /// Angles of all links, turns kept.
+    fn find_angles(&mut self, driving: &[f64]) {
+        self.state.angles.iter_mut().zip(self.turns.angles()).for_each(|(angle, found)| *angle = found);
+        for (drive, &angle) in self.case.drives().zip(driving) {
+            self.state.angles[drive.link] = angle;
+        }
+    }
+
     fn find_transfer(&mut self) {
         let links = self.case.mechanism.links();
         for (k, &index) in self.free.iter().enumerate() {
@@ -123,6 +135,10 @@ impl Side for TransferSide<'_> {
         }
         self.plan.velocities(&inputs.speeds, &mut self.state.motions);
         self.plan.accelerations(&inputs.accelerations, &mut self.state.motions);
+        if !self.case.loads.is_empty() {
+            self.find_angles(&inputs.angles);
+            loads_held(self.case, &self.state.motions, &self.state.angles, &held.senses, &mut self.loads);
+        }
         let links = self.case.mechanism.links();
         self.matrix.clear();
         for i in 0..self.free.len() {
@@ -132,14 +148,12 @@ impl Side for TransferSide<'_> {
                 let motion = &self.state.motions[link];
                 let (velocity, omega) = of_i[link];
                 let force = (self.case.gravity - motion.point_acceleration(body.mass_centre)) * body.mass;
-                right += velocity.dot(&force) - omega * body.inertia * motion.alpha;
+                let load = self.loads[link];
+                right += velocity.dot(&(force + load.force)) + omega * (load.moment - body.inertia * motion.alpha);
                 for j in 0..self.free.len() {
                     let (other, spin) = self.transfer[j * links.len() + link];
                     self.matrix.add(i, j, body.mass * velocity.dot(&other) + body.inertia * omega * spin);
                 }
-            }
-            for (load, &moment) in self.case.loads.iter().zip(&held.loads) {
-                right += moment * of_i[load.link()].1;
             }
             if self.free[i] == 0 {
                 right += held.motor;
@@ -171,13 +185,19 @@ impl Side for TransferSide<'_> {
         [motion.omega, motion.alpha]
     }
 
-    fn fill(&mut self, inputs: &Inputs, _: &Held, state: &mut State) -> Result<()> {
+    fn fill(&mut self, inputs: &Inputs, state: &mut State) -> Result<()> {
+        self.find_angles(&inputs.angles);
         if self.case.wanted.deepest() >= Stage::Reactions {
+            // At the very moment of setting off, loads act against the motion that begins.
+            let setting_off = inputs.speeds.iter().all(|&speed| speed == 0.0);
+            if setting_off {
+                let begun: Vec<f64> = inputs.accelerations.iter().map(|alpha| SETTING_OFF.copysign(*alpha)).collect();
+                self.plan.velocities(&begun, &mut self.state.motions);
+            }
             self.statics.solve(self.case, &self.plan, &mut self.state);
-        }
-        self.state.angles.iter_mut().zip(self.turns.angles()).for_each(|(angle, found)| *angle = found);
-        for (drive, &angle) in self.case.drives().zip(&inputs.angles) {
-            self.state.angles[drive.link] = angle;
+            if setting_off {
+                self.plan.velocities(&inputs.speeds, &mut self.state.motions);
+            }
         }
         state.clone_from(&self.state);
         Ok(())

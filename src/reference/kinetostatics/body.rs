@@ -1,7 +1,7 @@
 //! A link, what acts on it, and what a joint does to it.
 
 use crate::case::Case;
-use crate::drive::Load;
+use crate::drive::Wrench;
 use crate::math::{Motion, Vec2, cross};
 use crate::mechanism::Side;
 
@@ -12,6 +12,8 @@ pub(super) struct Reactions<'a> {
     pub(super) forces: &'a mut [Vec2],
     /// Moments about the joint's place on the second link (N m); 0 in revolute joints.
     pub(super) moments: &'a mut [f64],
+    /// Loads on every link; empty if there are none.
+    pub(super) loads: &'a [Wrench],
 }
 
 /// A joint as it acts on one of its links: `sign` times its reaction, at the place where the reaction is told.
@@ -59,7 +61,7 @@ impl Action {
     }
 }
 
-/// A link with its loads and the joints at which later groups hang on it. Its masses are at hand, not behind the mechanism's list of links:
+/// A link with the joints at which later groups hang on it. Its masses are at hand, not behind the mechanism's list of links:
 /// that is a tenth of the cost of a force analysis.
 #[derive(Clone, Debug)]
 pub(super) struct Body {
@@ -67,7 +69,6 @@ pub(super) struct Body {
     mass: f64,
     inertia: f64,
     centre: Vec2,
-    loads: Vec<Load>,
     hanging: Vec<Action>,
 }
 
@@ -76,9 +77,8 @@ impl Body {
         let joints = case.mechanism.joints().iter().enumerate();
         let on_link = joints.filter(|(index, joint)| settled[*index] && joint.on(link).is_some());
         let hanging = on_link.map(|(index, _)| Action::of(case, index, link)).collect();
-        let loads = case.loads.iter().filter(|load| load.link() == link).copied().collect();
         let body = &case.mechanism.links()[link];
-        Body { link, mass: body.mass, inertia: body.inertia, centre: body.mass_centre, loads, hanging }
+        Body { link, mass: body.mass, inertia: body.inertia, centre: body.mass_centre, hanging }
     }
 
     /// Resultant of all known forces on the link and their moment about the world point `pole`.
@@ -86,10 +86,12 @@ impl Body {
     pub(super) fn resultant(&self, case: &Case, motions: &[Motion], reactions: &Reactions, pole: Vec2) -> (Vec2, f64) {
         let motion = &motions[self.link];
         let mut force = (case.gravity - motion.point_acceleration(self.centre)) * self.mass;
-        let mut moment = cross(motion.point(self.centre) - pole, force) - self.inertia * motion.alpha;
-        for load in &self.loads {
-            moment += load.moment(motion.omega);
+        let mut moment = -self.inertia * motion.alpha;
+        if let Some(load) = reactions.loads.get(self.link) {
+            force += load.force;
+            moment += load.moment;
         }
+        moment += cross(motion.point(self.centre) - pole, force);
         for action in &self.hanging {
             let hung = reactions.forces[action.joint] * action.sign;
             force += hung;

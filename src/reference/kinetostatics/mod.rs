@@ -10,7 +10,7 @@ mod sliding;
 
 use crate::assur::{Plan, Step};
 use crate::case::Case;
-use crate::drive::Drive;
+use crate::drive::{Drive, Wrench};
 use crate::solver::State;
 use body::{Action, Body, Reactions};
 use higher::Higher;
@@ -31,6 +31,8 @@ pub(super) struct Kinetostatics {
     parts: Vec<Part>,
     /// The driving links, their pivots and the numbers of their drives, the outermost first.
     drivers: Vec<(Body, Action, usize)>,
+    /// Loads on every link; empty if there are none.
+    loads: Vec<Wrench>,
 }
 
 impl Kinetostatics {
@@ -52,14 +54,17 @@ impl Kinetostatics {
             drivers.push((Body::of(case, drive.link, &settled), Action::of(case, drive.joint, drive.link), index));
             settled[drive.joint] = true;
         }
-        Kinetostatics { parts, drivers }
+        let loads = if case.loads.is_empty() { 0 } else { case.mechanism.links().len() };
+        Kinetostatics { parts, drivers, loads: vec![Wrench::ZERO; loads] }
     }
 
     /// Fills in what the first link exerts on the second in every joint, and the balancing moments on the driving
-    /// links (N m), from their equilibrium about the pivots. The pose must be the last one that `plan` has solved.
+    /// links (N m), from their equilibrium about the pivots. The pose must be the last one that `plan` has solved; loads may ask for the state's
+    /// angles.
     pub(super) fn solve(&mut self, case: &Case, plan: &Plan, state: &mut State) {
-        let State { motions, forces, moments, torques, .. } = state;
-        let reactions = &mut Reactions { forces, moments };
+        let State { motions, forces, moments, torques, angles } = state;
+        case.loads_on(motions, angles, &mut self.loads);
+        let reactions = &mut Reactions { forces, moments, loads: &self.loads };
         for part in &mut self.parts {
             match part {
                 Part::Pinned(part) => {

@@ -3,8 +3,9 @@
 //! With V = J^-1 E, the columns of the drives, q'' = a0 + V alpha and V^T J^T lambda = E^T lambda, the moments of the drives, which motor and rotor give:
 //! (V^T M V + added) alpha = T + V^T (Q - M a0). The multipliers then are the reactions (Haug, chapters 3 and 8).
 
-use super::super::free::{Held, Inputs, Side};
+use super::super::free::{Held, Inputs, Side, loads_held};
 use super::{System, TRACKING_STEP};
+use crate::drive::Wrench;
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::dense::Lu;
 use crate::mechanism::EQUATIONS;
@@ -105,12 +106,6 @@ impl<'a> Embedded<'a> {
         }
         self.system.differentiate();
     }
-
-    /// Moment on a link by the loads that are held.
-    fn load(&self, held: &Held, link: usize) -> f64 {
-        let loads = self.system.case.loads.iter().zip(&held.loads);
-        loads.filter(|(load, _)| load.link() == link).map(|(_, moment)| moment).sum()
-    }
 }
 
 impl Side for Embedded<'_> {
@@ -121,12 +116,14 @@ impl Side for Embedded<'_> {
         }
         self.set_rates(inputs);
         self.rest.copy_from_slice(&self.system.second);
+        self.system.find_loads(|case, motions, angles, out| loads_held(case, motions, angles, &held.senses, out));
         let (case, n) = (self.system.case, self.system.q.len());
         for (index, link) in case.mechanism.links()[1..].iter().enumerate() {
             let i = 3 * index;
-            self.force[i] = link.mass * (case.gravity.x - self.rest[i]);
-            self.force[i + 1] = link.mass * (case.gravity.y - self.rest[i + 1]);
-            self.force[i + 2] = self.load(held, index + 1) - link.inertia * self.rest[i + 2];
+            let Wrench { force, moment } = self.system.loads[index + 1];
+            self.force[i] = link.mass * (case.gravity.x - self.rest[i]) + force.x;
+            self.force[i + 1] = link.mass * (case.gravity.y - self.rest[i + 1]) + force.y;
+            self.force[i + 2] = moment - link.inertia * self.rest[i + 2];
         }
         self.matrix.clear();
         for (row, &drive) in self.free.iter().enumerate() {
@@ -170,10 +167,9 @@ impl Side for Embedded<'_> {
         [self.system.rate[theta], self.system.second[theta]]
     }
 
-    fn fill(&mut self, _: &Inputs, held: &Held, state: &mut State) -> Result<()> {
+    fn fill(&mut self, _: &Inputs, state: &mut State) -> Result<()> {
         if self.system.stage >= Stage::Reactions {
-            let moments: Vec<f64> = (0..self.system.case.mechanism.links().len()).map(|l| self.load(held, l)).collect();
-            self.system.multipliers(|link, _| moments[link]);
+            self.system.multipliers();
         }
         self.system.fill(state);
         Ok(())

@@ -13,9 +13,11 @@ pub mod cramer;
 pub mod linear_system;
 
 use crate::case::Case;
+use crate::drive::Wrench;
 use crate::error::{Error, ErrorKind};
 use crate::math::{Motion, Vec2, cross};
 use crate::mechanism::{Group, JointKind, Mechanism, Side};
+use crate::solver::State;
 
 /// One of the three leads of the group.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -96,16 +98,19 @@ impl Triad {
     }
 
     /// What is known to act on each link before the group's reactions: gravity and inertia m (g - a) at the mass centre, the moment
-    /// -J alpha, loads, and the forces in the joints with later groups, read from `forces` (N; of a joint's first link on its second).
+    /// -J alpha, loads, and the forces in the joints with later groups, read from the state.
     #[must_use]
-    pub fn known(&self, case: &Case, motions: &[Motion], forces: &[Vec2]) -> [Known; 4] {
+    pub fn known(&self, case: &Case, state: &State) -> [Known; 4] {
+        let (motions, forces) = (&state.motions, &state.forces);
+        let mut loads = vec![Wrench::ZERO; motions.len()];
+        case.loads_on(motions, &state.angles, &mut loads);
         let own = |joint: usize| self.leads.iter().any(|lead| lead.outer == joint || lead.inner == joint);
         self.links().map(|link| {
             let (body, motion) = (&case.mechanism.links()[link], &motions[link]);
             let at = motion.point(body.mass_centre);
             let inertia = (case.gravity - motion.point_acceleration(body.mass_centre)) * body.mass;
-            let moment = case.load_moment(link, motion.omega) - body.inertia * motion.alpha;
-            let mut known = Known { force: inertia, moment, at };
+            let Wrench { force, moment } = loads[link];
+            let mut known = Known { force: inertia + force, moment: moment - body.inertia * motion.alpha, at };
             for (index, joint) in case.mechanism.joints().iter().enumerate() {
                 if let (Some(local), false) = (joint.on(link), own(index)) {
                     let force = if joint.second.link == link { forces[index] } else { -forces[index] };

@@ -2,6 +2,7 @@
 
 use super::rapier::prelude::{JointAxis, Multibody, PhysicsWorld, Pose, Rotation};
 use super::{RIGID_MOTOR, Twin, joints, real, wide};
+use crate::drive::Wrench;
 use crate::engine::rapier::tree::{Tree, coordinate};
 use crate::engine::rapier::world::World;
 use crate::math::angle::wrapped;
@@ -91,10 +92,12 @@ impl World for Twin {
         joint.data.set_motor_velocity(JointAxis::AngX, real(omega * motor.sense), real(RIGID_MOTOR));
     }
 
-    fn set_load(&mut self, link: usize, moment: f64) {
+    fn set_load(&mut self, link: usize, load: Wrench) {
         let body = &mut self.world.bodies[self.bodies[link]];
+        body.reset_forces(true);
         body.reset_torques(true);
-        body.add_torque(real(moment), true);
+        body.add_force(joints::vector(load.force), true);
+        body.add_torque(real(load.moment), true);
     }
 
     fn place(&mut self, poses: &[LinkPose]) {
