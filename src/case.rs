@@ -196,13 +196,37 @@ impl Case {
     /// [`Case::each_load`]; `out` has one entry a link.
     #[inline]
     pub fn loads_on(&self, motions: &[Motion], angles: &[f64], out: &mut [Wrench]) {
+        self.loads_with(motions, angles, |_, load, link, crank| load.moment_in(motions[link].omega, crank), out);
+    }
+
+    /// The same, with the moment (N m) of every load that asks for the sense of a link's rotation from `sensed`, which is given its number, the load, the
+    /// link and the crank angle (rad).
+    #[inline]
+    pub fn loads_with(
+        &self,
+        motions: &[Motion],
+        angles: &[f64],
+        sensed: impl Fn(usize, &Load, usize, f64) -> f64,
+        out: &mut [Wrench],
+    ) {
         out.fill(Wrench::ZERO);
+        if self.loads.is_empty() {
+            return;
+        }
         let links = self.mechanism.links();
-        self.each_load(motions, angles, |action| {
+        let crank = angles[self.drive.link] - self.drive.zero;
+        let setting = Setting { motions, angles, start: &self.start.0, crank };
+        let mut add = |action: Action| {
             let centre = motions[action.link].point(links[action.link].mass_centre);
             out[action.link].force += action.force;
             out[action.link].moment += action.about(centre);
-        });
+        };
+        for (index, load) in self.loads.iter().enumerate() {
+            match load.sensed_link() {
+                Some(link) => add(Action::of_moment(link, sensed(index, load, link, crank))),
+                None => load.act(&setting, &mut add),
+            }
+        }
     }
 
     /// Power of all loads (W). Arguments as in [`Case::each_load`].

@@ -123,7 +123,9 @@ pub struct Action {
 }
 
 impl Action {
-    fn of_moment(link: usize, moment: f64) -> Self {
+    /// A moment (N m, counter-clockwise positive) alone.
+    #[must_use]
+    pub fn of_moment(link: usize, moment: f64) -> Self {
         Action { link, force: Vec2::zeros(), place: Vec2::zeros(), moment }
     }
 

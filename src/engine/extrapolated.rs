@@ -39,10 +39,10 @@ struct Shares {
 }
 
 impl Shares {
-    fn of(engine: &dyn Engine) -> Self {
+    fn of(engine: &dyn Engine, case: &Case) -> Self {
         let of = |stage: Stage| {
             let kind = CHANNELS.iter().find(|kind| kind.stage == stage).expect("every stage has a channel");
-            share(engine.formal_order(kind))
+            share(engine.formal_order(case, kind))
         };
         Shares {
             position: of(Stage::Positions),
@@ -106,7 +106,7 @@ impl Solver for Extrapolated {
             Ok(())
         };
         self.inner.sweep(case, &mut keep, &mut |part| progress(part / 3.0))?;
-        let shares = Shares::of(self.inner.as_ref());
+        let shares = Shares::of(self.inner.as_ref(), case);
         let mut combined = State::at_rest(case);
         let mut combine = |row: usize, state: &State| {
             combined.clone_from(state);
@@ -134,13 +134,13 @@ impl Engine for Extrapolated {
         self.inner.routes()
     }
 
-    fn formal_order(&self, channel: &ChannelKind) -> f64 {
+    fn formal_order(&self, case: &Case, channel: &ChannelKind) -> f64 {
         // Errors in proportion to h^p and h^(p+1), of which the first drops out.
-        self.inner.formal_order(channel) + 1.0
+        self.inner.formal_order(case, channel) + 1.0
     }
 
     fn noise(&self, case: &Case, channel: &ChannelKind) -> f64 {
-        let share = share(self.inner.formal_order(channel));
+        let share = share(self.inner.formal_order(case, channel));
         share * self.half().noise(case, channel) + (share - 1.0) * self.inner.noise(case, channel)
     }
 

@@ -36,8 +36,8 @@ pub trait Engine: Solver {
     /// Ways to reactions and balancing moment that are on offer, the cheapest first.
     fn routes(&self) -> &'static [Route];
 
-    /// Order of convergence that a channel should show with the present route and extrapolation.
-    fn formal_order(&self, channel: &ChannelKind) -> f64;
+    /// Order of convergence that a channel of a case should show with the present route and extrapolation.
+    fn formal_order(&self, case: &Case, channel: &ChannelKind) -> f64;
 
     /// Bound on the rounding noise of a channel on the grid of a case, in the channel's unit.
     fn noise(&self, case: &Case, channel: &ChannelKind) -> f64;

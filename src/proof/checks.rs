@@ -117,7 +117,7 @@ fn power_balance(case: &Case, engine: &dyn Engine, runs: &Runs) -> Check {
     let noise = engine.at(resolution / 2.0).noise(case, kind);
     let estimate = |of: fn(&Observed) -> &[f64]| {
         let [double, single, half] = [0, 1, 2].map(|k| of(&runs.resolutions[k]));
-        let found = Convergence::of(double, single, half, false, engine.formal_order(kind), noise);
+        let found = Convergence::of(double, single, half, false, engine.formal_order(case, kind), noise);
         let fewer = runs.fewer_sweeps.as_ref().map(of);
         found.with_fewer_sweeps(single, fewer, false).tolerance(resolution, engine.noise(case, kind))
     };

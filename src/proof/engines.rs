@@ -180,7 +180,7 @@ fn judge(scenario: &Scenario, engine: &dyn Engine, reference: &Trajectory, runs:
     let judged = residuals(reference, single)?.into_iter().map(|residual| {
         let (channel, kind) = (residual.channel.clone(), residual.channel.kind);
         let convergence =
-            Convergence::of_channel(ladder, &channel, engine.formal_order(kind), finest.noise(case, kind))
+            Convergence::of_channel(ladder, &channel, engine.formal_order(case, kind), finest.noise(case, kind))
                 .expect("all runs of an engine have the same channels");
         let tolerance = convergence.tolerance(resolution, engine.noise(case, kind));
         let Basis::Truncation { parts, .. } = tolerance.basis else { unreachable!("that is what it rests on") };

@@ -14,14 +14,15 @@ pub(super) struct Observed {
     pub(super) closure: f64,
     /// Largest distance of a joint from the origin (m).
     pub(super) reach: f64,
-    /// Balancing moment from the balance of powers (N m) at every instant; empty if no balancing moment is wanted.
+    /// Balancing moment from the balance of powers (N m) at every instant; empty if no balancing moment is wanted. Of a free motion, in which the crank
+    /// may stand still, the power itself (W).
     pub(super) power: Vec<f64>,
-    /// Balancing moments reduced to the crank (N m) at every instant; empty likewise.
+    /// Balancing moments reduced to the crank (N m) at every instant, or their power (W); empty likewise.
     pub(super) torque: Vec<f64>,
     /// Largest difference at any instant between the shaking force from reactions and from momentum, over the largest force in
     /// a joint, or the same of the shaking moment, over the largest moment of such a force about the origin.
     pub(super) unbalance: Option<f64>,
-    /// Largest moment on the driving link (N m): the balancing one, or that of a joint's force at the link's length.
+    /// Largest moment on the driving link (N m): the balancing one, or that of a joint's force at the link's length. Of a free motion, its power (W).
     pub(super) moment: f64,
 }
 
@@ -57,7 +58,7 @@ pub(super) fn observe(
     let arm = case.drives().fold(0.0, |most: f64, drive| most.max(case.mechanism.links()[drive.link].size()));
     let size = case.mechanism.size();
     let (mut closure, mut reach, mut moment): (f64, f64, f64) = (0.0, 0.0, 0.0);
-    let mut unbalance = Unbalance::default();
+    let (mut unbalance, mut fastest) = (Unbalance::default(), 0.0f64);
     let mut visit = |row: usize, state: &State| {
         for joint in case.mechanism.joints() {
             let sides = [joint.first, joint.second];
@@ -67,11 +68,18 @@ pub(super) fn observe(
             reach = reach.max(places[0].norm());
         }
         if with_power {
-            power[row] = power::balancing_moment(case, state);
-            torque[row] = reduced_torque(case, state);
+            (power[row], torque[row]) = match case.is_free() {
+                true => (-power::of_known_forces(case, state), power_of_drives(case, state)),
+                false => (power::balancing_moment(case, state), reduced_torque(case, state)),
+            };
+            fastest = case.drives().fold(fastest, |most, drive| most.max(state.motions[drive.link].omega.abs()));
             let forces = state.forces.iter().map(|force| force.norm() * arm);
             moment = forces.fold(state.torques.iter().fold(moment, |most, torque| most.max(torque.abs())), f64::max);
-            unbalance.add(case, state);
+            // At the very instant of setting off loads act already against a motion that the state does not show yet.
+            let setting_off = case.is_free() && case.drives().all(|drive| state.motions[drive.link].omega == 0.0);
+            if !setting_off {
+                unbalance.add(case, state);
+            }
         }
         sampler.put(case, row, state);
         Ok(())
@@ -87,8 +95,13 @@ pub(super) fn observe(
         power,
         torque,
         unbalance: with_power.then(|| unbalance.share()),
-        moment,
+        moment: if case.is_free() { moment * fastest } else { moment },
     })
+}
+
+/// Power of all drives on their links (W).
+fn power_of_drives(case: &Case, state: &State) -> f64 {
+    case.drives().zip(&state.torques).map(|(drive, torque)| torque * state.motions[drive.link].omega).sum()
 }
 
 /// Balancing moments of all drives (N m), reduced to the crank by their powers.
@@ -117,7 +130,9 @@ impl Unbalance {
             let place = state.motions[joint.second.link].point(joint.second.local);
             let own = state.forces[index].norm();
             self.largest_force = self.largest_force.max(own);
-            self.largest_moment = self.largest_moment.max(own * place.norm()).max(state.moments[index].abs());
+            // Of a joint in the origin, its force at the mechanism's size.
+            let lever = place.norm().max(case.mechanism.size());
+            self.largest_moment = self.largest_moment.max(own * lever).max(state.moments[index].abs());
         }
     }
 

@@ -184,7 +184,7 @@ impl Bench<'_> {
             for sweeps in sweeps(engine, options) {
                 let settings = Settings { sweeps, ..*way };
                 let limit = best.as_ref().map_or(limit, |best| best.price.min(limit));
-                let order = engine.with(settings).formal_order(self.wanted[0].kind);
+                let order = engine.with(settings).formal_order(self.case, self.wanted[0].kind);
                 let mut run = |resolution: f64| self.measure(engine, Settings { resolution, ..settings });
                 match largest_step([settings.resolution, most], order, within, limit, &mut run) {
                     Found::Step { resolution, measured } => {
@@ -270,7 +270,7 @@ impl Bench<'_> {
                 continue;
             }
             let noise = finest.noise(self.case, kind);
-            let found = Convergence::of_channel(ladder, channel, engine.formal_order(kind), noise);
+            let found = Convergence::of_channel(ladder, channel, engine.formal_order(self.case, kind), noise);
             let found = found.expect("all runs of an engine have the same channels");
             predicted = predicted.max((found.error + found.iteration) / residual.scale);
         }

@@ -43,15 +43,40 @@ impl<'a> Guard<'a> {
         }
     }
 
+    /// Drives all links with the speeds from which free ones start; those of the others at `t`.
+    pub(super) fn drive_from_start(&mut self, t: f64) {
+        for (index, drive) in self.case.drives().enumerate() {
+            self.world.set_drive(index, drive.free.unwrap_or(drive.at(t).omega));
+        }
+    }
+
+    /// Sets the speed of the links whose motion is prescribed, and for free ones what `motor` says: speed aimed at (rad/s) and damping (N m s/rad).
+    pub(super) fn drive_freely(&mut self, t: f64, motor: [f64; 2]) {
+        for (index, drive) in self.case.drives().enumerate() {
+            match (drive.free, index) {
+                (None, _) => self.world.set_drive(index, drive.at(t).omega),
+                (Some(_), 0) => self.world.set_motor(index, motor[0], motor[1]),
+                (Some(_), _) => self.world.set_motor(index, 0.0, 0.0),
+            }
+        }
+    }
+
+    /// Sets the loads of all links.
+    pub(super) fn put_loads(&mut self, loads: &[Wrench]) {
+        for (link, &load) in loads.iter().enumerate().skip(1) {
+            self.world.set_load(link, load);
+        }
+    }
+
     /// Sets the loads of all links as they are in a state.
     pub(super) fn load(&mut self, state: &State) {
         if self.case.loads.is_empty() {
             return;
         }
-        self.case.loads_on(&state.motions, &state.angles, &mut self.loads);
-        for (link, &load) in self.loads.iter().enumerate().skip(1) {
-            self.world.set_load(link, load);
-        }
+        let mut loads = std::mem::take(&mut self.loads);
+        self.case.loads_on(&state.motions, &state.angles, &mut loads);
+        self.put_loads(&loads);
+        self.loads = loads;
     }
 
     /// Sets the time step (s).
@@ -74,9 +99,9 @@ impl<'a> Guard<'a> {
     /// engine has panicked.
     pub(super) fn step(&mut self, t: f64) -> Result<()> {
         let world = &mut self.world;
-        catch_unwind(AssertUnwindSafe(|| world.step()))
-            .map_err(|cause| panicked(&self.case.drive, t, cause.as_ref()))?;
-        let crank = || at(&self.case.drive, t);
+        let own_crank = self.angles[self.case.drive.link] - self.case.drive.zero;
+        let crank = || at(&self.case.drive, own_crank, t);
+        catch_unwind(AssertUnwindSafe(|| world.step())).map_err(|cause| panicked(&crank(), cause.as_ref()))?;
         for (link, before) in self.angles.iter_mut().enumerate().skip(1) {
             let angle = self.world.angle(link);
             let turn = (angle - *before).abs();
@@ -127,9 +152,10 @@ impl<'a> Guard<'a> {
     }
 }
 
-/// When and where, for messages.
-fn at(drive: &Drive, t: f64) -> String {
-    format!("t = {t:.6} s, crank angle {:.4} deg", drive.at(t).angle.to_degrees())
+/// When and where, for messages: a free crank is where it was `before` the step.
+fn at(drive: &Drive, before: f64, t: f64) -> String {
+    let crank = if drive.free.is_some() { before } else { drive.at(t).angle };
+    format!("t = {t:.6} s, crank angle {:.4} deg", crank.to_degrees())
 }
 
 fn failed(message: String) -> Error {
@@ -137,10 +163,10 @@ fn failed(message: String) -> Error {
         .help("choose a smaller time step (--dt), or check that the pose can be assembled there")
 }
 
-fn panicked(drive: &Drive, t: f64, cause: &(dyn std::any::Any + Send)) -> Error {
+fn panicked(place: &str, cause: &(dyn std::any::Any + Send)) -> Error {
     let words = cause.downcast_ref::<&str>().copied().or_else(|| cause.downcast_ref::<String>().map(String::as_str));
     let words = words.unwrap_or("no message");
-    Error::new(ErrorKind::Numeric, format!("the engine has panicked (\"{words}\"), {}", at(drive, t)))
+    Error::new(ErrorKind::Numeric, format!("the engine has panicked (\"{words}\"), {place}"))
         .help("choose a smaller time step (--dt), or another engine")
 }
 
@@ -176,6 +202,9 @@ mod tests {
         }
         fn set_drive(&mut self, drive: usize, omega: f64) {
             self.world.set_drive(drive, omega);
+        }
+        fn set_motor(&mut self, drive: usize, target: f64, damping: f64) {
+            self.world.set_motor(drive, target, damping);
         }
         fn set_load(&mut self, link: usize, load: Wrench) {
             self.world.set_load(link, load);

@@ -5,6 +5,7 @@
 //! the first steps has died away before anything is read.
 
 mod double;
+mod free;
 mod ghost;
 mod guard;
 mod native;
@@ -140,9 +141,10 @@ impl Engine for Rapier {
         &Route::ALL
     }
 
-    fn formal_order(&self, channel: &ChannelKind) -> f64 {
+    fn formal_order(&self, case: &Case, channel: &ChannelKind) -> f64 {
         let native = self.settings.route == Route::Native && channel.stage >= Stage::Reactions;
-        if native { 1.0 } else { 2.0 }
+        // Under forces each step takes what acts at its beginning for the whole of it.
+        if native || case.is_free() { 1.0 } else { 2.0 }
     }
 
     fn noise(&self, case: &Case, channel: &ChannelKind) -> f64 {

@@ -27,6 +27,8 @@ pub(super) struct Native {
     reporters: Vec<usize>,
     ghost: Option<Ghost>,
     row: Vec<f64>,
+    /// First step at which a reading may be taken as standing.
+    lowest: i64,
 }
 
 impl Native {
@@ -34,7 +36,16 @@ impl Native {
         let cuts: Vec<&[usize]> = worlds.iter().map(|guard| guard.world().tree().cut.as_slice()).collect();
         let width = 3 * case.mechanism.joints().len() + case.drives().count();
         let reporters = reporters(case, &cuts);
-        Native { step, ring: Ring::new(width, start), reporters, ghost: Ghost::of(case, true), row: vec![0.0; width] }
+        // In a free motion step 1 is the first that is reported.
+        let lowest = if case.is_free() { 3 } else { i64::MIN / 2 };
+        Native {
+            step,
+            ring: Ring::new(width, start),
+            reporters,
+            ghost: Ghost::of(case, !case.is_free()),
+            row: vec![0.0; width],
+            lowest,
+        }
     }
 
     /// Takes the reports of a step.
@@ -52,7 +63,7 @@ impl Native {
 
     /// Fills in the reactions and moments of a state whose motion is known.
     pub(super) fn solve(&mut self, case: &Case, state: &mut State, t: f64) -> Result<()> {
-        let place = Place::of(t / self.step + LATE);
+        let place = Place::of(t / self.step + LATE).from(self.lowest);
         self.ring.weigh(place, &place.weights(0.0), &mut self.row);
         for joint in 0..self.reporters.len() {
             let row = &self.row[3 * joint..];

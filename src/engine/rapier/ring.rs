@@ -24,6 +24,12 @@ impl Place {
         Place { before: before as i64, share: if share < ON_A_STEP { 0.0 } else { share } }
     }
 
+    /// The same place seen from no step before `lowest`: the share may then be negative.
+    pub(super) fn from(self, lowest: i64) -> Self {
+        let before = self.before.max(lowest);
+        Place { before, share: self.share + (self.before - before) as f64 }
+    }
+
     /// Weights of the steps `before - 2` to `before + 3`, for what lies `back` steps before this place.
     pub(super) fn weights(self, back: f64) -> [f64; POINTS] {
         lagrange_weights(2.0 + self.share - back)

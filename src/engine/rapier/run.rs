@@ -1,5 +1,6 @@
 //! One run: worlds side by side in time, and what is read of them.
 
+use super::free::{self, Acting};
 use super::guard::Guard;
 use super::native::Native;
 use super::newton_euler::NewtonEuler;
@@ -39,12 +40,18 @@ pub(super) fn sweep(
     let begin = (case.grid.times[first].min(0.0) / step).floor();
     let end = (case.grid.times[last] / step).floor();
     check(&engine.settings, end - begin)?;
-    let start = begin as i64 - Window::BEHIND - SETTLING_STEPS;
+    let start = match case.is_free() {
+        true => 0,
+        false => begin as i64 - Window::BEHIND - SETTLING_STEPS,
+    };
     let total = (end as i64 + Window::AHEAD - start) as f64;
     let mut visited = None;
     let mut run = Run::new(engine, case, start)?;
     let go = || {
-        run.back_up()?;
+        match run.acting {
+            None => run.back_up()?,
+            Some(_) => run.begin()?,
+        }
         let mut state = State::at_rest(case);
         for row in rows {
             let t = case.grid.times[row];
@@ -68,7 +75,10 @@ pub(super) fn sweep(
 /// Says in the way out how far the run has come: what has been visited stands.
 fn reached(error: Error, case: &Case, visited: Option<usize>) -> Error {
     let (Some(row), ErrorKind::Numeric) = (visited, error.kind()) else { return error };
-    let until = format!("the run stands up to crank angle {:.4} deg", case.grid.cranks[row].to_degrees());
+    let until = match case.is_free() {
+        true => format!("the run stands up to t = {:.6} s", case.grid.times[row]),
+        false => format!("the run stands up to crank angle {:.4} deg", case.grid.cranks[row].to_degrees()),
+    };
     match error.way_out().map(str::to_string) {
         Some(way) => error.help(format!("{way}; {until}")),
         None => error.help(until),
@@ -83,6 +93,8 @@ struct Run<'a> {
     worlds: Vec<Guard<'a>>,
     window: Window,
     reader: Reader<'a>,
+    /// In a free motion.
+    acting: Option<Acting>,
 }
 
 impl<'a> Run<'a> {
@@ -94,15 +106,23 @@ impl<'a> Run<'a> {
             Build::Multibody => (Tree::of(mechanism), Tree::covering(mechanism)),
             Build::Impulse => (Tree::none(mechanism), vec![Tree::none(mechanism)]),
         };
+        let acting = if case.is_free() { Some(Acting::new(case)?) } else { None };
+        if let (Some(_), Some(Route::Probe)) = (&acting, route) {
+            let message = "the motion is free, but a probe needs prescribed speeds";
+            return Err(Error::new(ErrorKind::Unsupported, message)
+                .help("take another way to the reactions: --route differences or --route native"));
+        }
         let native = route == Some(Route::Native);
         let trees = if native { reporting.clone() } else { vec![moving] };
         let worlds: Result<Vec<Guard>> =
             trees.into_iter().map(|tree| Ok(Guard::new(case, engine.world(case, tree, native)?))).collect();
         let worlds = worlds?;
+        // One step lies before the beginning of a free motion.
+        let reports_from = if acting.is_some() { start - 1 } else { start };
         let reader = match route {
             None => Reader::Nothing,
             Some(Route::Differences) => Reader::Differences(NewtonEuler::new(case)),
-            Some(Route::Native) => Reader::Native(Native::new(case, &worlds, settings.resolution, start)),
+            Some(Route::Native) => Reader::Native(Native::new(case, &worlds, settings.resolution, reports_from)),
             Some(Route::Probe) => {
                 let probed: Result<Vec<Guard>> =
                     reporting.into_iter().map(|tree| Ok(Guard::new(case, engine.world(case, tree, true)?))).collect();
@@ -110,7 +130,16 @@ impl<'a> Run<'a> {
             }
         };
         let window = Window::new(case, settings.resolution, start);
-        Ok(Run { case, step: settings.resolution, start, worlds, window, reader })
+        Ok(Run { case, step: settings.resolution, start, worlds, window, reader, acting })
+    }
+
+    /// Gives all worlds of a free motion their velocities at the start.
+    fn begin(&mut self) -> Result<()> {
+        let Some(acting) = &mut self.acting else { return Ok(()) };
+        self.window = free::begin(self.case, acting, &mut self.worlds, self.step)?;
+        self.report();
+        self.report();
+        Ok(())
     }
 
     /// Drives all worlds backwards from the start to where they turn about.
@@ -129,6 +158,9 @@ impl<'a> Run<'a> {
 
     fn step(&mut self) -> Result<()> {
         let step = self.window.newest() + 1;
+        if let Some(acting) = &mut self.acting {
+            acting.act(self.case, &self.window, &mut self.worlds, (step - 1) as f64 * self.step);
+        }
         for guard in &mut self.worlds {
             guard.step(step as f64 * self.step)?;
             if step == 0 {

@@ -18,6 +18,8 @@ pub(super) struct Window {
     ring: Ring,
     /// Velocity and angular velocity of every link while they are carried along the tree.
     rates: Vec<(Vec2, f64)>,
+    /// Step before which no sample may be taken as standing: interpolation reaches two steps farther back, second differences three.
+    lowest: i64,
 }
 
 impl Window {
@@ -29,7 +31,27 @@ impl Window {
     /// An empty window of a run whose first state, pushed next, is that of step `start`.
     pub(super) fn new(case: &Case, step: f64, start: i64) -> Self {
         let links = case.mechanism.links().len();
-        Window { step, ring: Ring::new(links * WIDTH, start), rates: vec![(Vec2::zeros(), 0.0); links] }
+        Window {
+            step,
+            ring: Ring::new(links * WIDTH, start),
+            rates: vec![(Vec2::zeros(), 0.0); links],
+            lowest: i64::MIN / 2,
+        }
+    }
+
+    /// A window of a free motion, which begins at step 0 with the pose and the velocities of `world`. Before it lies one step that leads there
+    /// without acceleration.
+    pub(super) fn beginning(case: &Case, step: f64, world: &dyn World) -> Self {
+        let mut window = Window::new(case, step, -1);
+        window.lowest = 2;
+        // The velocities of a push belong to the step before.
+        window.push(world, case);
+        window.push(world, case);
+        let row = window.ring.row_mut(-1);
+        for link in row.chunks_mut(WIDTH).skip(1) {
+            (0..3).for_each(|c| link[c] -= step * link[3 + c]);
+        }
+        window
     }
 
     /// Number of the newest step.
@@ -38,7 +60,7 @@ impl Window {
     }
 
     fn place(&self, t: f64) -> Place {
-        Place::of(t / self.step)
+        Place::of(t / self.step).from(self.lowest)
     }
 
     /// Whether the window reaches far enough for a sample at `t`.
@@ -92,6 +114,23 @@ impl Window {
             }
             let (velocity, omega) = self.rates[link];
             before[link * WIDTH + 3..][..3].copy_from_slice(&[velocity.x, velocity.y, omega]);
+        }
+    }
+
+    /// The newest pose, with the velocities that led there: differences of positions over a step.
+    pub(super) fn newest_motion(&self, case: &Case, state: &mut State) {
+        let (now, before) = (self.ring.row(self.newest()), self.ring.row(self.newest() - 1));
+        for (link, body) in case.mechanism.links().iter().enumerate().skip(1) {
+            let at = |c: usize| now[link * WIDTH + c];
+            let rate = |c: usize| (at(c) - before[link * WIDTH + c]) / self.step;
+            state.angles[link] = at(2);
+            state.motions[link] = Motion::of_point(
+                body.mass_centre,
+                [Vec2::new(at(0), at(1)), Vec2::new(rate(0), rate(1)), Vec2::zeros()],
+                unit(at(2)),
+                rate(2),
+                0.0,
+            );
         }
     }
 

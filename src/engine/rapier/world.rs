@@ -24,6 +24,10 @@ pub trait World {
     /// Sets the angular velocity (rad/s, counter-clockwise positive) that a drive, by its number in [`Case::drives`], gives its link.
     fn set_drive(&mut self, drive: usize, omega: f64);
 
+    /// Leaves a drive to a motor: moment (N m) on its link of `damping` (N m s/rad, not negative) times what `target` (rad/s) is ahead of the speed at the END of
+    /// the step.
+    fn set_motor(&mut self, drive: usize, target: f64, damping: f64);
+
     /// Sets the loads on a link, which stay until they are set again.
     fn set_load(&mut self, link: usize, load: Wrench);
 
@@ -61,7 +65,7 @@ const FLYWHEEL: f64 = 1.0;
 
 /// Mass (kg) and moment of inertia (kg m^2) that every link is given in Rapier, which cannot move a body without them, flywheels left
 /// out. Under a prescribed speed the motion does not depend on the masses; what they add to reactions that are read is taken off
-/// again ([`Ghost`](super::ghost::Ghost)).
+/// again ([`Ghost`](super::ghost::Ghost)). In a free motion they are the links' own, and the crank carries rotor and reducer.
 pub(super) fn masses(case: &Case) -> Vec<[f64; 2]> {
     let moving = &case.mechanism.links()[1..];
     let total: f64 = moving.iter().map(|link| link.mass).sum();
@@ -71,12 +75,19 @@ pub(super) fn masses(case: &Case) -> Vec<[f64; 2]> {
         let mass = if link.mass > 0.0 { link.mass } else { stand_in };
         [mass, if link.inertia > 0.0 { link.inertia } else { mass * size * size / 12.0 }]
     };
-    std::iter::once([0.0; 2]).chain(moving.iter().map(of)).collect()
+    let mut masses: Vec<[f64; 2]> = std::iter::once([0.0; 2]).chain(moving.iter().map(of)).collect();
+    if let (Some(motor), Some(_)) = (&case.motor, case.drive.free) {
+        masses[case.drive.link][1] += motor.inertia_on_crank();
+    }
+    masses
 }
 
-/// The same with flywheels on the driving links.
+/// The same with flywheels on the driving links whose speed is prescribed.
 pub(super) fn masses_with_flywheels(case: &Case) -> Vec<[f64; 2]> {
     let mut masses = masses(case);
+    if case.is_free() {
+        return masses;
+    }
     let total: f64 = masses.iter().map(|[mass, _]| mass).sum();
     let size = case.mechanism.size();
     for drive in case.drives() {

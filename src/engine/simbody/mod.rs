@@ -92,7 +92,7 @@ impl Engine for Simbody {
         &[Route::Native]
     }
 
-    fn formal_order(&self, _: &ChannelKind) -> f64 {
+    fn formal_order(&self, _: &Case, _: &ChannelKind) -> f64 {
         // Errors are held in proportion to the accuracy.
         1.0
     }

@@ -13,7 +13,7 @@ use super::dynamics::ACCURACY;
 use super::dynamics::march::{Place, Step, Stop, march};
 use super::dynamics::run_up::MOST_EMPTY;
 use crate::case::Case;
-use crate::drive::{Action, Setting, Wrench};
+use crate::drive::Wrench;
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::Motion;
 use crate::solver::{Progress, State};
@@ -44,21 +44,7 @@ pub(super) struct Held {
 
 /// As [`Case::loads_on`], with the senses held that loads ask for.
 pub(super) fn loads_held(case: &Case, motions: &[Motion], angles: &[f64], senses: &[f64], out: &mut [Wrench]) {
-    out.fill(Wrench::ZERO);
-    let links = case.mechanism.links();
-    let crank = angles[case.drive.link] - case.drive.zero;
-    let setting = Setting { motions, angles, start: &case.start.0, crank };
-    for (load, &sense) in case.loads.iter().zip(senses) {
-        if let Some(link) = load.sensed_link() {
-            out[link].moment += load.moment_in(sense, crank);
-        } else {
-            load.act(&setting, &mut |action: Action| {
-                let centre = motions[action.link].point(links[action.link].mass_centre);
-                out[action.link].force += action.force;
-                out[action.link].moment += action.about(centre);
-            });
-        }
-    }
+    case.loads_with(motions, angles, |index, load, _, crank| load.moment_in(senses[index], crank), out);
 }
 
 /// An analytic side's equations of motion in the coordinates of the driving links.

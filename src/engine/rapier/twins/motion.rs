@@ -1,6 +1,6 @@
 //! Poses and velocities in and out, and the step itself.
 
-use super::rapier::prelude::{JointAxis, Multibody, PhysicsWorld, Pose, Rotation};
+use super::rapier::prelude::{JointAxesMask, JointAxis, Multibody, PhysicsWorld, Pose, Rotation};
 use super::{RIGID_MOTOR, Twin, joints, real, wide};
 use crate::drive::Wrench;
 use crate::engine::rapier::tree::{Tree, coordinate};
@@ -90,6 +90,16 @@ impl World for Twin {
         let omega = if motor.plain && turn.abs() < 1.0 { turn.tan() / self.step_size() } else { omega };
         let joint = self.world.impulse_joints.get_mut(motor.handle, true).expect("the motor exists");
         joint.data.set_motor_velocity(JointAxis::AngX, real(omega * motor.sense), real(RIGID_MOTOR));
+    }
+
+    fn set_motor(&mut self, drive: usize, target: f64, damping: f64) {
+        let motor = &self.motors[drive];
+        let joint = self.world.impulse_joints.get_mut(motor.handle, true).expect("the motor exists");
+        joint.data.set_motor_velocity(JointAxis::AngX, real(target * motor.sense), real(damping));
+        if damping == 0.0 {
+            // Rapier holds a motor without stiffness and damping as if it were rigid.
+            joint.data.motor_axes = JointAxesMask::empty();
+        }
     }
 
     fn set_load(&mut self, link: usize, load: Wrench) {
