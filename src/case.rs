@@ -135,10 +135,12 @@ impl Case {
         let joints = self.mechanism.joints().iter().map(|joint| (Subject::Joint, joint.name.as_str()));
         let sliders = self.mechanism.joints().iter().filter(|joint| joint.is_prismatic());
         let sliders = sliders.map(|joint| (Subject::Slider, joint.name.as_str()));
-        let whole = [(Subject::Frame, ""), (Subject::Drive, "")];
-        let motors = self.further_drives.iter().map(|drive| &self.mechanism.joints()[drive.joint]);
-        let motors = motors.map(|joint| (Subject::Motor, joint.name.as_str()));
-        let subjects = links.chain(points).chain(joints).chain(sliders).chain(whole).chain(motors);
+        let frame = std::iter::once((Subject::Frame, ""));
+        let moved = self.moved().map(|(index, drive)| match index {
+            0 => (Subject::Drive, ""),
+            _ => (Subject::Motor, self.mechanism.joints()[drive.joint].name.as_str()),
+        });
+        let subjects = links.chain(points).chain(joints).chain(sliders).chain(frame).chain(moved);
         let rows = |(subject, of): (Subject, &str)| {
             let kinds = CHANNELS.iter().filter(move |kind| kind.subject == subject && self.wanted.has(kind.stage));
             kinds.map(|kind| Channel { of: of.to_string(), kind }).collect::<Vec<_>>()
@@ -151,11 +153,28 @@ impl Case {
         std::iter::once(&self.drive).chain(&self.further_drives)
     }
 
+    /// The drives that have a moment, with their numbers: all but those of free links without a motor.
+    pub fn moved(&self) -> impl Iterator<Item = (usize, &Drive)> {
+        let has_motor = |index: usize| index == 0 && self.motor.is_some();
+        self.drives().enumerate().filter(move |&(index, drive)| drive.free.is_none() || has_motor(index))
+    }
+
     /// Whether forces decide the motion of a driving link. Then crank angles are known of solved trajectories only: those of the grid are
     /// of the nominal motion.
     #[must_use]
     pub fn is_free(&self) -> bool {
         self.drives().any(|drive| drive.free.is_some())
+    }
+
+    /// The same problem with every drive in its nominal motion: what questions about crank angles are about.
+    #[must_use]
+    pub fn nominal(&self) -> Case {
+        let bound = |drive: &Drive| Drive { free: None, ..*drive };
+        Case {
+            drive: bound(&self.drive),
+            further_drives: self.further_drives.iter().map(bound).collect(),
+            ..self.clone()
+        }
     }
 
     /// World angles of the driving links' x axes (rad) where the crank angle is `crank` (rad, as the scenario states it).

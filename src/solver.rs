@@ -202,7 +202,7 @@ impl Sampler {
             put(force.x);
             put(force.y);
             put(moment);
-            state.torques.iter().copied().for_each(&mut put);
+            case.moved().for_each(|(index, _)| put(state.torques[index]));
         }
     }
 

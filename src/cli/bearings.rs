@@ -42,7 +42,7 @@ pub(super) fn bearings(args: &Args) -> Result<()> {
             return Err(Error::new(ErrorKind::Input, format!("{name} is {value}")).help("give a number above zero"));
         }
     }
-    let scenario = Scenario::load(&args.file)?;
+    let scenario = Scenario::load(&args.file)?.nominal();
     let peaks = peaks::over_range(&scenario.case)?;
     match &args.json {
         Some(to) => output::write(&format!("{}\n", as_json(args, &scenario, &peaks)), to),

@@ -50,7 +50,7 @@ pub(super) struct Args {
 }
 
 pub(super) fn diagram(args: &Args) -> Result<()> {
-    let scenario = Scenario::load(&args.file)?;
+    let scenario = Scenario::load(&args.file)?.nominal();
     let solver = reference::named(&args.with).expect("the argument parser knows all names");
     let course = Course::named(&scenario.case, &args.channel)?;
     let diagram = MotionDiagram::of(&scenario.case, solver, &course, args.divisions)?;

@@ -81,7 +81,7 @@ struct Found {
 
 pub(super) fn drive(args: &Args) -> Result<()> {
     check(args)?;
-    let scenario = load(&args.file, &args.mode)?;
+    let scenario = load(&args.file, &args.mode)?.nominal();
     let model = Model::of(&scenario.case)?;
     if let Some(to) = &args.run_up {
         let run_up = run_up(args, &model)?;

@@ -41,7 +41,7 @@ pub(super) struct Args {
 }
 
 pub(super) fn inspect(args: &Args) -> Result<()> {
-    let scenario = Scenario::load(&args.file)?;
+    let scenario = Scenario::load(&args.file)?.nominal();
     let case = &scenario.case;
     let modes = match args.modes {
         true => {

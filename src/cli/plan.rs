@@ -46,7 +46,7 @@ pub(super) struct Args {
 }
 
 pub(super) fn plan(args: &Args) -> Result<()> {
-    let scenario = Scenario::load(&args.file)?;
+    let scenario = Scenario::load(&args.file)?.nominal();
     let case = &scenario.case;
     let crank = args.crank_deg.map_or(case.drive.start, f64::to_radians);
     let solver = reference::named(&args.with).expect("the argument parser knows all names");

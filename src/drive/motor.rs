@@ -39,6 +39,22 @@ pub enum MotorLaw {
 }
 
 impl MotorLaw {
+    /// The law with `share` times the torque at every speed.
+    #[must_use]
+    pub fn scaled(&self, share: f64) -> MotorLaw {
+        match self {
+            MotorLaw::Constant { torque } => MotorLaw::Constant { torque: share * torque },
+            MotorLaw::Linear { at_rest, slope } => MotorLaw::Linear { at_rest: share * at_rest, slope: share * slope },
+            &MotorLaw::Kloss { breakdown_torque, breakdown_slip, synchronous_speed } => {
+                MotorLaw::Kloss { breakdown_torque: share * breakdown_torque, breakdown_slip, synchronous_speed }
+            }
+            MotorLaw::Table { speeds, torques } => MotorLaw::Table {
+                speeds: speeds.clone(),
+                torques: torques.iter().map(|torque| share * torque).collect(),
+            },
+        }
+    }
+
     /// Torque (N m) at the motor's speed `omega` (rad/s).
     #[must_use]
     pub fn torque(&self, omega: f64) -> f64 {

@@ -1,5 +1,7 @@
 //! One engine against the reference: its runs, the error they estimate, and the verdict channel by channel.
 
+use std::fmt::Write;
+
 use super::checks;
 use super::observe::{Observed, Stopped, observe};
 use crate::case::Case;
@@ -45,6 +47,8 @@ pub struct ChannelProof {
     /// Largest difference between the limit of the engine's runs and the reference, in the channel's unit; `None` where the runs have no
     /// limit that can be told.
     pub limit: Option<f64>,
+    /// Of a free motion: largest change over the run, as a share of the scale, per share of change in gravity and motor torque.
+    pub sensitivity: Option<f64>,
     /// What the bound rests on.
     pub basis: Basis,
     /// The outcome.
@@ -190,9 +194,37 @@ fn judge(scenario: &Scenario, engine: &dyn Engine, reference: &Trajectory, runs:
             [single, half, reference].map(|side| side.column(&channel).expect("all sides have the channel"));
         let limit = convergence.limit(single, half, kind.periodic);
         let limit = limit.map(|limit| largest_difference(reference, &limit, kind.periodic));
-        ChannelProof { residual, bound: parts.sum(), parts, convergence, limit, basis: tolerance.basis, verdict }
+        ChannelProof {
+            residual,
+            bound: parts.sum(),
+            parts,
+            convergence,
+            limit,
+            sensitivity: None,
+            basis: tolerance.basis,
+            verdict,
+        }
     });
     Ok(judged.collect())
+}
+
+/// Adds to what proves nothing how much the motion itself depends on the forces that make it: `sensitivity`, channel by channel of the reference.
+pub(super) fn tell_sensitivity(proof: &mut EngineProof, reference: &Trajectory, sensitivity: &[f64]) {
+    for (channel, &change) in reference.channels().iter().zip(sensitivity) {
+        let own = proof.channels.iter_mut().find(|own| own.residual.channel == *channel);
+        if let Some(own) = own
+            && own.residual.scale > 0.0
+        {
+            let share = change / own.residual.scale;
+            own.sensitivity = Some(share);
+            if let Verdict::Inconclusive { reason } = &mut own.verdict {
+                let _ = write!(
+                    reason,
+                    "; a millionth more of gravity and motor torque changes the channel by {share:.2} millionths of its scale"
+                );
+            }
+        }
+    }
 }
 
 /// A disagreement in a force where a load jumps proves nothing.

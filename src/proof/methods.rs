@@ -3,6 +3,7 @@
 use super::checks::rounding;
 use crate::case::Case;
 use crate::compare::{Check, Verdict};
+use crate::drive::DriveState;
 use crate::error::{ErrorKind, Result};
 use crate::math::{Vec2, cross};
 use crate::reference::triad::class_change::ClassChange;
@@ -94,8 +95,9 @@ impl Watch {
     }
 
     fn see(&mut self, case: &Case, row: usize, state: &State) {
-        let (crank, deepest) = (case.grid.cranks[row], case.wanted.deepest());
-        let drive = case.drive.at(case.grid.times[row]);
+        let deepest = case.wanted.deepest();
+        let drive = crank_of(case, row, state);
+        let crank = drive.angle;
         let links = self.triad.links();
         self.grow(Quantity::Omega, drive.omega);
         self.grow(Quantity::Alpha, drive.omega * drive.omega);
@@ -128,7 +130,9 @@ impl Watch {
             }
             rates(worst, found.rates(drive.omega, drive.alpha));
         }
-        if deepest >= Stage::Reactions {
+        // At the very instant of setting off loads act already against a motion that the state does not show yet.
+        let setting_off = case.is_free() && drive.omega == 0.0;
+        if deepest >= Stage::Reactions && !setting_off {
             let known = self.triad.known(case, state);
             let places = self.triad.places(&state.motions);
             self.forces(case, crank, assur_point::reactions(&places, &known), &state.forces, |own| {
@@ -189,4 +193,14 @@ pub(super) fn checks(case: &Case, reference: &dyn Solver) -> Result<Vec<Check>> 
         watch.checks(if several { base } else { "" }, case.wanted.deepest())
     };
     Ok(watches.into_iter().flat_map(of_one).collect())
+}
+
+/// The crank at an instant: by its law, or as the state has it where forces decide the motion.
+fn crank_of(case: &Case, row: usize, state: &State) -> DriveState {
+    let drive = &case.drive;
+    if !case.is_free() {
+        return DriveState { angle: case.grid.cranks[row], ..drive.at(case.grid.times[row]) };
+    }
+    let motion = &state.motions[drive.link];
+    DriveState { angle: state.angles[drive.link] - drive.zero, omega: motion.omega, alpha: motion.alpha }
 }

@@ -7,6 +7,7 @@ mod observe;
 mod options;
 mod oracle;
 mod parties;
+mod sensitivity;
 
 pub use engines::{ChannelProof, EngineInfo, EngineProof};
 pub use options::Options;
@@ -89,11 +90,14 @@ pub fn prove_against(
     checks.extend(methods::checks(case, main)?);
     checks.extend(oracle::checks(scenario)?);
 
+    let sensitivity = sensitivity::of(case, main, &own.trajectory)?;
     let engine_case = engine_case.on(case.grid.clone());
     let mut proofs = Vec::with_capacity(engines.len());
     for (index, engine) in engines.iter().enumerate() {
         let mut part = |part: f64| progress((index as f64 + part) / engines.len() as f64);
-        proofs.push(engines::prove(scenario, &engine_case, engine.as_ref(), &own.trajectory, &mut part)?);
+        let mut proof = engines::prove(scenario, &engine_case, engine.as_ref(), &own.trajectory, &mut part)?;
+        engines::tell_sensitivity(&mut proof, &own.trajectory, &sensitivity);
+        proofs.push(proof);
     }
     if let [EngineProof { failure: Some(error), trajectory: None, .. }] = proofs.as_slice() {
         return Err(error.clone());

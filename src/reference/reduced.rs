@@ -137,7 +137,8 @@ pub fn means_over_turn(case: &Case, solver: &dyn Solver) -> Result<Means> {
     breaks.push(start + period);
     let nodes = quadrature::composite(&breaks, PANEL);
     let cranks = nodes.iter().map(|&(crank, _)| crank).collect();
-    let turn = Case { wanted: Wanted::of(&[Stage::Velocities]), ..case.on(Grid::of_cranks(&case.drive, cranks)) };
+    let turn =
+        Case { wanted: Wanted::of(&[Stage::Velocities]), ..case.nominal().on(Grid::of_cranks(&case.drive, cranks)) };
     let mut means = Means { inertia: 0.0, resistance: 0.0 };
     let mut visit = |row: usize, state: &State| {
         means.inertia += moment_of_inertia(&turn, &state.motions) * nodes[row].1 / period;

@@ -91,6 +91,12 @@ impl Scenario {
         read(&mut Table::root(&source, &tree)).map_err(|error| source.located(tree.get_ref(), error))
     }
 
+    /// The same scenario with every drive in its nominal motion: for questions about crank angles.
+    #[must_use]
+    pub fn nominal(self) -> Scenario {
+        Scenario { case: self.case.nominal(), ..self }
+    }
+
     /// The same scenario with some groups started otherwise. Each of `asked` is `LINK,LINK=MODE` or `LINK,LINK=NUMBER`: the links
     /// of a group and its mode, by name as in the file (of links in another order, left and right change places), or by its number in
     /// the list of [`configurations`](crate::mechanism::assembly::configurations), counted from 1. If that leads to another

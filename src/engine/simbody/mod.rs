@@ -49,6 +49,12 @@ impl Simbody {
             let message = format!("the engine's accuracy is {}", self.accuracy);
             return Err(Error::new(ErrorKind::Input, message).help("give an accuracy between 0 and 1, 1e-8 for one"));
         }
+        if case.is_free() {
+            let message = "the motion is free, but Simbody is given prescribed speeds only by this version";
+            return Err(Error::new(ErrorKind::Unsupported, message)
+                .key("drive.motion")
+                .help("take another engine: `linkproof list --solvers` names them"));
+        }
         if let Some(load) = case.loads.iter().find(|load| !matches!(load, Load::Resistance { .. })) {
             let message = format!("a load of type \"{}\" is not handed to Simbody by this version", load.sort());
             return Err(Error::new(ErrorKind::Unsupported, message)

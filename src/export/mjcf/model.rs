@@ -55,6 +55,12 @@ impl<'a> Model<'a> {
                 .help("give a step such as 1e-3"));
         }
         Names::check(&case.mechanism)?;
+        if case.is_free() {
+            let message = "the motion is free, but the model for MuJoCo drives its links with prescribed speeds";
+            return Err(Error::new(ErrorKind::Unsupported, message)
+                .key("drive.motion")
+                .help("export a scenario whose drives are prescribed: take `motion = \"free\"` out"));
+        }
         for drive in case.drives() {
             match drive.law {
                 // The one law that a rotor keeps.

@@ -1,0 +1,30 @@
+//! How much a free motion depends on the forces that make it: the condition of the problem itself, whoever solves it.
+
+use crate::case::Case;
+use crate::compare::largest_difference;
+use crate::drive::Motor;
+use crate::error::Result;
+use crate::solver::Solver;
+use crate::trajectory::Trajectory;
+
+/// Share by which gravity and the motor's torque are changed: small beside the motion, large beside rounding.
+const CHANGE: f64 = 1e-6;
+
+/// For every channel of `reference`, in its order: the largest change of its values over the run, per share of change in gravity and motor torque, in the
+/// channel's unit. Empty for a motion that no forces decide.
+///
+/// # Errors
+/// Those of the solver.
+pub(super) fn of(case: &Case, solver: &dyn Solver, reference: &Trajectory) -> Result<Vec<f64>> {
+    if !case.is_free() {
+        return Ok(Vec::new());
+    }
+    let share = 1.0 + CHANGE;
+    let motor = case.motor.as_ref().map(|motor| Motor { law: motor.law.scaled(share), ..motor.clone() });
+    let changed = Case { gravity: case.gravity * share, motor, ..case.clone() };
+    let other = solver.solve(&changed, &mut |_| {})?;
+    let of = |((channel, ours), (_, theirs)): ((&crate::trajectory::Channel, &[f64]), (_, &[f64]))| {
+        largest_difference(ours, theirs, channel.kind.periodic) / CHANGE
+    };
+    Ok(reference.iter().zip(other.iter()).map(of).collect())
+}
