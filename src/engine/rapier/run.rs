@@ -39,7 +39,7 @@ pub(super) fn sweep(
     let begin = (case.grid.times[first].min(0.0) / step).floor();
     let end = (case.grid.times[last] / step).floor();
     check(&engine.settings, end - begin)?;
-    let start = begin as i64 - Window::BEHIND - SETTLING_STEPS;
+    let start = begin as i64 - Window::BEHIND - SETTLING_STEPS - Window::extra(engine.settings.substeps);
     let total = (end as i64 + Window::AHEAD - start) as f64;
     let mut visited = None;
     let mut run = Run::new(engine, case, start)?;
@@ -96,20 +96,24 @@ impl<'a> Run<'a> {
         };
         let native = route == Some(Route::Native);
         let trees = if native { reporting.clone() } else { vec![moving] };
-        let worlds: Result<Vec<Guard>> =
-            trees.into_iter().map(|tree| Ok(Guard::new(case, engine.world(case, tree, native)?))).collect();
+        let worlds: Result<Vec<Guard>> = trees
+            .into_iter()
+            .map(|tree| Ok(Guard::new(case, engine.world(case, tree, native)?, settings.resolution)))
+            .collect();
         let worlds = worlds?;
         let reader = match route {
             None => Reader::Nothing,
             Some(Route::Differences) => Reader::Differences(NewtonEuler::new(case)),
-            Some(Route::Native) => Reader::Native(Native::new(case, &worlds, settings.resolution, start)),
+            Some(Route::Native) => Reader::Native(Native::new(case, &worlds, settings, start)),
             Some(Route::Probe) => {
-                let probed: Result<Vec<Guard>> =
-                    reporting.into_iter().map(|tree| Ok(Guard::new(case, engine.world(case, tree, true)?))).collect();
+                let probed: Result<Vec<Guard>> = reporting
+                    .into_iter()
+                    .map(|tree| Ok(Guard::new(case, engine.world(case, tree, true)?, settings.resolution)))
+                    .collect();
                 Reader::Probe(Probe::new(case, probed?, probe_turn(engine.precision)))
             }
         };
-        let window = Window::new(case, settings.resolution, start);
+        let window = Window::new(case, settings, start);
         Ok(Run { case, step: settings.resolution, start, worlds, window, reader })
     }
 
