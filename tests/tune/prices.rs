@@ -46,13 +46,15 @@ pub fn price_of(case: &Case, engine: &dyn Engine) -> f64 {
     };
     let end = |of: fn(f64, f64) -> f64| case.grid.times.iter().copied().fold(0.0, of);
     let (span, instants) = (end(f64::max) - end(f64::min), case.grid.len() as f64);
-    let step = costs.step + settings.substeps as f64 * (costs.substep + costs.sweep * settings.sweeps as f64);
+    let substep = costs.substep + costs.sweep * settings.sweeps as f64;
+    let step = costs.step + settings.substeps as f64 * substep;
+    let tiny = (costs.step + substep) * costs.tiny;
     let run = |resolution: f64| {
         let steps = (span / resolution + EXTRA_STEPS) * step;
         let steps = match settings.route {
             Route::Differences => steps,
             Route::Native => steps * worlds * costs.native,
-            Route::Probe => steps + instants * TINY_STEPS * worlds * costs.tiny * step,
+            Route::Probe => steps + instants * TINY_STEPS * worlds * tiny,
         };
         steps + instants * costs.instant
     };

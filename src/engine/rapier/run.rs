@@ -106,6 +106,9 @@ impl<'a> Run<'a> {
             Some(Route::Differences) => Reader::Differences(NewtonEuler::new(case)),
             Some(Route::Native) => Reader::Native(Native::new(case, &worlds, settings, start)),
             Some(Route::Probe) => {
+                // Put into a pose, a world has no gap to correct in its first substep and that of the first in its second, whose impulses would hold all
+                // of that correction: a tiny step is not divided.
+                let engine = engine.set(Settings { substeps: 1, ..*settings });
                 let probed: Result<Vec<Guard>> = reporting
                     .into_iter()
                     .map(|tree| Ok(Guard::new(case, engine.world(case, tree, true)?, settings.resolution)))
