@@ -177,6 +177,12 @@ impl Case {
         }
     }
 
+    /// Largest angular velocity of any drive at t = 0 (rad/s), without its sign.
+    #[must_use]
+    pub fn top_speed(&self) -> f64 {
+        self.drives().fold(0.0, |most: f64, drive| most.max(drive.at(0.0).omega.abs()))
+    }
+
     /// World angles of the driving links' x axes (rad) where the crank angle is `crank` (rad, as the scenario states it).
     #[must_use]
     pub fn drive_angles(&self, crank: f64) -> Vec<f64> {

@@ -3,6 +3,8 @@
 
 #[path = "engine/accuracy.rs"]
 mod accuracy;
+#[path = "engine/chains.rs"]
+mod chains;
 mod common;
 #[path = "engine/grids.rs"]
 mod grids;
@@ -14,6 +16,8 @@ mod native;
 mod pendulum;
 #[path = "engine/prismatic.rs"]
 mod prismatic;
+#[path = "engine/substeps.rs"]
+mod substeps;
 
 use common::shipped;
 use common::spec::four_bar;
@@ -46,9 +50,15 @@ fn epsilon(engine: &dyn Engine) -> f64 {
     if single(engine) { f64::from(f32::EPSILON) } else { f64::EPSILON }
 }
 
-/// The engines that compute in double precision: in single precision, rounding hides orders (story 60).
+/// The engines that go by steps of their user's choice. One that controls its error has neither instants on its steps nor an order to be seen, and steps
+/// that are too large are not its user's.
+fn stepping(dt: f64) -> impl Iterator<Item = Box<dyn Engine>> {
+    engine::all(dt).into_iter().filter(|engine| !engine.controls_error())
+}
+
+/// Of these the ones that compute in double precision: in single precision, rounding hides orders (story 60).
 fn double(dt: f64) -> impl Iterator<Item = Box<dyn Engine>> {
-    engine::all(dt).into_iter().filter(|engine| !single(engine.as_ref()))
+    stepping(dt).filter(|engine| !single(engine.as_ref()))
 }
 
 /// Order 2 in every channel whose error is not rounding, over the steps h, h/2 and h/4.

@@ -69,6 +69,14 @@ pub type Price<'a> = &'a mut dyn FnMut(&dyn Engine, &mut dyn FnMut() -> Result<(
 const SWEEPS: [usize; 11] = [4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096];
 /// Coarsest accuracy that is tried of an engine that controls its error: less is none.
 const COARSEST: f64 = 0.1;
+/// So many sweeps are tried first.
+const ENOUGH: usize = 64;
+/// The first step that is tried, as a multiple of the one asked for: a coarse one costs little and tells the price of others.
+const COARSE_START: f64 = 4.0;
+/// Factor from the step of some sweeps to the first one tried with twice as many.
+const COARSER: f64 = 1.4;
+/// What costs more than this share of the cheapest known is not looked for.
+const GAIN: f64 = 0.95;
 /// Numbers of substeps that are tried.
 const SUBSTEPS: [usize; 2] = [1, 2];
 
@@ -179,18 +187,21 @@ impl Bench<'_> {
         let most = if engine.controls_error() { COARSEST } else { f64::INFINITY };
         for (done, way) in ways.iter().enumerate() {
             progress(done as f64 / ways.len() as f64);
-            // Sweeps from few to many: the price falls, and rises again once they are more than needed.
+            let sweeps = sweeps(engine, options);
+            // Without a limit few sweeps would be searched down to the finest steps.
+            let first =
+                sweeps.iter().copied().find(|&sweeps| sweeps >= ENOUGH && best.is_none() && limit.is_infinite());
+            // From few to many, within the price of the cheapest, the error falls, and rises again once they are more than needed.
             let (mut rising, mut last) = (0, f64::INFINITY);
-            for sweeps in sweeps(engine, options) {
+            let mut start = if engine.controls_error() { way.resolution } else { COARSE_START * way.resolution };
+            for sweeps in first.into_iter().chain(sweeps.iter().copied().filter(|&sweeps| Some(sweeps) != first)) {
                 let settings = Settings { sweeps, ..*way };
-                let limit = best.as_ref().map_or(limit, |best| best.price.min(limit));
+                let limit = best.as_ref().map_or(limit, |best| best.price.min(limit)) * GAIN;
                 let order = engine.with(settings).formal_order(self.case, self.wanted[0].kind);
                 let mut run = |resolution: f64| self.measure(engine, Settings { resolution, ..settings });
-                match largest_step([settings.resolution, most], order, within, limit, &mut run) {
-                    Found::Step { resolution, measured } => {
-                        let Measured { error, worst, price } = measured;
-                        rising = if price > last { rising + 1 } else { 0 };
-                        last = price;
+                let error = match largest_step([start, most], order, within, limit, &mut run) {
+                    Found::Step { resolution, measured: Measured { error, worst, price } } => {
+                        start = resolution;
                         dear |= price >= limit;
                         if price < limit {
                             let settings = Settings { resolution, ..settings };
@@ -203,10 +214,23 @@ impl Bench<'_> {
                                 price,
                             });
                         }
+                        within * (price / limit).max(1.0)
                     }
-                    Found::TooDear => (rising, dear) = (rising + 1, true),
-                    Found::TooCoarse(error) => least = least.min(error),
+                    Found::TooDear { resolution, error } => {
+                        (start, dear) = (resolution, true);
+                        error
+                    }
+                    Found::TooCoarse(error) => {
+                        (start, least) = (start / COARSER, least.min(error));
+                        error
+                    }
+                };
+                if !engine.controls_error() {
+                    // More sweeps cost more, and so afford a larger step only.
+                    start *= COARSER;
                 }
+                rising = if error > last { rising + 1 } else { 0 };
+                last = error;
                 if rising >= 2 {
                     break;
                 }

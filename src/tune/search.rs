@@ -14,6 +14,10 @@ const CLOSE: f64 = 1.06;
 const FLAT: f64 = 0.3;
 /// Largest factor from one step to the next.
 const LEAP: f64 = 16.0;
+/// Highest order that is believed to be possible: extrapolated accelerations were seen to fall with order 4.
+const STEEPEST: f64 = 6.0;
+/// A run of this share of the limit has the finest step that can be afforded.
+const AT_THE_LIMIT: f64 = 0.9;
 
 /// Outcome of a search.
 #[derive(Clone, Debug)]
@@ -25,14 +29,19 @@ pub(super) enum Found {
         /// Its run.
         measured: Measured,
     },
-    /// It would cost more than the limit.
-    TooDear,
+    /// It would cost more than the limit: the step that this affords, and the error there, run or expected.
+    TooDear {
+        /// The step.
+        resolution: f64,
+        /// Its error.
+        error: f64,
+    },
     /// No step meets the error; the smallest error seen.
     TooCoarse(f64),
 }
 
-/// Searches from `start` for the largest step, up to `most`, whose error is at most `within`; `order` is that of the method. Stops where a run
-/// costs more than `limit`.
+/// Searches from `start` for the largest step, up to `most`, whose error is at most `within`; `order` is that of the method. No step is run that is
+/// expected to cost more than `limit`.
 pub(super) fn largest_step(
     [start, most]: [f64; 2],
     order: f64,
@@ -42,22 +51,35 @@ pub(super) fn largest_step(
 ) -> Found {
     let mut met: Option<(f64, Measured)> = None;
     let mut missed: Option<f64> = None;
-    let mut last: Option<(f64, f64)> = None;
-    let (mut least, mut order, mut step) = (f64::INFINITY, order, start);
+    let mut last: Option<[f64; 3]> = None;
+    let (mut least, mut order, mut step) = (f64::INFINITY, order, start.min(most));
     for _ in 0..MOST_RUNS {
         let measured = run(step);
         let (error, price) = (measured.error, measured.price);
+        // A price is a constant and a part that goes with the number of steps; after one run the constant counts as none.
+        // What a run that failed would have cost is not known.
+        let mut affordable = if price.is_finite() { step * price / limit } else { 0.0 };
+        if let Some([before, _, its_price]) = last {
+            let per_step = (price - its_price) / (1.0 / step - 1.0 / before);
+            if per_step > 0.0 && price.is_finite() && limit.is_finite() {
+                affordable = (1.0 / step + (limit - price) / per_step).recip();
+                affordable = if affordable > 0.0 { affordable } else { 0.0 };
+            }
+        }
         if error.is_finite() {
             least = least.min(error);
-            if let Some((before, its_error)) = last.replace((step, error)) {
+            if let Some([before, its_error, _]) = last {
                 let observed = (error / its_error).ln() / (step / before).ln();
                 if observed < FLAT && error > within && step < before {
                     return settled(met, least);
                 }
                 if observed.is_finite() {
-                    order = observed.clamp(0.5, 6.0);
+                    order = observed.clamp(0.5, STEEPEST);
                 }
             }
+        }
+        if price.is_finite() {
+            last = Some([step, error, price]);
         }
         if error <= within {
             let larger = met.as_ref().is_none_or(|(known, _)| step > *known);
@@ -69,9 +91,13 @@ pub(super) fn largest_step(
             }
         } else {
             missed = Some(missed.map_or(step, |known: f64| known.min(step)));
-            if price > limit && error.is_finite() {
-                // Too coarse and already too dear: finer is dearer still.
-                return Found::TooDear;
+            if met.is_none() && error.is_finite() {
+                // Errors at the finest step that can be afforded, if they fall as fast as possible, and as they seem to.
+                let [at_best, expected] =
+                    [STEEPEST, order].map(|order| error * (affordable / step).min(1.0).powf(order));
+                if price >= AT_THE_LIMIT * limit || at_best > within {
+                    return Found::TooDear { resolution: affordable, error: expected };
+                }
             }
         }
         let factor = match error {
@@ -79,7 +105,11 @@ pub(super) fn largest_step(
             error if error.is_finite() => (AIM * within / error).powf(1.0 / order).clamp(1.0 / LEAP, LEAP),
             _ => 0.25,
         };
-        step = (step * factor).min(most);
+        let aim = if met.is_none() { (step * factor).max(affordable.min(step)) } else { step * factor };
+        if met.is_none() && aim >= step && !(error <= within) {
+            return Found::TooDear { resolution: affordable, error };
+        }
+        step = aim.min(most);
         if let (Some((good, _)), Some(bad)) = (&met, missed) {
             if bad / good < CLOSE {
                 break;
@@ -142,14 +172,14 @@ mod tests {
     #[test]
     fn what_costs_more_than_the_limit_is_given_up() {
         let found = largest_step([1.0, 1e9], 2.0, 1e-8, 100.0, &mut model(2.0, 0.0));
-        assert!(matches!(found, Found::Step { .. } | Found::TooDear));
+        assert!(matches!(found, Found::Step { .. } | Found::TooDear { .. }));
         let mut runs = 0;
         let mut counted = |step: f64| {
             runs += 1;
             model(1.0, 0.0)(step)
         };
         let found = largest_step([1e-3, 1e9], 2.0, 1e-8, 100.0, &mut counted);
-        assert!(matches!(found, Found::TooDear) && runs == 1, "{found:?} after {runs}");
+        assert!(matches!(found, Found::TooDear { .. }) && runs == 1, "{found:?} after {runs}");
     }
 
     #[test]

@@ -4,6 +4,7 @@ use super::guard::Guard;
 use super::window::Window;
 use crate::case::Case;
 use crate::drive::{Branch, Wrench};
+use crate::engine::Settings;
 use crate::error::{Error, ErrorKind, Result};
 use crate::mechanism::GROUND;
 use crate::solver::State;
@@ -109,9 +110,10 @@ impl Acting {
 ///
 /// # Errors
 /// Those of [`Guard::step`].
-pub(super) fn begin(case: &Case, acting: &mut Acting, worlds: &mut [Guard], step: f64) -> Result<Window> {
+pub(super) fn begin(case: &Case, acting: &mut Acting, worlds: &mut [Guard], settings: &Settings) -> Result<Window> {
+    let step = settings.resolution;
     settle(case, worlds, step)?;
-    let window = Window::beginning(case, step, worlds[0].world());
+    let window = Window::beginning(case, settings, worlds[0].world());
     acting.act(case, &window, worlds, 0.0);
     if acting.must_try(case) {
         worlds[0].step(step)?;

@@ -1,20 +1,22 @@
 //! A world that is watched: a loop that opens, a link that turns wildly, a number that is none, a panic inside the engine. All become an
 //! error that says when, at which crank angle and where.
 
-use std::panic::{AssertUnwindSafe, catch_unwind};
-
-use super::world::{World, opening};
+use super::quiet::quietly;
+use super::world::{World, masses, opening};
 use crate::case::Case;
 use crate::drive::{Drive, Wrench};
 use crate::error::{Error, ErrorKind, Result};
+use crate::math::Vec2;
 use crate::mechanism::{LinkPose, Side};
 use crate::solver::State;
 
 /// Share of the mechanism's size to which a loop may open before the run is stopped.
 const LARGEST_GAP: f64 = 0.05;
-/// Turn of a link in one step (rad) beyond which there is no trajectory left to speak of. Energy is watched by it too: it
-/// cannot grow beyond what speeds of that size hold.
+/// Turn of a link in one step (rad) beyond which there is no trajectory left to speak of.
 const LARGEST_TURN: f64 = std::f64::consts::FRAC_PI_2;
+/// Growth of kinetic energy in one step beyond which a run has blown up: ten times the speeds. The drives put in and take out whatever
+/// their speeds need, so that energy is no constant to be watched; but it depends on the pose alone, and the pose changes little in a step.
+const LARGEST_GROWTH: f64 = 100.0;
 
 /// A world and what is watched in it.
 pub(super) struct Guard<'a> {
@@ -23,13 +25,44 @@ pub(super) struct Guard<'a> {
     largest_gap: f64,
     angles: Vec<f64>,
     loads: Vec<Wrench>,
+    /// Mass centres of all links after the last step.
+    centres: Vec<Vec2>,
+    /// Mass and moment of inertia of all links.
+    masses: Vec<[f64; 2]>,
+    step: f64,
+    /// The largest kinetic energy so far (J), but at least that of all links at the mechanism's size from an axis about which they turn with the
+    /// fastest drive.
+    energy: f64,
 }
 
 impl<'a> Guard<'a> {
-    pub(super) fn new(case: &'a Case, world: Box<dyn World>) -> Self {
-        let angles = case.start.0.iter().map(|pose| pose.angle).collect();
-        let loads = vec![Wrench::ZERO; case.mechanism.links().len()];
-        Guard { case, world, largest_gap: LARGEST_GAP * case.mechanism.size(), angles, loads }
+    /// Watches a world in its start pose whose time step is `step` (s).
+    pub(super) fn new(case: &'a Case, world: Box<dyn World>, step: f64) -> Self {
+        let size = case.mechanism.size();
+        let masses = masses(case);
+        let energy = masses.iter().map(|[mass, inertia]| 0.5 * (mass * size * size + inertia)).sum::<f64>();
+        let mut guard = Guard {
+            case,
+            world,
+            largest_gap: LARGEST_GAP * size,
+            angles: Vec::new(),
+            centres: Vec::new(),
+            masses,
+            step,
+            loads: vec![Wrench::ZERO; case.mechanism.links().len()],
+            energy: energy * case.top_speed().powi(2),
+        };
+        guard.stand(&case.start.0);
+        guard
+    }
+
+    /// Takes poses as those after the last step.
+    fn stand(&mut self, poses: &[LinkPose]) {
+        self.angles.clear();
+        self.angles.extend(poses.iter().map(|pose| pose.angle));
+        self.centres.clear();
+        let links = self.case.mechanism.links();
+        self.centres.extend(poses.iter().zip(links).map(|(pose, link)| pose.point(link.mass_centre)));
     }
 
     pub(super) fn world(&self) -> &dyn World {
@@ -82,26 +115,26 @@ impl<'a> Guard<'a> {
     /// Sets the time step (s).
     pub(super) fn set_step(&mut self, step: f64) {
         self.world.set_step(step);
+        self.step = step;
     }
 
     /// Puts all links into poses; velocities stay as they are.
     pub(super) fn place(&mut self, poses: &[LinkPose]) {
         self.world.place(poses);
-        for (angle, pose) in self.angles.iter_mut().zip(poses) {
-            *angle = pose.angle;
-        }
+        self.stand(poses);
     }
 
     /// One time step, after which the time is `t` (s).
     ///
     /// # Errors
-    /// [`ErrorKind::Numeric`] if a loop has opened, a link has turned by more than a quarter turn, a number is not finite, or the
-    /// engine has panicked.
+    /// [`ErrorKind::Numeric`] if a loop has opened, a link has turned by more than a quarter turn, the kinetic energy has grown a hundredfold, a
+    /// number is not finite, or the engine has panicked.
     pub(super) fn step(&mut self, t: f64) -> Result<()> {
         let world = &mut self.world;
         let own_crank = self.angles[self.case.drive.link] - self.case.drive.zero;
         let crank = || at(&self.case.drive, own_crank, t);
-        catch_unwind(AssertUnwindSafe(|| world.step())).map_err(|cause| panicked(&crank(), cause.as_ref()))?;
+        quietly(|| world.step()).map_err(|cause| panicked(&crank(), cause.as_ref()))?;
+        let mut twice_energy = 0.0;
         for (link, before) in self.angles.iter_mut().enumerate().skip(1) {
             let angle = self.world.angle(link);
             let turn = (angle - *before).abs();
@@ -113,8 +146,20 @@ impl<'a> Guard<'a> {
                     format!("the engine's link \"{name}\" has turned by {turn:.1} deg in one step, {}", crank());
                 return Err(failed(message));
             }
-            *before = angle;
+            let [mass, inertia] = self.masses[link];
+            let local = self.case.mechanism.links()[link].mass_centre;
+            let centre = self.world.point(Side { link, local });
+            let moved = (centre - self.centres[link]).norm_squared();
+            twice_energy += mass * moved + inertia * turn * turn;
+            (*before, self.centres[link]) = (angle, centre);
         }
+        let energy = 0.5 * twice_energy / (self.step * self.step);
+        if !(energy <= LARGEST_GROWTH * self.energy) {
+            let growth = energy / self.energy;
+            let message = format!("the engine's kinetic energy has grown {growth:.1e} times in one step, {}", crank());
+            return Err(failed(message));
+        }
+        self.energy = self.energy.max(energy);
         for &joint in &self.world.tree().cut {
             let joint = &self.case.mechanism.joints()[joint];
             let gap = opening(self.world.as_ref(), joint, self.case.mechanism.size());
@@ -175,15 +220,14 @@ mod tests {
     use super::*;
     use crate::engine::rapier::tree::Tree;
     use crate::engine::rapier::{Build, Precision, Rapier};
-    use crate::math::Vec2;
     use crate::mechanism::Pose;
 
     /// A world whose steps go wrong.
     struct Broken {
         world: Box<dyn World>,
         wrong: fn(&mut dyn World),
-        angle: f64,
-        after: f64,
+        off: (Vec2, f64),
+        after: (Vec2, f64),
     }
 
     impl World for Broken {
@@ -192,7 +236,7 @@ mod tests {
         }
         fn step(&mut self) {
             (self.wrong)(self.world.as_mut());
-            self.angle = self.after;
+            self.off = self.after;
         }
         fn bare_step(&mut self) {
             self.world.bare_step();
@@ -213,10 +257,10 @@ mod tests {
             self.world.place(poses);
         }
         fn angle(&self, link: usize) -> f64 {
-            self.world.angle(link) + self.angle
+            self.world.angle(link) + self.off.1
         }
         fn point(&self, side: Side) -> Vec2 {
-            self.world.point(side)
+            self.world.point(side) + self.off.0
         }
         fn relative_speed(&self, index: usize) -> f64 {
             self.world.relative_speed(index)
@@ -232,8 +276,8 @@ mod tests {
         }
     }
 
-    /// What a guard says of a step that goes wrong, after which angles are off by `after`.
-    fn step(wrong: fn(&mut dyn World), after: f64) -> Error {
+    /// What a guard says of a step that goes wrong, after which all places and angles are off by `after`.
+    fn step(wrong: fn(&mut dyn World), after: (Vec2, f64)) -> Result<()> {
         let mechanism = crate::mechanism::fixtures::four_bar();
         let start = [(0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (1.0, 0.0, 0.8410686705679303), (4.0, 0.0, 1.6821373411358607)];
         let pose = |(x, y, angle)| LinkPose { origin: Vec2::new(x, y), angle };
@@ -260,13 +304,18 @@ mod tests {
         };
         let engine = Rapier::new(Build::Multibody, Precision::Double, 1e-3);
         let world = engine.world(&case, Tree::of(&case.mechanism), false).unwrap();
-        let mut guard = Guard::new(&case, Box::new(Broken { world, wrong, angle: 0.0, after }));
-        guard.step(0.25).unwrap_err()
+        let off = (Vec2::zeros(), 0.0);
+        let mut guard = Guard::new(&case, Box::new(Broken { world, wrong, off, after }), 1e-3);
+        guard.step(0.25)
+    }
+
+    fn turned(by: f64) -> (Vec2, f64) {
+        (Vec2::zeros(), by)
     }
 
     #[test]
     fn a_panic_of_the_engine_becomes_an_error_of_that_engine() {
-        let error = step(|_| panic!("index out of bounds"), 0.0);
+        let error = step(|_| panic!("index out of bounds"), turned(0.0)).unwrap_err();
         assert_eq!(error.kind(), ErrorKind::Numeric);
         for part in ["index out of bounds", "t = 0.250000 s", "crank angle"] {
             assert!(error.message().contains(part), "{error}");
@@ -275,13 +324,25 @@ mod tests {
 
     #[test]
     fn a_number_that_is_none_stops_the_run() {
-        let error = step(|_| {}, f64::NAN);
+        let error = step(|_| {}, turned(f64::NAN)).unwrap_err();
         assert!(error.message().contains("has turned by NaN deg in one step, t = 0.250000 s"), "{error}");
     }
 
     #[test]
     fn a_wild_turn_stops_the_run() {
-        let error = step(|_| {}, 1.6);
+        let error = step(|_| {}, turned(1.6)).unwrap_err();
         assert!(error.message().contains("has turned by 91.7 deg in one step"), "{error}");
+    }
+
+    /// Nothing turns and no loop opens, but all links run away, as slides can. The links reach 5 m and the drive turns with 1 rad/s: a step of a millisecond
+    /// may move them by some 5 cm, ten times what a link at that distance does.
+    #[test]
+    fn energy_out_of_nothing_stops_the_run() {
+        step(|_| {}, (Vec2::new(0.01, 0.0), 0.0)).unwrap();
+        let error = step(|_| {}, (Vec2::new(0.2, 0.0), 0.0)).unwrap_err();
+        assert!(error.message().contains("kinetic energy has grown"), "{error}");
+        assert!(error.message().contains("t = 0.250000 s, crank angle"), "{error}");
+        let error = step(|_| {}, (Vec2::new(f64::NAN, 0.0), 0.0)).unwrap_err();
+        assert!(error.message().contains("NaN"), "{error}");
     }
 }

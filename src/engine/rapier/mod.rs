@@ -12,6 +12,7 @@ mod native;
 mod newton_euler;
 mod noise;
 mod probe;
+mod quiet;
 mod ring;
 mod run;
 mod single;

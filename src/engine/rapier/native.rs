@@ -5,11 +5,12 @@ use super::ghost::Ghost;
 use super::guard::Guard;
 use super::ring::{Place, Ring};
 use crate::case::Case;
+use crate::engine::Settings;
 use crate::error::Result;
 use crate::math::Vec2;
 use crate::solver::State;
 
-/// How many steps ago that was for which the engine's report of a step is best. The impulses of step n stand on the pose of step n - 1 and bring the
+/// How many substeps ago that was for which the engine's report of a step is best. The impulses of step n stand on the pose of step n - 1 and bring the
 /// velocities from those of step n - 2 to those of step n - 1: the error is of first order whichever instant they are given to. On `ov7_base` and
 /// `crank_rocker` the instants t_n, t_(n-1) and t_(n-2) gave 3.8e-2, 2.0e-2, 2.1e-2 and 1.7e-2, 5.8e-3, 6.6e-3 at 0.32 deg a step.
 const LATE: f64 = 1.0;
@@ -23,6 +24,7 @@ pub(super) fn reporters(case: &Case, cuts: &[&[usize]]) -> Vec<usize> {
 /// What the engine reports of the last steps.
 pub(super) struct Native {
     step: f64,
+    late: f64,
     ring: Ring,
     reporters: Vec<usize>,
     ghost: Option<Ghost>,
@@ -32,20 +34,15 @@ pub(super) struct Native {
 }
 
 impl Native {
-    pub(super) fn new(case: &Case, worlds: &[Guard], step: f64, start: i64) -> Self {
+    pub(super) fn new(case: &Case, worlds: &[Guard], settings: &Settings, start: i64) -> Self {
         let cuts: Vec<&[usize]> = worlds.iter().map(|guard| guard.world().tree().cut.as_slice()).collect();
         let width = 3 * case.mechanism.joints().len() + case.drives().count();
         let reporters = reporters(case, &cuts);
         // In a free motion step 1 is the first that is reported.
         let lowest = if case.is_free() { 3 } else { i64::MIN / 2 };
-        Native {
-            step,
-            ring: Ring::new(width, start),
-            reporters,
-            ghost: Ghost::of(case, !case.is_free()),
-            row: vec![0.0; width],
-            lowest,
-        }
+        let (step, late) = (settings.resolution, LATE / settings.substeps as f64);
+        let (ring, ghost, row) = (Ring::new(width, start), Ghost::of(case, !case.is_free()), vec![0.0; width]);
+        Native { step, late, ring, reporters, ghost, row, lowest }
     }
 
     /// Takes the reports of a step.
@@ -63,7 +60,7 @@ impl Native {
 
     /// Fills in the reactions and moments of a state whose motion is known.
     pub(super) fn solve(&mut self, case: &Case, state: &mut State, t: f64) -> Result<()> {
-        let place = Place::of(t / self.step + LATE).from(self.lowest);
+        let place = Place::of(t / self.step + self.late).from(self.lowest);
         self.ring.weigh(place, &place.weights(0.0), &mut self.row);
         for joint in 0..self.reporters.len() {
             let row = &self.row[3 * joint..];

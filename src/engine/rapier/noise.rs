@@ -24,7 +24,7 @@ const PROBE_ULPS: f64 = 16000.0;
 pub(super) fn bound(case: &Case, engine: &Rapier, channel: &ChannelKind) -> f64 {
     let (step, epsilon) = (engine.settings.resolution, engine.precision.epsilon());
     let longest = case.grid.times.iter().fold(0.0, |max: f64, t| max.max(t.abs()));
-    let speed = case.drives().fold(0.0, |most: f64, drive| most.max(drive.at(0.0).omega.abs()));
+    let speed = case.top_speed();
     let size = case.mechanism.size();
     let mass: f64 = case.mechanism.links().iter().map(|link| link.mass).sum();
     let turned = case.start.0.iter().fold(speed * longest, |max: f64, pose| max.max(pose.angle.abs())).max(1.0);

@@ -42,7 +42,7 @@ pub(super) fn sweep(
     check(&engine.settings, end - begin)?;
     let start = match case.is_free() {
         true => 0,
-        false => begin as i64 - Window::BEHIND - SETTLING_STEPS,
+        false => begin as i64 - Window::BEHIND - SETTLING_STEPS - Window::extra(engine.settings.substeps),
     };
     let total = (end as i64 + Window::AHEAD - start) as f64;
     let mut visited = None;
@@ -87,6 +87,7 @@ fn reached(error: Error, case: &Case, visited: Option<usize>) -> Error {
 
 struct Run<'a> {
     case: &'a Case,
+    settings: Settings,
     step: f64,
     start: i64,
     /// The first moves the mechanism; the others only report joints that the first does not.
@@ -114,29 +115,36 @@ impl<'a> Run<'a> {
         }
         let native = route == Some(Route::Native);
         let trees = if native { reporting.clone() } else { vec![moving] };
-        let worlds: Result<Vec<Guard>> =
-            trees.into_iter().map(|tree| Ok(Guard::new(case, engine.world(case, tree, native)?))).collect();
+        let worlds: Result<Vec<Guard>> = trees
+            .into_iter()
+            .map(|tree| Ok(Guard::new(case, engine.world(case, tree, native)?, settings.resolution)))
+            .collect();
         let worlds = worlds?;
         // One step lies before the beginning of a free motion.
         let reports_from = if acting.is_some() { start - 1 } else { start };
         let reader = match route {
             None => Reader::Nothing,
             Some(Route::Differences) => Reader::Differences(NewtonEuler::new(case)),
-            Some(Route::Native) => Reader::Native(Native::new(case, &worlds, settings.resolution, reports_from)),
+            Some(Route::Native) => Reader::Native(Native::new(case, &worlds, settings, reports_from)),
             Some(Route::Probe) => {
-                let probed: Result<Vec<Guard>> =
-                    reporting.into_iter().map(|tree| Ok(Guard::new(case, engine.world(case, tree, true)?))).collect();
+                // Put into a pose, a world has no gap to correct in its first substep and that of the first in its second, whose impulses would hold all
+                // of that correction: a tiny step is not divided.
+                let engine = engine.set(Settings { substeps: 1, ..*settings });
+                let probed: Result<Vec<Guard>> = reporting
+                    .into_iter()
+                    .map(|tree| Ok(Guard::new(case, engine.world(case, tree, true)?, settings.resolution)))
+                    .collect();
                 Reader::Probe(Probe::new(case, probed?, probe_turn(engine.precision)))
             }
         };
-        let window = Window::new(case, settings.resolution, start);
-        Ok(Run { case, step: settings.resolution, start, worlds, window, reader, acting })
+        let window = Window::new(case, settings, start);
+        Ok(Run { case, step: settings.resolution, settings: *settings, start, worlds, window, reader, acting })
     }
 
     /// Gives all worlds of a free motion their velocities at the start.
     fn begin(&mut self) -> Result<()> {
         let Some(acting) = &mut self.acting else { return Ok(()) };
-        self.window = free::begin(self.case, acting, &mut self.worlds, self.step)?;
+        self.window = free::begin(self.case, acting, &mut self.worlds, &self.settings)?;
         self.report();
         self.report();
         Ok(())

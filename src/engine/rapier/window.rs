@@ -3,7 +3,8 @@
 use super::ring::{Place, Ring};
 use super::world::World;
 use crate::case::Case;
-use crate::math::interpolate::POINTS;
+use crate::engine::Settings;
+use crate::math::interpolate::{POINTS, lagrange_weights};
 use crate::math::{Motion, Vec2, rotated, turned, unit};
 use crate::mechanism::{LinkPose, Side};
 use crate::solver::State;
@@ -15,11 +16,14 @@ const WIDTH: usize = 6;
 #[derive(Debug)]
 pub(super) struct Window {
     step: f64,
+    substeps: usize,
     ring: Ring,
     /// Velocity and angular velocity of every link while they are carried along the tree.
     rates: Vec<(Vec2, f64)>,
     /// Step before which no sample may be taken as standing: interpolation reaches two steps farther back, second differences three.
     lowest: i64,
+    /// Mass centre and angle of every link at the instant that the velocities belong to.
+    poses: Vec<[f64; 3]>,
 }
 
 impl Window {
@@ -29,29 +33,37 @@ impl Window {
     pub(super) const AHEAD: i64 = 4;
 
     /// An empty window of a run whose first state, pushed next, is that of step `start`.
-    pub(super) fn new(case: &Case, step: f64, start: i64) -> Self {
+    pub(super) fn new(case: &Case, settings: &Settings, start: i64) -> Self {
         let links = case.mechanism.links().len();
         Window {
-            step,
+            step: settings.resolution,
+            substeps: settings.substeps,
             ring: Ring::new(links * WIDTH, start),
             rates: vec![(Vec2::zeros(), 0.0); links],
             lowest: i64::MIN / 2,
+            poses: vec![[0.0; 3]; links],
         }
     }
 
     /// A window of a free motion, which begins at step 0 with the pose and the velocities of `world`. Before it lies one step that leads there
     /// without acceleration.
-    pub(super) fn beginning(case: &Case, step: f64, world: &dyn World) -> Self {
-        let mut window = Window::new(case, step, -1);
+    pub(super) fn beginning(case: &Case, settings: &Settings, world: &dyn World) -> Self {
+        // There is nothing to interpolate before the beginning; of first order the velocities are wherever in the step they belong.
+        let mut window = Window::new(case, &Settings { substeps: 1, ..*settings }, -1);
         window.lowest = 2;
         // The velocities of a push belong to the step before.
         window.push(world, case);
         window.push(world, case);
         let row = window.ring.row_mut(-1);
         for link in row.chunks_mut(WIDTH).skip(1) {
-            (0..3).for_each(|c| link[c] -= step * link[3 + c]);
+            (0..3).for_each(|c| link[c] -= settings.resolution * link[3 + c]);
         }
         window
+    }
+
+    /// Steps that the start must lie farther back: with several substeps, poses between steps are needed for every step.
+    pub(super) fn extra(substeps: usize) -> i64 {
+        if substeps > 1 { POINTS as i64 - 2 } else { 0 }
     }
 
     /// Number of the newest step.
@@ -68,7 +80,8 @@ impl Window {
         self.newest() >= self.place(t).before + Self::AHEAD
     }
 
-    /// Takes the state after a step. Poses belong to this step, the engine's velocities to the one before.
+    /// Takes the state after a step. Poses belong to this step, the engine's velocities to the start of its last substep: without substeps
+    /// to the step before.
     pub(super) fn push(&mut self, world: &dyn World, case: &Case) {
         let row = self.ring.push();
         for (link, body) in case.mechanism.links().iter().enumerate().skip(1) {
@@ -78,14 +91,35 @@ impl Window {
         self.carry_rates(world, case);
     }
 
-    /// Carries the joints' speeds from the ground along the tree, over the poses of the step they belong to.
+    /// Where all links were at the instant that the engine's velocities belong to.
+    fn place_rates(&mut self) {
+        let newest = self.ring.newest();
+        if self.substeps == 1 {
+            let row = self.ring.row(newest - 1);
+            for (pose, own) in self.poses.iter_mut().zip(row.chunks_exact(WIDTH)) {
+                pose.copy_from_slice(&own[..3]);
+            }
+            return;
+        }
+        let first = newest + 1 - POINTS as i64;
+        let weights = lagrange_weights((POINTS - 1) as f64 - 1.0 / self.substeps as f64);
+        self.poses.fill([0.0; 3]);
+        for (k, weight) in weights.iter().enumerate() {
+            for (pose, own) in self.poses.iter_mut().zip(self.ring.row(first + k as i64).chunks_exact(WIDTH)) {
+                (0..3).for_each(|c| pose[c] += weight * own[c]);
+            }
+        }
+    }
+
+    /// Carries the joints' speeds from the ground along the tree, over the poses of the instant they belong to.
     fn carry_rates(&mut self, world: &dyn World, case: &Case) {
-        let before = self.ring.row_mut(self.ring.newest() - 1);
+        self.place_rates();
+        let poses = &self.poses;
         self.rates[0] = (Vec2::zeros(), 0.0);
         for (index, branch) in world.tree().branches.iter().enumerate() {
             let joint = &case.mechanism.joints()[branch.joint];
             let along = |link: usize, local: Vec2| {
-                if link == 0 { local } else { rotated(unit(before[link * WIDTH + 2]), local) }
+                if link == 0 { local } else { rotated(unit(poses[link][2]), local) }
             };
             let (velocity, omega) = self.rates[branch.parent];
             let speed = world.relative_speed(index);
@@ -101,13 +135,14 @@ impl Window {
                 Some(axis) => {
                     let centre = |link: usize| match link {
                         0 => Vec2::zeros(),
-                        _ => Vec2::new(before[link * WIDTH], before[link * WIDTH + 1]),
+                        _ => Vec2::new(poses[link][0], poses[link][1]),
                     };
                     let reach = centre(branch.link) - centre(branch.parent);
                     (velocity + turned(reach) * omega + along(branch.parent, axis) * speed, omega)
                 }
             };
         }
+        let before = self.ring.row_mut(self.ring.newest() - 1);
         for link in 1..self.rates.len() {
             if let Some(own) = world.velocity(link) {
                 self.rates[link] = own;
@@ -155,6 +190,8 @@ impl Window {
     pub(super) fn sample(&self, case: &Case, t: f64, state: &mut State) {
         let place = self.place(t);
         let weights = place.weights(0.0);
+        // The velocities of a row belong to an instant after its step, but for that without substeps.
+        let rates = if self.substeps == 1 { weights } else { place.weights(1.0 - 1.0 / self.substeps as f64) };
         let mut second = [0.0; POINTS + 2];
         for (k, weight) in weights.iter().enumerate() {
             second[k] += weight;
@@ -171,9 +208,12 @@ impl Window {
                     acceleration[c] += second * row[c];
                     if inner != 0.0 {
                         value[c] += inner * row[c];
-                        rate[c] += inner * row[3 + c];
                     }
                 }
+            }
+            for (k, weight) in rates.iter().enumerate().filter(|(_, weight)| **weight != 0.0) {
+                let row = &self.ring.row(place.before - Self::BEHIND + 1 + k as i64)[link * WIDTH..];
+                (0..3).for_each(|c| rate[c] += weight * row[3 + c]);
             }
             let pair = |of: [f64; 3]| Vec2::new(of[0], of[1]);
             let acceleration = acceleration.map(|sum| sum * scale);

@@ -63,7 +63,7 @@ impl Simbody {
         check_start(case)?;
         let linkage = Linkage::new(case, sense)
             .map_err(|message| Error::new(ErrorKind::Input, format!("Simbody cannot take the mechanism: {message}")))?;
-        let speed = case.drives().fold(0.0, |most: f64, drive| most.max(drive.at(0.0).omega.abs()));
+        let speed = case.top_speed();
         let settings = linkproof_simbody::Settings {
             accuracy: self.accuracy,
             tolerance: tolerance(case),

@@ -31,7 +31,7 @@ struct Cut {
     handle: ImpulseJointHandle,
     /// Whether neither body is a link of the multibody: then Rapier makes the joint's rows orthogonal to each other.
     plain: bool,
-    /// Where the joint was at the start of the last step.
+    /// Where the joint was at the start of the last substep.
     start: reading::Frame,
 }
 

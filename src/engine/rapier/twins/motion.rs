@@ -57,8 +57,10 @@ impl Twin {
         }
     }
 
-    fn step_size(&self) -> f64 {
-        wide(self.world.integration_parameters.dt)
+    /// Duration of a substep (s): what Rapier itself takes for a step.
+    pub(super) fn substep(&self) -> f64 {
+        let parameters = &self.world.integration_parameters;
+        wide(parameters.dt) / parameters.num_solver_iterations as f64
     }
 }
 
@@ -69,10 +71,14 @@ impl World for Twin {
 
     fn step(&mut self) {
         if self.read {
-            self.keep_frames();
+            self.keep_frames(1.0);
         }
         self.world.step();
         self.read_angles();
+        let substeps = self.world.integration_parameters.num_solver_iterations;
+        if self.read && substeps > 1 {
+            self.keep_frames(1.0 - 1.0 / substeps as f64);
+        }
     }
 
     fn bare_step(&mut self) {
@@ -85,9 +91,9 @@ impl World for Twin {
 
     fn set_drive(&mut self, drive: usize, omega: f64) {
         let motor = &self.motors[drive];
-        let turn = omega * self.step_size();
-        // A body of its own turns by atan(omega dt) a step; that much more is asked for. Beyond a radian a step nothing would hold anyway.
-        let omega = if motor.plain && turn.abs() < 1.0 { turn.tan() / self.step_size() } else { omega };
+        let turn = omega * self.substep();
+        // A body of its own turns by atan(omega dt) a substep; that much more is asked for. Beyond a radian nothing would hold anyway.
+        let omega = if motor.plain && turn.abs() < 1.0 { turn.tan() / self.substep() } else { omega };
         let joint = self.world.impulse_joints.get_mut(motor.handle, true).expect("the motor exists");
         joint.data.set_motor_velocity(JointAxis::AngX, real(omega * motor.sense), real(RIGID_MOTOR));
     }
@@ -133,8 +139,8 @@ impl World for Twin {
             return None;
         }
         let body = &self.world.bodies[self.bodies[link]];
-        let (velocity, step) = (body.linvel(), self.step_size());
-        // What it turned in the step: see `set_drive`.
+        let (velocity, step) = (body.linvel(), self.substep());
+        // What it turned in the substep: see `set_drive`.
         let omega = (wide(body.angvel()) * step).atan() / step;
         Some((Vec2::new(wide(velocity.x), wide(velocity.y)), omega))
     }

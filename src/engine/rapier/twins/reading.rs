@@ -12,9 +12,18 @@ pub(super) struct Frame {
     arms: [Vec2; 2],
 }
 
+impl Frame {
+    fn towards(self, end: Frame, share: f64) -> Frame {
+        let mix = |from: Vec2, to: Vec2| from + (to - from) * share;
+        Frame { axis: mix(self.axis, end.axis).normalize(), arms: [0, 1].map(|k| mix(self.arms[k], end.arms[k])) }
+    }
+}
+
 impl Twin {
-    /// Remembers where the joints to be read stand: Rapier gives impulses in these axes.
-    pub(super) fn keep_frames(&mut self) {
+    /// Remembers where the joints to be read stand, as far as `share` says on the way from what was remembered before: Rapier gives impulses in
+    /// the axes at the start of the last substep, which lies between poses that can be seen. On that short way frames move along a straight line
+    /// but for errors of second order, where impulses themselves are of first.
+    pub(super) fn keep_frames(&mut self, share: f64) {
         for index in 0..self.cuts.len() {
             let joint = &self.cuts[index].joint;
             let sides = [joint.first, joint.second];
@@ -30,7 +39,8 @@ impl Twin {
             };
             let centre = |link: usize| self.point(crate::mechanism::Side { link, local: self.centres[link] });
             let arms = [place - centre(joint.first.link), second - centre(joint.second.link)];
-            self.cuts[index].start = Frame { axis, arms };
+            let start = &mut self.cuts[index].start;
+            *start = if share == 1.0 { Frame { axis, arms } } else { start.towards(Frame { axis, arms }, share) };
         }
     }
 
@@ -58,7 +68,7 @@ impl Twin {
             }
             (axis * rows[0] + across * rows[1], 0.0)
         };
-        // An impulse is counted as that on the first body.
+        // An impulse is that of the last substep, and counted as that on the first body.
         let duration = -self.substep();
         Some((force / duration, moment / duration))
     }
@@ -67,11 +77,5 @@ impl Twin {
         let motor = &self.motors[drive];
         let joint = self.world.impulse_joints.get(motor.handle).expect("the motor exists");
         -wide(joint.data.motors[2].impulse) / self.substep() * motor.sense
-    }
-
-    /// Impulses are those of the last part of a step.
-    fn substep(&self) -> f64 {
-        let parameters = &self.world.integration_parameters;
-        wide(parameters.dt) / parameters.num_solver_iterations as f64
     }
 }

@@ -1,0 +1,180 @@
+//! `tune` by the clock: its choice against the cheapest settings of an exhaustive search over engines, routes, extrapolation, substeps, sweeps and
+//! steps, both timed in turns. `cargo bench --bench tune [-- SCENARIO...]`; with `-- prices` what the price model of `tests/tune/prices.rs`
+//! needs.
+
+use std::hint::black_box;
+use std::path::Path;
+use std::time::Instant;
+
+use linkproof::case::{Case, Grid, Wanted};
+use linkproof::engine::{self, Engine, Route, Settings};
+use linkproof::proof::Options;
+use linkproof::scenario::Scenario;
+use linkproof::trajectory::Stage;
+use linkproof::tune::{Wish, tune};
+
+#[path = "../tests/tune/exhaustive.rs"]
+mod exhaustive;
+
+use exhaustive::{Met, REFERENCES, Space, cheaper, error_of, thinned, truth};
+
+const WITHIN: f64 = 1e-3;
+/// Every how many instants of a scenario's grid are looked at.
+const EVERY: usize = 8;
+const SPACE: Space = Space { sweeps: &[4, 8, 16, 32, 64, 128, 256], factor: 1.15 };
+/// Timings in turns, of which the shortest counts: whatever else the machine does only adds.
+const REPEATS: usize = 7;
+/// So many of the cheapest of the exhaustive search are timed again.
+const FINALISTS: usize = 5;
+
+fn scenario(name: &str) -> Scenario {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios").join(format!("{name}.toml"));
+    Scenario::load(&path).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Seconds of a run, the shortest of `repeats`; infinite if it fails.
+fn seconds(engine: &dyn Engine, case: &Case, repeats: usize) -> f64 {
+    let mut shortest = f64::INFINITY;
+    for _ in 0..repeats {
+        let since = Instant::now();
+        if black_box(engine.solve(case, &mut |_| {})).is_err() {
+            return f64::INFINITY;
+        }
+        shortest = shortest.min(since.elapsed().as_secs_f64());
+    }
+    shortest
+}
+
+/// The price of a row's settings: a constant and a part in proportion to the number of steps, from runs at two steps.
+struct Clock<'a> {
+    case: &'a Case,
+    row: Option<(Settings, &'static str)>,
+    fit: [f64; 2],
+}
+
+impl Clock<'_> {
+    fn price(&mut self, engine: &dyn Engine) -> f64 {
+        let own = engine.settings();
+        let row = (Settings { resolution: 0.0, ..own }, engine.name());
+        if self.row != Some(row) {
+            self.row = Some(row);
+            let degree = 1f64.to_radians() / self.case.drive.at(0.0).omega.abs();
+            let [coarse, fine] = [2.0 * degree, degree];
+            let [a, b] = [coarse, fine].map(|step| seconds(engine.at(step).as_ref(), self.case, 2));
+            let slope = (b - a) / (1.0 / fine - 1.0 / coarse);
+            self.fit = [b - slope / fine, slope];
+        }
+        // Where a run of a degree a step already fails nothing is known, and nothing would be met.
+        let price = self.fit[0] + self.fit[1] / own.resolution;
+        if price.is_finite() { price } else { f64::INFINITY }
+    }
+}
+
+fn told(engine: &dyn Engine, case: &Case) -> String {
+    let settings = engine.settings();
+    let degrees = (settings.resolution * case.drive.at(0.0).omega.abs()).to_degrees();
+    format!(
+        "{} {} {degrees:.3} deg, {} sweeps, {} substeps{}",
+        engine.name(),
+        settings.route.name(),
+        settings.sweeps,
+        settings.substeps,
+        if settings.extrapolated { ", extrapolated" } else { "" }
+    )
+}
+
+fn compare(name: &str) {
+    let scenario = thinned(scenario(name), EVERY);
+    let case = &scenario.case;
+    let engines = ["rapier", "rapier-f32", "impulse", "impulse-f32"].map(String::from);
+    let options = Options { engines: engines.into(), ..Options::default() };
+    let wish = Wish { within: WITHIN, channels: Vec::new() };
+    let mut price = |_: &dyn Engine, run: &mut dyn FnMut() -> linkproof::Result<()>| {
+        let mut shortest = f64::INFINITY;
+        for _ in 0..2 {
+            let since = Instant::now();
+            run()?;
+            shortest = shortest.min(since.elapsed().as_secs_f64());
+        }
+        Ok(shortest)
+    };
+    let since = Instant::now();
+    let found = tune(&scenario, &wish, &options, &mut price, &mut |_| {}).unwrap_or_else(|error| panic!("{error}"));
+    let tuning = since.elapsed().as_secs_f64();
+    let best = engine::named(found.best.engine, 1e-3).expect("it is one of them").with(found.best.settings);
+    let mut clock = Clock { case, row: None, fit: [0.0; 2] };
+    let since = Instant::now();
+    let (mut met, runs) = cheaper(&scenario, WITHIN, 1.3 * found.best.price, &SPACE, &mut |engine| clock.price(engine));
+    let searching = since.elapsed().as_secs_f64();
+    met.reverse();
+    met.truncate(FINALISTS);
+    let mut shortest = vec![f64::INFINITY; met.len()];
+    let mut own = f64::INFINITY;
+    for _ in 0..REPEATS {
+        own = own.min(seconds(best.as_ref(), case, 1));
+        for (Met { engine, .. }, shortest) in met.iter().zip(&mut shortest) {
+            *shortest = shortest.min(seconds(engine.as_ref(), case, 1));
+        }
+    }
+    let verified = error_of(&scenario, &truth(&scenario), best.as_ref());
+    println!("{name}");
+    println!("  tune      {:.2} ms, error {verified:.2e}: {}", own * 1e3, told(best.as_ref(), case));
+    let cheapest = (0..met.len()).min_by(|&a, &b| shortest[a].total_cmp(&shortest[b]));
+    if let Some(k) = cheapest {
+        let Met { engine, error, .. } = &met[k];
+        println!("  cheapest  {:.2} ms, error {error:.2e}: {}", shortest[k] * 1e3, told(engine.as_ref(), case));
+    }
+    let least = cheapest.map_or(own, |k| shortest[k].min(own));
+    println!(
+        "  ratio {:.2}; tune {} runs in {tuning:.1} s, exhaustive {runs} runs in {searching:.1} s",
+        own / least,
+        found.runs
+    );
+}
+
+/// Cost of steps, sweeps, substeps, instants and worlds, in units of a step of `rapier` without sweeps.
+fn prices() {
+    let base = scenario("crank_rocker").case;
+    let (steps, step) = (1000, 1e-3);
+    let last = steps as f64 * step;
+    let quiet = Case { wanted: Wanted::of(&[Stage::Positions]), ..base.on(Grid::of_times(&base.drive, vec![last])) };
+    let one = Case { wanted: Wanted::ALL, ..quiet.clone() };
+    let times = (1..=steps).map(|k| k as f64 * step).collect();
+    let all = Case { wanted: Wanted::ALL, ..base.on(Grid::of_times(&base.drive, times)) };
+    let mut unit = f64::NAN;
+    for engine in engine::all(step).into_iter().filter(|engine| !engine.controls_error()) {
+        let set = |sweeps, substeps, route| engine.with(Settings { sweeps, substeps, route, ..engine.settings() });
+        let cost = |case: &Case, sweeps, substeps, route| {
+            seconds(set(sweeps, substeps, route).as_ref(), case, 15) / (steps + 16) as f64
+        };
+        let [few, many] = [4, 132].map(|sweeps| cost(&quiet, sweeps, 1, Route::Differences));
+        let sweep = (many - few) / 128.0;
+        let fixed = few - 4.0 * sweep;
+        unit = if unit.is_nan() { fixed } else { unit };
+        let halves = cost(&quiet, 4, 2, Route::Differences);
+        let native = cost(&one, 4, 1, Route::Native);
+        let instant = cost(&all, 4, 1, Route::Differences) - few;
+        let probe = cost(&all, 4, 1, Route::Probe) - few;
+        println!(
+            "{:12} step {:.3}, sweep {:.4}, instant {:.3}; of a step with 4 sweeps: with two substeps {:.2}, native {:.2}, a probe {:.2}",
+            engine.name(),
+            fixed / unit,
+            sweep / unit,
+            instant / unit,
+            halves / few,
+            native / few,
+            probe / few
+        );
+    }
+    println!("unit: {:.2} us", unit * 1e6);
+}
+
+fn main() {
+    let words: Vec<String> = std::env::args().skip(1).filter(|word| !word.starts_with('-')).collect();
+    if words.iter().any(|word| word == "prices") {
+        return prices();
+    }
+    for name in REFERENCES.iter().filter(|name| words.is_empty() || words.iter().any(|word| word == *name)) {
+        compare(name);
+    }
+}
