@@ -12,6 +12,9 @@ use crate::solver::State;
 /// Numbers a link and step: position of the mass centre and angle, and their rates.
 const WIDTH: usize = 6;
 
+/// Steps at the beginning of a free motion in which joints close the gaps of the first: their accelerations are not the motion's.
+const FIRST_STEPS: i64 = 3;
+
 /// The motion of the last steps, filled as the run goes on.
 #[derive(Debug)]
 pub(super) struct Window {
@@ -20,8 +23,10 @@ pub(super) struct Window {
     ring: Ring,
     /// Velocity and angular velocity of every link while they are carried along the tree.
     rates: Vec<(Vec2, f64)>,
-    /// Step before which no sample may be taken as standing: interpolation reaches two steps farther back, second differences three.
+    /// Steps before which interpolation between positions and between their second differences may not be centred: it reaches two and three steps
+    /// farther back.
     lowest: i64,
+    settled: i64,
     /// Mass centre and angle of every link at the instant that the velocities belong to.
     poses: Vec<[f64; 3]>,
 }
@@ -41,6 +46,7 @@ impl Window {
             ring: Ring::new(links * WIDTH, start),
             rates: vec![(Vec2::zeros(), 0.0); links],
             lowest: i64::MIN / 2,
+            settled: i64::MIN / 2,
             poses: vec![[0.0; 3]; links],
         }
     }
@@ -50,7 +56,7 @@ impl Window {
     pub(super) fn beginning(case: &Case, settings: &Settings, world: &dyn World) -> Self {
         // There is nothing to interpolate before the beginning; of first order the velocities are wherever in the step they belong.
         let mut window = Window::new(case, &Settings { substeps: 1, ..*settings }, -1);
-        window.lowest = 2;
+        (window.lowest, window.settled) = (2, 2 + FIRST_STEPS);
         // The velocities of a push belong to the step before.
         window.push(world, case);
         window.push(world, case);
@@ -77,7 +83,7 @@ impl Window {
 
     /// Whether the window reaches far enough for a sample at `t`.
     pub(super) fn covers(&self, t: f64) -> bool {
-        self.newest() >= self.place(t).before + Self::AHEAD
+        self.newest() >= self.place(t).from(self.settled).before + Self::AHEAD
     }
 
     /// Takes the state after a step. Poses belong to this step, the engine's velocities to the start of its last substep: without substeps
@@ -192,8 +198,10 @@ impl Window {
         let weights = place.weights(0.0);
         // The velocities of a row belong to an instant after its step, but for that without substeps.
         let rates = if self.substeps == 1 { weights } else { place.weights(1.0 - 1.0 / self.substeps as f64) };
+        // What the first steps of a free motion do to close gaps is left out of the second differences.
+        let settled = place.from(self.settled);
         let mut second = [0.0; POINTS + 2];
-        for (k, weight) in weights.iter().enumerate() {
+        for (k, weight) in settled.weights(0.0).iter().enumerate() {
             second[k] += weight;
             second[k + 1] -= 2.0 * weight;
             second[k + 2] += weight;
@@ -202,14 +210,12 @@ impl Window {
         for (link, body) in case.mechanism.links().iter().enumerate().skip(1) {
             let (mut value, mut rate, mut acceleration) = ([0.0; 3], [0.0; 3], [0.0; 3]);
             for (k, second) in second.iter().enumerate().filter(|(_, second)| **second != 0.0) {
-                let row = &self.ring.row(place.before - Self::BEHIND + k as i64)[link * WIDTH..];
-                let inner = if (1..=POINTS).contains(&k) { weights[k - 1] } else { 0.0 };
-                for c in 0..3 {
-                    acceleration[c] += second * row[c];
-                    if inner != 0.0 {
-                        value[c] += inner * row[c];
-                    }
-                }
+                let row = &self.ring.row(settled.before - Self::BEHIND + k as i64)[link * WIDTH..];
+                (0..3).for_each(|c| acceleration[c] += second * row[c]);
+            }
+            for (k, weight) in weights.iter().enumerate().filter(|(_, weight)| **weight != 0.0) {
+                let row = &self.ring.row(place.before - Self::BEHIND + 1 + k as i64)[link * WIDTH..];
+                (0..3).for_each(|c| value[c] += weight * row[c]);
             }
             for (k, weight) in rates.iter().enumerate().filter(|(_, weight)| **weight != 0.0) {
                 let row = &self.ring.row(place.before - Self::BEHIND + 1 + k as i64)[link * WIDTH..];
