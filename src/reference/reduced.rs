@@ -63,7 +63,11 @@ pub fn kinks(case: &Case) -> Result<Kinks> {
         Extent::Limited([from, to]) => (None, Some([from.crank, to.crank])),
     };
     let start = case.drive.start;
-    let within = |crank: f64, period: f64| start + (crank - start).rem_euclid(period);
+    let within = |crank: f64, period: f64| {
+        let inside = (crank - start).rem_euclid(period);
+        // A rounding before the start belongs to the start.
+        start + if period - inside < 1e-12 { 0.0 } else { inside }
+    };
     let mut poses = PoseSolver::new(case)?;
     let mut cranks = Vec::new();
     for link in range.links.iter().filter(|link| case.loads.iter().any(|load| load.sensed_link() == Some(link.link))) {

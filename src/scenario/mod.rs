@@ -6,6 +6,7 @@ mod figure;
 pub mod grid;
 mod joints;
 mod links;
+mod loads;
 mod motion;
 mod motor;
 pub mod oracle;
@@ -139,7 +140,7 @@ fn read(root: &mut Table) -> Result<Scenario> {
     start.finish()?;
     let (drive, further_drives) = motion::drives(drives, &mechanism, crank)?;
     let motor = motor.map(motor::read).transpose()?;
-    let loads = motion::loads(loads, &mechanism)?;
+    let loads = loads::read(loads, &mechanism)?;
     let gravity = motion::gravity(gravity)?;
     let driven: Vec<usize> = std::iter::once(&drive).chain(&further_drives).map(|drive| drive.joint).collect();
     let structure = Structure::of(&mechanism, &driven)?;

@@ -1,10 +1,9 @@
-//! `[drive]`, `[gravity]` and `[[loads]]`.
+//! `[drive]` and `[gravity]`.
 
-use super::joints::link;
 use super::reader::{Sign, Table};
-use super::unit::{ACCELERATION, ANGLE, ANGULAR_SPEED, MOMENT};
+use super::unit::{ACCELERATION, ANGLE, ANGULAR_SPEED};
 use super::words::suggestion;
-use crate::drive::{Drive, Load, MotionLaw};
+use crate::drive::{Drive, MotionLaw};
 use crate::error::{ErrorKind, Result};
 use crate::math::Vec2;
 use crate::mechanism::{GROUND, Mechanism};
@@ -63,33 +62,4 @@ pub fn gravity(table: Option<Table>) -> Result<Vec2> {
     let (x, y) = (table.quantity("x", &ACCELERATION, Sign::Any)?, table.quantity("y", &ACCELERATION, Sign::Any)?);
     table.finish()?;
     Ok(Vec2::new(x, y))
-}
-
-/// All loads.
-pub fn loads(tables: Vec<Table>, mechanism: &Mechanism) -> Result<Vec<Load>> {
-    tables.into_iter().map(|table| load(table, mechanism)).collect()
-}
-
-fn load(mut table: Table, mechanism: &Mechanism) -> Result<Load> {
-    let kind = table.string("type")?;
-    if kind != "resistance" {
-        return Err(table.wrong(ErrorKind::Input, "type", format!("\"{kind}\" is no type of load")).help(suggestion(
-            &kind,
-            ["resistance"],
-            "\"",
-        )));
-    }
-    let name = table.string("link")?;
-    let moment = table.quantity("moment", &MOMENT, Sign::NotNegative)?;
-    table.finish()?;
-    let link = link(&table, &name, mechanism.links())?;
-    if link == GROUND {
-        return Err(table.wrong(ErrorKind::Input, "link", "the ground does not turn").help("name a moving link"));
-    }
-    // Its angular velocity would be the rounding of zero, and so would the sense of the moment.
-    if !mechanism.can_turn(link) {
-        let message = format!("link \"{name}\" does not turn: prismatic joints alone connect it with the ground");
-        return Err(table.wrong(ErrorKind::Input, "link", message).help("name a link that turns"));
-    }
-    Ok(Load::Resistance { link, moment })
 }
