@@ -156,7 +156,7 @@ fn crank_last(case: &Case) -> Case {
     let driven = joints.len() - 1 - case.drive.joint;
     let mechanism = Mechanism::new(case.mechanism.links().to_vec(), joints).unwrap();
     let structure = Structure::of(&mechanism, &[driven]).unwrap();
-    let mut drive = case.drive;
+    let mut drive = case.drive.clone();
     drive.joint = driven;
     // One group a sample: its links may have changed places.
     let turned = structure.groups[0].links != case.structure.groups[0].links;

@@ -14,9 +14,10 @@ pub(super) struct Observed {
     pub(super) closure: f64,
     /// Largest distance of a joint from the origin (m).
     pub(super) reach: f64,
-    /// Balancing moment from the balance of powers (N m) at every instant; empty if no balancing moment is wanted.
+    /// Balancing moment from the balance of powers (N m) at every instant; empty if no balancing moment is wanted. Of a crank whose speed changes,
+    /// times its speed over its top speed.
     pub(super) power: Vec<f64>,
-    /// Balancing moments reduced to the crank (N m) at every instant; empty likewise.
+    /// Balancing moments reduced to the crank (N m) at every instant, likewise.
     pub(super) torque: Vec<f64>,
     /// Largest difference at any instant between the shaking force from reactions and from momentum, over the largest force in
     /// a joint, or the same of the shaking moment, over the largest moment of such a force about the origin.
@@ -55,7 +56,7 @@ pub(super) fn observe(
     let mut power = if with_power { vec![0.0; case.grid.len()] } else { Vec::new() };
     let mut torque = power.clone();
     let arm = case.drives().fold(0.0, |most: f64, drive| most.max(case.mechanism.links()[drive.link].size()));
-    let size = case.mechanism.size();
+    let (size, steady) = (case.mechanism.size(), case.is_steady());
     let (mut closure, mut reach, mut moment): (f64, f64, f64) = (0.0, 0.0, 0.0);
     let mut unbalance = Unbalance::default();
     let mut visit = |row: usize, state: &State| {
@@ -67,8 +68,13 @@ pub(super) fn observe(
             reach = reach.max(places[0].norm());
         }
         if with_power {
-            power[row] = power::balancing_moment(case, state);
-            torque[row] = reduced_torque(case, state);
+            // A crank at rest has no power: where its speed changes, powers are compared, over the top speed.
+            let share = if steady { 1.0 } else { state.motions[case.drive.link].omega / case.drive.top_speed() };
+            power[row] = match steady {
+                true => power::balancing_moment(case, state),
+                false => -power::of_known_forces(case, state) / case.drive.top_speed(),
+            };
+            torque[row] = reduced_torque(case, state) * share;
             let forces = state.forces.iter().map(|force| force.norm() * arm);
             moment = forces.fold(state.torques.iter().fold(moment, |most, torque| most.max(torque.abs())), f64::max);
             unbalance.add(case, state);

@@ -128,7 +128,7 @@ pub struct Means {
 /// integrated to 1e-16.
 const PANEL: f64 = PI / 90.0;
 
-/// Means over one turn, with the motion of the given solver: Gauss's rule between the kinks.
+/// Means over one turn at the drive's top speed, with the motion of the given solver: Gauss's rule between the kinks.
 ///
 /// # Errors
 /// Those of the solver, [`ErrorKind::Geometry`] for mechanisms whose crank cannot turn fully.
@@ -141,7 +141,8 @@ pub fn means_over_turn(case: &Case, solver: &dyn Solver) -> Result<Means> {
     breaks.push(start + period);
     let nodes = quadrature::composite(&breaks, PANEL);
     let cranks = nodes.iter().map(|&(crank, _)| crank).collect();
-    let turn = Case { wanted: Wanted::of(&[Stage::Velocities]), ..case.on(Grid::of_cranks(&case.drive, cranks)) };
+    let steady = case.at_top_speed();
+    let turn = Case { wanted: Wanted::of(&[Stage::Velocities]), ..steady.on(Grid::of_cranks(&steady.drive, cranks)) };
     let mut means = Means { inertia: 0.0, resistance: 0.0 };
     let mut visit = |row: usize, state: &State| {
         means.inertia += moment_of_inertia(&turn, &state.motions) * nodes[row].1 / period;

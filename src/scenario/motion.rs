@@ -1,11 +1,13 @@
 //! `[drive]` and `[gravity]`.
 
+use std::sync::Arc;
+
 use super::reader::{Sign, Table};
-use super::unit::{ACCELERATION, ANGLE, ANGULAR_SPEED};
+use super::unit::{ACCELERATION, ANGLE, ANGULAR_SPEED, TIME};
 use super::words::suggestion;
 use crate::drive::{Drive, MotionLaw};
 use crate::error::{ErrorKind, Result};
-use crate::math::Vec2;
+use crate::math::{Piecewise, Vec2};
 use crate::mechanism::{GROUND, Mechanism};
 
 /// The crank's drive, with `start` as the crank angle at t = 0 (rad), and further drives, which say their own.
@@ -21,6 +23,12 @@ pub fn drives(tables: Vec<Table>, mechanism: &Mechanism, start: f64) -> Result<(
             let message = "this joint is driven already";
             return Err(table.wrong(ErrorKind::Input, "joint", message).help("give every drive a joint of its own"));
         }
+        // Several drives are geared to each other by the crank angle, which tells the time at constant speeds only.
+        let changing = drives.iter().chain([&drive]).any(|drive| drive.law.constant().is_none());
+        if changing && !drives.is_empty() {
+            let message = "one of several drives has a speed that changes";
+            return Err(table.wrong(ErrorKind::Unsupported, "law", message).help("give all drives constant speeds"));
+        }
         drives.push(drive);
     }
     let crank = drives.remove(0);
@@ -29,7 +37,7 @@ pub fn drives(tables: Vec<Table>, mechanism: &Mechanism, start: f64) -> Result<(
 
 fn drive(table: &mut Table, mechanism: &Mechanism, start: f64) -> Result<Drive> {
     let name = table.string("joint")?;
-    let speed = table.quantity("speed", &ANGULAR_SPEED, Sign::NotZero)?;
+    let law = law(table, start)?;
     let zero = table.optional_quantity("zero", &ANGLE, Sign::Any)?.unwrap_or(0.0);
     table.finish()?;
     let Some(index) = mechanism.joint_named(&name) else {
@@ -53,8 +61,69 @@ fn drive(table: &mut Table, mechanism: &Mechanism, start: f64) -> Result<Drive> 
         let help = "drive a link that is hinged to the ground by a revolute joint";
         return Err(table.wrong(ErrorKind::Unsupported, "joint", message).help(help));
     }
-    Ok(Drive { joint: index, link: joint.other(GROUND).link, zero, start, law: MotionLaw::ConstantSpeed(speed) })
+    Ok(Drive { joint: index, link: joint.other(GROUND).link, zero, start, law })
 }
+
+/// A law: its name in scenario files, and its reader, which is given the crank angle at t = 0 (rad).
+type Law = (&'static str, fn(&mut Table, f64) -> Result<MotionLaw>);
+
+const LAWS: [Law; 4] = [("constant", constant), ("ramp", ramp), ("cycloidal", cycloidal), ("table", points)];
+
+fn law(table: &mut Table, start: f64) -> Result<MotionLaw> {
+    let Some(kind) = table.optional_string("law")? else { return constant(table, start) };
+    let Some((_, law)) = LAWS.iter().find(|(name, _)| *name == kind) else {
+        let error = table.wrong(ErrorKind::Input, "law", format!("\"{kind}\" is no law of motion"));
+        return Err(error.help(suggestion(&kind, LAWS.map(|(name, _)| name), "\"")));
+    };
+    law(table, start)
+}
+
+fn constant(table: &mut Table, _: f64) -> Result<MotionLaw> {
+    Ok(MotionLaw::ConstantSpeed(table.quantity("speed", &ANGULAR_SPEED, Sign::NotZero)?))
+}
+
+fn ramp(table: &mut Table, _: f64) -> Result<MotionLaw> {
+    let speed = table.quantity("speed", &ANGULAR_SPEED, Sign::NotZero)?;
+    Ok(MotionLaw::Ramp { speed, time: table.quantity("time", &TIME, Sign::Positive)? })
+}
+
+fn cycloidal(table: &mut Table, start: f64) -> Result<MotionLaw> {
+    let rise = table.quantity("to", &ANGLE, Sign::Any)? - start;
+    let time = table.quantity("time", &TIME, Sign::Positive)?;
+    if rise == 0.0 {
+        let message = "the crank is to stay where it starts";
+        return Err(table.wrong(ErrorKind::Input, "to", message).help("give a crank angle other than that of the start"));
+    }
+    Ok(MotionLaw::Cycloidal { rise, time })
+}
+
+/// From rest at the start, at t = 0, to rest at the last point.
+fn points(table: &mut Table, start: f64) -> Result<MotionLaw> {
+    let mut points: Vec<(f64, f64)> = Vec::new();
+    for mut point in table.tables("points")? {
+        let time = point.quantity("time", &TIME, Sign::NotNegative)?;
+        let gone = point.quantity("angle", &ANGLE, Sign::Any)? - start;
+        point.finish()?;
+        match points.last() {
+            None if time != 0.0 || gone.abs() > 1e-12 => {
+                let message = format!("the table does not begin with the start of the crank, {} deg at 0 s", start.to_degrees());
+                return Err(point.fault(message).help("write the start as the first point"));
+            }
+            Some((last, _)) if !(time > *last) => {
+                let message = format!("the times do not ascend: {time} s comes after {last} s");
+                return Err(point.fault(message).help("write the points in ascending order of time, each time once"));
+            }
+            _ => points.push((time, gone)),
+        }
+    }
+    if points.len() < 2 || points.iter().all(|&(_, gone)| gone == 0.0) {
+        let help = "write `points = [{ time_s = 0, angle_deg = 0 }, { time_s = 0.5, angle_deg = 90 }]`";
+        let message = "a table of angles needs two points or more that are not all one angle";
+        return Err(table.wrong(ErrorKind::Input, "points", message).help(help));
+    }
+    Ok(MotionLaw::Table(Arc::new(Piecewise::clamped_spline(&points, [0.0; 2]))))
+}
+
 
 /// Acceleration of gravity (m/s^2); none without a table.
 pub fn gravity(table: Option<Table>) -> Result<Vec2> {

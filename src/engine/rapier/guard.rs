@@ -36,10 +36,17 @@ impl<'a> Guard<'a> {
         self.world.as_ref()
     }
 
-    /// Sets all drives to their speeds at `t` times `sense` (-1 runs the mechanism backwards).
-    pub(super) fn drive(&mut self, t: f64, sense: f64) {
+    /// Sets all drives to their speeds at `t`.
+    pub(super) fn drive(&mut self, t: f64) {
         for (index, drive) in self.case.drives().enumerate() {
-            self.world.set_drive(index, drive.at(t).omega * sense);
+            self.world.set_drive(index, drive.at(t).omega);
+        }
+    }
+
+    /// Sets all drives to the speeds that take them from where they are at the time `from` (s) to where they are at `to`, a step later or earlier.
+    pub(super) fn drive_on(&mut self, from: f64, to: f64) {
+        for (index, drive) in self.case.drives().enumerate() {
+            self.world.set_drive(index, drive.step_speed(from, to));
         }
     }
 

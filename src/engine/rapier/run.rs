@@ -77,6 +77,8 @@ fn reached(error: Error, case: &Case, visited: Option<usize>) -> Error {
 
 struct Run<'a> {
     case: &'a Case,
+    /// Whether all drives turn with constant speeds, which are set once.
+    steady: bool,
     step: f64,
     start: i64,
     /// The first moves the mechanism; the others only report joints that the first does not.
@@ -110,17 +112,21 @@ impl<'a> Run<'a> {
             }
         };
         let window = Window::new(case, settings.resolution, start);
-        Ok(Run { case, step: settings.resolution, start, worlds, window, reader })
+        Ok(Run { case, steady: case.is_steady(), step: settings.resolution, start, worlds, window, reader })
     }
 
     /// Drives all worlds backwards from the start to where they turn about.
     fn back_up(&mut self) -> Result<()> {
         for guard in &mut self.worlds {
-            guard.drive(0.0, -1.0);
+            guard.drive_on(0.0, -self.step);
             for step in (self.start..0).rev() {
-                guard.step(step as f64 * self.step)?;
+                let (from, to) = ((step + 1) as f64 * self.step, step as f64 * self.step);
+                if !self.steady {
+                    guard.drive_on(from, to);
+                }
+                guard.step(to)?;
             }
-            guard.drive(0.0, 1.0);
+            guard.drive_on(0.0, self.step);
         }
         self.window.push(self.worlds[0].world(), self.case);
         self.report();
@@ -130,7 +136,11 @@ impl<'a> Run<'a> {
     fn step(&mut self) -> Result<()> {
         let step = self.window.newest() + 1;
         for guard in &mut self.worlds {
-            guard.step(step as f64 * self.step)?;
+            let (from, to) = ((step - 1) as f64 * self.step, step as f64 * self.step);
+            if !self.steady {
+                guard.drive_on(from, to);
+            }
+            guard.step(to)?;
             if step == 0 {
                 guard.check_start()?;
             }

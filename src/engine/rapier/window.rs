@@ -15,6 +15,8 @@ const WIDTH: usize = 6;
 #[derive(Debug)]
 pub(super) struct Window {
     step: f64,
+    /// Whether the engine's velocities are those at the start of a step: so they are where drives turn with constant speeds.
+    steady: bool,
     ring: Ring,
     /// Velocity and angular velocity of every link while they are carried along the tree.
     rates: Vec<(Vec2, f64)>,
@@ -29,7 +31,7 @@ impl Window {
     /// An empty window of a run whose first state, pushed next, is that of step `start`.
     pub(super) fn new(case: &Case, step: f64, start: i64) -> Self {
         let links = case.mechanism.links().len();
-        Window { step, ring: Ring::new(links * WIDTH, start), rates: vec![(Vec2::zeros(), 0.0); links] }
+        Window { step, steady: case.is_steady(), ring: Ring::new(links * WIDTH, start), rates: vec![(Vec2::zeros(), 0.0); links] }
     }
 
     /// Number of the newest step.
@@ -112,12 +114,15 @@ impl Window {
     }
 
     /// The motion of all links at `t`: positions and rates interpolated between steps, accelerations from centred second
-    /// differences of the positions.
+    /// differences of the positions. With drives whose speed changes, rates are centred first differences of the positions: the engine drives
+    /// through a step with the step's mean speed, but from the pose at its start.
     pub(super) fn sample(&self, case: &Case, t: f64, state: &mut State) {
         let place = self.place(t);
         let weights = place.weights(0.0);
-        let mut second = [0.0; POINTS + 2];
+        let (mut first, mut second) = ([0.0; POINTS + 2], [0.0; POINTS + 2]);
         for (k, weight) in weights.iter().enumerate() {
+            first[k] -= 0.5 * weight;
+            first[k + 2] += 0.5 * weight;
             second[k] += weight;
             second[k + 1] -= 2.0 * weight;
             second[k + 2] += weight;
@@ -137,6 +142,13 @@ impl Window {
                 }
             }
             let pair = |of: [f64; 3]| Vec2::new(of[0], of[1]);
+            if !self.steady {
+                rate = [0.0; 3];
+                for (k, first) in first.iter().enumerate().filter(|(_, first)| **first != 0.0) {
+                    let row = &self.ring.row(place.before - Self::BEHIND + k as i64)[link * WIDTH..];
+                    (0..3).for_each(|c| rate[c] += first / self.step * row[c]);
+                }
+            }
             let acceleration = acceleration.map(|sum| sum * scale);
             state.angles[link] = value[2];
             state.motions[link] = Motion::of_point(

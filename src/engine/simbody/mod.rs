@@ -54,10 +54,14 @@ impl Simbody {
             return Err(Error::new(ErrorKind::Unsupported, message)
                 .help("take another engine: `linkproof list --solvers` names them"));
         }
+        if let Some(drive) = case.drives().find(|drive| drive.law.constant().is_none()) {
+            let message = format!("a drive with the law \"{}\" is not handed to Simbody by this version", drive.law.name());
+            return Err(Error::new(ErrorKind::Unsupported, message).help("take another engine: `linkproof list --solvers` names them"));
+        }
         check_start(case)?;
         let linkage = Linkage::new(case, sense)
             .map_err(|message| Error::new(ErrorKind::Input, format!("Simbody cannot take the mechanism: {message}")))?;
-        let speed = case.drives().fold(0.0, |most: f64, drive| most.max(drive.at(0.0).omega.abs()));
+        let speed = case.fastest_drive();
         let settings = linkproof_simbody::Settings {
             accuracy: self.accuracy,
             tolerance: tolerance(case),
