@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::drive::{Action, Drive, Load, Motor, MotionLaw, Setting, Wrench};
+use crate::drive::{Action, Drive, Load, MotionLaw, Motor, Setting, Wrench};
 use crate::math::statistics::ascending;
 use crate::math::{Motion, Vec2};
 use crate::mechanism::{AssemblyMode, Mechanism, Pose, Structure};
@@ -56,12 +56,16 @@ impl Grid {
         if drive.law.constant().is_none() {
             let name = drive.law.name();
             if self.times.iter().any(|t| t.is_nan()) && self.cranks.iter().all(|crank| crank.is_finite()) {
-                return Err(format!("the drive's law, \"{name}\", does not come to a crank angle of the grid at one time"));
+                return Err(format!(
+                    "the drive's law, \"{name}\", does not come to a crank angle of the grid at one time"
+                ));
             }
             // The rounding of the last instant belongs to it.
             let end = drive.law.end().unwrap_or(f64::INFINITY);
             if let Some(t) = self.times.iter().find(|&&t| t < 0.0 || t > end * (1.0 + 1e-12)) {
-                return Err(format!("the grid leads to {t} s, but the drive's law, \"{name}\", goes from 0 to {end} s"));
+                return Err(format!(
+                    "the grid leads to {t} s, but the drive's law, \"{name}\", goes from 0 to {end} s"
+                ));
             }
         }
         let most = self.cranks.iter().fold(0.0, |most: f64, crank| most.max(crank.abs())) / TAU;

@@ -66,6 +66,8 @@ macro_rules! bad {
     };
 }
 
+#[path = "bad_scenarios/laws.rs"]
+mod laws;
 #[path = "bad_scenarios/loads.rs"]
 mod loads;
 #[path = "bad_scenarios/motors.rs"]

@@ -205,7 +205,10 @@ mod tests {
     }
 
     fn table() -> MotionLaw {
-        MotionLaw::Table(Arc::new(Piecewise::clamped_spline(&[(0.0, 0.0), (0.1, 0.4), (0.25, 0.2), (0.4, 1.0)], [0.0; 2])))
+        MotionLaw::Table(Arc::new(Piecewise::clamped_spline(
+            &[(0.0, 0.0), (0.1, 0.4), (0.25, 0.2), (0.4, 1.0)],
+            [0.0; 2],
+        )))
     }
 
     #[test]

@@ -206,13 +206,15 @@ fn unless_turning_about(
     resolution: f64,
     verdict: Verdict,
 ) -> Verdict {
-    if residual.channel.kind.stage < Stage::Accelerations {
+    if residual.channel.kind.stage < Stage::Velocities {
         return verdict;
     }
     // Differences and impulses reach over a few steps to either side.
     let jump = case.drive.law.jump().filter(|jump| (residual.worst_time - jump).abs() <= JUMP_STEPS * resolution);
     if let (Verdict::Disagree { place }, Some(jump)) = (&verdict, jump) {
-        let reason = format!("{place}, but at {jump} s the drive's acceleration jumps: leave the instants about it out of the grid");
+        let reason = format!(
+            "{place}, but at {jump} s the drive's acceleration jumps: leave the instants about it out of the grid"
+        );
         return Verdict::Inconclusive { reason };
     }
     if residual.channel.kind.stage < Stage::Reactions {

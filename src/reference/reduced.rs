@@ -49,14 +49,26 @@ pub struct Kinks {
     pub limits: Option<[f64; 2]>,
 }
 
+/// Most turns after which the reduced quantities may repeat.
+const MOST_TURNS: u32 = 1000;
 /// Newton steps from a crank angle known to 1e-9 rad to rounding.
 const POLISHING: usize = 3;
 
 /// Kinks of the reduced quantities of a case.
 ///
 /// # Errors
-/// Those of [`Range::of`].
+/// Those of [`Range::of`]; [`ErrorKind::Unsupported`] for loads against the motion of a point, and for tables that repeat together only after more than
+/// a thousand turns.
 pub fn kinks(case: &Case) -> Result<Kinks> {
+    if let Some(load) = case.loads.iter().find(|load| load.sensed_point().is_some()) {
+        let message = format!(
+            "reduced quantities are asked for, but a load of type \"{}\" turns with the motion of a point, which the reduction to the crank does not know",
+            load.sort()
+        );
+        return Err(
+            Error::new(ErrorKind::Unsupported, message).help("give it as a table of forces over the crank angle")
+        );
+    }
     let range = Range::of(case)?;
     let (turns, limits) = match range.extent {
         Extent::FullTurn(turns) => (Some(turns.unsigned_abs()), None),
@@ -83,7 +95,18 @@ pub fn kinks(case: &Case) -> Result<Kinks> {
         }
     }
     let tables = || case.loads.iter().flat_map(Load::courses).filter_map(Course::knots);
-    let all = turns.map(|turns| tables().fold(turns, |all, (_, own)| least_common_multiple(all, own)));
+    let mut all = turns;
+    for (_, own) in tables() {
+        all = all.map(|all| least_common_multiple(all, own));
+        if let Some(turns) = all.filter(|&turns| turns > MOST_TURNS) {
+            let message = format!(
+                "mechanism and tables of loads repeat together after {turns} turns only, the limit is {MOST_TURNS}"
+            );
+            return Err(
+                Error::new(ErrorKind::Unsupported, message).help("give the tables turns that divide each other")
+            );
+        }
+    }
     if let (Some(turns), Some(all)) = (turns, all) {
         let copies = (1..all / turns).map(|copy| TAU * f64::from(copy * turns));
         let further: Vec<f64> = copies.flat_map(|by| cranks.iter().map(move |crank| crank + by)).collect();

@@ -92,7 +92,9 @@ fn cycloidal(table: &mut Table, start: f64) -> Result<MotionLaw> {
     let time = table.quantity("time", &TIME, Sign::Positive)?;
     if rise == 0.0 {
         let message = "the crank is to stay where it starts";
-        return Err(table.wrong(ErrorKind::Input, "to", message).help("give a crank angle other than that of the start"));
+        return Err(table
+            .wrong(ErrorKind::Input, "to", message)
+            .help("give a crank angle other than that of the start"));
     }
     Ok(MotionLaw::Cycloidal { rise, time })
 }
@@ -106,7 +108,8 @@ fn points(table: &mut Table, start: f64) -> Result<MotionLaw> {
         point.finish()?;
         match points.last() {
             None if time != 0.0 || gone.abs() > 1e-12 => {
-                let message = format!("the table does not begin with the start of the crank, {} deg at 0 s", start.to_degrees());
+                let message =
+                    format!("the table does not begin with the start of the crank, {} deg at 0 s", start.to_degrees());
                 return Err(point.fault(message).help("write the start as the first point"));
             }
             Some((last, _)) if !(time > *last) => {
@@ -123,7 +126,6 @@ fn points(table: &mut Table, start: f64) -> Result<MotionLaw> {
     }
     Ok(MotionLaw::Table(Arc::new(Piecewise::clamped_spline(&points, [0.0; 2]))))
 }
-
 
 /// Acceleration of gravity (m/s^2); none without a table.
 pub fn gravity(table: Option<Table>) -> Result<Vec2> {

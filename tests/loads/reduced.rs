@@ -62,8 +62,8 @@ fn the_reduced_moment_of_tables_and_one_sided_moments_is_that_of_the_reactions()
     let model = Model::of(&case).unwrap();
     // Two turns, for the table of two: its three points in them, the press's nine twice, and where the press's table has points the rod turns about.
     assert_eq!((model.kinks().period, model.kinks().cranks.len()), (Some(2.0 * TAU), 3 + 18));
-    let times: Vec<f64> = (0..=400).map(|k| f64::from(k) * 2.3e-3).collect();
-    let found = RunUp::of(&model, 90.0, &times, 1e-12).unwrap();
+    let times: Vec<f64> = (0..=400).map(|k| f64::from(k) * 1e-3).collect();
+    let found = RunUp::of(&model, 120.0, &times, 1e-12).unwrap();
     assert!(found.motion.last().unwrap().crank > 4.0 * TAU);
     let worst = found.power_residual().unwrap();
     assert!(worst < 1e-12, "{worst:e}");
@@ -81,6 +81,15 @@ fn what_the_reduction_does_not_know_is_refused_by_name() {
         );
     }
     let mut case = press(|_| false);
+    let at = case.mechanism.joint_named("guide").map(|joint| case.mechanism.joints()[joint].second).unwrap();
+    case.loads = vec![Load::ResistingForce { at, force: 1.0 }];
+    let error = Model::of(&case).unwrap_err();
+    assert!(error.message().contains("\"resisting_force\" turns with the motion of a point"), "{error}");
+    let (link, acts) = (at.link, linkproof::drive::Acts::Always);
+    case.loads = [7, 11, 17]
+        .map(|turns| Load::Moment { link, moment: linkproof::drive::Course::table(&[(0.0, 1.0)], turns, true), acts })
+        .into();
+    assert!(Model::of(&case).unwrap_err().message().contains("after 1309 turns"));
     let crank = case.drive.link;
     case.loads = vec![Load::TorsionSpring { links: [0, crank], stiffness: 1.0, free_angle: 0.0 }];
     assert!(Model::of(&case).unwrap_err().message().contains("wound up by every turn"));

@@ -31,7 +31,12 @@ impl Window {
     /// An empty window of a run whose first state, pushed next, is that of step `start`.
     pub(super) fn new(case: &Case, step: f64, start: i64) -> Self {
         let links = case.mechanism.links().len();
-        Window { step, steady: case.is_steady(), ring: Ring::new(links * WIDTH, start), rates: vec![(Vec2::zeros(), 0.0); links] }
+        Window {
+            step,
+            steady: case.is_steady(),
+            ring: Ring::new(links * WIDTH, start),
+            rates: vec![(Vec2::zeros(), 0.0); links],
+        }
     }
 
     /// Number of the newest step.

@@ -57,7 +57,8 @@ impl<'a> Model<'a> {
         Names::check(&case.mechanism)?;
         // A rotor keeps a constant speed and no other law.
         if let Some(drive) = case.drives().find(|drive| drive.law.constant().is_none()) {
-            let message = format!("a drive with the law \"{}\" cannot be written to a model for MuJoCo", drive.law.name());
+            let message =
+                format!("a drive with the law \"{}\" cannot be written to a model for MuJoCo", drive.law.name());
             return Err(Error::new(ErrorKind::Unsupported, message).help("give the drive a constant speed"));
         }
         if let Some(load) = case.loads.iter().find(|load| !matches!(load, Load::Resistance { .. })) {

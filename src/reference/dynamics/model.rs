@@ -274,10 +274,6 @@ fn check_loads(case: &Case, kinks: &Kinks) -> Result<()> {
             let why = "depends on the size of speeds, which this reduction to the crank does not know";
             return refuse(load, why, "leave it out, or take its part into the motor's law");
         }
-        if load.sensed_point().is_some() {
-            let why = "turns with the motion of a point, which this reduction to the crank does not know";
-            return refuse(load, why, "give it as a table of forces over the crank angle");
-        }
         if let (&Load::TorsionSpring { links, .. }, Some(period)) = (load, kinks.period) {
             let (mut poses, start) = (PoseSolver::new(case)?, case.drive.start);
             let mut twist = |crank: f64| -> Result<f64> {
