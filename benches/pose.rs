@@ -87,7 +87,7 @@ fn main() {
     println!("{:20} {:>10} {:>10} {:>10}", "scenario", "all", "positions", "batch");
     for name in ["crank_rocker", "ov7_base", "ov7_new", "fourth_class"] {
         let scenario = scenario(name);
-        let drive = scenario.case.drive;
+        let drive = scenario.case.drive.clone();
         let omega = drive.at(0.0).omega;
         let time = |deepest: Stage| {
             let mut poses = PoseSolver::new(&scenario.case).unwrap();

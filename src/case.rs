@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::drive::{Action, Drive, Load, Motor, Setting, Wrench};
+use crate::drive::{Action, Drive, Load, MotionLaw, Motor, Setting, Wrench};
 use crate::math::statistics::ascending;
 use crate::math::{Motion, Vec2};
 use crate::mechanism::{AssemblyMode, Mechanism, Pose, Structure};
@@ -48,11 +48,26 @@ impl Grid {
     /// an angle of more turns has lost its last digits.
     pub const MOST_TURNS: f64 = 1e5;
 
-    /// Checks that all times and angles are finite and within [`Grid::MOST_TURNS`].
+    /// Checks that all times and angles are finite and within [`Grid::MOST_TURNS`], and that the law of the drive holds at all of them.
     ///
     /// # Errors
-    /// A message that says how far the grid leads.
-    pub fn check(&self) -> std::result::Result<(), String> {
+    /// A message that says how far the grid leads, or where the law ends.
+    pub fn check(&self, drive: &Drive) -> std::result::Result<(), String> {
+        if drive.law.constant().is_none() {
+            let name = drive.law.name();
+            if self.times.iter().any(|t| t.is_nan()) && self.cranks.iter().all(|crank| crank.is_finite()) {
+                return Err(format!(
+                    "the drive's law, \"{name}\", does not come to a crank angle of the grid at one time"
+                ));
+            }
+            // The rounding of the last instant belongs to it.
+            let end = drive.law.end().unwrap_or(f64::INFINITY);
+            if let Some(t) = self.times.iter().find(|&&t| t < 0.0 || t > end * (1.0 + 1e-12)) {
+                return Err(format!(
+                    "the grid leads to {t} s, but the drive's law, \"{name}\", goes from 0 to {end} s"
+                ));
+            }
+        }
         let most = self.cranks.iter().fold(0.0, |most: f64, crank| most.max(crank.abs())) / TAU;
         if most <= Self::MOST_TURNS && self.times.iter().chain(&self.cranks).all(|value| value.is_finite()) {
             return Ok(());
@@ -169,18 +184,12 @@ impl Case {
     /// The same problem with every drive in its nominal motion: what questions about crank angles are about.
     #[must_use]
     pub fn nominal(&self) -> Case {
-        let bound = |drive: &Drive| Drive { free: None, ..*drive };
+        let bound = |drive: &Drive| Drive { free: None, ..drive.clone() };
         Case {
             drive: bound(&self.drive),
             further_drives: self.further_drives.iter().map(bound).collect(),
             ..self.clone()
         }
-    }
-
-    /// Largest angular velocity of any drive at t = 0 (rad/s), without its sign.
-    #[must_use]
-    pub fn top_speed(&self) -> f64 {
-        self.drives().fold(0.0, |most: f64, drive| most.max(drive.at(0.0).omega.abs()))
     }
 
     /// World angles of the driving links' x axes (rad) where the crank angle is `crank` (rad, as the scenario states it).
@@ -195,6 +204,25 @@ impl Case {
     pub fn ratios(&self, t: f64) -> impl Iterator<Item = f64> {
         let omega = self.drive.at(t).omega;
         self.drives().enumerate().map(move |(index, drive)| if index == 0 { 1.0 } else { drive.at(t).omega / omega })
+    }
+
+    /// Whether all driving links turn with constant speeds.
+    #[must_use]
+    pub fn is_steady(&self) -> bool {
+        !self.is_free() && self.drives().all(|drive| drive.law.constant().is_some())
+    }
+
+    /// Largest speed of a driving link (rad/s), without sign.
+    #[must_use]
+    pub fn fastest_drive(&self) -> f64 {
+        self.drives().fold(0.0, |most: f64, drive| most.max(drive.top_speed().abs()))
+    }
+
+    /// The same problem with the crank turning at its drive's top speed all the time.
+    #[must_use]
+    pub fn at_top_speed(&self) -> Case {
+        let law = MotionLaw::ConstantSpeed(self.drive.top_speed());
+        Case { drive: Drive { law, ..self.drive.clone() }, ..self.clone() }
     }
 
     /// The same problem on another grid.

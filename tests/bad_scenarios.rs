@@ -66,6 +66,10 @@ macro_rules! bad {
     };
 }
 
+#[path = "bad_scenarios/laws.rs"]
+mod laws;
+#[path = "bad_scenarios/loads.rs"]
+mod loads;
 #[path = "bad_scenarios/motors.rs"]
 mod motors;
 #[path = "bad_scenarios/sliders.rs"]
@@ -248,8 +252,8 @@ fn structure_and_drive() {
         bad!("speed_rpm = 130\n" => "", INPUT, at "[drive]", key "drive", ["`speed_rad_s` or `speed_rpm` is missing"]),
         bad!("link = \"rocker\"" => "link = \"ground\"", INPUT, at "link = \"ground\"", key "loads[1].link",
             ["does not turn"]),
-        bad!("type = \"resistance\"" => "type = \"spring\"", INPUT, at "spring", key "loads[1].type",
-            ["no type of load", "resistance"]),
+        bad!("type = \"resistance\"" => "type = \"sprong\"", INPUT, at "sprong", key "loads[1].type",
+            ["no type of load", "did you mean \"spring\""]),
     ]);
 }
 

@@ -47,7 +47,7 @@ pub(super) fn inspect(args: &Args) -> Result<()> {
         true => {
             let crank = args.at_crank_deg.map_or(case.drive.start, f64::to_radians);
             Grid::of_cranks(&case.drive, vec![crank])
-                .check()
+                .check(&case.drive)
                 .map_err(|message| Error::new(ErrorKind::Input, message).help("check --at-crank-deg"))?;
             Some((crank, reference::modes::all(case, crank)?))
         }

@@ -87,7 +87,7 @@ fn on_grid(case: &Case, args: &Args) -> Result<Case> {
         (None, Some(Range(times))) => Grid::of_times(&case.drive, times.clone()),
         (None, None) => return Ok(case.clone()),
     };
-    grid.check().map_err(|message| {
+    grid.check(&case.drive).map_err(|message| {
         Error::new(ErrorKind::Input, message).help("check the unit and size of --crank-deg or --times")
     })?;
     Ok(case.on(grid))

@@ -166,10 +166,14 @@ impl MotionDiagram {
             return Err(Error::new(ErrorKind::Input, format!("a turn cannot be divided into {divisions} parts here"))
                 .help(format!("give from {least} to {most} divisions")));
         }
+        if !case.is_steady() {
+            let message = "the chord method divides a turn into equal times, but the drive's speed changes";
+            return Err(Error::new(ErrorKind::Unsupported, message).help("give the drive a constant speed"));
+        }
         // Divisions, their halves and quarters all have their middles among the rows.
         let stride = 8 * CURVE.div_ceil(8 * divisions);
         let rows = divisions * stride;
-        let sense = case.drive.at(0.0).omega.signum();
+        let sense = case.drive.top_speed().signum();
         let crank = |row: usize| case.drive.start + sense * TAU * (row as f64 / rows as f64);
         let grid = Grid::of_cranks(&case.drive, (0..=rows).map(crank).collect());
         let wanted = Wanted::of(&[Stage::Positions, Stage::Velocities, Stage::Accelerations]);

@@ -189,7 +189,7 @@ fn judge(scenario: &Scenario, engine: &dyn Engine, reference: &Trajectory, runs:
         let tolerance = convergence.tolerance(resolution, engine.noise(case, kind));
         let Basis::Truncation { parts, .. } = tolerance.basis else { unreachable!("that is what it rests on") };
         let verdict = Verdict::of_engine(&residual, &convergence, parts, scenario.engine_rel);
-        let verdict = unless_turning_about(case, [reference, single], &residual, verdict);
+        let verdict = unless_turning_about(case, [reference, single], &residual, resolution, verdict);
         let [single, half, reference] =
             [single, half, reference].map(|side| side.column(&channel).expect("all sides have the channel"));
         let limit = convergence.limit(single, half, kind.periodic);
@@ -227,8 +227,28 @@ pub(super) fn tell_sensitivity(proof: &mut EngineProof, reference: &Trajectory, 
     }
 }
 
-/// A disagreement in a force where a load jumps proves nothing.
-fn unless_turning_about(case: &Case, sides: [&Trajectory; 2], residual: &Residual, verdict: Verdict) -> Verdict {
+/// Steps about a jump of the drive's acceleration in which what an engine reads is doubtful.
+const JUMP_STEPS: f64 = 8.0;
+
+/// A disagreement in a force where a load jumps proves nothing, nor does one where the drive's acceleration jumps.
+fn unless_turning_about(
+    case: &Case,
+    sides: [&Trajectory; 2],
+    residual: &Residual,
+    resolution: f64,
+    verdict: Verdict,
+) -> Verdict {
+    if residual.channel.kind.stage < Stage::Velocities {
+        return verdict;
+    }
+    // Differences and impulses reach over a few steps to either side.
+    let jump = case.drive.law.jump().filter(|jump| (residual.worst_time - jump).abs() <= JUMP_STEPS * resolution);
+    if let (Verdict::Disagree { place }, Some(jump)) = (&verdict, jump) {
+        let reason = format!(
+            "{place}, but at {jump} s the drive's acceleration jumps: leave the instants about it out of the grid"
+        );
+        return Verdict::Inconclusive { reason };
+    }
     if residual.channel.kind.stage < Stage::Reactions {
         return verdict;
     }

@@ -14,15 +14,15 @@ pub(super) struct Observed {
     pub(super) closure: f64,
     /// Largest distance of a joint from the origin (m).
     pub(super) reach: f64,
-    /// Balancing moment from the balance of powers (N m) at every instant; empty if no balancing moment is wanted. Of a free motion, in which the crank
-    /// may stand still, the power itself (W).
+    /// Balancing moment from the balance of powers (N m) at every instant; empty if no balancing moment is wanted. Of a crank whose speed changes,
+    /// times its speed over its top speed.
     pub(super) power: Vec<f64>,
-    /// Balancing moments reduced to the crank (N m) at every instant, or their power (W); empty likewise.
+    /// Balancing moments reduced to the crank (N m) at every instant, likewise.
     pub(super) torque: Vec<f64>,
     /// Largest difference at any instant between the shaking force from reactions and from momentum, over the largest force in
     /// a joint, or the same of the shaking moment, over the largest moment of such a force about the origin.
     pub(super) unbalance: Option<f64>,
-    /// Largest moment on the driving link (N m): the balancing one, or that of a joint's force at the link's length. Of a free motion, its power (W).
+    /// Largest moment on the driving link (N m): the balancing one, or that of a joint's force at the link's length.
     pub(super) moment: f64,
 }
 
@@ -56,9 +56,9 @@ pub(super) fn observe(
     let mut power = if with_power { vec![0.0; case.grid.len()] } else { Vec::new() };
     let mut torque = power.clone();
     let arm = case.drives().fold(0.0, |most: f64, drive| most.max(case.mechanism.links()[drive.link].size()));
-    let size = case.mechanism.size();
+    let (size, steady) = (case.mechanism.size(), case.is_steady());
     let (mut closure, mut reach, mut moment): (f64, f64, f64) = (0.0, 0.0, 0.0);
-    let (mut unbalance, mut fastest) = (Unbalance::default(), 0.0f64);
+    let mut unbalance = Unbalance::default();
     let mut visit = |row: usize, state: &State| {
         for joint in case.mechanism.joints() {
             let sides = [joint.first, joint.second];
@@ -68,11 +68,14 @@ pub(super) fn observe(
             reach = reach.max(places[0].norm());
         }
         if with_power {
-            (power[row], torque[row]) = match case.is_free() {
-                true => (-power::of_known_forces(case, state), power_of_drives(case, state)),
-                false => (power::balancing_moment(case, state), reduced_torque(case, state)),
+            // A crank at rest has no power: where its speed changes, powers are compared, over the top speed.
+            (power[row], torque[row]) = match steady {
+                true => (power::balancing_moment(case, state), reduced_torque(case, state)),
+                false => {
+                    let top = case.drive.top_speed();
+                    (-power::of_known_forces(case, state) / top, power_of_drives(case, state) / top)
+                }
             };
-            fastest = case.drives().fold(fastest, |most, drive| most.max(state.motions[drive.link].omega.abs()));
             let forces = state.forces.iter().map(|force| force.norm() * arm);
             moment = forces.fold(state.torques.iter().fold(moment, |most, torque| most.max(torque.abs())), f64::max);
             // At the very instant of setting off loads act already against a motion that the state does not show yet.
@@ -95,7 +98,7 @@ pub(super) fn observe(
         power,
         torque,
         unbalance: with_power.then(|| unbalance.share()),
-        moment: if case.is_free() { moment * fastest } else { moment },
+        moment,
     })
 }
 

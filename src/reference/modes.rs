@@ -41,7 +41,7 @@ pub fn all(case: &Case, crank: f64) -> Result<Vec<Modes>> {
     let mechanism = &case.mechanism;
     let mut poses = PoseSolver::counting_turns(case)?;
     let t = case.drive.time_of(crank);
-    let omega = case.drive.at(t).omega;
+    let omega = if case.is_steady() { case.drive.at(t).omega } else { case.drive.top_speed() };
     let (angles, omegas) = (case.drive_angles(crank), case.ratios(t).map(|ratio| ratio * omega).collect::<Vec<f64>>());
     poses.solve(crank, omega, 0.0, Stage::Velocities)?;
     let state = poses.with_angles().clone();

@@ -149,7 +149,11 @@ impl<'a> System<'a> {
 
     /// Follows the branch to time `t`, in small turns of the crank.
     fn go_to(&mut self, t: f64) -> Result<()> {
-        let turned = |drive: &Drive| (drive.at(t).angle - drive.at(self.time).angle).abs();
+        let turned = |drive: &Drive| match drive.law.constant() {
+            Some(_) => (drive.at(t).angle - drive.at(self.time).angle).abs(),
+            // It may go there and back in between.
+            None => drive.top_speed().abs() * (t - self.time).abs(),
+        };
         let turn = self.case.drives().map(turned).fold(0.0, f64::max);
         let parts = (turn / TRACKING_STEP).ceil().max(1.0);
         let from = self.time;

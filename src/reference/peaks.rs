@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::PoseSolver;
 use crate::case::Case;
-use crate::error::Result;
+use crate::error::{Error, ErrorKind, Result};
 use crate::math::golden;
 use crate::solver::State;
 use crate::trajectory::Stage;
@@ -46,6 +46,13 @@ pub fn journal_diameter(force: f64, lever: f64, stress: f64) -> f64 {
 /// # Errors
 /// Those of [`PoseSolver::solve`], for crank angles in between that cannot be reached.
 pub fn over_range(case: &Case) -> Result<Peaks> {
+    if case.grid.cranks.iter().any(|&crank| case.drive.time_of(crank).is_nan()) {
+        let message =
+            "peaks are looked for over the crank angle, but the drive's law may come to an angle more than once";
+        return Err(
+            Error::new(ErrorKind::Unsupported, message).help("read them off a table of `linkproof solve` instead")
+        );
+    }
     let mut poses = PoseSolver::new(case)?;
     let (from, to) = case.grid.cranks.iter().fold((f64::MAX, f64::MIN), |(low, high), &c| (low.min(c), high.max(c)));
     let parts = ((to - from) / SAMPLE_STEP).ceil().max(1.0) as usize;

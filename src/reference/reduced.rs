@@ -49,21 +49,37 @@ pub struct Kinks {
     pub limits: Option<[f64; 2]>,
 }
 
+/// Most turns after which the reduced quantities may repeat.
+const MOST_TURNS: u32 = 1000;
 /// Newton steps from a crank angle known to 1e-9 rad to rounding.
 const POLISHING: usize = 3;
 
 /// Kinks of the reduced quantities of a case.
 ///
 /// # Errors
-/// Those of [`Range::of`].
+/// Those of [`Range::of`]; [`ErrorKind::Unsupported`] for loads against the motion of a point, and for tables that repeat together only after more than
+/// a thousand turns.
 pub fn kinks(case: &Case) -> Result<Kinks> {
+    if let Some(load) = case.loads.iter().find(|load| load.sensed_point().is_some()) {
+        let message = format!(
+            "reduced quantities are asked for, but a load of type \"{}\" turns with the motion of a point, which the reduction to the crank does not know",
+            load.sort()
+        );
+        return Err(
+            Error::new(ErrorKind::Unsupported, message).help("give it as a table of forces over the crank angle")
+        );
+    }
     let range = Range::of(case)?;
     let (turns, limits) = match range.extent {
         Extent::FullTurn(turns) => (Some(turns.unsigned_abs()), None),
         Extent::Limited([from, to]) => (None, Some([from.crank, to.crank])),
     };
     let start = case.drive.start;
-    let within = |crank: f64, period: f64| start + (crank - start).rem_euclid(period);
+    let within = |crank: f64, period: f64| {
+        let inside = (crank - start).rem_euclid(period);
+        // A rounding before the start belongs to the start.
+        start + if period - inside < 1e-12 { 0.0 } else { inside }
+    };
     let mut poses = PoseSolver::new(case)?;
     let mut cranks = Vec::new();
     for link in range.links.iter().filter(|link| case.loads.iter().any(|load| load.sensed_link() == Some(link.link))) {
@@ -79,7 +95,18 @@ pub fn kinks(case: &Case) -> Result<Kinks> {
         }
     }
     let tables = || case.loads.iter().flat_map(Load::courses).filter_map(Course::knots);
-    let all = turns.map(|turns| tables().fold(turns, |all, (_, own)| least_common_multiple(all, own)));
+    let mut all = turns;
+    for (_, own) in tables() {
+        all = all.map(|all| least_common_multiple(all, own));
+        if let Some(turns) = all.filter(|&turns| turns > MOST_TURNS) {
+            let message = format!(
+                "mechanism and tables of loads repeat together after {turns} turns only, the limit is {MOST_TURNS}"
+            );
+            return Err(
+                Error::new(ErrorKind::Unsupported, message).help("give the tables turns that divide each other")
+            );
+        }
+    }
     if let (Some(turns), Some(all)) = (turns, all) {
         let copies = (1..all / turns).map(|copy| TAU * f64::from(copy * turns));
         let further: Vec<f64> = copies.flat_map(|by| cranks.iter().map(move |crank| crank + by)).collect();
@@ -124,7 +151,7 @@ pub struct Means {
 /// integrated to 1e-16.
 const PANEL: f64 = PI / 90.0;
 
-/// Means over one turn, with the motion of the given solver: Gauss's rule between the kinks.
+/// Means over one turn at the drive's top speed, with the motion of the given solver: Gauss's rule between the kinks.
 ///
 /// # Errors
 /// Those of the solver, [`ErrorKind::Geometry`] for mechanisms whose crank cannot turn fully.
@@ -137,8 +164,8 @@ pub fn means_over_turn(case: &Case, solver: &dyn Solver) -> Result<Means> {
     breaks.push(start + period);
     let nodes = quadrature::composite(&breaks, PANEL);
     let cranks = nodes.iter().map(|&(crank, _)| crank).collect();
-    let turn =
-        Case { wanted: Wanted::of(&[Stage::Velocities]), ..case.nominal().on(Grid::of_cranks(&case.drive, cranks)) };
+    let steady = case.nominal().at_top_speed();
+    let turn = Case { wanted: Wanted::of(&[Stage::Velocities]), ..steady.on(Grid::of_cranks(&steady.drive, cranks)) };
     let mut means = Means { inertia: 0.0, resistance: 0.0 };
     let mut visit = |row: usize, state: &State| {
         means.inertia += moment_of_inertia(&turn, &state.motions) * nodes[row].1 / period;

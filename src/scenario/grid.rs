@@ -50,7 +50,7 @@ pub fn read(mut table: Table, drive: &Drive) -> Result<Grid> {
     })?;
     let grid =
         if std::ptr::eq(family, &ANGLE) { Grid::of_cranks(drive, points) } else { Grid::of_times(drive, points) };
-    match grid.check() {
+    match grid.check(drive) {
         Ok(()) => Ok(grid),
         Err(message) => Err(table.fault(message).help("check the unit and size of the grid and of `drive.speed`")),
     }

@@ -6,6 +6,7 @@ mod figure;
 pub mod grid;
 mod joints;
 mod links;
+mod loads;
 mod motion;
 mod motor;
 pub mod oracle;
@@ -28,7 +29,7 @@ use std::path::{Path, PathBuf};
 
 use self::reader::{Sign, Table};
 use self::source::Source;
-use crate::case::Case;
+use crate::case::{Case, Grid};
 use crate::error::{Error, ErrorKind, Result};
 use crate::mechanism::assembly::{Choice, first_choices};
 use crate::mechanism::{Mechanism, Pose, StartGroup, Structure};
@@ -145,7 +146,7 @@ fn read(root: &mut Table) -> Result<Scenario> {
     start.finish()?;
     let (drive, further_drives) = motion::drives(drives, &mechanism, crank)?;
     let motor = motor.map(motor::read).transpose()?;
-    let loads = motion::loads(loads, &mechanism)?;
+    let loads = loads::read(loads, &mechanism)?;
     let gravity = motion::gravity(gravity)?;
     let driven: Vec<usize> = std::iter::once(&drive).chain(&further_drives).map(|drive| drive.joint).collect();
     let structure = Structure::of(&mechanism, &driven)?;
@@ -161,6 +162,14 @@ fn read(root: &mut Table) -> Result<Scenario> {
     case.modes = choices.iter().map(|choice| choice.mode).collect();
     case.start = pose;
     let oracles = oracle::read(oracles, &case)?;
+    let series = oracles.iter().flat_map(|oracle| &oracle.series);
+    let published =
+        series.flat_map(|series| series.points.iter().chain(series.expected.iter().map(|cell| &cell.point)));
+    let cranks = published.map(|point| point.crank).collect();
+    if let Err(message) = Grid::of_cranks(&case.drive, cranks).check(&case.drive) {
+        let error = Error::new(ErrorKind::Input, format!("published numbers: {message}")).key("oracle");
+        return Err(error.help("take the numbers out, or give them at crank angles to which the drive comes"));
+    }
     let source = root.source();
     let (path, text) = (source.path.to_path_buf(), source.text.to_string());
     Ok(Scenario { name, title, source: cited, path, text, case, dt, engine, engine_rel, oracles, starts, choices })

@@ -1,12 +1,13 @@
-//! `[drive]`, `[gravity]` and `[[loads]]`.
+//! `[drive]` and `[gravity]`.
 
-use super::joints::link;
+use std::sync::Arc;
+
 use super::reader::{Sign, Table};
-use super::unit::{ACCELERATION, ANGLE, ANGULAR_SPEED, MOMENT};
+use super::unit::{ACCELERATION, ANGLE, ANGULAR_SPEED, TIME};
 use super::words::suggestion;
-use crate::drive::{Drive, Load, MotionLaw};
+use crate::drive::{Drive, MotionLaw};
 use crate::error::{ErrorKind, Result};
-use crate::math::Vec2;
+use crate::math::{Piecewise, Vec2};
 use crate::mechanism::{GROUND, Mechanism, Side};
 
 /// The crank's drive, with `start` as the crank angle at t = 0 (rad), and further drives, which say their own.
@@ -18,6 +19,12 @@ pub fn drives(tables: Vec<Table>, mechanism: &Mechanism, start: f64) -> Result<(
             false => table.quantity("start", &ANGLE, Sign::Any)?,
         };
         let drive = drive(&mut table, mechanism, &drives, start)?;
+        // Several drives are geared to each other by the crank angle, which tells the time at constant speeds only.
+        let changing = drives.iter().chain([&drive]).any(|drive| drive.law.constant().is_none());
+        if changing && !drives.is_empty() {
+            let message = "one of several drives has a speed that changes";
+            return Err(table.wrong(ErrorKind::Unsupported, "law", message).help("give all drives constant speeds"));
+        }
         drives.push(drive);
     }
     let crank = drives.remove(0);
@@ -27,9 +34,14 @@ pub fn drives(tables: Vec<Table>, mechanism: &Mechanism, start: f64) -> Result<(
 /// A drive, after the drives `before` it.
 fn drive(table: &mut Table, mechanism: &Mechanism, before: &[Drive], start: f64) -> Result<Drive> {
     let name = table.string("joint")?;
-    let speed = table.quantity("speed", &ANGULAR_SPEED, Sign::NotZero)?;
+    let law = law(table, start)?;
     let zero = table.optional_quantity("zero", &ANGLE, Sign::Any)?.unwrap_or(0.0);
     let free = free(table)?;
+    if free.is_some() && law.constant().is_none() {
+        let message = "the motion is free, but a law is given";
+        let help = "forces decide a free motion: give its nominal speed only (`speed_rpm`)";
+        return Err(table.wrong(ErrorKind::Input, "law", message).help(help));
+    }
     table.finish()?;
     let Some(index) = mechanism.joint_named(&name) else {
         let names = mechanism.joints().iter().map(|joint| joint.name.as_str());
@@ -65,7 +77,7 @@ fn drive(table: &mut Table, mechanism: &Mechanism, before: &[Drive], start: f64)
         let help = "drive a link that is hinged to the ground by a revolute joint";
         return Err(table.wrong(ErrorKind::Unsupported, "joint", message).help(help));
     }
-    Ok(Drive { joint: index, link, zero, start, law: MotionLaw::ConstantSpeed(speed), free })
+    Ok(Drive { joint: index, link, zero, start, law, free })
 }
 
 /// The speed at t = 0 of a link that is free from then on.
@@ -85,39 +97,73 @@ fn free(table: &mut Table) -> Result<Option<f64>> {
     }
 }
 
+/// A law: its name in scenario files, and its reader, which is given the crank angle at t = 0 (rad).
+type Law = (&'static str, fn(&mut Table, f64) -> Result<MotionLaw>);
+
+const LAWS: [Law; 4] = [("constant", constant), ("ramp", ramp), ("cycloidal", cycloidal), ("table", points)];
+
+fn law(table: &mut Table, start: f64) -> Result<MotionLaw> {
+    let Some(kind) = table.optional_string("law")? else { return constant(table, start) };
+    let Some((_, law)) = LAWS.iter().find(|(name, _)| *name == kind) else {
+        let error = table.wrong(ErrorKind::Input, "law", format!("\"{kind}\" is no law of motion"));
+        return Err(error.help(suggestion(&kind, LAWS.map(|(name, _)| name), "\"")));
+    };
+    law(table, start)
+}
+
+fn constant(table: &mut Table, _: f64) -> Result<MotionLaw> {
+    Ok(MotionLaw::ConstantSpeed(table.quantity("speed", &ANGULAR_SPEED, Sign::NotZero)?))
+}
+
+fn ramp(table: &mut Table, _: f64) -> Result<MotionLaw> {
+    let speed = table.quantity("speed", &ANGULAR_SPEED, Sign::NotZero)?;
+    Ok(MotionLaw::Ramp { speed, time: table.quantity("time", &TIME, Sign::Positive)? })
+}
+
+fn cycloidal(table: &mut Table, start: f64) -> Result<MotionLaw> {
+    let rise = table.quantity("to", &ANGLE, Sign::Any)? - start;
+    let time = table.quantity("time", &TIME, Sign::Positive)?;
+    if rise == 0.0 {
+        let message = "the crank is to stay where it starts";
+        return Err(table
+            .wrong(ErrorKind::Input, "to", message)
+            .help("give a crank angle other than that of the start"));
+    }
+    Ok(MotionLaw::Cycloidal { rise, time })
+}
+
+/// From rest at the start, at t = 0, to rest at the last point.
+fn points(table: &mut Table, start: f64) -> Result<MotionLaw> {
+    let mut points: Vec<(f64, f64)> = Vec::new();
+    for mut point in table.tables("points")? {
+        let time = point.quantity("time", &TIME, Sign::NotNegative)?;
+        let gone = point.quantity("angle", &ANGLE, Sign::Any)? - start;
+        point.finish()?;
+        match points.last() {
+            None if time != 0.0 || gone.abs() > 1e-12 => {
+                let message =
+                    format!("the table does not begin with the start of the crank, {} deg at 0 s", start.to_degrees());
+                return Err(point.fault(message).help("write the start as the first point"));
+            }
+            Some((last, _)) if !(time > *last) => {
+                let message = format!("the times do not ascend: {time} s comes after {last} s");
+                return Err(point.fault(message).help("write the points in ascending order of time, each time once"));
+            }
+            _ => points.push((time, gone)),
+        }
+    }
+    if points.len() < 2 || points.iter().all(|&(_, gone)| gone == 0.0) {
+        let help = "write `points = [{ time_s = 0, angle_deg = 0 }, { time_s = 0.5, angle_deg = 90 }]`";
+        let message = "a table of angles needs two points or more that are not all one angle";
+        return Err(table.wrong(ErrorKind::Input, "points", message).help(help));
+    }
+    Ok(MotionLaw::Table(Arc::new(Piecewise::clamped_spline(&points, [0.0; 2]))))
+}
+
 /// Acceleration of gravity (m/s^2); none without a table.
 pub fn gravity(table: Option<Table>) -> Result<Vec2> {
     let Some(mut table) = table else { return Ok(Vec2::zeros()) };
     let (x, y) = (table.quantity("x", &ACCELERATION, Sign::Any)?, table.quantity("y", &ACCELERATION, Sign::Any)?);
     table.finish()?;
     Ok(Vec2::new(x, y))
-}
-
-/// All loads.
-pub fn loads(tables: Vec<Table>, mechanism: &Mechanism) -> Result<Vec<Load>> {
-    tables.into_iter().map(|table| load(table, mechanism)).collect()
-}
-
-fn load(mut table: Table, mechanism: &Mechanism) -> Result<Load> {
-    let kind = table.string("type")?;
-    if kind != "resistance" {
-        return Err(table.wrong(ErrorKind::Input, "type", format!("\"{kind}\" is no type of load")).help(suggestion(
-            &kind,
-            ["resistance"],
-            "\"",
-        )));
-    }
-    let name = table.string("link")?;
-    let moment = table.quantity("moment", &MOMENT, Sign::NotNegative)?;
-    table.finish()?;
-    let link = link(&table, &name, mechanism.links())?;
-    if link == GROUND {
-        return Err(table.wrong(ErrorKind::Input, "link", "the ground does not turn").help("name a moving link"));
-    }
-    // Its angular velocity would be the rounding of zero, and so would the sense of the moment.
-    if !mechanism.can_turn(link) {
-        let message = format!("link \"{name}\" does not turn: prismatic joints alone connect it with the ground");
-        return Err(table.wrong(ErrorKind::Input, "link", message).help("name a link that turns"));
-    }
-    Ok(Load::Resistance { link, moment })
 }

@@ -4,7 +4,7 @@ use super::reader::{Sign, Table};
 use super::unit::{ANGLE, TIME};
 use super::words::suggestion;
 use crate::case::Wanted;
-use crate::drive::{Drive, MotionLaw};
+use crate::drive::Drive;
 use crate::error::{ErrorKind, Result};
 use crate::trajectory::Stage;
 
@@ -72,7 +72,7 @@ fn engine_step(mut table: Table, drive: &Drive) -> Result<f64> {
     let time = table.optional_quantity("dt", &TIME, Sign::Positive)?;
     let angle = table.optional_quantity("step", &ANGLE, Sign::NotZero)?;
     table.finish()?;
-    let MotionLaw::ConstantSpeed(omega) = drive.law;
+    let omega = drive.top_speed();
     let dt = match (time, angle) {
         (Some(dt), None) => dt,
         (None, Some(angle)) => (angle / omega).abs(),

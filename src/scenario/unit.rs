@@ -72,6 +72,14 @@ pub static MOMENT: Family = Family { noun: "a moment", units: &[si("N_m")] };
 /// Changes of a moment with an angular velocity.
 pub static MOMENT_PER_SPEED: Family =
     Family { noun: "a change of a moment with an angular velocity", units: &[si("N_m_s")] };
+/// Forces.
+pub static FORCE: Family = Family { noun: "a force", units: &[si("N"), Unit::new("kN", 1e3, 1.0)] };
+/// Changes of a force with a length.
+pub static STIFFNESS: Family = Family { noun: "a stiffness", units: &[si("N_m"), Unit::new("N_mm", 1e3, 1.0)] };
+/// Changes of a force with a velocity.
+pub static DAMPING: Family = Family { noun: "a damping", units: &[si("N_s_m")] };
+/// Changes of a moment with an angle.
+pub static TORSIONAL_STIFFNESS: Family = Family { noun: "a torsional stiffness", units: &[si("N_m_rad")] };
 
 #[cfg(test)]
 mod tests {
@@ -89,13 +97,14 @@ mod tests {
         assert!((si_of(&ANGULAR_SPEED, "rpm", 130.0) - 13.613_568_165_555_77).abs() < 4e-15);
         assert_eq!(si_of(&MASS, "g", 2600.0), 2.6);
         assert_eq!(si_of(&TIME, "ms", 1.0), 1e-3);
+        assert_eq!(si_of(&FORCE, "kN", 1.5), 1500.0);
+        assert_eq!(si_of(&STIFFNESS, "N_mm", 1.5), 1500.0);
     }
 
     #[test]
     fn every_family_starts_with_its_si_unit() {
-        for family in
-            [&LENGTH, &ANGLE, &ANGULAR_SPEED, &TIME, &MASS, &INERTIA, &ACCELERATION, &MOMENT, &MOMENT_PER_SPEED]
-        {
+        let mechanical = [&MASS, &INERTIA, &ACCELERATION, &MOMENT, &MOMENT_PER_SPEED, &FORCE, &STIFFNESS, &DAMPING];
+        for family in [&LENGTH, &ANGLE, &ANGULAR_SPEED, &TIME, &TORSIONAL_STIFFNESS].into_iter().chain(mechanical) {
             assert_eq!(family.units[0].to_si(2.5), 2.5, "{}", family.noun);
         }
     }

@@ -80,7 +80,7 @@ fn case(links: Vec<Link>, joints: Vec<Joint>, mode: AssemblyMode, start: f64, to
     let case = Case {
         mechanism,
         structure,
-        drive,
+        drive: drive.clone(),
         further_drives: Vec::new(),
         motor: None,
         loads: Vec::new(),

@@ -2,7 +2,7 @@
 # Opens what we write with programs that are not ours: tests/viewers/run.sh [FILE...]
 #
 # Recordings (*.mcap) go to their readers, scenarios (*.toml) to MuJoCo. Default: recordings/*.mcap, a recording made for the purpose of a mechanism with
-# sliders (scenarios/compressor.toml), and all scenarios.
+# sliders (scenarios/compressor.toml), and all scenarios that can be exported.
 # Python packages go into target/viewers-venv.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
@@ -25,7 +25,13 @@ if [ "$everything" ]; then
     "$linkproof" run --record "$fresh" "$top/scenarios/compressor.toml" >/dev/null
     # A resistance on a link that is not hinged to the ground: no scenario has one.
     sed 's/^link = "rocker"/link = "coupler"/' "$top/scenarios/crank_rocker.toml" >"$fresh/resisted_coupler.toml"
-    set -- "$@" "$fresh/compressor.mcap" "$top"/scenarios/*.toml "$fresh/resisted_coupler.toml"
+    set -- "$@" "$fresh/compressor.mcap"
+    for file in "$top"/scenarios/*.toml; do
+        # Loads and a law of motion that are not exported.
+        case "$file" in */loaded_slider.toml | */cycloidal_start.toml) continue ;; esac
+        set -- "$@" "$file"
+    done
+    set -- "$@" "$fresh/resisted_coupler.toml"
 fi
 if ! cmp -s "$here/requirements.txt" "$environment/installed.txt"; then
     python3 -m venv "$environment"

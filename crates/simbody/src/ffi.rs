@@ -146,6 +146,7 @@ unsafe extern "C" {
         text: *mut c_char,
         size: usize,
     ) -> c_int;
+    fn linkproof_simbody_load(run: *mut RawRun, loads: *const f64);
     fn linkproof_simbody_gaps(
         run: *mut RawRun,
         time: &mut f64,
@@ -254,6 +255,23 @@ impl Run {
         told(|text, size| unsafe { linkproof_simbody_advance(raw, time, steps, text, size) })
             .map_err(|failure| self.located(failure))?;
         self.time = time;
+        Ok(())
+    }
+
+    /// Sets the loads that the next readings of reactions count, for every body: force at the mass centre (N, world axes) and moment about it
+    /// (N m). None at first. They do not move anything: every freedom is prescribed.
+    ///
+    /// # Errors
+    /// Another count of loads than of bodies, a number that is not finite.
+    pub fn load(&mut self, loads: &[[f64; 3]]) -> Result<(), Failure> {
+        if loads.len() != self.state.bodies.len() {
+            return Err(Failure::of(format!("{} loads are given for {} bodies", loads.len(), self.state.bodies.len())));
+        }
+        if !loads.as_flattened().iter().all(|number| number.is_finite()) {
+            return Err(Failure::of("a load is not finite"));
+        }
+        // SAFETY: the run is alive and nobody else has it; there are three numbers for every body, and the shim copies them.
+        unsafe { linkproof_simbody_load(self.raw.as_ptr(), loads.as_ptr().cast()) };
         Ok(())
     }
 

@@ -94,12 +94,13 @@ struct linkproof_run {
     RungeKuttaMersonIntegrator integrator;
     Vec3 gravity;
     std::vector<linkproof_body> given;
+    std::vector<double> loads; // Three a body: force at the mass centre and moment about it.
     std::vector<MobilizedBody> bodies; // The ground first.
     std::vector<Loop> loops;
 
     linkproof_run(const linkproof_body *first, size_t count, const Vec3 &gravity)
         : matter(system), forces(system), relief(forces, matter), integrator(system), gravity(gravity),
-          given(first, first + count) {
+          given(first, first + count), loads(3 * count, 0.0) {
         Force::UniformGravity(forces, matter, gravity);
         bodies.push_back(matter.updGround());
         for (const linkproof_body &body : given)
@@ -168,8 +169,8 @@ struct linkproof_run {
 
     size_t taken() const { return static_cast<size_t>(integrator.getNumStepsAttempted()); }
 
-    // Applied forces that carry the extra masses, so that no mobilizer has to. They follow from accelerations, and these do not
-    // depend on them as long as every freedom is prescribed.
+    // Applied forces: loads, and what carries the extra masses, so that no mobilizer has to. The latter follow from accelerations, and these
+    // depend on neither as long as every freedom is prescribed.
     void relieve(State &state) const {
         // Accelerations are all read before a force is set: that takes the state back to before them.
         std::vector<SpatialVec> carried(given.size(), SpatialVec(Vec3(0)));
@@ -178,12 +179,15 @@ struct linkproof_run {
             const MobilizedBody &mobile = bodies[index + 1];
             const Vec3 centre = in_plane(body.centre);
             const Vec3 arm = mobile.getBodyRotation(state) * centre;
-            const Vec3 force = (mobile.findStationAccelerationInGround(state, centre) - gravity) * body.extra_mass;
-            const Vec3 torque = mobile.getBodyAngularAcceleration(state) * body.extra_inertia + arm % force;
+            const Vec3 force = (mobile.findStationAccelerationInGround(state, centre) - gravity) * body.extra_mass +
+                               Vec3(loads[3 * index], loads[3 * index + 1], 0);
+            const Vec3 torque = mobile.getBodyAngularAcceleration(state) * body.extra_inertia +
+                                Vec3(0, 0, loads[3 * index + 2]) + arm % force;
             carried[index] = SpatialVec(torque, force);
         }
         for (size_t index = 0; index < given.size(); ++index) {
-            if (given[index].extra_mass != 0 || given[index].extra_inertia != 0)
+            const double *load = &loads[3 * index];
+            if (given[index].extra_mass != 0 || given[index].extra_inertia != 0 || load[0] != 0 || load[1] != 0 || load[2] != 0)
                 relief.setOneBodyForce(state, bodies[index + 1], carried[index]);
         }
     }
@@ -267,6 +271,10 @@ int linkproof_simbody_advance(linkproof_run *run, double time, size_t steps, cha
 int linkproof_simbody_read(linkproof_run *run, int reactions, linkproof_body_state *bodies, linkproof_loop_state *loops,
                            char *text, size_t size) {
     return guarded(text, size, [&] { run->read(reactions != 0, bodies, loops); });
+}
+
+void linkproof_simbody_load(linkproof_run *run, const double *loads) {
+    std::copy(loads, loads + run->loads.size(), run->loads.begin());
 }
 
 int linkproof_simbody_gaps(linkproof_run *run, double *time, double *gaps, char *text, size_t size) {

@@ -73,6 +73,10 @@ int linkproof_simbody_advance(linkproof_run *run, double time, size_t steps, cha
 int linkproof_simbody_read(linkproof_run *run, int reactions, linkproof_body_state *bodies, linkproof_loop_state *loops,
                            char *text, size_t size);
 
+/* Loads on every body that the next readings count: three numbers each, the force at the mass centre (N, world axes) and the moment about it (N m). They do
+ * not move anything: every freedom is prescribed. None at first. */
+void linkproof_simbody_load(linkproof_run *run, const double *loads);
+
 /* Time that the integrator has reached, also after a failure, and the gap of every loop there. */
 int linkproof_simbody_gaps(linkproof_run *run, double *time, double *gaps, char *text, size_t size);
 

@@ -48,8 +48,8 @@ impl Acting {
         })
     }
 
-    /// Sets motor and loads of all worlds for the step that begins at `t` with the newest state of the window.
-    pub(super) fn act(&mut self, case: &Case, window: &Window, worlds: &mut [Guard], t: f64) {
+    /// Sets motor and loads of all worlds for the step between the instants `ends` (s), which begins with the newest state of the window.
+    pub(super) fn act(&mut self, case: &Case, window: &Window, worlds: &mut [Guard], ends: [f64; 2]) {
         for (before, motion) in self.before.iter_mut().zip(&self.state.motions) {
             *before = if window.newest() > 0 { motion.omega } else { f64::NAN };
         }
@@ -75,7 +75,7 @@ impl Acting {
         self.loads[GROUND] = Wrench::ZERO;
         for guard in worlds {
             guard.put_loads(&self.loads);
-            guard.drive_freely(t, motor);
+            guard.drive_freely(ends, motor);
         }
     }
 
@@ -114,7 +114,7 @@ pub(super) fn begin(case: &Case, acting: &mut Acting, worlds: &mut [Guard], sett
     let step = settings.resolution;
     settle(case, worlds, step)?;
     let window = Window::beginning(case, settings, worlds[0].world());
-    acting.act(case, &window, worlds, 0.0);
+    acting.act(case, &window, worlds, [0.0, step]);
     if acting.must_try(case) {
         worlds[0].step(step)?;
         let world = worlds[0].world();

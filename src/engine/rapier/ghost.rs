@@ -4,12 +4,12 @@
 //! motion, so that those of the differences alone, by Newton and Euler's equations on the engine's own accelerations, can be taken off.
 
 use super::newton_euler::NewtonEuler;
-use super::world::masses;
+use super::world::{masses, masses_with_flywheels};
 use crate::case::Case;
 use crate::error::Result;
 use crate::solver::State;
 
-/// Stand-ins for missing masses, and loads that the engine was not given.
+/// Stand-ins for missing masses, flywheels that are accelerated, and loads that the engine was not given.
 #[derive(Debug)]
 pub(super) struct Ghost {
     statics: NewtonEuler,
@@ -19,7 +19,9 @@ pub(super) struct Ghost {
 impl Ghost {
     /// The stand-ins of a case, and its loads if the engine was not given them (`unloaded`); `None` if there is neither.
     pub(super) fn of(case: &Case, unloaded: bool) -> Option<Self> {
-        let links = case.mechanism.links().iter().zip(masses(case));
+        // A flywheel has a moment where it is accelerated, and none where it is not.
+        let masses = if case.is_steady() { masses(case) } else { masses_with_flywheels(case) };
+        let links = case.mechanism.links().iter().zip(masses);
         let extra: Vec<[f64; 2]> =
             links.map(|(link, [mass, inertia])| [mass - link.mass, inertia - link.inertia]).collect();
         let unloaded = unloaded && !case.loads.is_empty();

@@ -50,7 +50,7 @@ impl<'a> Guard<'a> {
             masses,
             step,
             loads: vec![Wrench::ZERO; case.mechanism.links().len()],
-            energy: energy * case.top_speed().powi(2),
+            energy: energy * case.fastest_drive().powi(2),
         };
         guard.stand(&case.start.0);
         guard
@@ -69,10 +69,17 @@ impl<'a> Guard<'a> {
         self.world.as_ref()
     }
 
-    /// Sets all drives to their speeds at `t` times `sense` (-1 runs the mechanism backwards).
-    pub(super) fn drive(&mut self, t: f64, sense: f64) {
+    /// Sets all drives to their speeds at `t`.
+    pub(super) fn drive(&mut self, t: f64) {
         for (index, drive) in self.case.drives().enumerate() {
-            self.world.set_drive(index, drive.at(t).omega * sense);
+            self.world.set_drive(index, drive.at(t).omega);
+        }
+    }
+
+    /// Sets all drives to the speeds that take them from where they are at the time `from` (s) to where they are at `to`, a step later or earlier.
+    pub(super) fn drive_on(&mut self, from: f64, to: f64) {
+        for (index, drive) in self.case.drives().enumerate() {
+            self.world.set_drive(index, drive.step_speed(from, to));
         }
     }
 
@@ -83,11 +90,12 @@ impl<'a> Guard<'a> {
         }
     }
 
-    /// Sets the speed of the links whose motion is prescribed, and for free ones what `motor` says: speed aimed at (rad/s) and damping (N m s/rad).
-    pub(super) fn drive_freely(&mut self, t: f64, motor: [f64; 2]) {
+    /// Sets the speed, over a step between two instants, of the links whose motion is prescribed, and for free ones what `motor` says: speed aimed at
+    /// (rad/s) and damping (N m s/rad).
+    pub(super) fn drive_freely(&mut self, [from, to]: [f64; 2], motor: [f64; 2]) {
         for (index, drive) in self.case.drives().enumerate() {
             match (drive.free, index) {
-                (None, _) => self.world.set_drive(index, drive.at(t).omega),
+                (None, _) => self.world.set_drive(index, drive.step_speed(from, to)),
                 (Some(_), 0) => self.world.set_motor(index, motor[0], motor[1]),
                 (Some(_), _) => self.world.set_motor(index, 0.0, 0.0),
             }

@@ -200,12 +200,12 @@ impl Solver for Rapier {
     fn provides(&self, channel: &Channel) -> Provision {
         match (channel.kind.stage, self.build) {
             (Stage::Positions, _) => Provision::Computed,
-            (Stage::Velocities, Build::Multibody) => {
-                Provision::Derived("read as generalised velocities, one step old, and carried along the tree")
-            }
-            (Stage::Velocities, Build::Impulse) => {
-                Provision::Derived("read as the bodies' velocities, one step old; of omega what a step turns by")
-            }
+            (Stage::Velocities, Build::Multibody) => Provision::Derived(
+                "read as generalised velocities, one step old, and carried along the tree; where a drive's speed changes, centred differences of positions",
+            ),
+            (Stage::Velocities, Build::Impulse) => Provision::Derived(
+                "read as the bodies' velocities, one step old; of omega what a step turns by; where a drive's speed changes, centred differences of positions",
+            ),
             (Stage::Accelerations, _) => Provision::Derived("centred second differences of the engine's positions"),
             (Stage::Reactions | Stage::BalancingMoment, _) => Provision::Derived(self.how()),
         }

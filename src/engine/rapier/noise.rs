@@ -24,7 +24,7 @@ const PROBE_ULPS: f64 = 16000.0;
 pub(super) fn bound(case: &Case, engine: &Rapier, channel: &ChannelKind) -> f64 {
     let (step, epsilon) = (engine.settings.resolution, engine.precision.epsilon());
     let longest = case.grid.times.iter().fold(0.0, |max: f64, t| max.max(t.abs()));
-    let speed = case.top_speed();
+    let speed = case.fastest_drive();
     let size = case.mechanism.size();
     let mass: f64 = case.mechanism.links().iter().map(|link| link.mass).sum();
     let turned = case.start.0.iter().fold(speed * longest, |max: f64, pose| max.max(pose.angle.abs())).max(1.0);
@@ -35,6 +35,11 @@ pub(super) fn bound(case: &Case, engine: &Rapier, channel: &ChannelKind) -> f64 
     // Places are world coordinates: far from the origin they are coarser than the mechanism's size lets expect.
     let reach = case.start.0.iter().fold(size, |max: f64, pose| max.max(pose.origin.norm() + size));
     let place = epsilon * reach;
+    let (rate, rate_of_place) = match case.is_steady() {
+        true => (rate, 0.0),
+        // Centred differences of poses.
+        false => (rate + DIFFERENCE_ULPS * epsilon * turned / step, DIFFERENCE_ULPS * place / step),
+    };
     let second = match engine.settings.route {
         _ if channel.stage < Stage::Reactions => second,
         Route::Differences => second,
@@ -48,7 +53,7 @@ pub(super) fn bound(case: &Case, engine: &Rapier, channel: &ChannelKind) -> f64 
         "rad/s" => rate,
         "rad/s^2" => second,
         "m" => angle * size + place,
-        "m/s" => rate * size,
+        "m/s" => rate * size + rate_of_place,
         "m/s^2" => linear,
         "N" => linear * mass,
         // The impulse of a drive is read off a flywheel of the mechanism's size.

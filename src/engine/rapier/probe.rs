@@ -31,7 +31,7 @@ impl<'a> Probe<'a> {
     pub(super) fn new(case: &'a Case, worlds: Vec<Guard<'a>>, turn: f64) -> Self {
         let cuts: Vec<&[usize]> = worlds.iter().map(|guard| guard.world().tree().cut.as_slice()).collect();
         let reporters = reporters(case, &cuts);
-        let speed = case.top_speed();
+        let speed = case.fastest_drive();
         let poses = [Vec::new(), Vec::new()];
         Probe { reporters, step: turn / speed, ghost: Ghost::of(case, false), worlds, poses }
     }
@@ -63,16 +63,17 @@ impl<'a> Probe<'a> {
     ) -> Result<()> {
         let guard = &mut self.worlds[index];
         guard.set_step(step);
-        guard.drive(t, 1.0);
         guard.load(state);
         let [before, now] = &mut self.poses;
         window.poses(case, t, step, before);
         window.poses(case, t, 0.0, now);
+        guard.drive(t - step);
         for _ in 0..settling {
             guard.place(before);
             guard.step(t)?;
         }
         guard.place(now);
+        guard.drive(t);
         guard.step(t)
     }
 

@@ -2,9 +2,9 @@
 
 use crate::math::interpolate::{POINTS, lagrange_weights};
 
-/// Steps kept: six for the interpolation, one more on either side for second differences, and room for readings that are stamped
-/// up to two steps late.
-pub(super) const NODES: usize = POINTS + 4;
+/// Steps kept: six for the interpolation, one more on either side for second differences, room for readings that are stamped up to two steps late, and
+/// for the first steps of a free motion.
+pub(super) const NODES: usize = POINTS + 8;
 
 /// Instants within this many steps of a step are that step: grids and steps are computed differently.
 const ON_A_STEP: f64 = 1e-9;

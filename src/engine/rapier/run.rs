@@ -88,6 +88,8 @@ fn reached(error: Error, case: &Case, visited: Option<usize>) -> Error {
 struct Run<'a> {
     case: &'a Case,
     settings: Settings,
+    /// Whether all drives turn with constant speeds, which are set once.
+    steady: bool,
     step: f64,
     start: i64,
     /// The first moves the mechanism; the others only report joints that the first does not.
@@ -138,7 +140,17 @@ impl<'a> Run<'a> {
             }
         };
         let window = Window::new(case, settings, start);
-        Ok(Run { case, step: settings.resolution, settings: *settings, start, worlds, window, reader, acting })
+        Ok(Run {
+            case,
+            steady: case.is_steady(),
+            step: settings.resolution,
+            settings: *settings,
+            start,
+            worlds,
+            window,
+            reader,
+            acting,
+        })
     }
 
     /// Gives all worlds of a free motion their velocities at the start.
@@ -153,11 +165,15 @@ impl<'a> Run<'a> {
     /// Drives all worlds backwards from the start to where they turn about.
     fn back_up(&mut self) -> Result<()> {
         for guard in &mut self.worlds {
-            guard.drive(0.0, -1.0);
+            guard.drive_on(0.0, -self.step);
             for step in (self.start..0).rev() {
-                guard.step(step as f64 * self.step)?;
+                let (from, to) = ((step + 1) as f64 * self.step, step as f64 * self.step);
+                if !self.steady {
+                    guard.drive_on(from, to);
+                }
+                guard.step(to)?;
             }
-            guard.drive(0.0, 1.0);
+            guard.drive_on(0.0, self.step);
         }
         self.window.push(self.worlds[0].world(), self.case);
         self.report();
@@ -167,10 +183,14 @@ impl<'a> Run<'a> {
     fn step(&mut self) -> Result<()> {
         let step = self.window.newest() + 1;
         if let Some(acting) = &mut self.acting {
-            acting.act(self.case, &self.window, &mut self.worlds, (step - 1) as f64 * self.step);
+            acting.act(self.case, &self.window, &mut self.worlds, [step - 1, step].map(|step| step as f64 * self.step));
         }
         for guard in &mut self.worlds {
-            guard.step(step as f64 * self.step)?;
+            let (from, to) = ((step - 1) as f64 * self.step, step as f64 * self.step);
+            if !self.steady && self.acting.is_none() {
+                guard.drive_on(from, to);
+            }
+            guard.step(to)?;
             if step == 0 {
                 guard.check_start()?;
             }

@@ -20,6 +20,8 @@ const FIRST_STEPS: i64 = 3;
 pub(super) struct Window {
     step: f64,
     substeps: usize,
+    /// Whether the engine's velocities are those at the start of a step: so they are where drives turn with constant speeds.
+    steady: bool,
     ring: Ring,
     /// Velocity and angular velocity of every link while they are carried along the tree.
     rates: Vec<(Vec2, f64)>,
@@ -43,6 +45,7 @@ impl Window {
         Window {
             step: settings.resolution,
             substeps: settings.substeps,
+            steady: case.is_steady(),
             ring: Ring::new(links * WIDTH, start),
             rates: vec![(Vec2::zeros(), 0.0); links],
             lowest: i64::MIN / 2,
@@ -192,7 +195,8 @@ impl Window {
     }
 
     /// The motion of all links at `t`: positions and rates interpolated between steps, accelerations from centred second
-    /// differences of the positions.
+    /// differences of the positions. With drives whose speed changes, rates are centred first differences of the positions: the engine drives
+    /// through a step with the step's mean speed, but from the pose at its start.
     pub(super) fn sample(&self, case: &Case, t: f64, state: &mut State) {
         let place = self.place(t);
         let weights = place.weights(0.0);
@@ -200,7 +204,11 @@ impl Window {
         let rates = if self.substeps == 1 { weights } else { place.weights(1.0 - 1.0 / self.substeps as f64) };
         // What the first steps of a free motion do to close gaps is left out of the second differences.
         let settled = place.from(self.settled);
-        let mut second = [0.0; POINTS + 2];
+        let (mut first, mut second) = ([0.0; POINTS + 2], [0.0; POINTS + 2]);
+        for (k, weight) in weights.iter().enumerate() {
+            first[k] -= 0.5 * weight;
+            first[k + 2] += 0.5 * weight;
+        }
         for (k, weight) in settled.weights(0.0).iter().enumerate() {
             second[k] += weight;
             second[k + 1] -= 2.0 * weight;
@@ -222,6 +230,13 @@ impl Window {
                 (0..3).for_each(|c| rate[c] += weight * row[3 + c]);
             }
             let pair = |of: [f64; 3]| Vec2::new(of[0], of[1]);
+            if !self.steady {
+                rate = [0.0; 3];
+                for (k, first) in first.iter().enumerate().filter(|(_, first)| **first != 0.0) {
+                    let row = &self.ring.row(place.before - Self::BEHIND + k as i64)[link * WIDTH..];
+                    (0..3).for_each(|c| rate[c] += first / self.step * row[c]);
+                }
+            }
             let acceleration = acceleration.map(|sum| sum * scale);
             state.angles[link] = value[2];
             state.motions[link] = Motion::of_point(

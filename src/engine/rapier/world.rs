@@ -58,7 +58,8 @@ pub trait World {
 }
 
 /// Moment of inertia that driving links have on top of their own, in units of all masses times the square of the mechanism's size. A
-/// link whose speed is prescribed and constant may have any moment of inertia: it enters neither motion nor reactions. With a
+/// link whose speed is prescribed may have any moment of inertia: it enters neither motion nor reactions, and the drive's moment only where the
+/// speed changes, from which it is taken off again ([`Ghost`](super::ghost::Ghost)). With a
 /// heavy one, the drives' rows hardly feel those of the loops, and the sweeps converge: on a four-bar whose coupler is thirteen times as
 /// heavy as its crank, 32 of them do what 1024 do without. Ten times as much brings no more.
 const FLYWHEEL: f64 = 1.0;
@@ -91,8 +92,6 @@ pub(super) fn masses_with_flywheels(case: &Case) -> Vec<[f64; 2]> {
     let total: f64 = masses.iter().map(|[mass, _]| mass).sum();
     let size = case.mechanism.size();
     for drive in case.drives() {
-        // A new law of motion must be thought over here: an accelerated flywheel has a moment.
-        let crate::drive::MotionLaw::ConstantSpeed(_) = drive.law;
         masses[drive.link][1] += FLYWHEEL * total * size * size;
     }
     masses

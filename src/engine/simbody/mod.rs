@@ -11,7 +11,7 @@ use linkproof_simbody::{Failure, Run};
 
 use super::{Engine, Route, Settings};
 use crate::case::Case;
-use crate::drive::Load;
+use crate::drive::{Load, Wrench};
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::unit;
 use crate::solver::{Progress, Provision, Solver, State};
@@ -55,15 +55,16 @@ impl Simbody {
                 .key("drive.motion")
                 .help("take another engine: `linkproof list --solvers` names them"));
         }
-        if let Some(load) = case.loads.iter().find(|load| !matches!(load, Load::Resistance { .. })) {
-            let message = format!("a load of type \"{}\" is not handed to Simbody by this version", load.sort());
+        if let Some(drive) = case.drives().find(|drive| drive.law.constant().is_none()) {
+            let message =
+                format!("a drive with the law \"{}\" is not handed to Simbody by this version", drive.law.name());
             return Err(Error::new(ErrorKind::Unsupported, message)
                 .help("take another engine: `linkproof list --solvers` names them"));
         }
         check_start(case)?;
         let linkage = Linkage::new(case, sense)
             .map_err(|message| Error::new(ErrorKind::Input, format!("Simbody cannot take the mechanism: {message}")))?;
-        let speed = case.top_speed();
+        let speed = case.fastest_drive();
         let settings = linkproof_simbody::Settings {
             accuracy: self.accuracy,
             tolerance: tolerance(case),
@@ -136,6 +137,9 @@ impl Solver for Simbody {
         let (total, mut done) = (ends[0] + ends[1], 0.0);
         let backwards: Vec<usize> = before.iter().rev().copied().collect();
         let mut state = State::at_rest(case);
+        // Resistances are forces of Simbody's own; the others are set wherever reactions are read.
+        let others = Case { loads: other_loads(case), ..case.clone() };
+        let mut wrenches = vec![Wrench::ZERO; case.mechanism.links().len()];
         for (sense, rows, end) in [(-1.0, backwards.as_slice(), ends[0]), (1.0, after, ends[1])] {
             if rows.is_empty() {
                 continue;
@@ -144,6 +148,13 @@ impl Solver for Simbody {
             for &row in rows {
                 let t = case.grid.times[row];
                 run.advance(t.abs()).map_err(|failure| stopped(case, &linkage, sense, &failure))?;
+                if reactions && !others.loads.is_empty() {
+                    let found = run.read(false).map_err(|failure| stopped(case, &linkage, sense, &failure))?;
+                    linkage.motion(&found.bodies, &mut state);
+                    others.loads_on(&state.motions, &state.angles, &mut wrenches);
+                    let loads: Vec<[f64; 3]> = linkage.loads(&wrenches).collect();
+                    run.load(&loads).map_err(|failure| stopped(case, &linkage, sense, &failure))?;
+                }
                 let found = run.read(reactions).map_err(|failure| stopped(case, &linkage, sense, &failure))?;
                 // Written so that NaN stops the run too.
                 if !found.loops.iter().all(|closed| closed.gap <= 2.0 * tolerance(case)) {
@@ -165,6 +176,11 @@ impl Solver for Simbody {
         progress(1.0);
         Ok(())
     }
+}
+
+/// Loads that are no forces of Simbody's own.
+fn other_loads(case: &Case) -> Vec<Load> {
+    case.loads.iter().filter(|load| !matches!(load, Load::Resistance { .. })).cloned().collect()
 }
 
 /// Largest error of a constraint (m).

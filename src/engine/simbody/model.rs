@@ -3,7 +3,7 @@
 use linkproof_simbody::{Body, BodyState, Closing, Inertia, Joint, Law, LoopState, Model};
 
 use crate::case::Case;
-use crate::drive::{Load, MotionLaw};
+use crate::drive::{Load, Wrench};
 use crate::math::{Vec2, cross};
 use crate::mechanism;
 use crate::mechanism::spanning_tree::{Branch, Tree, coordinate};
@@ -46,9 +46,8 @@ impl Linkage {
                 inertia: inertia(case, branch.link),
                 resistance: sense * resistance(case, branch.link),
                 coordinate: coordinate(found, branch, &case.start.0),
-                law: drive.map(|drive| match drive.law {
-                    MotionLaw::ConstantSpeed(omega) => Law { rate: sense * omega },
-                }),
+                // Other laws are refused before.
+                law: drive.map(|drive| Law { rate: sense * drive.top_speed() }),
             };
             numbers[branch.link] = model.add(body).map_err(|failure| failure.message)?;
             twists.push(found.is_prismatic().then_some(child - parent));
@@ -75,6 +74,14 @@ impl Linkage {
             motion.alpha = body.alpha;
             state.angles[branch.link] = state.angles[branch.parent] + twist.unwrap_or(body.coordinate);
         }
+    }
+
+    /// Force at the mass centre and moment about it for every body of Simbody's, from the loads on the links.
+    pub(super) fn loads<'a>(&'a self, wrenches: &'a [Wrench]) -> impl Iterator<Item = [f64; 3]> + 'a {
+        self.tree.branches.iter().map(|branch| {
+            let Wrench { force, moment } = wrenches[branch.link];
+            [force.x, force.y, moment]
+        })
     }
 
     /// Fills in the reactions, after [`Linkage::motion`]. Forces do not change with the sense of time.

@@ -3,7 +3,7 @@
 use super::bodies::{self, Body};
 use super::names::Names;
 use crate::case::Case;
-use crate::drive::{Load, MotionLaw};
+use crate::drive::Load;
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::Vec2;
 use crate::mechanism::{GROUND, Tree};
@@ -61,11 +61,11 @@ impl<'a> Model<'a> {
                 .key("drive.motion")
                 .help("export a scenario whose drives are prescribed: take `motion = \"free\"` out"));
         }
-        for drive in case.drives() {
-            match drive.law {
-                // The one law that a rotor keeps.
-                MotionLaw::ConstantSpeed(_) => {}
-            }
+        // A rotor keeps a constant speed and no other law.
+        if let Some(drive) = case.drives().find(|drive| drive.law.constant().is_none()) {
+            let message =
+                format!("a drive with the law \"{}\" cannot be written to a model for MuJoCo", drive.law.name());
+            return Err(Error::new(ErrorKind::Unsupported, message).help("give the drive a constant speed"));
         }
         if let Some(load) = case.loads.iter().find(|load| !matches!(load, Load::Resistance { .. })) {
             let message = format!("a load of type \"{}\" cannot be written to a model for MuJoCo", load.sort());

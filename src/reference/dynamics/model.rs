@@ -101,7 +101,7 @@ impl<'a> Model<'a> {
             kinks,
             senses: Vec::new(),
             motor: case.motor.clone(),
-            sense: case.drive.at(0.0).omega.signum(),
+            sense: case.drive.top_speed().signum(),
             added: case.motor.as_ref().map_or(0.0, Motor::inertia_on_crank),
         };
         if model.masses.is_empty() && model.added == 0.0 {
@@ -273,10 +273,6 @@ fn check_loads(case: &Case, kinks: &Kinks) -> Result<()> {
         if load.is_viscous() {
             let why = "depends on the size of speeds, which this reduction to the crank does not know";
             return refuse(load, why, "leave it out, or take its part into the motor's law");
-        }
-        if load.sensed_point().is_some() {
-            let why = "turns with the motion of a point, which this reduction to the crank does not know";
-            return refuse(load, why, "give it as a table of forces over the crank angle");
         }
         if let (&Load::TorsionSpring { links, .. }, Some(period)) = (load, kinks.period) {
             let (mut poses, start) = (PoseSolver::new(case)?, case.drive.start);

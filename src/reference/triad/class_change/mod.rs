@@ -95,7 +95,7 @@ impl ClassChange {
     /// [`ErrorKind::Unsupported`] if the group does not hang with two leads on the ground and with the third on a driving link that turns;
     /// [`ErrorKind::Geometry`] if the start pose is a dead point.
     pub fn new(case: &Case, triad: &Triad) -> Result<Self> {
-        let (mechanism, drive) = (&case.mechanism, case.drive);
+        let (mechanism, drive) = (&case.mechanism, &case.drive);
         let hung_on = |link: usize| (0..3).filter(move |&k| triad.leads[k].support.link == link);
         let grounds: Vec<usize> = hung_on(GROUND).collect();
         let driven: Vec<usize> = hung_on(drive.link).collect();

@@ -1,0 +1,276 @@
+//! `[[loads]]`: forces, moments, springs and dampers.
+
+use super::joints::link;
+use super::reader::{Sign, Table};
+use super::unit::{ANGLE, DAMPING, FORCE, Family, LENGTH, MOMENT, MOMENT_PER_SPEED, STIFFNESS, TORSIONAL_STIFFNESS};
+use super::words::suggestion;
+use crate::drive::{Acts, Course, Load};
+use crate::error::{Error, ErrorKind, Result};
+use crate::mechanism::{GROUND, Mechanism, Side};
+use std::f64::consts::TAU;
+
+/// A sort of load: its name in scenario files, and its reader.
+type Sort = (&'static str, fn(&mut Table, &Mechanism) -> Result<Load>);
+
+const SORTS: [Sort; 8] = [
+    ("resistance", resistance),
+    ("moment", moment),
+    ("force", force),
+    ("resisting_force", resisting_force),
+    ("spring", spring),
+    ("damper", damper),
+    ("torsion_spring", torsion_spring),
+    ("torsion_damper", torsion_damper),
+];
+
+/// Most turns of the crank after which a table may repeat.
+const MOST_TURNS: i64 = 1000;
+
+/// All loads.
+pub fn read(tables: Vec<Table>, mechanism: &Mechanism) -> Result<Vec<Load>> {
+    tables.into_iter().map(|table| load(table, mechanism)).collect()
+}
+
+fn load(mut table: Table, mechanism: &Mechanism) -> Result<Load> {
+    let kind = table.string("type")?;
+    let Some((_, read)) = SORTS.iter().find(|(name, _)| *name == kind) else {
+        let error = table.wrong(ErrorKind::Input, "type", format!("\"{kind}\" is no type of load"));
+        return Err(error.help(suggestion(&kind, SORTS.map(|(name, _)| name), "\"")));
+    };
+    let load = read(&mut table, mechanism)?;
+    table.finish()?;
+    Ok(load)
+}
+
+fn resistance(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
+    let name = table.string("link")?;
+    let moment = table.quantity("moment", &MOMENT, Sign::NotNegative)?;
+    Ok(Load::Resistance { link: turning(table, &name, mechanism)?, moment })
+}
+
+fn moment(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
+    let name = table.string("link")?;
+    let [moment] = courses(table, ["moment"], &MOMENT)?;
+    let acts = match table.optional_string("acts")?.as_deref() {
+        None | Some("always") => Acts::Always,
+        Some("counter-clockwise") => Acts::CounterClockwise,
+        Some("clockwise") => Acts::Clockwise,
+        Some(other) => {
+            let message = format!("\"{other}\" does not say when the moment acts");
+            let known = ["always", "counter-clockwise", "clockwise"];
+            return Err(table.wrong(ErrorKind::Input, "acts", message).help(suggestion(other, known, "\"")));
+        }
+    };
+    let link = match acts {
+        Acts::Always => moving(table, &name, mechanism)?,
+        _ => turning(table, &name, mechanism)?,
+    };
+    Ok(Load::Moment { link, moment, acts })
+}
+
+fn force(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
+    let at = loaded_point(table, mechanism)?;
+    let force = courses(table, ["x", "y"], &FORCE)?;
+    let follows = match table.optional_string("frame")?.as_deref() {
+        None | Some("world") => false,
+        Some("link") => true,
+        Some(other) => {
+            let error = table.wrong(ErrorKind::Input, "frame", format!("\"{other}\" is no frame of a force"));
+            return Err(error.help(suggestion(other, ["world", "link"], "\"")));
+        }
+    };
+    Ok(Load::Force { at, force, follows })
+}
+
+fn resisting_force(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
+    let at = loaded_point(table, mechanism)?;
+    let force = table.quantity("force", &FORCE, Sign::NotNegative)?;
+    // Its velocity would be the rounding of zero, and so would the direction of the force.
+    let mut pins = mechanism.joints().iter().filter(|joint| !joint.is_prismatic() && joint.on(GROUND).is_some());
+    if pins.any(|joint| joint.on(at.link) == Some(at.local)) {
+        let message = "the point does not move: it is hinged to the ground";
+        return Err(table.wrong(ErrorKind::Input, "point", message).help("name a point that moves"));
+    }
+    Ok(Load::ResistingForce { at, force })
+}
+
+fn spring(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
+    let ends = ends(table, mechanism)?;
+    let stiffness = table.quantity("stiffness", &STIFFNESS, Sign::NotNegative)?;
+    Ok(Load::Spring { ends, stiffness, free_length: table.quantity("free_length", &LENGTH, Sign::NotNegative)? })
+}
+
+fn damper(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
+    Ok(Load::Damper { ends: ends(table, mechanism)?, damping: table.quantity("damping", &DAMPING, Sign::NotNegative)? })
+}
+
+fn torsion_spring(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
+    let links = pair(table, mechanism)?;
+    let stiffness = table.quantity("stiffness", &TORSIONAL_STIFFNESS, Sign::NotNegative)?;
+    Ok(Load::TorsionSpring { links, stiffness, free_angle: table.quantity("free_angle", &ANGLE, Sign::Any)? })
+}
+
+fn torsion_damper(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
+    let links = pair(table, mechanism)?;
+    Ok(Load::TorsionDamper { links, damping: table.quantity("damping", &MOMENT_PER_SPEED, Sign::NotNegative)? })
+}
+
+/// Quantities of one family: constants, or columns of a table over the crank angle.
+fn courses<const N: usize>(table: &mut Table, names: [&str; N], family: &'static Family) -> Result<[Course; N]> {
+    let rows = table.tables("table")?;
+    let constants = names.map(|name| table.optional_quantity(name, family, Sign::Any));
+    let (interpolation, turns) = (table.optional_string("interpolation")?, table.optional_integer("turns")?);
+    if !table.has("table") {
+        for (key, is_given) in [("interpolation", interpolation.is_some()), ("turns", turns.is_some())] {
+            if is_given {
+                let message = "this belongs to a table over the crank angle, but there is none";
+                return Err(table.wrong(ErrorKind::Input, key, message).help("add `table`, or leave the key out"));
+            }
+        }
+        let mut found = [0.0; N];
+        for ((value, constant), name) in found.iter_mut().zip(constants).zip(names) {
+            *value = match constant? {
+                Some(constant) => constant,
+                None => table.quantity(name, family, Sign::Any)?,
+            };
+        }
+        return Ok(found.map(Course::Constant));
+    }
+    for (constant, name) in constants.into_iter().zip(names) {
+        if constant?.is_some() {
+            let error = table.wrong(ErrorKind::Input, name, format!("`{name}` and `table` are both given"));
+            return Err(error.help("keep one of the two"));
+        }
+    }
+    let mut points: [Vec<(f64, f64)>; N] = names.map(|_| Vec::new());
+    let (smooth, turns) = (is_smooth(table, interpolation)?, period(table, turns)?);
+    for mut row in rows {
+        let crank = row.quantity("crank", &ANGLE, Sign::Any)?;
+        for (name, points) in names.into_iter().zip(&mut points) {
+            points.push((crank, row.quantity(name, family, Sign::Any)?));
+        }
+        row.finish()?;
+        check_crank(&row, &points[0], turns)?;
+    }
+    if points[0].is_empty() {
+        let error = table.wrong(ErrorKind::Input, "table", "a table over the crank angle needs a point or more");
+        return Err(error.help("write a constant, or add points"));
+    }
+    Ok(points.map(|points| Course::table(&points, turns, smooth)))
+}
+
+/// That the last point lies behind the one before it, and within the table's period.
+fn check_crank(row: &Table, points: &[(f64, f64)], turns: u32) -> Result<()> {
+    let (&[(first, _), ..], &[.., (last, _)]) = (points, points) else { return Ok(()) };
+    let before = points.len().checked_sub(2).map(|index| points[index].0);
+    if before.is_some_and(|before| !(last > before)) {
+        let message = "the crank angles of the table do not ascend";
+        return Err(row.fault(message).help("write the points in ascending order of the crank angle, each angle once"));
+    }
+    // The rounding of degrees into radians does not make an end of the period a point of the next.
+    if last - first > TAU * f64::from(turns) * (1.0 - 1e-12) {
+        let message = format!("the table is longer than its period, {} deg", 360 * u64::from(turns));
+        return Err(row.fault(message).help(
+            "a table repeats after a turn, or after `turns` of them: leave out its last point if it repeats the first",
+        ));
+    }
+    Ok(())
+}
+
+/// Turns of the crank after which a table repeats.
+fn period(table: &Table, turns: Option<i64>) -> Result<u32> {
+    match turns {
+        None => Ok(1),
+        Some(turns @ 1..=MOST_TURNS) => Ok(turns as u32),
+        Some(other) => {
+            let message = format!("found {other}, but a table repeats after 1 to {MOST_TURNS} turns of the crank");
+            Err(table
+                .wrong(ErrorKind::Input, "turns", message)
+                .help("write 2 for a four-stroke engine, else leave it out"))
+        }
+    }
+}
+
+fn is_smooth(table: &Table, interpolation: Option<String>) -> Result<bool> {
+    match interpolation.as_deref() {
+        None | Some("linear") => Ok(false),
+        Some("smooth") => Ok(true),
+        Some(other) => {
+            let message = format!("\"{other}\" is no interpolation");
+            let error = table.wrong(ErrorKind::Input, "interpolation", message);
+            Err(error.help(suggestion(other, ["linear", "smooth"], "\"")))
+        }
+    }
+}
+
+/// A moving link.
+fn moving(table: &Table, name: &str, mechanism: &Mechanism) -> Result<usize> {
+    let link = link(table, name, mechanism.links())?;
+    if link == GROUND {
+        let error = table.wrong(ErrorKind::Input, "link", "the ground does not move, and bears any load");
+        return Err(error.help("name a moving link"));
+    }
+    Ok(link)
+}
+
+/// A link that can turn.
+fn turning(table: &Table, name: &str, mechanism: &Mechanism) -> Result<usize> {
+    let link = link(table, name, mechanism.links())?;
+    if link == GROUND {
+        return Err(table.wrong(ErrorKind::Input, "link", "the ground does not turn").help("name a moving link"));
+    }
+    // Its angular velocity would be the rounding of zero, and so would the sense of the moment.
+    if !mechanism.can_turn(link) {
+        let message = format!("link \"{name}\" does not turn: prismatic joints alone connect it with the ground");
+        return Err(table.wrong(ErrorKind::Input, "link", message).help("name a link that turns"));
+    }
+    Ok(link)
+}
+
+/// `link` and `point`: a point of a moving link.
+fn loaded_point(table: &mut Table, mechanism: &Mechanism) -> Result<Side> {
+    let (name, point) = (table.string("link")?, table.string("point")?);
+    let link = moving(table, &name, mechanism)?;
+    side(table, mechanism, link, &point, "point")
+}
+
+fn side(table: &Table, mechanism: &Mechanism, link: usize, point: &str, key: &str) -> Result<Side> {
+    let body = &mechanism.links()[link];
+    let found = body.points.iter().find(|found| found.name == point);
+    let missing = || -> Error {
+        let error = table.wrong(ErrorKind::Input, key, format!("link \"{}\" has no point \"{point}\"", body.name));
+        error.help(suggestion(point, body.points.iter().map(|point| point.name.as_str()), "\""))
+    };
+    found.map(|found| Side { link, local: found.local }).ok_or_else(missing)
+}
+
+/// `links`: two links, either of which may be the ground.
+fn pair(table: &mut Table, mechanism: &Mechanism) -> Result<[usize; 2]> {
+    let names = table.strings("links")?;
+    let [first, second] = &names[..] else {
+        let message = format!("found {} links, but this load acts between two", names.len());
+        return Err(table.wrong(ErrorKind::Input, "links", message).help("write `links = [\"ground\", \"rocker\"]`"));
+    };
+    let links = [link(table, first, mechanism.links())?, link(table, second, mechanism.links())?];
+    if links[0] == links[1] {
+        let message = format!("it acts between \"{first}\" and itself");
+        return Err(table.wrong(ErrorKind::Input, "links", message).help("name two different links"));
+    }
+    Ok(links)
+}
+
+/// `links` and `points`: a point of either link.
+fn ends(table: &mut Table, mechanism: &Mechanism) -> Result<[Side; 2]> {
+    let links = pair(table, mechanism)?;
+    let names = table.strings("points")?;
+    let [first, second] = &names[..] else {
+        let message = format!("found {} points, but this load acts between two", names.len());
+        let help = "write `points = [\"S\", \"B\"]`: a point of the first link and one of the second";
+        return Err(table.wrong(ErrorKind::Input, "points", message).help(help));
+    };
+    if first == second {
+        let message = format!("a joint holds the two points \"{first}\" together");
+        return Err(table.wrong(ErrorKind::Input, "points", message).help("name two points that move apart"));
+    }
+    Ok([side(table, mechanism, links[0], first, "points")?, side(table, mechanism, links[1], second, "points")?])
+}

@@ -1,0 +1,116 @@
+//! Mistakes in `[[loads]]`. The good scenario has one load, so that these are the second.
+
+use super::{Bad, GOOD, INPUT, assert_refused};
+
+#[test]
+fn sorts_links_points_and_tables() {
+    let force = "type = \"force\"\nlink = \"rocker\"\npoint = \"B\"\n";
+    let moment = "type = \"moment\"\nlink = \"rocker\"\n";
+    let spring = "type = \"spring\"\nlinks = [\"ground\", \"rocker\"]\npoints = [\"O\", \"B\"]\n";
+    let cases: [(String, &'static str, &'static str, &[&str]); 20] = [
+        (format!("{force}x_N = 1\n"), "[[loads]]\ntype = \"force\"", "loads[2]", &["`y_N` or `y_kN` is missing"]),
+        (format!("{force}x_N = 1\ny = 1\n"), "y = 1", "loads[2].y", &["carries no unit"]),
+        (
+            format!("{force}x_N = 1\ny_N = 1\nframe = \"ground\"\n"),
+            "frame =",
+            "loads[2].frame",
+            &["no frame", "\"link\""],
+        ),
+        (
+            force.replace("\"B\"", "\"Q\"") + "x_N = 1\ny_N = 1\n",
+            "point = \"Q\"",
+            "loads[2].point",
+            &["no point \"Q\""],
+        ),
+        (
+            force.replace("rocker", "ground") + "x_N = 1\ny_N = 1\n",
+            "link = \"ground\"",
+            "loads[2].link",
+            &["bears any load"],
+        ),
+        (
+            "type = \"resisting_force\"\nlink = \"rocker\"\npoint = \"C\"\nforce_N = 1\n".into(),
+            "point = \"C\"",
+            "loads[2].point",
+            &["does not move", "hinged"],
+        ),
+        (
+            format!("{moment}moment_N_m = 1\nacts = \"forwards\"\n"),
+            "acts =",
+            "loads[2].acts",
+            &["when the moment acts"],
+        ),
+        (format!("{moment}moment_N_m = 1\nturns = 2\n"), "turns = 2", "loads[2].turns", &["belongs to a table"]),
+        (
+            format!("{moment}moment_N_m = 1\ninterpolation = \"linear\"\n"),
+            "interpolation",
+            "loads[2].interpolation",
+            &["table"],
+        ),
+        (
+            format!("{moment}moment_N_m = 1\ntable = [{{ crank_deg = 0, moment_N_m = 1 }}]\n"),
+            "moment_N_m = 1\ntable",
+            "loads[2].moment_N_m",
+            &["both given", "one of the two"],
+        ),
+        (format!("{moment}table = []\n"), "table = []", "loads[2].table", &["a point or more"]),
+        (
+            format!("{moment}table = [{{ crank_deg = 9, moment_N_m = 1 }}, {{ crank_deg = 9, moment_N_m = 2 }}]\n"),
+            "table = [",
+            "loads[2].table[2]",
+            &["do not ascend"],
+        ),
+        (
+            format!("{moment}table = [{{ crank_deg = 0, moment_N_m = 1 }}, {{ crank_deg = 360, moment_N_m = 1 }}]\n"),
+            "table = [",
+            "loads[2].table[2]",
+            &["longer than its period, 360 deg", "repeats the first"],
+        ),
+        (
+            format!("{moment}turns = 0\ntable = [{{ crank_deg = 0, moment_N_m = 1 }}]\n"),
+            "turns = 0",
+            "loads[2].turns",
+            &["found 0", "1 to 1000"],
+        ),
+        (
+            format!("{moment}interpolation = \"cubic\"\ntable = [{{ crank_deg = 0, moment_N_m = 1 }}]\n"),
+            "interpolation",
+            "loads[2].interpolation",
+            &["no interpolation", "\"smooth\""],
+        ),
+        (
+            format!("{spring}stiffness_N_m = -1\nfree_length_m = 0\n"),
+            "stiffness_N_m = -1",
+            "loads[2].stiffness_N_m",
+            &["negative"],
+        ),
+        (
+            spring.replace("\"ground\", ", "") + "stiffness_N_m = 1\nfree_length_m = 0\n",
+            "links = [\"rocker\"]",
+            "loads[2].links",
+            &["found 1 links", "between two"],
+        ),
+        (
+            spring.replace("ground", "rocker") + "stiffness_N_m = 1\nfree_length_m = 0\n",
+            "links = [\"rocker\", \"rocker\"]",
+            "loads[2].links",
+            &["itself"],
+        ),
+        (
+            spring.replace("\"O\"", "\"B\"") + "stiffness_N_m = 1\nfree_length_m = 0\n",
+            "points = [\"B\", \"B\"]",
+            "loads[2].points",
+            &["holds the two points"],
+        ),
+        (
+            spring.replace("\"O\"", "\"X\"") + "stiffness_N_m = 1\nfree_length_m = 0\n",
+            "points = [\"X\"",
+            "loads[2].points",
+            &["link \"ground\" has no point \"X\""],
+        ),
+    ];
+    for (text, at, key, words) in cases {
+        let section: &'static str = Box::leak(format!("[[loads]]\n{text}[start]").into_boxed_str());
+        assert_refused(GOOD, &Bad { edits: &[("[start]", section)], kind: INPUT, at, key, words });
+    }
+}
