@@ -7,3 +7,5 @@ mod crank;
 mod energy;
 #[path = "dynamics/figures.rs"]
 mod figures;
+#[path = "dynamics/free.rs"]
+mod free;

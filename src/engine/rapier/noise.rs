@@ -1,9 +1,11 @@
 //! How much rounding there is in what the engine answers.
 
-use super::Rapier;
 use super::run::probe_turn;
+use super::window::FIRST_STEPS;
+use super::{Build, Rapier};
 use crate::case::Case;
 use crate::engine::Route;
+use crate::math::interpolate::lagrange_weights;
 use crate::trajectory::{ChannelKind, Stage, Subject};
 
 /// Rounding of a speed in the solver's sweeps, in units of the last place; 12 were measured on the crank-rocker, 2 on `ov7_base`.
@@ -32,6 +34,7 @@ pub(super) fn bound(case: &Case, engine: &Rapier, channel: &ChannelKind) -> f64 
     let angle = epsilon * (longest / step + turned);
     let rate = (angle + SPEED_ULPS * epsilon) * speed;
     let second = angle * speed * speed + DIFFERENCE_ULPS * epsilon * turned / (step * step);
+    let second = second * beginning(case, engine);
     // Places are world coordinates: far from the origin they are coarser than the mechanism's size lets expect.
     let reach = case.start.0.iter().fold(size, |max: f64, pose| max.max(pose.origin.norm() + size));
     let place = epsilon * reach;
@@ -73,4 +76,15 @@ fn lever(case: &Case, reach: f64, subject: Subject) -> f64 {
         Subject::Frame => reach,
         _ => case.mechanism.size(),
     }
+}
+
+/// How many times the rounding of a second difference those at the beginning of a free motion have that are carried back over [`FIRST_STEPS`]: the sum of
+/// the sizes of Lagrange's weights there.
+fn beginning(case: &Case, engine: &Rapier) -> f64 {
+    let first = case.grid.times.iter().fold(f64::INFINITY, |least: f64, &t| least.min(t));
+    let carried = case.is_free() && engine.build == Build::Impulse;
+    if !carried || first > (2 + FIRST_STEPS) as f64 * engine.settings.resolution {
+        return 1.0;
+    }
+    lagrange_weights(-(FIRST_STEPS as f64)).iter().map(|weight| weight.abs()).sum()
 }

@@ -12,8 +12,9 @@ use crate::solver::State;
 /// Numbers a link and step: position of the mass centre and angle, and their rates.
 const WIDTH: usize = 6;
 
-/// Steps at the beginning of a free motion in which joints close the gaps of the first: their accelerations are not the motion's.
-const FIRST_STEPS: i64 = 3;
+/// Steps at the beginning of a free motion of bodies of their own in which all joints close the gaps of the first: their accelerations are not the
+/// motion's. In a multibody only the cut joints have gaps, and nothing is seen of it.
+pub(super) const FIRST_STEPS: i64 = 2;
 
 /// The motion of the last steps, filled as the run goes on.
 #[derive(Debug)]
@@ -59,7 +60,8 @@ impl Window {
     pub(super) fn beginning(case: &Case, settings: &Settings, world: &dyn World) -> Self {
         // There is nothing to interpolate before the beginning; of first order the velocities are wherever in the step they belong.
         let mut window = Window::new(case, &Settings { substeps: 1, ..*settings }, -1);
-        (window.lowest, window.settled) = (2, 2 + FIRST_STEPS);
+        let first_steps = if world.tree().branches.is_empty() { FIRST_STEPS } else { 0 };
+        (window.lowest, window.settled) = (2, 2 + first_steps);
         // The velocities of a push belong to the step before.
         window.push(world, case);
         window.push(world, case);
