@@ -195,7 +195,11 @@ fn cycloid(gone: f64) -> f64 {
             high = middle;
         }
     }
-    if gone >= 1.0 { 1.0 } else { (low + high) / 2.0 }
+    match gone {
+        _ if gone <= 0.0 => 0.0,
+        _ if gone >= 1.0 => 1.0,
+        _ => (low + high) / 2.0,
+    }
 }
 
 #[cfg(test)]

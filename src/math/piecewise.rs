@@ -57,7 +57,8 @@ impl Piecewise {
     #[must_use]
     pub fn at(&self, x: f64) -> [f64; 3] {
         let (first, last) = (self.knots[0], self.knots[self.pieces.len()]);
-        let x = if self.periodic { first + (x - first).rem_euclid(last - first) } else { x };
+        let x =
+            if self.periodic && !(x >= first && x < last) { first + (x - first).rem_euclid(last - first) } else { x };
         let piece = self.knots.partition_point(|&knot| knot <= x).clamp(1, self.pieces.len()) - 1;
         let (d, [a, b, c, e]) = (x - self.knots[piece], self.pieces[piece]);
         [a + d * (b + d * (c + d * e)), b + d * (2.0 * c + d * 3.0 * e), 2.0 * c + d * 6.0 * e]

@@ -10,7 +10,7 @@ use linkproof::trajectory::Stage;
 
 use crate::common::random::{for_each, within};
 use crate::common::sketch::Random;
-use crate::common::states;
+use crate::common::{shipped, states};
 
 /// Six loads of random sorts, as text.
 pub fn loads(random: &mut Random, case: &Case) -> String {
@@ -121,4 +121,35 @@ fn reactions_balance_powers_and_momentum_on_both_sides() {
         Ok(())
     });
     assert!(sorts.borrow().len() == 8 && sorts.borrow().values().all(|&count| count > 30), "{:?}", sorts.borrow());
+}
+
+#[test]
+fn higher_groups_bear_loads_too() {
+    let mut random = Random::from_seed(72);
+    for name in ["fourth_class.toml", "ov7_new.toml", "five_bar.toml"] {
+        for _ in 0..4 {
+            let scenario = loaded(&mut random, &shipped(name));
+            let case = &scenario.case;
+            let [a, b] = reference::all().map(|solver| solver.solve(case, &mut |_| {}).expect("solvable"));
+            let own = a.iter().filter(|(channel, _)| channel.kind.stage >= Stage::Reactions);
+            let scale = own.flat_map(|(_, values)| values).fold(0.0, |max: f64, v| max.max(v.abs()));
+            for residual in residuals(&a, &b).expect("one grid") {
+                let forces = residual.channel.kind.stage >= Stage::Reactions;
+                assert!(
+                    !forces || residual.max < 1e-11 * scale,
+                    "{name} {}: {:e}",
+                    residual.channel,
+                    residual.max / scale
+                );
+            }
+            for solver in reference::all() {
+                for state in states(solver, case, &case.grid.times).expect("solvable") {
+                    let drives = case.drives().zip(&state.torques);
+                    let driving: f64 = drives.map(|(drive, torque)| torque * state.motions[drive.link].omega).sum();
+                    let power = driving + power::of_known_forces(case, &state);
+                    assert!(power.abs() < 1e-11 * scale * case.fastest_drive(), "{name} {}: {power:e}", solver.name());
+                }
+            }
+        }
+    }
 }
