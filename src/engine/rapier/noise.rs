@@ -1,7 +1,7 @@
 //! How much rounding there is in what the engine answers.
 
 use super::run::probe_turn;
-use super::window::FIRST_STEPS;
+use super::window::first_steps;
 use super::{Build, Rapier};
 use crate::case::Case;
 use crate::engine::Route;
@@ -78,13 +78,13 @@ fn lever(case: &Case, reach: f64, subject: Subject) -> f64 {
     }
 }
 
-/// How many times the rounding of a second difference those at the beginning of a free motion have that are carried back over [`FIRST_STEPS`]: the sum of
+/// How many times the rounding of a second difference those at the beginning of a free motion have that are carried back over its first steps: the sum of
 /// the sizes of Lagrange's weights there.
 fn beginning(case: &Case, engine: &Rapier) -> f64 {
+    let steps = first_steps(case, engine.build == Build::Impulse) as f64;
     let first = case.grid.times.iter().fold(f64::INFINITY, |least: f64, &t| least.min(t));
-    let carried = case.is_free() && engine.build == Build::Impulse;
-    if !carried || first > (2 + FIRST_STEPS) as f64 * engine.settings.resolution {
+    if !case.is_free() || first > (2.0 + steps) * engine.settings.resolution {
         return 1.0;
     }
-    lagrange_weights(-(FIRST_STEPS as f64)).iter().map(|weight| weight.abs()).sum()
+    lagrange_weights(-steps).iter().map(|weight| weight.abs()).sum()
 }

@@ -12,9 +12,13 @@ use crate::solver::State;
 /// Numbers a link and step: position of the mass centre and angle, and their rates.
 const WIDTH: usize = 6;
 
-/// Steps at the beginning of a free motion of bodies of their own in which all joints close the gaps of the first: their accelerations are not the
-/// motion's. In a multibody only the cut joints have gaps, and nothing is seen of it.
-pub(super) const FIRST_STEPS: i64 = 2;
+/// Steps at the beginning of a free motion whose accelerations are not the motion's. Bodies of their own (`plain`) close the gaps of the first step in the
+/// second. In a multibody nothing is seen of that; but links that move at once have no step before the first, only a straight line that leads there, and the
+/// first step takes no account of how transfer functions change.
+pub(super) fn first_steps(case: &Case, plain: bool) -> i64 {
+    let moving = case.drives().any(|drive| drive.free.unwrap_or(drive.at(0.0).omega) != 0.0);
+    if plain || moving { 2 } else { 0 }
+}
 
 /// The motion of the last steps, filled as the run goes on.
 #[derive(Debug)]
@@ -60,8 +64,7 @@ impl Window {
     pub(super) fn beginning(case: &Case, settings: &Settings, world: &dyn World) -> Self {
         // There is nothing to interpolate before the beginning; of first order the velocities are wherever in the step they belong.
         let mut window = Window::new(case, &Settings { substeps: 1, ..*settings }, -1);
-        let first_steps = if world.tree().branches.is_empty() { FIRST_STEPS } else { 0 };
-        (window.lowest, window.settled) = (2, 2 + first_steps);
+        (window.lowest, window.settled) = (2, 2 + first_steps(case, world.tree().branches.is_empty()));
         // The velocities of a push belong to the step before.
         window.push(world, case);
         window.push(world, case);
