@@ -72,6 +72,10 @@ pub static MOMENT: Family = Family { noun: "a moment", units: &[si("N_m")] };
 /// Changes of a moment with an angular velocity.
 pub static MOMENT_PER_SPEED: Family =
     Family { noun: "a change of a moment with an angular velocity", units: &[si("N_m_s")] };
+/// Masses of bars a length.
+pub static MASS_PER_LENGTH: Family = Family { noun: "a mass per length", units: &[si("kg_per_m")] };
+/// Powers.
+pub static POWER: Family = Family { noun: "a power", units: &[si("W"), Unit::new("kW", 1e3, 1.0)] };
 
 #[cfg(test)]
 mod tests {
@@ -93,9 +97,19 @@ mod tests {
 
     #[test]
     fn every_family_starts_with_its_si_unit() {
-        for family in
-            [&LENGTH, &ANGLE, &ANGULAR_SPEED, &TIME, &MASS, &INERTIA, &ACCELERATION, &MOMENT, &MOMENT_PER_SPEED]
-        {
+        for family in [
+            &LENGTH,
+            &ANGLE,
+            &ANGULAR_SPEED,
+            &TIME,
+            &MASS,
+            &INERTIA,
+            &ACCELERATION,
+            &MOMENT,
+            &MOMENT_PER_SPEED,
+            &MASS_PER_LENGTH,
+            &POWER,
+        ] {
             assert_eq!(family.units[0].to_si(2.5), 2.5, "{}", family.noun);
         }
     }
