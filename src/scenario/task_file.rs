@@ -7,10 +7,10 @@ use super::reader::{Sign, Table};
 use super::source::Source;
 use super::unit::{ANGLE, Family, LENGTH, MASS_PER_LENGTH};
 use super::words::suggestion;
-use super::{FORMAT, Scenario, check_format, name};
+use super::{Scenario, check_format, name};
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::{Vec2, unit};
-use crate::mechanism::Mechanism;
+use crate::mechanism::{GROUND, Mechanism};
 use crate::task::{Effort, Entry, Output, Phase, Place, Sense, Task, Timing, Variable};
 
 /// Least displacement of a moving phase (share of the stroke), unless the file says otherwise.
@@ -42,7 +42,6 @@ impl TaskFile {
 }
 
 fn read(root: &mut Table) -> Result<TaskFile> {
-    debug_assert_eq!(FORMAT, 1);
     check_format(root)?;
     let (own_name, title) = (name(root)?, root.string("title")?);
     let file = root.string("scenario")?;
@@ -130,7 +129,14 @@ fn read_output(mut table: Table, mechanism: &Mechanism) -> Result<(Output, Optio
     };
     let (of_link, of_point) = (table.optional_string("link")?, table.optional_string("point")?);
     let found = match (of_link, of_point) {
-        (Some(name), None) => (Output::Angle { link: link(&table, &name, mechanism.links())? }, forward, true),
+        (Some(name), None) => {
+            let link = link(&table, &name, mechanism.links())?;
+            if link == GROUND {
+                let error = table.wrong(ErrorKind::Input, "link", "the ground does not turn");
+                return Err(error.help("name the moving link whose angle is watched"));
+            }
+            (Output::Angle { link }, forward, true)
+        }
         (None, Some(name)) => {
             let along = unit(table.quantity("along", &ANGLE, Sign::Any)?);
             let moving = || mechanism.links().iter().enumerate().skip(1);

@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use super::evaluate::Evaluator;
 use crate::error::{Error, ErrorKind, Result};
+use crate::mechanism::GroupKind;
 use crate::task::{Sense, Task};
 
 /// Rows of the turn.
@@ -32,8 +33,8 @@ pub struct PhaseDone {
 pub struct Achieved {
     /// Stroke of the output (rad or m).
     pub stroke: f64,
-    /// Smallest transmission angle of any dyad over the turn (rad).
-    pub transmission: f64,
+    /// Smallest transmission angle of any dyad over the turn (rad); `None` with higher groups, which have none.
+    pub transmission: Option<f64>,
     /// The phases, in their order.
     pub phases: Vec<PhaseDone>,
     /// Crank angles (rad from crank angle zero in the sense of rotation) of the curve.
@@ -60,10 +61,11 @@ impl Achieved {
         })?;
         let curve = &evaluator.curve;
         let (low, high) = curve.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &v| (l.min(v), h.max(v)));
+        let dyads = task.case.structure.groups.iter().all(|group| group.kind != GroupKind::Higher);
         let share = |&value: &f64| if forward > 0.0 { (value - low) / (high - low) } else { (high - value) / (high - low) };
         let mut found = Achieved {
             stroke: high - low,
-            transmission: evaluator.sine.clamp(0.0, 1.0).asin(),
+            transmission: dyads.then(|| evaluator.sine.clamp(0.0, 1.0).asin()),
             phases: Vec::new(),
             shares: curve.iter().map(share).collect(),
             turns,
@@ -99,11 +101,34 @@ impl Achieved {
         self.phases.iter().map(|phase| phase.wrong).fold(0.0, f64::max)
     }
 
-    /// Largest distance of an end of a phase, where it can be told, from the wanted one (rad).
+    /// Largest distance of an extreme position from the limit of two opposite motions that it should be at (rad).
     #[must_use]
     pub fn late(&self, task: &Task) -> f64 {
-        let ends = self.phases.iter().zip(task.timing.phases());
-        ends.filter_map(|(done, phase)| Some((done.end? - phase.to).abs())).fold(0.0, f64::max)
+        let phases = task.timing.phases();
+        let apart = |(index, done): (usize, &PhaseDone)| {
+            let next = phases[(index + 1) % phases.len()].sense;
+            let turns_about = phases[index].sense.sign() * next.sign() < 0.0;
+            turns_about.then(|| done.end.map_or(TAU, |end| (end - phases[index].to).abs()))
+        };
+        self.phases.iter().enumerate().filter_map(apart).fold(0.0, f64::max)
+    }
+
+    /// By how much the worst dwell falls short at either end (rad): where the output is beyond [`BAND`] although it should rest. A dwell that is longer than asked for does
+    /// not count.
+    #[must_use]
+    pub fn short(&self, task: &Task) -> f64 {
+        let phases = task.timing.phases();
+        let missing = |(index, done): (usize, &PhaseDone)| {
+            let (own, next) = (phases[index].sense, phases[(index + 1) % phases.len()].sense);
+            let end = done.end?;
+            match (own, next) {
+                (Sense::Dwell, Sense::Dwell) => None,
+                (Sense::Dwell, _) => Some(phases[index].to - end),
+                (_, Sense::Dwell) => Some(end - phases[index].to),
+                _ => None,
+            }
+        };
+        self.phases.iter().enumerate().filter_map(missing).fold(0.0, f64::max)
     }
 
     /// The share at any row, counted on over turns.

@@ -6,12 +6,14 @@
 
 use std::f64::consts::TAU;
 
-use crate::task::{Sense, Task, Timing};
+use crate::task::{Phase, Sense, Task, Timing};
 
 /// Weight of a way in the wrong sense, and of a moving phase that moves too little, against the motion in a dwell.
 const WRONG: f64 = 4.0;
-/// Crank angle (rad, 10 deg) that a rate of the output at the limit of two opposite motions is multiplied by to count as a share of the stroke.
-const LATE: f64 = TAU / 36.0;
+/// Crank angle (rad, 20 deg) that a rate of the output at the limit of two opposite motions is multiplied by to count as a share of the stroke.
+const LATE: f64 = TAU / 18.0;
+/// Distance (rad, 0.25 deg) of the rows from which the rate at a limit is taken.
+const BESIDE: f64 = TAU / 1440.0;
 /// Weight of limits that are not kept, against shares of the stroke.
 const LIMIT: f64 = 10.0;
 
@@ -34,17 +36,26 @@ impl<'a> Rater<'a> {
     /// On so many equal parts of the turn; limits of phases are taken at the nearest row.
     pub(super) fn even(timing: &'a Timing, count: usize) -> Self {
         let turns: Vec<f64> = (0..=count).map(|row| TAU * (row as f64 / count as f64)).collect();
-        let end = |to: f64| (to / TAU * count as f64).round() as usize;
-        let ends = timing.phases().iter().map(|phase| end(phase.to)).collect();
+        let phases = timing.phases();
+        // However short a phase is, there is a row before its end, and one after it.
+        let end = |(index, phase): (usize, &Phase)| {
+            let row = (phase.to / TAU * count as f64).round() as usize;
+            row.clamp(index + 1, count + index + 1 - phases.len())
+        };
+        let ends = phases.iter().enumerate().map(end).collect();
         Rater::on(timing, turns, ends)
     }
 
-    /// On rows at most `step` (rad) apart, with every limit of a phase among them.
+    /// On rows at most `step` (rad) apart, with every limit of a phase among them and two more close by, from which the rate there is taken: over whole steps it
+    /// would be off by a few hundredths of a degree.
     pub(super) fn fitted(timing: &'a Timing, step: f64) -> Self {
         let (mut turns, mut ends) = (vec![0.0], Vec::new());
         for phase in timing.phases() {
-            let parts = ((phase.to - phase.from) / step).ceil().max(4.0);
-            turns.extend((1..=parts as usize).map(|part| phase.from + (phase.to - phase.from) * (part as f64 / parts)));
+            let long = phase.to - phase.from;
+            let (parts, beside) = ((long / step).ceil().max(4.0), BESIDE.min(long / 16.0));
+            turns.push(phase.from + beside);
+            turns.extend((1..parts as usize).map(|part| phase.from + long * (part as f64 / parts)));
+            turns.extend([phase.to - beside, phase.to]);
             ends.push(turns.len() - 1);
         }
         Rater::on(timing, turns, ends)
@@ -133,14 +144,14 @@ fn unrest(values: impl Iterator<Item = f64>) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::task::Phase;
 
     fn timing() -> Timing {
         let phase = |from: f64, to: f64, sense| Phase { from: from.to_radians(), to: to.to_radians(), sense, level: None, least: 0.05 };
         let phases = vec![
             phase(0.0, 100.0, Sense::Forward),
             phase(100.0, 200.0, Sense::Dwell),
-            phase(200.0, 360.0, Sense::Back),
+            phase(200.0, 300.0, Sense::Back),
+            phase(300.0, 360.0, Sense::Dwell),
         ];
         Timing::of(phases, true).unwrap()
     }

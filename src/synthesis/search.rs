@@ -24,10 +24,15 @@ const COARSE: usize = 72;
 const BLOCK: usize = 4096;
 /// Blocks between two calls of the progress; a constant, so that threads do not decide what is kept.
 const ROUND: usize = 16;
+/// Threads, at most.
+const MOST_THREADS: usize = 256;
 /// Share of the progress that the random candidates are.
 const RANDOM_SHARE: f64 = 0.5;
 /// Shifts of the crank's zero are tried in steps of so many rows, then row by row about the best.
 const STRIDE: usize = 3;
+
+/// Random candidates whose stroke or transmission sine is off its limits by more than this factor are dropped: refinement would hardly bring them back.
+const NEAR: f64 = 1.5;
 
 /// A candidate and what it costs.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,7 +57,7 @@ pub struct Found {
     pub cost: f64,
     /// Cost of the best before refinement, on a coarser grid.
     pub random_cost: f64,
-    /// How many random candidates were drawn, and how many of them could be assembled all around.
+    /// How many random candidates were drawn, and how many of them could be assembled all around, near the limits at least.
     pub candidates: [usize; 2],
     /// Costs of all refined candidates, ascending.
     pub refined: Vec<f64>,
@@ -64,7 +69,7 @@ pub struct Found {
 /// Those of [`Task::check`]; [`ErrorKind::Numeric`] if no candidate assembles all around.
 pub fn search(task: &Task, threads: usize, progress: &mut dyn FnMut(f64)) -> Result<Found> {
     task.check()?;
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(|error| {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.min(MOST_THREADS)).build().map_err(|error| {
         Error::new(ErrorKind::Io, format!("threads cannot be started: {error}")).help("ask for fewer threads")
     })?;
     let effort = task.effort;
@@ -187,7 +192,7 @@ impl<'a> Random<'a> {
         (best, assembled)
     }
 
-    /// Cost and sense of a candidate; its crank's zero is chosen on the way, where it is free. `None` if it cannot be assembled, or does not keep the limits.
+    /// Cost and sense of a candidate; its crank's zero is chosen on the way, where it is free. `None` if it cannot be assembled, or is far off the limits.
     fn rate(&mut self, shares: &mut [f64]) -> Option<(f64, f64)> {
         if let Some(zero) = self.zero {
             shares[zero] = 0.0;
@@ -199,9 +204,11 @@ impl<'a> Random<'a> {
         self.evaluator.run(&self.values, zero, &self.rater.turns).ok()?;
         let span = self.rater.take(&self.evaluator.curve);
         let [least, most] = self.task.stroke;
-        if !(span > 0.0 && span >= least && span <= most && self.evaluator.sine >= self.task.transmission.sin()) {
+        let sine = self.evaluator.sine;
+        if !(span > 0.0 && NEAR * span >= least && span <= NEAR * most && NEAR * sine >= self.task.transmission.sin()) {
             return None;
         }
+        let excess = self.rater.excess(self.task, sine);
         let senses: &[f64] = match self.task.forward {
             Some(sense) if sense > 0.0 => &[1.0],
             Some(_) => &[-1.0],
@@ -231,7 +238,7 @@ impl<'a> Random<'a> {
             }
             shares[zero] = (self.task.turning() * best.2 as f64 / COARSE as f64).rem_euclid(1.0);
         }
-        Some((best.0, best.1))
+        Some((best.0 + excess, best.1))
     }
 }
 

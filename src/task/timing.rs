@@ -4,6 +4,9 @@ use std::f64::consts::TAU;
 
 use crate::error::{Error, ErrorKind, Result};
 
+/// Most phases of a turn: ten degrees each.
+const MOST_PHASES: usize = 36;
+
 /// What the output does in a phase.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sense {
@@ -76,6 +79,10 @@ impl Timing {
         if phases.len() < 2 {
             let error = Error::new(ErrorKind::Input, format!("found {} phases, but a motion has two at least", phases.len()));
             return Err(error.key("phases").help("write `phases = [{ to_deg = 180, sense = \"forward\" }, { to_deg = 360, sense = \"back\" }]`"));
+        }
+        if phases.len() > MOST_PHASES {
+            let error = Error::new(ErrorKind::Input, format!("found {} phases, more than {MOST_PHASES}", phases.len()));
+            return Err(error.key("phases").help("join phases of one sense"));
         }
         let mut from = 0.0;
         for (index, phase) in phases.iter().enumerate() {

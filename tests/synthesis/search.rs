@@ -23,11 +23,11 @@ phases = [{ to_deg = 201.2515003173078, sense = "forward" }, { to_deg = 360, sen
 link = "rocker"
 forward = "positive"
 [limits]
-stroke = { from_deg = 32, to_deg = 32.0001 }
+stroke = { from_deg = 32, to_deg = 32 }
 [search]
 candidates = 20000
 refined = 2
-evaluations = 4000
+evaluations = 20000
 [zero]
 from_deg = 0
 to_deg = 360
@@ -60,9 +60,6 @@ fn task(text: &str) -> TaskFile {
 #[test]
 fn the_search_finds_the_lengths_of_the_closed_form() {
     let TaskFile { task, .. } = task(TASK);
-    // Random candidates hardly ever swing by 32 deg to a ten thousandth: they are drawn with more room.
-    let loose = Task { stroke: [0.3, 0.9], ..task.clone() };
-    assert!(search(&loose, 1, &mut |_| {}).unwrap().cost < 1e-4);
     let wish = Wish {
         crank_pivot: Vec2::zeros(),
         rocker_pivot: Vec2::new(0.15, 0.015),
@@ -71,12 +68,13 @@ fn the_search_finds_the_lengths_of_the_closed_form() {
         swing: 32f64.to_radians(),
     };
     let known = CrankRocker::of(wish).unwrap();
-    let stroke = [31f64.to_radians(), 33f64.to_radians()];
-    let found = search(&Task { stroke, ..task.clone() }, 2, &mut |_| {}).unwrap();
+    let found = search(&task, 2, &mut |_| {}).unwrap();
+    assert!(found.cost < 1e-7 && found.cost < found.random_cost, "{found:?}");
     eprintln!("{found:?} {known:?}");
-    assert!(found.cost < found.random_cost && found.cost < 1e-6);
-    let case = Scenario::parse(&shipped("crank_rocker.toml").text, "x.toml".as_ref()).unwrap().case;
-    assert_eq!(case.mechanism, task.case.mechanism);
+    let expected = [known.crank, known.coupler, known.stretched.crank];
+    for ((value, expected), within) in found.values.iter().zip(expected).zip([2e-5, 1e-4, 1e-3]) {
+        assert!((value - expected).abs() < within, "{found:?} {known:?}");
+    }
 }
 
 #[test]
@@ -137,6 +135,7 @@ fn what_is_measured_are_the_extreme_positions() {
 fn mistakes_in_the_file_are_answered() {
     for (from, to, key, words) in [
         ("link = \"rocker\"", "link = \"rokcer\"", "output.link", "did you mean \"rocker\""),
+        ("link = \"rocker\"", "link = \"ground\"", "output.link", "does not turn"),
         ("forward = \"positive\"", "forward = \"up\"", "output.forward", "no sense of an output"),
         ("sense = \"back\"", "sense = \"bakc\"", "phases[2].sense", "did you mean \"back\""),
         ("to_deg = 360, sense", "to_deg = 350, sense", "phases[2]", "ends at 350"),

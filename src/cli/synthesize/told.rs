@@ -29,13 +29,14 @@ fn stroke(task: &Task, achieved: &Achieved) -> String {
 /// The figures that count, in two lines.
 pub(super) fn summary(task: &Task, achieved: &Achieved) -> String {
     format!(
-        "Stroke {}, smallest transmission angle {:.2} deg. Largest motion in a dwell {:.3} % of the stroke,\n\
-         largest way in a wrong sense {:.3} %, phases end within {:.2} deg of the table.",
+        "Stroke {}{}. Largest motion in a dwell {:.3} % of the stroke,\n\
+         largest way in a wrong sense {:.3} %. Extreme positions within {:.2} deg of the table, dwells short by {:.2} deg at most.",
         stroke(task, achieved),
-        achieved.transmission.to_degrees(),
+        achieved.transmission.map_or(String::new(), |angle| format!(", smallest transmission angle {:.2} deg", angle.to_degrees())),
         100.0 * achieved.unrest(task),
         100.0 * achieved.wrong(),
-        achieved.late(task).to_degrees()
+        achieved.late(task).to_degrees(),
+        achieved.short(task).to_degrees()
     )
 }
 
@@ -47,7 +48,7 @@ pub(super) fn text(story: &Story) -> String {
         let [drawn, assembled] = found.candidates;
         let _ = writeln!(
             text,
-            "{drawn} random candidates, {assembled} of them within the limits; cost {:.3e}, refined {:.3e} (worst of the refined {:.3e})\n",
+            "{drawn} random candidates, {assembled} of them assembled near the limits; cost {:.3e}, refined {:.3e} (worst of the refined {:.3e})\n",
             found.random_cost,
             found.cost,
             found.refined.last().copied().unwrap_or(f64::NAN)
@@ -108,7 +109,7 @@ pub(super) fn json(story: &Story) -> Value {
     json!({
         "schema": 1, "name": task.name, "stroke": achieved.stroke, "forward": achieved.forward,
         "transmission_rad": achieved.transmission, "unrest": achieved.unrest(task), "wrong": achieved.wrong(),
-        "late_rad": achieved.late(task), "phases": phases.collect::<Vec<_>>(), "search": search,
+        "late_rad": achieved.late(task), "short_rad": achieved.short(task), "phases": phases.collect::<Vec<_>>(), "search": search,
     })
 }
 
@@ -130,6 +131,6 @@ pub(super) fn diagram(story: &Story) -> TimingDiagram {
         curve: rows.map(|row| [achieved.turns[row], achieved.shares[row]]).collect(),
         wanted: (0..=360).filter_map(|deg| task.timing.wanted(f64::from(deg).to_radians()).map(|share| [f64::from(deg).to_radians(), share])).collect(),
         stretches: task.timing.phases().iter().zip(&achieved.phases).map(stretch).collect(),
-        note: format!("stroke {}; {}", stroke(task, achieved), summary(task, achieved).split_once(". ").map_or("", |(_, rest)| rest).replace('\n', " ")),
+        note: format!("stroke {}; {}", stroke(task, achieved), summary(task, achieved).split_once(". ").map_or("", |(_, rest)| rest).replace(". ", "; ").replace('\n', " ")),
     }
 }

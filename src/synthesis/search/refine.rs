@@ -106,6 +106,11 @@ fn evolve(bench: &mut Bench, zero: Option<usize>, evaluations: usize, number: us
 
 /// COBYLA from the best so far, with smaller and smaller first steps.
 fn approximate(bench: &mut Bench, zero: Option<usize>, evaluations: usize) {
+    let each = evaluations / RADII.len();
+    // None would mean no limit to COBYLA.
+    if each == 0 {
+        return;
+    }
     let count = bench.best.len();
     let start = bench.best.clone();
     let bounds: Vec<(f64, f64)> = (0..count)
@@ -118,6 +123,6 @@ fn approximate(bench: &mut Bench, zero: Option<usize>, evaluations: usize) {
         let none: [fn(&[f64], &mut ()) -> f64; 0] = [];
         let stop = cobyla::StopTols { ftol_rel: SETTLED, ..cobyla::StopTols::default() };
         // What it returns is not needed: the best that it tried is kept on the way.
-        let _ = minimize(objective, &from, &bounds, &none, (), evaluations / RADII.len(), RhoBeg::All(radius), Some(stop));
+        let _ = minimize(objective, &from, &bounds, &none, (), each, RhoBeg::All(radius), Some(stop));
     }
 }
