@@ -32,7 +32,9 @@ pub(super) fn choose(args: &Args, file: &Path, scenario: &Scenario, json_to: Opt
         motors.retain(|motor| (motor.synchronous_speed * 60.0 / TAU - rpm).abs() < 0.5);
         if motors.is_empty() {
             let message = format!("the catalogue has no motor of {rpm} rpm");
-            return Err(Error::new(ErrorKind::Input, message).key("--synchronous-rpm").help("give 3000 or 1500, or leave it out"));
+            return Err(Error::new(ErrorKind::Input, message)
+                .key("--synchronous-rpm")
+                .help("give 3000 or 1500, or leave it out"));
         }
     }
     let own = scenario.case.motor.as_ref().map_or(1.0, |motor| motor.efficiency);

@@ -52,7 +52,13 @@ mod tests {
 
     fn motor(name: &str, kw: f64, rated: f64) -> CatalogueMotor {
         let rpm = TAU / 60.0;
-        CatalogueMotor { name: name.into(), power: kw * 1e3, rated_speed: rated * rpm, synchronous_speed: 3000.0 * rpm, breakdown: None }
+        CatalogueMotor {
+            name: name.into(),
+            power: kw * 1e3,
+            rated_speed: rated * rpm,
+            synchronous_speed: 3000.0 * rpm,
+            breakdown: None,
+        }
     }
 
     #[test]
@@ -69,8 +75,12 @@ mod tests {
 
     #[test]
     fn the_weakest_that_is_strong_enough() {
-        let all = [motor("big", 2.2, 2850.0), motor("b", 0.75, 2840.0), motor("a", 0.55, 2745.0), motor("c", 0.55, 1390.0)];
+        let all =
+            [motor("big", 2.2, 2850.0), motor("b", 0.75, 2840.0), motor("a", 0.55, 2745.0), motor("c", 0.55, 1390.0)];
         let name = |power| weakest_sufficient(&all, power).map(|motor| motor.name.as_str());
-        assert_eq!([name(547.1), name(550.0), name(551.0), name(2000.0), name(3000.0)], [Some("a"), Some("a"), Some("b"), Some("big"), None]);
+        assert_eq!(
+            [name(547.1), name(550.0), name(551.0), name(2000.0), name(3000.0)],
+            [Some("a"), Some("a"), Some("b"), Some("big"), None]
+        );
     }
 }

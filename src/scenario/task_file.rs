@@ -54,7 +54,12 @@ fn read(root: &mut Table) -> Result<TaskFile> {
     let beside = root.source().path.parent().unwrap_or(Path::new("")).join(&file);
     let drawing = Scenario::load(&beside).map_err(|error| {
         // A drawing that is not there is a mistake of this file; one that is wrong has a place of its own.
-        if error.place().is_some() { error } else { root.wrong(error.kind(), "scenario", error.message()).help("name the scenario file of the drawing, beside this file") }
+        if error.place().is_some() {
+            error
+        } else {
+            root.wrong(error.kind(), "scenario", error.message())
+                .help("name the scenario file of the drawing, beside this file")
+        }
     })?;
     let mechanism = &drawing.case.mechanism;
     let timing = timing(phases, follow)?;
@@ -111,7 +116,8 @@ fn timing(tables: Vec<Table>, follow: bool) -> Result<Timing> {
         from = to;
     }
     Timing::of(phases, follow).map_err(|error| {
-        let own = places.iter().find(|own| own.scenario_key() == error.scenario_key()).and_then(|own| own.place()).cloned();
+        let own =
+            places.iter().find(|own| own.scenario_key() == error.scenario_key()).and_then(|own| own.place()).cloned();
         own.map_or(error.clone(), |place| error.at(place))
     })
 }
@@ -140,7 +146,8 @@ fn read_output(mut table: Table, mechanism: &Mechanism) -> Result<(Output, Optio
         (None, Some(name)) => {
             let along = unit(table.quantity("along", &ANGLE, Sign::Any)?);
             let moving = || mechanism.links().iter().enumerate().skip(1);
-            let found = moving().find_map(|(link, body)| Some((link, body.points.iter().position(|point| point.name == name)?)));
+            let found = moving()
+                .find_map(|(link, body)| Some((link, body.points.iter().position(|point| point.name == name)?)));
             let Some((link, point)) = found else {
                 let names = moving().flat_map(|(_, body)| body.points.iter().map(|point| point.name.as_str()));
                 let error = table.wrong(ErrorKind::Input, "point", format!("no moving link has a point \"{name}\""));
@@ -149,7 +156,8 @@ fn read_output(mut table: Table, mechanism: &Mechanism) -> Result<(Output, Optio
             (Output::Coordinate { link, point, along }, forward, false)
         }
         _ => {
-            let help = "write `link = \"lever\"` for its angle, or `point = \"F\"` and `along_deg = 90` for a coordinate";
+            let help =
+                "write `link = \"lever\"` for its angle, or `point = \"F\"` and `along_deg = 90` for a coordinate";
             return Err(table.fault("an output is one link or one point").help(help));
         }
     };
@@ -162,8 +170,11 @@ fn read_limits(table: Option<Table>, is_angle: bool) -> Result<([f64; 2], f64)> 
     let Some(mut table) = table else { return Ok(([0.0, f64::INFINITY], 0.0)) };
     let transmission = table.optional_quantity("transmission", &ANGLE, Sign::NotNegative)?.unwrap_or(0.0);
     if transmission >= std::f64::consts::FRAC_PI_2 {
-        let message = format!("a transmission angle of {:.6} deg cannot be kept over a turn", transmission.to_degrees());
-        return Err(table.wrong(ErrorKind::Input, "transmission", message).help("give less than 90 deg; 30 to 45 deg are usual"));
+        let message =
+            format!("a transmission angle of {:.6} deg cannot be kept over a turn", transmission.to_degrees());
+        return Err(table
+            .wrong(ErrorKind::Input, "transmission", message)
+            .help("give less than 90 deg; 30 to 45 deg are usual"));
     }
     let family = if is_angle { &ANGLE } else { &LENGTH };
     let stroke = match table.optional_table("stroke")? {
@@ -182,7 +193,9 @@ fn read_effort(mut table: Table) -> Result<Effort> {
     let mut count = |key: &str, default: i64| -> Result<u64> {
         let found = table.optional_integer(key)?.unwrap_or(default);
         u64::try_from(found).map_err(|_| {
-            table.wrong(ErrorKind::Input, key, format!("found {found}, but a count is not negative")).help("give a whole number from 0 on")
+            table
+                .wrong(ErrorKind::Input, key, format!("found {found}, but a count is not negative"))
+                .help("give a whole number from 0 on")
         })
     };
     let seed = count("seed", 1)?;
@@ -222,15 +235,20 @@ fn place(mut table: Table, mechanism: &Mechanism, variables: &mut Vec<Variable>,
     };
     let point = index(&table, "point", &point_name)?;
     let Some(handle) = mechanism.handle(own, point) else {
-        let message = format!("point \"{point_name}\" of the drawing lies on another point of the link: its joints cannot be told apart");
+        let message = format!(
+            "point \"{point_name}\" of the drawing lies on another point of the link: its joints cannot be told apart"
+        );
         return Err(table.wrong(ErrorKind::Input, "point", message).help("draw the two points in different places"));
     };
     if before.iter().any(|place| place.handle == handle) {
         let message = "this point varies already";
-        return Err(table.wrong(ErrorKind::Input, "point", message).help("put all that varies about a point into one table"));
+        return Err(table
+            .wrong(ErrorKind::Input, "point", message)
+            .help("put all that varies about a point into one table"));
     }
     let from = table.optional_string("from")?.map(|name| index(&table, "from", &name)).transpose()?;
-    let kinds: [(&str, &Family); 2] = if from.is_some() { [("length", &LENGTH), ("angle", &ANGLE)] } else { [("x", &LENGTH), ("y", &LENGTH)] };
+    let kinds: [(&str, &Family); 2] =
+        if from.is_some() { [("length", &LENGTH), ("angle", &ANGLE)] } else { [("x", &LENGTH), ("y", &LENGTH)] };
     let drawn = points[point].local;
     let drawn = match from {
         None => [drawn.x, drawn.y],

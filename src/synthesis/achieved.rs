@@ -55,14 +55,16 @@ impl Achieved {
         let as_drawn = Task { places: Vec::new(), ..task.clone() };
         let mut evaluator = Evaluator::new(&as_drawn);
         evaluator.run(&[], task.case.drive.zero, &turns).map_err(|_| {
-            let message = "the mechanism cannot be assembled over a whole turn of its crank, or its output does not rock";
+            let message =
+                "the mechanism cannot be assembled over a whole turn of its crank, or its output does not rock";
             Error::new(ErrorKind::Geometry, message)
                 .help("`linkproof inspect FILE --range` shows what limits the crank and which links turn fully")
         })?;
         let curve = &evaluator.curve;
         let (low, high) = curve.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &v| (l.min(v), h.max(v)));
         let dyads = task.case.structure.groups.iter().all(|group| group.kind != GroupKind::Higher);
-        let share = |&value: &f64| if forward > 0.0 { (value - low) / (high - low) } else { (high - value) / (high - low) };
+        let share =
+            |&value: &f64| if forward > 0.0 { (value - low) / (high - low) } else { (high - value) / (high - low) };
         let mut found = Achieved {
             stroke: high - low,
             transmission: dyads.then(|| evaluator.sine.clamp(0.0, 1.0).asin()),

@@ -78,10 +78,8 @@ impl CrankRocker {
         let distances = arms.map(|arm| arm.norm());
         let (far, near) = if distances[0] >= distances[1] { (0, 1) } else { (1, 0) };
         let (crank, coupler) = ((distances[far] - distances[near]) / 2.0, (distances[far] + distances[near]) / 2.0);
-        let told = format!(
-            "O is {:.6} m from B in one extreme position and {:.6} m in the other",
-            distances[0], distances[1]
-        );
+        let told =
+            format!("O is {:.6} m from B in one extreme position and {:.6} m in the other", distances[0], distances[1]);
         if !(crank > 1e-9 * coupler) {
             let message = format!("{told}: a crank of no length would be needed");
             return Err(Error::new(ErrorKind::Geometry, message)
@@ -183,12 +181,8 @@ mod tests {
         let first = CrankRocker::of(wish).unwrap();
         let other = CrankRocker::of(Wish { extreme: wish.extreme + wish.swing, swing: -wish.swing, ..wish }).unwrap();
         assert!((first.crank - other.crank).abs() < 1e-16 && (first.time_ratio - other.time_ratio).abs() < 1e-14);
-        let mirrored = Wish {
-            rocker_pivot: Vec2::new(0.15, -0.015),
-            extreme: -wish.extreme,
-            swing: -wish.swing,
-            ..wish
-        };
+        let mirrored =
+            Wish { rocker_pivot: Vec2::new(0.15, -0.015), extreme: -wish.extreme, swing: -wish.swing, ..wish };
         let mirrored = CrankRocker::of(mirrored).unwrap();
         assert!((first.crank - mirrored.crank).abs() < 1e-16 && mirrored.mode == AssemblyMode::Right);
     }
@@ -202,7 +196,11 @@ mod tests {
             (Wish { rocker_pivot: Vec2::zeros(), ..wish }, ErrorKind::Input, "one point"),
             (Wish { extreme: f64::NAN, ..wish }, ErrorKind::Input, "not finite"),
             // B symmetric about the line of the pivots: equal distances.
-            (Wish { rocker_pivot: Vec2::new(0.15, 0.0), extreme: -0.3, swing: 0.6, ..wish }, ErrorKind::Geometry, "no length"),
+            (
+                Wish { rocker_pivot: Vec2::new(0.15, 0.0), extreme: -0.3, swing: 0.6, ..wish },
+                ErrorKind::Geometry,
+                "no length",
+            ),
             (Wish { extreme: -0.3, swing: 1.0, ..wish }, ErrorKind::Geometry, "goes between"),
             (Wish { rocker_pivot: Vec2::new(0.02, 0.0), swing: 2.0, ..wish }, ErrorKind::Geometry, "drag link"),
         ] {

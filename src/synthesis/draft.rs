@@ -69,9 +69,12 @@ impl CrankRocker {
         text += &sheet.bar("crank", ["O", "A"], self.crank);
         text += &sheet.bar("coupler", ["A", "B"], self.coupler);
         text += &sheet.bar("rocker", ["C", "B"], self.wish.rocker);
-        for (name, links) in
-            [("O", ["ground", "crank"]), ("A", ["crank", "coupler"]), ("B", ["coupler", "rocker"]), ("C", ["ground", "rocker"])]
-        {
+        for (name, links) in [
+            ("O", ["ground", "crank"]),
+            ("A", ["crank", "coupler"]),
+            ("B", ["coupler", "rocker"]),
+            ("C", ["ground", "rocker"]),
+        ] {
             text += &pin(name, links);
         }
         text + &sheet.tail("\"coupler\", \"rocker\"", self.mode.name())

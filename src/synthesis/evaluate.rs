@@ -60,7 +60,11 @@ impl<'a> Evaluator<'a> {
         self.sine = 1.0;
         let sense = self.task.turning();
         let world = |turn: f64| zero + sense * turn;
-        if plan.is_closed_form() { self.probe_and_place(plan, &world, turns)? } else { self.follow(plan, &world, turns, zero)? }
+        if plan.is_closed_form() {
+            self.probe_and_place(plan, &world, turns)?
+        } else {
+            self.follow(plan, &world, turns, zero)?
+        }
         self.unwind()
     }
 

@@ -146,7 +146,13 @@ mod tests {
     use super::*;
 
     fn timing() -> Timing {
-        let phase = |from: f64, to: f64, sense| Phase { from: from.to_radians(), to: to.to_radians(), sense, level: None, least: 0.05 };
+        let phase = |from: f64, to: f64, sense| Phase {
+            from: from.to_radians(),
+            to: to.to_radians(),
+            sense,
+            level: None,
+            least: 0.05,
+        };
         let phases = vec![
             phase(0.0, 100.0, Sense::Forward),
             phase(100.0, 200.0, Sense::Dwell),

@@ -59,7 +59,11 @@ impl SliderCrank {
             return Err(wrong("stroke", format!("the stroke is {stroke} m"), "give a length greater than zero"));
         }
         if !offset.is_finite() {
-            return Err(wrong("offset", format!("the offset is {offset} m"), "give a decimal number; 0 for a central one"));
+            return Err(wrong(
+                "offset",
+                format!("the offset is {offset} m"),
+                "give a decimal number; 0 for a central one",
+            ));
         }
         let e = offset.abs();
         let (crank, rod) = match given {
@@ -112,15 +116,15 @@ fn of_time_ratio(stroke: f64, e: f64, ratio: f64) -> Result<(f64, f64)> {
             true => format!("without an offset both strokes take the same time, not {ratio} times as long"),
             false => "with an offset the two strokes never take the same time".to_string(),
         };
-        let message = if e == 0.0 && theta == 0.0 { "without an offset any rod gives a time ratio of 1".into() } else { message };
+        let message =
+            if e == 0.0 && theta == 0.0 { "without an offset any rod gives a time ratio of 1".into() } else { message };
         return Err(impossible(message, "give the length of the rod instead of the time ratio, or change the offset"));
     }
     let rest = e * e - e * stroke / theta.tan();
     if !(rest < 0.0) {
         let most = time_ratio((stroke / e).atan());
-        let message = format!(
-            "a time ratio of {ratio} is out of reach with a stroke of {stroke:.6} m at an offset of {e:.6} m"
-        );
+        let message =
+            format!("a time ratio of {ratio} is out of reach with a stroke of {stroke:.6} m at an offset of {e:.6} m");
         return Err(impossible(message, format!("ask for less than {most:.6}, or choose a smaller offset")));
     }
     let near = 2.0 * -rest / (stroke + (stroke * stroke - 4.0 * rest).sqrt());
@@ -146,7 +150,10 @@ mod tests {
             assert!((found.far[1] - found.near[1] - stroke).abs() < 1e-14);
             assert!(found.rod > found.crank + offset.abs());
             let again = SliderCrank::of(stroke, offset, Given::TimeRatio(found.time_ratio)).unwrap();
-            assert!((again.rod - rod).abs() < 1e-10 && (again.crank - found.crank).abs() < 1e-10, "{found:?} {again:?}");
+            assert!(
+                (again.rod - rod).abs() < 1e-10 && (again.crank - found.crank).abs() < 1e-10,
+                "{found:?} {again:?}"
+            );
         }
     }
 
@@ -154,7 +161,9 @@ mod tests {
     fn the_limits_told_are_the_limits() {
         let (stroke, offset) = (0.1, 0.03);
         let told = |given| SliderCrank::of(stroke, offset, given).unwrap_err().way_out().unwrap().to_string();
-        let number = |text: String| text.split_whitespace().find_map(|word| word.trim_end_matches(',').parse::<f64>().ok()).unwrap();
+        let number = |text: String| {
+            text.split_whitespace().find_map(|word| word.trim_end_matches(',').parse::<f64>().ok()).unwrap()
+        };
         let shortest = number(told(Given::Rod(0.05)));
         assert!(SliderCrank::of(stroke, offset, Given::Rod(shortest - 1e-6)).is_err());
         let found = SliderCrank::of(stroke, offset, Given::Rod(shortest + 1e-6)).unwrap();

@@ -103,7 +103,9 @@ impl Task {
         };
         if !self.case.further_drives.is_empty() {
             let message = "the mechanism has several drives, but a timing belongs to one crank";
-            return Err(Error::new(ErrorKind::Unsupported, message).key("scenario").help("take a scenario with one `[drive]`"));
+            return Err(Error::new(ErrorKind::Unsupported, message)
+                .key("scenario")
+                .help("take a scenario with one `[drive]`"));
         }
         if self.variables.is_empty() {
             return wrong("vary", "nothing may vary", "add a table `[[vary]]` for each length or pivot to be found");

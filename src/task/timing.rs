@@ -77,8 +77,11 @@ impl Timing {
             Err(Error::new(ErrorKind::Input, message).key(format!("phases[{}]", index + 1)).help(help))
         };
         if phases.len() < 2 {
-            let error = Error::new(ErrorKind::Input, format!("found {} phases, but a motion has two at least", phases.len()));
-            return Err(error.key("phases").help("write `phases = [{ to_deg = 180, sense = \"forward\" }, { to_deg = 360, sense = \"back\" }]`"));
+            let error =
+                Error::new(ErrorKind::Input, format!("found {} phases, but a motion has two at least", phases.len()));
+            return Err(error
+                .key("phases")
+                .help("write `phases = [{ to_deg = 180, sense = \"forward\" }, { to_deg = 360, sense = \"back\" }]`"));
         }
         if phases.len() > MOST_PHASES {
             let error = Error::new(ErrorKind::Input, format!("found {} phases, more than {MOST_PHASES}", phases.len()));
@@ -87,14 +90,19 @@ impl Timing {
         let mut from = 0.0;
         for (index, phase) in phases.iter().enumerate() {
             if phase.from != from || !(phase.to > phase.from) {
-                let message = format!("the phase leads from {:.6} to {:.6} deg", phase.from.to_degrees(), phase.to.to_degrees());
+                let message =
+                    format!("the phase leads from {:.6} to {:.6} deg", phase.from.to_degrees(), phase.to.to_degrees());
                 return wrong(index, message, "let crank angles ascend from phase to phase; the first begins at 0");
             }
             if phase.level.is_some_and(|level| !(0.0..=1.0).contains(&level)) {
                 return wrong(index, "a level is a share of the stroke".into(), "give a number from 0 to 1");
             }
             if !(phase.least >= 0.0 && phase.least < 1.0) {
-                return wrong(index, "the least displacement is a share of the stroke".into(), "give a number from 0 to below 1");
+                return wrong(
+                    index,
+                    "the least displacement is a share of the stroke".into(),
+                    "give a number from 0 to below 1",
+                );
             }
             from = phase.to;
         }
@@ -104,7 +112,10 @@ impl Timing {
         }
         for sense in [Sense::Forward, Sense::Back] {
             if !phases.iter().any(|phase| phase.sense == sense) {
-                let error = Error::new(ErrorKind::Input, format!("no phase goes {}: the output would not come round", sense.name()));
+                let error = Error::new(
+                    ErrorKind::Input,
+                    format!("no phase goes {}: the output would not come round", sense.name()),
+                );
                 return Err(error.key("phases").help("an output that rocks goes forward and back in every turn"));
             }
         }

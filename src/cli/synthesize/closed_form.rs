@@ -10,9 +10,9 @@ use super::{output, scenario_target, write_scenario};
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::Vec2;
 use crate::scenario::Scenario;
+use crate::synthesis::Sheet;
 use crate::synthesis::crank_rocker::{self, CrankRocker, Extreme};
 use crate::synthesis::slider_crank::{Given, SliderCrank};
-use crate::synthesis::Sheet;
 
 /// Where results go, and what a scenario needs besides dimensions.
 #[derive(Debug, clap::Args)]
@@ -101,7 +101,11 @@ pub(super) fn crank_rocker(args: &CrankRockerArgs) -> Result<()> {
     };
     let found = CrankRocker::of(wish)?;
     let mut text = String::from("crank-rocker from two extreme positions\n");
-    let _ = writeln!(text, "  crank OA      {:.15} m\n  coupler AB    {:.15} m\n  rocker CB     {:.15} m", found.crank, found.coupler, wish.rocker);
+    let _ = writeln!(
+        text,
+        "  crank OA      {:.15} m\n  coupler AB    {:.15} m\n  rocker CB     {:.15} m",
+        found.crank, found.coupler, wish.rocker
+    );
     for (name, extreme) in [("stretched", found.stretched), ("folded", found.folded)] {
         let [crank, rocker] = [extreme.crank, extreme.rocker].map(f64::to_degrees);
         let _ = writeln!(text, "  {name:13} crank {crank:.9} deg, rocker {rocker:.9} deg");
@@ -116,9 +120,16 @@ pub(super) fn crank_rocker(args: &CrankRockerArgs) -> Result<()> {
     );
     let comment = format!(
         "linkproof synthesize crank-rocker --crank-pivot-mm {},{} --pivot-mm {},{} --rocker-mm {} --extreme-deg {} --swing-deg {}",
-        args.crank_pivot_mm[0], args.crank_pivot_mm[1], args.pivot_mm[0], args.pivot_mm[1], args.rocker_mm, args.extreme_deg, args.swing_deg
+        args.crank_pivot_mm[0],
+        args.crank_pivot_mm[1],
+        args.pivot_mm[0],
+        args.pivot_mm[1],
+        args.rocker_mm,
+        args.extreme_deg,
+        args.swing_deg
     );
-    let sheet = args.target.sheet("crank_rocker_found", "Crank-rocker from two extreme positions of its rocker", comment)?;
+    let sheet =
+        args.target.sheet("crank_rocker_found", "Crank-rocker from two extreme positions of its rocker", comment)?;
     let extreme = |extreme: Extreme| json!({"crank_rad": extreme.crank, "rocker_rad": extreme.rocker});
     let json = json!({
         "schema": 1, "crank_m": found.crank, "coupler_m": found.coupler, "rocker_m": wish.rocker,
@@ -165,8 +176,10 @@ pub(super) fn slider_crank(args: &SliderCrankArgs) -> Result<()> {
         found.pressure.to_degrees(),
         found.time_ratio
     );
-    let comment =
-        format!("linkproof synthesize slider-crank --stroke-mm {} --offset-mm {} {told}", args.stroke_mm, args.offset_mm);
+    let comment = format!(
+        "linkproof synthesize slider-crank --stroke-mm {} --offset-mm {} {told}",
+        args.stroke_mm, args.offset_mm
+    );
     let sheet = args.target.sheet("slider_crank_found", "Slider-crank from stroke and offset", comment)?;
     let end = |[crank, place]: [f64; 2]| json!({"crank_rad": crank, "slider_m": place});
     let json = json!({

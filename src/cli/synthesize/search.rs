@@ -104,9 +104,11 @@ fn comment(args: &Args, task: &Task, achieved: &Achieved) -> String {
 pub(super) fn check(args: &CheckArgs) -> Result<()> {
     let TaskFile { task, drawing } = TaskFile::load(&args.file)?;
     let scenario = Scenario::load(&args.scenario)?;
-    let names = |scenario: &Scenario| scenario.case.mechanism.links().iter().map(|link| link.name.clone()).collect::<Vec<_>>();
+    let names =
+        |scenario: &Scenario| scenario.case.mechanism.links().iter().map(|link| link.name.clone()).collect::<Vec<_>>();
     if names(&scenario) != names(&drawing) || scenario.case.structure != drawing.case.structure {
-        let message = format!("{} has another structure than the drawing of {}", scenario.path.display(), args.file.display());
+        let message =
+            format!("{} has another structure than the drawing of {}", scenario.path.display(), args.file.display());
         return Err(Error::new(ErrorKind::Input, message)
             .help("check a scenario with the same links in the same order, such as one that `linkproof synthesize search` wrote"));
     }

@@ -32,7 +32,9 @@ pub(super) fn summary(task: &Task, achieved: &Achieved) -> String {
         "Stroke {}{}. Largest motion in a dwell {:.3} % of the stroke,\n\
          largest way in a wrong sense {:.3} %. Extreme positions within {:.2} deg of the table, dwells short by {:.2} deg at most.",
         stroke(task, achieved),
-        achieved.transmission.map_or(String::new(), |angle| format!(", smallest transmission angle {:.2} deg", angle.to_degrees())),
+        achieved
+            .transmission
+            .map_or(String::new(), |angle| format!(", smallest transmission angle {:.2} deg", angle.to_degrees())),
         100.0 * achieved.unrest(task),
         100.0 * achieved.wrong(),
         achieved.late(task).to_degrees(),
@@ -59,7 +61,12 @@ pub(super) fn text(story: &Story) -> String {
                 true => format!("{:.4} deg", value.to_degrees()),
                 false => format!("{:.3} mm", value * 1e3),
             };
-            dimensions.add_row([variable.name.clone(), show(value), show(variable.bounds[0]), show(variable.bounds[1])]);
+            dimensions.add_row([
+                variable.name.clone(),
+                show(value),
+                show(variable.bounds[0]),
+                show(variable.bounds[1]),
+            ]);
         }
         let _ = writeln!(text, "{dimensions}\n");
     }
@@ -129,8 +136,20 @@ pub(super) fn diagram(story: &Story) -> TimingDiagram {
     };
     TimingDiagram {
         curve: rows.map(|row| [achieved.turns[row], achieved.shares[row]]).collect(),
-        wanted: (0..=360).filter_map(|deg| task.timing.wanted(f64::from(deg).to_radians()).map(|share| [f64::from(deg).to_radians(), share])).collect(),
+        wanted: (0..=360)
+            .filter_map(|deg| {
+                task.timing.wanted(f64::from(deg).to_radians()).map(|share| [f64::from(deg).to_radians(), share])
+            })
+            .collect(),
         stretches: task.timing.phases().iter().zip(&achieved.phases).map(stretch).collect(),
-        note: format!("stroke {}; {}", stroke(task, achieved), summary(task, achieved).split_once(". ").map_or("", |(_, rest)| rest).replace(". ", "; ").replace('\n', " ")),
+        note: format!(
+            "stroke {}; {}",
+            stroke(task, achieved),
+            summary(task, achieved)
+                .split_once(". ")
+                .map_or("", |(_, rest)| rest)
+                .replace(". ", "; ")
+                .replace('\n', " ")
+        ),
     }
 }

@@ -28,7 +28,8 @@ pub fn timing(diagram: &TimingDiagram, title: &str) -> String {
     for stretch in &diagram.stretches {
         let [from, to] = [x(stretch.from), x(stretch.to)];
         if stretch.rests {
-            let corners = [(from, 0.0), (to, 0.0), (to, HIGH + STRIP), (from, HIGH + STRIP)].map(|(x, y)| Vec2::new(x, y));
+            let corners =
+                [(from, 0.0), (to, 0.0), (to, HIGH + STRIP), (from, HIGH + STRIP)].map(|(x, y)| Vec2::new(x, y));
             figure.shape(corners.to_vec(), true, Some((REST, 1.0)), solid(REST, 0.1));
         }
     }

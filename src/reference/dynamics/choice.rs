@@ -52,21 +52,35 @@ impl Choice {
         let wanted = omega.abs();
         let power = resistance.greatest.1 * wanted;
         if !(power > 0.0) {
-            let message = format!("the greatest moment of resistance is {:.6} N m: nothing needs a motor", resistance.greatest.1);
-            return Err(Error::new(ErrorKind::Numeric, message).help("give the scenario the loads that the drive works against"));
+            let message =
+                format!("the greatest moment of resistance is {:.6} N m: nothing needs a motor", resistance.greatest.1);
+            return Err(Error::new(ErrorKind::Numeric, message)
+                .help("give the scenario the loads that the drive works against"));
         }
         let asked = power / efficiency;
         let Some(motor) = weakest_sufficient(catalogue, asked) else {
             let strongest = catalogue.iter().map(|motor| motor.power).fold(0.0, f64::max);
-            let message = format!("the drive asks for {:.4} kW, the strongest motor has {:.4} kW", asked / 1e3, strongest / 1e3);
-            return Err(Error::new(ErrorKind::Input, message)
-                .help("give a catalogue with stronger motors, or lower the peak: a flywheel on the crank carries over it"));
+            let message =
+                format!("the drive asks for {:.4} kW, the strongest motor has {:.4} kW", asked / 1e3, strongest / 1e3);
+            return Err(Error::new(ErrorKind::Input, message).help(
+                "give a catalogue with stronger motors, or lower the peak: a flywheel on the crank carries over it",
+            ));
         };
         let geared = motor.geared_to(wanted, efficiency);
         let Some(averaged) = geared.steady_speed(mean) else { return Err(reduced::no_steady_speed(mean)) };
         let driven = Case { motor: Some(geared.clone()), ..case.clone() };
         let regime = Model::of(&driven)?.regime(&[], ACCURACY)?;
-        Ok(Choice { peak: resistance.greatest, mean, wanted, power, asked, motor: motor.clone(), geared, averaged, regime })
+        Ok(Choice {
+            peak: resistance.greatest,
+            mean,
+            wanted,
+            power,
+            asked,
+            motor: motor.clone(),
+            geared,
+            averaged,
+            regime,
+        })
     }
 
     /// Torque (N m) that the peak asks of the motor's shaft, without inertia.
