@@ -24,6 +24,8 @@ pub mod reference;
 pub mod report;
 pub mod scenario;
 pub mod solver;
+pub mod synthesis;
+pub mod task;
 pub mod tolerance;
 pub mod trajectory;
 pub mod tune;

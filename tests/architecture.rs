@@ -16,7 +16,7 @@ const ALLOWED: &[(&str, &str)] = &[
     ("case", "drive math mechanism trajectory"),
     (
         "cli",
-        "case compare diagram engine error export math mechanism proof record reference report scenario trajectory tune",
+        "case compare diagram drive engine error export math mechanism proof record reference report scenario synthesis task trajectory tune",
     ),
     ("compare", "error math tolerance trajectory"),
     ("diagram", "case error math mechanism solver trajectory"),
@@ -30,8 +30,11 @@ const ALLOWED: &[(&str, &str)] = &[
     ("record", "error math mechanism trajectory"),
     ("reference", "assur case drive error math mechanism solver trajectory"),
     ("report", "compare error proof solver trajectory"),
-    ("scenario", "case drive error math mechanism trajectory"),
+    ("scenario", "case drive error math mechanism task trajectory"),
     ("solver", "case error math mechanism trajectory"),
+    // Candidates are solved as fast as can be: by groups, without a solver's grid and channels.
+    ("synthesis", "assur error math mechanism reference solver task"),
+    ("task", "case error math mechanism"),
     ("tolerance", ""),
     ("trajectory", "error"),
     // A join like the proof: engines are priced against the reference.
@@ -60,6 +63,8 @@ const NEVER: &[(&str, &str)] = &[
     ("record", "compare proof solver assur reference engine"),
     ("report", "assur reference engine record scenario mechanism"),
     ("proof", "record report"),
+    ("synthesis", "engine compare proof record scenario"),
+    ("task", "scenario solver assur reference engine"),
     ("tune", "record report cli"),
 ];
 
@@ -75,6 +80,9 @@ const HOMES: &[(&str, &str)] = &[
     ("prost_types", "record"),
     ("toml", "scenario"),
     ("toml_edit", "scenario"),
+    ("cobyla", "synthesis"),
+    ("rand_chacha", "synthesis"),
+    ("rayon", "synthesis"),
     ("petgraph", "mechanism"),
     ("nalgebra", "math"),
     ("pulp", "reference"),

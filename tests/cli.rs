@@ -18,5 +18,7 @@ mod range;
 mod run;
 #[path = "cli/solve.rs"]
 mod solve;
+#[path = "cli/synthesize.rs"]
+mod synthesize;
 #[path = "cli/tools.rs"]
 mod tools;

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use serde_json::{Value, json};
 
+use super::motor_choice;
 use super::output;
 use super::run::load;
 use crate::error::{Error, ErrorKind, Result};
@@ -22,6 +23,7 @@ Examples:
   linkproof drive scenarios/crank_rocker.toml --non-uniformity 0.02
   linkproof drive scenarios/crank_rocker.toml --step-deg 5 --table
   linkproof drive scenarios/crank_rocker.toml --step-deg 1 --json drive.json
+  linkproof drive scenarios/crank_rocker.toml --catalogue catalogues/motors.toml --efficiency 0.92   choose a motor
   linkproof drive scenarios/crank_rocker.toml --run-up run_up.csv --seconds 0.5 --points 500
 
 The mechanism is reduced to its crank: moment of inertia I* = sum of m (v / omega)^2 + J (omega_k / omega)^2, moment of resistance from the
@@ -62,6 +64,8 @@ pub(super) struct Args {
     /// Write everything as JSON to a file, or to standard output instead of the text with `-`
     #[arg(long, value_name = "FILE", value_parser = output::target)]
     json: Option<PathBuf>,
+    #[command(flatten)]
+    choice: motor_choice::Args,
 }
 
 /// Most rows of a table or a run-up.
@@ -82,6 +86,9 @@ struct Found {
 pub(super) fn drive(args: &Args) -> Result<()> {
     check(args)?;
     let scenario = load(&args.file, &args.mode)?.nominal();
+    if let Some(file) = &args.choice.catalogue {
+        return motor_choice::choose(&args.choice, file, &scenario, args.json.as_deref());
+    }
     let model = Model::of(&scenario.case)?;
     if let Some(to) = &args.run_up {
         let run_up = run_up(args, &model)?;

@@ -9,12 +9,14 @@ mod grid;
 mod inspect;
 mod list;
 mod modes;
+mod motor_choice;
 mod output;
 mod plan;
 mod progress;
 mod range;
 mod run;
 mod solve;
+mod synthesize;
 mod tune;
 
 use std::process::ExitCode;
@@ -61,12 +63,14 @@ enum Command {
     Inspect(inspect::Args),
     /// Largest reactions over the range of the grid, and the smallest journals that carry them
     Bearings(bearings::Args),
-    /// The mechanism reduced to its crank, its steady motion under its motor, flywheel and run-up
+    /// The mechanism reduced to its crank, its steady motion under its motor, flywheel and run-up; choice of a motor
     Drive(drive::Args),
     /// Velocity and acceleration plans at one crank angle, as a table, as JSON or drawn to scale
     Plan(plan::Args),
     /// Velocity and acceleration from a displacement by the chord method, and back, with their errors
     Diagram(diagram::Args),
+    /// Find dimensions for a wanted motion: crank-rocker and slider-crank in closed form, any linkage by search
+    Synthesize(synthesize::Args),
     /// Write a mechanism as a model of another program: MuJoCo's MJCF
     Export(export::Args),
     /// List scenarios, or the channels and solvers there are
@@ -86,6 +90,7 @@ pub fn main() -> ExitCode {
         Command::Drive(args) => output::exit(drive::drive(&args)),
         Command::Plan(args) => output::exit(plan::plan(&args)),
         Command::Diagram(args) => output::exit(diagram::diagram(&args)),
+        Command::Synthesize(args) => output::exit(synthesize::synthesize(&args)),
         Command::Export(args) => output::exit(export::export(&args)),
         Command::List(args) => output::exit(list::list(&args)),
     };

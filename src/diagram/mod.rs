@@ -11,8 +11,10 @@ pub mod scale;
 pub mod scheme;
 pub mod singular;
 mod sliding;
+pub mod timing;
 
 pub use motion::{Course, MotionDiagram};
 pub use plan::{Part, Plan, Plans, Quantity, Tip, TipKind, Vector};
 pub use scheme::Scheme;
 pub use singular::SingularPoint;
+pub use timing::TimingDiagram;

@@ -1,12 +1,14 @@
 //! What moves a mechanism and what loads it.
 
 mod branch;
+pub mod catalogue;
 pub mod course;
 pub mod load;
 pub mod motion;
 pub mod motor;
 
 pub use branch::Branch;
+pub use catalogue::CatalogueMotor;
 pub use course::Course;
 pub use load::{Action, Acts, Load, Setting, Wrench};
 pub use motion::{Drive, DriveState, MotionLaw};

@@ -3,11 +3,13 @@
 pub mod assembly;
 #[cfg(test)]
 pub(crate) mod fixtures;
+mod placing;
 pub mod pose;
 pub mod spanning_tree;
 pub mod structure;
 
 pub use assembly::{AssemblyMode, StartGroup, first_pose};
+pub use placing::Handle;
 pub use pose::{LinkPose, Pose};
 pub use spanning_tree::{Branch, Tree};
 pub use structure::{Group, GroupKind, Structure};

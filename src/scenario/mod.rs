@@ -1,6 +1,7 @@
 //! Scenario files: TOML in, a [`Case`] out. The only place where units are converted; docs/scenario.md describes the
 //! format. Every error points at file, line and key, says what was found, and the way out.
 
+pub mod catalogue;
 pub mod edit;
 mod figure;
 pub mod grid;
@@ -12,10 +13,12 @@ mod motor;
 pub mod oracle;
 mod printed;
 mod reader;
+pub mod redraw;
 mod settings;
 mod source;
 mod start;
 mod table_file;
+pub mod task_file;
 #[cfg(test)]
 mod tests;
 pub mod unit;

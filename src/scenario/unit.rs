@@ -80,6 +80,10 @@ pub static STIFFNESS: Family = Family { noun: "a stiffness", units: &[si("N_m"),
 pub static DAMPING: Family = Family { noun: "a damping", units: &[si("N_s_m")] };
 /// Changes of a moment with an angle.
 pub static TORSIONAL_STIFFNESS: Family = Family { noun: "a torsional stiffness", units: &[si("N_m_rad")] };
+/// Masses of bars a length.
+pub static MASS_PER_LENGTH: Family = Family { noun: "a mass per length", units: &[si("kg_per_m")] };
+/// Powers.
+pub static POWER: Family = Family { noun: "a power", units: &[si("W"), Unit::new("kW", 1e3, 1.0)] };
 
 #[cfg(test)]
 mod tests {
@@ -103,7 +107,18 @@ mod tests {
 
     #[test]
     fn every_family_starts_with_its_si_unit() {
-        let mechanical = [&MASS, &INERTIA, &ACCELERATION, &MOMENT, &MOMENT_PER_SPEED, &FORCE, &STIFFNESS, &DAMPING];
+        let mechanical = [
+            &MASS,
+            &INERTIA,
+            &POWER,
+            &MASS_PER_LENGTH,
+            &ACCELERATION,
+            &MOMENT,
+            &MOMENT_PER_SPEED,
+            &FORCE,
+            &STIFFNESS,
+            &DAMPING,
+        ];
         for family in [&LENGTH, &ANGLE, &ANGULAR_SPEED, &TIME, &TORSIONAL_STIFFNESS].into_iter().chain(mechanical) {
             assert_eq!(family.units[0].to_si(2.5), 2.5, "{}", family.noun);
         }

@@ -8,9 +8,11 @@ mod plan_figure;
 mod plan_sheet;
 mod scheme_figure;
 mod table;
+mod timing_sheet;
 
 pub use motion_sheet::motion;
 pub use plan_sheet::plans;
+pub use timing_sheet::timing;
 
 use figure::Figure;
 use svg::Document;

@@ -1,0 +1,190 @@
+//! `linkproof synthesize crank-rocker` and `slider-crank`.
+
+use std::f64::consts::TAU;
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+use serde_json::json;
+
+use super::{output, scenario_target, write_scenario};
+use crate::error::{Error, ErrorKind, Result};
+use crate::math::Vec2;
+use crate::scenario::Scenario;
+use crate::synthesis::Sheet;
+use crate::synthesis::crank_rocker::{self, CrankRocker, Extreme};
+use crate::synthesis::slider_crank::{Given, SliderCrank};
+
+/// Where results go, and what a scenario needs besides dimensions.
+#[derive(Debug, clap::Args)]
+struct Target {
+    /// Write the scenario to a file, or to standard output instead of the text with `-`
+    #[arg(short, long, value_name = "FILE", value_parser = scenario_target, conflicts_with = "json")]
+    output: Option<PathBuf>,
+    /// Speed of the crank in the scenario, in turns a minute, counter-clockwise positive
+    #[arg(long, value_name = "RPM", default_value = "60", allow_hyphen_values = true)]
+    rpm: f64,
+    /// Mass of the links in the scenario a metre of their length: uniform bars
+    #[arg(long, value_name = "KG_PER_M", default_value = "1")]
+    bar_kg_per_m: f64,
+    /// Write the result as JSON to a file, or to standard output instead of the text with `-`
+    #[arg(long, value_name = "FILE", value_parser = output::target)]
+    json: Option<PathBuf>,
+}
+
+impl Target {
+    fn sheet(&self, name: &str, title: &str, comment: String) -> Result<Sheet> {
+        if !(self.rpm != 0.0 && self.rpm.is_finite()) {
+            let error = Error::new(ErrorKind::Input, format!("--rpm is {}", self.rpm));
+            return Err(error.help("give a number of turns a minute that is not zero"));
+        }
+        if !(self.bar_kg_per_m > 0.0 && self.bar_kg_per_m.is_finite()) {
+            let error = Error::new(ErrorKind::Input, format!("--bar-kg-per-m is {}", self.bar_kg_per_m));
+            return Err(error.help("give a number greater than zero"));
+        }
+        let stem = self.output.as_deref().and_then(Path::file_stem).map_or("-".into(), |stem| stem.to_string_lossy());
+        let name = if stem == "-" { name.to_string() } else { stem.to_string() };
+        Ok(Sheet { name, title: title.into(), comment, speed: self.rpm * TAU / 60.0, bar: self.bar_kg_per_m })
+    }
+
+    /// Writes the scenario, if one is wanted, and then tells the rest where there is room.
+    fn deliver(&self, scenario: &str, text: &str, json: serde_json::Value) -> Result<()> {
+        if let Some(to) = &self.output {
+            // A name that no scenario may have shows here, not when it is run.
+            Scenario::parse(scenario, to)?;
+            write_scenario(scenario, to, &[])?;
+            if to == Path::new("-") {
+                return Ok(());
+            }
+        }
+        match &self.json {
+            Some(to) => output::write(&format!("{json:#}\n"), to),
+            None => output::print(text),
+        }
+    }
+}
+
+/// Two numbers with a comma between them.
+fn pair(text: &str) -> std::result::Result<[f64; 2], String> {
+    let numbers: Vec<f64> = text.split(',').map_while(|part| part.trim().parse().ok()).collect();
+    <[f64; 2]>::try_from(numbers).map_err(|_| "expected two numbers with a comma between them, such as 150,15".into())
+}
+
+#[derive(Debug, clap::Args)]
+pub(super) struct CrankRockerArgs {
+    /// Pivot of the crank
+    #[arg(long, value_name = "X,Y", default_value = "0,0", value_parser = pair, allow_hyphen_values = true)]
+    crank_pivot_mm: [f64; 2],
+    /// Pivot of the rocker
+    #[arg(long, value_name = "X,Y", value_parser = pair, allow_hyphen_values = true)]
+    pivot_mm: [f64; 2],
+    /// Length of the rocker
+    #[arg(long, value_name = "MM", allow_hyphen_values = true)]
+    rocker_mm: f64,
+    /// Angle of the rocker in one extreme position, counter-clockwise from x
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
+    extreme_deg: f64,
+    /// Angle from there to the other extreme position, counter-clockwise positive
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
+    swing_deg: f64,
+    #[command(flatten)]
+    target: Target,
+}
+
+pub(super) fn crank_rocker(args: &CrankRockerArgs) -> Result<()> {
+    let place = |[x, y]: [f64; 2]| Vec2::new(x / 1e3, y / 1e3);
+    let wish = crank_rocker::Wish {
+        crank_pivot: place(args.crank_pivot_mm),
+        rocker_pivot: place(args.pivot_mm),
+        rocker: args.rocker_mm / 1e3,
+        extreme: args.extreme_deg.to_radians(),
+        swing: args.swing_deg.to_radians(),
+    };
+    let found = CrankRocker::of(wish)?;
+    let mut text = String::from("crank-rocker from two extreme positions\n");
+    let _ = writeln!(
+        text,
+        "  crank OA      {:.15} m\n  coupler AB    {:.15} m\n  rocker CB     {:.15} m",
+        found.crank, found.coupler, wish.rocker
+    );
+    for (name, extreme) in [("stretched", found.stretched), ("folded", found.folded)] {
+        let [crank, rocker] = [extreme.crank, extreme.rocker].map(f64::to_degrees);
+        let _ = writeln!(text, "  {name:13} crank {crank:.9} deg, rocker {rocker:.9} deg");
+    }
+    let _ = writeln!(
+        text,
+        "  transmission  {:.4} deg at least, at crank {:.4} deg\n  time ratio    {:.6}\n  mode          {}",
+        found.transmission.to_degrees(),
+        found.transmission_at.to_degrees(),
+        found.time_ratio,
+        found.mode.name()
+    );
+    let comment = format!(
+        "linkproof synthesize crank-rocker --crank-pivot-mm {},{} --pivot-mm {},{} --rocker-mm {} --extreme-deg {} --swing-deg {}",
+        args.crank_pivot_mm[0],
+        args.crank_pivot_mm[1],
+        args.pivot_mm[0],
+        args.pivot_mm[1],
+        args.rocker_mm,
+        args.extreme_deg,
+        args.swing_deg
+    );
+    let sheet =
+        args.target.sheet("crank_rocker_found", "Crank-rocker from two extreme positions of its rocker", comment)?;
+    let extreme = |extreme: Extreme| json!({"crank_rad": extreme.crank, "rocker_rad": extreme.rocker});
+    let json = json!({
+        "schema": 1, "crank_m": found.crank, "coupler_m": found.coupler, "rocker_m": wish.rocker,
+        "stretched": extreme(found.stretched), "folded": extreme(found.folded), "mode": found.mode.name(),
+        "transmission_rad": found.transmission, "transmission_crank_rad": found.transmission_at, "time_ratio": found.time_ratio,
+    });
+    args.target.deliver(&found.scenario(&sheet), &text, json)
+}
+
+#[derive(Debug, clap::Args)]
+#[command(group = clap::ArgGroup::new("given").required(true).args(["rod_mm", "time_ratio"]))]
+pub(super) struct SliderCrankArgs {
+    /// Stroke of the slider
+    #[arg(long, value_name = "MM", allow_hyphen_values = true)]
+    stroke_mm: f64,
+    /// Distance of the slider's line from the crank's pivot
+    #[arg(long, value_name = "MM", default_value = "0", allow_hyphen_values = true)]
+    offset_mm: f64,
+    /// Length of the rod
+    #[arg(long, value_name = "MM", allow_hyphen_values = true)]
+    rod_mm: Option<f64>,
+    /// Time of the slower stroke over that of the faster one
+    #[arg(long, value_name = "K", allow_hyphen_values = true)]
+    time_ratio: Option<f64>,
+    #[command(flatten)]
+    target: Target,
+}
+
+pub(super) fn slider_crank(args: &SliderCrankArgs) -> Result<()> {
+    let (given, told) = match (args.rod_mm, args.time_ratio) {
+        (Some(rod), _) => (Given::Rod(rod / 1e3), format!("--rod-mm {rod}")),
+        (None, Some(ratio)) => (Given::TimeRatio(ratio), format!("--time-ratio {ratio}")),
+        (None, None) => unreachable!("the parser asks for one of the two"),
+    };
+    let found = SliderCrank::of(args.stroke_mm / 1e3, args.offset_mm / 1e3, given)?;
+    let mut text = String::from("slider-crank from stroke and offset\n");
+    let _ = writeln!(text, "  crank         {:.15} m\n  rod           {:.15} m", found.crank, found.rod);
+    for (name, [crank, place]) in [("farthest", found.far), ("nearest", found.near)] {
+        let _ = writeln!(text, "  {name:13} crank {:.9} deg, slider {place:.12} m", crank.to_degrees());
+    }
+    let _ = writeln!(
+        text,
+        "  pressure      {:.4} deg at most between rod and slider's line\n  time ratio    {:.6}",
+        found.pressure.to_degrees(),
+        found.time_ratio
+    );
+    let comment = format!(
+        "linkproof synthesize slider-crank --stroke-mm {} --offset-mm {} {told}",
+        args.stroke_mm, args.offset_mm
+    );
+    let sheet = args.target.sheet("slider_crank_found", "Slider-crank from stroke and offset", comment)?;
+    let end = |[crank, place]: [f64; 2]| json!({"crank_rad": crank, "slider_m": place});
+    let json = json!({
+        "schema": 1, "crank_m": found.crank, "rod_m": found.rod, "farthest": end(found.far), "nearest": end(found.near),
+        "pressure_rad": found.pressure, "time_ratio": found.time_ratio,
+    });
+    args.target.deliver(&found.scenario(&sheet), &text, json)
+}

@@ -1,0 +1,129 @@
+//! `linkproof synthesize search` and `check`.
+
+use std::path::{Path, PathBuf};
+
+use super::told::{self, Story};
+use super::{output, progress, scenario_target, write_scenario};
+use crate::diagram::draw;
+use crate::error::{Error, ErrorKind, Result};
+use crate::scenario::task_file::TaskFile;
+use crate::scenario::{Scenario, redraw};
+use crate::synthesis::{self, Achieved};
+use crate::task::Task;
+
+/// Where results go.
+#[derive(Debug, clap::Args)]
+struct Target {
+    /// Draw the wanted and the achieved motion to a file, or to standard output instead of the text with `-`
+    #[arg(long, value_name = "FILE", value_parser = output::target)]
+    svg: Option<PathBuf>,
+    /// Write the result as JSON to a file, or to standard output instead of the text with `-`
+    #[arg(long, value_name = "FILE", value_parser = output::target)]
+    json: Option<PathBuf>,
+}
+
+#[derive(Debug, clap::Args)]
+pub(super) struct Args {
+    /// Synthesis file
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+    /// Write the scenario found to a file, or to standard output instead of the text with `-`
+    #[arg(short, long, value_name = "FILE", value_parser = scenario_target)]
+    output: Option<PathBuf>,
+    /// Seed of the random numbers [default: the file's]
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+    /// Random candidates [default: the file's]
+    #[arg(long, value_name = "N")]
+    candidates: Option<usize>,
+    /// Best candidates to refine [default: the file's]
+    #[arg(long, value_name = "N")]
+    refined: Option<usize>,
+    /// Evaluations of each refinement [default: the file's]
+    #[arg(long, value_name = "N")]
+    evaluations: Option<usize>,
+    /// Threads; the result does not depend on them [default: as many as the machine has]
+    #[arg(long, value_name = "N", default_value = "0", hide_default_value = true)]
+    threads: usize,
+    #[command(flatten)]
+    target: Target,
+}
+
+#[derive(Debug, clap::Args)]
+pub(super) struct CheckArgs {
+    /// Synthesis file
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+    /// Scenario of the same structure
+    #[arg(value_name = "SCENARIO")]
+    scenario: PathBuf,
+    #[command(flatten)]
+    target: Target,
+}
+
+pub(super) fn search(args: &Args) -> Result<()> {
+    let TaskFile { mut task, drawing } = TaskFile::load(&args.file)?;
+    let effort = &mut task.effort;
+    effort.seed = args.seed.unwrap_or(effort.seed);
+    effort.candidates = args.candidates.unwrap_or(effort.candidates);
+    effort.refined = args.refined.unwrap_or(effort.refined);
+    effort.evaluations = args.evaluations.unwrap_or(effort.evaluations);
+    let mut bar = progress::Bar::new(&task.name);
+    let found = synthesis::search(&task, args.threads, &mut |part| bar.at(part))?;
+    drop(bar);
+    let values = redraw::round_values(&task, &found.values);
+    // What is told is measured on the scenario that is written, read back.
+    let place = drawing.path.with_file_name(format!("{}.toml", task.name));
+    let bare = Scenario::parse(&redraw::redrawn(&task, &drawing.text, &values, "")?, &place)?;
+    let own = Task { case: bare.case, ..task.clone() };
+    let achieved = Achieved::of(&own, found.forward)?;
+    let text = redraw::redrawn(&task, &drawing.text, &values, &comment(args, &own, &achieved))?;
+    if let Some(to) = &args.output {
+        write_scenario(&text, to, &[&args.file, &drawing.path])?;
+        if to == Path::new("-") {
+            return Ok(());
+        }
+    }
+    tell(&args.target, &Story { task: &own, achieved: &achieved, search: Some((&found, &values)) })
+}
+
+/// How the scenario came about, and how good it is.
+fn comment(args: &Args, task: &Task, achieved: &Achieved) -> String {
+    let effort = &task.effort;
+    let command = format!(
+        "linkproof synthesize search {} --seed {} --candidates {} --refined {} --evaluations {}",
+        args.file.display(),
+        effort.seed,
+        effort.candidates,
+        effort.refined,
+        effort.evaluations
+    );
+    format!("Found by: {command}\n{}", told::summary(task, achieved))
+}
+
+pub(super) fn check(args: &CheckArgs) -> Result<()> {
+    let TaskFile { task, drawing } = TaskFile::load(&args.file)?;
+    let scenario = Scenario::load(&args.scenario)?;
+    let names =
+        |scenario: &Scenario| scenario.case.mechanism.links().iter().map(|link| link.name.clone()).collect::<Vec<_>>();
+    if names(&scenario) != names(&drawing) || scenario.case.structure != drawing.case.structure {
+        let message =
+            format!("{} has another structure than the drawing of {}", scenario.path.display(), args.file.display());
+        return Err(Error::new(ErrorKind::Input, message)
+            .help("check a scenario with the same links in the same order, such as one that `linkproof synthesize search` wrote"));
+    }
+    let task = Task { case: scenario.case, ..task };
+    let achieved = Achieved::of_either(&task)?;
+    tell(&args.target, &Story { task: &task, achieved: &achieved, search: None })
+}
+
+fn tell(target: &Target, story: &Story) -> Result<()> {
+    let dash = |to: &Option<PathBuf>| to.as_deref() == Some(Path::new("-"));
+    if let Some(to) = &target.svg {
+        output::write(&draw::timing(&told::diagram(story), &story.task.title), to)?;
+    }
+    if let Some(to) = &target.json {
+        output::write(&format!("{:#}\n", told::json(story)), to)?;
+    }
+    if dash(&target.svg) || dash(&target.json) { Ok(()) } else { output::print(&told::text(story)) }
+}

@@ -1,0 +1,155 @@
+//! What is told of a motion and its timing: text, JSON, picture.
+
+use std::fmt::Write;
+
+use serde_json::{Value, json};
+
+use crate::diagram::timing::{Stretch, TimingDiagram};
+use crate::report::text::table;
+use crate::synthesis::achieved::BAND;
+use crate::synthesis::{Achieved, Found};
+use crate::task::{Output, Sense, Task};
+
+/// A task, what was achieved, and how it was found.
+pub(super) struct Story<'a> {
+    pub(super) task: &'a Task,
+    pub(super) achieved: &'a Achieved,
+    /// What the search found, and the values as written.
+    pub(super) search: Option<(&'a Found, &'a [f64])>,
+}
+
+/// The stroke with its unit.
+fn stroke(task: &Task, achieved: &Achieved) -> String {
+    match task.output {
+        Output::Angle { .. } => format!("{:.4} deg", achieved.stroke.to_degrees()),
+        Output::Coordinate { .. } => format!("{:.4} mm", achieved.stroke * 1e3),
+    }
+}
+
+/// The figures that count, in two lines.
+pub(super) fn summary(task: &Task, achieved: &Achieved) -> String {
+    format!(
+        "Stroke {}{}. Largest motion in a dwell {:.3} % of the stroke,\n\
+         largest way in a wrong sense {:.3} %. Extreme positions within {:.2} deg of the table, dwells short by {:.2} deg at most.",
+        stroke(task, achieved),
+        achieved
+            .transmission
+            .map_or(String::new(), |angle| format!(", smallest transmission angle {:.2} deg", angle.to_degrees())),
+        100.0 * achieved.unrest(task),
+        100.0 * achieved.wrong(),
+        achieved.late(task).to_degrees(),
+        achieved.short(task).to_degrees()
+    )
+}
+
+pub(super) fn text(story: &Story) -> String {
+    let (task, achieved) = (story.task, story.achieved);
+    let mut text = String::new();
+    let _ = writeln!(text, "{}: {}\n", task.name, task.title);
+    if let Some((found, values)) = story.search {
+        let [drawn, assembled] = found.candidates;
+        let _ = writeln!(
+            text,
+            "{drawn} random candidates, {assembled} of them assembled near the limits; cost {:.3e}, refined {:.3e} (worst of the refined {:.3e})\n",
+            found.random_cost,
+            found.cost,
+            found.refined.last().copied().unwrap_or(f64::NAN)
+        );
+        let mut dimensions = table(["dimension", "value", "from", "to"], &[1, 2, 3]);
+        for (variable, &value) in task.variables.iter().zip(values) {
+            let show = |value: f64| match variable.is_angle {
+                true => format!("{:.4} deg", value.to_degrees()),
+                false => format!("{:.3} mm", value * 1e3),
+            };
+            dimensions.add_row([
+                variable.name.clone(),
+                show(value),
+                show(variable.bounds[0]),
+                show(variable.bounds[1]),
+            ]);
+        }
+        let _ = writeln!(text, "{dimensions}\n");
+    }
+    let header = ["from deg", "to deg", "sense", "displacement %", "motion %", "wrong way %", "level %", "ends at deg"];
+    let mut phases = table(header, &[0, 1, 3, 4, 5, 6, 7]);
+    for (phase, done) in task.timing.phases().iter().zip(&achieved.phases) {
+        let percent = |share: f64| format!("{:.3}", 100.0 * share);
+        phases.add_row([
+            format!("{:.1}", phase.from.to_degrees()),
+            format!("{:.1}", phase.to.to_degrees()),
+            phase.sense.name().to_string(),
+            percent(done.displacement),
+            percent(done.motion),
+            if phase.sense == Sense::Dwell { "-".into() } else { percent(done.wrong) },
+            percent(done.level),
+            done.end.map_or("-".into(), |end| format!("{:.2}", end.to_degrees())),
+        ]);
+    }
+    let _ = writeln!(text, "{phases}\n\n{}", summary(task, achieved));
+    let _ = writeln!(
+        text,
+        "A dwell ends where the output leaves the middle of its extremes by {} % of the stroke, a motion at its extreme position.",
+        100.0 * BAND
+    );
+    text
+}
+
+pub(super) fn json(story: &Story) -> Value {
+    let (task, achieved) = (story.task, story.achieved);
+    let phases = task.timing.phases().iter().zip(&achieved.phases).map(|(phase, done)| {
+        json!({
+            "from_rad": phase.from, "to_rad": phase.to, "sense": phase.sense.name(), "displacement": done.displacement,
+            "motion": done.motion, "wrong": done.wrong, "level": done.level, "end_rad": done.end,
+        })
+    });
+    let search = story.search.map(|(found, values)| {
+        let dimensions = task.variables.iter().zip(values).map(|(variable, value)| {
+            let unit = if variable.is_angle { "rad" } else { "m" };
+            json!({"name": variable.name, "value": value, "unit": unit, "from": variable.bounds[0], "to": variable.bounds[1]})
+        });
+        json!({
+            "seed": task.effort.seed, "candidates": found.candidates[0], "assembled": found.candidates[1],
+            "random_cost": found.random_cost, "cost": found.cost, "refined_costs": found.refined,
+            "dimensions": dimensions.collect::<Vec<_>>(),
+        })
+    });
+    json!({
+        "schema": 1, "name": task.name, "stroke": achieved.stroke, "forward": achieved.forward,
+        "transmission_rad": achieved.transmission, "unrest": achieved.unrest(task), "wrong": achieved.wrong(),
+        "late_rad": achieved.late(task), "short_rad": achieved.short(task), "phases": phases.collect::<Vec<_>>(), "search": search,
+    })
+}
+
+/// The picture's data: a point every degree and the wanted curve, where it is known.
+pub(super) fn diagram(story: &Story) -> TimingDiagram {
+    let (task, achieved) = (story.task, story.achieved);
+    let rows = (0..achieved.turns.len()).step_by((achieved.turns.len() / 720).max(1));
+    let stretch = |(phase, done): (&crate::task::Phase, &crate::synthesis::achieved::PhaseDone)| Stretch {
+        from: phase.from,
+        to: phase.to,
+        word: phase.sense.name(),
+        rests: phase.sense == Sense::Dwell,
+        figure: match phase.sense {
+            Sense::Dwell => format!("moves {:.2} %", 100.0 * done.motion),
+            _ => format!("{:+.1} %", 100.0 * done.displacement),
+        },
+    };
+    TimingDiagram {
+        curve: rows.map(|row| [achieved.turns[row], achieved.shares[row]]).collect(),
+        wanted: (0..=360)
+            .filter_map(|deg| {
+                task.timing.wanted(f64::from(deg).to_radians()).map(|share| [f64::from(deg).to_radians(), share])
+            })
+            .collect(),
+        stretches: task.timing.phases().iter().zip(&achieved.phases).map(stretch).collect(),
+        note: format!(
+            "stroke {}; {}",
+            stroke(task, achieved),
+            summary(task, achieved)
+                .split_once(". ")
+                .map_or("", |(_, rest)| rest)
+                .replace(". ", "; ")
+                .replace('\n', " ")
+        ),
+    }
+}

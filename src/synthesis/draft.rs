@@ -1,0 +1,108 @@
+//! Scenario files of linkages that were found in closed form.
+
+use std::fmt::Write;
+
+use super::crank_rocker::CrankRocker;
+use super::slider_crank::SliderCrank;
+
+/// What a scenario says besides the dimensions.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sheet {
+    /// Name of the scenario, fit for file names.
+    pub name: String,
+    /// One line for people.
+    pub title: String,
+    /// Comment at the top of the file; its lines without the leading `#`.
+    pub comment: String,
+    /// Speed of the crank (rad/s), not zero, counter-clockwise positive.
+    pub speed: f64,
+    /// Mass of the links a metre of their length (kg/m): uniform slender bars.
+    pub bar: f64,
+}
+
+impl Sheet {
+    fn head(&self) -> String {
+        let mut text: String = self.comment.lines().map(|line| format!("# {line}\n")).collect();
+        let _ = writeln!(text, "format = 1\nname = {:?}\ntitle = {:?}\n", self.name, self.title);
+        text
+    }
+
+    /// A link of one bar from its first point at its origin along its x axis.
+    fn bar(&self, name: &str, points: [&str; 2], length: f64) -> String {
+        let mass = self.bar * length;
+        format!(
+            "[links.{name}]\nmass_kg = {mass:?}\ninertia_kg_m2 = {:?}\nmass_centre = {{ x_m = {:?}, y_m = 0 }}\n\
+             [links.{name}.points]\n{} = {{ x_m = 0, y_m = 0 }}\n{} = {{ x_m = {length:?}, y_m = 0 }}\n\n",
+            mass * length * length / 12.0,
+            length / 2.0,
+            points[0],
+            points[1],
+        )
+    }
+
+    fn tail(&self, group: &str, mode: &str) -> String {
+        let (sign, end) = if self.speed < 0.0 { ("-", -360) } else { ("", 360) };
+        format!(
+            "[drive]\njoint = \"O\"\nspeed_rad_s = {:?}\n\n[gravity]\nx_m_s2 = 0\ny_m_s2 = -9.81\n\n[start]\ncrank_deg = 0\n\
+             [[start.groups]]\nlinks = [{group}]\nmode = \"{mode}\"\n\n[grid]\nfrom_deg = 0\nto_deg = {end}\nstep_deg = {sign}1\n\n\
+             [engine]\nstep_deg = 0.5\n",
+            self.speed
+        )
+    }
+}
+
+fn pin(name: &str, links: [&str; 2]) -> String {
+    format!("[[joints]]\nname = \"{name}\"\ntype = \"revolute\"\nlinks = [\"{}\", \"{}\"]\n\n", links[0], links[1])
+}
+
+impl CrankRocker {
+    /// The scenario file.
+    #[must_use]
+    pub fn scenario(&self, sheet: &Sheet) -> String {
+        let [o, c] = [self.wish.crank_pivot, self.wish.rocker_pivot];
+        let mut text = sheet.head();
+        let _ = writeln!(
+            text,
+            "[ground.points]\nO = {{ x_m = {:?}, y_m = {:?} }}\nC = {{ x_m = {:?}, y_m = {:?} }}\n",
+            o.x, o.y, c.x, c.y
+        );
+        text += &sheet.bar("crank", ["O", "A"], self.crank);
+        text += &sheet.bar("coupler", ["A", "B"], self.coupler);
+        text += &sheet.bar("rocker", ["C", "B"], self.wish.rocker);
+        for (name, links) in [
+            ("O", ["ground", "crank"]),
+            ("A", ["crank", "coupler"]),
+            ("B", ["coupler", "rocker"]),
+            ("C", ["ground", "rocker"]),
+        ] {
+            text += &pin(name, links);
+        }
+        text + &sheet.tail("\"coupler\", \"rocker\"", self.mode.name())
+    }
+}
+
+impl SliderCrank {
+    /// The scenario file.
+    #[must_use]
+    pub fn scenario(&self, sheet: &Sheet) -> String {
+        let mut text = sheet.head();
+        let _ = writeln!(
+            text,
+            "[ground.points]\nO = {{ x_m = 0, y_m = 0 }}\nG = {{ x_m = 0, y_m = {:?} }} # on the slider's line\n",
+            self.offset
+        );
+        text += &sheet.bar("crank", ["O", "A"], self.crank);
+        text += &sheet.bar("rod", ["A", "B"], self.rod);
+        let mass = sheet.bar * self.crank;
+        let _ = writeln!(
+            text,
+            "# As heavy as the crank.\n[links.slider]\nmass_kg = {mass:?}\nmass_centre = {{ x_m = 0, y_m = 0 }}\n\
+             [links.slider.points]\nB = {{ x_m = 0, y_m = 0 }}\n"
+        );
+        for (name, links) in [("O", ["ground", "crank"]), ("A", ["crank", "rod"]), ("B", ["rod", "slider"])] {
+            text += &pin(name, links);
+        }
+        text += "[[joints]]\nname = \"guide\"\ntype = \"prismatic\"\nlinks = [\"ground\", \"slider\"]\npoints = [\"G\", \"B\"]\naxis_deg = 0\n\n";
+        text + &sheet.tail("\"rod\", \"slider\"", "ahead")
+    }
+}
