@@ -124,7 +124,7 @@ fn a_class_three_group_is_searched() {
     assert!(found.candidates[1] > 10 && found.cost < found.refined[1].min(found.random_cost) + 1e-15, "{found:?}");
     let mut mechanism = task.case.mechanism.clone();
     task.places.iter().for_each(|place| place.apply(&found.values, &mut mechanism));
-    let drive = linkproof::drive::Drive { zero: task.zero.value(&found.values), ..task.case.drive };
+    let drive = linkproof::drive::Drive { zero: task.zero.value(&found.values), ..task.case.drive.clone() };
     let (start, modes) = linkproof::mechanism::first_pose(
         &mechanism,
         &task.case.structure,
