@@ -106,7 +106,7 @@ impl Engine for Simbody {
     }
 
     fn noise(&self, case: &Case, channel: &ChannelKind) -> f64 {
-        noise::bound(case, tolerance(case), channel)
+        noise::bound(case, [tolerance(case), self.accuracy], channel)
     }
 
     fn told(&self) -> Vec<(&'static str, String)> {
