@@ -12,7 +12,7 @@ use common::spec::{Spec, four_bar};
 use common::{shipped, states};
 use linkproof::ErrorKind;
 use linkproof::case::{Case, Grid};
-use linkproof::compare::residuals;
+use linkproof::compare::{Verdict, residuals};
 use linkproof::engine::simbody::Simbody;
 use linkproof::engine::{self, Engine};
 use linkproof::math::Vec2;
@@ -328,4 +328,24 @@ fn an_accuracy_that_is_none_is_refused() {
         let error = Simbody::new(accuracy).solve(&case, &mut |_| {}).unwrap_err();
         assert!(error.kind() == ErrorKind::Input && error.message().contains("accuracy"), "{error}");
     }
+}
+
+/// Free motion, by a third solver that shares nothing with the two sides: motor and loads are forces that Simbody asks for, and it integrates by itself.
+#[test]
+fn run_ups_and_pendulums_are_those_of_the_reference() {
+    let mut agreed = 0;
+    for name in ["crank_rocker_runup", "ov7_new_runup", "compressor_runup", "pendulum", "double_pendulum"] {
+        let case = shipped(&format!("{name}.toml")).case;
+        let reference = NewtonSolver.solve(&case, &mut |_| {}).unwrap();
+        let found = Simbody::new(1e-9).solve(&case, &mut |_| {}).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let all = residuals(&reference, &found).unwrap();
+        let worst = all.iter().filter(|r| r.max > 0.0).map(|r| r.max / r.scale).fold(0.0, f64::max);
+        println!("{name}: {worst:.1e} of the scale");
+        assert!(worst < 1e-6, "{name}: {worst:e}");
+        let proof = prove(&shipped(&format!("{name}.toml")), &Options::of_engine("simbody"), &mut |_| {}).unwrap();
+        // The compressor's pistons have channels of a thousandth of what is natural, of which its accuracy proves nothing.
+        assert!(!matches!(proof.verdict, Verdict::Disagree { .. }), "{name}: {:?}", proof.verdict);
+        agreed += usize::from(matches!(proof.verdict, Verdict::Agree { .. }));
+    }
+    assert!(agreed >= 4, "{agreed} of 5 agree");
 }

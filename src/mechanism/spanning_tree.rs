@@ -100,7 +100,7 @@ impl Tree {
         Tree::with(mechanism, &[])
     }
 
-    /// The same with the given joints of the ground in it, whatever else could reach their links: in an Oldham coupling the driven
+    /// The same with the given joints in it, each with the ground or with a link of the ones before, whatever else could reach their links: in an Oldham coupling the driven
     /// disc is reached by sliding alone, and a drive that is to be a coordinate of the tree would be cut.
     #[must_use]
     pub fn with(mechanism: &Mechanism, joints: &[usize]) -> Self {
@@ -108,8 +108,9 @@ impl Tree {
         let mut reached = Vec::new();
         tree.reach(mechanism, GROUND, &mut reached);
         for &joint in joints {
-            let link = mechanism.joints()[joint].other(GROUND).link;
-            tree.branches.push(Branch { link, parent: GROUND, joint });
+            let [first, second] = [mechanism.joints()[joint].first.link, mechanism.joints()[joint].second.link];
+            let (parent, link) = if reached.contains(&first) { (first, second) } else { (second, first) };
+            tree.branches.push(Branch { link, parent, joint });
             tree.reach(mechanism, link, &mut reached);
         }
         let mut next = 0;

@@ -1,6 +1,7 @@
 //! The boundary to C++: the only unsafe code. Every declaration repeats one of `shim.h`.
 
-use std::ffi::{c_char, c_int};
+use std::ffi::{c_char, c_int, c_void};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::ptr::{self, NonNull};
 
 use crate::model::{Body, Closing, Failure, Joint, Settings, State};
@@ -50,7 +51,7 @@ impl RawBody {
             resistance: body.resistance,
             coordinate: body.coordinate,
             driven: body.law.is_some().into(),
-            rate: body.law.map_or(0.0, |law| law.rate),
+            rate: body.law.map_or(body.rate, |law| law.rate),
         }
     }
 
@@ -86,6 +87,8 @@ impl RawLoop {
 pub struct BodyState {
     /// Coordinate of its joint (rad, turns kept, or m).
     pub coordinate: f64,
+    /// Its rate (rad/s or m/s).
+    pub rate: f64,
     /// Position of the origin of its frame (m).
     pub origin: [f64; 2],
     /// Unit vector of its x axis.
@@ -133,6 +136,8 @@ unsafe extern "C" {
         accuracy: f64,
         tolerance: f64,
         time_scale: f64,
+        act: Option<unsafe extern "C" fn(*mut c_void, *const BodyState, *mut f64)>,
+        user: *mut c_void,
         run: &mut *mut RawRun,
         text: *mut c_char,
         size: usize,
@@ -187,10 +192,36 @@ fn plain(words: &str) -> String {
     parts.fold(first, |told, part| told + part.split_once(": ").map_or(part, |(_, rest)| rest))
 }
 
+/// What acts on the bodies besides gravity while time goes on: from positions and velocities of all bodies (accelerations and forces are 0), force at
+/// the mass centre (N, world axes) and moment about it (N m) of every body, which come in as 0.
+pub type Act = Box<dyn FnMut(&[BodyState], &mut [[f64; 3]])>;
+
+/// What Simbody calls back with.
+struct Acting {
+    act: Act,
+    count: usize,
+}
+
+/// Hands a call of Simbody's on to Rust. A panic becomes loads that are no numbers, which end the run.
+unsafe extern "C" fn acting(user: *mut c_void, bodies: *const BodyState, loads: *mut f64) {
+    // SAFETY: `user` is the box that the run keeps as long as it lives, and Simbody calls from one thread at a time; there are as many bodies, and three loads for
+    // each, as the run was made of.
+    let (acting, bodies, loads) = unsafe {
+        let acting = &mut *user.cast::<Acting>();
+        let count = acting.count;
+        let loads = std::slice::from_raw_parts_mut(loads.cast::<[f64; 3]>(), count);
+        (acting, std::slice::from_raw_parts(bodies, count), loads)
+    };
+    if catch_unwind(AssertUnwindSafe(|| (acting.act)(bodies, loads))).is_err() {
+        loads.fill([f64::NAN; 3]);
+    }
+}
+
 /// A run of a linkage, forwards in time.
-#[derive(Debug)]
 pub struct Run {
     raw: NonNull<RawRun>,
+    /// Kept where Simbody finds it.
+    _acting: Option<Box<Acting>>,
     state: State,
     time: f64,
     /// Internal steps allowed in a time scale, and the time scale (s).
@@ -203,12 +234,20 @@ impl Run {
         loops: &[RawLoop],
         gravity: [f64; 2],
         settings: Settings,
+        act: Option<Act>,
     ) -> Result<Self, Failure> {
         let mut raw = ptr::null_mut();
+        let mut kept = act.map(|act| Box::new(Acting { act, count: bodies.len() }));
+        let user = kept.as_mut().map_or(ptr::null_mut(), |kept| ptr::from_mut(kept.as_mut()).cast());
+        let call: Option<unsafe extern "C" fn(*mut c_void, *const BodyState, *mut f64)> = match kept {
+            Some(_) => Some(acting),
+            None => None,
+        };
         told(|text, size| {
             let Settings { accuracy, tolerance, time_scale, .. } = settings;
             // SAFETY: pointers and counts are those of slices that outlive the call, the shim copies what it keeps; the model has checked
-            // that bodies and loops refer only to bodies before them; the shim writes at most `size` bytes of text.
+            // that bodies and loops refer only to bodies before them; what is called back is kept until the run is freed; the shim writes at most
+            // `size` bytes of text.
             unsafe {
                 linkproof_simbody_new(
                     bodies.as_ptr(),
@@ -219,6 +258,8 @@ impl Run {
                     accuracy,
                     tolerance,
                     time_scale,
+                    call,
+                    user,
                     &mut raw,
                     text,
                     size,
@@ -228,7 +269,7 @@ impl Run {
         let raw = NonNull::new(raw).ok_or_else(|| Failure::of("Simbody gave no system"))?;
         let state =
             State { bodies: vec![BodyState::default(); bodies.len()], loops: vec![LoopState::default(); loops.len()] };
-        let mut run = Run { raw, state, time: 0.0, pace: (settings.steps, settings.time_scale) };
+        let mut run = Run { raw, _acting: kept, state, time: 0.0, pace: (settings.steps, settings.time_scale) };
         // A free mobilizer without inertia is no error of Simbody's, but gives no acceleration.
         run.read(false)?;
         Ok(run)
@@ -313,6 +354,12 @@ impl Run {
     }
 }
 
+impl std::fmt::Debug for Run {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Run").field("time", &self.time).field("state", &self.state).finish_non_exhaustive()
+    }
+}
+
 impl Drop for Run {
     fn drop(&mut self) {
         // SAFETY: the run came from `linkproof_simbody_new` and is freed only here.
@@ -323,7 +370,7 @@ impl Drop for Run {
 impl BodyState {
     fn is_finite(&self) -> bool {
         let pairs = [self.origin, self.direction, self.velocity, self.acceleration, self.force];
-        let others = [self.coordinate, self.omega, self.alpha, self.moment, self.drive];
+        let others = [self.coordinate, self.rate, self.omega, self.alpha, self.moment, self.drive];
         pairs.as_flattened().iter().chain(&others).all(|number| number.is_finite())
     }
 }

@@ -12,7 +12,7 @@
 //! let joint = Joint::Pin { on_parent: [0.0, 0.0], on_child: [0.0, 0.0] };
 //! let inertia = Inertia { mass: 2.0, centre: [0.5, 0.0], ..Inertia::default() };
 //! let law = Some(Law { rate: 3.0 });
-//! let rod = model.add(Body { parent: GROUND, joint, inertia, resistance: 0.0, coordinate: 0.0, law }).unwrap();
+//! let rod = model.add(Body { parent: GROUND, joint, inertia, resistance: 0.0, coordinate: 0.0, rate: 0.0, law }).unwrap();
 //! let mut run = model.run(Settings::default()).unwrap();
 //! let state = run.read(true).unwrap();
 //! let rod = &state.bodies[rod - 1];
@@ -23,5 +23,5 @@
 mod ffi;
 mod model;
 
-pub use ffi::{BodyState, LoopState, Run, version};
+pub use ffi::{Act, BodyState, LoopState, Run, version};
 pub use model::{Body, Closing, Failure, GROUND, Inertia, Joint, Law, Model, Settings, State};

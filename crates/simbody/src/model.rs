@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::ffi::{BodyState, LoopState, RawBody, RawLoop, Run};
+use crate::ffi::{Act, BodyState, LoopState, RawBody, RawLoop, Run};
 
 /// Number of the ground; bodies are numbered from 1 in the order in which they were added.
 pub const GROUND: usize = 0;
@@ -67,6 +67,8 @@ pub struct Body {
     pub resistance: f64,
     /// Coordinate of its joint at time 0 (rad or m).
     pub coordinate: f64,
+    /// Rate of the coordinate at time 0, where it is not prescribed (rad/s or m/s). Rates that do not belong together are projected onto the loops.
+    pub rate: f64,
     /// Its prescribed motion, where it has one.
     pub law: Option<Law>,
 }
@@ -201,6 +203,14 @@ impl Model {
     /// Settings out of their ranges; whatever Simbody has against the model: it cannot be assembled from the coordinates
     /// given, or a free mobilizer carries no inertia.
     pub fn run(&self, settings: Settings) -> Result<Run, Failure> {
+        self.run_under(settings, None)
+    }
+
+    /// As [`Model::run`], while `act` acts on the bodies.
+    ///
+    /// # Errors
+    /// Those of [`Model::run`].
+    pub fn run_under(&self, settings: Settings, act: Option<Act>) -> Result<Run, Failure> {
         let Settings { accuracy, tolerance, time_scale, .. } = settings;
         if !(accuracy > 0.0 && accuracy < 1.0) {
             return Err(Failure::of(format!("the accuracy is {accuracy}, it must lie between 0 and 1")));
@@ -216,6 +226,6 @@ impl Model {
         if self.bodies.is_empty() {
             return Err(Failure::of("there is no body"));
         }
-        Run::start(&self.bodies, &self.loops, self.gravity, settings)
+        Run::start(&self.bodies, &self.loops, self.gravity, settings, act)
     }
 }

@@ -56,6 +56,42 @@ private:
     double moment;
 };
 
+void motion(const State &state, const MobilizedBody &body, linkproof_body_state &to) {
+    to.coordinate = body.getOneQ(state, 0);
+    to.rate = body.getOneU(state, 0);
+    out_of(body.getBodyOriginLocation(state), to.origin);
+    out_of(body.getBodyRotation(state).x(), to.direction);
+    out_of(body.getBodyOriginVelocity(state), to.velocity);
+    to.omega = body.getBodyAngularVelocity(state)[2];
+}
+
+// Whatever the caller says acts on the bodies.
+class Acting : public Force::Custom::Implementation {
+public:
+    Acting(const std::vector<MobilizedBody> &bodies, const std::vector<Vec3> &centres, linkproof_act act, void *user)
+        : bodies(bodies), centres(centres), act(act), user(user) {}
+    bool dependsOnlyOnPositions() const override { return false; }
+    void calcForce(const State &state, Vector_<SpatialVec> &forces, Vector_<Vec3> &, Vector &) const override {
+        std::vector<linkproof_body_state> states(bodies.size());
+        std::vector<double> loads(3 * bodies.size(), 0.0);
+        for (size_t index = 0; index < bodies.size(); ++index)
+            motion(state, bodies[index], states[index]);
+        act(user, states.data(), loads.data());
+        for (size_t index = 0; index < bodies.size(); ++index) {
+            const double *load = &loads[3 * index];
+            bodies[index].applyForceToBodyPoint(state, centres[index], Vec3(load[0], load[1], 0), forces);
+            bodies[index].applyBodyTorque(state, Vec3(0, 0, load[2]), forces);
+        }
+    }
+    Real calcPotentialEnergy(const State &) const override { return 0; }
+
+private:
+    std::vector<MobilizedBody> bodies;
+    std::vector<Vec3> centres;
+    linkproof_act act;
+    void *user;
+};
+
 // Rotation about z by the direction (cos, sin), without a detour through the angle.
 Rotation turn(const double axis[2]) { return Rotation(UnitVec3(axis[0], axis[1], 0), XAxis, Vec3(0, 0, 1), ZAxis); }
 
@@ -98,13 +134,19 @@ struct linkproof_run {
     std::vector<MobilizedBody> bodies; // The ground first.
     std::vector<Loop> loops;
 
-    linkproof_run(const linkproof_body *first, size_t count, const Vec3 &gravity)
+    linkproof_run(const linkproof_body *first, size_t count, const Vec3 &gravity, linkproof_act act, void *user)
         : matter(system), forces(system), relief(forces, matter), integrator(system), gravity(gravity),
           given(first, first + count), loads(3 * count, 0.0) {
         Force::UniformGravity(forces, matter, gravity);
         bodies.push_back(matter.updGround());
         for (const linkproof_body &body : given)
             hang(body);
+        if (act) {
+            std::vector<Vec3> centres;
+            for (const linkproof_body &body : given)
+                centres.push_back(in_plane(body.centre));
+            Force::Custom(forces, new Acting(std::vector<MobilizedBody>(bodies.begin() + 1, bodies.end()), centres, act, user));
+        }
     }
 
     void hang(const linkproof_body &body) {
@@ -145,6 +187,9 @@ struct linkproof_run {
     void start(double accuracy, double tolerance) {
         State state = system.realizeTopology();
         system.realizeModel(state);
+        for (size_t index = 0; index < given.size(); ++index)
+            if (!given[index].driven)
+                bodies[index + 1].setOneU(state, 0, given[index].rate);
         integrator.setAccuracy(accuracy);
         integrator.setConstraintTolerance(tolerance);
         integrator.setUseInfinityNorm(true);
@@ -198,7 +243,7 @@ struct linkproof_run {
         Vector_<SpatialVec> at_joints(matter.getNumBodies(), SpatialVec(Vec3(0)));
         Vector drives(state.getNU(), 0.0);
         for (size_t index = 0; index < given.size(); ++index)
-            motion(state, bodies[index + 1], of_bodies[index]);
+            moved(state, bodies[index + 1], of_bodies[index]);
         if (reactions) {
             relieve(state);
             system.realize(state, Stage::Acceleration);
@@ -227,12 +272,8 @@ struct linkproof_run {
         }
     }
 
-    static void motion(const State &state, const MobilizedBody &body, linkproof_body_state &to) {
-        to.coordinate = body.getOneQ(state, 0);
-        out_of(body.getBodyOriginLocation(state), to.origin);
-        out_of(body.getBodyRotation(state).x(), to.direction);
-        out_of(body.getBodyOriginVelocity(state), to.velocity);
-        to.omega = body.getBodyAngularVelocity(state)[2];
+    static void moved(const State &state, const MobilizedBody &body, linkproof_body_state &to) {
+        motion(state, body, to);
         out_of(body.getBodyOriginAcceleration(state), to.acceleration);
         to.alpha = body.getBodyAngularAcceleration(state)[2];
     }
@@ -252,10 +293,10 @@ struct linkproof_run {
 
 int linkproof_simbody_new(const linkproof_body *bodies, size_t body_count, const linkproof_loop *loops, size_t loop_count,
                           const double gravity[2], double accuracy, double tolerance, double time_scale,
-                          linkproof_run **run, char *text, size_t size) {
+                          linkproof_act act, void *user, linkproof_run **run, char *text, size_t size) {
     *run = nullptr;
     return guarded(text, size, [&] {
-        std::unique_ptr<linkproof_run> made(new linkproof_run(bodies, body_count, in_plane(gravity)));
+        std::unique_ptr<linkproof_run> made(new linkproof_run(bodies, body_count, in_plane(gravity), act, user));
         for (size_t index = 0; index < loop_count; ++index)
             made->close(loops[index]);
         made->system.setDefaultTimeScale(time_scale);

@@ -26,7 +26,7 @@ typedef struct linkproof_body {
     double resistance;     /* Moment against the rotation, nothing at rest. */
     double coordinate;     /* Of the mobilizer at time 0. */
     int driven;            /* Whether the coordinate is prescribed: coordinate + rate * time. */
-    double rate;
+    double rate;           /* Of the coordinate: prescribed, or at time 0. */
 } linkproof_body;
 
 /* A revolute joint between two bodies of the tree. */
@@ -40,6 +40,7 @@ typedef struct linkproof_loop {
 /* What became of a body, in world axes. Force and moment are zero where reactions were not asked for. */
 typedef struct linkproof_body_state {
     double coordinate;
+    double rate;         /* Of the coordinate. */
     double origin[2];
     double direction[2]; /* Unit vector of its x axis. */
     double velocity[2];
@@ -58,13 +59,17 @@ typedef struct linkproof_loop_state {
 
 typedef struct linkproof_run linkproof_run;
 
+/* What acts on the bodies besides gravity while time goes on: given positions and velocities of all bodies (accelerations and forces are zero), writes for every body
+ * the force at its mass centre (N, world axes) and the moment about it (N m). Must not throw. */
+typedef void (*linkproof_act)(void *user, const linkproof_body_state *bodies, double *loads);
+
 /* Texts are cut to `size` bytes, the final zero included. All of these return 0, or else they write a text. */
 
-/* Builds the system and assembles it to `tolerance`: no constraint error is larger (m), nor any of their rates times `time_scale`
+/* `act` may be null: then nothing else acts. It is called with `user` as long as the run lives. Builds the system and assembles it to `tolerance`: no constraint error is larger (m), nor any of their rates times `time_scale`
  * (s). `accuracy` is that of the integrator. */
 int linkproof_simbody_new(const linkproof_body *bodies, size_t body_count, const linkproof_loop *loops, size_t loop_count,
                           const double gravity[2], double accuracy, double tolerance, double time_scale,
-                          linkproof_run **run, char *text, size_t size);
+                          linkproof_act act, void *user, linkproof_run **run, char *text, size_t size);
 
 /* Integrates on to `time` (not before the time reached), in at most `steps` internal steps. */
 int linkproof_simbody_advance(linkproof_run *run, double time, size_t steps, char *text, size_t size);

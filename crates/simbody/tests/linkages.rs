@@ -13,7 +13,7 @@ fn rod(mass: f64, length: f64) -> Inertia {
 }
 
 fn body(parent: usize, joint: Joint, inertia: Inertia, coordinate: f64) -> Body {
-    Body { parent, joint, inertia, resistance: 0.0, coordinate, law: None }
+    Body { parent, joint, inertia, resistance: 0.0, coordinate, rate: 0.0, law: None }
 }
 
 /// A parallelogram with cranks of length 1 from (0, 0) and (2, 0), the first driven; its coupler only shifts. The coordinates of coupler

@@ -4,6 +4,7 @@
 //! It takes from the case its geometry, masses, drive and the pose at t = 0, nothing later. Instants before t = 0 are reached by a second
 //! run whose time goes the other way.
 
+mod free;
 mod model;
 mod noise;
 
@@ -49,12 +50,6 @@ impl Simbody {
             let message = format!("the engine's accuracy is {}", self.accuracy);
             return Err(Error::new(ErrorKind::Input, message).help("give an accuracy between 0 and 1, 1e-8 for one"));
         }
-        if case.is_free() {
-            let message = "the motion is free, but Simbody is given prescribed speeds only by this version";
-            return Err(Error::new(ErrorKind::Unsupported, message)
-                .key("drive.motion")
-                .help("take another engine: `linkproof list --solvers` names them"));
-        }
         if let Some(drive) = case.drives().find(|drive| drive.law.constant().is_none()) {
             let message =
                 format!("a drive with the law \"{}\" is not handed to Simbody by this version", drive.law.name());
@@ -62,18 +57,24 @@ impl Simbody {
                 .help("take another engine: `linkproof list --solvers` names them"));
         }
         check_start(case)?;
-        let linkage = Linkage::new(case, sense)
+        let settings = self.settings_for(case);
+        if case.is_free() {
+            return free::start(case, settings);
+        }
+        let linkage = Linkage::new(case, sense, None)
             .map_err(|message| Error::new(ErrorKind::Input, format!("Simbody cannot take the mechanism: {message}")))?;
-        let speed = case.fastest_drive();
-        let settings = linkproof_simbody::Settings {
-            accuracy: self.accuracy,
-            tolerance: tolerance(case),
-            time_scale: 1.0 / speed,
-            // An error of fourth order a step.
-            steps: (MAX_STEPS * (Simbody::ACCURACY / self.accuracy).max(1.0).powf(0.25)) as usize,
-        };
         let run = linkage.model.run(settings).map_err(|failure| stopped(case, &linkage, sense, &failure))?;
         Ok((linkage, run))
+    }
+
+    fn settings_for(self, case: &Case) -> linkproof_simbody::Settings {
+        linkproof_simbody::Settings {
+            accuracy: self.accuracy,
+            tolerance: tolerance(case),
+            time_scale: 1.0 / case.fastest_drive(),
+            // An error of fourth order a step.
+            steps: (MAX_STEPS * (Simbody::ACCURACY / self.accuracy).max(1.0).powf(0.25)) as usize,
+        }
     }
 }
 
@@ -105,13 +106,13 @@ impl Engine for Simbody {
     }
 
     fn noise(&self, case: &Case, channel: &ChannelKind) -> f64 {
-        noise::bound(case, tolerance(case), channel)
+        noise::bound(case, [tolerance(case), self.accuracy], channel)
     }
 
     fn told(&self) -> Vec<(&'static str, String)> {
         vec![
             ("build", "spanning tree of pins and sliders, loops closed by two point-in-plane constraints each".into()),
-            ("drive", "prescribed coordinates".into()),
+            ("drive", "prescribed coordinates; under forces, motor and loads at every evaluation".into()),
             ("integrator", "Runge-Kutta-Merson, every step projected".into()),
             ("accuracy", format!("{:e}", self.accuracy)),
             ("constraint tolerance", format!("{TOLERANCE:e} of the mechanism's reach")),
@@ -143,6 +144,12 @@ impl Solver for Simbody {
         for (sense, rows, end) in [(-1.0, backwards.as_slice(), ends[0]), (1.0, after, ends[1])] {
             if rows.is_empty() {
                 continue;
+            }
+            if case.is_free() && sense < 0.0 {
+                let message = "the motion is free from t = 0 on, but an instant before is wanted";
+                return Err(Error::new(ErrorKind::Input, message)
+                    .key("grid")
+                    .help("let the grid go by time, from 0 s on"));
             }
             let (linkage, mut run) = self.start(case, sense)?;
             for &row in rows {
@@ -180,7 +187,11 @@ impl Solver for Simbody {
 
 /// Loads that are no forces of Simbody's own.
 fn other_loads(case: &Case) -> Vec<Load> {
-    case.loads.iter().filter(|load| !matches!(load, Load::Resistance { .. })).cloned().collect()
+    match case.is_free() {
+        // Then all of them act all the time.
+        true => Vec::new(),
+        false => case.loads.iter().filter(|load| !matches!(load, Load::Resistance { .. })).cloned().collect(),
+    }
 }
 
 /// Largest error of a constraint (m).

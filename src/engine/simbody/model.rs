@@ -3,14 +3,14 @@
 use linkproof_simbody::{Body, BodyState, Closing, Inertia, Joint, Law, LoopState, Model};
 
 use crate::case::Case;
-use crate::drive::{Load, Wrench};
+use crate::drive::{Drive, Load, Motor, Wrench};
 use crate::math::{Vec2, cross};
 use crate::mechanism;
 use crate::mechanism::spanning_tree::{Branch, Tree, coordinate};
 use crate::solver::State;
 
 /// The model of a case, and what links its numbers with the mechanism's.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Linkage {
     /// For Simbody: bodies in the order of the tree's branches, loops in that of its cuts.
     pub(super) model: Model,
@@ -28,7 +28,9 @@ impl Linkage {
     ///
     /// # Errors
     /// The text of a number that Simbody cannot take.
-    pub(super) fn new(case: &Case, sense: f64) -> Result<Self, String> {
+    ///
+    /// In a free motion, `rates` are those of all bodies' coordinates at t = 0; without them, free links turn with their initial speeds, as prescribed ones do.
+    pub(super) fn new(case: &Case, sense: f64, rates: Option<&[f64]>) -> Result<Self, String> {
         let mechanism = &case.mechanism;
         let driven: Vec<usize> = case.drives().map(|drive| drive.joint).collect();
         let tree = Tree::with(mechanism, &driven);
@@ -36,7 +38,7 @@ impl Linkage {
         // Bodies are numbered in the order of the branches, the ground is 0 on both sides.
         let mut numbers = vec![0; mechanism.links().len()];
         let mut twists = Vec::new();
-        for branch in &tree.branches {
+        for (index, branch) in tree.branches.iter().enumerate() {
             let found = &mechanism.joints()[branch.joint];
             let [parent, child] = [branch.parent, branch.link].map(|link| case.start.0[link].angle);
             let drive = case.drives().find(|drive| drive.joint == branch.joint);
@@ -44,10 +46,14 @@ impl Linkage {
                 parent: numbers[branch.parent],
                 joint: joint(found, branch),
                 inertia: inertia(case, branch.link),
-                resistance: sense * resistance(case, branch.link),
+                // Of a free motion all loads act together: see `acting`.
+                resistance: if case.is_free() { 0.0 } else { sense * resistance(case, branch.link) },
                 coordinate: coordinate(found, branch, &case.start.0),
+                rate: rates.map_or(0.0, |rates| rates[index]),
                 // Other laws are refused before.
-                law: drive.map(|drive| Law { rate: sense * drive.top_speed() }),
+                law: drive
+                    .and_then(|drive| law(case, branch, drive, rates.is_some()))
+                    .map(|rate| Law { rate: sense * rate }),
             };
             numbers[branch.link] = model.add(body).map_err(|failure| failure.message)?;
             twists.push(found.is_prismatic().then_some(child - parent));
@@ -102,10 +108,26 @@ impl Linkage {
                 state.torques[index] = body.drive;
             }
         }
+        if let (Some(motor), Some(_)) = (&case.motor, case.drive.free) {
+            let (sense, crank) = (case.drive.top_speed().signum(), &state.motions[case.drive.link]);
+            state.torques[0] = sense * motor.moment_on_crank(sense * crank.omega) - added(case) * crank.alpha;
+        }
         for (&joint, closed) in self.tree.cut.iter().zip(loops) {
             state.forces[joint] = closed.force.into();
         }
     }
+}
+
+/// Rate of a driven coordinate, unless it is left to forces.
+fn law(case: &Case, branch: &Branch, drive: &Drive, moving: bool) -> Option<f64> {
+    let rate = match drive.free {
+        Some(_) if moving => return None,
+        Some(speed) => speed,
+        None => drive.top_speed(),
+    };
+    // Drives turn links in the world, coordinates against the parent.
+    let parent = case.drives().find(|other| other.link == branch.parent);
+    Some(rate - parent.map_or(0.0, |parent| parent.free.unwrap_or(parent.top_speed())))
 }
 
 fn joint(found: &mechanism::Joint, branch: &Branch) -> Joint {
@@ -132,7 +154,13 @@ pub(super) fn inertia(case: &Case, link: usize) -> Inertia {
     let body = &case.mechanism.links()[link];
     let extra_mass = if body.mass > 0.0 { 0.0 } else { usual };
     let extra_inertia = if body.inertia > 0.0 { 0.0 } else { (body.mass + extra_mass) * size * size / 12.0 };
-    Inertia { mass: body.mass, centre: body.mass_centre.into(), inertia: body.inertia, extra_mass, extra_inertia }
+    let inertia = body.inertia + if link == case.drive.link { added(case) } else { 0.0 };
+    Inertia { mass: body.mass, centre: body.mass_centre.into(), inertia, extra_mass, extra_inertia }
+}
+
+/// Moment of inertia of rotor and reducer that turn with a free crank (kg m^2).
+pub(super) fn added(case: &Case) -> f64 {
+    case.motor.as_ref().filter(|_| case.drive.free.is_some()).map_or(0.0, Motor::inertia_on_crank)
 }
 
 /// Moment against a link's rotation (N m).
