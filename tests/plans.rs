@@ -3,6 +3,8 @@
 
 #[path = "plans/drawings.rs"]
 mod drawings;
+#[path = "plans/graphs.rs"]
+mod graphs;
 #[path = "plans/motion.rs"]
 mod motion;
 #[path = "plans/sliders.rs"]

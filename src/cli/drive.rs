@@ -1,18 +1,19 @@
 //! `linkproof drive`.
 
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 
 use super::motor_choice;
 use super::output;
 use super::run::load;
+use super::{drive_graphs, drive_run_up};
 use crate::error::{Error, ErrorKind, Result};
 use crate::reference::AssurSolver;
 use crate::reference::dynamics::course::{Extremes, Row};
 use crate::reference::dynamics::regime::At;
-use crate::reference::dynamics::{ACCURACY, End, Flywheel, Model, Regime, RunUp};
+use crate::reference::dynamics::{ACCURACY, Averaged, Flywheel, Model, Regime, RunUp};
 use crate::reference::reduced::{self, Means};
 use crate::report::text::table;
 use crate::scenario::Scenario;
@@ -22,12 +23,13 @@ Examples:
   linkproof drive scenarios/crank_rocker.toml
   linkproof drive scenarios/crank_rocker.toml --non-uniformity 0.02
   linkproof drive scenarios/crank_rocker.toml --step-deg 5 --table
+  linkproof drive scenarios/crank_rocker.toml --svg graphs.svg
   linkproof drive scenarios/crank_rocker.toml --step-deg 1 --json drive.json
   linkproof drive scenarios/crank_rocker.toml --catalogue catalogues/motors.toml --efficiency 0.92   choose a motor
   linkproof drive scenarios/crank_rocker.toml --run-up run_up.csv --seconds 0.5 --points 500
 
 The mechanism is reduced to its crank: moment of inertia I* = sum of m (v / omega)^2 + J (omega_k / omega)^2, moment of resistance from the
-powers of gravity and loads. With a `[motor]` section: the steady speed of the averaged model, the steady motion of the true one from
+powers of gravity and loads. With a `[motor]` section: the steady speed and time constant of the averaged model, the steady motion of the true one from
 omega^2 / 2 dI*/dphi + I* domega/dt = M, its coefficient of non-uniformity (fastest - slowest) / mean over time, and the flywheel on the
 crank's shaft for a wanted one. A run-up begins at the start of the scenario.";
 
@@ -61,6 +63,9 @@ pub(super) struct Args {
     /// Speed of the crank at its start, in turns a minute, counter-clockwise positive
     #[arg(long, value_name = "RPM", default_value = "0", allow_hyphen_values = true, requires = "run_up")]
     from_rpm: f64,
+    /// Draw the reduced quantities and the steady motion over the crank angle to a file, or to standard output instead of the text with `-`
+    #[arg(long, value_name = "FILE", value_parser = output::target)]
+    svg: Option<PathBuf>,
     /// Write everything as JSON to a file, or to standard output instead of the text with `-`
     #[arg(long, value_name = "FILE", value_parser = output::target)]
     json: Option<PathBuf>,
@@ -80,6 +85,8 @@ struct Found {
     rows: Vec<Row>,
     /// Speeds of crank and motor of the averaged model, and the steady motion; where there is a motor.
     steady: Option<([f64; 2], Regime)>,
+    /// The averaged model in closed form, where it has one.
+    averaged: Option<Averaged>,
     flywheel: Option<Flywheel>,
 }
 
@@ -90,17 +97,25 @@ pub(super) fn drive(args: &Args) -> Result<()> {
         return motor_choice::choose(&args.choice, file, &scenario, args.json.as_deref());
     }
     let model = Model::of(&scenario.case)?;
+    let targets = [&args.run_up, &args.json, &args.svg];
+    let told_there = targets.iter().any(|to| to.as_deref() == Some(Path::new("-")));
     if let Some(to) = &args.run_up {
         let run_up = run_up(args, &model)?;
-        output::write(&csv(&run_up)?, to)?;
-        if to.as_os_str() == "-" {
+        output::write(&drive_run_up::csv(&run_up)?, to)?;
+        if told_there && targets[1..].iter().all(|to| to.is_none()) {
             return Ok(());
         }
-        output::print(&told(&run_up))?;
+        if !told_there {
+            output::print(&drive_run_up::told(&run_up))?;
+        }
     }
     let found = find(args, &scenario, &model)?;
+    if let Some(to) = &args.svg {
+        output::write(&drive_graphs::draw(&scenario, &model, &found.means, &found.extremes)?, to)?;
+    }
     match &args.json {
         Some(to) => output::write(&format!("{}\n", as_json(args, &scenario, &found)), to),
+        None if told_there => Ok(()),
         None => output::print(&as_text(args, &scenario, &found)),
     }
 }
@@ -119,8 +134,12 @@ fn check(args: &Args) -> Result<()> {
     if !args.from_rpm.is_finite() {
         return wrong(format!("--from-rpm is {}", args.from_rpm), "give a finite number; 0 for a start from rest");
     }
-    if args.run_up.is_some() && args.json.is_some() && args.run_up == args.json {
-        return wrong("--run-up and --json name the same file".into(), "give two files, or leave one of the two out");
+    let targets = [("--run-up", &args.run_up), ("--svg", &args.svg), ("--json", &args.json)];
+    for (k, (one, to)) in targets.iter().enumerate() {
+        if let Some((other, _)) = targets[k + 1..].iter().find(|(_, other)| to.is_some() && to == other) {
+            let message = format!("{one} and {other} name the same file");
+            return wrong(message, "give two files, or leave one of the two out");
+        }
     }
     Ok(())
 }
@@ -133,17 +152,19 @@ fn find(args: &Args, scenario: &Scenario, model: &Model) -> Result<Found> {
     let count = (period / args.step_deg + 1e-9).floor() as usize;
     let cranks: Vec<f64> =
         (0..=count).map(|k| case.drive.start + sense * (args.step_deg * k as f64).to_radians()).collect();
+    let resistance = sense * means.resistance;
+    let inertia = means.inertia + model.added_inertia();
+    let averaged = case.motor.as_ref().and_then(|motor| Averaged::of(motor, inertia, resistance));
     let steady = match &case.motor {
         None => None,
         Some(motor) => {
-            let resistance = sense * means.resistance;
             let Some(speed) = motor.steady_speed(resistance) else { return Err(reduced::no_steady_speed(resistance)) };
             Some(([sense * speed, sense * speed * motor.ratio], model.regime(&cranks, ACCURACY)?))
         }
     };
     let flywheel = args.non_uniformity.map(|wanted| model.flywheel(wanted, ACCURACY)).transpose()?;
     let (extremes, rows) = (model.extremes()?, model.rows(&cranks)?);
-    Ok(Found { means, extremes, added: model.added_inertia(), rows, steady, flywheel })
+    Ok(Found { means, extremes, added: model.added_inertia(), rows, steady, averaged, flywheel })
 }
 
 fn as_text(args: &Args, scenario: &Scenario, found: &Found) -> String {
@@ -163,6 +184,12 @@ fn as_text(args: &Args, scenario: &Scenario, found: &Found) -> String {
         None => text.push_str("no motor: add a `[motor]` section to learn the steady motion\n"),
         Some(([crank, motor], regime)) => {
             let _ = writeln!(text, "averaged model\n  crank     {crank:.6} rad/s\n  motor     {motor:.6} rad/s");
+            match &found.averaged {
+                Some(averaged) => {
+                    let _ = writeln!(text, "  time constant {:.9} s", averaged.time_constant);
+                }
+                None => text.push_str("  time constant: none, the motor's law is not one straight line from rest on\n"),
+            }
             let _ = writeln!(text, "steady motion\n{}", of_regime(regime));
         }
     }
@@ -232,7 +259,10 @@ fn as_json(args: &Args, scenario: &Scenario, found: &Found) -> String {
         "inertia_kg_m2": extremes(&found.extremes[0], found.means.inertia),
         "resistance_N_m": extremes(&found.extremes[1], sense * found.means.resistance),
         "motor_and_reducer_kg_m2": found.added,
-        "averaged": found.steady.as_ref().map(|([crank, motor], _)| json!({"crank_rad_s": crank, "motor_rad_s": motor})),
+        "averaged": found.steady.as_ref().map(|([crank, motor], _)| {
+            let constant = found.averaged.map(|averaged| averaged.time_constant);
+            json!({"crank_rad_s": crank, "motor_rad_s": motor, "time_constant_s": constant})
+        }),
         "steady": found.steady.as_ref().map(|(_, steady)| regime(steady)),
         "flywheel": found.flywheel.as_ref().map(|wheel| {
             json!({"non_uniformity": args.non_uniformity, "inertia_kg_m2": wheel.inertia, "steady": regime(&wheel.regime)})
@@ -248,36 +278,4 @@ fn as_json(args: &Args, scenario: &Scenario, found: &Found) -> String {
 fn run_up(args: &Args, model: &Model) -> Result<RunUp> {
     let times: Vec<f64> = (0..=args.points).map(|k| args.seconds * (k as f64 / args.points as f64)).collect();
     RunUp::of(model, args.from_rpm * std::f64::consts::TAU / 60.0, &times, ACCURACY)
-}
-
-/// How a run-up ended.
-fn told(run_up: &RunUp) -> String {
-    let mut text = match run_up.end {
-        End::Reached => "run-up followed to its end".to_string(),
-        End::Held(t, crank) => format!("run-up: held at {t:.9} s, crank angle {:.6} deg", crank.to_degrees()),
-        End::Limit(t, crank) => {
-            format!("run-up: at a limit of rotation at {t:.9} s, crank angle {:.6} deg", crank.to_degrees())
-        }
-    };
-    if let Some(residual) = run_up.power_residual() {
-        let _ = write!(text, "; motor against reactions: {residual:.1e} of the largest moment");
-    }
-    text.push_str("\n\n");
-    text
-}
-
-/// One row an instant: the crank, the motor's moment, then all wanted channels; 17 significant digits.
-fn csv(run_up: &RunUp) -> Result<String> {
-    let failed = |error: csv::Error| Error::new(ErrorKind::Io, format!("the table cannot be written: {error}"));
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    let own = ["t_s", "crank_rad", "crank_omega_rad_s", "crank_alpha_rad_s2", "motor_on_crank_N_m", "shaft_N_m"];
-    let names = run_up.trajectory.channels().iter().map(ToString::to_string);
-    writer.write_record(own.map(String::from).into_iter().chain(names)).map_err(failed)?;
-    for (row, at) in run_up.motion.iter().enumerate() {
-        let own = [at.t, at.crank, at.omega, at.alpha, at.motor, at.shaft];
-        let channels = run_up.trajectory.iter().map(|(_, values)| values[row]);
-        writer.write_record(own.into_iter().chain(channels).map(|v| format!("{v:.16e}"))).map_err(failed)?;
-    }
-    let bytes = writer.into_inner().map_err(|error| failed(error.into_error().into()))?;
-    Ok(String::from_utf8(bytes).expect("names and numbers are text"))
 }

@@ -3,6 +3,8 @@
 mod bearings;
 mod diagram;
 mod drive;
+mod drive_graphs;
+mod drive_run_up;
 mod engine_args;
 mod export;
 mod grid;

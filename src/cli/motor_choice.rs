@@ -15,7 +15,7 @@ use crate::scenario::{Scenario, catalogue};
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
     /// Choose a motor from this catalogue by the peak of the resistance and the scenario's speed, instead of all else
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["non_uniformity", "run_up", "table"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["non_uniformity", "run_up", "svg", "table"])]
     pub(super) catalogue: Option<PathBuf>,
     /// Efficiency between motor and crank, for the choice [default: that of the scenario's motor, else 1]
     #[arg(long, value_name = "SHARE", allow_hyphen_values = true, requires = "catalogue")]

@@ -1,9 +1,10 @@
 //! The graphical methods of the theory of mechanisms as results of their own: velocity and acceleration plans, the singular Assur
-//! point of a class IV group, and motion diagrams by chords and by graphical integration; as data and as drawings true to scale.
+//! point of a class IV group, motion diagrams by chords and by graphical integration, and graphs over the crank angle; as data and as drawings true to scale.
 
 mod builder;
 pub mod chord;
 pub mod draw;
+pub mod graphs;
 pub mod motion;
 mod names;
 pub mod plan;
@@ -13,6 +14,7 @@ pub mod singular;
 mod sliding;
 pub mod timing;
 
+pub use graphs::{Graph, Graphs, Mark};
 pub use motion::{Course, MotionDiagram};
 pub use plan::{Part, Plan, Plans, Quantity, Tip, TipKind, Vector};
 pub use scheme::Scheme;

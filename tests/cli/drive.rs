@@ -18,6 +18,9 @@ fn the_published_drive_as_json() {
     near(&value["resistance_N_m"]["mean"], 160.0 / 9.0, 1e-10);
     near(&value["averaged"]["crank_rad_s"], 14.33204, 5e-6);
     near(&value["averaged"]["motor_rad_s"], 302.6266, 5e-5);
+    // I* / (ratio^2 slope), by hand.
+    let constant = 0.164_846_013 / ((2745.0f64 / 130.0).powi(2) * 0.0716);
+    near(&value["averaged"]["time_constant_s"], constant, 2e-11);
     near(&value["steady"]["mean_rad_s"], 14.263_883_878_5, 1e-9);
     near(&value["steady"]["period_s"], 0.440_496_106_159_4, 1e-9);
     near(&value["steady"]["at_start_rad_s"], 16.679_930_049_7, 1e-9);
@@ -45,12 +48,60 @@ fn a_run_up_as_csv() {
     assert!(rows[0][2] == 0.0 && rows[10][2] > 10.0);
 }
 
+/// All words of a drawing, and how many curves it has: open paths.
+fn drawn(text: &str) -> (String, usize) {
+    let document = roxmltree::Document::parse(text).unwrap_or_else(|error| panic!("{error}: {text}"));
+    let words = document.descendants().filter_map(|node| if node.is_text() { node.text() } else { None }).collect();
+    let paths = document.descendants().filter_map(|node| node.attribute("d"));
+    (words, paths.filter(|path| !path.ends_with('Z')).count())
+}
+
+#[test]
+fn graphs_as_svg() {
+    let place = Place::new();
+    let (words, curves) = drawn(&place.ok("drive scenarios/crank_rocker.toml --svg -"));
+    assert_eq!(curves, 4);
+    for label in [
+        "moment of inertia I*, kg m2",
+        "dI*/dφ",
+        "moment of resistance Mr, N m",
+        "steady motion ω, rad/s",
+        "crank angle φ, deg",
+        "mean 0.1648",
+        "least 0.01111 at 234.2°",
+        "greatest 0.4641 at 329.4°",
+        "mean 17.78",
+        "greatest 36.99 at 94.2°",
+        "slowest 13.04 at 305.6°",
+        "fastest 17.33 at 9.5°",
+        "mean over time 14.26",
+        "non-uniformity 0.300370",
+    ] {
+        assert!(words.contains(label), "{label}: {words}");
+    }
+    // Beside the text; without a motor there is no steady motion, a resistance of gravity alone has no mean.
+    let text = place.ok("drive scenarios/ov7_base.toml --svg ov7.svg");
+    assert!(text.contains("no motor"), "{text}");
+    let (words, curves) = drawn(&std::fs::read_to_string(place.path("ov7.svg")).unwrap());
+    assert!(curves == 3 && words.contains("-330°") && words.contains("mean 0") && !words.contains("e-18"), "{words}");
+    // Clockwise the steady speed is negative: the slowest lies above.
+    place.edited("crank_rocker.toml", "back.toml", &[("speed_rpm = 130", "speed_rpm = -130")]);
+    let (words, curves) = drawn(&place.ok("drive scenarios/back.toml --svg -"));
+    let there = ["slowest -12.11 at -10.1°", "greatest 0.4641 at -30.6°", "mean 17.78", "mean over time -14.26"];
+    assert!(curves == 4 && there.iter().all(|label| words.contains(label)), "{words}");
+}
+
 #[test]
 fn text_and_what_is_missing() {
     let place = Place::new();
     let text = place.ok("drive scenarios/crank_rocker.toml --table");
-    for words in ["mean      0.164846013 kg m^2", "mean      17.777777778 N m", "period 0.4404961061594 s", "dI*/dphi"]
-    {
+    for words in [
+        "mean      0.164846013 kg m^2",
+        "mean      17.777777778 N m",
+        "period 0.4404961061594 s",
+        "dI*/dphi",
+        "time constant 0.0051",
+    ] {
         assert!(text.contains(words), "{words}: {text}");
     }
     assert!(place.ok("drive scenarios/ov7_base.toml").contains("no motor: add a `[motor]` section"));
@@ -66,6 +117,8 @@ fn mistakes_are_answered() {
         ("--run-up - --points 0", ["--points is 0", "from 1"]),
         ("--run-up - --from-rpm nan", ["--from-rpm is NaN", "finite"]),
         ("--run-up same --json same", ["the same file", "two files"]),
+        ("--run-up same --svg same", ["--run-up and --svg name the same file", "two files"]),
+        ("--svg - --json -", ["--svg and --json name the same file", "two files"]),
     ] {
         let outcome = place.run(&format!("drive scenarios/crank_rocker.toml {arguments}"));
         assert_eq!(outcome.code, 2, "{arguments}");

@@ -4,8 +4,9 @@ use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
 use linkproof::case::Case;
-use linkproof::drive::{Motor, MotorLaw, ShaftInertia};
-use linkproof::reference::dynamics::{ACCURACY, End, Model, RunUp, motion};
+use linkproof::drive::{Load, MotionLaw, Motor, MotorLaw, ShaftInertia};
+use linkproof::reference::dynamics::{ACCURACY, Averaged, End, Model, RunUp, motion};
+use linkproof::reference::{AssurSolver, reduced};
 use linkproof::scenario::Scenario;
 
 /// A bar of 2 kg and 0.05 kg m^2 about its mass centre, 0.3 m from the pivot; from the direction `start` (deg).
@@ -54,6 +55,57 @@ fn constant_coefficients_have_their_closed_form() {
         assert!((at.omega - omega).abs() < 1e-11 && (at.crank - crank).abs() < 1e-11, "{at:?} {omega} {crank}");
         assert!((at.alpha - (moment - damping * omega) / whole).abs() < 1e-9);
     }
+}
+
+/// Where inertia and resistance are constant, the averaged model is the true one: a balanced bar against a resistance, behind a reducer with losses.
+#[test]
+fn the_averaged_model_is_exact_for_constant_coefficients() {
+    let inertia = ShaftInertia { rotor: 1e-3, input: 5e-4, intermediate: 2e-2, intermediate_ratio: 3.0, output: 0.1 };
+    let law = MotorLaw::Linear { at_rest: 4.0, slope: -0.02 };
+    for (speed, efficiency) in [(1.0, 0.9), (-1.0, 0.9), (1.0, 1.0)] {
+        let mut case = bar(0.0, 20.0, false);
+        case.drive.law = MotionLaw::ConstantSpeed(speed);
+        case.loads.push(Load::Resistance { link: 1, moment: 6.0 });
+        let motor = Motor { efficiency, inertia, ..Motor::ideal(law.clone(), 10.0) };
+        case.motor = Some(motor.clone());
+        let model = Model::of(&case).unwrap();
+        let means = reduced::means_over_turn(&case, &AssurSolver).unwrap();
+        let averaged = Averaged::of(&motor, means.inertia + model.added_inertia(), speed * means.resistance).unwrap();
+        // 40 N m and 2 N m s on the crank without losses.
+        assert!((averaged.time_constant - 0.48 / (2.0 * efficiency)).abs() < 1e-15, "{averaged:?}");
+        assert!((averaged.steady_speed - (40.0 * efficiency - 6.0) / (2.0 * efficiency)).abs() < 1e-13);
+        let (found, end) = motion(&model, 0.0, &evenly(1.5, 300), 1e-13).unwrap();
+        assert_eq!((found.len(), end), (301, End::Reached));
+        let mut most = [0.0f64; 2];
+        for at in &found {
+            let (omega, angle) = (speed * at.omega, speed * (at.crank - case.drive.start));
+            let off = [omega - averaged.speed(at.t), angle - averaged.angle(at.t)];
+            most = [0, 1].map(|k| most[k].max(off[k].abs()));
+        }
+        assert!(most.iter().all(|off| *off < 1e-12), "{most:?}");
+    }
+}
+
+#[test]
+fn the_averaged_model_is_closed_on_one_straight_line_only() {
+    let linear = Motor::ideal(MotorLaw::Linear { at_rest: 4.0, slope: -0.02 }, 10.0);
+    let lossy = Motor { efficiency: 0.9, ..linear.clone() };
+    // Without resistance both come to 200 rad/s of the motor, slower with losses.
+    let free = [&linear, &lossy].map(|motor| Averaged::of(motor, 0.5, 0.0).unwrap());
+    assert!(free.iter().all(|free| (free.steady_speed - 20.0).abs() < 1e-12), "{free:?}");
+    assert!((free[1].time_constant / free[0].time_constant - 1.0 / 0.9).abs() < 1e-14);
+    // A resistance that drives: beyond 20 rad/s losses change their side.
+    assert!((Averaged::of(&linear, 0.5, -2.0).unwrap().steady_speed - 21.0).abs() < 1e-12);
+    assert_eq!(Averaged::of(&lossy, 0.5, -2.0), None);
+    // More than the starting moment, no mass, no slope, no line.
+    assert_eq!(Averaged::of(&linear, 0.5, 40.1), None);
+    assert_eq!(Averaged::of(&linear, 0.0, 1.0), None);
+    let bent = [
+        MotorLaw::Constant { torque: 4.0 },
+        MotorLaw::Linear { at_rest: 4.0, slope: 0.02 },
+        MotorLaw::Kloss { breakdown_torque: 5.0, breakdown_slip: 0.2, synchronous_speed: 200.0 },
+    ];
+    assert!(bent.into_iter().all(|law| Averaged::of(&Motor::ideal(law, 10.0), 0.5, 1.0).is_none()));
 }
 
 /// Kloss's run-up time without load: t = I omega_s / (2 M_b) ((1 - s^2) / (2 s_b) + s_b ln(1 / s)).

@@ -1,6 +1,8 @@
 //! Drawings as SVG, one unit a millimetre: printed at full size they are true to the scale factors written on them.
 
+mod axes;
 mod figure;
+mod graph_sheet;
 mod guide_figure;
 mod labels;
 mod motion_sheet;
@@ -10,6 +12,7 @@ mod scheme_figure;
 mod table;
 mod timing_sheet;
 
+pub use graph_sheet::graphs;
 pub use motion_sheet::motion;
 pub use plan_sheet::plans;
 pub use timing_sheet::timing;

@@ -1,9 +1,9 @@
 //! The sheet of motion diagrams: displacement, velocity and acceleration over the crank angle, one below the other.
 
+use super::axes::{Axis, GRID, frame};
 use super::figure::{Figure, Style, Type, solid, sub, words};
-use super::{BLACK, COLOURS, GREY, document, significant};
+use super::{BLACK, COLOURS, document, significant};
 use crate::diagram::motion::{Found, Method, MotionDiagram};
-use crate::diagram::scale::{factor, round_up};
 use crate::math::Vec2;
 
 /// Length of the crank angle's axis (mm): two degrees a millimetre.
@@ -45,14 +45,12 @@ fn panel(diagram: &MotionDiagram, which: usize) -> Figure {
     let found: Vec<&Found> = diagram.found.iter().filter(|found| found.method.gives() == which).collect();
     let values = exact.iter().chain(found.iter().flat_map(|found| &found.values));
     let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &v| (l.min(v), h.max(v)));
-    let step = if high > low { round_up((high - low) / 6.0) } else { 1.0 };
-    let (bottom, up) = ((low / step).floor(), (high / step).ceil().max((low / step).floor() + 1.0));
-    let scale = factor((up - bottom) * step, HIGH);
-    let y = |value: f64| (value - bottom * step) / scale;
+    let axis = Axis::of([low, high], HIGH);
+    let y = |value: f64| axis.y(value);
     let rows = exact.len() - 1;
     let x = |row: usize| LONG * row as f64 / rows as f64;
-    let height = y(up * step);
-    axes(&mut figure, diagram, [bottom, up], step, &y);
+    let (height, scale) = (axis.height(), axis.scale);
+    axes(&mut figure, diagram, &axis);
     let stride = rows.div_ceil(POINTS - 1).max(1);
     let curve = (0..=rows).filter(|row| row % stride == 0 || *row == rows).map(|row| Vec2::new(x(row), y(exact[row])));
     figure.shape(curve.collect(), false, None, solid(BLACK, 0.45));
@@ -113,35 +111,20 @@ fn mark(figure: &mut Figure, method: Method, at: Vec2) {
 }
 
 /// Frame, grid lines at round values and at the divisions of the turn, and their numbers.
-fn axes(figure: &mut Figure, diagram: &MotionDiagram, [bottom, up]: [f64; 2], step: f64, y: &dyn Fn(f64) -> f64) {
-    let height = y(up * step);
-    let count = (up - bottom).round() as i32;
-    let decimals = decimals(step);
-    for k in 0..=count {
-        let value = (bottom + f64::from(k)) * step;
-        let style = if value == 0.0 { solid(BLACK, 0.25) } else { solid("#c8c8c8", 0.15) };
-        figure.line([Vec2::new(0.0, y(value)), Vec2::new(LONG, y(value))], style);
-        let text =
-            if step.abs() < 1e-4 || step.abs() >= 1e6 { format!("{value:e}") } else { format!("{value:.decimals$}") };
-        figure.text(Vec2::new(-2.0, y(value) - 1.0), text, Type { anchor: "end", ..words(2.8) });
-    }
+fn axes(figure: &mut Figure, diagram: &MotionDiagram, axis: &Axis) {
+    let height = axis.height();
+    axis.draw(figure, LONG);
     let every = diagram.divisions.div_ceil(24);
     let whole = diagram.divisions;
     let (start, turn) = (diagram.cranks[0], diagram.cranks[diagram.cranks.len() - 1] - diagram.cranks[0]);
     for k in (0..=whole).filter(|k| k % every == 0 || *k == whole) {
         let x = LONG * k as f64 / whole as f64;
-        figure.line([Vec2::new(x, 0.0), Vec2::new(x, height)], solid("#c8c8c8", 0.15));
+        figure.line([Vec2::new(x, 0.0), Vec2::new(x, height)], GRID);
         let labelled = whole.div_ceil(12);
         if k % labelled == 0 || k == whole {
             let degrees = ((start + turn * k as f64 / whole as f64).to_degrees() * 10.0).round() / 10.0 + 0.0;
             figure.text(Vec2::new(x, -4.0), format!("{degrees}°"), Type { anchor: "middle", ..words(2.8) });
         }
     }
-    let corners = [(0.0, 0.0), (LONG, 0.0), (LONG, height), (0.0, height)].map(|(x, y)| Vec2::new(x, y));
-    figure.shape(corners.to_vec(), true, None, solid(GREY, 0.25));
-}
-
-/// Decimals that a multiple of `step` needs.
-fn decimals(step: f64) -> usize {
-    format!("{step}").split_once('.').map_or(0, |(_, decimals)| decimals.len())
+    frame(figure, [LONG, height]);
 }

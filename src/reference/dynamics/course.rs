@@ -53,6 +53,18 @@ impl Model<'_> {
     /// # Errors
     /// [`ErrorKind::Geometry`](crate::error::ErrorKind::Geometry) for a crank that does not turn fully.
     pub fn extremes(&self) -> Result<[Extremes; 2]> {
+        self.extremes_of([|row| row.inertia, |row| row.resistance])
+    }
+
+    /// Extremes over one period of dI*/dphi, refined between samples.
+    ///
+    /// # Errors
+    /// As [`Model::extremes`].
+    pub fn slope_extremes(&self) -> Result<Extremes> {
+        Ok(self.extremes_of([|row| row.slope])?[0])
+    }
+
+    fn extremes_of<const N: usize>(&self, quantities: [fn(&Row) -> f64; N]) -> Result<[Extremes; N]> {
         let Some(period) = self.kinks().period else { return Err(no_turn(self.kinks())) };
         let count = (period / SAMPLE_STEP).ceil();
         let start = self.case.drive.start;
@@ -62,15 +74,16 @@ impl Model<'_> {
         cranks.sort_by(f64::total_cmp);
         let mut poses = PoseSolver::new(self.case)?;
         let rows = cranks.iter().map(|&crank| self.row(&mut poses, crank)).collect::<Result<Vec<Row>>>()?;
-        let mut extremes = |of: fn(&Row) -> f64| -> Result<Extremes> {
+        let mut found = [Extremes { least: (start, 0.0), greatest: (start, 0.0) }; N];
+        for (extremes, of) in found.iter_mut().zip(quantities) {
             let mut end = |sign: f64| -> Result<(f64, f64)> {
                 let values: Vec<f64> = rows.iter().map(|row| sign * of(row)).collect();
                 let mut value = |crank: f64| -> Result<f64> { Ok(sign * of(&self.row(&mut poses, crank)?)) };
                 let (crank, value) = golden::greatest(&cranks, &values, &mut value)?;
                 Ok((crank, sign * value))
             };
-            Ok(Extremes { least: end(-1.0)?, greatest: end(1.0)? })
-        };
-        Ok([extremes(|row| row.inertia)?, extremes(|row| row.resistance)?])
+            *extremes = Extremes { least: end(-1.0)?, greatest: end(1.0)? };
+        }
+        Ok(found)
     }
 }

@@ -3,6 +3,7 @@
 //! `omega^2 / 2 dI*/dphi + I* domega/dt = M`, with I* and dI*/dphi from first and second transfer functions and M from the powers of motor, gravity and
 //! loads. Artobolevsky, "Theory of mechanisms and machines", motion of a machine under given forces.
 
+pub mod averaged;
 pub mod choice;
 pub mod course;
 mod flow;
@@ -12,6 +13,7 @@ mod model;
 pub mod regime;
 pub mod run_up;
 
+pub use averaged::Averaged;
 pub use choice::Choice;
 pub use flywheel::Flywheel;
 pub use model::{Model, Reduced};
