@@ -40,7 +40,7 @@ Examples:
   linkproof run scenarios/crank_rocker.toml             prove one, record it to recordings/
   linkproof run scenarios/*.toml --no-record --json -   prove all, as JSON
   linkproof solve scenarios/ov7_base.toml --with assur --crank-deg 0:-360:-30
-  linkproof tune scenarios/crank_rocker.toml --within 1e-4   the settings that this accuracy needs
+  linkproof tune scenarios/crank_rocker.toml --within 1e-3 --engine rapier --channel positions   the settings it takes
   linkproof inspect scenarios/ov7_base.toml             links, joints, Assur groups
 
 Exit codes: 0 all agree, 1 something disagrees, 2 bad input or usage, 3 nothing proven either way.";

@@ -52,3 +52,19 @@ fn curves_are_true_to_scale_and_marks_lie_on_them() {
         assert!(words.contains(&"mean 3.000".to_string()) && words.contains(&"a < b & c".to_string()));
     }
 }
+#[test]
+fn rounding_is_no_course() {
+    let mut graphs = cosine(1e-15, 1.0);
+    assert!(graphs.graphs[0].is_constant());
+    let text = draw::graphs(&graphs, "constant");
+    assert!(text.contains(">constant 3.000<") && !text.contains("<circle") && !text.contains("least"), "{text}");
+    // Around zero, next to something of size 3.
+    let graph = &mut graphs.graphs[0];
+    graph.points.iter_mut().for_each(|point| point[1] -= 3.0);
+    graph.marks.iter_mut().for_each(|mark| mark.at[1] -= 3.0);
+    graph.mean = 1e-17;
+    assert!(graph.is_constant());
+    let text = draw::graphs(&graphs, "zero");
+    assert!(text.contains(">constant 0<") && !text.contains("NaN") && !text.contains("e-1"), "{text}");
+    assert!(!cosine(1e-6, 1.0).graphs[0].is_constant());
+}
