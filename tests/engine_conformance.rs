@@ -166,7 +166,9 @@ fn regress_03_massless_links_move_alike_and_carry_no_force() {
             // The mass centre of a massless link is its frame's origin, another point.
             let centre = channel.kind.subject == Subject::Link && channel.kind.unit.starts_with('m');
             if channel.kind.stage >= Stage::Reactions {
-                assert!(values.iter().all(|value| *value == 0.0), "{} {channel}", engine.name());
+                // Where stand-ins are carried by applied forces, what is left is rounding.
+                let left = if engine.controls_error() { engine.noise(case, channel.kind) } else { 0.0 };
+                assert!(values.iter().all(|value| value.abs() <= left), "{} {channel}", engine.name());
             } else if !centre {
                 // Places hang on the tree, and the loop's small gap is shared out by mass: accelerations see it first.
                 // In the impulse build they are of second order, as everything is.

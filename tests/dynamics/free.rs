@@ -27,14 +27,8 @@ fn column<'a>(trajectory: &'a Trajectory, name: &str) -> &'a [f64] {
     trajectory.column(&Channel::named(name).unwrap()).unwrap_or_else(|| panic!("no channel {name}"))
 }
 
-const RUN_UPS: [&str; 6] = [
-    "crank_rocker_runup",
-    "ov7_new_runup",
-    "compressor_runup",
-    "pendulum",
-    "double_pendulum",
-    "five_bar_on_a_spring",
-];
+const RUN_UPS: [&str; 6] =
+    ["crank_rocker_runup", "ov7_new_runup", "compressor_runup", "pendulum", "double_pendulum", "five_bar_on_a_spring"];
 
 /// The reduced equation of motion, or transfer functions group by group, against embedding with the Jacobian of the whole mechanism: positions to reactions.
 #[test]

@@ -36,7 +36,9 @@ fn regress_40_steps_that_are_too_large_prove_nothing() {
 fn assert_helpful(error: &linkproof::Error) {
     assert_eq!(error.kind(), ErrorKind::Numeric, "{error}");
     assert!(error.message().contains("crank angle"), "{error}");
-    assert!(error.way_out().is_some_and(|way| way.contains("smaller time step")), "{error}");
+    // An engine that chooses its steps cannot be helped by smaller ones.
+    let helps = |way: &str| way.contains("smaller time step") || way.contains("can be assembled");
+    assert!(error.way_out().is_some_and(helps), "{error}");
 }
 
 /// Story 41. Symptom: gaps of metres and forces of 1e12 N behind a pose that cannot be assembled. Cause: the engine does

@@ -16,6 +16,7 @@ use crate::case::Case;
 use crate::drive::Wrench;
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::Motion;
+use crate::math::dense::Lu;
 use crate::solver::{Progress, State};
 use flow::Pieces;
 
@@ -45,6 +46,21 @@ pub(super) struct Held {
 /// As [`Case::loads_on`], with the senses held that loads ask for.
 pub(super) fn loads_held(case: &Case, motions: &[Motion], angles: &[f64], senses: &[f64], out: &mut [Wrench]) {
     case.loads_with(motions, angles, |index, load, _, crank| load.moment_in(senses[index], crank), out);
+}
+
+/// Solves a side's equations of motion for the accelerations of the free driving links, whose numbers are `free`, and puts them into the inputs.
+pub(super) fn embed(matrix: &mut Lu, right: &mut [f64], free: &[usize], inputs: &mut Inputs) -> Result<()> {
+    if !matrix.factor() {
+        let message = "the equations of motion are singular: a freedom has no inertia at this pose";
+        return Err(
+            Error::new(ErrorKind::Numeric, message).help("give its links, or the motor's rotor, a moment of inertia")
+        );
+    }
+    matrix.solve(right);
+    for (&index, &alpha) in free.iter().zip(right.iter()) {
+        inputs.accelerations[index] = alpha;
+    }
+    Ok(())
 }
 
 /// An analytic side's equations of motion in the coordinates of the driving links.

@@ -6,7 +6,7 @@
 use super::super::dynamics::run_up::SETTING_OFF;
 use super::super::kinetostatics::Kinetostatics;
 use super::super::turns::Turns;
-use super::{Held, Inputs, Side, loads_held};
+use super::{Held, Inputs, Side, embed, loads_held};
 use crate::assur::Plan;
 use crate::case::Case;
 use crate::drive::Wrench;
@@ -161,15 +161,7 @@ impl Side for TransferSide<'_> {
             }
             self.right[i] = right;
         }
-        if !self.matrix.factor() {
-            let message = "the equations of motion are singular: a freedom has no inertia at this pose";
-            return Err(Error::new(ErrorKind::Numeric, message)
-                .help("give its links, or the motor's rotor, a moment of inertia"));
-        }
-        self.matrix.solve(&mut self.right);
-        for (&index, &alpha) in self.free.iter().zip(&self.right) {
-            inputs.accelerations[index] = alpha;
-        }
+        embed(&mut self.matrix, &mut self.right, &self.free, inputs)?;
         self.plan.accelerations(&inputs.accelerations, &mut self.state.motions);
         Ok(())
     }

@@ -3,10 +3,10 @@
 //! With V = J^-1 E, the columns of the drives, q'' = a0 + V alpha and V^T J^T lambda = E^T lambda, the moments of the drives, which motor and rotor give:
 //! (V^T M V + added) alpha = T + V^T (Q - M a0). The multipliers then are the reactions (Haug, chapters 3 and 8).
 
-use super::super::free::{Held, Inputs, Side, loads_held};
+use super::super::free::{Held, Inputs, Side, embed, loads_held};
 use super::{System, TRACKING_STEP};
 use crate::drive::Wrench;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::Result;
 use crate::math::dense::Lu;
 use crate::mechanism::EQUATIONS;
 use crate::solver::State;
@@ -143,15 +143,7 @@ impl Side for Embedded<'_> {
                 self.matrix.add(row, row, held.added);
             }
         }
-        if !self.matrix.factor() {
-            let message = "the equations of motion are singular: a freedom has no inertia at this pose";
-            return Err(Error::new(ErrorKind::Numeric, message)
-                .help("give its links, or the motor's rotor, a moment of inertia"));
-        }
-        self.matrix.solve(&mut self.right);
-        for (&index, &alpha) in self.free.iter().zip(&self.right) {
-            inputs.accelerations[index] = alpha;
-        }
+        embed(&mut self.matrix, &mut self.right, &self.free, inputs)?;
         self.set_rates(inputs);
         Ok(())
     }
