@@ -27,7 +27,8 @@ if [ "$everything" ]; then
     sed 's/^link = "rocker"/link = "coupler"/' "$top/scenarios/crank_rocker.toml" >"$fresh/resisted_coupler.toml"
     set -- "$@" "$fresh/compressor.mcap"
     for file in "$top"/scenarios/*.toml; do
-        # Loads and a law of motion that are not exported.
+        # Motions under forces, loads and a law of motion that are not exported.
+        if grep -q '^motion = "free"' "$file"; then continue; fi
         case "$file" in */loaded_slider.toml | */cycloidal_start.toml) continue ;; esac
         set -- "$@" "$file"
     done
