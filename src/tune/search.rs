@@ -1,6 +1,6 @@
 //! The largest step that meets an error.
 
-use super::Measured;
+use super::bench::Measured;
 
 /// Runs that one search may take.
 const MOST_RUNS: usize = 9;

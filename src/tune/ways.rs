@@ -1,0 +1,47 @@
+//! What can be set on an engine besides its step.
+
+use crate::case::Case;
+use crate::engine::{Engine, Route, Settings};
+use crate::proof::Options;
+use crate::trajectory::Stage;
+
+/// Numbers of sweeps that are tried.
+const SWEEPS: [usize; 11] = [4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096];
+/// Numbers of substeps that are tried.
+const SUBSTEPS: [usize; 2] = [1, 2];
+
+/// All ways of setting an engine but for its sweeps and its resolution, the cheapest in most cases first: whatever costs more than what is known is
+/// given up soon.
+pub(super) fn ways(engine: &dyn Engine, case: &Case, options: &Options) -> Vec<Settings> {
+    let defaults = engine.settings();
+    let forces = case.wanted.deepest() >= Stage::Reactions;
+    let routes: Vec<Route> = match forces && options.route.is_none() {
+        true => engine.routes().to_vec(),
+        false => vec![defaults.route],
+    };
+    let substeps = match (options.substeps, defaults.substeps) {
+        (None, 1..) if !engine.controls_error() => SUBSTEPS.to_vec(),
+        _ => vec![defaults.substeps],
+    };
+    let extrapolated = match options.extrapolated {
+        None if !engine.controls_error() => vec![true, false],
+        _ => vec![defaults.extrapolated],
+    };
+    let mut ways = Vec::new();
+    for &extrapolated in &extrapolated {
+        for &route in &routes {
+            for &substeps in &substeps {
+                ways.push(Settings { substeps, route, extrapolated, ..defaults });
+            }
+        }
+    }
+    ways
+}
+
+/// Numbers of sweeps that are tried, from few to many.
+pub(super) fn sweeps(engine: &dyn Engine, options: &Options) -> Vec<usize> {
+    match (options.sweeps, engine.settings().sweeps) {
+        (None, 1..) => SWEEPS.to_vec(),
+        (_, own) => vec![own],
+    }
+}
