@@ -1,7 +1,7 @@
 //! What a solver is, and how it hands its states over.
 
 use crate::case::{Case, Wanted};
-use crate::error::Result;
+use crate::error::{Error, ErrorKind, Result};
 use crate::math::{Motion, Vec2, cross, unit};
 use crate::mechanism::{GROUND, Joint, Side};
 use crate::trajectory::{Channel, Stage, Trajectory};
@@ -47,6 +47,20 @@ pub trait Solver {
         };
         self.sweep(case, &mut put, progress)?;
         sampler.finish(case, |channel| self.provides(channel))
+    }
+}
+
+/// Checks that no instant before t = 0 is wanted of a free motion, which begins there; of a prescribed motion any instant may be.
+///
+/// # Errors
+/// [`ErrorKind::Input`] with such an instant.
+pub fn check_instants(case: &Case) -> Result<()> {
+    match case.grid.times.iter().find(|&&t| t < 0.0) {
+        Some(t) if case.is_free() => {
+            let message = format!("the motion is free from t = 0 on, but an instant at {t} s is wanted");
+            Err(Error::new(ErrorKind::Input, message).key("grid").help("let the grid go by time, from 0 s on"))
+        }
+        _ => Ok(()),
     }
 }
 

@@ -1,5 +1,6 @@
 //! The simulating side: a family of engines behind one contract, judged by the conformance tests.
 
+mod bodies;
 mod extrapolated;
 pub mod rapier;
 mod settings;

@@ -4,6 +4,7 @@ use linkproof::case::{Case, Grid, Wanted};
 use linkproof::compare::{Verdict, residuals};
 use linkproof::engine::{self, Engine, Route, Settings};
 use linkproof::math::Vec2;
+use linkproof::mechanism::Mechanism;
 use linkproof::proof::{Options, prove};
 use linkproof::reference::{AssurSolver, NewtonSolver};
 use linkproof::scenario::Scenario;
@@ -208,11 +209,27 @@ fn what_a_free_motion_cannot_be_asked_says_so() {
     let before = case(&|case| case.grid = Grid::of_times(&case.drive, vec![-0.1, 0.0]));
     let held = case(&|case| case.motor.as_mut().unwrap().ratio = 0.1);
     for solver in [&AssurSolver as &dyn Solver, &NewtonSolver] {
-        let error = solver.solve(&before, &mut |_| {}).unwrap_err();
-        assert!(error.message().contains("-0.1 s"), "{error}");
         let error = solver.solve(&held, &mut |_| {}).unwrap_err();
         assert!(error.message().contains("hold"), "{}: {error}", solver.name());
         assert!(error.way_out().unwrap().contains("torque"), "{error}");
+    }
+    // A motion that begins at t = 0 is not continued backwards, nor does a stand-in move a link without inertia.
+    let massless = case(&|case| {
+        let mut links = case.mechanism.links().to_vec();
+        let coupler = case.mechanism.link_named("coupler").unwrap();
+        links[coupler].inertia = 0.0;
+        case.mechanism = Mechanism::new(links, case.mechanism.joints().to_vec()).unwrap();
+    });
+    let extrapolated = twin("rapier", &scenario, |settings| Settings { extrapolated: true, ..settings });
+    let engines: Vec<_> = engine::all(scenario.dt).into_iter().chain([extrapolated]).collect();
+    let solvers = engines.iter().map(|engine| engine.as_ref() as &dyn Solver);
+    for solver in solvers.clone().chain([&AssurSolver as &dyn Solver, &NewtonSolver]) {
+        let error = solver.solve(&before, &mut |_| {}).unwrap_err();
+        assert!(error.message().contains("an instant at -0.1 s"), "{}: {error}", solver.name());
+    }
+    for solver in solvers {
+        let error = solver.solve(&massless, &mut |_| {}).unwrap_err();
+        assert!(error.message().contains("link \"coupler\" has no mass or no moment"), "{}: {error}", solver.name());
     }
     let probe = twin("rapier", &scenario, |settings| Settings { route: Route::Probe, ..settings });
     let error = probe.solve(&scenario.case, &mut |_| {}).unwrap_err();

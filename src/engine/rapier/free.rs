@@ -5,7 +5,8 @@ use super::window::Window;
 use crate::case::Case;
 use crate::drive::{Branch, Wrench};
 use crate::engine::Settings;
-use crate::error::{Error, ErrorKind, Result};
+use crate::engine::bodies::check_inertias;
+use crate::error::Result;
 use crate::mechanism::GROUND;
 use crate::solver::State;
 
@@ -26,18 +27,9 @@ pub(super) struct Acting {
 
 impl Acting {
     /// # Errors
-    /// [`ErrorKind::Unsupported`] for links without mass or moment of inertia, which Rapier cannot move.
+    /// Those of [`check_inertias`].
     pub(super) fn new(case: &Case) -> Result<Self> {
-        let bare = |link: &&crate::mechanism::Link| !(link.mass > 0.0 && link.inertia > 0.0);
-        if let Some(link) = case.mechanism.links()[1..].iter().find(bare) {
-            let message = format!(
-                "link \"{}\" has no mass or no moment of inertia: Rapier cannot move it under forces",
-                link.name
-            );
-            return Err(Error::new(ErrorKind::Unsupported, message)
-                .key(format!("links.{}", link.name))
-                .help("give every link both, or solve the scenario with `linkproof solve --with newton`"));
-        }
+        check_inertias(case, "Rapier")?;
         let links = case.mechanism.links().len();
         Ok(Acting {
             state: State::at_rest(case),

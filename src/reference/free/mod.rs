@@ -17,7 +17,7 @@ use crate::drive::Wrench;
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::Motion;
 use crate::math::dense::Lu;
-use crate::solver::{Progress, State};
+use crate::solver::{Progress, State, check_instants};
 use flow::Pieces;
 
 /// Most free driving links.
@@ -83,10 +83,7 @@ pub(super) trait Side {
 /// # Errors
 /// [`ErrorKind::Input`] for instants before t = 0, and for mechanisms in which nothing has a mass; [`ErrorKind::Unsupported`] for too many freedoms.
 pub(super) fn check(case: &Case) -> Result<()> {
-    if let Some(t) = case.grid.times.iter().copied().find(|&t| t < 0.0) {
-        let message = format!("the motion is free from t = 0 on, but an instant at {t} s is wanted");
-        return Err(Error::new(ErrorKind::Input, message).key("grid").help("let the grid go by time, from 0 s on"));
-    }
+    check_instants(case)?;
     let free = case.drives().filter(|drive| drive.free.is_some()).count();
     if free > MOST_FREEDOMS {
         let message = format!("{free} driving links are free, at most {MOST_FREEDOMS} are solved");
