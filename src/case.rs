@@ -170,15 +170,32 @@ impl Case {
 
     /// The drives that have a moment, with their numbers: all but those of free links without a motor.
     pub fn moved(&self) -> impl Iterator<Item = (usize, &Drive)> {
-        let has_motor = |index: usize| index == 0 && self.motor.is_some();
-        self.drives().enumerate().filter(move |&(index, drive)| drive.free.is_none() || has_motor(index))
+        let has_motor = self.motor_of_free_crank().is_some();
+        self.drives().enumerate().filter(move |&(index, drive)| drive.free.is_none() || (index == 0 && has_motor))
+    }
+
+    /// The drives of free links, with their numbers.
+    pub fn free_drives(&self) -> impl Iterator<Item = (usize, &Drive)> {
+        self.drives().enumerate().filter(|(_, drive)| drive.free.is_some())
+    }
+
+    /// The motor where it moves the crank: in a free motion.
+    #[must_use]
+    pub fn motor_of_free_crank(&self) -> Option<&Motor> {
+        self.motor.as_ref().filter(|_| self.drive.free.is_some())
+    }
+
+    /// Moment of inertia of rotor and reducer that turn with a free crank (kg m^2).
+    #[must_use]
+    pub fn inertia_on_free_crank(&self) -> f64 {
+        self.motor_of_free_crank().map_or(0.0, Motor::inertia_on_crank)
     }
 
     /// Whether forces decide the motion of a driving link. Then crank angles are known of solved trajectories only: those of the grid are
     /// of the nominal motion.
     #[must_use]
     pub fn is_free(&self) -> bool {
-        self.drives().any(|drive| drive.free.is_some())
+        self.free_drives().next().is_some()
     }
 
     /// The same problem with every drive in its nominal motion: what questions about crank angles are about.

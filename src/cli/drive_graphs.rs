@@ -13,7 +13,7 @@ const PARTS: u32 = 720;
 /// The graphs as an SVG document. `extremes`: of inertia and resistance.
 pub(super) fn draw(scenario: &Scenario, model: &Model, means: &Means, extremes: &[Extremes; 2]) -> Result<String> {
     let case = &scenario.case;
-    let (start, sense) = (case.drive.start, case.drive.top_speed().signum());
+    let (start, sense) = (case.drive.start, case.drive.sense());
     let period = model.kinks().period.unwrap_or(std::f64::consts::TAU);
     let even: Vec<f64> = (0..=PARTS).map(|k| start + sense * period * (f64::from(k) / f64::from(PARTS))).collect();
     let kinks = model.kinks().cranks.iter().map(|kink| start + sense * (sense * (kink - start)).rem_euclid(period));

@@ -173,7 +173,7 @@ impl MotionDiagram {
         // Divisions, their halves and quarters all have their middles among the rows.
         let stride = 8 * CURVE.div_ceil(8 * divisions);
         let rows = divisions * stride;
-        let sense = case.drive.top_speed().signum();
+        let sense = case.drive.sense();
         let crank = |row: usize| case.drive.start + sense * TAU * (row as f64 / rows as f64);
         let grid = Grid::of_cranks(&case.drive, (0..=rows).map(crank).collect());
         let wanted = Wanted::of(&[Stage::Positions, Stage::Velocities, Stage::Accelerations]);

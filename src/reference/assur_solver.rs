@@ -48,7 +48,7 @@ fn free_motion(case: &Case, visit: &mut dyn FnMut(usize, &State) -> Result<()>, 
     let mut times: Vec<f64> = rows.iter().map(|&row| case.grid.times[row]).collect();
     times.dedup();
     let model = Model::of(case)?;
-    let (motion, end) = dynamics::motion(&model, case.drive.free.unwrap_or(0.0), &times, ACCURACY)?;
+    let (motion, end) = dynamics::motion(&model, case.drive.initial_speed(), &times, ACCURACY)?;
     if motion.len() < times.len() {
         return Err(ended(end));
     }

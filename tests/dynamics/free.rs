@@ -214,7 +214,7 @@ fn what_a_free_motion_cannot_be_asked_says_so() {
         assert!(error.way_out().unwrap().contains("torque"), "{error}");
     }
     // A motion that begins at t = 0 is not continued backwards, nor does a stand-in move a link without inertia.
-    let massless = case(&|case| {
+    let bare = case(&|case| {
         let mut links = case.mechanism.links().to_vec();
         let coupler = case.mechanism.link_named("coupler").unwrap();
         links[coupler].inertia = 0.0;
@@ -228,7 +228,7 @@ fn what_a_free_motion_cannot_be_asked_says_so() {
         assert!(error.message().contains("an instant at -0.1 s"), "{}: {error}", solver.name());
     }
     for solver in solvers {
-        let error = solver.solve(&massless, &mut |_| {}).unwrap_err();
+        let error = solver.solve(&bare, &mut |_| {}).unwrap_err();
         assert!(error.message().contains("link \"coupler\" has no mass or no moment"), "{}: {error}", solver.name());
     }
     let probe = twin("rapier", &scenario, |settings| Settings { route: Route::Probe, ..settings });

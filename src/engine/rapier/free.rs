@@ -80,8 +80,8 @@ impl Acting {
     /// Speed aimed at and damping of the motor that has the law's moment and slope at the crank's speed. Where the moment rises with the speed, or does
     /// not depend on it, it goes to the loads instead.
     fn motor(&mut self, case: &Case) -> [f64; 2] {
-        let (Some(motor), Some(_)) = (&case.motor, case.drive.free) else { return [0.0; 2] };
-        let sense = case.drive.at(0.0).omega.signum();
+        let Some(motor) = case.motor_of_free_crank() else { return [0.0; 2] };
+        let sense = case.drive.sense();
         let omega = sense * self.state.motions[case.drive.link].omega;
         let holds = |branch: &Branch| omega >= branch.speeds[0] && omega < branch.speeds[1];
         let branch = match self.branch {
@@ -120,11 +120,10 @@ pub(super) fn begin(case: &Case, acting: &mut Acting, worlds: &mut [Guard], sett
 
 /// Places worlds at the start with the velocities of the driving links there: a tiny step with rigid drives brings all others in line.
 fn settle(case: &Case, worlds: &mut [Guard], step: f64) -> Result<()> {
-    let speeds = || case.drives().map(|drive| drive.free.unwrap_or(drive.at(0.0).omega));
-    let fastest = speeds().fold(0.0f64, |most, speed| most.max(speed.abs()));
+    let fastest = case.drives().fold(0.0f64, |most, drive| most.max(drive.initial_speed().abs()));
     for guard in worlds {
         guard.set_step(if fastest > 0.0 { SETTLING_TURN / fastest } else { SETTLING_TURN * step });
-        guard.drive_from_start(0.0);
+        guard.drive_from_start();
         guard.place(&case.start.0);
         guard.step(0.0)?;
         guard.place(&case.start.0);

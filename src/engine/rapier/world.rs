@@ -77,9 +77,7 @@ pub(super) fn masses(case: &Case) -> Vec<[f64; 2]> {
         [mass, if link.inertia > 0.0 { link.inertia } else { mass * size * size / 12.0 }]
     };
     let mut masses: Vec<[f64; 2]> = std::iter::once([0.0; 2]).chain(moving.iter().map(of)).collect();
-    if let (Some(motor), Some(_)) = (&case.motor, case.drive.free) {
-        masses[case.drive.link][1] += motor.inertia_on_crank();
-    }
+    masses[case.drive.link][1] += case.inertia_on_free_crank();
     masses
 }
 

@@ -7,7 +7,7 @@ use differential_equations::ode::ODE;
 use super::super::dynamics::march::{Flow, Place};
 use super::{Held, Inputs, Side};
 use crate::case::Case;
-use crate::drive::{Branch, Load, Motor};
+use crate::drive::{Branch, Load};
 use crate::error::{Error, ErrorKind, Result};
 use crate::solver::State;
 
@@ -19,9 +19,8 @@ const OF_MOTOR: usize = 2;
 /// Angles and speeds of the free driving links at t = 0: first all angles in the world, then all speeds.
 pub(super) fn start<const N: usize>(case: &Case) -> [f64; N] {
     let mut y = [0.0; N];
-    let free = case.drives().filter_map(|drive| Some((drive.world_angle(drive.start), drive.free?)));
-    for (index, (angle, speed)) in free.enumerate() {
-        (y[index], y[N / 2 + index]) = (angle, speed);
+    for (k, (_, drive)) in case.free_drives().enumerate() {
+        (y[k], y[N / 2 + k]) = (drive.world_angle(drive.start), drive.initial_speed());
     }
     y
 }
@@ -48,11 +47,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
     pub(super) fn new(case: &'a Case, side: &'a mut dyn Side) -> Self {
         let drives = case.drives().count();
         let zeros = || vec![0.0; drives];
-        let held = Held {
-            motor: 0.0,
-            added: case.motor.as_ref().filter(|_| case.drive.free.is_some()).map_or(0.0, Motor::inertia_on_crank),
-            senses: vec![0.0; case.loads.len()],
-        };
+        let held = Held { motor: 0.0, added: case.inertia_on_free_crank(), senses: vec![0.0; case.loads.len()] };
         let inputs = Inputs { angles: zeros(), speeds: zeros(), accelerations: zeros() };
         Pieces {
             case,
@@ -78,13 +73,8 @@ impl<'a, const N: usize> Pieces<'a, N> {
         }
     }
 
-    /// Sense in which the motor drives.
-    fn sense(&self) -> f64 {
-        self.case.drive.at(0.0).omega.signum()
-    }
-
     fn motor_moment(&self, omega: f64) -> f64 {
-        let sense = self.sense();
+        let sense = self.case.drive.sense();
         self.branch.get().map_or(0.0, |branch| sense * branch.moment(sense * omega))
     }
 
@@ -112,14 +102,14 @@ impl<'a, const N: usize> Pieces<'a, N> {
         if let Some(end) = bound.and_then(|bound| bound.checked_sub(self.case.loads.len())) {
             // Exactly on the bound, or the same piece would be chosen again.
             let speeds = self.branch.get().map_or([0.0; 2], |branch| branch.speeds);
-            place.y[N / 2] = self.sense() * speeds[1 - end];
+            place.y[N / 2] = self.case.drive.sense() * speeds[1 - end];
         }
         self.origin.set(place.y);
         let sensed: Vec<Option<usize>> = self.case.loads.iter().map(Load::sensed_link).collect();
         self.put(&mut work.inputs, place.x, &place.y);
         let crank = work.inputs.speeds[0];
         // At a standstill the branch is chosen by where the crank is going, which is known below.
-        let way = self.sense();
+        let way = self.case.drive.sense();
         let reached_speed = bound.filter(|&bound| bound >= sensed.len());
         let beyond = match reached_speed {
             Some(bound) if bound == sensed.len() => 1.0,
@@ -127,7 +117,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
             None => 1.0,
         };
         if bound.is_none() || reached_speed.is_some() {
-            let motor = self.case.motor.as_ref().filter(|_| self.case.drive.free.is_some());
+            let motor = self.case.motor_of_free_crank();
             self.branch.set(motor.map(|motor| motor.branch(way * crank, beyond)));
         }
         // Loads whose links stand still, with these links.
@@ -174,7 +164,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
     /// How far within the speeds of its branch the motor is.
     fn branch_margin(&self, bound: usize, y: &[f64; N]) -> f64 {
         // The crank's own speed: it is the first that is free, wherever there is a branch.
-        let speed = self.sense() * y[N / 2];
+        let speed = self.case.drive.sense() * y[N / 2];
         self.branch.get().map_or(f64::INFINITY, |branch| match bound {
             0 => branch.speeds[1] - speed,
             _ => speed - branch.speeds[0],
@@ -196,8 +186,7 @@ impl<const N: usize> ODE<f64, [f64; N]> for Pieces<'_, N> {
             rate.fill(f64::NAN);
             return;
         }
-        let free = self.case.drives().enumerate().filter(|(_, drive)| drive.free.is_some());
-        for (k, (index, _)) in free.enumerate() {
+        for (k, (index, _)) in self.case.free_drives().enumerate() {
             (rate[k], rate[N / 2 + k]) = (y[N / 2 + k], work.inputs.accelerations[index]);
         }
     }

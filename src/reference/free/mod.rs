@@ -84,7 +84,7 @@ pub(super) trait Side {
 /// [`ErrorKind::Input`] for instants before t = 0, and for mechanisms in which nothing has a mass; [`ErrorKind::Unsupported`] for too many freedoms.
 pub(super) fn check(case: &Case) -> Result<()> {
     check_instants(case)?;
-    let free = case.drives().filter(|drive| drive.free.is_some()).count();
+    let free = case.free_drives().count();
     if free > MOST_FREEDOMS {
         let message = format!("{free} driving links are free, at most {MOST_FREEDOMS} are solved");
         return Err(Error::new(ErrorKind::Unsupported, message).help("prescribe the motion of some of them"));
@@ -96,8 +96,7 @@ pub(super) fn check(case: &Case) -> Result<()> {
             .key("loads")
             .help("give it as a force over the crank angle, or as a moment against the rotation of its link"));
     }
-    let added = case.motor.as_ref().map_or(0.0, crate::drive::Motor::inertia_on_crank);
-    if added == 0.0 && case.mechanism.links().iter().all(|link| link.mass == 0.0) {
+    if case.inertia_on_free_crank() == 0.0 && case.mechanism.links().iter().all(|link| link.mass == 0.0) {
         let message = "the motion under forces is asked for, but nothing in the mechanism has a mass";
         return Err(Error::new(ErrorKind::Input, message).help("give the links masses, or the motor a rotor"));
     }
@@ -115,7 +114,7 @@ pub(super) fn sweep(
     progress: Progress,
 ) -> Result<()> {
     check(case)?;
-    match case.drives().filter(|drive| drive.free.is_some()).count() {
+    match case.free_drives().count() {
         1 => run::<2>(case, side, visit, progress),
         2 => run::<4>(case, side, visit, progress),
         3 => run::<6>(case, side, visit, progress),
