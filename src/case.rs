@@ -252,14 +252,16 @@ impl Case {
     /// links, as in [`State`](crate::solver::State). Loads read positions and velocities, no accelerations.
     #[inline]
     pub fn each_load(&self, motions: &[Motion], angles: &[f64], mut put: impl FnMut(Action)) {
-        if self.loads.is_empty() {
-            return;
-        }
-        let crank = angles[self.drive.link] - self.drive.zero;
-        let setting = Setting { motions, angles, start: &self.start.0, crank };
+        let setting = self.setting(motions, angles);
         for load in &self.loads {
             load.act(&setting, &mut put);
         }
+    }
+
+    #[inline]
+    fn setting<'a>(&'a self, motions: &'a [Motion], angles: &'a [f64]) -> Setting<'a> {
+        let crank = angles[self.drive.link] - self.drive.zero;
+        Setting { motions, angles, start: &self.start.0, crank }
     }
 
     /// Fills in the resultant of all loads on every link, the ground included: force at the mass centre and moment about it. Arguments as in
@@ -284,8 +286,7 @@ impl Case {
             return;
         }
         let links = self.mechanism.links();
-        let crank = angles[self.drive.link] - self.drive.zero;
-        let setting = Setting { motions, angles, start: &self.start.0, crank };
+        let setting = self.setting(motions, angles);
         let mut add = |action: Action| {
             let centre = motions[action.link].point(links[action.link].mass_centre);
             out[action.link].force += action.force;
@@ -293,7 +294,7 @@ impl Case {
         };
         for (index, load) in self.loads.iter().enumerate() {
             match load.sensed_link() {
-                Some(link) => add(Action::of_moment(link, sensed(index, load, link, crank))),
+                Some(link) => add(Action::of_moment(link, sensed(index, load, link, setting.crank))),
                 None => load.act(&setting, &mut add),
             }
         }
