@@ -4,6 +4,7 @@ use linkproof_simbody::{Body, BodyState, Closing, Inertia, Joint, Law, LoopState
 
 use crate::case::Case;
 use crate::drive::{Drive, Load, Wrench};
+use crate::engine::bodies::stand_in;
 use crate::math::{Vec2, cross};
 use crate::mechanism;
 use crate::mechanism::spanning_tree::{Branch, Tree, coordinate};
@@ -146,13 +147,8 @@ fn joint(found: &mechanism::Joint, branch: &Branch) -> Joint {
 /// Mass and inertia of a link. Simbody cannot accelerate a free body without them: such a link carries some, which its reactions do not
 /// contain.
 pub(super) fn inertia(case: &Case, link: usize) -> Inertia {
-    let moving = &case.mechanism.links()[1..];
-    let total: f64 = moving.iter().map(|link| link.mass).sum();
-    let usual = if total > 0.0 { total / moving.len() as f64 } else { 1.0 };
-    let size = case.mechanism.size();
     let body = &case.mechanism.links()[link];
-    let extra_mass = if body.mass > 0.0 { 0.0 } else { usual };
-    let extra_inertia = if body.inertia > 0.0 { 0.0 } else { (body.mass + extra_mass) * size * size / 12.0 };
+    let [extra_mass, extra_inertia] = stand_in(case, link);
     let inertia = body.inertia + if link == case.drive.link { case.inertia_on_free_crank() } else { 0.0 };
     Inertia { mass: body.mass, centre: body.mass_centre.into(), inertia, extra_mass, extra_inertia }
 }
