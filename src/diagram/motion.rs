@@ -6,7 +6,7 @@
 use super::chord::{closed_slopes, integral, slopes};
 use crate::case::{Case, Grid, Wanted};
 use crate::error::{Error, ErrorKind, Result};
-use crate::math::statistics::{half_range, rms};
+use crate::math::statistics::{half_range, rms, share};
 use crate::solver::Solver;
 use crate::trajectory::{Channel, Stage, Subject};
 use std::f64::consts::TAU;
@@ -200,7 +200,7 @@ impl MotionDiagram {
             let orders = [order(size[0], size[1]), order(size[1], size[2])];
             let [(rows, values), ..] = runs;
             // What stands perfectly still has no scale, and no error either.
-            let share = if largest == 0.0 { 0.0 } else { largest / scale };
+            let share = share(largest, scale);
             Found { method, rows, values, largest, rms: size[0], share, orders }
         });
         let found = found.collect();

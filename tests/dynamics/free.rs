@@ -20,8 +20,8 @@ fn solve(solver: &dyn Solver, case: &Case) -> Trajectory {
 /// Largest error over the scale, of the channels that `of` picks.
 fn worst(reference: &Trajectory, other: &Trajectory, of: impl Fn(&Channel) -> bool) -> f64 {
     let all = residuals(reference, other).unwrap();
-    let picked = all.iter().filter(|residual| of(&residual.channel) && residual.max > 0.0);
-    picked.map(|residual| residual.max / residual.scale).fold(0.0, f64::max)
+    let picked = all.iter().filter(|residual| of(&residual.channel));
+    picked.map(|residual| residual.share()).fold(0.0, f64::max)
 }
 
 fn column<'a>(trajectory: &'a Trajectory, name: &str) -> &'a [f64] {
