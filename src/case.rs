@@ -115,7 +115,7 @@ impl Wanted {
 }
 
 /// A problem, ready for any solver. SI units, world axes.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Case {
     /// The mechanism.
     pub mechanism: Mechanism,
