@@ -111,7 +111,8 @@ pub(super) fn drive(args: &Args) -> Result<()> {
     }
     let found = find(args, &scenario, &model)?;
     if let Some(to) = &args.svg {
-        output::write(&drive_graphs::draw(&scenario, &model, &found.means, &found.extremes)?, to)?;
+        let steady = found.steady.as_ref().map(|(_, regime)| regime);
+        output::write(&drive_graphs::draw(&scenario, &model, &found.means, &found.extremes, steady)?, to)?;
     }
     match &args.json {
         Some(to) => output::write(&format!("{}\n", as_json(args, &scenario, &found)), to),
