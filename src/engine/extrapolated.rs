@@ -8,7 +8,7 @@ use super::{Engine, Route, Settings};
 use crate::case::Case;
 use crate::error::Result;
 use crate::math::{Motion, Vec2, unit};
-use crate::solver::{Progress, Provision, Solver, State};
+use crate::solver::{Progress, Provision, Solver, State, Visit};
 use crate::trajectory::{CHANNELS, Channel, ChannelKind, Stage};
 
 /// An engine and its extrapolation.
@@ -102,7 +102,7 @@ impl Solver for Extrapolated {
         }
     }
 
-    fn sweep(&self, case: &Case, visit: &mut dyn FnMut(usize, &State) -> Result<()>, progress: Progress) -> Result<()> {
+    fn sweep(&self, case: &Case, visit: Visit, progress: Progress) -> Result<()> {
         let mut coarse: Vec<Option<State>> = vec![None; case.grid.len()];
         let mut keep = |row: usize, state: &State| {
             coarse[row] = Some(state.clone());
@@ -193,12 +193,7 @@ mod tests {
         fn provides(&self, _: &Channel) -> Provision {
             Provision::Computed
         }
-        fn sweep(
-            &self,
-            case: &Case,
-            visit: &mut dyn FnMut(usize, &State) -> Result<()>,
-            progress: Progress,
-        ) -> Result<()> {
+        fn sweep(&self, case: &Case, visit: Visit, progress: Progress) -> Result<()> {
             let (h, sweeps) = (self.settings.resolution, self.settings.sweeps);
             self.runs.borrow_mut().push((h, sweeps));
             let mut state = State::at_rest(case);

@@ -6,7 +6,7 @@ use std::rc::Rc;
 use super::{Engine, Settings};
 use crate::case::Case;
 use crate::error::Result;
-use crate::solver::{Progress, State};
+use crate::solver::{Progress, State, Visit};
 
 /// States by row of the grid.
 type States = Vec<Option<State>>;
@@ -41,13 +41,7 @@ impl Shared {
     ///
     /// # Errors
     /// Those of the engine and of the visitor.
-    pub(super) fn sweep(
-        &self,
-        engine: &dyn Engine,
-        case: &Case,
-        visit: &mut dyn FnMut(usize, &State) -> Result<()>,
-        progress: Progress,
-    ) -> Result<()> {
+    pub(super) fn sweep(&self, engine: &dyn Engine, case: &Case, visit: Visit, progress: Progress) -> Result<()> {
         let (kept, again) = self.ask(engine.settings(), case);
         if let Some(states) = kept {
             for row in case.grid.ascending() {

@@ -15,7 +15,7 @@ use crate::case::Case;
 use crate::drive::{Load, Wrench};
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::unit;
-use crate::solver::{Progress, Provision, Solver, State, check_instants};
+use crate::solver::{Progress, Provision, Solver, State, Visit, check_instants};
 use crate::trajectory::{Channel, ChannelKind, Stage};
 use model::Linkage;
 
@@ -130,7 +130,7 @@ impl Solver for Simbody {
         Provision::Computed
     }
 
-    fn sweep(&self, case: &Case, visit: &mut dyn FnMut(usize, &State) -> Result<()>, progress: Progress) -> Result<()> {
+    fn sweep(&self, case: &Case, visit: Visit, progress: Progress) -> Result<()> {
         check_instants(case)?;
         let rows = case.grid.ascending();
         let (before, after) = rows.split_at(rows.partition_point(|&row| case.grid.times[row] < 0.0));

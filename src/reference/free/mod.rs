@@ -17,7 +17,7 @@ use crate::drive::Wrench;
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::Motion;
 use crate::math::dense::Lu;
-use crate::solver::{Progress, State, check_instants};
+use crate::solver::{Progress, State, Visit, check_instants};
 use flow::Pieces;
 
 /// Most free driving links.
@@ -107,12 +107,7 @@ pub(super) fn check(case: &Case) -> Result<()> {
 ///
 /// # Errors
 /// Those of [`check`] and of the side; [`ErrorKind::Numeric`] where a resistance holds the mechanism.
-pub(super) fn sweep(
-    case: &Case,
-    side: &mut dyn Side,
-    visit: &mut dyn FnMut(usize, &State) -> Result<()>,
-    progress: Progress,
-) -> Result<()> {
+pub(super) fn sweep(case: &Case, side: &mut dyn Side, visit: Visit, progress: Progress) -> Result<()> {
     check(case)?;
     match case.free_drives().count() {
         1 => run::<2>(case, side, visit, progress),
@@ -122,12 +117,7 @@ pub(super) fn sweep(
     }
 }
 
-fn run<const N: usize>(
-    case: &Case,
-    side: &mut dyn Side,
-    visit: &mut dyn FnMut(usize, &State) -> Result<()>,
-    progress: Progress,
-) -> Result<()> {
+fn run<const N: usize>(case: &Case, side: &mut dyn Side, visit: Visit, progress: Progress) -> Result<()> {
     let rows = case.grid.ascending();
     let mut targets: Vec<f64> = rows.iter().map(|&row| case.grid.times[row]).collect();
     targets.dedup();
