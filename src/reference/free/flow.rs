@@ -76,15 +76,15 @@ impl<'a, const N: usize> Pieces<'a, N> {
         }
     }
 
-    fn motor_moment(&self, omega: f64) -> f64 {
-        let sense = self.case.drive.sense();
-        self.branch.get().map_or(0.0, |branch| sense * branch.moment(sense * omega))
+    /// Moment of the motor on the crank (N m), counter-clockwise positive.
+    fn motor_moment(&self, y: &[f64; N]) -> f64 {
+        self.branch.get().map_or(0.0, |branch| self.case.drive.sense() * branch.moment(self.crank_speed(y)))
     }
 
     /// Accelerations of the driving links, left in the inputs of `work`.
     fn accelerate(&self, work: &mut Work, t: f64, y: &[f64; N]) -> Result<()> {
         self.put(&mut work.inputs, t, y);
-        work.held.motor = self.motor_moment(work.inputs.speeds[0]);
+        work.held.motor = self.motor_moment(y);
         work.side.accelerate(&mut work.inputs, &work.held)
     }
 
