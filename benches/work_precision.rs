@@ -33,7 +33,7 @@ struct Row {
 fn error(reference: &Trajectory, found: &Trajectory, stages: &[Stage]) -> f64 {
     let residuals = residuals(reference, found).expect("both stand on one grid");
     let own = residuals.iter().filter(|r| stages.contains(&r.channel.kind.stage));
-    own.map(|r| if r.max == 0.0 { 0.0 } else { r.max / r.scale }).fold(0.0, f64::max)
+    own.map(|r| r.share()).fold(0.0, f64::max)
 }
 
 fn measure(engine: &dyn Engine, scenario: &Scenario, reference: &Trajectory, resolution: String) -> Option<Row> {

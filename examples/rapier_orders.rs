@@ -64,10 +64,10 @@ fn row(engine: &dyn Engine, case: &Case, truth: &Trajectory) {
     let mut text = String::new();
     for stage in Stage::ALL {
         let own = found.iter().filter(|residual| residual.channel.kind.stage == stage);
-        let Some(worst) = own.max_by(|a, b| (a.max / a.scale).total_cmp(&(b.max / b.scale))) else { continue };
+        let Some(worst) = own.max_by(|a, b| a.share().total_cmp(&b.share())) else { continue };
         let order = observed_order(truth, [&coarse, &fine], &worst.channel).ok().flatten().unwrap_or(f64::NAN);
         let noise = engine.noise(case, worst.channel.kind) / worst.scale;
-        text += &format!("  {:.1e} ({order:.2}; noise {noise:.0e})", worst.max / worst.scale);
+        text += &format!("  {:.1e} ({order:.2}; noise {noise:.0e})", worst.share());
         if std::env::var_os("WHERE").is_some() {
             text += &format!(" {} at {:.1} deg", worst.channel, worst.worst_crank.to_degrees());
         }

@@ -115,7 +115,7 @@ impl Wanted {
 }
 
 /// A problem, ready for any solver. SI units, world axes.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Case {
     /// The mechanism.
     pub mechanism: Mechanism,
@@ -170,15 +170,32 @@ impl Case {
 
     /// The drives that have a moment, with their numbers: all but those of free links without a motor.
     pub fn moved(&self) -> impl Iterator<Item = (usize, &Drive)> {
-        let has_motor = |index: usize| index == 0 && self.motor.is_some();
-        self.drives().enumerate().filter(move |&(index, drive)| drive.free.is_none() || has_motor(index))
+        let has_motor = self.motor_of_free_crank().is_some();
+        self.drives().enumerate().filter(move |&(index, drive)| drive.free.is_none() || (index == 0 && has_motor))
+    }
+
+    /// The drives of free links, with their numbers.
+    pub fn free_drives(&self) -> impl Iterator<Item = (usize, &Drive)> {
+        self.drives().enumerate().filter(|(_, drive)| drive.free.is_some())
+    }
+
+    /// The motor where it moves the crank: in a free motion.
+    #[must_use]
+    pub fn motor_of_free_crank(&self) -> Option<&Motor> {
+        self.motor.as_ref().filter(|_| self.drive.free.is_some())
+    }
+
+    /// Moment of inertia of rotor and reducer that turn with a free crank (kg m^2).
+    #[must_use]
+    pub fn inertia_on_free_crank(&self) -> f64 {
+        self.motor_of_free_crank().map_or(0.0, Motor::inertia_on_crank)
     }
 
     /// Whether forces decide the motion of a driving link. Then crank angles are known of solved trajectories only: those of the grid are
     /// of the nominal motion.
     #[must_use]
     pub fn is_free(&self) -> bool {
-        self.drives().any(|drive| drive.free.is_some())
+        self.free_drives().next().is_some()
     }
 
     /// The same problem with every drive in its nominal motion: what questions about crank angles are about.
@@ -235,14 +252,16 @@ impl Case {
     /// links, as in [`State`](crate::solver::State). Loads read positions and velocities, no accelerations.
     #[inline]
     pub fn each_load(&self, motions: &[Motion], angles: &[f64], mut put: impl FnMut(Action)) {
-        if self.loads.is_empty() {
-            return;
-        }
-        let crank = angles[self.drive.link] - self.drive.zero;
-        let setting = Setting { motions, angles, start: &self.start.0, crank };
+        let setting = self.setting(motions, angles);
         for load in &self.loads {
             load.act(&setting, &mut put);
         }
+    }
+
+    #[inline]
+    fn setting<'a>(&'a self, motions: &'a [Motion], angles: &'a [f64]) -> Setting<'a> {
+        let crank = angles[self.drive.link] - self.drive.zero;
+        Setting { motions, angles, start: &self.start.0, crank }
     }
 
     /// Fills in the resultant of all loads on every link, the ground included: force at the mass centre and moment about it. Arguments as in
@@ -267,8 +286,7 @@ impl Case {
             return;
         }
         let links = self.mechanism.links();
-        let crank = angles[self.drive.link] - self.drive.zero;
-        let setting = Setting { motions, angles, start: &self.start.0, crank };
+        let setting = self.setting(motions, angles);
         let mut add = |action: Action| {
             let centre = motions[action.link].point(links[action.link].mass_centre);
             out[action.link].force += action.force;
@@ -276,7 +294,7 @@ impl Case {
         };
         for (index, load) in self.loads.iter().enumerate() {
             match load.sensed_link() {
-                Some(link) => add(Action::of_moment(link, sensed(index, load, link, crank))),
+                Some(link) => add(Action::of_moment(link, sensed(index, load, link, setting.crank))),
                 None => load.act(&setting, &mut add),
             }
         }

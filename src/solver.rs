@@ -1,7 +1,7 @@
 //! What a solver is, and how it hands its states over.
 
 use crate::case::{Case, Wanted};
-use crate::error::Result;
+use crate::error::{Error, ErrorKind, Result};
 use crate::math::{Motion, Vec2, cross, unit};
 use crate::mechanism::{GROUND, Joint, Side};
 use crate::trajectory::{Channel, Stage, Trajectory};
@@ -20,6 +20,9 @@ pub enum Provision {
 /// Told how far a long run is, from 0 to 1.
 pub type Progress<'a> = &'a mut dyn FnMut(f64);
 
+/// Given every state with its row of the grid; what it refuses stops the run.
+pub type Visit<'a> = &'a mut dyn FnMut(usize, &State) -> Result<()>;
+
 /// Anything that turns a case into a trajectory.
 pub trait Solver {
     /// Short name, as on the command line.
@@ -33,7 +36,7 @@ pub trait Solver {
     ///
     /// # Errors
     /// Whatever keeps the solution from staying on the asked branch, with the crank angle; and the visitor's own.
-    fn sweep(&self, case: &Case, visit: &mut dyn FnMut(usize, &State) -> Result<()>, progress: Progress) -> Result<()>;
+    fn sweep(&self, case: &Case, visit: Visit, progress: Progress) -> Result<()>;
 
     /// Solves the case: all its wanted channels on its grid.
     ///
@@ -47,6 +50,20 @@ pub trait Solver {
         };
         self.sweep(case, &mut put, progress)?;
         sampler.finish(case, |channel| self.provides(channel))
+    }
+}
+
+/// Checks that no instant before t = 0 is wanted of a free motion, which begins there; of a prescribed motion any instant may be.
+///
+/// # Errors
+/// [`ErrorKind::Input`] with such an instant.
+pub fn check_instants(case: &Case) -> Result<()> {
+    match case.grid.times.iter().find(|&&t| t < 0.0) {
+        Some(t) if case.is_free() => {
+            let message = format!("the motion is free from t = 0 on, but an instant at {t} s is wanted");
+            Err(Error::new(ErrorKind::Input, message).key("grid").help("let the grid go by time, from 0 s on"))
+        }
+        _ => Ok(()),
     }
 }
 
@@ -77,9 +94,7 @@ impl State {
             torques: vec![0.0; case.drives().count()],
         }
     }
-}
 
-impl State {
     /// Slide of a prismatic joint (m) with its rate and second derivative: s = e . (p2 - p1) along the axis e of the first link; with
     /// p2 - p1 = s e, e . (v2 - v1) = s' and e . (a2 - a1) = s'' - s omega^2. `None` for a revolute joint.
     #[must_use]

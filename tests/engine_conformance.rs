@@ -24,7 +24,7 @@ use common::spec::four_bar;
 use linkproof::case::Case;
 use linkproof::compare::convergence::observed_order;
 use linkproof::compare::residuals;
-use linkproof::engine::{self, Engine};
+use linkproof::engine::{self, Engine, Settings};
 use linkproof::reference::AssurSolver;
 use linkproof::solver::Solver;
 use linkproof::trajectory::{Channel, Stage, Subject, Trajectory};
@@ -87,6 +87,26 @@ fn has_formal_order(case: &Case, engines: impl Iterator<Item = Box<dyn Engine>>,
             single(engine.as_ref()) || seen > reference.channels().len() / 3,
             "only {seen} channels have more than rounding errors"
         );
+    }
+}
+
+/// The rungs of a ladder share what they have in common, and are to the last bit what they are alone, as they are and extrapolated.
+#[test]
+fn a_ladder_is_its_rungs() {
+    let case = four_bar([0.4, 0.1, 0.35, 0.3], true).scenario().unwrap().case;
+    for engine in engine::all(2e-3) {
+        for extrapolated in [false, !engine.controls_error()] {
+            let own = engine.settings();
+            let asked = Settings { sweeps: own.sweeps.min(64), extrapolated, ..own };
+            let at = |factor: f64| Settings { resolution: asked.resolution * factor, ..asked };
+            let rungs = [asked, at(0.5), at(2.0), Settings { sweeps: asked.sweeps / 2, ..asked }];
+            let ladder = engine.with(asked).ladder(&rungs);
+            for (together, settings) in ladder.iter().zip(rungs) {
+                assert_eq!(together.settings(), settings, "{}", engine.name());
+                let alone = engine.with(settings);
+                assert_eq!(solve(together.as_ref(), &case), solve(alone.as_ref(), &case), "{}", engine.name());
+            }
+        }
     }
 }
 

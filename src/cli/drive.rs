@@ -111,7 +111,8 @@ pub(super) fn drive(args: &Args) -> Result<()> {
     }
     let found = find(args, &scenario, &model)?;
     if let Some(to) = &args.svg {
-        output::write(&drive_graphs::draw(&scenario, &model, &found.means, &found.extremes)?, to)?;
+        let steady = found.steady.as_ref().map(|(_, regime)| regime);
+        output::write(&drive_graphs::draw(&scenario, &model, &found.means, &found.extremes, steady)?, to)?;
     }
     match &args.json {
         Some(to) => output::write(&format!("{}\n", as_json(args, &scenario, &found)), to),
@@ -147,7 +148,7 @@ fn check(args: &Args) -> Result<()> {
 fn find(args: &Args, scenario: &Scenario, model: &Model) -> Result<Found> {
     let case = &scenario.case;
     let means = reduced::means_over_turn(case, &AssurSolver)?;
-    let sense = case.drive.top_speed().signum();
+    let sense = case.drive.sense();
     let period = model.kinks().period.unwrap_or(std::f64::consts::TAU).to_degrees();
     let count = (period / args.step_deg + 1e-9).floor() as usize;
     let cranks: Vec<f64> =
@@ -171,7 +172,7 @@ fn as_text(args: &Args, scenario: &Scenario, found: &Found) -> String {
     let mut text = String::new();
     let _ = writeln!(text, "{}: {}\n", scenario.name, scenario.title);
     let names = [("reduced moment of inertia", "kg m^2"), ("reduced moment of resistance", "N m")];
-    let means = [found.means.inertia, found.means.resistance * scenario.case.drive.top_speed().signum()];
+    let means = [found.means.inertia, found.means.resistance * scenario.case.drive.sense()];
     for (((name, unit), mean), extremes) in names.into_iter().zip(means).zip(&found.extremes) {
         let end = |(crank, value): (f64, f64)| format!("{value:.9} {unit} at {:.4} deg", crank.to_degrees());
         let _ = writeln!(text, "{name}\n  mean      {mean:.9} {unit}");
@@ -232,7 +233,7 @@ fn by_angle(found: &Found) -> String {
 }
 
 fn as_json(args: &Args, scenario: &Scenario, found: &Found) -> String {
-    let sense = scenario.case.drive.top_speed().signum();
+    let sense = scenario.case.drive.sense();
     let extremes = |extremes: &Extremes, mean: f64| {
         let end = |(crank, value): (f64, f64)| json!({"crank_rad": crank, "value": value});
         json!({"mean": mean, "least": end(extremes.least), "greatest": end(extremes.greatest)})

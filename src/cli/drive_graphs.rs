@@ -3,17 +3,23 @@
 use crate::diagram::{Graph, Graphs, Mark, draw};
 use crate::error::Result;
 use crate::reference::dynamics::course::{Extremes, Row};
-use crate::reference::dynamics::{ACCURACY, Model};
+use crate::reference::dynamics::{ACCURACY, Model, Regime};
 use crate::reference::reduced::Means;
 use crate::scenario::Scenario;
 
 /// Equal parts of the period, at whose ends graphs have points: half a degree over one turn.
 const PARTS: u32 = 720;
 
-/// The graphs as an SVG document. `extremes`: of inertia and resistance.
-pub(super) fn draw(scenario: &Scenario, model: &Model, means: &Means, extremes: &[Extremes; 2]) -> Result<String> {
+/// The graphs as an SVG document. `extremes`: of inertia and resistance; `steady`: the steady motion, where there is a motor.
+pub(super) fn draw(
+    scenario: &Scenario,
+    model: &Model,
+    means: &Means,
+    extremes: &[Extremes; 2],
+    steady: Option<&Regime>,
+) -> Result<String> {
     let case = &scenario.case;
-    let (start, sense) = (case.drive.start, case.drive.top_speed().signum());
+    let (start, sense) = (case.drive.start, case.drive.sense());
     let period = model.kinks().period.unwrap_or(std::f64::consts::TAU);
     let even: Vec<f64> = (0..=PARTS).map(|k| start + sense * period * (f64::from(k) / f64::from(PARTS))).collect();
     let kinks = model.kinks().cranks.iter().map(|kink| start + sense * (sense * (kink - start)).rem_euclid(period));
@@ -47,8 +53,8 @@ pub(super) fn draw(scenario: &Scenario, model: &Model, means: &Means, extremes: 
     let over = if turns > 1.0 { format!("{turns} turns") } else { "one turn".into() };
     let mut note =
         format!("over {over} of the crank in the sense of its motion; motor, reducer and flywheel left out of I*");
-    if case.motor.is_some() {
-        let regime = model.regime(&even, ACCURACY)?;
+    if let Some(steady) = steady {
+        let regime = model.regime_at(steady, &even, ACCURACY)?;
         let mut marks = [("slowest", regime.slowest), ("fastest", regime.fastest)]
             .map(|(word, at)| Mark { at: [at.crank, at.omega], word });
         // The lower one on paper comes first.

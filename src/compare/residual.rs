@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use crate::error::{Error, ErrorKind, Result};
-use crate::math::statistics::{half_range, quantile, rms};
+use crate::math::statistics::{half_range, quantile, rms, share};
 use crate::trajectory::{Channel, Trajectory};
 
 /// A channel that moves less than this share of what is natural for its quantity is measured by that share: its errors come
@@ -29,6 +29,14 @@ pub struct Residual {
     pub worst_time: f64,
     /// Crank angle of the largest difference (rad).
     pub worst_crank: f64,
+}
+
+impl Residual {
+    /// Largest absolute difference as a share of the channel's scale; 0 where there is none.
+    #[must_use]
+    pub fn share(&self) -> f64 {
+        share(self.max, self.scale)
+    }
 }
 
 /// Scale of every channel: half the range of its values over the run, but at least a thousandth of what is natural for its
@@ -188,6 +196,14 @@ mod tests {
         let found = residuals(&a, &b).unwrap();
         assert_eq!(found.len(), 1);
         assert_eq!((found[0].max, found[0].q75, found[0].scale), (0.5, 0.375, 1.0));
+        assert_eq!(found[0].share(), 0.5);
+    }
+
+    #[test]
+    fn no_difference_is_a_share_of_zero_without_a_scale_too() {
+        let still = trajectory(&[("joint.A.fx_N", vec![1.0, 1.0])]);
+        let found = residuals(&still, &still).unwrap();
+        assert_eq!((found[0].scale, found[0].share()), (0.0, 0.0));
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! Agree, disagree, or not decided.
 
 use super::{Convergence, Residual};
+use crate::math::statistics::share;
 use crate::tolerance::{Basis, Parts, Tolerance};
 
 /// Outcome of one comparison.
@@ -169,7 +170,7 @@ impl Check {
     /// Share of the bound that is used up; infinite for NaN, so that it counts as the worst.
     #[must_use]
     pub fn used(&self) -> f64 {
-        let used = if self.value == 0.0 { 0.0 } else { self.value / self.bound };
+        let used = share(self.value, self.bound);
         if used.is_nan() { f64::INFINITY } else { used }
     }
 }

@@ -6,7 +6,7 @@
 use super::chord::{closed_slopes, integral, slopes};
 use crate::case::{Case, Grid, Wanted};
 use crate::error::{Error, ErrorKind, Result};
-use crate::math::statistics::{half_range, rms};
+use crate::math::statistics::{half_range, rms, share};
 use crate::solver::Solver;
 use crate::trajectory::{Channel, Stage, Subject};
 use std::f64::consts::TAU;
@@ -173,7 +173,7 @@ impl MotionDiagram {
         // Divisions, their halves and quarters all have their middles among the rows.
         let stride = 8 * CURVE.div_ceil(8 * divisions);
         let rows = divisions * stride;
-        let sense = case.drive.top_speed().signum();
+        let sense = case.drive.sense();
         let crank = |row: usize| case.drive.start + sense * TAU * (row as f64 / rows as f64);
         let grid = Grid::of_cranks(&case.drive, (0..=rows).map(crank).collect());
         let wanted = Wanted::of(&[Stage::Positions, Stage::Velocities, Stage::Accelerations]);
@@ -200,7 +200,7 @@ impl MotionDiagram {
             let orders = [order(size[0], size[1]), order(size[1], size[2])];
             let [(rows, values), ..] = runs;
             // What stands perfectly still has no scale, and no error either.
-            let share = if largest == 0.0 { 0.0 } else { largest / scale };
+            let share = share(largest, scale);
             Found { method, rows, values, largest, rms: size[0], share, orders }
         });
         let found = found.collect();

@@ -143,6 +143,18 @@ impl Drive {
         }
     }
 
+    /// Sense in which the law goes: +1 counter-clockwise, -1 clockwise. A law that goes to and fro has the sense of its top speed.
+    #[must_use]
+    pub fn sense(&self) -> f64 {
+        self.top_speed().signum()
+    }
+
+    /// Angular velocity at t = 0 (rad/s), counter-clockwise positive: that from which a free link starts, or the law's.
+    #[must_use]
+    pub fn initial_speed(&self) -> f64 {
+        self.free.unwrap_or(self.at(0.0).omega)
+    }
+
     /// Constant speed (rad/s) that takes the driving link in a step from where the law is at the time `from` (s) to where it is at `to`, in a
     /// time as long as the step; negative of the law's sense if `to` lies before `from`.
     #[inline]
@@ -257,6 +269,24 @@ mod tests {
                 assert!((drive.at(t).angle + step * h - back.angle).abs() < 1e-15);
             }
             assert_eq!(drive.at(0.0).angle, 0.5);
+        }
+    }
+
+    /// Laws that start from rest have a sense there too.
+    #[test]
+    fn sense_and_initial_speed() {
+        let laws = [
+            (MotionLaw::ConstantSpeed(-4.0), -1.0, -4.0),
+            (MotionLaw::ConstantSpeed(4.0), 1.0, 4.0),
+            (MotionLaw::Ramp { speed: -7.0, time: 0.2 }, -1.0, 0.0),
+            (MotionLaw::Cycloidal { rise: -3.0, time: 0.4 }, -1.0, 0.0),
+            (table(), 1.0, 0.0),
+        ];
+        for (law, sense, speed) in laws {
+            let mut drive = drive(law);
+            assert_eq!((drive.sense(), drive.initial_speed()), (sense, speed), "{:?}", drive.law);
+            drive.free = Some(0.5);
+            assert_eq!((drive.sense(), drive.initial_speed()), (sense, 0.5), "{:?}", drive.law);
         }
     }
 

@@ -1,27 +1,30 @@
 //! Any engine with a fixed step, extrapolated to step zero: solved at h and at h / 2, and both states combined so that the leading error
 //! drops out (Richardson 1911).
 
+use std::rc::Rc;
+
+use super::shared::Shared;
 use super::{Engine, Route, Settings};
 use crate::case::Case;
 use crate::error::Result;
 use crate::math::{Motion, Vec2, unit};
-use crate::solver::{Progress, Provision, Solver, State};
+use crate::solver::{Progress, Provision, Solver, State, Visit};
 use crate::trajectory::{CHANNELS, Channel, ChannelKind, Stage};
 
 /// An engine and its extrapolation.
 pub(super) struct Extrapolated {
     inner: Box<dyn Engine>,
+    half: Box<dyn Engine>,
+    /// Runs that other extrapolations of the engine need too.
+    shared: Rc<Shared>,
 }
 
 impl Extrapolated {
     /// Extrapolates an engine, whose step is h.
     pub(super) fn new(inner: Box<dyn Engine>) -> Self {
         debug_assert!(!inner.controls_error(), "there is no step to be halved");
-        Extrapolated { inner }
-    }
-
-    fn half(&self) -> Box<dyn Engine> {
-        self.inner.at(0.5 * self.inner.settings().resolution)
+        let half = inner.at(0.5 * inner.settings().resolution);
+        Extrapolated { inner, half, shared: Rc::default() }
     }
 }
 
@@ -99,13 +102,13 @@ impl Solver for Extrapolated {
         }
     }
 
-    fn sweep(&self, case: &Case, visit: &mut dyn FnMut(usize, &State) -> Result<()>, progress: Progress) -> Result<()> {
+    fn sweep(&self, case: &Case, visit: Visit, progress: Progress) -> Result<()> {
         let mut coarse: Vec<Option<State>> = vec![None; case.grid.len()];
         let mut keep = |row: usize, state: &State| {
             coarse[row] = Some(state.clone());
             Ok(())
         };
-        self.inner.sweep(case, &mut keep, &mut |part| progress(part / 3.0))?;
+        self.shared.sweep(self.inner.as_ref(), case, &mut keep, &mut |part| progress(part / 3.0))?;
         let shares = Shares::of(self.inner.as_ref(), case);
         let mut combined = State::at_rest(case);
         let mut combine = |row: usize, state: &State| {
@@ -113,7 +116,7 @@ impl Solver for Extrapolated {
             shares.combine(case, &mut combined, coarse[row].as_ref().expect("both runs visit the same rows"));
             visit(row, &combined)
         };
-        self.half().sweep(case, &mut combine, &mut |part| progress((1.0 + 2.0 * part) / 3.0))
+        self.shared.sweep(self.half.as_ref(), case, &mut combine, &mut |part| progress((1.0 + 2.0 * part) / 3.0))
     }
 }
 
@@ -130,6 +133,20 @@ impl Engine for Extrapolated {
         self.inner.with(settings)
     }
 
+    fn ladder(&self, rungs: &[Settings]) -> Vec<Box<dyn Engine>> {
+        let shared = Rc::new(Shared::default());
+        let rung = |&settings: &Settings| -> Box<dyn Engine> {
+            if !settings.extrapolated {
+                return self.with(settings);
+            }
+            let plain = Extrapolated::new(self.inner.with(Settings { extrapolated: false, ..settings }));
+            shared.expect(plain.inner.settings());
+            shared.expect(plain.half.settings());
+            Box::new(Extrapolated { shared: Rc::clone(&shared), ..plain })
+        };
+        rungs.iter().map(rung).collect()
+    }
+
     fn routes(&self) -> &'static [Route] {
         self.inner.routes()
     }
@@ -141,12 +158,174 @@ impl Engine for Extrapolated {
 
     fn noise(&self, case: &Case, channel: &ChannelKind) -> f64 {
         let share = share(self.inner.formal_order(case, channel));
-        share * self.half().noise(case, channel) + (share - 1.0) * self.inner.noise(case, channel)
+        share * self.half.noise(case, channel) + (share - 1.0) * self.inner.noise(case, channel)
     }
 
     fn told(&self) -> Vec<(&'static str, String)> {
         let mut told = self.inner.told();
         told.push(("extrapolated", "from runs at the step and at half of it".into()));
         told
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cell::RefCell;
+
+    use super::*;
+    use crate::case::{Grid, Wanted};
+    use crate::drive::{Drive, MotionLaw};
+    use crate::error::{Error, ErrorKind};
+    use crate::mechanism::{LinkPose, Pose, Structure, fixtures};
+
+    /// An engine whose links turn by t + h^2, which writes down its runs, by steps and sweeps, and stops at the second instant of those in `fails`.
+    #[derive(Clone, Debug)]
+    struct Counted {
+        settings: Settings,
+        runs: Rc<RefCell<Vec<(f64, usize)>>>,
+        fails: Option<(f64, usize)>,
+    }
+
+    impl Solver for Counted {
+        fn name(&self) -> &'static str {
+            "counted"
+        }
+        fn provides(&self, _: &Channel) -> Provision {
+            Provision::Computed
+        }
+        fn sweep(&self, case: &Case, visit: Visit, progress: Progress) -> Result<()> {
+            let (h, sweeps) = (self.settings.resolution, self.settings.sweeps);
+            self.runs.borrow_mut().push((h, sweeps));
+            let mut state = State::at_rest(case);
+            for (done, row) in case.grid.ascending().into_iter().enumerate() {
+                if done == 1 && self.fails == Some((h, sweeps)) {
+                    return Err(Error::new(ErrorKind::Numeric, "it stops"));
+                }
+                state.angles.fill(case.grid.times[row] + h * h + 1e-3 / sweeps as f64);
+                visit(row, &state)?;
+                progress((done + 1) as f64 / case.grid.len() as f64);
+            }
+            Ok(())
+        }
+    }
+
+    impl Engine for Counted {
+        fn version(&self) -> String {
+            String::new()
+        }
+        fn settings(&self) -> Settings {
+            self.settings
+        }
+        fn with(&self, settings: Settings) -> Box<dyn Engine> {
+            let plain = Counted { settings: Settings { extrapolated: false, ..settings }, ..self.clone() };
+            if settings.extrapolated { Box::new(Extrapolated::new(Box::new(plain))) } else { Box::new(plain) }
+        }
+        fn routes(&self) -> &'static [Route] {
+            &[Route::Native]
+        }
+        fn formal_order(&self, _: &Case, _: &ChannelKind) -> f64 {
+            2.0
+        }
+        fn noise(&self, _: &Case, _: &ChannelKind) -> f64 {
+            0.0
+        }
+        fn told(&self) -> Vec<(&'static str, String)> {
+            Vec::new()
+        }
+    }
+
+    const ASKED: Settings =
+        Settings { resolution: 0.1, sweeps: 8, substeps: 1, route: Route::Native, extrapolated: true };
+
+    fn counted(fails: Option<(f64, usize)>) -> Counted {
+        Counted { settings: Settings { extrapolated: false, ..ASKED }, runs: Rc::default(), fails }
+    }
+
+    /// The rungs of a proof, in its order.
+    fn rungs() -> [Settings; 4] {
+        let at = |factor: f64| Settings { resolution: ASKED.resolution * factor, ..ASKED };
+        [ASKED, at(0.5), at(2.0), Settings { sweeps: ASKED.sweeps / 2, ..ASKED }]
+    }
+
+    fn case() -> Case {
+        let mechanism = fixtures::four_bar();
+        let law = MotionLaw::ConstantSpeed(1.0);
+        let drive = Drive { joint: 0, link: 1, zero: 0.0, start: 0.0, law, free: None };
+        Case {
+            structure: Structure::of(&mechanism, &[0]).unwrap(),
+            start: Pose(vec![LinkPose::GROUND; mechanism.links().len()]),
+            grid: Grid::of_times(&drive, vec![0.2, 0.0, 0.1]),
+            mechanism,
+            drive,
+            further_drives: Vec::new(),
+            motor: None,
+            loads: Vec::new(),
+            gravity: Vec2::zeros(),
+            modes: Vec::new(),
+            wanted: Wanted::ALL,
+        }
+    }
+
+    /// Rows and angles that an engine hands over, in its order, and how the run ended; progress must rise from 0 to 1.
+    fn run(engine: &dyn Engine, case: &Case) -> (Vec<(usize, f64)>, Result<()>) {
+        let (mut seen, mut far) = (Vec::new(), 0.0);
+        let mut visit = |row: usize, state: &State| {
+            seen.push((row, state.angles[1]));
+            Ok(())
+        };
+        let ended = engine.sweep(case, &mut visit, &mut |part| {
+            assert!(part >= far && part <= 1.0, "{part} after {far}");
+            far = part;
+        });
+        assert!(ended.is_err() || far == 1.0, "{far}");
+        (seen, ended)
+    }
+
+    #[test]
+    fn a_ladder_takes_every_step_once_and_changes_no_bit() {
+        let (engine, case) = (counted(None), case());
+        let alone: Vec<_> = rungs().map(|rung| run(engine.with(rung).as_ref(), &case).0).into();
+        assert_eq!(engine.runs.take().len(), 8);
+        let ladder = engine.with(ASKED).ladder(&rungs());
+        let together: Vec<_> = ladder.iter().map(|rung| run(rung.as_ref(), &case).0).collect();
+        assert_eq!(together, alone);
+        assert_eq!(alone[0].len(), 3);
+        let once = [(0.1, 8), (0.05, 8), (0.025, 8), (0.2, 8), (0.1, 4), (0.05, 4)];
+        assert_eq!(engine.runs.take(), once);
+        // What nobody expects any more is not kept: the first rung runs again as if alone.
+        assert_eq!(run(ladder[0].as_ref(), &case).0, alone[0]);
+        assert_eq!(engine.runs.take(), once[..2]);
+    }
+
+    #[test]
+    fn what_is_kept_of_one_case_is_not_given_for_another() {
+        let (engine, one) = (counted(None), case());
+        let other = one.on(Grid::of_times(&one.drive, vec![0.4, 0.3, 0.5]));
+        let ladder = engine.with(ASKED).ladder(&rungs());
+        for (rung, case) in ladder.iter().zip([&one, &other, &one, &one]) {
+            assert_eq!(run(rung.as_ref(), case).0, run(engine.with(rung.settings()).as_ref(), case).0);
+        }
+    }
+
+    #[test]
+    fn a_stopped_rung_hands_over_what_it_hands_over_alone() {
+        let case = case();
+        for (rung, fails, handed) in [(0, (0.1, 8), 0), (0, (0.05, 8), 1), (1, (0.025, 8), 1), (2, (0.2, 8), 0)] {
+            let engine = counted(Some(fails));
+            let ladder = engine.with(ASKED).ladder(&rungs());
+            assert!(ladder[..rung].iter().all(|before| run(before.as_ref(), &case).1.is_ok()));
+            let (together, ended) = run(ladder[rung].as_ref(), &case);
+            assert!(ended.is_err() && together.len() == handed, "{fails:?}: {together:?}");
+            assert_eq!(together, run(engine.with(rungs()[rung]).as_ref(), &case).0);
+        }
+    }
+
+    #[test]
+    fn a_rung_may_be_plain() {
+        let (engine, case) = (counted(None), case());
+        let plain = Settings { extrapolated: false, ..ASKED };
+        let ladder = engine.with(ASKED).ladder(&[plain, ASKED]);
+        assert_eq!(run(ladder[0].as_ref(), &case).0, run(&engine, &case).0);
+        assert_eq!(run(ladder[1].as_ref(), &case).0, run(engine.with(ASKED).as_ref(), &case).0);
     }
 }

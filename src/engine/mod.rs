@@ -1,8 +1,10 @@
 //! The simulating side: a family of engines behind one contract, judged by the conformance tests.
 
+mod bodies;
 mod extrapolated;
 pub mod rapier;
 mod settings;
+mod shared;
 #[cfg(feature = "simbody")]
 pub mod simbody;
 
@@ -26,6 +28,12 @@ pub trait Engine: Solver {
     /// The same engine at another resolution and else as it is.
     fn at(&self, resolution: f64) -> Box<dyn Engine> {
         self.with(Settings { resolution, ..self.settings() })
+    }
+
+    /// The engine with each of some settings, to solve one case one after the other, each of them once. Results are those of [`Engine::with`], but what
+    /// several of these engines need is computed once, and kept until the last of them has had it.
+    fn ladder(&self, rungs: &[Settings]) -> Vec<Box<dyn Engine>> {
+        rungs.iter().map(|&settings| self.with(settings)).collect()
     }
 
     /// Whether [`Settings::resolution`] is an accuracy that the engine keeps by steps of its own choice, and not a time step.

@@ -27,6 +27,12 @@ pub fn rms(values: impl IntoIterator<Item = f64>) -> f64 {
     if count == 0 { 0.0 } else { (sum / count as f64).sqrt() }
 }
 
+/// `part` as a share of `whole`; no part is 0, whatever the whole, even of none.
+#[must_use]
+pub fn share(part: f64, whole: f64) -> f64 {
+    if part == 0.0 { 0.0 } else { part / whole }
+}
+
 /// Half the distance between the smallest and the largest value, NaN if a value is NaN; 0 for none.
 #[must_use]
 pub fn half_range(values: &[f64]) -> f64 {

@@ -5,6 +5,7 @@ use super::observe::Observed;
 use crate::case::Case;
 use crate::compare::{Check, Convergence, magnitudes, residuals};
 use crate::engine::Engine;
+use crate::math::statistics::share;
 use crate::scenario::Scenario;
 use crate::tolerance::{Basis, Tolerance};
 use crate::trajectory::{Channel, ChannelKind, Stage};
@@ -65,11 +66,8 @@ pub(super) fn of_sides(case: &Case, sides: &[(&'static str, Observed); 2]) -> Ve
 fn between_sides(sides: &[(&'static str, Observed); 2]) -> Vec<Check> {
     let reference = &sides[0].1.trajectory;
     let residuals = residuals(reference, &sides[1].1.trajectory).expect("both sides stand on one grid");
-    let relative: Vec<f64> = residuals
-        .iter()
-        .zip(magnitudes(reference))
-        .map(|(residual, size)| if residual.max == 0.0 { 0.0 } else { residual.max / size })
-        .collect();
+    let relative: Vec<f64> =
+        residuals.iter().zip(magnitudes(reference)).map(|(residual, size)| share(residual.max, size)).collect();
     let of_stage = |stage: Stage| {
         let own = residuals.iter().zip(&relative).filter(|(residual, _)| residual.channel.kind.stage == stage);
         let (worst, &relative) = own.max_by(|a, b| a.1.total_cmp(b.1))?;

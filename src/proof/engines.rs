@@ -140,24 +140,27 @@ fn run_ladder(case: &Case, engine: &dyn Engine, progress: &mut dyn FnMut(f64)) -
     let iterates = settings.sweeps > 1;
     // The finest run costs as much as two of the single step, the coarsest half of one.
     let whole = if iterates { 4.0 } else { 3.5 };
+    let (asked, sweeps) = (settings.resolution, settings.sweeps / 2);
+    let at = |factor: f64| Settings { resolution: asked * factor, ..settings };
+    // The single step first: if it fails, its own message is the one that helps.
+    let mut rungs = vec![settings, at(0.5), at(2.0)];
+    if iterates {
+        rungs.push(Settings { sweeps, ..settings });
+    }
+    let rungs = engine.ladder(&rungs);
     let mut done = 0.0;
-    let mut run = |settings: Settings, cost: f64| {
-        let run = engine.with(settings);
-        let observed = observe(case, run.as_ref(), &mut |part| progress((done + cost * part) / whole));
+    let mut run = |rung: usize, cost: f64| {
+        let observed = observe(case, rungs[rung].as_ref(), &mut |part| progress((done + cost * part) / whole));
         done += cost;
         observed
     };
-    let asked = settings.resolution;
-    let at = |factor: f64| Settings { resolution: asked * factor, ..settings };
     let unit = if engine.controls_error() { "" } else { " s" };
     let of_ladder = |what: String| move |stopped: Stopped| in_ladder(stopped, &what);
-    // The single step first: if it fails, its own message is the one that helps.
-    let single = run(settings, 1.0)?;
-    let half = run(at(0.5), 2.0).map_err(of_ladder(format!("at {:e}{unit}", asked / 2.0)))?;
-    let double = run(at(2.0), 0.5).map_err(of_ladder(format!("at {:e}{unit}", asked * 2.0)))?;
-    let sweeps = settings.sweeps / 2;
+    let single = run(0, 1.0)?;
+    let half = run(1, 2.0).map_err(of_ladder(format!("at {:e}{unit}", asked / 2.0)))?;
+    let double = run(2, 0.5).map_err(of_ladder(format!("at {:e}{unit}", asked * 2.0)))?;
     let fewer_sweeps = match iterates {
-        true => Some(run(Settings { sweeps, ..settings }, 0.5).map_err(of_ladder(format!("with {sweeps} sweeps")))?),
+        true => Some(run(3, 0.5).map_err(of_ladder(format!("with {sweeps} sweeps")))?),
         false => None,
     };
     Ok(Runs { resolutions: [double, single, half], fewer_sweeps })

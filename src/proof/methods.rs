@@ -5,6 +5,7 @@ use crate::case::Case;
 use crate::compare::{Check, Verdict};
 use crate::drive::DriveState;
 use crate::error::{ErrorKind, Result};
+use crate::math::statistics::share;
 use crate::math::{Vec2, cross};
 use crate::reference::triad::class_change::ClassChange;
 use crate::reference::triad::{Reactions, Triad, assur_point, cramer, linear_system};
@@ -52,10 +53,8 @@ impl Worst {
     }
 
     fn check(self, family: &str, detail: &str, scales: [f64; 4]) -> Check {
-        let share = |((difference, crank), scale): ((f64, f64), f64)| {
-            (if difference == 0.0 { 0.0 } else { difference / scale }, crank)
-        };
-        let shares = self.differences.into_iter().zip(scales).map(share);
+        let differences = self.differences.into_iter().zip(scales);
+        let shares = differences.map(|((difference, crank), scale)| (share(difference, scale), crank));
         let (value, crank) = shares.max_by(|a, b| a.0.abs().total_cmp(&b.0.abs())).unwrap_or_default();
         let tolerance = rounding(BOUND, "two methods without a common equation, each good to rounding");
         let check = Check::new(family, value, tolerance, "").of(detail);

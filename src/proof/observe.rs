@@ -2,6 +2,7 @@
 
 use crate::case::Case;
 use crate::error::Error;
+use crate::math::statistics::share;
 use crate::reference::{momentum, power};
 use crate::solver::{Sampler, Solver, State};
 use crate::trajectory::{Stage, Trajectory};
@@ -140,7 +141,6 @@ impl Unbalance {
     }
 
     fn share(&self) -> f64 {
-        let of = |part: f64, whole: f64| if part == 0.0 { 0.0 } else { part / whole };
-        of(self.force, self.largest_force).max(of(self.moment, self.largest_moment))
+        share(self.force, self.largest_force).max(share(self.moment, self.largest_moment))
     }
 }

@@ -144,7 +144,7 @@ impl Measured<'_> {
         let case = &self.scenario.case;
         let motor = case.motor.as_ref().expect("a scenario with this figure has a motor");
         // The motor works in the sense in which the crank is driven.
-        let sense = case.drive.top_speed().signum();
+        let sense = case.drive.sense();
         let resistance = sense * self.means()?.resistance;
         let Some(speed) = motor.steady_speed(resistance) else {
             return Err(reduced::no_steady_speed(resistance));

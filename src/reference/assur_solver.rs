@@ -6,7 +6,7 @@ use super::pose_solver::PoseSolver;
 use crate::case::Case;
 use crate::drive::Load;
 use crate::error::{Error, ErrorKind, Result};
-use crate::solver::{Progress, Provision, Solver, State};
+use crate::solver::{Progress, Provision, Solver, Visit};
 use crate::trajectory::Channel;
 
 /// Group by group.
@@ -22,7 +22,7 @@ impl Solver for AssurSolver {
         Provision::Computed
     }
 
-    fn sweep(&self, case: &Case, visit: &mut dyn FnMut(usize, &State) -> Result<()>, progress: Progress) -> Result<()> {
+    fn sweep(&self, case: &Case, visit: Visit, progress: Progress) -> Result<()> {
         if case.is_free() {
             return free_motion(case, visit, progress);
         }
@@ -39,7 +39,7 @@ impl Solver for AssurSolver {
 }
 
 /// Motion under forces: of one freedom by its reduced equation of motion, of several by their transfer functions.
-fn free_motion(case: &Case, visit: &mut dyn FnMut(usize, &State) -> Result<()>, progress: Progress) -> Result<()> {
+fn free_motion(case: &Case, visit: Visit, progress: Progress) -> Result<()> {
     if !case.further_drives.is_empty() || case.loads.iter().any(Load::is_viscous) {
         return free::sweep(case, &mut free::TransferSide::new(case)?, visit, progress);
     }
@@ -48,7 +48,7 @@ fn free_motion(case: &Case, visit: &mut dyn FnMut(usize, &State) -> Result<()>, 
     let mut times: Vec<f64> = rows.iter().map(|&row| case.grid.times[row]).collect();
     times.dedup();
     let model = Model::of(case)?;
-    let (motion, end) = dynamics::motion(&model, case.drive.free.unwrap_or(0.0), &times, ACCURACY)?;
+    let (motion, end) = dynamics::motion(&model, case.drive.initial_speed(), &times, ACCURACY)?;
     if motion.len() < times.len() {
         return Err(ended(end));
     }

@@ -17,7 +17,7 @@ use crate::error::{Error, ErrorKind, Result};
 use crate::math::dense::Lu;
 use crate::math::{Motion, Vec2, unit};
 use crate::mechanism::EQUATIONS;
-use crate::solver::{Progress, Provision, Solver, State};
+use crate::solver::{Progress, Provision, Solver, State, Visit};
 use crate::trajectory::{Channel, Stage};
 
 /// Largest turn of the crank between two poses (rad): a prediction from there stays on the branch.
@@ -40,7 +40,7 @@ impl Solver for NewtonSolver {
         Provision::Computed
     }
 
-    fn sweep(&self, case: &Case, visit: &mut dyn FnMut(usize, &State) -> Result<()>, progress: Progress) -> Result<()> {
+    fn sweep(&self, case: &Case, visit: Visit, progress: Progress) -> Result<()> {
         let mut system = System::new(case);
         if case.is_free() {
             system.settle().map_err(|error| range::explained(case, &error))?;

@@ -133,6 +133,6 @@ impl Task {
     /// Sense in which the crank turns: +1 or -1.
     #[must_use]
     pub fn turning(&self) -> f64 {
-        self.case.drive.at(0.0).omega.signum()
+        self.case.drive.sense()
     }
 }

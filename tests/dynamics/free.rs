@@ -4,6 +4,7 @@ use linkproof::case::{Case, Grid, Wanted};
 use linkproof::compare::{Verdict, residuals};
 use linkproof::engine::{self, Engine, Route, Settings};
 use linkproof::math::Vec2;
+use linkproof::mechanism::Mechanism;
 use linkproof::proof::{Options, prove};
 use linkproof::reference::{AssurSolver, NewtonSolver};
 use linkproof::scenario::Scenario;
@@ -19,8 +20,8 @@ fn solve(solver: &dyn Solver, case: &Case) -> Trajectory {
 /// Largest error over the scale, of the channels that `of` picks.
 fn worst(reference: &Trajectory, other: &Trajectory, of: impl Fn(&Channel) -> bool) -> f64 {
     let all = residuals(reference, other).unwrap();
-    let picked = all.iter().filter(|residual| of(&residual.channel) && residual.max > 0.0);
-    picked.map(|residual| residual.max / residual.scale).fold(0.0, f64::max)
+    let picked = all.iter().filter(|residual| of(&residual.channel));
+    picked.map(|residual| residual.share()).fold(0.0, f64::max)
 }
 
 fn column<'a>(trajectory: &'a Trajectory, name: &str) -> &'a [f64] {
@@ -208,11 +209,27 @@ fn what_a_free_motion_cannot_be_asked_says_so() {
     let before = case(&|case| case.grid = Grid::of_times(&case.drive, vec![-0.1, 0.0]));
     let held = case(&|case| case.motor.as_mut().unwrap().ratio = 0.1);
     for solver in [&AssurSolver as &dyn Solver, &NewtonSolver] {
-        let error = solver.solve(&before, &mut |_| {}).unwrap_err();
-        assert!(error.message().contains("-0.1 s"), "{error}");
         let error = solver.solve(&held, &mut |_| {}).unwrap_err();
         assert!(error.message().contains("hold"), "{}: {error}", solver.name());
         assert!(error.way_out().unwrap().contains("torque"), "{error}");
+    }
+    // A motion that begins at t = 0 is not continued backwards, nor does a stand-in move a link without inertia.
+    let bare = case(&|case| {
+        let mut links = case.mechanism.links().to_vec();
+        let coupler = case.mechanism.link_named("coupler").unwrap();
+        links[coupler].inertia = 0.0;
+        case.mechanism = Mechanism::new(links, case.mechanism.joints().to_vec()).unwrap();
+    });
+    let extrapolated = twin("rapier", &scenario, |settings| Settings { extrapolated: true, ..settings });
+    let engines: Vec<_> = engine::all(scenario.dt).into_iter().chain([extrapolated]).collect();
+    let solvers = engines.iter().map(|engine| engine.as_ref() as &dyn Solver);
+    for solver in solvers.clone().chain([&AssurSolver as &dyn Solver, &NewtonSolver]) {
+        let error = solver.solve(&before, &mut |_| {}).unwrap_err();
+        assert!(error.message().contains("an instant at -0.1 s"), "{}: {error}", solver.name());
+    }
+    for solver in solvers {
+        let error = solver.solve(&bare, &mut |_| {}).unwrap_err();
+        assert!(error.message().contains("link \"coupler\" has no mass or no moment"), "{}: {error}", solver.name());
     }
     let probe = twin("rapier", &scenario, |settings| Settings { route: Route::Probe, ..settings });
     let error = probe.solve(&scenario.case, &mut |_| {}).unwrap_err();

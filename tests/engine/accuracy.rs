@@ -26,9 +26,8 @@ fn fine(name: &str, case: &Case, route: Route, extrapolated: bool) -> Box<dyn En
 
 /// Largest error over half the range in angles, and in reactions and moment.
 fn worst(found: &[Residual]) -> [f64; 2] {
-    let most = |wanted: &dyn Fn(&Residual) -> bool| {
-        found.iter().filter(|r| wanted(r)).map(|r| r.max / r.scale).fold(0.0, f64::max)
-    };
+    let most =
+        |wanted: &dyn Fn(&Residual) -> bool| found.iter().filter(|r| wanted(r)).map(|r| r.share()).fold(0.0, f64::max);
     [most(&|r| r.channel.kind.unit == "rad"), most(&|r| r.channel.kind.stage >= Stage::Reactions)]
 }
 
@@ -191,7 +190,7 @@ fn regress_14_thirty_two_sweeps_are_as_good_as_a_thousand() {
     let engine = engine::named("rapier", 1e-3).unwrap();
     let runs = [32, 1024].map(|sweeps| solve(engine.with(Settings { sweeps, ..engine.settings() }).as_ref(), &case));
     for residual in residuals(&runs[1], &runs[0]).unwrap() {
-        let share = residual.max / residual.scale;
+        let share = residual.share();
         assert!(share <= 1e-6, "{}: {share:e}", residual.channel);
     }
 }

@@ -46,7 +46,7 @@ fn quarter(case: &Case) -> Case {
 /// Largest error over the scale in the channels of some stages.
 fn worst(truth: &Trajectory, run: &Trajectory, stages: impl Fn(Stage) -> bool) -> f64 {
     let found = residuals(truth, run).unwrap();
-    found.iter().filter(|r| stages(r.channel.kind.stage)).map(|r| r.max / r.scale).fold(0.0, f64::max)
+    found.iter().filter(|r| stages(r.channel.kind.stage)).map(|r| r.share()).fold(0.0, f64::max)
 }
 
 /// Story 68. Errors of the impulse build go along a chain joint by joint, and need sweeps for it: over twelve links its default is enough for the

@@ -5,7 +5,8 @@ use super::window::Window;
 use crate::case::Case;
 use crate::drive::{Branch, Wrench};
 use crate::engine::Settings;
-use crate::error::{Error, ErrorKind, Result};
+use crate::engine::bodies::check_inertias;
+use crate::error::Result;
 use crate::mechanism::GROUND;
 use crate::solver::State;
 
@@ -26,18 +27,9 @@ pub(super) struct Acting {
 
 impl Acting {
     /// # Errors
-    /// [`ErrorKind::Unsupported`] for links without mass or moment of inertia, which Rapier cannot move.
+    /// Those of [`check_inertias`].
     pub(super) fn new(case: &Case) -> Result<Self> {
-        let bare = |link: &&crate::mechanism::Link| !(link.mass > 0.0 && link.inertia > 0.0);
-        if let Some(link) = case.mechanism.links()[1..].iter().find(bare) {
-            let message = format!(
-                "link \"{}\" has no mass or no moment of inertia: Rapier cannot move it under forces",
-                link.name
-            );
-            return Err(Error::new(ErrorKind::Unsupported, message)
-                .key(format!("links.{}", link.name))
-                .help("give every link both, or solve the scenario with `linkproof solve --with newton`"));
-        }
+        check_inertias(case, "Rapier")?;
         let links = case.mechanism.links().len();
         Ok(Acting {
             state: State::at_rest(case),
@@ -88,8 +80,8 @@ impl Acting {
     /// Speed aimed at and damping of the motor that has the law's moment and slope at the crank's speed. Where the moment rises with the speed, or does
     /// not depend on it, it goes to the loads instead.
     fn motor(&mut self, case: &Case) -> [f64; 2] {
-        let (Some(motor), Some(_)) = (&case.motor, case.drive.free) else { return [0.0; 2] };
-        let sense = case.drive.at(0.0).omega.signum();
+        let Some(motor) = case.motor_of_free_crank() else { return [0.0; 2] };
+        let sense = case.drive.sense();
         let omega = sense * self.state.motions[case.drive.link].omega;
         let holds = |branch: &Branch| omega >= branch.speeds[0] && omega < branch.speeds[1];
         let branch = match self.branch {
@@ -128,11 +120,10 @@ pub(super) fn begin(case: &Case, acting: &mut Acting, worlds: &mut [Guard], sett
 
 /// Places worlds at the start with the velocities of the driving links there: a tiny step with rigid drives brings all others in line.
 fn settle(case: &Case, worlds: &mut [Guard], step: f64) -> Result<()> {
-    let speeds = || case.drives().map(|drive| drive.free.unwrap_or(drive.at(0.0).omega));
-    let fastest = speeds().fold(0.0f64, |most, speed| most.max(speed.abs()));
+    let fastest = case.drives().fold(0.0f64, |most, drive| most.max(drive.initial_speed().abs()));
     for guard in worlds {
         guard.set_step(if fastest > 0.0 { SETTLING_TURN / fastest } else { SETTLING_TURN * step });
-        guard.drive_from_start(0.0);
+        guard.drive_from_start();
         guard.place(&case.start.0);
         guard.step(0.0)?;
         guard.place(&case.start.0);

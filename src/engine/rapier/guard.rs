@@ -83,10 +83,10 @@ impl<'a> Guard<'a> {
         }
     }
 
-    /// Drives all links with the speeds from which free ones start; those of the others at `t`.
-    pub(super) fn drive_from_start(&mut self, t: f64) {
+    /// Sets all drives to their speeds at t = 0: those from which free links start, those of the laws for the others.
+    pub(super) fn drive_from_start(&mut self) {
         for (index, drive) in self.case.drives().enumerate() {
-            self.world.set_drive(index, drive.free.unwrap_or(drive.at(t).omega));
+            self.world.set_drive(index, drive.initial_speed());
         }
     }
 

@@ -24,7 +24,7 @@ use super::extrapolated::Extrapolated;
 use super::{Engine, Route, Settings};
 use crate::case::Case;
 use crate::error::Result;
-use crate::solver::{Progress, Provision, Solver, State};
+use crate::solver::{Progress, Provision, Solver, Visit};
 use crate::trajectory::{Channel, ChannelKind, Stage};
 use tree::Tree;
 use world::World;
@@ -211,7 +211,7 @@ impl Solver for Rapier {
         }
     }
 
-    fn sweep(&self, case: &Case, visit: &mut dyn FnMut(usize, &State) -> Result<()>, progress: Progress) -> Result<()> {
+    fn sweep(&self, case: &Case, visit: Visit, progress: Progress) -> Result<()> {
         run::sweep(self, case, visit, progress)
     }
 }

@@ -11,7 +11,7 @@ use super::{Build, Precision, Rapier};
 use crate::case::Case;
 use crate::engine::{Route, Settings};
 use crate::error::{Error, ErrorKind, Result};
-use crate::solver::{Progress, State};
+use crate::solver::{Progress, State, Visit, check_instants};
 use crate::trajectory::Stage;
 
 /// Steps that the transient of a start or of a turn-about takes to fall below rounding (one does; the rest is margin).
@@ -28,12 +28,8 @@ enum Reader<'a> {
 }
 
 /// Solves a case: see [`Solver::sweep`](crate::solver::Solver::sweep).
-pub(super) fn sweep(
-    engine: &Rapier,
-    case: &Case,
-    visit: &mut dyn FnMut(usize, &State) -> Result<()>,
-    progress: Progress,
-) -> Result<()> {
+pub(super) fn sweep(engine: &Rapier, case: &Case, visit: Visit, progress: Progress) -> Result<()> {
+    check_instants(case)?;
     let rows = case.grid.ascending();
     let (Some(&first), Some(&last)) = (rows.first(), rows.last()) else { return Ok(()) };
     let step = engine.settings.resolution;

@@ -3,8 +3,9 @@
 use super::tree::Tree;
 use crate::case::Case;
 use crate::drive::Wrench;
+use crate::engine::bodies::stand_in;
 use crate::math::Vec2;
-use crate::mechanism::{Joint, LinkPose, Side};
+use crate::mechanism::{GROUND, Joint, Link, LinkPose, Side};
 
 /// The Rapier world of a case: links in its tree as one multibody, the others as bodies of their own, joints that the tree cuts as impulse
 /// joints, every drive as a motor of its own so that its impulse can be read. All numbers are f64, SI, world axes.
@@ -68,18 +69,13 @@ const FLYWHEEL: f64 = 1.0;
 /// out. Under a prescribed speed the motion does not depend on the masses; what they add to reactions that are read is taken off
 /// again ([`Ghost`](super::ghost::Ghost)). In a free motion they are the links' own, and the crank carries rotor and reducer.
 pub(super) fn masses(case: &Case) -> Vec<[f64; 2]> {
-    let moving = &case.mechanism.links()[1..];
-    let total: f64 = moving.iter().map(|link| link.mass).sum();
-    let stand_in = if total > 0.0 { total / moving.len() as f64 } else { 1.0 };
-    let size = case.mechanism.size();
-    let of = |link: &crate::mechanism::Link| {
-        let mass = if link.mass > 0.0 { link.mass } else { stand_in };
-        [mass, if link.inertia > 0.0 { link.inertia } else { mass * size * size / 12.0 }]
+    let of = |(index, link): (usize, &Link)| {
+        let [mass, inertia] = stand_in(case, index);
+        [link.mass + mass, link.inertia + inertia]
     };
-    let mut masses: Vec<[f64; 2]> = std::iter::once([0.0; 2]).chain(moving.iter().map(of)).collect();
-    if let (Some(motor), Some(_)) = (&case.motor, case.drive.free) {
-        masses[case.drive.link][1] += motor.inertia_on_crank();
-    }
+    let mut masses: Vec<[f64; 2]> = case.mechanism.links().iter().enumerate().map(of).collect();
+    masses[GROUND] = [0.0; 2];
+    masses[case.drive.link][1] += case.inertia_on_free_crank();
     masses
 }
 

@@ -9,22 +9,16 @@ use super::model::Linkage;
 use super::stopped;
 use crate::case::Case;
 use crate::drive::Wrench;
+use crate::engine::bodies::check_inertias;
 use crate::error::{Error, ErrorKind, Result};
 use crate::solver::State;
 
 /// Starts the run of a free motion at t = 0.
 ///
 /// # Errors
-/// [`ErrorKind::Unsupported`] for links without mass or moment of inertia, and whatever keeps Simbody from the start.
+/// Those of [`check_inertias`], and whatever keeps Simbody from the start.
 pub(super) fn start(case: &Case, settings: Settings) -> Result<(Linkage, Run)> {
-    let bare = |link: &&crate::mechanism::Link| !(link.mass > 0.0 && link.inertia > 0.0);
-    if let Some(link) = case.mechanism.links()[1..].iter().find(bare) {
-        let message =
-            format!("link \"{}\" has no mass or no moment of inertia: Simbody cannot move it under forces", link.name);
-        return Err(Error::new(ErrorKind::Unsupported, message)
-            .key(format!("links.{}", link.name))
-            .help("give every link both, or solve the scenario with `linkproof solve --with newton`"));
-    }
+    check_inertias(case, "Simbody")?;
     let wrong = |message: String| Error::new(ErrorKind::Input, format!("Simbody cannot take the mechanism: {message}"));
     // Driven at the initial speeds, all other links show theirs.
     let driven = Linkage::new(case, 1.0, None).map_err(wrong)?;
@@ -71,9 +65,8 @@ fn acting(case: &Case, linkage: &Linkage, setting_off: Rc<RefCell<Vec<f64>>>) ->
             load.moment_in(if omega == 0.0 { senses[link] } else { omega }, crank)
         };
         case.loads_with(motions, angles, sensed, &mut wrenches);
-        if let (Some(motor), Some(_)) = (&case.motor, case.drive.free) {
-            let sense = case.drive.top_speed().signum();
-            let crank = case.drive.link;
+        if let Some(motor) = case.motor_of_free_crank() {
+            let (sense, crank) = (case.drive.sense(), case.drive.link);
             wrenches[crank].moment += sense * motor.moment_on_crank(sense * motions[crank].omega);
         }
         for (load, found) in loads.iter_mut().zip(linkage.loads(&wrenches)) {

@@ -15,7 +15,7 @@ use crate::case::Case;
 use crate::drive::{Load, Wrench};
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::unit;
-use crate::solver::{Progress, Provision, Solver, State};
+use crate::solver::{Progress, Provision, Solver, State, Visit, check_instants};
 use crate::trajectory::{Channel, ChannelKind, Stage};
 use model::Linkage;
 
@@ -130,7 +130,8 @@ impl Solver for Simbody {
         Provision::Computed
     }
 
-    fn sweep(&self, case: &Case, visit: &mut dyn FnMut(usize, &State) -> Result<()>, progress: Progress) -> Result<()> {
+    fn sweep(&self, case: &Case, visit: Visit, progress: Progress) -> Result<()> {
+        check_instants(case)?;
         let rows = case.grid.ascending();
         let (before, after) = rows.split_at(rows.partition_point(|&row| case.grid.times[row] < 0.0));
         let reactions = case.wanted.deepest() >= Stage::Reactions;
@@ -144,12 +145,6 @@ impl Solver for Simbody {
         for (sense, rows, end) in [(-1.0, backwards.as_slice(), ends[0]), (1.0, after, ends[1])] {
             if rows.is_empty() {
                 continue;
-            }
-            if case.is_free() && sense < 0.0 {
-                let message = "the motion is free from t = 0 on, but an instant before is wanted";
-                return Err(Error::new(ErrorKind::Input, message)
-                    .key("grid")
-                    .help("let the grid go by time, from 0 s on"));
             }
             let (linkage, mut run) = self.start(case, sense)?;
             for &row in rows {

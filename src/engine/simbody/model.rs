@@ -3,7 +3,8 @@
 use linkproof_simbody::{Body, BodyState, Closing, Inertia, Joint, Law, LoopState, Model};
 
 use crate::case::Case;
-use crate::drive::{Drive, Load, Motor, Wrench};
+use crate::drive::{Drive, Load, Wrench};
+use crate::engine::bodies::stand_in;
 use crate::math::{Vec2, cross};
 use crate::mechanism;
 use crate::mechanism::spanning_tree::{Branch, Tree, coordinate};
@@ -108,9 +109,10 @@ impl Linkage {
                 state.torques[index] = body.drive;
             }
         }
-        if let (Some(motor), Some(_)) = (&case.motor, case.drive.free) {
-            let (sense, crank) = (case.drive.top_speed().signum(), &state.motions[case.drive.link]);
-            state.torques[0] = sense * motor.moment_on_crank(sense * crank.omega) - added(case) * crank.alpha;
+        if let Some(motor) = case.motor_of_free_crank() {
+            let (sense, crank) = (case.drive.sense(), &state.motions[case.drive.link]);
+            let inertial = motor.inertia_on_crank() * crank.alpha;
+            state.torques[0] = sense * motor.moment_on_crank(sense * crank.omega) - inertial;
         }
         for (&joint, closed) in self.tree.cut.iter().zip(loops) {
             state.forces[joint] = closed.force.into();
@@ -120,14 +122,12 @@ impl Linkage {
 
 /// Rate of a driven coordinate, unless it is left to forces.
 fn law(case: &Case, branch: &Branch, drive: &Drive, moving: bool) -> Option<f64> {
-    let rate = match drive.free {
-        Some(_) if moving => return None,
-        Some(speed) => speed,
-        None => drive.top_speed(),
-    };
+    if moving && drive.free.is_some() {
+        return None;
+    }
     // Drives turn links in the world, coordinates against the parent.
     let parent = case.drives().find(|other| other.link == branch.parent);
-    Some(rate - parent.map_or(0.0, |parent| parent.free.unwrap_or(parent.top_speed())))
+    Some(drive.initial_speed() - parent.map_or(0.0, Drive::initial_speed))
 }
 
 fn joint(found: &mechanism::Joint, branch: &Branch) -> Joint {
@@ -147,20 +147,10 @@ fn joint(found: &mechanism::Joint, branch: &Branch) -> Joint {
 /// Mass and inertia of a link. Simbody cannot accelerate a free body without them: such a link carries some, which its reactions do not
 /// contain.
 pub(super) fn inertia(case: &Case, link: usize) -> Inertia {
-    let moving = &case.mechanism.links()[1..];
-    let total: f64 = moving.iter().map(|link| link.mass).sum();
-    let usual = if total > 0.0 { total / moving.len() as f64 } else { 1.0 };
-    let size = case.mechanism.size();
     let body = &case.mechanism.links()[link];
-    let extra_mass = if body.mass > 0.0 { 0.0 } else { usual };
-    let extra_inertia = if body.inertia > 0.0 { 0.0 } else { (body.mass + extra_mass) * size * size / 12.0 };
-    let inertia = body.inertia + if link == case.drive.link { added(case) } else { 0.0 };
+    let [extra_mass, extra_inertia] = stand_in(case, link);
+    let inertia = body.inertia + if link == case.drive.link { case.inertia_on_free_crank() } else { 0.0 };
     Inertia { mass: body.mass, centre: body.mass_centre.into(), inertia, extra_mass, extra_inertia }
-}
-
-/// Moment of inertia of rotor and reducer that turn with a free crank (kg m^2).
-pub(super) fn added(case: &Case) -> f64 {
-    case.motor.as_ref().filter(|_| case.drive.free.is_some()).map_or(0.0, Motor::inertia_on_crank)
 }
 
 /// Moment against a link's rotation (N m).

@@ -101,7 +101,7 @@ impl<'a> Model<'a> {
             kinks,
             senses: Vec::new(),
             motor: case.motor.clone(),
-            sense: case.drive.top_speed().signum(),
+            sense: case.drive.sense(),
             added: case.motor.as_ref().map_or(0.0, Motor::inertia_on_crank),
         };
         if model.masses.is_empty() && model.added == 0.0 {

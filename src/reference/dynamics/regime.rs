@@ -45,6 +45,8 @@ pub struct Regime {
     pub multiplier: f64,
     /// The crank at the crank angles asked for.
     pub samples: Vec<At>,
+    /// Energy of the reduced motion at the start of the period (J).
+    energy: f64,
 }
 
 impl Regime {
@@ -91,6 +93,15 @@ impl Model<'_> {
             format!("no steady motion was found in {MOST_SHOTS} turns: a deviation is left by {share:.3} after a turn");
         Err(Error::new(ErrorKind::Numeric, message)
             .help("follow the run-up instead, and look what the crank's speed does"))
+    }
+
+    /// A steady motion of this model at other crank angles, followed over one more period and not looked for again: as [`Model::regime`] gives it.
+    ///
+    /// # Errors
+    /// Those of [`Model::regime`].
+    pub fn regime_at(&self, found: &Regime, cranks: &[f64], accuracy: f64) -> Result<Regime> {
+        let Some(period) = self.kinks().period else { return Err(no_turn(self.kinks())) };
+        Turn::of(self, period)?.described(found.energy, found.multiplier, cranks, accuracy)
     }
 }
 
@@ -193,7 +204,7 @@ impl<'m, 'a> Turn<'m, 'a> {
         let turns = (self.period / TAU).round();
         let mean_speed = way * self.period / period;
         let start_speed = first.omega;
-        Ok(Regime { period, turns, mean_speed, start_speed, fastest, slowest, multiplier, samples })
+        Ok(Regime { period, turns, mean_speed, start_speed, fastest, slowest, multiplier, samples, energy })
     }
 }
 

@@ -6,7 +6,7 @@ use super::march::{Place, Step, Stop, march};
 use super::model::{Model, Piece};
 use crate::case::{Case, Grid};
 use crate::error::{Error, ErrorKind, Result};
-use crate::solver::{Provision, Sampler, State};
+use crate::solver::{Provision, Sampler, State, Visit};
 use crate::trajectory::{Channel, Stage, Trajectory};
 
 /// Relative and absolute error that each step may make, by its own estimate, which is cautious: the run-up of `crank_rocker` is then exact to 2e-14 rad.
@@ -194,11 +194,7 @@ fn instant(flow: &InTime, t: f64, [crank, omega]: [f64; 2], gone: f64) -> CrankS
 }
 
 /// Kinetostatics of a motion: the state at every instant, as far as the case wants it.
-pub(in crate::reference) fn states(
-    case: &Case,
-    motion: &[CrankState],
-    visit: &mut dyn FnMut(usize, &State) -> Result<()>,
-) -> Result<()> {
+pub(in crate::reference) fn states(case: &Case, motion: &[CrankState], visit: Visit) -> Result<()> {
     let mut poses = PoseSolver::counting_turns(case)?;
     let deepest = case.wanted.deepest();
     for (row, instant) in motion.iter().enumerate() {

@@ -7,21 +7,22 @@ use differential_equations::ode::ODE;
 use super::super::dynamics::march::{Flow, Place};
 use super::{Held, Inputs, Side};
 use crate::case::Case;
-use crate::drive::{Branch, Load, Motor};
+use crate::drive::Branch;
 use crate::error::{Error, ErrorKind, Result};
 use crate::solver::State;
 
 /// Farthest that a driving link may turn within a step (rad). A first try of a step may lead anywhere; it is to be refused, not followed.
 const FARTHEST: f64 = std::f64::consts::PI;
-/// Bounds of the motor's piece: too fast, too slow.
+/// Bounds of the motor's piece, which follow those of the loads: too fast, too slow.
 const OF_MOTOR: usize = 2;
+/// The first of them.
+const TOO_FAST: usize = 0;
 
 /// Angles and speeds of the free driving links at t = 0: first all angles in the world, then all speeds.
 pub(super) fn start<const N: usize>(case: &Case) -> [f64; N] {
     let mut y = [0.0; N];
-    let free = case.drives().filter_map(|drive| Some((drive.world_angle(drive.start), drive.free?)));
-    for (index, (angle, speed)) in free.enumerate() {
-        (y[index], y[N / 2 + index]) = (angle, speed);
+    for (k, (_, drive)) in case.free_drives().enumerate() {
+        (y[k], y[N / 2 + k]) = (drive.world_angle(drive.start), drive.initial_speed());
     }
     y
 }
@@ -30,8 +31,8 @@ pub(super) fn start<const N: usize>(case: &Case) -> [f64; N] {
 pub(super) struct Pieces<'a, const N: usize> {
     case: &'a Case,
     work: RefCell<Work<'a>>,
-    /// Sense of every loaded link: +1, -1, or 0 where its load has none.
-    senses: RefCell<Vec<f64>>,
+    /// Loads that ask for the sense of a link's rotation, with that link.
+    sensed: Vec<(usize, usize)>,
     branch: Cell<Option<Branch>>,
     origin: Cell<[f64; N]>,
 }
@@ -48,16 +49,13 @@ impl<'a, const N: usize> Pieces<'a, N> {
     pub(super) fn new(case: &'a Case, side: &'a mut dyn Side) -> Self {
         let drives = case.drives().count();
         let zeros = || vec![0.0; drives];
-        let held = Held {
-            motor: 0.0,
-            added: case.motor.as_ref().filter(|_| case.drive.free.is_some()).map_or(0.0, Motor::inertia_on_crank),
-            senses: vec![0.0; case.loads.len()],
-        };
+        let held = Held { motor: 0.0, added: case.inertia_on_free_crank(), senses: vec![0.0; case.loads.len()] };
+        let sensed = case.loads.iter().enumerate().filter_map(|(index, load)| Some((index, load.sensed_link()?)));
         let inputs = Inputs { angles: zeros(), speeds: zeros(), accelerations: zeros() };
         Pieces {
             case,
             work: RefCell::new(Work { side, inputs, held, fault: None }),
-            senses: RefCell::new(vec![0.0; case.loads.len()]),
+            sensed: sensed.collect(),
             branch: Cell::new(None),
             origin: Cell::new(start(case)),
         }
@@ -78,21 +76,15 @@ impl<'a, const N: usize> Pieces<'a, N> {
         }
     }
 
-    /// Sense in which the motor drives.
-    fn sense(&self) -> f64 {
-        self.case.drive.at(0.0).omega.signum()
-    }
-
-    fn motor_moment(&self, omega: f64) -> f64 {
-        let sense = self.sense();
-        self.branch.get().map_or(0.0, |branch| sense * branch.moment(sense * omega))
+    /// Moment of the motor on the crank (N m), counter-clockwise positive.
+    fn motor_moment(&self, y: &[f64; N]) -> f64 {
+        self.branch.get().map_or(0.0, |branch| self.case.drive.sense() * branch.moment(self.crank_speed(y)))
     }
 
     /// Accelerations of the driving links, left in the inputs of `work`.
     fn accelerate(&self, work: &mut Work, t: f64, y: &[f64; N]) -> Result<()> {
         self.put(&mut work.inputs, t, y);
-        work.held.motor = self.motor_moment(work.inputs.speeds[0]);
-        work.held.senses.copy_from_slice(&self.senses.borrow());
+        work.held.motor = self.motor_moment(y);
         work.side.accelerate(&mut work.inputs, &work.held)
     }
 
@@ -103,65 +95,71 @@ impl<'a, const N: usize> Pieces<'a, N> {
         work.side.fill(&work.inputs, state)
     }
 
-    /// Chooses the senses and the motor's branch with which the motion goes on from where it is, after it has come to a bound.
+    /// Chooses the senses and the motor's branch with which the motion goes on from where it is: at its beginning, or after it has come to a bound.
     ///
     /// # Errors
     /// [`ErrorKind::Numeric`] where a resistance holds a link at rest, and those of the side.
     pub(super) fn enter(&self, place: &mut Place<N>, bound: Option<usize>) -> Result<()> {
         let work = &mut *self.work.borrow_mut();
-        if let Some(end) = bound.and_then(|bound| bound.checked_sub(self.case.loads.len())) {
-            // Exactly on the bound, or the same piece would be chosen again.
-            let speeds = self.branch.get().map_or([0.0; 2], |branch| branch.speeds);
-            place.y[N / 2] = self.sense() * speeds[1 - end];
-        }
-        self.origin.set(place.y);
-        let sensed: Vec<Option<usize>> = self.case.loads.iter().map(Load::sensed_link).collect();
-        self.put(&mut work.inputs, place.x, &place.y);
-        let crank = work.inputs.speeds[0];
-        // At a standstill the branch is chosen by where the crank is going, which is known below.
-        let way = self.sense();
-        let reached_speed = bound.filter(|&bound| bound >= sensed.len());
-        let beyond = match reached_speed {
-            Some(bound) if bound == sensed.len() => 1.0,
-            Some(_) => -1.0,
-            None => 1.0,
+        let stood = match bound.map(|bound| (bound, bound.checked_sub(self.case.loads.len()))) {
+            None => {
+                self.choose_branch(place, 1.0);
+                self.begin_senses(work, place)?
+            }
+            Some((_, Some(end))) => {
+                // Exactly on the bound, or the same piece would be chosen again.
+                let speeds = self.branch.get().map_or([0.0; 2], |branch| branch.speeds);
+                place.y[N / 2] = self.case.drive.sense() * speeds[1 - end];
+                self.choose_branch(place, if end == TOO_FAST { 1.0 } else { -1.0 });
+                Vec::new()
+            }
+            Some((bound, None)) => self.sensed.iter().copied().filter(|&(index, _)| index == bound).collect(),
         };
-        if bound.is_none() || reached_speed.is_some() {
-            let motor = self.case.motor.as_ref().filter(|_| self.case.drive.free.is_some());
-            self.branch.set(motor.map(|motor| motor.branch(way * crank, beyond)));
+        self.origin.set(place.y);
+        match stood.is_empty() {
+            true => self.accelerate(work, place.x, &place.y),
+            false => self.set_off(work, place, &stood),
         }
-        // Loads whose links stand still, with these links.
-        let mut stood: Vec<(usize, usize)> = Vec::new();
-        for (index, link) in sensed.iter().enumerate().filter_map(|(index, link)| Some((index, (*link)?))) {
+    }
+
+    /// The motor's branch at the crank's speed, and from there towards higher speeds for a positive `towards`, else towards lower ones.
+    fn choose_branch(&self, place: &Place<N>, towards: f64) {
+        let motor = self.case.motor_of_free_crank();
+        self.branch.set(motor.map(|motor| motor.branch(self.crank_speed(&place.y), towards)));
+    }
+
+    /// Senses at the beginning; gives back what of `sensed` stands still.
+    fn begin_senses(&self, work: &mut Work, place: &Place<N>) -> Result<Vec<(usize, usize)>> {
+        self.put(&mut work.inputs, place.x, &place.y);
+        let mut stood = Vec::new();
+        for &(index, link) in &self.sensed {
             let spin = work.side.spin(&work.inputs, link)?;
-            if bound == Some(index) || (bound.is_none() && spin == 0.0) {
+            if spin == 0.0 {
                 stood.push((index, link));
-            } else if bound.is_none() {
-                self.senses.borrow_mut()[index] = spin.signum();
+            } else {
+                work.held.senses[index] = spin.signum();
             }
         }
-        if stood.is_empty() {
-            return self.accelerate(work, place.x, &place.y);
-        }
-        // Links at rest go where they are accelerated without their resistances, if their resistances let them.
-        let before = self.senses.borrow().clone();
-        for &(index, _) in &stood {
-            self.senses.borrow_mut()[index] = 0.0;
-        }
-        self.accelerate(work, place.x, &place.y)?;
-        for &(index, link) in &stood {
-            let [_, alpha] = work.side.link_rates(link);
-            self.senses.borrow_mut()[index] = if alpha == 0.0 { before[index] } else { alpha.signum() };
+        Ok(stood)
+    }
+
+    /// Links at rest, with their loads in `stood`, go where they are accelerated without their resistances, if their resistances let them.
+    fn set_off(&self, work: &mut Work, place: &Place<N>, stood: &[(usize, usize)]) -> Result<()> {
+        let before = work.held.senses.clone();
+        for &(index, _) in stood {
+            work.held.senses[index] = 0.0;
         }
         self.accelerate(work, place.x, &place.y)?;
-        for &(index, link) in &stood {
+        for &(index, link) in stood {
             let [_, alpha] = work.side.link_rates(link);
-            let sense = self.senses.borrow()[index];
-            if !(alpha * sense >= 0.0) {
-                return Err(self.is_held(place, link));
-            }
+            work.held.senses[index] = if alpha == 0.0 { before[index] } else { alpha.signum() };
         }
-        Ok(())
+        self.accelerate(work, place.x, &place.y)?;
+        let goes = |index: usize, link: usize| work.side.link_rates(link)[1] * work.held.senses[index] >= 0.0;
+        match stood.iter().find(|&&(index, link)| !goes(index, link)) {
+            Some(&(_, link)) => Err(self.is_held(place, link)),
+            None => Ok(()),
+        }
     }
 
     fn is_held(&self, place: &Place<N>, link: usize) -> Error {
@@ -171,12 +169,16 @@ impl<'a, const N: usize> Pieces<'a, N> {
             .help("give the motor more torque or the mechanism more speed, or let the grid end before")
     }
 
+    /// The crank's own speed in the motor's sense: it is the first that is free, wherever there is a branch.
+    fn crank_speed(&self, y: &[f64; N]) -> f64 {
+        self.case.drive.sense() * y[N / 2]
+    }
+
     /// How far within the speeds of its branch the motor is.
     fn branch_margin(&self, bound: usize, y: &[f64; N]) -> f64 {
-        // The crank's own speed: it is the first that is free, wherever there is a branch.
-        let speed = self.sense() * y[N / 2];
+        let speed = self.crank_speed(y);
         self.branch.get().map_or(f64::INFINITY, |branch| match bound {
-            0 => branch.speeds[1] - speed,
+            TOO_FAST => branch.speeds[1] - speed,
             _ => speed - branch.speeds[0],
         })
     }
@@ -196,8 +198,7 @@ impl<const N: usize> ODE<f64, [f64; N]> for Pieces<'_, N> {
             rate.fill(f64::NAN);
             return;
         }
-        let free = self.case.drives().enumerate().filter(|(_, drive)| drive.free.is_some());
-        for (k, (index, _)) in free.enumerate() {
+        for (k, (index, _)) in self.case.free_drives().enumerate() {
             (rate[k], rate[N / 2 + k]) = (y[N / 2 + k], work.inputs.accelerations[index]);
         }
     }
@@ -212,11 +213,11 @@ impl<const N: usize> Flow<N> for Pieces<'_, N> {
         let Some(load) = self.case.loads.get(bound) else {
             return self.branch_margin(bound - self.case.loads.len(), y);
         };
+        let Some(link) = load.sensed_link() else { return f64::INFINITY };
         let work = &mut *self.work.borrow_mut();
         self.put(&mut work.inputs, t, y);
-        let Some(link) = load.sensed_link() else { return f64::INFINITY };
         match work.side.spin(&work.inputs, link) {
-            Ok(spin) => self.senses.borrow()[bound] * spin,
+            Ok(spin) => work.held.senses[bound] * spin,
             Err(error) => {
                 work.fault.get_or_insert(error);
                 f64::NAN

@@ -17,7 +17,7 @@ use crate::drive::Wrench;
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::Motion;
 use crate::math::dense::Lu;
-use crate::solver::{Progress, State};
+use crate::solver::{Progress, State, Visit, check_instants};
 use flow::Pieces;
 
 /// Most free driving links.
@@ -83,11 +83,8 @@ pub(super) trait Side {
 /// # Errors
 /// [`ErrorKind::Input`] for instants before t = 0, and for mechanisms in which nothing has a mass; [`ErrorKind::Unsupported`] for too many freedoms.
 pub(super) fn check(case: &Case) -> Result<()> {
-    if let Some(t) = case.grid.times.iter().copied().find(|&t| t < 0.0) {
-        let message = format!("the motion is free from t = 0 on, but an instant at {t} s is wanted");
-        return Err(Error::new(ErrorKind::Input, message).key("grid").help("let the grid go by time, from 0 s on"));
-    }
-    let free = case.drives().filter(|drive| drive.free.is_some()).count();
+    check_instants(case)?;
+    let free = case.free_drives().count();
     if free > MOST_FREEDOMS {
         let message = format!("{free} driving links are free, at most {MOST_FREEDOMS} are solved");
         return Err(Error::new(ErrorKind::Unsupported, message).help("prescribe the motion of some of them"));
@@ -99,8 +96,7 @@ pub(super) fn check(case: &Case) -> Result<()> {
             .key("loads")
             .help("give it as a force over the crank angle, or as a moment against the rotation of its link"));
     }
-    let added = case.motor.as_ref().map_or(0.0, crate::drive::Motor::inertia_on_crank);
-    if added == 0.0 && case.mechanism.links().iter().all(|link| link.mass == 0.0) {
+    if case.inertia_on_free_crank() == 0.0 && case.mechanism.links().iter().all(|link| link.mass == 0.0) {
         let message = "the motion under forces is asked for, but nothing in the mechanism has a mass";
         return Err(Error::new(ErrorKind::Input, message).help("give the links masses, or the motor a rotor"));
     }
@@ -111,14 +107,9 @@ pub(super) fn check(case: &Case) -> Result<()> {
 ///
 /// # Errors
 /// Those of [`check`] and of the side; [`ErrorKind::Numeric`] where a resistance holds the mechanism.
-pub(super) fn sweep(
-    case: &Case,
-    side: &mut dyn Side,
-    visit: &mut dyn FnMut(usize, &State) -> Result<()>,
-    progress: Progress,
-) -> Result<()> {
+pub(super) fn sweep(case: &Case, side: &mut dyn Side, visit: Visit, progress: Progress) -> Result<()> {
     check(case)?;
-    match case.drives().filter(|drive| drive.free.is_some()).count() {
+    match case.free_drives().count() {
         1 => run::<2>(case, side, visit, progress),
         2 => run::<4>(case, side, visit, progress),
         3 => run::<6>(case, side, visit, progress),
@@ -126,12 +117,7 @@ pub(super) fn sweep(
     }
 }
 
-fn run<const N: usize>(
-    case: &Case,
-    side: &mut dyn Side,
-    visit: &mut dyn FnMut(usize, &State) -> Result<()>,
-    progress: Progress,
-) -> Result<()> {
+fn run<const N: usize>(case: &Case, side: &mut dyn Side, visit: Visit, progress: Progress) -> Result<()> {
     let rows = case.grid.ascending();
     let mut targets: Vec<f64> = rows.iter().map(|&row| case.grid.times[row]).collect();
     targets.dedup();

@@ -52,8 +52,7 @@ impl<'a> TransferSide<'a> {
             return Err(Error::new(ErrorKind::Unsupported, message).help("take side \"newton\": --reference newton"));
         }
         let (statics, state) = (Kinetostatics::of(case, &plan), State::at_start(case));
-        let free: Vec<usize> =
-            case.drives().enumerate().filter_map(|(index, drive)| drive.free.map(|_| index)).collect();
+        let free: Vec<usize> = case.free_drives().map(|(index, _)| index).collect();
         let at: Vec<f64> = case.drives().map(|drive| drive.world_angle(drive.start)).collect();
         let turns = Turns::from(&case.start, &state.motions);
         let mut side = TransferSide {

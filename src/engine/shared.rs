@@ -1,0 +1,83 @@
+//! Runs that several engines are made of.
+
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use super::{Engine, Settings};
+use crate::case::Case;
+use crate::error::Result;
+use crate::solver::{Progress, State, Visit};
+
+/// States by row of the grid.
+type States = Vec<Option<State>>;
+
+/// Runs of one engine on one case at different settings: each is made once, and kept as long as somebody still expects it.
+#[derive(Debug, Default)]
+pub(super) struct Shared {
+    runs: RefCell<Vec<Run>>,
+    /// What the kept runs are of.
+    case: RefCell<Option<Case>>,
+}
+
+#[derive(Debug)]
+struct Run {
+    settings: Settings,
+    /// How many times it will be asked for.
+    expected: usize,
+    states: Option<Rc<States>>,
+}
+
+impl Shared {
+    /// Announces that a run at these settings will be asked for, once more than it has been announced before.
+    pub(super) fn expect(&self, settings: Settings) {
+        let mut runs = self.runs.borrow_mut();
+        match runs.iter_mut().find(|run| run.settings == settings) {
+            Some(run) => run.expected += 1,
+            None => runs.push(Run { settings, expected: 1, states: None }),
+        }
+    }
+
+    /// As [`Solver::sweep`](crate::solver::Solver::sweep) of the engine, from the states of its run on this case if they are kept.
+    ///
+    /// # Errors
+    /// Those of the engine and of the visitor.
+    pub(super) fn sweep(&self, engine: &dyn Engine, case: &Case, visit: Visit, progress: Progress) -> Result<()> {
+        let (kept, again) = self.ask(engine.settings(), case);
+        if let Some(states) = kept {
+            for row in case.grid.ascending() {
+                states[row].as_ref().map_or(Ok(()), |state| visit(row, state))?;
+            }
+            progress(1.0);
+            return Ok(());
+        }
+        if !again {
+            return engine.sweep(case, visit, progress);
+        }
+        let mut states: States = vec![None; case.grid.len()];
+        let mut keep = |row: usize, state: &State| {
+            states[row] = Some(state.clone());
+            visit(row, state)
+        };
+        engine.sweep(case, &mut keep, progress)?;
+        if let Some(run) = self.runs.borrow_mut().iter_mut().find(|run| run.settings == engine.settings()) {
+            run.states = Some(Rc::new(states));
+        }
+        Ok(())
+    }
+
+    /// What is kept of a run at these settings, and whether it is expected again after this time.
+    fn ask(&self, settings: Settings, case: &Case) -> (Option<Rc<States>>, bool) {
+        let mut runs = self.runs.borrow_mut();
+        let mut own = self.case.borrow_mut();
+        if !runs.is_empty() && own.as_ref() != Some(case) {
+            runs.iter_mut().for_each(|run| run.states = None);
+            *own = Some(case.clone());
+        }
+        let Some(run) = runs.iter_mut().find(|run| run.settings == settings) else { return (None, false) };
+        run.expected = run.expected.saturating_sub(1);
+        match run.expected {
+            0 => (run.states.take(), false),
+            _ => (run.states.clone(), true),
+        }
+    }
+}
