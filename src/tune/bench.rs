@@ -220,11 +220,10 @@ impl Bench<'_> {
         let Some(trajectory) = found else { return failed(price) };
         let Ok(residuals) = residuals(self.reference, &trajectory) else { return failed(price) };
         let of_wanted = residuals.iter().filter(|residual| self.wanted.contains(&residual.channel));
-        let share = |max: f64, scale: f64| if max == 0.0 { 0.0 } else { max / scale };
         let (mut error, mut worst, mut seen) = (0.0, String::new(), 0);
         for residual in of_wanted {
             seen += 1;
-            let own = share(residual.max, residual.scale);
+            let own = residual.share();
             if !(own <= error) {
                 (error, worst) = (own, residual.channel.to_string());
             }
@@ -236,22 +235,22 @@ impl Bench<'_> {
     /// Error that an engine's own runs let expect.
     pub(super) fn predicted(&mut self, engine: &dyn Engine) -> Result<f64> {
         let settings = engine.settings();
-        let mut run = |settings: Settings| {
-            self.runs += 1;
-            engine.with(settings).solve(self.case, &mut |_| {})
-        };
         let at = |factor: f64| Settings { resolution: settings.resolution * factor, ..settings };
-        let [double, single, half] = [run(at(2.0))?, run(settings)?, run(at(0.5))?];
+        let mut rungs = vec![at(2.0), settings, at(0.5)];
         // Against twice the sweeps: what is left then is little beside what is left now, so that the difference is the error itself. (A
         // proof takes half of them, which costs a quarter and errs on the safe side.)
-        let more = match settings.sweeps {
-            0 => None,
-            sweeps => Some(run(Settings { sweeps: sweeps * 2, ..settings })?),
-        };
-        let ladder = Ladder { resolutions: [&double, &single, &half], fewer_sweeps: more.as_ref() };
+        if settings.sweeps > 0 {
+            rungs.push(Settings { sweeps: settings.sweeps * 2, ..settings });
+        }
+        self.runs += rungs.len();
+        let ladder = engine.ladder(&rungs);
+        let runs: Result<Vec<Trajectory>> = ladder.iter().map(|rung| rung.solve(self.case, &mut |_| {})).collect();
+        let runs = runs?;
+        let [double, single, half] = [0, 1, 2].map(|k| &runs[k]);
+        let ladder = Ladder { resolutions: [double, single, half], fewer_sweeps: runs.get(3) };
         let finest = engine.at(settings.resolution / 2.0);
         let mut predicted: f64 = 0.0;
-        for residual in residuals(self.reference, &single)? {
+        for residual in residuals(self.reference, single)? {
             let (channel, kind) = (&residual.channel, residual.channel.kind);
             if residual.scale == 0.0 || !self.wanted.contains(channel) {
                 continue;
