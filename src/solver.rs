@@ -82,6 +82,7 @@ impl State {
 impl State {
     /// Slide of a prismatic joint (m) with its rate and second derivative: s = e . (p2 - p1) along the axis e of the first link; with
     /// p2 - p1 = s e, e . (v2 - v1) = s' and e . (a2 - a1) = s'' - s omega^2. `None` for a revolute joint.
+    #[inline]
     #[must_use]
     pub fn slide(&self, joint: &Joint) -> Option<[f64; 3]> {
         let [first, second] = [joint.first, joint.second].map(|side| (&self.motions[side.link], side.local));
@@ -159,50 +160,33 @@ impl Sampler {
         if case.is_free() {
             self.cranks[row] = state.angles[case.drive.link] - case.drive.zero;
         }
-        let mut columns = self.columns.iter_mut();
-        let mut put = |value: f64| columns.next().expect("as many values as channels")[row] = value;
         let has = |stage| self.wanted.has(stage);
-        let (positions, velocities, accelerations) =
-            (has(Stage::Positions), has(Stage::Velocities), has(Stage::Accelerations));
+        let wanted = [has(Stage::Positions), has(Stage::Velocities), has(Stage::Accelerations)];
+        let mut out = Row { columns: &mut self.columns, row, wanted, all: wanted == [true; 3] };
         for (index, link) in case.mechanism.links().iter().enumerate().skip(1) {
             let motion = &state.motions[index];
-            if positions {
-                put(state.angles[index]);
-            }
-            if velocities {
-                put(motion.omega);
-            }
-            if accelerations {
-                put(motion.alpha);
-            }
-            put_point(motion, link.mass_centre, self.wanted, &mut put);
+            out.put_wanted([state.angles[index], motion.omega, motion.alpha]);
+            out.put_point(motion, link.mass_centre);
         }
         for side in &self.points {
-            put_point(&state.motions[side.link], side.local, self.wanted, &mut put);
+            out.put_point(&state.motions[side.link], side.local);
         }
         if has(Stage::Reactions) {
             for force in &state.forces {
-                put(force.x);
-                put(force.y);
+                out.put([force.x, force.y]);
             }
         }
         for (index, joint) in case.mechanism.joints().iter().enumerate() {
             let Some(slide) = state.slide(joint) else { continue };
-            for (value, stage) in slide.into_iter().zip([Stage::Positions, Stage::Velocities, Stage::Accelerations]) {
-                if has(stage) {
-                    put(value);
-                }
-            }
+            out.put_wanted(slide);
             if has(Stage::Reactions) {
-                put(state.moments[index]);
+                out.put([state.moments[index]]);
             }
         }
         if has(Stage::BalancingMoment) {
             let (force, moment) = state.shaking(case);
-            put(force.x);
-            put(force.y);
-            put(moment);
-            case.moved().for_each(|(index, _)| put(state.torques[index]));
+            out.put([force.x, force.y, moment]);
+            case.moved().for_each(|(index, _)| out.put([state.torques[index]]));
         }
     }
 
@@ -231,18 +215,48 @@ impl Sampler {
     }
 }
 
-fn put_point(motion: &Motion, local: Vec2, wanted: Wanted, put: &mut impl FnMut(f64)) {
-    let mut both = |vector: Vec2| {
-        put(vector.x);
-        put(vector.y);
-    };
-    if wanted.has(Stage::Positions) {
-        both(motion.point(local));
+/// One row of the columns that are left, filled in their order.
+struct Row<'a> {
+    columns: &'a mut [Vec<f64>],
+    row: usize,
+    /// Whether positions, velocities and accelerations are wanted, and whether all of them are.
+    wanted: [bool; 3],
+    all: bool,
+}
+
+impl Row<'_> {
+    #[inline]
+    fn put<const N: usize>(&mut self, values: [f64; N]) {
+        let columns = std::mem::take(&mut self.columns).split_first_chunk_mut();
+        let (columns, rest): (&mut [Vec<f64>; N], _) = columns.expect("as many values as channels");
+        for (column, value) in columns.iter_mut().zip(values) {
+            column[self.row] = value;
+        }
+        self.columns = rest;
     }
-    if wanted.has(Stage::Velocities) {
-        both(motion.point_velocity(local));
+
+    /// A number, its rate and its second derivative, as far as they are wanted.
+    #[inline]
+    fn put_wanted(&mut self, values: [f64; 3]) {
+        if self.all {
+            return self.put(values);
+        }
+        for (value, _) in values.into_iter().zip(self.wanted).filter(|(_, wanted)| *wanted) {
+            self.put([value]);
+        }
     }
-    if wanted.has(Stage::Accelerations) {
-        both(motion.point_acceleration(local));
+
+    /// Position, velocity and acceleration of a body point, as far as they are wanted.
+    #[inline]
+    fn put_point(&mut self, motion: &Motion, local: Vec2) {
+        let arm = motion.arm(local);
+        let vectors = [motion.origin + arm, motion.velocity_beyond(arm), motion.acceleration_beyond(arm)];
+        if self.all {
+            let [position, velocity, acceleration] = vectors;
+            return self.put([position.x, position.y, velocity.x, velocity.y, acceleration.x, acceleration.y]);
+        }
+        for (vector, _) in vectors.into_iter().zip(self.wanted).filter(|(_, wanted)| *wanted) {
+            self.put([vector.x, vector.y]);
+        }
     }
 }
