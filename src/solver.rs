@@ -132,6 +132,9 @@ impl State {
     }
 }
 
+/// Rows that are kept together before they go into their columns: every column lies in memory of its own, which is looked up once for all of them.
+const BLOCK: usize = 8;
+
 /// Collects states into the columns of a trajectory, row by row in any order.
 #[derive(Debug)]
 pub struct Sampler {
@@ -140,6 +143,9 @@ pub struct Sampler {
     channels: Vec<Channel>,
     columns: Vec<Vec<f64>>,
     rows: Vec<usize>,
+    /// The last rows, of which the first `kept` of all are in the columns already.
+    block: Vec<f64>,
+    kept: usize,
     /// Crank angles (rad, as the scenario states them): the grid's, or those of the states where forces decide the motion.
     cranks: Vec<f64>,
 }
@@ -151,18 +157,31 @@ impl Sampler {
         let channels = case.channels();
         let columns = vec![vec![f64::NAN; case.grid.len()]; channels.len()];
         let points = case.mechanism.moving_points().map(|(_, side)| side).collect();
-        Sampler { wanted: case.wanted, points, channels, columns, rows: Vec::new(), cranks: case.grid.cranks.clone() }
+        Sampler {
+            wanted: case.wanted,
+            points,
+            block: vec![f64::NAN; BLOCK * channels.len()],
+            channels,
+            columns,
+            rows: Vec::with_capacity(case.grid.len()),
+            kept: 0,
+            cranks: case.grid.cranks.clone(),
+        }
     }
 
     /// Stores a state in a row. The order of values is that of [`Case::channels`].
     pub fn put(&mut self, case: &Case, row: usize, state: &State) {
+        if self.rows.len() == self.kept + BLOCK {
+            self.keep();
+        }
+        let (at, width) = (self.rows.len() - self.kept, self.channels.len());
         self.rows.push(row);
         if case.is_free() {
             self.cranks[row] = state.angles[case.drive.link] - case.drive.zero;
         }
         let has = |stage| self.wanted.has(stage);
         let wanted = [has(Stage::Positions), has(Stage::Velocities), has(Stage::Accelerations)];
-        let mut out = Row { columns: &mut self.columns, row, wanted, all: wanted == [true; 3] };
+        let mut out = Row { values: &mut self.block[at * width..][..width], wanted, all: wanted == [true; 3] };
         for (index, link) in case.mechanism.links().iter().enumerate().skip(1) {
             let motion = &state.motions[index];
             out.put_wanted([state.angles[index], motion.omega, motion.alpha]);
@@ -188,13 +207,27 @@ impl Sampler {
             out.put([force.x, force.y, moment]);
             case.moved().for_each(|(index, _)| out.put([state.torques[index]]));
         }
+        debug_assert!(out.values.is_empty(), "as many values as channels");
+    }
+
+    /// Puts the rows of the block into their columns.
+    fn keep(&mut self) {
+        let width = self.channels.len();
+        let rows = &self.rows[self.kept..];
+        for (channel, column) in self.columns.iter_mut().enumerate() {
+            for (values, &row) in self.block.chunks_exact(width).zip(rows) {
+                column[row] = values[channel];
+            }
+        }
+        self.kept = self.rows.len();
     }
 
     /// The trajectory on the case's grid, without the channels that `provides` calls absent.
     ///
     /// # Errors
     /// If a value is missing or not finite.
-    pub fn finish(self, case: &Case, provides: impl Fn(&Channel) -> Provision) -> Result<Trajectory> {
+    pub fn finish(mut self, case: &Case, provides: impl Fn(&Channel) -> Provision) -> Result<Trajectory> {
+        self.keep();
         let present = |channel: &Channel| !matches!(provides(channel), Provision::Absent(_));
         let (channels, columns) = self.channels.into_iter().zip(self.columns).filter(|(c, _)| present(c)).unzip();
         Trajectory::new(case.grid.times.clone(), self.cranks, channels, columns)
@@ -203,7 +236,8 @@ impl Sampler {
     /// What there is of the trajectory: the rows stored so far, in the order in which they came. `None` if there is none, or if
     /// their numbers are not finite.
     #[must_use]
-    pub fn so_far(self, case: &Case, provides: impl Fn(&Channel) -> Provision) -> Option<Trajectory> {
+    pub fn so_far(mut self, case: &Case, provides: impl Fn(&Channel) -> Provision) -> Option<Trajectory> {
+        self.keep();
         if self.rows.is_empty() {
             return None;
         }
@@ -215,10 +249,9 @@ impl Sampler {
     }
 }
 
-/// One row of the columns that are left, filled in their order.
+/// What is left of a row, filled in the order of channels.
 struct Row<'a> {
-    columns: &'a mut [Vec<f64>],
-    row: usize,
+    values: &'a mut [f64],
     /// Whether positions, velocities and accelerations are wanted, and whether all of them are.
     wanted: [bool; 3],
     all: bool,
@@ -227,12 +260,9 @@ struct Row<'a> {
 impl Row<'_> {
     #[inline]
     fn put<const N: usize>(&mut self, values: [f64; N]) {
-        let columns = std::mem::take(&mut self.columns).split_first_chunk_mut();
-        let (columns, rest): (&mut [Vec<f64>; N], _) = columns.expect("as many values as channels");
-        for (column, value) in columns.iter_mut().zip(values) {
-            column[self.row] = value;
-        }
-        self.columns = rest;
+        let (own, rest) = std::mem::take(&mut self.values).split_first_chunk_mut().expect("as many values as channels");
+        *own = values;
+        self.values = rest;
     }
 
     /// A number, its rate and its second derivative, as far as they are wanted.
