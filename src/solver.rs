@@ -97,6 +97,7 @@ impl State {
 
     /// Slide of a prismatic joint (m) with its rate and second derivative: s = e . (p2 - p1) along the axis e of the first link; with
     /// p2 - p1 = s e, e . (v2 - v1) = s' and e . (a2 - a1) = s'' - s omega^2. `None` for a revolute joint.
+    #[inline]
     #[must_use]
     pub fn slide(&self, joint: &Joint) -> Option<[f64; 3]> {
         let [first, second] = [joint.first, joint.second].map(|side| (&self.motions[side.link], side.local));
@@ -146,6 +147,9 @@ impl State {
     }
 }
 
+/// Rows that are kept together before they go into their columns: every column lies in memory of its own, which is looked up once for all of them.
+const BLOCK: usize = 8;
+
 /// Collects states into the columns of a trajectory, row by row in any order.
 #[derive(Debug)]
 pub struct Sampler {
@@ -154,6 +158,9 @@ pub struct Sampler {
     channels: Vec<Channel>,
     columns: Vec<Vec<f64>>,
     rows: Vec<usize>,
+    /// The last rows, of which the first `kept` of all are in the columns already.
+    block: Vec<f64>,
+    kept: usize,
     /// Crank angles (rad, as the scenario states them): the grid's, or those of the states where forces decide the motion.
     cranks: Vec<f64>,
 }
@@ -165,67 +172,77 @@ impl Sampler {
         let channels = case.channels();
         let columns = vec![vec![f64::NAN; case.grid.len()]; channels.len()];
         let points = case.mechanism.moving_points().map(|(_, side)| side).collect();
-        Sampler { wanted: case.wanted, points, channels, columns, rows: Vec::new(), cranks: case.grid.cranks.clone() }
+        Sampler {
+            wanted: case.wanted,
+            points,
+            block: vec![f64::NAN; BLOCK * channels.len()],
+            channels,
+            columns,
+            rows: Vec::with_capacity(case.grid.len()),
+            kept: 0,
+            cranks: case.grid.cranks.clone(),
+        }
     }
 
     /// Stores a state in a row. The order of values is that of [`Case::channels`].
     pub fn put(&mut self, case: &Case, row: usize, state: &State) {
+        if self.rows.len() == self.kept + BLOCK {
+            self.keep();
+        }
+        let (at, width) = (self.rows.len() - self.kept, self.channels.len());
         self.rows.push(row);
         if case.is_free() {
             self.cranks[row] = state.angles[case.drive.link] - case.drive.zero;
         }
-        let mut columns = self.columns.iter_mut();
-        let mut put = |value: f64| columns.next().expect("as many values as channels")[row] = value;
         let has = |stage| self.wanted.has(stage);
-        let (positions, velocities, accelerations) =
-            (has(Stage::Positions), has(Stage::Velocities), has(Stage::Accelerations));
+        let wanted = [has(Stage::Positions), has(Stage::Velocities), has(Stage::Accelerations)];
+        let mut out = Row { values: &mut self.block[at * width..][..width], wanted, all: wanted == [true; 3] };
         for (index, link) in case.mechanism.links().iter().enumerate().skip(1) {
             let motion = &state.motions[index];
-            if positions {
-                put(state.angles[index]);
-            }
-            if velocities {
-                put(motion.omega);
-            }
-            if accelerations {
-                put(motion.alpha);
-            }
-            put_point(motion, link.mass_centre, self.wanted, &mut put);
+            out.put_wanted([state.angles[index], motion.omega, motion.alpha]);
+            out.put_point(motion, link.mass_centre);
         }
         for side in &self.points {
-            put_point(&state.motions[side.link], side.local, self.wanted, &mut put);
+            out.put_point(&state.motions[side.link], side.local);
         }
         if has(Stage::Reactions) {
             for force in &state.forces {
-                put(force.x);
-                put(force.y);
+                out.put([force.x, force.y]);
             }
         }
         for (index, joint) in case.mechanism.joints().iter().enumerate() {
             let Some(slide) = state.slide(joint) else { continue };
-            for (value, stage) in slide.into_iter().zip([Stage::Positions, Stage::Velocities, Stage::Accelerations]) {
-                if has(stage) {
-                    put(value);
-                }
-            }
+            out.put_wanted(slide);
             if has(Stage::Reactions) {
-                put(state.moments[index]);
+                out.put([state.moments[index]]);
             }
         }
         if has(Stage::BalancingMoment) {
             let (force, moment) = state.shaking(case);
-            put(force.x);
-            put(force.y);
-            put(moment);
-            case.moved().for_each(|(index, _)| put(state.torques[index]));
+            out.put([force.x, force.y, moment]);
+            case.moved().for_each(|(index, _)| out.put([state.torques[index]]));
         }
+        debug_assert!(out.values.is_empty(), "as many values as channels");
+    }
+
+    /// Puts the rows of the block into their columns.
+    fn keep(&mut self) {
+        let width = self.channels.len();
+        let rows = &self.rows[self.kept..];
+        for (channel, column) in self.columns.iter_mut().enumerate() {
+            for (values, &row) in self.block.chunks_exact(width).zip(rows) {
+                column[row] = values[channel];
+            }
+        }
+        self.kept = self.rows.len();
     }
 
     /// The trajectory on the case's grid, without the channels that `provides` calls absent.
     ///
     /// # Errors
     /// If a value is missing or not finite.
-    pub fn finish(self, case: &Case, provides: impl Fn(&Channel) -> Provision) -> Result<Trajectory> {
+    pub fn finish(mut self, case: &Case, provides: impl Fn(&Channel) -> Provision) -> Result<Trajectory> {
+        self.keep();
         let present = |channel: &Channel| !matches!(provides(channel), Provision::Absent(_));
         let (channels, columns) = self.channels.into_iter().zip(self.columns).filter(|(c, _)| present(c)).unzip();
         Trajectory::new(case.grid.times.clone(), self.cranks, channels, columns)
@@ -234,7 +251,8 @@ impl Sampler {
     /// What there is of the trajectory: the rows stored so far, in the order in which they came. `None` if there is none, or if
     /// their numbers are not finite.
     #[must_use]
-    pub fn so_far(self, case: &Case, provides: impl Fn(&Channel) -> Provision) -> Option<Trajectory> {
+    pub fn so_far(mut self, case: &Case, provides: impl Fn(&Channel) -> Provision) -> Option<Trajectory> {
+        self.keep();
         if self.rows.is_empty() {
             return None;
         }
@@ -246,18 +264,44 @@ impl Sampler {
     }
 }
 
-fn put_point(motion: &Motion, local: Vec2, wanted: Wanted, put: &mut impl FnMut(f64)) {
-    let mut both = |vector: Vec2| {
-        put(vector.x);
-        put(vector.y);
-    };
-    if wanted.has(Stage::Positions) {
-        both(motion.point(local));
+/// What is left of a row, filled in the order of channels.
+struct Row<'a> {
+    values: &'a mut [f64],
+    /// Whether positions, velocities and accelerations are wanted, and whether all of them are.
+    wanted: [bool; 3],
+    all: bool,
+}
+
+impl Row<'_> {
+    #[inline]
+    fn put<const N: usize>(&mut self, values: [f64; N]) {
+        let (own, rest) = std::mem::take(&mut self.values).split_first_chunk_mut().expect("as many values as channels");
+        *own = values;
+        self.values = rest;
     }
-    if wanted.has(Stage::Velocities) {
-        both(motion.point_velocity(local));
+
+    /// A number, its rate and its second derivative, as far as they are wanted.
+    #[inline]
+    fn put_wanted(&mut self, values: [f64; 3]) {
+        if self.all {
+            return self.put(values);
+        }
+        for (value, _) in values.into_iter().zip(self.wanted).filter(|(_, wanted)| *wanted) {
+            self.put([value]);
+        }
     }
-    if wanted.has(Stage::Accelerations) {
-        both(motion.point_acceleration(local));
+
+    /// Position, velocity and acceleration of a body point, as far as they are wanted.
+    #[inline]
+    fn put_point(&mut self, motion: &Motion, local: Vec2) {
+        let arm = motion.arm(local);
+        let vectors = [motion.origin + arm, motion.velocity_beyond(arm), motion.acceleration_beyond(arm)];
+        if self.all {
+            let [position, velocity, acceleration] = vectors;
+            return self.put([position.x, position.y, velocity.x, velocity.y, acceleration.x, acceleration.y]);
+        }
+        for (vector, _) in vectors.into_iter().zip(self.wanted).filter(|(_, wanted)| *wanted) {
+            self.put([vector.x, vector.y]);
+        }
     }
 }

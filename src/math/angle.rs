@@ -15,6 +15,17 @@ pub fn wrapped(angle: f64) -> f64 {
     if wrapped <= -TAU / 2.0 { wrapped + TAU } else { wrapped }
 }
 
+/// Arc tangent (rad), by its series where that has all digits after five terms: a quarter of the cost.
+#[inline]
+#[must_use]
+pub fn arc_tangent(x: f64) -> f64 {
+    if x.abs() < 1.0 / 64.0 {
+        let y = x * x;
+        return x - x * y * (1.0 / 3.0 - y * (1.0 / 5.0 - y * (1.0 / 7.0 - y / 9.0)));
+    }
+    x.atan()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -32,5 +43,14 @@ mod tests {
             assert!(a > -TAU / 2.0 && a <= TAU / 2.0);
             assert!((a.sin() - (0.7 * f64::from(k)).sin()).abs() < 1e-12);
         }
+    }
+
+    #[test]
+    fn the_series_has_all_digits() {
+        for k in -2000..2000 {
+            let x = 1e-5 * f64::from(k);
+            assert!((arc_tangent(x) - x.atan()).abs() <= f64::EPSILON * x.abs(), "{x}");
+        }
+        assert!(arc_tangent(f64::NAN).is_nan());
     }
 }

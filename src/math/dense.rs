@@ -121,6 +121,23 @@ impl Lu {
     }
 }
 
+/// Solves two equations A x = b by elimination with partial pivoting; `None` if A is singular to working precision (or not finite). The same as
+/// [`Lu`] does, for what is solved so often that its loops would cost more than the arithmetic.
+#[inline]
+#[must_use]
+pub fn solve_pair(a: [[f64; 2]; 2], b: [f64; 2]) -> Option<[f64; 2]> {
+    let usable = |pivot: f64| pivot.abs() > f64::MIN_POSITIVE && pivot.is_finite();
+    let (first, second) = if a[1][0].abs() > a[0][0].abs() { (1, 0) } else { (0, 1) };
+    let pivot = a[first][0];
+    let factor = a[second][0] / pivot;
+    let rest = a[second][1] - factor * a[first][1];
+    if !(usable(pivot) && usable(rest)) {
+        return None;
+    }
+    let y = (b[second] - factor * b[first]) / rest;
+    Some([(b[first] - a[first][1] * y) / pivot, y])
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -150,6 +167,34 @@ mod tests {
             prop_assert!((DVector::from_vec(x) - matrix.clone().lu().solve(&b).unwrap()).norm() <= bound);
             prop_assert!((DVector::from_vec(y) - matrix.transpose().lu().solve(&b).unwrap()).norm() <= bound);
         }
+    }
+
+    proptest! {
+        #[test]
+        fn a_pair_is_solved_as_by_lu(a in prop::array::uniform4(-1.0f64..1.0), b in prop::array::uniform2(-1.0f64..1.0)) {
+            let mut lu = Lu::new(2);
+            (0..4).for_each(|k| lu.add(k / 2, k % 2, a[k]));
+            prop_assert!(lu.factor());
+            let (mut known, scale) = (b, 1.0 / lu.determinant().abs());
+            lu.solve(&mut known);
+            let found = solve_pair([[a[0], a[1]], [a[2], a[3]]], b).unwrap();
+            for k in 0..2 {
+                prop_assert!((found[k] - known[k]).abs() <= 1e-14 * scale * (1.0 + known[k].abs()), "{found:?} {known:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_singular_pair_is_refused() {
+        for a in [
+            [[1.0, 2.0], [2.0, 4.0]],
+            [[0.0, 1.0], [0.0, 2.0]],
+            [[1.0, f64::NAN], [0.0, 1.0]],
+            [[f64::NAN, 0.0], [0.0, 1.0]],
+        ] {
+            assert_eq!(solve_pair(a, [1.0, 1.0]), None, "{a:?}");
+        }
+        assert_eq!(solve_pair([[0.0, 2.0], [4.0, 0.0]], [1.0, 1.0]), Some([0.25, 0.5]));
     }
 
     #[test]

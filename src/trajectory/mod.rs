@@ -26,6 +26,9 @@ impl Trajectory {
             return Err(Error::new(ErrorKind::Numeric, "the columns of a trajectory differ in length"));
         }
         for (channel, column) in channels.iter().zip(&columns) {
+            if all_finite(column) {
+                continue;
+            }
             if let Some(row) = column.iter().position(|value| !value.is_finite()) {
                 return Err(Error::new(
                     ErrorKind::Numeric,
@@ -72,6 +75,18 @@ impl Trajectory {
     }
 }
 
+/// Whether all numbers are finite. Anything else times zero is not zero; that is found several numbers at a time.
+fn all_finite(values: &[f64]) -> bool {
+    let (chunks, rest) = values.as_chunks::<8>();
+    let mut sums = [0.0; 8];
+    for chunk in chunks {
+        for (sum, value) in sums.iter_mut().zip(chunk) {
+            *sum += 0.0 * value;
+        }
+    }
+    sums.iter().chain(rest).fold(0.0, |sum, value| sum + 0.0 * value) == 0.0
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -82,6 +97,21 @@ mod tests {
         let error = Trajectory::new(vec![0.0, 0.5], vec![0.0, 1.0], vec![channel], vec![vec![1.0, f64::NAN]]);
         let message = error.unwrap_err().to_string();
         assert!(message.contains("joint.A.fx_N is NaN at t = 0.500000 s, crank angle 57.2958 deg"), "{message}");
+    }
+
+    #[test]
+    fn numbers_that_are_none_are_found_anywhere() {
+        for wrong in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            for length in [1, 7, 8, 21] {
+                let finite = vec![-f64::MAX; length];
+                assert!(all_finite(&finite));
+                for row in 0..length {
+                    let mut values = finite.clone();
+                    values[row] = wrong;
+                    assert!(!all_finite(&values), "{wrong} at {row} of {length}");
+                }
+            }
+        }
     }
 
     #[test]

@@ -105,7 +105,7 @@ impl Acting {
 pub(super) fn begin(case: &Case, acting: &mut Acting, worlds: &mut [Guard], settings: &Settings) -> Result<Window> {
     let step = settings.resolution;
     settle(case, worlds, step)?;
-    let window = Window::beginning(case, settings, worlds[0].world());
+    let window = Window::beginning(case, settings, &worlds[0]);
     acting.act(case, &window, worlds, [0.0, step]);
     if acting.must_try(case) {
         worlds[0].step(step)?;

@@ -28,7 +28,7 @@ impl Ghost {
         let any = unloaded || extra.iter().flatten().any(|&extra| extra != 0.0);
         // What is missing counts as a part to be taken off with the opposite sign.
         let load_share = if unloaded { -1.0 } else { 0.0 };
-        any.then(|| Ghost { statics: NewtonEuler::of(extra, load_share), state: State::at_rest(case) })
+        any.then(|| Ghost { statics: NewtonEuler::of(case, extra, load_share), state: State::at_rest(case) })
     }
 
     /// Takes their part off reactions and moments.

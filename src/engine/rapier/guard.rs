@@ -2,7 +2,7 @@
 //! error that says when, at which crank angle and where.
 
 use super::quiet::quietly;
-use super::world::{World, masses, opening};
+use super::world::{LinkFrame, World, masses, opening};
 use crate::case::Case;
 use crate::drive::{Drive, Wrench};
 use crate::error::{Error, ErrorKind, Result};
@@ -22,11 +22,13 @@ const LARGEST_GROWTH: f64 = 100.0;
 pub(super) struct Guard<'a> {
     case: &'a Case,
     world: Box<dyn World>,
+    /// The mechanism's size (m).
+    size: f64,
     largest_gap: f64,
-    angles: Vec<f64>,
-    loads: Vec<Wrench>,
-    /// Mass centres of all links after the last step.
+    /// Frames of all links after the last step, and their mass centres.
+    frames: Vec<LinkFrame>,
     centres: Vec<Vec2>,
+    loads: Vec<Wrench>,
     /// Mass and moment of inertia of all links.
     masses: Vec<[f64; 2]>,
     step: f64,
@@ -44,25 +46,36 @@ impl<'a> Guard<'a> {
         let mut guard = Guard {
             case,
             world,
+            size,
             largest_gap: LARGEST_GAP * size,
-            angles: Vec::new(),
+            frames: Vec::new(),
             centres: Vec::new(),
             masses,
             step,
             loads: vec![Wrench::ZERO; case.mechanism.links().len()],
             energy: energy * case.fastest_drive().powi(2),
         };
-        guard.stand(&case.start.0);
+        guard.stand();
         guard
     }
 
-    /// Takes poses as those after the last step.
-    fn stand(&mut self, poses: &[LinkPose]) {
-        self.angles.clear();
-        self.angles.extend(poses.iter().map(|pose| pose.angle));
+    /// Takes the world's frames as those after the last step.
+    fn stand(&mut self) {
+        self.frames.clear();
+        self.frames.extend_from_slice(self.world.frames());
         self.centres.clear();
         let links = self.case.mechanism.links();
-        self.centres.extend(poses.iter().zip(links).map(|(pose, link)| pose.point(link.mass_centre)));
+        self.centres.extend(self.frames.iter().zip(links).map(|(frame, link)| frame.point(link.mass_centre)));
+    }
+
+    /// Frames of all links after the last step or placing.
+    pub(super) fn frames(&self) -> &[LinkFrame] {
+        &self.frames
+    }
+
+    /// Mass centres of all links (m) after the last step or placing.
+    pub(super) fn centres(&self) -> &[Vec2] {
+        &self.centres
     }
 
     pub(super) fn world(&self) -> &dyn World {
@@ -129,7 +142,7 @@ impl<'a> Guard<'a> {
     /// Puts all links into poses; velocities stay as they are.
     pub(super) fn place(&mut self, poses: &[LinkPose]) {
         self.world.place(poses);
-        self.stand(poses);
+        self.stand();
     }
 
     /// One time step, after which the time is `t` (s).
@@ -138,45 +151,46 @@ impl<'a> Guard<'a> {
     /// [`ErrorKind::Numeric`] if a loop has opened, a link has turned by more than a quarter turn, the kinetic energy has grown a hundredfold, a
     /// number is not finite, or the engine has panicked.
     pub(super) fn step(&mut self, t: f64) -> Result<()> {
-        let world = &mut self.world;
-        let own_crank = self.angles[self.case.drive.link] - self.case.drive.zero;
-        let crank = || at(&self.case.drive, own_crank, t);
-        quietly(|| world.step()).map_err(|cause| panicked(&crank(), cause.as_ref()))?;
+        let Guard { case, world, frames: before, centres, masses, size, .. } = self;
+        let (links, joints) = (case.mechanism.links(), case.mechanism.joints());
+        // Said in the words of the frames before the step.
+        let crank = |before: &[LinkFrame]| at(&case.drive, before[case.drive.link].angle() - case.drive.zero, t);
+        quietly(|| world.step()).map_err(|cause| panicked(&crank(before), cause.as_ref()))?;
+        let frames = world.frames();
         let mut twice_energy = 0.0;
-        for (link, before) in self.angles.iter_mut().enumerate().skip(1) {
-            let angle = self.world.angle(link);
-            let turn = (angle - *before).abs();
+        for (link, (frame, before_it)) in frames.iter().zip(before.iter()).enumerate().skip(1) {
+            let turn = frame.turn_since(before_it);
             // Written so that NaN stops the run too.
             if !(turn <= LARGEST_TURN) {
-                let name = &self.case.mechanism.links()[link].name;
-                let turn = turn.to_degrees();
+                let (name, turn) = (&links[link].name, turn.to_degrees());
                 let message =
-                    format!("the engine's link \"{name}\" has turned by {turn:.1} deg in one step, {}", crank());
+                    format!("the engine's link \"{name}\" has turned by {turn:.1} deg in one step, {}", crank(before));
                 return Err(failed(message));
             }
-            let [mass, inertia] = self.masses[link];
-            let local = self.case.mechanism.links()[link].mass_centre;
-            let centre = self.world.point(Side { link, local });
-            let moved = (centre - self.centres[link]).norm_squared();
+            let [mass, inertia] = masses[link];
+            let centre = frame.point(links[link].mass_centre);
+            let moved = (centre - centres[link]).norm_squared();
             twice_energy += mass * moved + inertia * turn * turn;
-            (*before, self.centres[link]) = (angle, centre);
+            centres[link] = centre;
         }
         let energy = 0.5 * twice_energy / (self.step * self.step);
         if !(energy <= LARGEST_GROWTH * self.energy) {
             let growth = energy / self.energy;
-            let message = format!("the engine's kinetic energy has grown {growth:.1e} times in one step, {}", crank());
+            let message =
+                format!("the engine's kinetic energy has grown {growth:.1e} times in one step, {}", crank(before));
             return Err(failed(message));
         }
         self.energy = self.energy.max(energy);
-        for &joint in &self.world.tree().cut {
-            let joint = &self.case.mechanism.joints()[joint];
-            let gap = opening(self.world.as_ref(), joint, self.case.mechanism.size());
+        for &joint in &world.tree().cut {
+            let gap = opening(frames, &joints[joint], *size);
             if !(gap <= self.largest_gap) {
+                let name = &joints[joint].name;
                 let message =
-                    format!("the engine's loop has opened by {gap:.3e} m at joint \"{}\", {}", joint.name, crank());
+                    format!("the engine's loop has opened by {gap:.3e} m at joint \"{name}\", {}", crank(before));
                 return Err(failed(message));
             }
         }
+        before.copy_from_slice(frames);
         Ok(())
     }
 
@@ -227,15 +241,17 @@ fn panicked(place: &str, cause: &(dyn std::any::Any + Send)) -> Error {
 mod tests {
     use super::*;
     use crate::engine::rapier::tree::Tree;
+    use crate::engine::rapier::world::LinkAngle;
     use crate::engine::rapier::{Build, Precision, Rapier};
+    use crate::math::{rotated, unit};
     use crate::mechanism::Pose;
 
-    /// A world whose steps go wrong.
+    /// A world whose steps go wrong, after which it tells of places and angles that are off.
     struct Broken {
         world: Box<dyn World>,
         wrong: fn(&mut dyn World),
         off: (Vec2, f64),
-        after: (Vec2, f64),
+        frames: Vec<LinkFrame>,
     }
 
     impl World for Broken {
@@ -244,7 +260,13 @@ mod tests {
         }
         fn step(&mut self) {
             (self.wrong)(self.world.as_mut());
-            self.off = self.after;
+            for (frame, own) in self.frames.iter_mut().zip(self.world.frames()) {
+                let direction = rotated(unit(self.off.1), own.direction);
+                frame.follow(own.origin + self.off.0, direction);
+                if let LinkAngle::Whole(angle) = own.angle {
+                    frame.angle = LinkAngle::Whole(angle + self.off.1);
+                }
+            }
         }
         fn bare_step(&mut self) {
             self.world.bare_step();
@@ -264,11 +286,8 @@ mod tests {
         fn place(&mut self, poses: &[LinkPose]) {
             self.world.place(poses);
         }
-        fn angle(&self, link: usize) -> f64 {
-            self.world.angle(link) + self.off.1
-        }
-        fn point(&self, side: Side) -> Vec2 {
-            self.world.point(side) + self.off.0
+        fn frames(&self) -> &[LinkFrame] {
+            &self.frames
         }
         fn relative_speed(&self, index: usize) -> f64 {
             self.world.relative_speed(index)
@@ -284,8 +303,10 @@ mod tests {
         }
     }
 
-    /// What a guard says of a step that goes wrong, after which all places and angles are off by `after`.
-    fn step(wrong: fn(&mut dyn World), after: (Vec2, f64)) -> Result<()> {
+    const BUILDS: [Build; 2] = [Build::Multibody, Build::Impulse];
+
+    /// What a guard says of a step that goes wrong, after which all places and angles are off by `off`.
+    fn step(build: Build, wrong: fn(&mut dyn World), off: (Vec2, f64)) -> Result<()> {
         let mechanism = crate::mechanism::fixtures::four_bar();
         let start = [(0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (1.0, 0.0, 0.8410686705679303), (4.0, 0.0, 1.6821373411358607)];
         let pose = |(x, y, angle)| LinkPose { origin: Vec2::new(x, y), angle };
@@ -310,10 +331,11 @@ mod tests {
             grid: crate::case::Grid::default(),
             wanted: crate::case::Wanted::ALL,
         };
-        let engine = Rapier::new(Build::Multibody, Precision::Double, 1e-3);
-        let world = engine.world(&case, Tree::of(&case.mechanism), false).unwrap();
-        let off = (Vec2::zeros(), 0.0);
-        let mut guard = Guard::new(&case, Box::new(Broken { world, wrong, off, after }), 1e-3);
+        let engine = Rapier::new(build, Precision::Double, 1e-3);
+        let tree = if build == Build::Impulse { Tree::none(&case.mechanism) } else { Tree::of(&case.mechanism) };
+        let world = engine.world(&case, tree, false).unwrap();
+        let frames = world.frames().to_vec();
+        let mut guard = Guard::new(&case, Box::new(Broken { world, wrong, off, frames }), 1e-3);
         guard.step(0.25)
     }
 
@@ -323,34 +345,44 @@ mod tests {
 
     #[test]
     fn a_panic_of_the_engine_becomes_an_error_of_that_engine() {
-        let error = step(|_| panic!("index out of bounds"), turned(0.0)).unwrap_err();
-        assert_eq!(error.kind(), ErrorKind::Numeric);
-        for part in ["index out of bounds", "t = 0.250000 s", "crank angle"] {
-            assert!(error.message().contains(part), "{error}");
+        for build in BUILDS {
+            let error = step(build, |_| panic!("index out of bounds"), turned(0.0)).unwrap_err();
+            assert_eq!(error.kind(), ErrorKind::Numeric);
+            for part in ["index out of bounds", "t = 0.250000 s", "crank angle"] {
+                assert!(error.message().contains(part), "{error}");
+            }
         }
     }
 
     #[test]
     fn a_number_that_is_none_stops_the_run() {
-        let error = step(|_| {}, turned(f64::NAN)).unwrap_err();
-        assert!(error.message().contains("has turned by NaN deg in one step, t = 0.250000 s"), "{error}");
+        for build in BUILDS {
+            let error = step(build, |_| {}, turned(f64::NAN)).unwrap_err();
+            assert!(error.message().contains("has turned by NaN deg in one step, t = 0.250000 s"), "{error}");
+        }
     }
 
     #[test]
     fn a_wild_turn_stops_the_run() {
-        let error = step(|_| {}, turned(1.6)).unwrap_err();
-        assert!(error.message().contains("has turned by 91.7 deg in one step"), "{error}");
+        for build in BUILDS {
+            let error = step(build, |_| {}, turned(1.6)).unwrap_err();
+            assert!(error.message().contains("has turned by 91.7 deg in one step"), "{error}");
+            let error = step(build, |_| {}, turned(-1.6)).unwrap_err();
+            assert!(error.message().contains("has turned by 91.7 deg in one step"), "{error}");
+        }
     }
 
     /// Nothing turns and no loop opens, but all links run away, as slides can. The links reach 5 m and the drive turns with 1 rad/s: a step of a millisecond
     /// may move them by some 5 cm, ten times what a link at that distance does.
     #[test]
     fn energy_out_of_nothing_stops_the_run() {
-        step(|_| {}, (Vec2::new(0.01, 0.0), 0.0)).unwrap();
-        let error = step(|_| {}, (Vec2::new(0.2, 0.0), 0.0)).unwrap_err();
-        assert!(error.message().contains("kinetic energy has grown"), "{error}");
-        assert!(error.message().contains("t = 0.250000 s, crank angle"), "{error}");
-        let error = step(|_| {}, (Vec2::new(f64::NAN, 0.0), 0.0)).unwrap_err();
-        assert!(error.message().contains("NaN"), "{error}");
+        for build in BUILDS {
+            step(build, |_| {}, (Vec2::new(0.01, 0.0), 0.0)).unwrap();
+            let error = step(build, |_| {}, (Vec2::new(0.2, 0.0), 0.0)).unwrap_err();
+            assert!(error.message().contains("kinetic energy has grown"), "{error}");
+            assert!(error.message().contains("t = 0.250000 s, crank angle"), "{error}");
+            let error = step(build, |_| {}, (Vec2::new(f64::NAN, 0.0), 0.0)).unwrap_err();
+            assert!(error.message().contains("NaN"), "{error}");
+        }
     }
 }

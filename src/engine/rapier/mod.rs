@@ -16,7 +16,6 @@ mod quiet;
 mod ring;
 mod run;
 mod single;
-pub mod tree;
 mod window;
 pub mod world;
 
@@ -24,6 +23,7 @@ use super::extrapolated::Extrapolated;
 use super::{Engine, Route, Settings};
 use crate::case::Case;
 use crate::error::Result;
+pub use crate::mechanism::spanning_tree as tree;
 use crate::solver::{Progress, Provision, Solver, Visit};
 use crate::trajectory::{Channel, ChannelKind, Stage};
 use tree::Tree;

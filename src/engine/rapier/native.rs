@@ -61,7 +61,7 @@ impl Native {
     /// Fills in the reactions and moments of a state whose motion is known.
     pub(super) fn solve(&mut self, case: &Case, state: &mut State, t: f64) -> Result<()> {
         let place = Place::of(t / self.step + self.late).from(self.lowest);
-        self.ring.weigh(place, &place.weights(0.0), &mut self.row);
+        self.ring.weigh(place.first(), &place.weights(0.0), 0..self.row.len(), &mut self.row);
         for joint in 0..self.reporters.len() {
             let row = &self.row[3 * joint..];
             (state.forces[joint], state.moments[joint]) = (Vec2::new(row[0], row[1]), row[2]);

@@ -1,5 +1,7 @@
 //! The last few steps of a run as rows of numbers, and values between them.
 
+use std::ops::Range;
+
 use crate::math::interpolate::{POINTS, lagrange_weights};
 
 /// Steps kept: six for the interpolation, one more on either side for second differences, room for readings that are stamped up to two steps late, and
@@ -24,13 +26,18 @@ impl Place {
         Place { before: before as i64, share: if share < ON_A_STEP { 0.0 } else { share } }
     }
 
+    /// First step whose weight [`Place::weights`] gives.
+    pub(super) fn first(self) -> i64 {
+        self.before - 2
+    }
+
     /// The same place seen from no step before `lowest`: the share may then be negative.
     pub(super) fn from(self, lowest: i64) -> Self {
         let before = self.before.max(lowest);
         Place { before, share: self.share + (self.before - before) as f64 }
     }
 
-    /// Weights of the steps `before - 2` to `before + 3`, for what lies `back` steps before this place.
+    /// Weights of the six steps from [`Place::first`] on, for what lies `back` steps before this place.
     pub(super) fn weights(self, back: f64) -> [f64; POINTS] {
         lagrange_weights(2.0 + self.share - back)
     }
@@ -61,6 +68,11 @@ impl Ring {
         self.row_mut(self.newest)
     }
 
+    /// Goes on to the next step without a row: what a row holds in its place is that of an earlier step.
+    pub(super) fn skip(&mut self) {
+        self.newest += 1;
+    }
+
     fn at(&self, step: i64) -> usize {
         step.rem_euclid(NODES as i64) as usize * self.width
     }
@@ -75,11 +87,12 @@ impl Ring {
         &mut self.rows[at..at + self.width]
     }
 
-    /// The rows at a place, weighed together.
-    pub(super) fn weigh(&self, place: Place, weights: &[f64; POINTS], into: &mut [f64]) {
+    /// A part of the rows from step `first` on, weighed together.
+    pub(super) fn weigh(&self, first: i64, weights: &[f64], part: Range<usize>, into: &mut [f64]) {
         into.fill(0.0);
         for (k, weight) in weights.iter().enumerate().filter(|(_, weight)| **weight != 0.0) {
-            for (sum, value) in into.iter_mut().zip(self.row(place.before - 2 + k as i64)) {
+            let row = &self.row(first + k as i64)[part.clone()];
+            for (sum, value) in into.iter_mut().zip(row) {
                 *sum += weight * value;
             }
         }

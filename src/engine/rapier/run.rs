@@ -43,6 +43,7 @@ pub(super) fn sweep(engine: &Rapier, case: &Case, visit: Visit, progress: Progre
     let total = (end as i64 + Window::AHEAD - start) as f64;
     let mut visited = None;
     let mut run = Run::new(engine, case, start)?;
+    run.aim(case.grid.times[first]);
     let go = || {
         match run.acting {
             None => run.back_up()?,
@@ -51,7 +52,8 @@ pub(super) fn sweep(engine: &Rapier, case: &Case, visit: Visit, progress: Progre
         let mut state = State::at_rest(case);
         for row in rows {
             let t = case.grid.times[row];
-            while !run.window.covers(t) {
+            let last = run.aim(t);
+            while run.window.newest() < last {
                 run.step()?;
                 if run.window.newest() % 256 == 0 {
                     progress((run.window.newest() - start) as f64 / total);
@@ -91,6 +93,8 @@ struct Run<'a> {
     /// The first moves the mechanism; the others only report joints that the first does not.
     worlds: Vec<Guard<'a>>,
     window: Window,
+    /// First step that the window needs for the next sample.
+    needed: i64,
     reader: Reader<'a>,
     /// In a free motion.
     acting: Option<Acting>,
@@ -101,9 +105,13 @@ impl<'a> Run<'a> {
         let settings = &engine.settings;
         let route = (case.wanted.deepest() >= Stage::Reactions).then_some(settings.route);
         let mechanism = &case.mechanism;
-        let (moving, reporting) = match engine.build {
-            Build::Multibody => (Tree::of(mechanism), Tree::covering(mechanism)),
-            Build::Impulse => (Tree::none(mechanism), vec![Tree::none(mechanism)]),
+        let moving = || match engine.build {
+            Build::Multibody => Tree::of(mechanism),
+            Build::Impulse => Tree::none(mechanism),
+        };
+        let reporting = || match engine.build {
+            Build::Multibody => Tree::covering(mechanism),
+            Build::Impulse => vec![Tree::none(mechanism)],
         };
         let acting = if case.is_free() { Some(Acting::new(case)?) } else { None };
         if let (Some(_), Some(Route::Probe)) = (&acting, route) {
@@ -112,7 +120,7 @@ impl<'a> Run<'a> {
                 .help("take another way to the reactions: --route differences or --route native"));
         }
         let native = route == Some(Route::Native);
-        let trees = if native { reporting.clone() } else { vec![moving] };
+        let trees = if native { reporting() } else { vec![moving()] };
         let worlds: Result<Vec<Guard>> = trees
             .into_iter()
             .map(|tree| Ok(Guard::new(case, engine.world(case, tree, native)?, settings.resolution)))
@@ -128,7 +136,7 @@ impl<'a> Run<'a> {
                 // Put into a pose, a world has no gap to correct in its first substep and that of the first in its second, whose impulses would hold all
                 // of that correction: a tiny step is not divided.
                 let engine = engine.set(Settings { substeps: 1, ..*settings });
-                let probed: Result<Vec<Guard>> = reporting
+                let probed: Result<Vec<Guard>> = reporting()
                     .into_iter()
                     .map(|tree| Ok(Guard::new(case, engine.world(case, tree, true)?, settings.resolution)))
                     .collect();
@@ -144,6 +152,7 @@ impl<'a> Run<'a> {
             start,
             worlds,
             window,
+            needed: i64::MIN,
             reader,
             acting,
         })
@@ -171,8 +180,7 @@ impl<'a> Run<'a> {
             }
             guard.drive_on(0.0, self.step);
         }
-        self.window.push(self.worlds[0].world(), self.case);
-        self.report();
+        self.take();
         Ok(())
     }
 
@@ -191,9 +199,26 @@ impl<'a> Run<'a> {
                 guard.check_start()?;
             }
         }
-        self.window.push(self.worlds[0].world(), self.case);
-        self.report();
+        self.take();
         Ok(())
+    }
+
+    /// Looks ahead to a sample at `t`, and gives the last step that it needs.
+    fn aim(&mut self, t: f64) -> i64 {
+        let [first, last] = self.window.needs(t);
+        // What acts in a free motion is found from every step.
+        self.needed = if self.acting.is_some() { i64::MIN } else { first };
+        last
+    }
+
+    /// Takes what the worlds show after a step.
+    fn take(&mut self) {
+        if self.window.newest() + 1 < self.needed {
+            self.window.skip();
+        } else {
+            self.window.push(&self.worlds[0], self.case);
+        }
+        self.report();
     }
 
     fn report(&mut self) {

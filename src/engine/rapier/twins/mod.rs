@@ -15,7 +15,7 @@ use rapier::prelude::{
 use crate::case::Case;
 use crate::engine::Settings;
 use crate::engine::rapier::tree::Tree;
-use crate::engine::rapier::world::masses_with_flywheels;
+use crate::engine::rapier::world::{LinkAngle, LinkFrame, masses_with_flywheels};
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::Vec2;
 use crate::mechanism::{GROUND, Joint, LinkPose};
@@ -67,8 +67,8 @@ pub(in crate::engine::rapier) struct Twin {
     inverse: Vec<[f64; 2]>,
     /// Angle of the child less that of its parent (rad) of every branch whose joint keeps it.
     twists: Vec<Option<f64>>,
-    /// Angles of all links (rad), turns kept.
-    angles: Vec<f64>,
+    /// Frames of all links after the last step or placing.
+    frames: Vec<LinkFrame>,
     /// Whether reactions will be read.
     read: bool,
 }
@@ -130,6 +130,10 @@ impl Twin {
             let angle = |link: usize| case.start.0[link].angle;
             mechanism.joints()[branch.joint].is_prismatic().then(|| angle(branch.link) - angle(branch.parent))
         });
+        let frames = (0..mechanism.links().len()).map(|link| {
+            let angle = if link == GROUND || !plain(link) { LinkAngle::Whole(0.0) } else { LinkAngle::Turns(0.0) };
+            LinkFrame { angle, ..LinkFrame::GROUND }
+        });
         let mut twin = Twin {
             twists: twists.collect(),
             joints: mechanism.joints().to_vec(),
@@ -141,7 +145,7 @@ impl Twin {
             motors,
             centres: mechanism.links().iter().map(|link| link.mass_centre).collect(),
             inverse: masses.iter().map(|of| of.map(|of| if of > 0.0 { of.recip() } else { 0.0 })).collect(),
-            angles: case.start.0.iter().map(|pose| pose.angle).collect(),
+            frames: frames.collect(),
             read,
             world,
             bodies,
@@ -176,8 +180,6 @@ impl Twin {
     fn put(&mut self, poses: &[LinkPose]) {
         self.put_tree(poses);
         self.put_bodies(poses);
-        for (angle, pose) in self.angles.iter_mut().zip(poses) {
-            *angle = pose.angle;
-        }
+        self.put_frames(poses);
     }
 }

@@ -4,10 +4,10 @@ use super::rapier::prelude::{JointAxesMask, JointAxis, Multibody, PhysicsWorld, 
 use super::{RIGID_MOTOR, Twin, joints, real, wide};
 use crate::drive::Wrench;
 use crate::engine::rapier::tree::{Tree, coordinate};
-use crate::engine::rapier::world::World;
-use crate::math::angle::wrapped;
-use crate::math::{Vec2, rotated};
-use crate::mechanism::{LinkPose, Side};
+use crate::engine::rapier::world::{LinkAngle, LinkFrame, World};
+use crate::math::Vec2;
+use crate::math::angle::arc_tangent;
+use crate::mechanism::LinkPose;
 
 impl Twin {
     fn multibody(&self) -> Option<&Multibody> {
@@ -38,22 +38,26 @@ impl Twin {
         }
     }
 
-    /// Direction of a link's x axis, as the engine has it.
-    pub(super) fn direction(&self, link: usize) -> Vec2 {
-        let rotation = self.world.bodies[self.bodies[link]].position().rotation;
-        Vec2::new(wide(rotation.re), wide(rotation.im))
-    }
-
-    fn read_angles(&mut self) {
-        for &link in &self.plain {
-            let direction = self.direction(link);
-            self.angles[link] += wrapped(direction.y.atan2(direction.x) - self.angles[link]);
+    /// Frames of all links after a step.
+    pub(super) fn read_frames(&mut self) {
+        for (&body, frame) in self.bodies.iter().zip(&mut self.frames).skip(1) {
+            let (origin, direction) = place(self.world.bodies[body].position());
+            frame.follow(origin, direction);
         }
         let Some(any_link) = self.any_link else { return };
         let (multibody, _) = self.world.multibody_joints.get(any_link).expect("the multibody exists");
         for ((branch, &id), twist) in self.tree.branches.iter().zip(&self.ids).zip(&self.twists) {
             let coordinate = || wide(multibody.link(id).expect("known link").joint().coords()[2]);
-            self.angles[branch.link] = self.angles[branch.parent] + twist.unwrap_or_else(coordinate);
+            let parent = self.frames[branch.parent].angle();
+            self.frames[branch.link].angle = LinkAngle::Whole(parent + twist.unwrap_or_else(coordinate));
+        }
+    }
+
+    /// Frames of all links that have been put into poses.
+    pub(super) fn put_frames(&mut self, poses: &[LinkPose]) {
+        for ((&body, frame), pose) in self.bodies.iter().zip(&mut self.frames).zip(poses).skip(1) {
+            let (origin, direction) = place(self.world.bodies[body].position());
+            frame.put(origin, direction, pose.angle);
         }
     }
 
@@ -62,6 +66,12 @@ impl Twin {
         let parameters = &self.world.integration_parameters;
         wide(parameters.dt) / parameters.num_solver_iterations as f64
     }
+}
+
+/// Origin and direction of a body's frame.
+fn place(pose: &Pose) -> (Vec2, Vec2) {
+    let (at, rotation) = (pose.translation, pose.rotation);
+    (Vec2::new(wide(at.x), wide(at.y)), Vec2::new(wide(rotation.re), wide(rotation.im)))
 }
 
 impl World for Twin {
@@ -74,7 +84,7 @@ impl World for Twin {
             self.keep_frames(1.0);
         }
         self.world.step();
-        self.read_angles();
+        self.read_frames();
         let substeps = self.world.integration_parameters.num_solver_iterations;
         if self.read && substeps > 1 {
             self.keep_frames(1.0 - 1.0 / substeps as f64);
@@ -120,13 +130,8 @@ impl World for Twin {
         self.put(poses);
     }
 
-    fn angle(&self, link: usize) -> f64 {
-        self.angles[link]
-    }
-
-    fn point(&self, side: Side) -> Vec2 {
-        let at = self.world.bodies[self.bodies[side.link]].position().translation;
-        Vec2::new(wide(at.x), wide(at.y)) + rotated(self.direction(side.link), side.local)
+    fn frames(&self) -> &[LinkFrame] {
+        &self.frames
     }
 
     fn relative_speed(&self, index: usize) -> f64 {
@@ -135,13 +140,13 @@ impl World for Twin {
     }
 
     fn velocity(&self, link: usize) -> Option<(Vec2, f64)> {
-        if !self.plain.contains(&link) {
+        if let LinkAngle::Whole(_) = self.frames[link].angle {
             return None;
         }
         let body = &self.world.bodies[self.bodies[link]];
         let (velocity, step) = (body.linvel(), self.substep());
         // What it turned in the substep: see `set_drive`.
-        let omega = (wide(body.angvel()) * step).atan() / step;
+        let omega = arc_tangent(wide(body.angvel()) * step) / step;
         Some((Vec2::new(wide(velocity.x), wide(velocity.y)), omega))
     }
 

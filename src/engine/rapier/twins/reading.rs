@@ -28,7 +28,7 @@ impl Twin {
             let joint = &self.cuts[index].joint;
             let sides = [joint.first, joint.second];
             let [first, second] = sides.map(|side| self.point(side));
-            let direction = self.direction(joint.first.link);
+            let direction = self.frames[joint.first.link].direction;
             let (axis, place) = match joint.axis_on(joint.first.link) {
                 None => (direction, first),
                 Some(axis) => {
