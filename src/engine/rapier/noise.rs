@@ -13,6 +13,12 @@ const SPEED_ULPS: f64 = 20.0;
 /// Rounding of a divided second difference, in units of epsilon times the largest angle: four half units come from the
 /// difference itself (12.6 epsilon over a turn; 11.7 were measured), doubled for the links behind the crank.
 const DIFFERENCE_ULPS: f64 = 4.0;
+/// Angle (rad) whose rounding a second difference has at least: unit vectors and places are rounded however little a link has turned. Over a quarter and
+/// over half a turn 12.6 epsilon were measured on the crank-rocker and on `quick_return`, 26 on `ov7_base`; 37 are allowed.
+const LEAST_TURN: f64 = 3.0 * std::f64::consts::PI;
+/// Half a unit in the last place of an angle that grows to one, on average, in units of epsilon; rounding of a unit vector takes up to a whole one, however
+/// small the angle.
+const MEAN_HALF_ULP: f64 = 0.25;
 /// Rounding of what an impulse changes a speed by, in units of the last place. It is a speed's, times the condition of the loop it is read
 /// from: 3100 and 3570 were measured on the crank-rocker in f32 at 1e-3 s and 2.5e-4 s (in the impulse build 557 and 570), doubled.
 const IMPULSE_ULPS: f64 = 8000.0;
@@ -21,8 +27,8 @@ const PROBE_ULPS: f64 = 16000.0;
 
 /// Bound on the rounding noise of a channel, in the channel's unit.
 ///
-/// Angles are sums of as many rounded increments as there are steps, each off by up to a unit in the last place (0.7 were
-/// measured); lengths, forces and moments follow with the mechanism's size and mass.
+/// Angles are sums of as many rounded increments as there are steps. Each is off by up to half a unit in the last place of the angle so far, in the same
+/// sense for as long as speed and exponent stay what they are; lengths, forces and moments follow with the mechanism's size and mass.
 pub(super) fn bound(case: &Case, engine: &Rapier, channel: &ChannelKind) -> f64 {
     let (step, epsilon) = (engine.settings.resolution, engine.precision.epsilon());
     let longest = case.grid.times.iter().fold(0.0, |max: f64, t| max.max(t.abs()));
@@ -31,13 +37,14 @@ pub(super) fn bound(case: &Case, engine: &Rapier, channel: &ChannelKind) -> f64 
     let mass: f64 = case.mechanism.links().iter().map(|link| link.mass).sum();
     let turned = case.start.0.iter().fold(speed * longest, |max: f64, pose| max.max(pose.angle.abs())).max(1.0);
 
-    let angle = epsilon * (longest / step + turned);
-    let rate = (angle + SPEED_ULPS * epsilon) * speed;
-    let second = angle * speed * speed + DIFFERENCE_ULPS * epsilon * turned / (step * step);
-    let second = second * beginning(case, engine);
     // Places are world coordinates: far from the origin they are coarser than the mechanism's size lets expect.
     let reach = case.start.0.iter().fold(size, |max: f64, pose| max.max(pose.origin.norm() + size));
     let place = epsilon * reach;
+    let angle = epsilon * (longest / step * (MEAN_HALF_ULP * turned).max(1.0) + turned);
+    let rate = (angle + SPEED_ULPS * epsilon) * speed;
+    let turned = turned.max(LEAST_TURN);
+    let second = angle * speed * speed + DIFFERENCE_ULPS * epsilon * turned / (step * step);
+    let second = second * beginning(case, engine);
     let (rate, rate_of_place) = match case.is_steady() {
         true => (rate, 0.0),
         // Centred differences of poses.
