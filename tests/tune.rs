@@ -120,3 +120,20 @@ fn only_the_channels_asked_for_decide() {
     assert!(positions.best.price < all.best.price, "{:?} {:?}", positions.best, all.best);
     assert!(positions.best.worst.contains("_m") || positions.best.worst.contains("angle"), "{:?}", positions.best);
 }
+
+/// In free motion probes are refused, whatever the step and the sweeps: that is not tried over and over, and a tune that may take nothing else says so.
+#[test]
+fn a_route_that_is_refused_is_given_up_at_once() {
+    let scenario = shipped("pendulum.toml");
+    let options = Options { route: Some("probe".into()), ..Options::of_engine("rapier") };
+    let mut runs = 0;
+    let wish = Wish { within: 1e-3, channels: Vec::new() };
+    let mut price = |_: &dyn Engine, run: &mut dyn FnMut() -> linkproof::Result<()>| {
+        runs += 1;
+        run()?;
+        Ok(1.0)
+    };
+    let error = tune(&scenario, &wish, &options, &mut price, &mut |_| {}).unwrap_err();
+    assert!(error.message().contains("rapier does not run it"), "{error}");
+    assert!(runs <= 40, "{runs} runs");
+}

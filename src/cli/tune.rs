@@ -125,7 +125,12 @@ fn as_text(args: &Args, scenario: &Scenario, found: &Tuning) -> String {
     let _ = writeln!(text, "{}: {}\n", scenario.name, scenario.title);
     let _ = writeln!(text, "The cheapest settings within {:e} of every channel's scale:\n{table}\n", args.within);
     for (name, error) in &found.too_coarse {
-        let _ = writeln!(text, "{name} does not meet it: its smallest error was {error:.1e}.");
+        let _ = match error.is_finite() {
+            true => writeln!(text, "{name} does not meet it: its smallest error was {error:.1e}."),
+            false => {
+                writeln!(text, "{name} does not run it with any settings: `linkproof run --engine {name}` says why.")
+            }
+        };
     }
     for name in &found.too_dear {
         let _ = writeln!(text, "{name} costs more than the cheapest.");

@@ -8,7 +8,7 @@ use super::{Candidate, Price};
 use crate::case::Case;
 use crate::compare::{Convergence, Ladder, residuals};
 use crate::engine::{Engine, Settings};
-use crate::error::Result;
+use crate::error::{ErrorKind, Result};
 use crate::proof::Options;
 use crate::trajectory::{Channel, Trajectory};
 
@@ -42,6 +42,8 @@ pub(super) struct Bench<'a> {
     pub(super) wanted: &'a [Channel],
     pub(super) price: Price<'a>,
     pub(super) runs: usize,
+    /// Whether the engine has refused the last way of setting it: no step and no sweeps change that.
+    pub(super) refused: bool,
 }
 
 /// Error and price of one run.
@@ -126,12 +128,16 @@ impl Bench<'_> {
     /// falls, and rises again once they are more than needed.
     fn through_sweeps(&mut self, search: &mut Search, way: &Settings, sweeps: &[usize]) {
         let unlimited = search.limit().is_infinite();
+        self.refused = false;
         let floor = if unlimited { Floor(Vec::new()) } else { self.floor(search.engine, way, sweeps, search.limit()) };
         // Without a limit few sweeps would be searched down to the finest steps.
         let first = sweeps.iter().copied().find(|&sweeps| sweeps >= ENOUGH && unlimited);
         let start = if search.engine.controls_error() { way.resolution } else { COARSE_START * way.resolution };
         let mut row = Row { start, last: f64::INFINITY, rising: 0 };
         for sweeps in first.into_iter().chain(sweeps.iter().copied().filter(|&sweeps| Some(sweeps) != first)) {
+            if self.refused {
+                break;
+            }
             if floor.at(sweeps) >= search.limit() {
                 search.dear = true;
                 break;
@@ -216,7 +222,13 @@ impl Bench<'_> {
             Ok(())
         };
         let failed = |price: f64| Measured { error: f64::INFINITY, worst: String::new(), price };
-        let Ok(price) = (self.price)(engine.as_ref(), &mut run) else { return failed(f64::INFINITY) };
+        let price = match (self.price)(engine.as_ref(), &mut run) {
+            Ok(price) => price,
+            Err(error) => {
+                self.refused |= error.kind() == ErrorKind::Unsupported;
+                return failed(f64::INFINITY);
+            }
+        };
         let Some(trajectory) = found else { return failed(price) };
         let Ok(residuals) = residuals(self.reference, &trajectory) else { return failed(price) };
         let of_wanted = residuals.iter().filter(|residual| self.wanted.contains(&residual.channel));

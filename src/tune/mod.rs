@@ -55,7 +55,7 @@ pub struct Tuning {
     pub predicted: f64,
     /// The cheapest of every engine that meets the wish, the cheapest first.
     pub by_engine: Vec<Candidate>,
-    /// Engines that do not meet it, and how far they come: the smallest error seen.
+    /// Engines that do not meet it, and how far they come: the smallest error seen, infinite if none of their runs ended.
     pub too_coarse: Vec<(&'static str, f64)>,
     /// Engines that cost more than another one before they meet it.
     pub too_dear: Vec<&'static str>,
@@ -87,7 +87,7 @@ pub fn tune(
     let case = Case { wanted: Wanted::of(&stages), ..scenario.case.clone() };
     let reference = AssurSolver.solve(&case, &mut |_| {})?;
     let engines = options.engines(scenario)?;
-    let mut bench = Bench { case: &case, reference: &reference, wanted: &wanted, price, runs: 0 };
+    let mut bench = Bench { case: &case, reference: &reference, wanted: &wanted, price, runs: 0, refused: false };
     let (mut by_engine, mut too_coarse, mut too_dear): (Vec<Candidate>, _, _) = (Vec::new(), Vec::new(), Vec::new());
     for (index, engine) in engines.iter().enumerate() {
         let mut part = |part: f64| progress((index as f64 + part) / engines.len() as f64);
@@ -100,8 +100,11 @@ pub fn tune(
     }
     by_engine.sort_by(|a, b| a.price.total_cmp(&b.price));
     let Some(best) = by_engine.first().cloned() else {
-        let tells: Vec<String> =
-            too_coarse.iter().map(|(name, error)| format!("{name} comes to {error:.1e}")).collect();
+        let tell = |(name, error): &(&str, f64)| match error.is_finite() {
+            true => format!("{name} comes to {error:.1e}"),
+            false => format!("{name} does not run it"),
+        };
+        let tells: Vec<String> = too_coarse.iter().map(tell).collect();
         let message = format!("no settings meet an error within {:e} of the scale: {}", wish.within, tells.join(", "));
         return Err(Error::new(ErrorKind::Numeric, message)
             .help("ask for a larger error, other channels (--channel) or further engines (--engine all)"));
