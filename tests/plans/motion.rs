@@ -2,9 +2,9 @@
 
 use std::f64::consts::{PI, TAU};
 
-use linkproof::diagram::motion::Method;
-use linkproof::diagram::{Course, MotionDiagram, Plans, draw};
-use linkproof::reference::AssurSolver;
+use analytic::AssurSolver;
+use workshop::diagram::motion::Method;
+use workshop::diagram::{Course, MotionDiagram, Plans, draw};
 
 use crate::scenario;
 

@@ -4,7 +4,7 @@
 //! cosine of the angle between rod and normal. The angle at D between link 3 and rocker 4 has the cosine (l3^2 + l4^2 - |C O2|^2) / 2 l3 l4.
 //! Either dyad is singular where its cosine is 1 or -1.
 
-use linkproof::math::{Vec2, cross, turned, unit};
+use linkage::math::{Vec2, cross, turned, unit};
 
 /// One line of the table: lengths (m), angles (deg), angular velocity of the crank (rad/s).
 #[derive(Clone, Debug)]
