@@ -3,3 +3,8 @@
 mod engines;
 pub mod json;
 pub mod text;
+
+use linkage::error::Advice;
+
+/// How advice is told: a program with options names them, [`Advice::to_string`] names none.
+pub type Tell = fn(&Advice) -> String;

@@ -26,6 +26,7 @@ use linkage::error::Result;
 pub use linkage::mechanism::spanning_tree as tree;
 use linkage::solver::{Progress, Provision, Solver, Visit};
 use linkage::trajectory::{Channel, ChannelKind, Stage};
+pub use quiet::is_guarded;
 use tree::Tree;
 use world::World;
 

@@ -13,7 +13,7 @@ use linkproof_simbody::{Failure, Run};
 use linkage::case::Case;
 use linkage::drive::{Load, Wrench};
 use linkage::engine::{Engine, Route, Settings};
-use linkage::error::{Error, ErrorKind, Result};
+use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::unit;
 use linkage::solver::{Progress, Provision, Solver, State, Visit, check_instants};
 use linkage::trajectory::{Channel, ChannelKind, Stage};
@@ -53,8 +53,7 @@ impl Simbody {
         if let Some(drive) = case.drives().find(|drive| drive.law.constant().is_none()) {
             let message =
                 format!("a drive with the law \"{}\" is not handed to Simbody by this version", drive.law.name());
-            return Err(Error::new(ErrorKind::Unsupported, message)
-                .help("take another engine: `linkproof list --solvers` names them"));
+            return Err(Error::new(ErrorKind::Unsupported, message).help(Advice::OtherEngine));
         }
         check_start(case)?;
         let settings = self.settings_for(case);
@@ -207,23 +206,33 @@ fn check_start(case: &Case) -> Result<()> {
     };
     let widest = case.mechanism.joints().iter().reduce(|a, b| if gap(a) >= gap(b) { a } else { b });
     let name = widest.map_or("", |joint| joint.name.as_str());
-    let crank = case.drive.start.to_degrees();
-    let message =
-        format!("the pose at t = 0, crank angle {crank:.4} deg, is open by {closure:.3e} m, most at joint \"{name}\"");
-    Err(Error::new(ErrorKind::Geometry, message).help("give a start pose in which all joints are closed"))
+    let (crank, bound) = (case.drive.start, LARGEST_GAP * case.mechanism.size());
+    let degrees = crank.to_degrees();
+    let message = format!(
+        "the pose at t = 0, crank angle {degrees:.4} deg, is open by {closure:.3e} m, most at joint \"{name}\""
+    );
+    let error = Error::new(ErrorKind::Geometry, message).at_time(0.0).at_crank(crank).of_joint(name);
+    Err(error.beyond(closure, bound, "m").help("give a start pose in which all joints are closed"))
 }
 
 /// What stopped a run, in the case's terms.
 fn stopped(case: &Case, linkage: &Linkage, sense: f64, failure: &Failure) -> Error {
     let t = failure.time.unwrap_or(0.0) * sense;
-    let crank = case.drive.at(t).angle.to_degrees();
+    let crank = case.drive.at(t).angle;
+    let degrees = crank.to_degrees();
     // Written so that NaN is the largest.
     let widest = failure.gaps.iter().zip(&linkage.tree.cut).reduce(|a, b| if a.0 >= b.0 { a } else { b });
     let gap = widest.map_or(String::new(), |(gap, &joint)| {
         format!(", joint \"{}\" open by {gap:.3e} m", case.mechanism.joints()[joint].name)
     });
-    let message = format!("Simbody stopped at t = {t:.6} s, crank angle {crank:.4} deg{gap}: {}", failure.message);
-    Error::new(ErrorKind::Numeric, message).help(
-        "check that the pose can be assembled there, or shorten the grid to the crank angles before the dead point",
-    )
+    let message = format!("Simbody stopped at t = {t:.6} s, crank angle {degrees:.4} deg{gap}: {}", failure.message);
+    let mut error = Error::new(ErrorKind::Numeric, message).at_time(t).at_crank(crank);
+    if let Some((&gap, &joint)) = widest {
+        let bound = 2.0 * tolerance(case);
+        error = error.of_joint(&case.mechanism.joints()[joint].name);
+        error = if gap <= bound { error } else { error.beyond(gap, bound, "m") };
+    }
+    error
+        .help("check that the pose can be assembled there")
+        .or_help("shorten the grid to the crank angles before the dead point")
 }

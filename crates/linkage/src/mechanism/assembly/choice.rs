@@ -1,7 +1,7 @@
 //! Which configuration a group takes at the start: that of the mode, rank or rough places asked for.
 
 use super::{AssemblyMode, Choice, Configuration, StartGroup, configurations, four_link, rough};
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Advice, Error, ErrorKind, Result};
 use crate::mechanism::{Group, GroupKind, Mechanism, Pose};
 
 /// Poses the links of a group as asked.
@@ -47,8 +47,7 @@ fn out_of_range(rank: usize, count: usize) -> Error {
         1 => format!("configuration {rank} is asked for, but the group has 1 here"),
         _ => format!("configuration {rank} is asked for, but the group has {count} here"),
     };
-    Error::new(ErrorKind::Input, message)
-        .help(format!("give a number from 1 to {count}; `linkproof inspect FILE --modes` lists them"))
+    Error::new(ErrorKind::Input, message).help(Advice::Configuration { give: format!("a number from 1 to {count}") })
 }
 
 fn nothing_asked(group: &Group) -> Error {
