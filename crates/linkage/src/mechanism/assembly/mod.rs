@@ -16,7 +16,7 @@ mod three_leads;
 
 use super::pose::SidePoint;
 use super::{Group, GroupKind, LinkPose, Mechanism, Pose, Structure};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::math::Vec2;
 
 /// Which of its real configurations a group takes.
@@ -131,10 +131,11 @@ pub fn first_choices(
     }
     let mut choices = Vec::with_capacity(structure.groups.len());
     for (group, wanted) in structure.groups.iter().zip(wanted) {
-        choices.push(
-            choice::place(mechanism, group, wanted, &mut pose)
-                .map_err(|error| error.key(format!("start.groups ({})", group.names(mechanism))))?,
-        );
+        let of_group = |error: Error| {
+            let names = group.names(mechanism);
+            error.key(format!("start.groups ({names})")).of_group(names)
+        };
+        choices.push(choice::place(mechanism, group, wanted, &mut pose).map_err(of_group)?);
     }
     Ok((pose, choices))
 }
