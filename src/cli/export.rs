@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use super::load::load;
 use super::output;
-use super::run::load;
 use analytic::AssurSolver;
 use analytic::range::explained;
 use linkage::error::Result;

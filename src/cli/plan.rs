@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::builder::PossibleValuesParser;
 use serde_json::{Value, json};
 
-use super::run::reference_names;
+use super::load::reference_names;
 use super::{advice, output};
 use crate::scenario::Scenario;
 use analytic::range::explained;

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::Tell;
+use super::tell::Tell;
 use crate::compare::{Check, Verdict};
 use crate::proof::{ChannelProof, Dispute, EngineProof, Proof};
 use linkage::error::{Advice, Error};

@@ -1,10 +1,10 @@
 //! What a proof looks like: pure functions of a [`crate::proof::Proof`].
 
+mod cells;
 mod engines;
 pub mod json;
+mod tell;
 pub mod text;
 
-use linkage::error::Advice;
-
-/// How advice is told: a program with options names them, [`Advice::to_string`] names none.
-pub type Tell = fn(&Advice) -> String;
+pub(crate) use cells::table;
+pub use tell::Tell;

@@ -7,6 +7,7 @@
 mod free;
 mod model;
 mod noise;
+mod stopped;
 
 use linkproof_simbody::{Failure, Run};
 
@@ -18,6 +19,7 @@ use linkage::math::unit;
 use linkage::solver::{Progress, Provision, Solver, State, Visit, check_instants};
 use linkage::trajectory::{Channel, ChannelKind, Stage};
 use model::Linkage;
+use stopped::stopped;
 
 /// Constraint tolerance as a share of how far the mechanism reaches from the origin. Under prescribed motion the pose follows from the
 /// constraints alone, so nothing is won by a looser one. Projections aim at a tenth of it, and rounding keeps them from less: on
@@ -159,9 +161,16 @@ impl Solver for Simbody {
                 let found = run.read(reactions).map_err(|failure| stopped(case, &linkage, sense, &failure))?;
                 // Written so that NaN stops the run too.
                 if !found.loops.iter().all(|closed| closed.gap <= 2.0 * tolerance(case)) {
-                    let gaps = found.loops.iter().map(|closed| closed.gap).collect();
+                    let gaps: Vec<f64> = found.loops.iter().map(|closed| closed.gap).collect();
+                    // Written so that NaN is the largest.
+                    let widest = gaps
+                        .iter()
+                        .copied()
+                        .fold(0.0, |most: f64, gap| if most.is_nan() || gap <= most { most } else { gap });
                     let message = "a loop is open by more than its tolerance".into();
-                    return Err(stopped(case, &linkage, sense, &Failure { message, time: Some(t.abs()), gaps }));
+                    let failure = Failure { message, time: Some(t.abs()), gaps };
+                    let error = stopped(case, &linkage, sense, &failure);
+                    return Err(error.beyond(widest, 2.0 * tolerance(case), "m"));
                 }
                 linkage.motion(&found.bodies, &mut state);
                 if reactions {
@@ -213,26 +222,4 @@ fn check_start(case: &Case) -> Result<()> {
     );
     let error = Error::new(ErrorKind::Geometry, message).at_time(0.0).at_crank(crank).of_joint(name);
     Err(error.beyond(closure, bound, "m").help("give a start pose in which all joints are closed"))
-}
-
-/// What stopped a run, in the case's terms.
-fn stopped(case: &Case, linkage: &Linkage, sense: f64, failure: &Failure) -> Error {
-    let t = failure.time.unwrap_or(0.0) * sense;
-    let crank = case.drive.at(t).angle;
-    let degrees = crank.to_degrees();
-    // Written so that NaN is the largest.
-    let widest = failure.gaps.iter().zip(&linkage.tree.cut).reduce(|a, b| if a.0 >= b.0 { a } else { b });
-    let gap = widest.map_or(String::new(), |(gap, &joint)| {
-        format!(", joint \"{}\" open by {gap:.3e} m", case.mechanism.joints()[joint].name)
-    });
-    let message = format!("Simbody stopped at t = {t:.6} s, crank angle {degrees:.4} deg{gap}: {}", failure.message);
-    let mut error = Error::new(ErrorKind::Numeric, message).at_time(t).at_crank(crank);
-    if let Some((&gap, &joint)) = widest {
-        let bound = 2.0 * tolerance(case);
-        error = error.of_joint(&case.mechanism.joints()[joint].name);
-        error = if gap <= bound { error } else { error.beyond(gap, bound, "m") };
-    }
-    error
-        .help("check that the pose can be assembled there")
-        .or_help("shorten the grid to the crank angles before the dead point")
 }
