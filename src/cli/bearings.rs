@@ -8,6 +8,7 @@ use serde_json::json;
 use super::output;
 use crate::report::table;
 use crate::scenario::Scenario;
+use analytic::range::explained;
 use linkage::error::{Error, ErrorKind, Result};
 use workshop::bearings::{self, Peak, Peaks, journal_diameter};
 
@@ -43,7 +44,7 @@ pub(super) fn bearings(args: &Args) -> Result<()> {
         }
     }
     let scenario = Scenario::load(&args.file)?.nominal();
-    let peaks = bearings::over_range(&scenario.case)?;
+    let peaks = bearings::over_range(&scenario.case).map_err(|error| explained(&scenario.case, error))?;
     match &args.json {
         Some(to) => output::write(&format!("{}\n", as_json(args, &scenario, &peaks)), to),
         None => output::print(&as_text(args, &scenario, &peaks)),

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use analytic::PoseSolver;
 use linkage::case::Case;
-use linkage::error::{Error, ErrorKind, Result};
+use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::golden;
 use linkage::solver::State;
 use linkage::trajectory::Stage;
@@ -49,9 +49,7 @@ pub fn over_range(case: &Case) -> Result<Peaks> {
     if case.grid.cranks.iter().any(|&crank| case.drive.time_of(crank).is_nan()) {
         let message =
             "peaks are looked for over the crank angle, but the drive's law may come to an angle more than once";
-        return Err(
-            Error::new(ErrorKind::Unsupported, message).help("read them off a table of `linkproof solve` instead")
-        );
+        return Err(Error::new(ErrorKind::Unsupported, message).help(Advice::SolutionTable));
     }
     let mut poses = PoseSolver::new(case)?;
     let (from, to) = case.grid.cranks.iter().fold((f64::MAX, f64::MIN), |(low, high), &c| (low.min(c), high.max(c)));

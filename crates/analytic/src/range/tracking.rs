@@ -125,6 +125,8 @@ impl<'a> Tracker<'a> {
                     ),
                 )
                 .key("start")
+                .at_crank(self.case.drive.start)
+                .of_group(names)
                 .help("start at another crank angle, where the configurations are apart"));
             }
         }
@@ -350,6 +352,7 @@ pub(super) fn lost(crank: f64) -> Error {
         ErrorKind::Numeric,
         format!("the poses of the mechanism cannot be followed at crank angle {:.4} deg", crank.to_degrees()),
     )
+    .at_crank(crank)
     .help("check the lengths, or start at another crank angle")
 }
 

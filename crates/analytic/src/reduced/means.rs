@@ -6,7 +6,7 @@ use crate::PoseSolver;
 use crate::range::{Extent, Range};
 use linkage::case::{Case, Grid, Wanted};
 use linkage::drive::{Course, Load};
-use linkage::error::{Error, ErrorKind, Result};
+use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::{Motion, quadrature};
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
@@ -185,7 +185,7 @@ pub(crate) fn no_turn(kinks: &Kinks) -> Error {
         ErrorKind::Geometry,
         format!("means over a turn are asked for, but the crank does not turn fully{reached}"),
     )
-    .help("`linkproof inspect FILE --range` shows what limits the crank")
+    .help(Advice::LookAtRange)
 }
 
 /// The error for a resistance that no speed of the motor balances.

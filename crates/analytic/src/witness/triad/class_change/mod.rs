@@ -23,7 +23,7 @@ mod chain;
 use super::Triad;
 use chain::{Chain, Grounded, Place, along};
 use linkage::case::Case;
-use linkage::error::{Error, ErrorKind, Result};
+use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::{Vec2, cross, rotated, turned, unit};
 use linkage::mechanism::{GROUND, JointKind};
 
@@ -160,7 +160,9 @@ impl ClassChange {
                 "class change: the group ({names}) cannot be followed beyond crank angle {crank:.4} deg: it has a dead point there"
             );
             return Err(Error::new(ErrorKind::Geometry, message)
-                .help("shorten the grid to the crank angles that can be reached on this branch"));
+                .at_crank(target)
+                .of_group(names)
+                .help(Advice::ShortenGrid));
         }
         self.step_to((self.crank + target) / 2.0, halvings - 1)?;
         self.step_to(target, halvings - 1)
