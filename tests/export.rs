@@ -65,7 +65,7 @@ fn bodies_are_the_links_on_the_spanning_tree() {
             let [x, y, z] = body.inertia;
             assert!(x + y >= z && y + z >= x && z + x >= y && x > 0.0);
             assert!(z == link.inertia || link.inertia == 0.0 && z > 0.0, "{}: {}", scenario.name, link.name);
-            let driven = case.drives().any(|drive| drive.joint == branch.joint);
+            let driven = case.drives.iter().any(|drive| drive.joint == branch.joint);
             assert_eq!(body.armature > 0.0, driven, "{}: {}", scenario.name, joint.name);
         }
         let cut: Vec<&str> = tree.cut.iter().map(|&joint| joints[joint].name.as_str()).collect();
@@ -88,7 +88,7 @@ fn the_file_holds_the_start_pose_and_its_speeds() {
         let document = Document::read(&exported(case, &scenario.name));
         let motions = document.motions();
         let size = mechanism.size();
-        let speed = case.drive.at(0.0).omega.abs();
+        let speed = case.crank().at(0.0).omega.abs();
         let fastest = motions.iter().map(|motion| motion.omega.abs()).fold(speed, f64::max);
         for joint in mechanism.joints() {
             let [first, second] = [("first", joint.first), ("second", joint.second)].map(|(word, side)| {
@@ -114,7 +114,7 @@ fn the_file_holds_the_start_pose_and_its_speeds() {
             assert!(off.abs() <= bound, "{}: {} {off:e}", scenario.name, joint.name);
             assert!(turning.abs() <= 1e-12 * fastest, "{}: {} {turning:e}", scenario.name, joint.name);
         }
-        for drive in case.drives() {
+        for drive in &case.drives {
             let link = &mechanism.links()[drive.link].name;
             let omega = document.motion_of(&motions, Some(link)).omega;
             assert!((omega - drive.at(0.0).omega).abs() <= 1e-14 * speed, "{}: {omega}", scenario.name);
@@ -199,7 +199,7 @@ fn the_rotor_outweighs_the_mechanism() {
             body.mass * motion.point_velocity(body.mass_centre).norm_squared() + body.inertia * motion.omega.powi(2)
         };
         let total: f64 = (1..case.mechanism.links().len()).map(energy).sum();
-        let reduced = total / case.drive.at(0.0).omega.powi(2);
+        let reduced = total / case.crank().at(0.0).omega.powi(2);
         assert!(model.rotor() >= 1e7 * reduced, "{}: {:e} and {reduced:e}", scenario.name, model.rotor());
     }
 }

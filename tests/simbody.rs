@@ -88,9 +88,9 @@ fn the_other_analytic_side_agrees_too() {
 fn instants_far_apart_are_as_good() {
     for name in ["crank_rocker.toml", "ov7_base.toml", "fourth_class.toml", "compressor.toml", "five_bar.toml"] {
         let case = shipped(name).case;
-        let sense = case.drive.sense();
-        let cranks = (0..=5).map(|k| case.drive.start + sense * 1.9 * f64::from(k)).collect();
-        let case = case.on(Grid::of_cranks(&case.drive, cranks));
+        let sense = case.crank().sense();
+        let cranks = (0..=5).map(|k| case.crank().start + sense * 1.9 * f64::from(k)).collect();
+        let case = case.on(Grid::of_cranks(case.crank(), cranks));
         for accuracy in [1e-2, 1e-4, 1e-6, Simbody::ACCURACY] {
             agree(&case, &Simbody::new(accuracy), &AssurSolver, 1.0);
         }
@@ -104,7 +104,7 @@ fn instants_may_come_in_any_order_on_both_sides_of_the_start() {
         let case = shipped(name).case;
         let times: Vec<f64> = [3.0, -1.0, 0.5, -2.5, 3.0, 0.0, -0.001].iter().map(|turns| turns * 0.1).collect();
         for times in [times, vec![-0.3, -0.2], vec![0.25, 0.3], vec![0.0]] {
-            let case = case.on(Grid::of_times(&case.drive, times));
+            let case = case.on(Grid::of_times(case.crank(), times));
             agree(&case, &default(), &AssurSolver, 1.0);
         }
     }
@@ -161,7 +161,7 @@ fn loads_of_all_sorts_agree() {
     case.loads.push(linkage::drive::Load::TorsionSpring { links: [0, rod], stiffness: 30.0, free_angle: 0.4 });
     case.loads.push(linkage::drive::Load::Resistance { link: rod, moment: 7.0 });
     let cranks = (-7..20).map(|k| 0.05 + 0.31 * f64::from(k)).collect();
-    let case = case.on(Grid::of_cranks(&case.drive, cranks));
+    let case = case.on(Grid::of_cranks(case.crank(), cranks));
     println!("{:?}", agree(&case, &default(), &AssurSolver, 1.0));
 }
 
@@ -179,10 +179,10 @@ fn sliders_agree_however_their_joints_are_written() {
 fn crank_last(case: &Case) -> Case {
     use linkage::mechanism::{AssemblyMode, Mechanism, Structure};
     let joints: Vec<_> = case.mechanism.joints().iter().rev().cloned().collect();
-    let driven = joints.len() - 1 - case.drive.joint;
+    let driven = joints.len() - 1 - case.crank().joint;
     let mechanism = Mechanism::new(case.mechanism.links().to_vec(), joints).unwrap();
     let structure = Structure::of(&mechanism, &[driven]).unwrap();
-    let mut drive = case.drive.clone();
+    let mut drive = case.crank().clone();
     drive.joint = driven;
     // One group a sample: its links may have changed places.
     let turned = structure.groups[0].links != case.structure.groups[0].links;
@@ -207,7 +207,7 @@ fn random_mechanisms_agree() {
 /// How near to a singular pose a run comes: its largest speed or root of an acceleration, over the crank's (lengths are about a metre). What a
 /// small error becomes grows with its square.
 fn nearness(case: &Case, truth: &Trajectory) -> f64 {
-    let crank = case.drive.at(0.0).omega.abs();
+    let crank = case.crank().at(0.0).omega.abs();
     let of = |(channel, values): (&Channel, &[f64])| {
         let most = values.iter().fold(0.0f64, |max, value| max.max(value.abs()));
         match channel.kind.stage {

@@ -163,7 +163,7 @@ pub fn short_rod() -> Case {
     let end = Vec2::new(rod, 0.0);
     (links[2].points[1].local, joints[2].first.local) = (end, end);
     case.mechanism = Mechanism::new(links, joints).unwrap();
-    case.start.0[2].angle = GUIDE + ((OFFSET - CRANK * (case.drive.start - GUIDE).sin()) / rod).asin();
+    case.start.0[2].angle = GUIDE + ((OFFSET - CRANK * (case.crank().start - GUIDE).sin()) / rod).asin();
     case.start.0[3].origin = case.start.0[2].point(end);
     case
 }

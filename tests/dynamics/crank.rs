@@ -65,7 +65,7 @@ fn the_averaged_model_is_exact_for_constant_coefficients() {
     let law = MotorLaw::Linear { at_rest: 4.0, slope: -0.02 };
     for (speed, efficiency) in [(1.0, 0.9), (-1.0, 0.9), (1.0, 1.0)] {
         let mut case = bar(0.0, 20.0, false);
-        case.drive.law = MotionLaw::ConstantSpeed(speed);
+        case.crank().law = MotionLaw::ConstantSpeed(speed);
         case.loads.push(Load::Resistance { link: 1, moment: 6.0 });
         let motor = Motor { efficiency, inertia, ..Motor::ideal(law.clone(), 10.0) };
         case.motor = Some(motor.clone());
@@ -79,7 +79,7 @@ fn the_averaged_model_is_exact_for_constant_coefficients() {
         assert_eq!((found.len(), end), (301, End::Reached));
         let mut most = [0.0f64; 2];
         for at in &found {
-            let (omega, angle) = (speed * at.omega, speed * (at.crank - case.drive.start));
+            let (omega, angle) = (speed * at.omega, speed * (at.crank - case.crank().start));
             let off = [omega - averaged.speed(at.t), angle - averaged.angle(at.t)];
             most = [0, 1].map(|k| most[k].max(off[k].abs()));
         }
@@ -166,7 +166,7 @@ fn a_pendulum_turns_in_its_known_time() {
             let times: Vec<f64> = (1..=10).map(|k| turn * f64::from(k)).collect();
             let (found, _) = motion(&model, way * omega, &times, 1e-13).unwrap();
             for (k, at) in (1..).zip(&found) {
-                let expected = case.drive.start + way * TAU * f64::from(k);
+                let expected = case.crank().start + way * TAU * f64::from(k);
                 assert!((at.crank - expected).abs() < 1e-10, "{factor} {k}: {}", at.crank - expected);
             }
         }

@@ -47,7 +47,7 @@ fn val_crank_rocker_steady_motion() {
     assert!((regime.period - 0.440_496_106_159_4).abs() < 1e-12, "{}", regime.period);
     assert!((regime.start_speed - 16.679_930_049_7).abs() < 1e-9, "{}", regime.start_speed);
     assert!(regime.multiplier < 1e-90 && regime.turns == 1.0);
-    let motor = case.motor.as_ref().unwrap();
+    let motor = case.crank().motor().unwrap();
     let steady = motor.steady_speed(100.0 * 64.0 / 360.0).unwrap();
     assert!((steady - 14.33204).abs() < 5e-6 && (steady * motor.ratio - 302.6266).abs() < 5e-5);
 }
@@ -99,9 +99,9 @@ fn slope_of_the_inertia_is_its_derivative() {
         let case = shipped(&format!("{name}.toml")).case;
         let model = Model::of(&case).unwrap();
         let step = 1e-5;
-        let start = case.drive.start;
+        let start = case.crank().start;
         for k in 0..24 {
-            let crank = start + case.drive.sense() * f64::from(k) * 0.2;
+            let crank = start + case.crank().sense() * f64::from(k) * 0.2;
             let rows = model.rows(&[crank - step, crank, crank + step]).unwrap();
             let slope = (rows[2].inertia - rows[0].inertia) / (2.0 * step);
             // Central differences err by the third derivative, some hundred times the inertia, times 1e-10 / 6, and by rounding over 2e-5.
@@ -126,7 +126,7 @@ fn a_flywheel_does_what_is_asked() {
     let count = 36_000;
     let cranks: Vec<f64> = (0..count).map(|k| TAU * (f64::from(k) + 0.5) / f64::from(count)).collect();
     let mean = 100.0 * 64.0 / 360.0;
-    let speed = case.motor.as_ref().unwrap().steady_speed(mean).unwrap();
+    let speed = case.crank().motor().unwrap().steady_speed(mean).unwrap();
     let (mut work, mut least, mut most) = (0.0f64, f64::INFINITY, f64::NEG_INFINITY);
     for row in model.rows(&cranks).unwrap() {
         work += (mean - row.resistance) * TAU / f64::from(count);
@@ -163,7 +163,7 @@ fn losses_of_the_reducer_cost_their_share() {
     let model = Model::of(&case).unwrap();
     let run_up = RunUp::of(&model, 0.0, &times(), ACCURACY).unwrap();
     // Twice in a turn the mechanism drives the motor: the moment on the crank is then 1 / 0.9 of the motor's, else 0.9.
-    let motor = case.motor.as_ref().unwrap();
+    let motor = case.crank().motor().unwrap();
     let (mut drives, mut driven) = (0, 0);
     for at in &run_up.motion[1..] {
         let own = motor.ratio * motor.law.torque(motor.ratio * at.omega);

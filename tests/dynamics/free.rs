@@ -115,7 +115,7 @@ fn energies(case: &Case, found: &Trajectory) -> Vec<f64> {
 #[test]
 fn several_freedoms_keep_their_energy() {
     let mut case = shipped("double_pendulum.toml").case;
-    case.grid = Grid::of_times(&case.drive, (0..=1000).map(|k| f64::from(k) * 0.01).collect());
+    case.grid = Grid::of_times(case.crank(), (0..=1000).map(|k| f64::from(k) * 0.01).collect());
     case.wanted = Wanted::of(&[Stage::Positions, Stage::Velocities]);
     for solver in [&AssurSolver as &dyn Solver, &NewtonSolver] {
         let energies = energies(&case, &solve(solver, &case));
@@ -136,7 +136,7 @@ fn twin(name: &str, scenario: &Scenario, settings: impl Fn(Settings) -> Settings
 fn the_twin_runs_up_with_order_one_and_extrapolated_exactly() {
     let scenario = shipped("crank_rocker_runup.toml");
     let begun = (0..=100).map(|k| f64::from(k) * 1e-3).collect();
-    let begun = scenario.case.on(Grid::of_times(&scenario.case.drive, begun));
+    let begun = scenario.case.on(Grid::of_times(scenario.case.crank(), begun));
     let angle = |channel: &Channel| channel.kind.unit == "rad";
     let force = |channel: &Channel| channel.kind.stage >= Stage::Reactions;
     // The impulse build needs its thousands of sweeps: a fifth of the time will do for it.
@@ -185,8 +185,8 @@ fn an_ill_conditioned_run_up_is_inconclusive_with_its_sensitivity() {
 #[test]
 fn the_twin_starts_at_a_speed() {
     let mut scenario = shipped("crank_rocker_runup.toml");
-    scenario.case.drive.free = Some(9.0);
-    let case = scenario.case.on(Grid::of_times(&scenario.case.drive, vec![0.0, 0.002, 0.05, 0.1]));
+    scenario.case.crank().free = Some(9.0);
+    let case = scenario.case.on(Grid::of_times(scenario.case.crank(), vec![0.0, 0.002, 0.05, 0.1]));
     let reference = solve(&AssurSolver, &case);
     assert!((column(&reference, "link.crank.omega_rad_s")[0] - 9.0).abs() < 1e-14);
     // Measured: 8.5e-6 and 3.1e-4. Bodies of their own begin with a gap in every joint, which costs the impulse build more than it gains by extrapolation.
@@ -206,7 +206,7 @@ fn what_a_free_motion_cannot_be_asked_says_so() {
         change(&mut case);
         case
     };
-    let before = case(&|case| case.grid = Grid::of_times(&case.drive, vec![-0.1, 0.0]));
+    let before = case(&|case| case.grid = Grid::of_times(case.crank(), vec![-0.1, 0.0]));
     let held = case(&|case| case.motor.as_mut().unwrap().ratio = 0.1);
     for solver in [&AssurSolver as &dyn Solver, &NewtonSolver] {
         let error = solver.solve(&held, &mut |_| {}).unwrap_err();

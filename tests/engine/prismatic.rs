@@ -73,8 +73,8 @@ fn regress_51_slide_speeds_are_one_step_late() {
 fn regress_52_links_in_sliders_turn_together() {
     let mut case = sliders::double::oldham().case;
     case.start.0[2].angle += std::f64::consts::TAU;
-    let cranks = (0..=40).map(|k| case.drive.start + f64::from(k) * std::f64::consts::PI).collect();
-    let case = case.on(Grid::of_cranks(&case.drive, cranks));
+    let cranks = (0..=40).map(|k| case.crank().start + f64::from(k) * std::f64::consts::PI).collect();
+    let case = case.on(Grid::of_cranks(case.crank(), cranks));
     let mut solvers: Vec<Box<dyn Solver>> = vec![Box::new(NewtonSolver)];
     solvers.push(Box::new(Rapier::new(Build::Multibody, Precision::Double, 1e-3)));
     for solver in solvers {
@@ -83,7 +83,7 @@ fn regress_52_links_in_sliders_turn_together() {
                 let turned = state.angles[link] - case.start.0[link].angle;
                 // Half a unit in the last place of the largest angle a step, as in story 1.
                 let bound = 0.5 * f64::EPSILON * 128.0 * (crank / SPEED / 1e-3);
-                let error = (turned - (crank - case.drive.start)).abs();
+                let error = (turned - (crank - case.crank().start)).abs();
                 assert!(error <= bound, "{} link {link} at {crank}: {error:e}", solver.name());
             }
         }

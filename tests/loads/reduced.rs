@@ -90,7 +90,7 @@ fn what_the_reduction_does_not_know_is_refused_by_name() {
         .map(|turns| Load::Moment { link, moment: linkage::drive::Course::table(&[(0.0, 1.0)], turns, true), acts })
         .into();
     assert!(Model::of(&case).unwrap_err().message().contains("after 1309 turns"));
-    let crank = case.drive.link;
+    let crank = case.crank().link;
     case.loads = vec![Load::TorsionSpring { links: [0, crank], stiffness: 1.0, free_angle: 0.0 }];
     assert!(Model::of(&case).unwrap_err().message().contains("wound up by every turn"));
 }

@@ -80,10 +80,8 @@ pub fn turning(mechanism: Mechanism) -> Case {
     Case {
         structure: Structure::of(&mechanism, &[0]).unwrap(),
         start: Pose(vec![LinkPose::GROUND; mechanism.links().len()]),
-        drive: Drive { joint: 0, link: 1, zero: 0.0, start: 0.0, law, free: None },
+        drives: Drive::prescribed(0, 1, 0.0, 0.0, law).into(),
         mechanism,
-        further_drives: Vec::new(),
-        motor: None,
         loads: Vec::new(),
         gravity: Vec2::zeros(),
         modes: Vec::new(),

@@ -4,7 +4,7 @@
 use super::quiet::quietly;
 use super::world::{LinkFrame, World, masses, opening};
 use linkage::case::Case;
-use linkage::drive::{Drive, Wrench};
+use linkage::drive::{Drive, DriveMotion, Wrench};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::Vec2;
 use linkage::mechanism::{LinkPose, Side};
@@ -53,7 +53,7 @@ impl<'a> Guard<'a> {
             masses,
             step,
             loads: vec![Wrench::ZERO; case.mechanism.links().len()],
-            energy: energy * case.fastest_drive().powi(2),
+            energy: energy * case.drives.top_speed().powi(2),
         };
         guard.stand();
         guard
@@ -84,21 +84,21 @@ impl<'a> Guard<'a> {
 
     /// Sets all drives to their speeds at `t`.
     pub(super) fn drive(&mut self, t: f64) {
-        for (index, drive) in self.case.drives().enumerate() {
+        for (index, drive) in self.case.drives.iter().enumerate() {
             self.world.set_drive(index, drive.at(t).omega);
         }
     }
 
     /// Sets all drives to the speeds that take them from where they are at the time `from` (s) to where they are at `to`, a step later or earlier.
     pub(super) fn drive_on(&mut self, from: f64, to: f64) {
-        for (index, drive) in self.case.drives().enumerate() {
+        for (index, drive) in self.case.drives.iter().enumerate() {
             self.world.set_drive(index, drive.step_speed(from, to));
         }
     }
 
     /// Sets all drives to their speeds at t = 0: those from which free links start, those of the laws for the others.
     pub(super) fn drive_from_start(&mut self) {
-        for (index, drive) in self.case.drives().enumerate() {
+        for (index, drive) in self.case.drives.iter().enumerate() {
             self.world.set_drive(index, drive.initial_speed());
         }
     }
@@ -106,11 +106,11 @@ impl<'a> Guard<'a> {
     /// Sets the speed, over a step between two instants, of the links whose motion is prescribed, and for free ones what `motor` says: speed aimed at
     /// (rad/s) and damping (N m s/rad).
     pub(super) fn drive_freely(&mut self, [from, to]: [f64; 2], motor: [f64; 2]) {
-        for (index, drive) in self.case.drives().enumerate() {
-            match (drive.free, index) {
-                (None, _) => self.world.set_drive(index, drive.step_speed(from, to)),
-                (Some(_), 0) => self.world.set_motor(index, motor[0], motor[1]),
-                (Some(_), _) => self.world.set_motor(index, 0.0, 0.0),
+        for (index, drive) in self.case.drives.iter().enumerate() {
+            match (&drive.motion, index) {
+                (DriveMotion::Prescribed { .. }, _) => self.world.set_drive(index, drive.step_speed(from, to)),
+                (DriveMotion::Free { .. }, 0) => self.world.set_motor(index, motor[0], motor[1]),
+                (DriveMotion::Free { .. }, _) => self.world.set_motor(index, 0.0, 0.0),
             }
         }
     }
@@ -154,7 +154,7 @@ impl<'a> Guard<'a> {
         let Guard { case, world, frames: before, centres, masses, size, .. } = self;
         let (links, joints) = (case.mechanism.links(), case.mechanism.joints());
         // Said in the words of the frames before the step.
-        let crank = |before: &[LinkFrame]| at(&case.drive, before[case.drive.link].angle() - case.drive.zero, t);
+        let crank = |before: &[LinkFrame]| at(case.crank(), before[case.crank().link].angle() - case.crank().zero, t);
         quietly(|| world.step()).map_err(|cause| panicked(&crank(before), cause.as_ref()))?;
         let frames = world.frames();
         let mut twice_energy = 0.0;
@@ -206,7 +206,7 @@ impl<'a> Guard<'a> {
             let far = link.points.iter().map(|point| off(point.local)).fold(off(link.mass_centre), f64::max);
             // Written so that NaN stops the run too.
             if !(far <= self.largest_gap) {
-                let crank = case.drive.start.to_degrees();
+                let crank = case.crank().start.to_degrees();
                 let message = format!(
                     "the engine ran up from a few steps before the grid and came back to the start at crank angle {crank:.4} deg with link \"{}\" {far:.3e} m off: it has passed a dead point on the way",
                     link.name
@@ -221,7 +221,7 @@ impl<'a> Guard<'a> {
 
 /// When and where, for messages: a free crank is where it was `before` the step.
 fn at(drive: &Drive, before: f64, t: f64) -> String {
-    let crank = if drive.free.is_some() { before } else { drive.at(t).angle };
+    let crank = if drive.is_free() { before } else { drive.at(t).angle };
     format!("t = {t:.6} s, crank angle {:.4} deg", crank.to_degrees())
 }
 

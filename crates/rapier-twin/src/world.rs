@@ -176,7 +176,7 @@ pub(super) fn masses(case: &Case) -> Vec<[f64; 2]> {
     };
     let mut masses: Vec<[f64; 2]> = case.mechanism.links().iter().enumerate().map(of).collect();
     masses[GROUND] = [0.0; 2];
-    masses[case.drive.link][1] += case.inertia_on_free_crank();
+    masses[case.crank().link][1] += case.crank().moving_inertia();
     masses
 }
 
@@ -188,7 +188,7 @@ pub(super) fn masses_with_flywheels(case: &Case) -> Vec<[f64; 2]> {
     }
     let total: f64 = masses.iter().map(|[mass, _]| mass).sum();
     let size = case.mechanism.size();
-    for drive in case.drives() {
+    for drive in &case.drives {
         masses[drive.link][1] += FLYWHEEL * total * size * size;
     }
     masses

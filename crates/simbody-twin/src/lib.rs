@@ -50,9 +50,9 @@ impl Simbody {
             let message = format!("the engine's accuracy is {}", self.accuracy);
             return Err(Error::new(ErrorKind::Input, message).help("give an accuracy between 0 and 1, 1e-8 for one"));
         }
-        if let Some(drive) = case.drives().find(|drive| drive.law.constant().is_none()) {
+        if let Some(drive) = case.drives.iter().find(|drive| drive.constant_speed().is_none()) {
             let message =
-                format!("a drive with the law \"{}\" is not handed to Simbody by this version", drive.law.name());
+                format!("a drive with the law \"{}\" is not handed to Simbody by this version", drive.law_name());
             return Err(Error::new(ErrorKind::Unsupported, message)
                 .help("take another engine: `linkproof list --solvers` names them"));
         }
@@ -71,7 +71,7 @@ impl Simbody {
         linkproof_simbody::Settings {
             accuracy: self.accuracy,
             tolerance: tolerance(case),
-            time_scale: 1.0 / case.fastest_drive(),
+            time_scale: 1.0 / case.drives.top_speed(),
             // An error of fourth order a step.
             steps: (MAX_STEPS * (Simbody::ACCURACY / self.accuracy).max(1.0).powf(0.25)) as usize,
         }
@@ -207,7 +207,7 @@ fn check_start(case: &Case) -> Result<()> {
     };
     let widest = case.mechanism.joints().iter().reduce(|a, b| if gap(a) >= gap(b) { a } else { b });
     let name = widest.map_or("", |joint| joint.name.as_str());
-    let crank = case.drive.start.to_degrees();
+    let crank = case.crank().start.to_degrees();
     let message =
         format!("the pose at t = 0, crank angle {crank:.4} deg, is open by {closure:.3e} m, most at joint \"{name}\"");
     Err(Error::new(ErrorKind::Geometry, message).help("give a start pose in which all joints are closed"))
@@ -216,7 +216,7 @@ fn check_start(case: &Case) -> Result<()> {
 /// What stopped a run, in the case's terms.
 fn stopped(case: &Case, linkage: &Linkage, sense: f64, failure: &Failure) -> Error {
     let t = failure.time.unwrap_or(0.0) * sense;
-    let crank = case.drive.at(t).angle.to_degrees();
+    let crank = case.crank().at(t).angle.to_degrees();
     // Written so that NaN is the largest.
     let widest = failure.gaps.iter().zip(&linkage.tree.cut).reduce(|a, b| if a.0 >= b.0 { a } else { b });
     let gap = widest.map_or(String::new(), |(gap, &joint)| {

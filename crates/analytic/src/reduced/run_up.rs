@@ -72,7 +72,7 @@ struct Runner<'m, 'a> {
 
 impl<'m, 'a> Runner<'m, 'a> {
     fn begin(model: &'m Model<'a>, omega: f64) -> Result<Self> {
-        let crank = model.case.drive.start;
+        let crank = model.case.crank().start;
         let somewhere = Piece::unbounded();
         let flow = InTime(Forces::of(model, somewhere, 1f64.copysign(omega))?);
         Ok(Runner { flow, place: Place { x: 0.0, y: [crank, omega], h: 0.0 }, gone: 0.0 })

@@ -173,9 +173,9 @@ impl MotionDiagram {
         // Divisions, their halves and quarters all have their middles among the rows.
         let stride = 8 * CURVE.div_ceil(8 * divisions);
         let rows = divisions * stride;
-        let sense = case.drive.sense();
-        let crank = |row: usize| case.drive.start + sense * TAU * (row as f64 / rows as f64);
-        let grid = Grid::of_cranks(&case.drive, (0..=rows).map(crank).collect());
+        let sense = case.crank().sense();
+        let crank = |row: usize| case.crank().start + sense * TAU * (row as f64 / rows as f64);
+        let grid = Grid::of_cranks(case.crank(), (0..=rows).map(crank).collect());
         let wanted = Wanted::of(&[Stage::Positions, Stage::Velocities, Stage::Accelerations]);
         let trajectory = solver.solve(&Case { wanted, ..case.on(grid) }, &mut |_| {})?;
         let column = |channel: &Channel| {

@@ -209,8 +209,8 @@ impl Plans {
 /// # Errors
 /// As [`Plans::at`].
 pub fn state_at(case: &Case, solver: &dyn Solver, crank: f64) -> Result<State> {
-    let grid = Grid::of_cranks(&case.drive, vec![crank]);
-    grid.check(&case.drive)
+    let grid = Grid::of_cranks(case.crank(), vec![crank]);
+    grid.check(case.crank())
         .map_err(|message| Error::new(ErrorKind::Input, message).help("give a crank angle in degrees, as 70 or -30"))?;
     let wanted = Wanted::of(&[Stage::Positions, Stage::Velocities, Stage::Accelerations]);
     let case = Case { wanted, ..case.on(grid) };

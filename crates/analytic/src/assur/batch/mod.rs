@@ -60,7 +60,7 @@ impl<'a> Batch<'a> {
             work: vec![Eight([0.0; TILE]); OF_DYAD * case.structure.groups.len()],
             arch: Arch::new(),
             poses,
-            crank: case.drive.start,
+            crank: case.crank().start,
         })
     }
 
@@ -137,13 +137,13 @@ struct Tiles<'a> {
 fn drive(case: &Case, dyads: &Dyads, asked: Asked, cranks: &[f64], tile: &mut [Eight]) {
     let mut own = [cranks[cranks.len() - 1]; TILE];
     own[..cranks.len()].copy_from_slice(cranks);
-    for (index, (drive, driver)) in case.drives().zip(&dyads.drivers).enumerate() {
-        let (mut angles, mut ratios) = (own.map(|crank| case.drive.world_angle(crank)), [1.0; TILE]);
+    for (index, (drive, driver)) in case.drives.iter().zip(&dyads.drivers).enumerate() {
+        let (mut angles, mut ratios) = (own.map(|crank| case.crank().world_angle(crank)), [1.0; TILE]);
         if index > 0 {
             for (row, crank) in own.into_iter().enumerate() {
-                let t = case.drive.time_of(crank);
+                let t = case.crank().time_of(crank);
                 angles[row] = drive.world_angle(drive.at(t).angle);
-                ratios[row] = case.ratios(t).nth(index).expect("every drive has a ratio");
+                ratios[row] = case.drives.ratios(t).nth(index).expect("every drive has a ratio");
             }
         }
         let link = driver.body.link;

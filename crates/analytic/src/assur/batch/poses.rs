@@ -31,7 +31,7 @@ impl Layout {
     pub(super) fn of(case: &Case, has_moments: bool) -> Self {
         let mechanism = &case.mechanism;
         let (links, joints) = (mechanism.links().len(), mechanism.joints().len());
-        Layout { links, joints, drives: case.drives().count(), has_moments }
+        Layout { links, joints, drives: case.drives.len(), has_moments }
     }
 
     /// First column of a link; the ground has none.
