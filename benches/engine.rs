@@ -65,11 +65,10 @@ fn main() {
                 let engine = engine.set(Settings { sweeps, ..engine.settings() });
                 let last = STEPS as f64 * step;
                 // Ten steps come before the start and after the end: the same work for both.
-                let none = base.on(Grid::of_times(base.crank(), vec![last]));
-                let none = Case { wanted: Wanted::of(&[]), ..none };
+                let none = base.on(Grid::of_times(base.crank(), vec![last])).unwrap().wanting(Wanted::of(&[]));
                 let all = |every: usize| {
                     let times = (0..=STEPS / every).map(|k| every as f64 * step * k as f64).collect();
-                    Case { wanted: Wanted::ALL, ..base.on(Grid::of_times(base.crank(), times)) }
+                    base.on(Grid::of_times(base.crank(), times)).unwrap().wanting(Wanted::ALL)
                 };
                 let (tenth, each) = (all(10), all(1));
                 let mut best = [f64::INFINITY; 4];

@@ -137,10 +137,10 @@ fn prices() {
     let base = scenario("crank_rocker").case;
     let (steps, step) = (1000, 1e-3);
     let last = steps as f64 * step;
-    let quiet = Case { wanted: Wanted::of(&[Stage::Positions]), ..base.on(Grid::of_times(base.crank(), vec![last])) };
-    let one = Case { wanted: Wanted::ALL, ..quiet.clone() };
+    let quiet = base.on(Grid::of_times(base.crank(), vec![last])).unwrap().wanting(Wanted::of(&[Stage::Positions]));
+    let one = quiet.wanting(Wanted::ALL);
     let times = (1..=steps).map(|k| k as f64 * step).collect();
-    let all = Case { wanted: Wanted::ALL, ..base.on(Grid::of_times(base.crank(), times)) };
+    let all = base.on(Grid::of_times(base.crank(), times)).unwrap().wanting(Wanted::ALL);
     let mut unit = f64::NAN;
     for engine in linkproof::engines::all(step).into_iter().filter(|engine| !engine.controls_error()) {
         let set = |sweeps, substeps, route| engine.with(Settings { sweeps, substeps, route, ..engine.settings() });

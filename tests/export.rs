@@ -136,7 +136,7 @@ fn a_slide_counts_as_its_channel_whichever_link_hangs_on_the_other() {
         axes.swap(0, 1);
     }
     let mechanism = Mechanism::new(case.mechanism.links().to_vec(), joints).unwrap();
-    let swapped = Case { mechanism, ..case };
+    let swapped = case.with(|parts| parts.mechanism = mechanism).unwrap();
     let backward = Document::read(&exported(&swapped, "backward"));
     let [a, b] = [&forward, &backward].map(|document| document.body(&piston).reference);
     assert!((a - slide[0]).abs() <= 1e-15 && (a + b).abs() <= 1e-15, "{a} {b}");
@@ -148,11 +148,11 @@ fn a_slide_counts_as_its_channel_whichever_link_hangs_on_the_other() {
 
 #[test]
 fn resistance_is_dry_friction_on_the_angle_of_the_link() {
-    let mut case = common::shipped("crank_rocker.toml").case;
+    let case = common::shipped("crank_rocker.toml").case;
     let [coupler, rocker] = ["coupler", "rocker"].map(|name| case.mechanism.link_named(name).unwrap());
     // Two loads on one link add up.
-    case.loads.push(Load::Resistance { link: rocker, moment: 20.0 });
-    case.loads.push(Load::Resistance { link: coupler, moment: 7.0 });
+    let more = [(rocker, 20.0), (coupler, 7.0)].map(|(link, moment)| Load::Resistance { link, moment });
+    let case = case.with(|parts| parts.loads.extend(more)).unwrap();
     let document = Document::read(&exported(&case, "loads"));
     assert_eq!(document.body("rocker").friction, 120.0);
     assert_eq!(document.body("coupler").friction, 0.0);
@@ -160,9 +160,9 @@ fn resistance_is_dry_friction_on_the_angle_of_the_link() {
     let path = vec![("O".to_string(), 1.0), ("A".to_string(), 1.0)];
     assert_eq!(document.tendons, [("coupler".to_string(), 7.0, path)]);
 
-    let mut case = common::shipped("compressor.toml").case;
+    let case = common::shipped("compressor.toml").case;
     let piston = case.mechanism.link_named("piston_3").unwrap();
-    case.loads = vec![Load::Resistance { link: piston, moment: 5.0 }];
+    let case = case.with(|parts| parts.loads = vec![Load::Resistance { link: piston, moment: 5.0 }]).unwrap();
     let document = Document::read(&exported(&case, "piston"));
     assert!(document.tendons.is_empty() && document.bodies.iter().all(|body| body.friction == 0.0));
 }
@@ -172,8 +172,11 @@ fn links_without_mass_are_lent_a_small_one() {
     let case = common::shipped("crank_rocker.toml").case;
     let mut links = case.mechanism.links().to_vec();
     (links[2].mass, links[2].inertia) = (0.0, 0.0);
-    let light =
-        Case { mechanism: Mechanism::new(links.clone(), case.mechanism.joints().to_vec()).unwrap(), ..case.clone() };
+    let of = |links: &[linkage::mechanism::Link]| {
+        let mechanism = Mechanism::new(links.to_vec(), case.mechanism.joints().to_vec()).unwrap();
+        case.with(|parts| parts.mechanism = mechanism).unwrap()
+    };
+    let light = of(&links);
     let document = Document::read(&exported(&light, "light"));
     let total: f64 = links.iter().map(|link| link.mass).sum();
     let coupler = document.body("coupler");
@@ -181,7 +184,7 @@ fn links_without_mass_are_lent_a_small_one() {
     assert_eq!(document.body("rocker").mass, links[3].mass);
     // Without any mass there is still a motion to show.
     links.iter_mut().for_each(|link| (link.mass, link.inertia) = (0.0, 0.0));
-    let none = Case { mechanism: Mechanism::new(links, case.mechanism.joints().to_vec()).unwrap(), ..case };
+    let none = of(&links);
     assert!(
         Document::read(&exported(&none, "none")).bodies.iter().all(|body| body.mass > 0.0 && body.inertia[2] > 0.0)
     );
@@ -213,7 +216,7 @@ fn renamed(names: [&str; 4], joint: &str) -> Case {
     }
     let mut joints = case.mechanism.joints().to_vec();
     joints[1].name = joint.into();
-    Case { mechanism: Mechanism::new(links, joints).unwrap(), ..case }
+    case.with(|parts| parts.mechanism = Mechanism::new(links, joints).unwrap()).unwrap()
 }
 
 #[test]
@@ -243,7 +246,7 @@ fn names_that_mujoco_does_not_take_are_refused() {
     let mut links = case.mechanism.links().to_vec();
     links[2].points.push(linkage::mechanism::Point { name: "B.first".into(), local: Vec2::new(0.1, 0.0) });
     let mechanism = Mechanism::new(links, case.mechanism.joints().to_vec()).unwrap();
-    refused(&Case { mechanism, ..case }, &["two sites", "B.first"]);
+    refused(&case.with(|parts| parts.mechanism = mechanism).unwrap(), &["two sites", "B.first"]);
 }
 
 #[test]

@@ -90,7 +90,7 @@ fn on_grid(case: &Case, args: &Args) -> Result<Case> {
     grid.check(case.crank()).map_err(|message| {
         Error::new(ErrorKind::Input, message).help("check the unit and size of --crank-deg or --times")
     })?;
-    Ok(case.on(grid))
+    case.on(grid)
 }
 
 /// One row an instant, 17 significant digits: every double is read back as the one that was written.

@@ -32,10 +32,10 @@ use std::path::{Path, PathBuf};
 
 use self::reader::{Sign, Table};
 use self::source::Source;
-use linkage::case::{Case, Grid};
+use linkage::case::{Case, CaseParts, Grid};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::mechanism::assembly::{Choice, first_choices};
-use linkage::mechanism::{Mechanism, Pose, StartGroup, Structure};
+use linkage::mechanism::{Mechanism, StartGroup, Structure};
 
 /// Version of the file format that this crate reads.
 pub const FORMAT: i64 = 1;
@@ -110,7 +110,7 @@ impl Scenario {
     /// [`ErrorKind::Input`] if a group, its mode or its number is not known; those of [`first_choices`] for the groups after it.
     pub fn with_modes(&self, asked: &[String]) -> Result<Scenario> {
         let mut changed = self.clone();
-        let case = &mut changed.case;
+        let case = &self.case;
         for text in asked {
             let (index, start) = start::asked(text, &case.mechanism, &case.structure)?;
             changed.starts[index] = start;
@@ -120,8 +120,10 @@ impl Scenario {
         if pose != case.start {
             changed.oracles.clear();
         }
-        case.modes = choices.iter().map(|choice| choice.mode).collect();
-        case.start = pose;
+        changed.case = case.with(|parts| {
+            parts.modes = choices.iter().map(|choice| choice.mode).collect();
+            parts.start = pose;
+        })?;
         changed.choices = choices;
         Ok(changed)
     }
@@ -156,12 +158,9 @@ fn read(root: &mut Table) -> Result<Scenario> {
     let wanted = settings::wanted(channels)?;
     let (dt, engine) = settings::engine(engine, drives.crank())?;
     let engine_rel = settings::engine_rel(tolerances)?;
-    let (start, modes) = (Pose(Vec::new()), Vec::new());
-    let mut case =
-        Case { mechanism, structure, drives, loads, gravity, start, modes, grid, wanted };
-    let (pose, choices) = first_choices(&case.mechanism, &case.structure, &case.drives.world_angles(crank), &starts)?;
-    case.modes = choices.iter().map(|choice| choice.mode).collect();
-    case.start = pose;
+    let (start, choices) = first_choices(&mechanism, &structure, &drives.world_angles(crank), &starts)?;
+    let modes = choices.iter().map(|choice| choice.mode).collect();
+    let case = Case::new(CaseParts { mechanism, structure, drives, loads, gravity, start, modes, grid, wanted })?;
     let oracles = oracle::read(oracles, &case)?;
     let series = oracles.iter().flat_map(|oracle| &oracle.series);
     let published =

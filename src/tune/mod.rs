@@ -13,7 +13,7 @@ use crate::proof::Options;
 use crate::scenario::Scenario;
 use analytic::AssurSolver;
 use bench::{Bench, Outcome};
-use linkage::case::{Case, Wanted};
+use linkage::case::Wanted;
 use linkage::engine::{Engine, Settings};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::solver::Solver;
@@ -84,7 +84,7 @@ pub fn tune(
     }
     let wanted = wanted_channels(scenario, wish)?;
     let stages: Vec<Stage> = wanted.iter().map(|channel| channel.kind.stage).collect();
-    let case = Case { wanted: Wanted::of(&stages), ..scenario.case.clone() };
+    let case = scenario.case.wanting(Wanted::of(&stages));
     let reference = AssurSolver.solve(&case, &mut |_| {})?;
     let engines = options.engines(scenario)?;
     let mut bench = Bench { case: &case, reference: &reference, wanted: &wanted, price, runs: 0, refused: false };

@@ -147,7 +147,11 @@ fn higher_groups_bear_loads_too() {
                     let drives = case.drives.iter().zip(&state.torques);
                     let driving: f64 = drives.map(|(drive, torque)| torque * state.motions[drive.link].omega).sum();
                     let power = driving + power::of_known_forces(case, &state);
-                    assert!(power.abs() < 1e-11 * scale * case.drives.top_speed(), "{name} {}: {power:e}", solver.name());
+                    assert!(
+                        power.abs() < 1e-11 * scale * case.drives.top_speed(),
+                        "{name} {}: {power:e}",
+                        solver.name()
+                    );
                 }
             }
         }

@@ -189,9 +189,7 @@ fn every_kind_of_joint_is_tested() {
 /// A four-bar whose links all lie along one line: nothing determines the force along it.
 #[test]
 fn a_dead_point_is_said() {
-    let mechanism = linkage::fixtures::four_bar();
-    let (_, mut case) = shipped().into_iter().find(|(name, _)| name.ends_with("crank_rocker.toml")).unwrap();
-    case.mechanism = mechanism;
+    let case = linkage::fixtures::turning(linkage::fixtures::four_bar());
     let mut state = State::at_rest(&case);
     for motion in &mut state.motions {
         motion.alpha = 1.0;

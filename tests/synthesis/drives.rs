@@ -132,7 +132,10 @@ fn a_class_three_group_is_searched() {
         &task.starts,
     )
     .unwrap();
-    let case = linkage::case::Case { mechanism, drive, start, modes, ..task.case.clone() };
+    let case = task.case.with(|parts| {
+        (parts.mechanism, parts.drives, parts.start, parts.modes) = (mechanism, drive.into(), start, modes);
+    });
+    let case = case.unwrap();
     let better = Achieved::of(&Task { case, ..task.clone() }, found.forward).unwrap();
     let (own, published) = measured("eyelet_needle", shipped("ov7_new.toml"));
     eprintln!("{} against {}", better.unrest(&task), published.unrest(&own));

@@ -46,7 +46,7 @@ pub struct Met {
 pub fn thinned(mut scenario: Scenario, every: usize) -> Scenario {
     let grid = &scenario.case.grid;
     let times = grid.times.iter().step_by(every).copied().collect();
-    scenario.case.grid = Grid::of_times(scenario.case.crank(), times);
+    scenario.case = scenario.case.on(Grid::of_times(scenario.case.crank(), times)).unwrap();
     scenario
 }
 

@@ -1,7 +1,11 @@
 //! What every solver is given: the mechanism, what drives and loads it, where it starts, and what is wanted.
 
-use std::f64::consts::TAU;
+mod check;
 
+use std::f64::consts::TAU;
+use std::ops::Deref;
+
+use crate::Result;
 use crate::drive::{Action, Drive, Drives, Load, Motor, Setting, Wrench};
 use crate::math::statistics::ascending;
 use crate::math::{Motion, Vec2};
@@ -114,12 +118,12 @@ impl Wanted {
     }
 }
 
-/// A problem, ready for any solver. SI units, world axes.
+/// What a [`Case`] is made of, not checked yet. SI units, world axes.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Case {
+pub struct CaseParts {
     /// The mechanism.
     pub mechanism: Mechanism,
-    /// Its driving link and Assur groups.
+    /// Its driving links and Assur groups.
     pub structure: Structure,
     /// What moves the mechanism, in the order of [`Structure::drivers`].
     pub drives: Drives,
@@ -137,7 +141,93 @@ pub struct Case {
     pub wanted: Wanted,
 }
 
+/// A problem, ready for any solver: parts that fit together. They are read as fields, `case.mechanism` for one; what changes them gives a new case, and
+/// checks it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Case(CaseParts);
+
+impl Deref for Case {
+    type Target = CaseParts;
+
+    #[inline]
+    fn deref(&self) -> &CaseParts {
+        &self.0
+    }
+}
+
 impl Case {
+    /// The case of these parts.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Input`](crate::ErrorKind::Input) with the part at fault as key, if drives, loads, start pose or modes do not belong to the mechanism or
+    /// hold numbers that are none, or the structure is not that of mechanism and drives; [`ErrorKind::Geometry`](crate::ErrorKind::Geometry) if the start pose
+    /// leaves a joint open or a driving link off its angle; [`ErrorKind::Unsupported`](crate::ErrorKind::Unsupported) for drives that this version does not solve
+    /// together; those of [`Structure::of`] and [`Grid::check`].
+    pub fn new(parts: CaseParts) -> Result<Case> {
+        check::all(&parts)?;
+        Ok(Case(parts))
+    }
+
+    /// The case of these parts, whatever they are: for tests that plant a fault and ask who notices it.
+    #[cfg(any(test, feature = "fixtures"))]
+    #[doc(hidden)]
+    #[must_use]
+    pub fn unchecked(parts: CaseParts) -> Case {
+        Case(parts)
+    }
+
+    /// The parts, to be changed and put together again.
+    #[must_use]
+    pub fn into_parts(self) -> CaseParts {
+        self.0
+    }
+
+    /// The same problem with some parts changed by `change`.
+    ///
+    /// # Errors
+    /// Those of [`Case::new`].
+    pub fn with(&self, change: impl FnOnce(&mut CaseParts)) -> Result<Case> {
+        let mut parts = self.0.clone();
+        change(&mut parts);
+        Case::new(parts)
+    }
+
+    /// The same problem on another grid.
+    ///
+    /// # Errors
+    /// Those of [`Grid::check`].
+    pub fn on(&self, grid: Grid) -> Result<Case> {
+        check::grid(&grid, self.crank())?;
+        Ok(Case(CaseParts { grid, ..self.0.clone() }))
+    }
+
+    /// The same problem with other channels wanted.
+    #[must_use]
+    pub fn wanting(&self, wanted: Wanted) -> Case {
+        Case(CaseParts { wanted, ..self.0.clone() })
+    }
+
+    /// The same problem with another motor of the crank, or without one.
+    ///
+    /// # Errors
+    /// Those of [`Case::new`]: of a motor whose numbers are none.
+    pub fn with_motor(&self, motor: Option<Motor>) -> Result<Case> {
+        self.with(|parts| *parts.drives.crank_mut() = self.crank().with_motor(motor))
+    }
+
+    /// The same problem with every drive in its nominal motion: what questions about crank angles are about.
+    #[must_use]
+    pub fn nominal(&self) -> Case {
+        Case(CaseParts { drives: self.drives.map(Drive::nominal), ..self.0.clone() })
+    }
+
+    /// The same problem with the crank turning at its drive's top speed all the time.
+    #[must_use]
+    pub fn at_top_speed(&self) -> Case {
+        let mut drives = self.drives.clone();
+        *drives.crank_mut() = self.crank().at_top_speed();
+        Case(CaseParts { drives, ..self.0.clone() })
+    }
     /// The wanted channels in the order of columns: links, points, joints, sliders, frame, drive, further drives; within each as in [`CHANNELS`].
     #[must_use]
     pub fn channels(&self) -> Vec<Channel> {
@@ -173,38 +263,10 @@ impl Case {
         self.drives.iter().any(Drive::is_free)
     }
 
-    /// The same problem with every drive in its nominal motion: what questions about crank angles are about.
-    #[must_use]
-    pub fn nominal(&self) -> Case {
-        Case { drives: self.drives.map(Drive::nominal), ..self.clone() }
-    }
-
     /// Whether all driving links turn with constant speeds.
     #[must_use]
     pub fn is_steady(&self) -> bool {
         !self.is_free() && self.drives.iter().all(|drive| drive.constant_speed().is_some())
-    }
-
-    /// The same problem with the crank turning at its drive's top speed all the time.
-    #[must_use]
-    pub fn at_top_speed(&self) -> Case {
-        let mut drives = self.drives.clone();
-        *drives.crank_mut() = self.crank().at_top_speed();
-        Case { drives, ..self.clone() }
-    }
-
-    /// The same problem with another motor of the crank, or without one.
-    #[must_use]
-    pub fn with_motor(&self, motor: Option<Motor>) -> Case {
-        let mut drives = self.drives.clone();
-        *drives.crank_mut() = self.crank().with_motor(motor);
-        Case { drives, ..self.clone() }
-    }
-
-    /// The same problem on another grid.
-    #[must_use]
-    pub fn on(&self, grid: Grid) -> Case {
-        Case { grid, ..self.clone() }
     }
 
     /// Hands what every load does to every link, the ground included, to `put`; `motions` and `angles` (rad, turns kept) are those of all

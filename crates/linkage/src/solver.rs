@@ -78,7 +78,7 @@ pub struct State {
     pub forces: Vec<Vec2>,
     /// Moment of the first link on the second in every joint, about the joint's place on the second (N m); 0 in revolute joints.
     pub moments: Vec<f64>,
-    /// Balancing moment on every driving link (N m), in the order of [`Case::drives`].
+    /// Balancing moment on every driving link (N m), in the order of [`CaseParts::drives`](crate::case::CaseParts::drives).
     pub torques: Vec<f64>,
 }
 

@@ -116,7 +116,7 @@ pub trait World {
     /// Sets the time step (s).
     fn set_step(&mut self, step: f64);
 
-    /// Sets the angular velocity (rad/s, counter-clockwise positive) that a drive, by its number in [`Case::drives`], gives its link.
+    /// Sets the angular velocity (rad/s, counter-clockwise positive) that a drive, by its number in [`drives`](linkage::case::CaseParts::drives), gives its link.
     fn set_drive(&mut self, drive: usize, omega: f64);
 
     /// Leaves a drive to a motor: moment (N m) on its link of `damping` (N m s/rad, not negative) times what `target` (rad/s) is ahead of the speed at the END of

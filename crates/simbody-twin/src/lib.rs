@@ -140,7 +140,7 @@ impl Solver for Simbody {
         let backwards: Vec<usize> = before.iter().rev().copied().collect();
         let mut state = State::at_rest(case);
         // Resistances are forces of Simbody's own; the others are set wherever reactions are read.
-        let others = Case { loads: other_loads(case), ..case.clone() };
+        let others = case.with(|parts| parts.loads = other_loads(case))?;
         let mut wrenches = vec![Wrench::ZERO; case.mechanism.links().len()];
         for (sense, rows, end) in [(-1.0, backwards.as_slice(), ends[0]), (1.0, after, ends[1])] {
             if rows.is_empty() {

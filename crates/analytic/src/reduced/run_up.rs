@@ -230,7 +230,8 @@ impl RunUp {
             times: motion.iter().map(|instant| instant.t).collect(),
             cranks: motion.iter().map(|instant| instant.crank).collect(),
         };
-        let case: Case = model.case.on(grid);
+        // Forces decide this motion: no law of the crank is asked where it ends.
+        let case = model.case.at_top_speed().on(grid)?;
         let mut sampler = Sampler::new(&case);
         let (mut natural, size) = (0.0f64, case.mechanism.size());
         states(&case, &motion, &mut |row, state| {

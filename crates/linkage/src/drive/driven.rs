@@ -1,6 +1,6 @@
 //! A driving link, and what moves it.
 
-use super::{DriveState, Motor, MotionLaw};
+use super::{DriveState, MotionLaw, Motor};
 
 /// What moves a driving link.
 #[derive(Clone, Debug, PartialEq)]
@@ -263,7 +263,11 @@ mod tests {
                 let h = 1e-5;
                 let [back, here, ahead] = [t - h, t, t + h].map(|t| drive.at(t));
                 let (omega, alpha) = ((ahead.angle - back.angle) / (2.0 * h), (ahead.omega - back.omega) / (2.0 * h));
-                assert!((omega - here.omega).abs() < 1e-7 && (alpha - here.alpha).abs() < 1e-5, "{t} {:?}", drive.motion);
+                assert!(
+                    (omega - here.omega).abs() < 1e-7 && (alpha - here.alpha).abs() < 1e-5,
+                    "{t} {:?}",
+                    drive.motion
+                );
                 assert!(here.omega.abs() <= drive.top_speed().abs() * (1.0 + 1e-12), "{t} {:?}", drive.motion);
                 let step = drive.step_speed(t, t + h);
                 assert!((drive.at(t).angle + step * h - ahead.angle).abs() < 1e-15);

@@ -68,7 +68,7 @@ impl Choice {
         };
         let geared = motor.geared_to(wanted, efficiency);
         let Some(averaged) = geared.steady_speed(mean) else { return Err(means::no_steady_speed(mean)) };
-        let driven = case.with_motor(Some(geared.clone()));
+        let driven = case.with_motor(Some(geared.clone()))?;
         let regime = Model::of(&driven)?.regime(&[], ACCURACY)?;
         Ok(Choice {
             peak: resistance.greatest,

@@ -122,7 +122,7 @@ impl Poses {
         if self.layout.has_moments { self.get(row, self.layout.moment(joint)) } else { 0.0 }
     }
 
-    /// Balancing moment on the driving link of the drive `drive` of [`Case::drives`] (N m), in the pose `row`.
+    /// Balancing moment on the driving link of the drive `drive` of [`drives`](linkage::case::CaseParts::drives) (N m), in the pose `row`.
     #[must_use]
     pub fn torque(&self, row: usize, drive: usize) -> f64 {
         self.get(row, self.layout.torque(drive))
