@@ -253,3 +253,6 @@ fn has_mode(kind: GroupKind, mode: AssemblyMode) -> bool {
         GroupKind::Higher => mode == Followed,
     }
 }
+
+#[cfg(test)]
+mod tests;
