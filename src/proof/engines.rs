@@ -244,7 +244,7 @@ fn unless_turning_about(
         return verdict;
     }
     // Differences and impulses reach over a few steps to either side.
-    let jump = case.drive.law.jump().filter(|jump| (residual.worst_time - jump).abs() <= JUMP_STEPS * resolution);
+    let jump = case.crank().jump().filter(|jump| (residual.worst_time - jump).abs() <= JUMP_STEPS * resolution);
     if let (Verdict::Disagree { place }, Some(jump)) = (&verdict, jump) {
         let reason = format!(
             "{place}, but at {jump} s the drive's acceleration jumps: leave the instants about it out of the grid"

@@ -196,7 +196,7 @@ pub(super) fn checks(case: &Case, reference: &dyn Solver) -> Result<Vec<Check>> 
 
 /// The crank at an instant: by its law, or as the state has it where forces decide the motion.
 fn crank_of(case: &Case, row: usize, state: &State) -> DriveState {
-    let drive = &case.drive;
+    let drive = case.crank();
     if !case.is_free() {
         return DriveState { angle: case.grid.cranks[row], ..drive.at(case.grid.times[row]) };
     }

@@ -96,7 +96,7 @@ fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: 
     checks.extend(oracle::checks(scenario)?);
 
     let sensitivity = sensitivity::of(case, main, &own.trajectory)?;
-    let engine_case = engine_case.on(case.grid.clone());
+    let engine_case = engine_case.on(case.grid.clone())?;
     let mut proofs = Vec::with_capacity(engines.len());
     for (index, engine) in engines.iter().enumerate() {
         let mut part = |part: f64| progress((index as f64 + part) / engines.len() as f64);

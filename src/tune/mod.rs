@@ -17,7 +17,7 @@ use crate::scenario::Scenario;
 use analytic::AssurSolver;
 use analytic::range::explained;
 use bench::{Bench, Outcome};
-use linkage::case::{Case, Wanted};
+use linkage::case::Wanted;
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Stage};
@@ -67,7 +67,7 @@ pub fn tune(
     }
     let wanted = wanted_channels(scenario, wish)?;
     let stages: Vec<Stage> = wanted.iter().map(|channel| channel.kind.stage).collect();
-    let case = Case { wanted: Wanted::of(&stages), ..scenario.case.clone() };
+    let case = scenario.case.wanting(Wanted::of(&stages));
     let reference = AssurSolver.solve(&case, &mut |_| {}).map_err(|error| explained(&case, error))?;
     let engines = options.engines(scenario)?;
     let mut bench = Bench { case: &case, reference: &reference, wanted: &wanted, price, runs: 0, refused: false };

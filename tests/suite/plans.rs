@@ -102,7 +102,7 @@ fn every_contour_of_every_plan_closes() {
 #[test]
 fn the_image_of_a_link_is_similar_to_it() {
     for (name, degrees) in all() {
-        let mechanism = scenario(name).case.mechanism;
+        let mechanism = scenario(name).case.mechanism.clone();
         let plans = plans(name, degrees);
         // Points of the ground lie in the pole, and have no vector.
         let end = |plan: &Plan, name: &str| {

@@ -92,7 +92,7 @@ fn every_link_is_in_equilibrium() {
                 let middle = centre(case, &state, index);
                 let mut force = (case.gravity - centre_acceleration(case, &state, index)) * link.mass;
                 let mut moment = -link.inertia * state.motions[index].alpha;
-                if index == case.drive.link {
+                if index == case.crank().link {
                     moment += state.torques[0];
                 }
                 for (joint, (reaction, own)) in

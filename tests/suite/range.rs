@@ -282,10 +282,10 @@ fn groups_of_four_links_lose_two_configurations_at_their_limits() {
             };
             let count = |crank: f64| {
                 let mut pose = Pose(vec![LinkPose::GROUND; case.mechanism.links().len()]);
-                let joint = &case.mechanism.joints()[case.drive.joint];
-                let pivot = joint.other(case.drive.link).local;
-                let own = joint.on(case.drive.link).unwrap();
-                pose.0[case.drive.link] = LinkPose::through(own, pivot, case.drive.world_angle(crank));
+                let joint = &case.mechanism.joints()[case.crank().joint];
+                let pivot = joint.other(case.crank().link).local;
+                let own = joint.on(case.crank().link).unwrap();
+                pose.0[case.crank().link] = LinkPose::through(own, pivot, case.crank().world_angle(crank));
                 configurations(&case.mechanism, &case.structure.groups[0], &pose).map_or(0, |all| all.len() as i32)
             };
             for (limit, outwards) in [(from, -1.0), (to, 1.0)] {
@@ -310,7 +310,7 @@ fn a_singular_start_is_refused() {
 }
 
 fn asked(case: &Case, degrees: f64) -> Case {
-    case.on(Grid::of_cranks(&case.drive, vec![degrees.to_radians()]))
+    case.on(Grid::of_cranks(case.crank(), vec![degrees.to_radians()])).unwrap()
 }
 
 /// Both solvers and the list of configurations say what can be reached, to 1e-6 deg.
@@ -351,8 +351,8 @@ fn an_angle_out_of_reach_is_answered_with_the_interval() {
 fn configurations_that_meet_have_no_velocities() {
     let lengths = [0.4, 0.35, 0.3, 0.2];
     let case = started(lengths, true).unwrap().scenario().unwrap().case;
-    let [_, to] = closed_form(lengths, case.drive.start).unwrap();
-    let far = modes::all(&case, case.drive.start).unwrap();
+    let [_, to] = closed_form(lengths, case.crank().start).unwrap();
+    let far = modes::all(&case, case.crank().start).unwrap();
     assert!(
         far[0]
             .modes

@@ -58,7 +58,7 @@ fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
 /// The methods at the given states of a solver.
 fn differences(case: &Case, triad: &Triad, states: &[State], times: &[f64]) -> Differences {
     let links = triad.links();
-    let speed = case.drive.at(0.0).omega;
+    let speed = case.crank().at(0.0).omega;
     let all =
         |of: &dyn Fn(&State, usize) -> f64| largest(states.iter().flat_map(|s| links.map(|link| of(s, link).abs())));
     let omega = all(&|state, link| state.motions[link].omega).max(speed.abs());
@@ -79,7 +79,7 @@ fn differences(case: &Case, triad: &Triad, states: &[State], times: &[f64]) -> D
         compare(&mut found.cramer, cramer::rates(triad, motions).unwrap());
         keep(&mut found.condition, Contours::of(triad, motions).condition());
         if let Ok(change) = &mut change {
-            let drive = case.drive.at(time);
+            let drive = case.crank().at(time);
             let transfer = change.solve(drive.angle).unwrap_or_else(|error| panic!("{error}"));
             for (link, direction) in links.into_iter().zip(transfer.directions) {
                 keep(&mut found.change[0], (direction - motions[link].direction).norm());
@@ -248,7 +248,7 @@ fn mechanism(draw: &mut Draw, moving: bool) -> Option<Scenario> {
 /// Whether the class change, too, says that the group cannot be followed to one of the times.
 fn class_change_is_lost(case: &Case, times: &[f64]) -> bool {
     match ClassChange::new(case, &only_triad(case)) {
-        Ok(mut change) => times.iter().any(|&time| change.solve(case.drive.at(time).angle).is_err()),
+        Ok(mut change) => times.iter().any(|&time| change.solve(case.crank().at(time).angle).is_err()),
         Err(error) => error.kind() == ErrorKind::Geometry,
     }
 }

@@ -78,7 +78,7 @@ pub struct State {
     pub forces: Vec<Vec2>,
     /// Moment of the first link on the second in every joint, about the joint's place on the second (N m); 0 in revolute joints.
     pub moments: Vec<f64>,
-    /// Balancing moment on every driving link (N m), in the order of [`Case::drives`].
+    /// Balancing moment on every driving link (N m), in the order of [`CaseParts::drives`](crate::case::CaseParts::drives).
     pub torques: Vec<f64>,
 }
 
@@ -91,7 +91,7 @@ impl State {
             angles: vec![0.0; case.mechanism.links().len()],
             forces: vec![Vec2::zeros(); case.mechanism.joints().len()],
             moments: vec![0.0; case.mechanism.joints().len()],
-            torques: vec![0.0; case.drives().count()],
+            torques: vec![0.0; case.drives.len()],
         }
     }
 
@@ -192,7 +192,7 @@ impl Sampler {
         let (at, width) = (self.rows.len() - self.kept, self.channels.len());
         self.rows.push(row);
         if case.is_free() {
-            self.cranks[row] = state.angles[case.drive.link] - case.drive.zero;
+            self.cranks[row] = state.angles[case.crank().link] - case.crank().zero;
         }
         let has = |stage| self.wanted.has(stage);
         let wanted = [has(Stage::Positions), has(Stage::Velocities), has(Stage::Accelerations)];
@@ -220,7 +220,7 @@ impl Sampler {
         if has(Stage::BalancingMoment) {
             let (force, moment) = state.shaking(case);
             out.put([force.x, force.y, moment]);
-            case.moved().for_each(|(index, _)| out.put([state.torques[index]]));
+            case.drives.with_moment().for_each(|(index, _)| out.put([state.torques[index]]));
         }
         debug_assert!(out.values.is_empty(), "as many values as channels");
     }

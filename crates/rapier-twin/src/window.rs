@@ -18,7 +18,7 @@ const WIDTH: usize = 3;
 /// second. In a multibody nothing is seen of that; but links that move at once have no step before the first, only a straight line that leads there, and the
 /// first step takes no account of how transfer functions change.
 pub(super) fn first_steps(case: &Case, plain: bool) -> i64 {
-    let moving = case.drives().any(|drive| drive.initial_speed() != 0.0);
+    let moving = case.drives.iter().any(|drive| drive.initial_speed() != 0.0);
     if plain || moving { 2 } else { 0 }
 }
 

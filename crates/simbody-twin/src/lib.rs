@@ -52,9 +52,9 @@ impl Simbody {
             let message = format!("the engine's accuracy is {}", self.accuracy);
             return Err(Error::new(ErrorKind::Input, message).help("give an accuracy between 0 and 1, 1e-8 for one"));
         }
-        if let Some(drive) = case.drives().find(|drive| drive.law.constant().is_none()) {
+        if let Some(drive) = case.drives.iter().find(|drive| drive.constant_speed().is_none()) {
             let message =
-                format!("a drive with the law \"{}\" is not handed to Simbody by this version", drive.law.name());
+                format!("a drive with the law \"{}\" is not handed to Simbody by this version", drive.law_name());
             return Err(Error::new(ErrorKind::Unsupported, message).help(Advice::OtherEngine));
         }
         check_start(case)?;
@@ -72,7 +72,7 @@ impl Simbody {
         linkproof_simbody::Settings {
             accuracy: self.accuracy,
             tolerance: tolerance(case),
-            time_scale: 1.0 / case.fastest_drive(),
+            time_scale: 1.0 / case.drives.top_speed(),
             // An error of fourth order a step.
             steps: (MAX_STEPS * (Simbody::ACCURACY / self.accuracy).max(1.0).powf(0.25)) as usize,
         }
@@ -141,7 +141,7 @@ impl Solver for Simbody {
         let backwards: Vec<usize> = before.iter().rev().copied().collect();
         let mut state = State::at_rest(case);
         // Resistances are forces of Simbody's own; the others are set wherever reactions are read.
-        let others = Case { loads: other_loads(case), ..case.clone() };
+        let others = case.with(|parts| parts.loads = other_loads(case))?;
         let mut wrenches = vec![Wrench::ZERO; case.mechanism.links().len()];
         for (sense, rows, end) in [(-1.0, backwards.as_slice(), ends[0]), (1.0, after, ends[1])] {
             if rows.is_empty() {
@@ -215,7 +215,7 @@ fn check_start(case: &Case) -> Result<()> {
     };
     let widest = case.mechanism.joints().iter().reduce(|a, b| if gap(a) >= gap(b) { a } else { b });
     let name = widest.map_or("", |joint| joint.name.as_str());
-    let (crank, bound) = (case.drive.start, LARGEST_GAP * case.mechanism.size());
+    let (crank, bound) = (case.crank().start, LARGEST_GAP * case.mechanism.size());
     let degrees = crank.to_degrees();
     let message = format!(
         "the pose at t = 0, crank angle {degrees:.4} deg, is open by {closure:.3e} m, most at joint \"{name}\""

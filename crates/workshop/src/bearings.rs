@@ -46,7 +46,7 @@ pub fn journal_diameter(force: f64, lever: f64, stress: f64) -> f64 {
 /// # Errors
 /// Those of [`PoseSolver::solve`], for crank angles in between that cannot be reached.
 pub fn over_range(case: &Case) -> Result<Peaks> {
-    if case.grid.cranks.iter().any(|&crank| case.drive.time_of(crank).is_nan()) {
+    if case.grid.cranks.iter().any(|&crank| case.crank().time_of(crank).is_nan()) {
         let message =
             "peaks are looked for over the crank angle, but the drive's law may come to an angle more than once";
         return Err(Error::new(ErrorKind::Unsupported, message).help(Advice::SolutionTable));
@@ -102,7 +102,7 @@ impl Quantity {
 }
 
 fn at<'p>(case: &Case, poses: &'p mut PoseSolver, crank: f64) -> Result<&'p State> {
-    let drive = case.drive.at(case.drive.time_of(crank));
+    let drive = case.crank().at(case.crank().time_of(crank));
     poses.solve(crank, drive.omega, drive.alpha, Stage::BalancingMoment)
 }
 

@@ -61,7 +61,7 @@ fn parts_along_and_across_a_moving_guide_are_those_of_numerical_differentiation(
             rotated(Vec2::new(direction.x, -direction.y), place)
         };
         for degrees in angles().map(|degrees| degrees_of(name, degrees)) {
-            let omega = case.drive.at(0.0).omega;
+            let omega = case.crank().at(0.0).omega;
             let at = |k: f64| relative(degrees + (k * h).to_degrees());
             let [a, b, c, d, e] = [-2.0, -1.0, 0.0, 1.0, 2.0].map(at);
             let here = &state(&case, degrees).motions[guide.link];
@@ -201,7 +201,7 @@ fn guides_in_the_diagram_span_the_travel() {
     for name in SLIDERS {
         let case = scenario(name).case;
         let wanted = linkage::case::Wanted::of(&[Stage::Positions]);
-        let trajectory = AssurSolver.solve(&Case { wanted, ..case.clone() }, &mut |_| {}).unwrap();
+        let trajectory = AssurSolver.solve(&case.wanting(wanted), &mut |_| {}).unwrap();
         let plans = plans(name, degrees_of(name, 67.0));
         let sliding: Vec<_> = case.mechanism.joints().iter().filter(|joint| joint.is_prismatic()).collect();
         assert_eq!(plans.scheme.guides.len(), sliding.len());

@@ -110,7 +110,7 @@ fn slider_cranks_have_their_stroke() {
         let place = case.mechanism.links().iter().position(|link| link.name == "slider").unwrap();
         let cranks: Vec<f64> =
             [found.far[0], found.near[0]].into_iter().chain((0..3600).map(|k| f64::from(k) * TAU / 3600.0)).collect();
-        let times: Vec<f64> = cranks.iter().map(|&crank| case.drive.time_of(crank)).collect();
+        let times: Vec<f64> = cranks.iter().map(|&crank| case.crank().time_of(crank)).collect();
         let newton = states(&NewtonSolver, &case, &times).unwrap();
         let assur = states(&AssurSolver, &case, &times[..2]).unwrap();
         for (row, [_, x]) in [found.far, found.near].into_iter().enumerate() {

@@ -64,14 +64,14 @@ impl<'a> System<'a> {
             motions: vec![Motion::REST; links.len() + 1],
             angles: vec![0.0; links.len() + 1],
             loads: vec![Wrench::ZERO; links.len() + 1],
-            inputs: case.drives().map(|drive| by_law(drive, 0.0)).collect(),
+            inputs: case.drives.iter().map(|drive| by_law(drive, 0.0)).collect(),
         }
     }
 
     /// Sets the time, and the driving links as their laws have them then.
     pub(super) fn set_time(&mut self, t: f64) {
         self.time = t;
-        for (input, drive) in self.inputs.iter_mut().zip(self.case.drives()) {
+        for (input, drive) in self.inputs.iter_mut().zip(self.case.drives.iter()) {
             *input = by_law(drive, t);
         }
     }
@@ -93,7 +93,7 @@ impl<'a> System<'a> {
     /// The drives with their rows, which stand below those of the joints.
     pub(super) fn drives(&self) -> impl Iterator<Item = (usize, &'a Drive)> + use<'a> {
         let first = EQUATIONS * self.case.mechanism.joints().len();
-        self.case.drives().enumerate().map(move |(index, drive)| (first + index, drive))
+        self.case.drives.iter().enumerate().map(move |(index, drive)| (first + index, drive))
     }
 
     /// World position of a link's mass centre; the origin for the ground.

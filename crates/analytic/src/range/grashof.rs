@@ -84,7 +84,7 @@ impl FourBar {
     /// The four-bar that a case is; `None` if it is another mechanism.
     #[must_use]
     pub fn of(case: &Case) -> Option<Self> {
-        let (mechanism, drive) = (&case.mechanism, &case.drive);
+        let (mechanism, drive) = (&case.mechanism, case.crank());
         let joints = mechanism.joints();
         let [group] = case.structure.groups.as_slice() else { return None };
         if group.kind != GroupKind::Rrr || joints.len() != 4 || joints.iter().any(|j| j.kind != JointKind::Revolute) {

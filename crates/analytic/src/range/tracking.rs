@@ -79,7 +79,7 @@ impl<'a> Tracker<'a> {
     /// # Errors
     /// [`ErrorKind::Geometry`] if it is singular.
     pub(super) fn new(case: &'a Case) -> Result<(Self, Point)> {
-        let drive = &case.drive;
+        let drive = case.crank();
         let joint = &case.mechanism.joints()[drive.joint];
         let constraints = Constraints::of(&case.mechanism, joint.other(drive.link).local, gearings(case));
         let q = constraints.coordinates_of(&case.start);
@@ -105,7 +105,7 @@ impl<'a> Tracker<'a> {
 
     /// Crank angle of a pose as the scenario states it (rad).
     pub(super) fn crank_of(&self, q: &Column) -> f64 {
-        q[self.crank] - self.case.drive.zero
+        q[self.crank] - self.case.crank().zero
     }
 
     /// The crank's part of the tangent.
@@ -121,11 +121,11 @@ impl<'a> Tracker<'a> {
                     ErrorKind::Geometry,
                     format!(
                         "the start pose at crank angle {:.6} deg is singular: two configurations of the group ({names}) meet there",
-                        self.case.drive.start.to_degrees()
+                        self.case.crank().start.to_degrees()
                     ),
                 )
                 .key("start")
-                .at_crank(self.case.drive.start)
+                .at_crank(self.case.crank().start)
                 .of_group(names)
                 .help("start at another crank angle, where the configurations are apart"));
             }
@@ -386,8 +386,8 @@ fn neville_at_zero(known: &[(f64, &Column)]) -> Column {
 }
 /// Further drives as gearings. With constant speeds the ratios are constant.
 fn gearings(case: &Case) -> Vec<Gearing> {
-    let crank = &case.drive;
-    let further = case.further_drives.iter().zip(case.ratios(0.0).skip(1));
+    let crank = case.crank();
+    let further = case.drives.further().iter().zip(case.drives.ratios(0.0).skip(1));
     let gearing = |(drive, ratio): (&Drive, f64)| {
         let offset = drive.world_angle(drive.start) - ratio * crank.world_angle(crank.start);
         Gearing { crank: crank.link, link: drive.link, ratio, offset }

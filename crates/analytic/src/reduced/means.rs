@@ -20,7 +20,7 @@ pub fn moment_of_inertia(case: &Case, motions: &[Motion]) -> f64 {
         body.mass * motion.point_velocity(body.mass_centre).norm_squared() + body.inertia * motion.omega.powi(2)
     };
     let sum: f64 = motions.iter().enumerate().skip(1).map(energy).sum();
-    sum / motions[case.drive.link].omega.powi(2)
+    sum / motions[case.crank().link].omega.powi(2)
 }
 
 /// Reduced moment of resistance (N m): minus the power of gravity and loads over the driving link's speed, positive
@@ -32,7 +32,7 @@ pub fn moment_of_resistance(case: &Case, state: &State) -> f64 {
         case.gravity.dot(&motion.point_velocity(body.mass_centre)) * body.mass
     };
     let weights: f64 = state.motions.iter().enumerate().skip(1).map(power).sum();
-    -(weights + case.load_power(&state.motions, &state.angles)) / state.motions[case.drive.link].omega
+    -(weights + case.load_power(&state.motions, &state.angles)) / state.motions[case.crank().link].omega
 }
 
 /// Over which crank angles the reduced quantities repeat, and where they have kinks.
@@ -74,7 +74,7 @@ pub fn kinks(case: &Case) -> Result<Kinks> {
         Extent::FullTurn(turns) => (Some(turns.unsigned_abs()), None),
         Extent::Limited([from, to]) => (None, Some([from.crank, to.crank])),
     };
-    let start = case.drive.start;
+    let start = case.crank().start;
     let within = |crank: f64, period: f64| {
         let inside = (crank - start).rem_euclid(period);
         // A rounding before the start belongs to the start.
@@ -158,14 +158,14 @@ const PANEL: f64 = PI / 90.0;
 pub fn means_over_turn(case: &Case, solver: &dyn Solver) -> Result<Means> {
     let found = kinks(case)?;
     let Some(period) = found.period else { return Err(no_turn(&found)) };
-    let start = case.drive.start;
+    let start = case.crank().start;
     let mut breaks = vec![start];
     breaks.extend(found.cranks.iter().filter(|&&kink| kink > start));
     breaks.push(start + period);
     let nodes = quadrature::composite(&breaks, PANEL);
     let cranks = nodes.iter().map(|&(crank, _)| crank).collect();
     let steady = case.nominal().at_top_speed();
-    let turn = Case { wanted: Wanted::of(&[Stage::Velocities]), ..steady.on(Grid::of_cranks(&steady.drive, cranks)) };
+    let turn = steady.on(Grid::of_cranks(steady.crank(), cranks))?.wanting(Wanted::of(&[Stage::Velocities]));
     let mut means = Means { inertia: 0.0, resistance: 0.0 };
     let mut visit = |row: usize, state: &State| {
         means.inertia += moment_of_inertia(&turn, &state.motions) * nodes[row].1 / period;

@@ -72,7 +72,7 @@ struct Runner<'m, 'a> {
 
 impl<'m, 'a> Runner<'m, 'a> {
     fn begin(model: &'m Model<'a>, omega: f64) -> Result<Self> {
-        let crank = model.case.drive.start;
+        let crank = model.case.crank().start;
         let somewhere = Piece::unbounded();
         let flow = InTime(Forces::of(model, somewhere, 1f64.copysign(omega))?);
         Ok(Runner { flow, place: Place { x: 0.0, y: [crank, omega], h: 0.0 }, gone: 0.0 })
@@ -230,7 +230,8 @@ impl RunUp {
             times: motion.iter().map(|instant| instant.t).collect(),
             cranks: motion.iter().map(|instant| instant.crank).collect(),
         };
-        let case: Case = model.case.on(grid);
+        // Forces decide this motion: no law of the crank is asked where it ends.
+        let case = model.case.at_top_speed().on(grid)?;
         let mut sampler = Sampler::new(&case);
         let (mut natural, size) = (0.0f64, case.mechanism.size());
         states(&case, &motion, &mut |row, state| {

@@ -68,7 +68,7 @@ impl Model<'_> {
     fn extremes_of<const N: usize>(&self, quantities: [fn(&Row) -> f64; N]) -> Result<[Extremes; N]> {
         let Some(period) = self.kinks().period else { return Err(no_turn(self.kinks())) };
         let count = (period / SAMPLE_STEP).ceil();
-        let start = self.case.drive.start;
+        let start = self.case.crank().start;
         let mut cranks: Vec<f64> = (0..=count as usize).map(|k| start + period * (k as f64 / count)).collect();
         // A kink may be an extreme, and has no flat top.
         cranks.extend(&self.kinks().cranks);

@@ -114,7 +114,7 @@ struct Turn<'m, 'a> {
 impl<'m, 'a> Turn<'m, 'a> {
     fn of(model: &'m Model<'a>, period: f64) -> Result<Self> {
         let flow = OverAngle(Forces::of(model, Piece::unbounded(), model.sense)?);
-        Ok(Turn { flow, start: model.sense * model.case.drive.start, period })
+        Ok(Turn { flow, start: model.sense * model.case.crank().start, period })
     }
 
     /// Energy, time and share at the end of a period that begins with `energy` (J). Targets end steps.

@@ -115,7 +115,7 @@ impl Twin {
             Cut { joint, index, handle, plain, start: frame::Frame::default() }
         });
         let cuts = cuts.collect();
-        let motors = case.drives().map(|drive| {
+        let motors = case.drives.iter().map(|drive| {
             let joint = &mechanism.joints()[drive.joint];
             let links = [joint.first.link, joint.second.link];
             let data = joints::holding(JointAxesMask::empty(), joint, links)

@@ -61,11 +61,11 @@ impl Plans {
 /// # Errors
 /// As [`Plans::at`].
 pub fn state_at(case: &Case, solver: &dyn Solver, crank: f64) -> Result<State> {
-    let grid = Grid::of_cranks(&case.drive, vec![crank]);
-    grid.check(&case.drive)
+    let grid = Grid::of_cranks(case.crank(), vec![crank]);
+    grid.check(case.crank())
         .map_err(|message| Error::new(ErrorKind::Input, message).help("give a crank angle in degrees, as 70 or -30"))?;
     let wanted = Wanted::of(&[Stage::Positions, Stage::Velocities, Stage::Accelerations]);
-    let case = Case { wanted, ..case.on(grid) };
+    let case = case.on(grid)?.wanting(wanted);
     let mut found = State::at_start(&case);
     let mut visit = |_: usize, state: &State| {
         found = state.clone();

@@ -131,6 +131,6 @@ impl Scheme {
         let groups = case.structure.groups.iter();
         let singular =
             groups.filter_map(|group| SingularPoint::of(case, group, &state.motions).ok().flatten()).collect();
-        Scheme { scale, links, points, fixed, marks, guides, driver: case.drive.link, singular }
+        Scheme { scale, links, points, fixed, marks, guides, driver: case.crank().link, singular }
     }
 }

@@ -136,7 +136,7 @@ pub fn travels(case: &Case, solver: &dyn Solver, state: &State, slides: &[Slide]
         }
         Ok(())
     };
-    let case = Case { wanted: Wanted::of(&[Stage::Positions]), ..case.clone() };
+    let case = case.wanting(Wanted::of(&[Stage::Positions]));
     // A grid that the crank cannot follow to its end still shows how far the sliders came.
     let _ = solver.sweep(&case, &mut visit, &mut |_| {});
     travels

@@ -54,7 +54,7 @@ impl Achieved {
         let turns: Vec<f64> = (0..=ROWS).map(|row| TAU * (row as f64 / ROWS as f64)).collect();
         let as_drawn = Task { places: Vec::new(), ..task.clone() };
         let mut evaluator = Evaluator::new(&as_drawn);
-        evaluator.run(&[], task.case.drive.zero, &turns).map_err(|_| {
+        evaluator.run(&[], task.case.crank().zero, &turns).map_err(|_| {
             let message =
                 "the mechanism cannot be assembled over a whole turn of its crank, or its output does not rock";
             Error::new(ErrorKind::Geometry, message).help(Advice::LookAtRange)

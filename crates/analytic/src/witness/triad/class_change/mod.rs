@@ -95,7 +95,7 @@ impl ClassChange {
     /// [`ErrorKind::Unsupported`] if the group does not hang with two leads on the ground and with the third on a driving link that turns;
     /// [`ErrorKind::Geometry`] if the start pose is a dead point.
     pub fn new(case: &Case, triad: &Triad) -> Result<Self> {
-        let (mechanism, drive) = (&case.mechanism, &case.drive);
+        let (mechanism, drive) = (&case.mechanism, case.crank());
         let hung_on = |link: usize| (0..3).filter(move |&k| triad.leads[k].support.link == link);
         let grounds: Vec<usize> = hung_on(GROUND).collect();
         let driven: Vec<usize> = hung_on(drive.link).collect();
@@ -281,7 +281,7 @@ fn names(case: &Case, triad: &Triad) -> String {
 fn unsupported(case: &Case, triad: &Triad) -> Error {
     let links = case.mechanism.links();
     let supports = triad.leads.map(|lead| links[lead.support.link].name.as_str()).join(", ");
-    let (names, crank) = (names(case, triad), &links[case.drive.link].name);
+    let (names, crank) = (names(case, triad), &links[case.crank().link].name);
     let message = format!(
         "class change asks for a group with two leads on the ground and one on the driving link \"{crank}\", turning about the ground; the leads of the group ({names}) hang on: {supports}"
     );
