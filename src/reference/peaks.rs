@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::PoseSolver;
 use crate::case::Case;
 use crate::error::{Error, ErrorKind, Result};
-use crate::math::golden;
+use crate::math::extremum;
 use crate::solver::State;
 use crate::trajectory::Stage;
 
@@ -111,6 +111,6 @@ fn at<'p>(case: &Case, poses: &'p mut PoseSolver, crank: f64) -> Result<&'p Stat
 /// The largest sample and, by golden section between its neighbours, the largest value there.
 fn refined(case: &Case, poses: &mut PoseSolver, quantity: Quantity, cranks: &[f64], samples: &[f64]) -> Result<Peak> {
     let mut value = |crank: f64| -> Result<f64> { Ok(quantity.of(case, at(case, poses, crank)?)) };
-    let (crank, value) = golden::greatest(cranks, samples, &mut value)?;
+    let (crank, value) = extremum::greatest(cranks, samples, &mut value)?;
     Ok(Peak { value, crank })
 }

@@ -3,7 +3,7 @@
 use super::super::{PoseSolver, reduced::no_turn};
 use super::model::Model;
 use crate::error::Result;
-use crate::math::golden;
+use crate::math::extremum;
 use std::f64::consts::PI;
 
 /// Crank angle between two samples, at most (rad): a reduced quantity has a few extremes in a turn, not hundreds.
@@ -79,7 +79,7 @@ impl Model<'_> {
             let mut end = |sign: f64| -> Result<(f64, f64)> {
                 let values: Vec<f64> = rows.iter().map(|row| sign * of(row)).collect();
                 let mut value = |crank: f64| -> Result<f64> { Ok(sign * of(&self.row(&mut poses, crank)?)) };
-                let (crank, value) = golden::greatest(&cranks, &values, &mut value)?;
+                let (crank, value) = extremum::greatest(&cranks, &values, &mut value)?;
                 Ok((crank, sign * value))
             };
             *extremes = Extremes { least: end(-1.0)?, greatest: end(1.0)? };

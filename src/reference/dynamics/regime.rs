@@ -9,6 +9,7 @@ use super::march::{Place, Step, Stop, march, one_step};
 use super::model::{Model, Piece};
 use super::run_up::MOST_EMPTY;
 use crate::error::{Error, ErrorKind, Result};
+use crate::math::root;
 
 /// Newton steps of the shooting; it takes three to six.
 const MOST_SHOTS: usize = 60;
@@ -215,17 +216,12 @@ fn extreme(
     low: At,
     here: &dyn Fn(&OverAngle, f64, f64) -> At,
 ) -> Result<At> {
-    let (mut shortest, mut longest, mut found) = (0.0, end - x, low);
+    let mut found = low;
     // At an extreme the speed is flat: half the digits of the angle are enough.
-    for _ in 0..30 {
-        let h = (shortest + longest) / 2.0;
+    root::halved([0.0, end - x], 30, |h| -> Result<bool> {
         found = here(flow, x + h, one_step(flow, x, &y, h)?[0]);
-        if found.alpha * low.alpha > 0.0 {
-            shortest = h;
-        } else {
-            longest = h;
-        }
-    }
+        Ok(found.alpha * low.alpha > 0.0)
+    })?;
     Ok(found)
 }
 
