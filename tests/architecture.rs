@@ -149,7 +149,7 @@ fn module_path(file: &Path) -> Option<Vec<String>> {
     if parts.last().is_some_and(|last| last == "mod") {
         parts.pop();
     }
-    let skipped = parts.last().is_some_and(|last| last == "tests") || ["lib", "main"].contains(&parts[0].as_str());
+    let skipped = parts.iter().any(|part| part == "tests") || ["lib", "main"].contains(&parts[0].as_str());
     (!skipped).then_some(parts)
 }
 

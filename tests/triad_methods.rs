@@ -10,7 +10,7 @@ use std::path::Path;
 use common::{shipped, states};
 use linkproof::ErrorKind;
 use linkproof::case::Case;
-use linkproof::math::{Vec2, cross, rotated, unit};
+use linkproof::math::{Matrix, Vec2, cross, rotated, turned, unit};
 use linkproof::mechanism::GROUND;
 use linkproof::proof::{Options, prove};
 use linkproof::reference::triad::class_change::ClassChange;
@@ -57,6 +57,20 @@ fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
     values.into_iter().fold(0.0, |max, value| if max.is_nan() || value <= max { max } else { value })
 }
 
+/// Product of the lengths of the four columns of a group's equations over the size of their determinant, at least 1: by so much the rounding of
+/// the coefficients can grow in the unknowns.
+fn condition(contours: &Contours) -> f64 {
+    let mut matrix = Matrix::zeros(4, 4);
+    for (k, side) in contours.sides.into_iter().enumerate() {
+        let columns = [(0, turned(contours.leads[0])), (k + 1, -turned(contours.leads[k + 1])), (3, turned(side))];
+        for (column, vector) in columns {
+            matrix[(2 * k, column)] = vector.x;
+            matrix[(2 * k + 1, column)] = vector.y;
+        }
+    }
+    matrix.column_iter().map(|column| column.norm()).product::<f64>() / matrix.determinant().abs()
+}
+
 /// The methods at the given states of a solver.
 fn differences(case: &Case, triad: &Triad, states: &[State], times: &[f64]) -> Differences {
     let links = triad.links();
@@ -79,7 +93,7 @@ fn differences(case: &Case, triad: &Triad, states: &[State], times: &[f64]) -> D
             }
         };
         compare(&mut found.cramer, cramer::rates(triad, motions).unwrap());
-        keep(&mut found.condition, Contours::of(triad, motions).condition());
+        keep(&mut found.condition, condition(&Contours::of(triad, motions)));
         if let Ok(change) = &mut change {
             let drive = case.drive.at(time);
             let transfer = change.solve(drive.angle).unwrap_or_else(|error| panic!("{error}"));

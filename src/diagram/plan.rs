@@ -155,18 +155,6 @@ impl Plan {
     pub fn paper(&self, vector: &Vector) -> f64 {
         vector.value.norm() / self.scale
     }
-
-    /// The vector called `name`.
-    #[must_use]
-    pub fn vector(&self, name: &str) -> Option<&Vector> {
-        self.vectors.iter().find(|vector| vector.name == name)
-    }
-
-    /// The point of the plan called `letter`, from the pole (SI).
-    #[must_use]
-    pub fn tip(&self, letter: &str) -> Option<Vec2> {
-        self.tips.iter().find(|tip| tip.letter == letter).map(|tip| tip.at)
-    }
 }
 
 /// Kinematic diagram, velocity plan and acceleration plan of one instant.
@@ -183,14 +171,6 @@ pub struct Plans {
 }
 
 impl Plans {
-    /// The plans of `case` at the crank angle `crank` (rad, as the scenario states it), from a solution by `solver`.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Input`] for a crank angle too far away to be followed; those of the solver.
-    pub fn at(case: &Case, solver: &dyn Solver, crank: f64) -> Result<Self> {
-        Ok(Plans::of(case, solver, &state_at(case, solver, crank)?, crank))
-    }
-
     /// The plans of a state that holds motions up to accelerations. `solver` finds how far sliders travel on the case's grid: so long are
     /// the guides in the kinematic diagram.
     #[must_use]
@@ -207,7 +187,7 @@ impl Plans {
 /// The state of `case` at the crank angle `crank` (rad, as the scenario states it), up to accelerations.
 ///
 /// # Errors
-/// As [`Plans::at`].
+/// [`ErrorKind::Input`] for a crank angle too far away to be followed; those of the solver.
 pub fn state_at(case: &Case, solver: &dyn Solver, crank: f64) -> Result<State> {
     let grid = Grid::of_cranks(&case.drive, vec![crank]);
     grid.check(&case.drive)

@@ -106,23 +106,6 @@ fn unused(mut name: String, places: &[Place], others: &[Named]) -> Named {
     }
 }
 
-/// Whether a link never turns: prismatic pairs alone connect it with the ground.
-pub fn translates(mechanism: &Mechanism, link: usize) -> bool {
-    let mut reached = vec![GROUND];
-    let mut next = 0;
-    while let Some(&from) = reached.get(next) {
-        next += 1;
-        let sliding = mechanism.joints().iter().filter(|joint| joint.is_prismatic() && joint.on(from).is_some());
-        for joint in sliding {
-            let other = joint.other(from).link;
-            if !reached.contains(&other) {
-                reached.push(other);
-            }
-        }
-    }
-    reached.contains(&link)
-}
-
 /// Least and largest way of every slide from the joint's place on its guide (m): on the case's grid, as far as the solver gets, and in `state`.
 pub fn travels(case: &Case, solver: &dyn Solver, state: &State, slides: &[Slide]) -> Vec<[f64; 2]> {
     let mut travels: Vec<[f64; 2]> = slides.iter().map(|slide| [slide.way(&case.mechanism, state); 2]).collect();

@@ -90,7 +90,8 @@ pub fn regula_falsi<E>(
         return Ok(Some(end.0));
     }
     for _ in 0..steps {
-        let at = last.0 - last.1 * (last.0 - held.0) / (last.1 - held.1);
+        // A mean weighted with positive weights: it lies between the bounds, and no digits are lost.
+        let at = (held.0 * last.1 - last.0 * held.1) / (last.1 - held.1);
         let found = value(at)?;
         let rounding = 4.0 * f64::EPSILON * held.0.abs().max(last.0.abs());
         if found.abs() <= close.value || (last.0 - held.0).abs() <= close.width.max(rounding) {

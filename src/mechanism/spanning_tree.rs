@@ -133,7 +133,7 @@ impl Tree {
     /// Takes a link and all that slides on it.
     fn reach(&mut self, mechanism: &Mechanism, parent: usize, reached: &mut Vec<usize>) {
         reached.push(parent);
-        for (joint, found) in mechanism.joints().iter().enumerate().filter(|(_, found)| found.is_prismatic()) {
+        for (joint, found) in mechanism.joints().iter().enumerate().filter(|(_, found)| found.slides()) {
             let link = found.other(parent).link;
             if found.on(parent).is_some() && !reached.contains(&link) {
                 self.branches.push(Branch { link, parent, joint });

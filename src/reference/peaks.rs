@@ -26,7 +26,7 @@ pub struct Peak {
 pub struct Peaks {
     /// Magnitude of the reaction in each joint (N).
     pub reactions: Vec<Peak>,
-    /// Magnitude of the moment in each prismatic joint (N m); `None` for revolute joints.
+    /// Magnitude of the moment in each joint that keeps an angle (N m); `None` for joints that bear none.
     pub moments: Vec<Option<Peak>>,
     /// Magnitude of the shaking force (N).
     pub shaking_force: Peak,
@@ -59,7 +59,7 @@ pub fn over_range(case: &Case) -> Result<Peaks> {
     let cranks: Vec<f64> = (0..=parts).map(|k| from + (to - from) * (k as f64 / parts as f64)).collect();
     let joints = case.mechanism.joints();
     let mut quantities: Vec<Quantity> = (0..joints.len()).map(Quantity::Reaction).collect();
-    let sliding = joints.iter().enumerate().filter(|(_, joint)| joint.is_prismatic());
+    let sliding = joints.iter().enumerate().filter(|(_, joint)| joint.keeps_angle());
     quantities.extend(sliding.map(|(joint, _)| Quantity::Moment(joint)));
     quantities.extend([Quantity::ShakingForce, Quantity::BalancingMoment]);
     let mut samples = vec![Vec::with_capacity(cranks.len()); quantities.len()];

@@ -3,7 +3,7 @@
 use linkproof::diagram::draw;
 use linkproof::math::Vec2;
 
-use crate::{REVOLUTE, SLIDERS, all, degrees_of, plans};
+use crate::{Named, REVOLUTE, SLIDERS, all, degrees_of, plans};
 
 #[test]
 fn drawings_are_well_formed_and_hold_every_vector() {

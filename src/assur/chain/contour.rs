@@ -109,7 +109,7 @@ pub(super) fn contours(mechanism: &Mechanism, group: &Group) -> (Vec<Node>, Vec<
         };
         let next = || group.outer.iter().chain(&group.inner).filter_map(hung);
         // Prismatic joints first: so none of them is left over (Prim's spanning tree of smallest weight).
-        let slider = next().find(|&(joint, _)| joints[joint].is_prismatic());
+        let slider = next().find(|&(joint, _)| joints[joint].slides());
         let (joint, link) = slider.or_else(|| next().next()).expect("a group hangs together");
         used[joint] = true;
         nodes.push(Node::of(joints, joint, link, &nodes));

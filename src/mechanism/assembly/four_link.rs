@@ -69,7 +69,7 @@ impl Layout {
         let lead = |body: Body| {
             let pair = |other: Body| {
                 let joint = between(body, other)?;
-                let slides = joints[joint].is_prismatic();
+                let slides = joints[joint].slides();
                 Some(Pair { slides, lead: end(joint, body)?, body: end(joint, other)? })
             };
             Some((body, Lead { near: pair(frame)?, far: pair(Body::Link(base))? }))

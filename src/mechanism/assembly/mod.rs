@@ -10,8 +10,6 @@ mod four_link;
 #[cfg(test)]
 mod random;
 mod rough;
-#[cfg(test)]
-mod scan;
 mod three_leads;
 
 use super::pose::SidePoint;

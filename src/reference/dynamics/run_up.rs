@@ -6,7 +6,7 @@ use super::march::{Place, Step, Stop, march};
 use super::model::{Model, Piece};
 use crate::case::{Case, Grid};
 use crate::error::{Error, ErrorKind, Result};
-use crate::solver::{Provision, Sampler, State, Visit};
+use crate::solver::{Sampler, State, Visit};
 use crate::trajectory::{Channel, Stage, Trajectory};
 
 /// Relative and absolute error that each step may make, by its own estimate, which is cautious: the run-up of `crank_rocker` is then exact to 2e-14 rad.
@@ -245,7 +245,7 @@ impl RunUp {
             sampler.put(&case, row, state);
             Ok(())
         })?;
-        let trajectory = sampler.finish(&case, |_| Provision::Computed)?;
+        let trajectory = sampler.finish(&case)?;
         Ok(RunUp { motion, trajectory, end, natural })
     }
 

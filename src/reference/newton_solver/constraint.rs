@@ -16,7 +16,7 @@ use crate::mechanism::{Joint, JointKind, Side};
 /// Angle of a joint's second link less that of its first (rad) while the axes of a prismatic pair are parallel; its whole turns
 /// are those of the start pose. 0 for a revolute joint, which does not use it.
 pub(super) fn twist(case: &Case, joint: &Joint) -> f64 {
-    let JointKind::Prismatic { axes } = joint.kind else { return 0.0 };
+    let Some(axes) = joint.kind.axes() else { return 0.0 };
     let [first, second] = axes.map(|axis| axis.y.atan2(axis.x));
     let start = case.start.0[joint.second.link].angle - case.start.0[joint.first.link].angle;
     let parallel = first - second;

@@ -24,7 +24,7 @@ use super::Triad;
 use crate::case::Case;
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::{Vec2, cross, root, rotated, turned, unit};
-use crate::mechanism::{GROUND, JointKind};
+use crate::mechanism::GROUND;
 use chain::{Chain, Grounded, Place, along};
 
 /// Largest turn of the crank between two poses (rad): one degree.
@@ -98,7 +98,7 @@ impl ClassChange {
         let grounds: Vec<usize> = hung_on(GROUND).collect();
         let driven: Vec<usize> = hung_on(drive.link).collect();
         let joint = &mechanism.joints()[drive.joint];
-        let turns = matches!(joint.kind, JointKind::Revolute);
+        let turns = joint.is_pin();
         let (&[a, b], &[c], true, Some(own)) = (&grounds[..], &driven[..], turns, joint.on(drive.link)) else {
             return Err(unsupported(case, triad));
         };

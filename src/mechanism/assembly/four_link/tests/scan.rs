@@ -1,14 +1,15 @@
-//! Configurations of a base on three leads counted by a scan: a method without any polynomial, for the tests of this module.
+//! Configurations of a base on three leads counted by a scan: a method without any polynomial, as a witness for the tests of this module.
 //!
 //! For every angle of the base two leads leave its reference point one or two places; the third is fulfilled where a function of the
 //! angle changes sign. Each place is followed over the angles where it exists, out on one branch and back on the other, so
 //! that the function is smooth and periodic. Samples lie closer where the place moves fast; between samples of one sign
 //! the extremum is sought, so that pairs of zeros are told from near misses.
 
-use super::three_leads::{Lead, Pair};
-use crate::math::{Vec2, cross, extremum, root, rotated, turned, unit};
 use std::convert::Infallible;
 use std::f64::consts::{PI, TAU};
+
+use crate::math::{Vec2, cross, extremum, root, rotated, turned, unit};
+use crate::mechanism::assembly::three_leads::{Lead, Pair};
 
 /// Halvings of an interval with a zero, and steps of golden section about an extremum: both end at rounding.
 const STEPS: usize = 60;
