@@ -10,7 +10,7 @@ mod owners;
 #[cfg(test)]
 mod tests;
 
-use super::{GROUND, Mechanism};
+use super::{GROUND, JointKind, Mechanism};
 use crate::error::{Error, ErrorKind, Result};
 use contour::highest_contour;
 use owners::{Owners, check_sparse};
@@ -277,7 +277,12 @@ fn kind(mechanism: &Mechanism, links: &[usize], inner: &[usize], outer: &[usize]
     if links.len() != 2 {
         return GroupKind::Higher;
     }
-    let slides = |joints: &[usize]| joints.iter().filter(|&&joint| mechanism.joints()[joint].slides()).count();
+    // Dyads are known with these two kinds of pairs.
+    let slides = |&&joint: &&usize| match mechanism.joints()[joint].kind {
+        JointKind::Revolute => false,
+        JointKind::Prismatic { .. } => true,
+    };
+    let slides = |joints: &[usize]| joints.iter().filter(slides).count();
     match (slides(inner), slides(outer)) {
         (0, 0) => GroupKind::Rrr,
         (0, 1) => GroupKind::Rrp,
