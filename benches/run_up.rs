@@ -5,7 +5,7 @@ use std::hint::black_box;
 use std::path::Path;
 use std::time::Instant;
 
-use linkproof::reference::dynamics::{ACCURACY, Model, RunUp, motion};
+use analytic::reduced::{ACCURACY, Model, RunUp, motion};
 use linkproof::scenario::Scenario;
 
 /// Timings, of which the shortest counts: whatever else the machine does only adds.

@@ -3,8 +3,8 @@
 
 use std::path::Path;
 
+use linkage::{Error, ErrorKind};
 use linkproof::scenario::Scenario;
-use linkproof::{Error, ErrorKind};
 
 const GOOD: &str = include_str!("bad_scenarios/good.toml");
 

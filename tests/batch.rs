@@ -5,14 +5,14 @@ mod common;
 use std::cell::Cell;
 use std::f64::consts::TAU;
 
+use analytic::PoseSolver;
+use analytic::assur::batch::{Batch, Poses};
 use common::random::{for_each, within};
 use common::shipped;
-use linkproof::Result;
-use linkproof::case::Case;
-use linkproof::reference::PoseSolver;
-use linkproof::reference::batch::{Batch, Poses};
-use linkproof::solver::State;
-use linkproof::trajectory::Stage;
+use linkage::Result;
+use linkage::case::Case;
+use linkage::solver::State;
+use linkage::trajectory::Stage;
 
 /// Share of the largest value of its sort: a few hundred roundings of 1.1e-16 on the way from the crank to the last
 /// dyad and back.
@@ -150,7 +150,7 @@ fn a_batch_goes_on_after_an_error() {
     let (start, omega) = (case.drive.start, case.drive.at(0.0).omega);
     let (mut batch, mut poses) = (Batch::of(case).unwrap(), Poses::new());
     let error = batch.solve(&[start, f64::NAN, start], omega, ALPHA, Stage::Positions, &mut poses).unwrap_err();
-    assert_eq!(error.kind(), linkproof::ErrorKind::Geometry);
+    assert_eq!(error.kind(), linkage::ErrorKind::Geometry);
     assert_eq!(poses.len(), 1);
     batch.solve(&[start], omega, ALPHA, Stage::BalancingMoment, &mut poses).unwrap();
     let (again, _) = at_once(case, &[start], Stage::BalancingMoment);

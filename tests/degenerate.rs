@@ -3,7 +3,7 @@
 mod common;
 
 use common::spec::{Spec, four_bar};
-use linkproof::math::Vec2;
+use linkage::math::Vec2;
 use linkproof::proof::{Options, prove};
 
 fn agrees(what: &str, spec: &Spec) {

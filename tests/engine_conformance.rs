@@ -19,15 +19,15 @@ mod prismatic;
 #[path = "engine/substeps.rs"]
 mod substeps;
 
+use analytic::AssurSolver;
 use common::shipped;
 use common::spec::four_bar;
-use linkproof::case::Case;
+use linkage::case::Case;
+use linkage::engine::{Engine, Settings};
+use linkage::solver::Solver;
+use linkage::trajectory::{Channel, Stage, Subject, Trajectory};
 use linkproof::compare::convergence::observed_order;
 use linkproof::compare::residuals;
-use linkproof::engine::{self, Engine, Settings};
-use linkproof::reference::AssurSolver;
-use linkproof::solver::Solver;
-use linkproof::trajectory::{Channel, Stage, Subject, Trajectory};
 
 fn solve(solver: &dyn Solver, case: &Case) -> Trajectory {
     solver.solve(case, &mut |_| {}).unwrap_or_else(|error| panic!("{error}"))
@@ -53,7 +53,7 @@ fn epsilon(engine: &dyn Engine) -> f64 {
 /// The engines that go by steps of their user's choice. One that controls its error has neither instants on its steps nor an order to be seen, and steps
 /// that are too large are not its user's.
 fn stepping(dt: f64) -> impl Iterator<Item = Box<dyn Engine>> {
-    engine::all(dt).into_iter().filter(|engine| !engine.controls_error())
+    linkproof::engines::all(dt).into_iter().filter(|engine| !engine.controls_error())
 }
 
 /// Of these the ones that compute in double precision: in single precision, rounding hides orders (story 60).
@@ -94,7 +94,7 @@ fn has_formal_order(case: &Case, engines: impl Iterator<Item = Box<dyn Engine>>,
 #[test]
 fn a_ladder_is_its_rungs() {
     let case = four_bar([0.4, 0.1, 0.35, 0.3], true).scenario().unwrap().case;
-    for engine in engine::all(2e-3) {
+    for engine in linkproof::engines::all(2e-3) {
         for extrapolated in [false, !engine.controls_error()] {
             let own = engine.settings();
             let asked = Settings { sweeps: own.sweeps.min(64), extrapolated, ..own };
@@ -131,7 +131,7 @@ fn regress_01_the_motor_holds_its_speed_over_many_turns() {
         spec.speed = speed;
         spec.grid = (0.0, speed.signum(), 126);
         let case = spec.scenario().unwrap().case;
-        for engine in engine::all(1e-3) {
+        for engine in linkproof::engines::all(1e-3) {
             let run = solve(engine.as_ref(), &case);
             let angles = run.column(&Channel::named("link.crank.angle_rad").unwrap()).unwrap();
             let steps = case.grid.times.last().unwrap() / engine.settings().resolution;
@@ -155,7 +155,7 @@ fn regress_02_the_driven_joint_may_name_the_crank_first() {
     let mut other = spec.clone();
     other.pins.iter_mut().for_each(|pin| pin.links.reverse());
     let [one, two] = [&spec, &other].map(|spec| spec.scenario().unwrap().case);
-    for engine in engine::all(1e-3) {
+    for engine in linkproof::engines::all(1e-3) {
         // The impulse build corrects loops along the first body's axes: another way round is another error of second order.
         let share = if engine.name() == "rapier" { 1e-7 } else { 1e-3 };
         let case = &one;
@@ -179,7 +179,7 @@ fn regress_03_massless_links_move_alike_and_carry_no_force() {
     let mut without = with.clone();
     without.links.iter_mut().for_each(|link| link.mass = None);
     let [with, without] = [&with, &without].map(|spec| spec.scenario().unwrap().case);
-    for engine in engine::all(1e-3) {
+    for engine in linkproof::engines::all(1e-3) {
         let case = &with;
         let (with, without) = (solve(engine.as_ref(), &with), solve(engine.as_ref(), &without));
         for (channel, values) in without.iter() {

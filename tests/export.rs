@@ -4,16 +4,16 @@ mod common;
 #[path = "export/model.rs"]
 mod model;
 
-use linkproof::ErrorKind;
-use linkproof::case::Case;
-use linkproof::drive::Load;
-use linkproof::export::mjcf::{Model, mjcf};
-use linkproof::math::{Vec2, cross, rotated, unit};
-use linkproof::mechanism::{GROUND, JointKind, Mechanism, Side, Tree};
-use linkproof::reference::AssurSolver;
+use analytic::AssurSolver;
+use linkage::ErrorKind;
+use linkage::case::Case;
+use linkage::drive::Load;
+use linkage::math::{Vec2, cross, rotated, unit};
+use linkage::mechanism::{GROUND, JointKind, Mechanism, Side, Tree};
+use linkage::solver::State;
 use linkproof::scenario::Scenario;
-use linkproof::solver::State;
 use model::{Document, Kind};
+use workshop::export::mjcf::{Model, mjcf};
 
 /// Step (s) of the files here.
 const STEP: f64 = 1e-3;
@@ -241,7 +241,7 @@ fn names_that_mujoco_does_not_take_are_refused() {
     // A point called as the file calls a side of a joint.
     let case = common::shipped("crank_rocker.toml").case;
     let mut links = case.mechanism.links().to_vec();
-    links[2].points.push(linkproof::mechanism::Point { name: "B.first".into(), local: Vec2::new(0.1, 0.0) });
+    links[2].points.push(linkage::mechanism::Point { name: "B.first".into(), local: Vec2::new(0.1, 0.0) });
     let mechanism = Mechanism::new(links, case.mechanism.joints().to_vec()).unwrap();
     refused(&Case { mechanism, ..case }, &["two sites", "B.first"]);
 }

@@ -3,9 +3,9 @@
 
 use std::path::Path;
 
+use linkage::trajectory::Stage;
 use linkproof::proof::{Options, Proof, prove_against};
 use linkproof::scenario::Scenario;
-use linkproof::trajectory::Stage;
 
 const TEXT: &str = include_str!("../scenarios/crank_rocker.toml");
 

@@ -2,16 +2,15 @@
 
 use std::path::Path;
 
+use analytic::{AssurSolver, NewtonSolver, witness::power};
 use approx::assert_abs_diff_eq;
-use linkproof::case::{Case, Grid};
+use linkage::case::{Case, Grid};
+use linkage::solver::{Solver, State};
+use linkage::trajectory::{Channel, Stage, Trajectory};
 use linkproof::compare::{Verdict, difference, residuals, scales};
-use linkproof::engine;
 use linkproof::proof::{Options, Proof, prove};
-use linkproof::reference::{AssurSolver, NewtonSolver, power, reduced};
 use linkproof::scenario::Scenario;
-use linkproof::solver::{Solver, State};
 use linkproof::tolerance::Basis;
-use linkproof::trajectory::{Channel, Stage, Trajectory};
 
 const ALL: [&str; 5] = ["crank_rocker", "ov7_base", "ov7_new", "ov7_new_tabulated", "fourth_class"];
 
@@ -123,7 +122,7 @@ fn val_crank_rocker_lengths_follow_from_the_extreme_positions() {
 fn val_crank_rocker_mean_reduced_inertia_and_resistance() {
     let case = scenario("crank_rocker").case;
     for solver in [&AssurSolver as &dyn Solver, &NewtonSolver] {
-        let means = reduced::means_over_turn(&case, solver).unwrap();
+        let means = analytic::reduced::means::means_over_turn(&case, solver).unwrap();
         assert_abs_diff_eq!(means.inertia, 0.164846013, epsilon = 0.5e-9);
         // Exactly 100 N m times twice the swing over a turn; the rest is the mean's error at the two kinks.
         assert_abs_diff_eq!(means.resistance, 100.0 * 2.0 * 32.0 / 360.0, epsilon = 5e-5);
@@ -145,7 +144,9 @@ fn rapier_on_the_crank_rocker_is_within_a_thousandth_and_a_hundred_times_less() 
     let case = scenario("crank_rocker").case;
     let reference = solve(&AssurSolver, &case);
     let stages = [Stage::Positions, Stage::Reactions, Stage::BalancingMoment];
-    let error = |step| worst_share(&reference, &solve(engine::named("rapier", step).unwrap().as_ref(), &case), &stages);
+    let error = |step| {
+        worst_share(&reference, &solve(linkproof::engines::named("rapier", step).unwrap().as_ref(), &case), &stages)
+    };
     let [coarse, fine] = [1e-3, 1e-4].map(error);
     assert!(coarse <= 1e-3, "{coarse:e}");
     assert!(fine <= 1e-5 && fine <= coarse / 95.0, "{fine:e} against {coarse:e}");
@@ -183,8 +184,8 @@ fn val_crank_rocker_steady_speed() {
     let (ratio, a, b): (f64, f64, f64) = (2745.0 / 130.0, 22.51, 0.0716);
     // i (a - b i omega) = M.
     let speed = |resistance: f64| (a - resistance / ratio) / (b * ratio);
-    for solver in linkproof::reference::all() {
-        let mean = reduced::means_over_turn(&scenario.case, solver).unwrap().resistance;
+    for solver in analytic::all() {
+        let mean = analytic::reduced::means::means_over_turn(&scenario.case, solver).unwrap().resistance;
         assert!((speed(mean) - 14.33204).abs() < 0.5e-5 && (ratio * speed(mean) - 302.6266).abs() < 0.5e-4, "{mean}");
     }
     // As printed: the ratio rounded to 21.14 there, and the motor's speed from the rounded crank's.

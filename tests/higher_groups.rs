@@ -3,13 +3,13 @@
 
 mod common;
 
+use analytic::{AssurSolver, NewtonSolver};
 use common::higher::{Among, FAMILIES, Family, mechanism};
 use common::sketch::Random;
-use linkproof::ErrorKind;
+use linkage::ErrorKind;
+use linkage::solver::Solver;
+use linkage::trajectory::{Stage, Trajectory};
 use linkproof::compare::{magnitudes, residuals};
-use linkproof::reference::{AssurSolver, NewtonSolver};
-use linkproof::solver::Solver;
-use linkproof::trajectory::{Stage, Trajectory};
 
 /// Mechanisms of each family.
 const TRIES: usize = 60;
@@ -17,7 +17,7 @@ const TRIES: usize = 60;
 /// The largest of speed and root of acceleration, over the crank's speed: how near the pose is to a singular one. Rounding grows with its
 /// square. Accelerations are of the order of that square and tell where a speed happens to pass through zero. Lengths are about a metre.
 fn nearness(trajectory: &Trajectory, crank: f64) -> f64 {
-    let of = |(channel, values): (&linkproof::trajectory::Channel, &[f64])| {
+    let of = |(channel, values): (&linkage::trajectory::Channel, &[f64])| {
         let most = values.iter().fold(0.0f64, |max, v| max.max(v.abs()));
         match channel.kind.stage {
             Stage::Velocities => most / crank,
@@ -47,7 +47,7 @@ fn worst(family: &Family, among: Among, tries: usize) -> ([f64; 5], usize, usize
         let group = case.structure.groups.iter().find(|group| group.links.len() > 2).expect("a higher group");
         assert_eq!((group.links.len(), group.class), (family.topology.links, family.topology.class));
         assert!(case.start.closure(&case.mechanism) < 1e-12, "{}", spec.toml());
-        let off = |(a, b): (&linkproof::mechanism::LinkPose, &linkproof::mechanism::LinkPose)| {
+        let off = |(a, b): (&linkage::mechanism::LinkPose, &linkage::mechanism::LinkPose)| {
             (a.origin - b.origin).norm() < 1e-6
         };
         as_drawn += usize::from(case.start.0.iter().zip(&drawn).all(off));

@@ -11,11 +11,10 @@ mod turns;
 
 use common::random::{REACH, Sample, for_each, within};
 use common::{centre, centre_acceleration, centre_velocity, states};
+use linkage::math::Vec2;
+use linkage::solver::{Solver, State};
+use linkage::trajectory::Stage;
 use linkproof::compare::residuals;
-use linkproof::math::Vec2;
-use linkproof::reference;
-use linkproof::solver::{Solver, State};
-use linkproof::trajectory::Stage;
 use proptest::test_runner::TestCaseError;
 
 /// Mechanisms that every invariant is tried on.
@@ -69,7 +68,7 @@ fn velocities_and_accelerations_are_derivatives() {
     for_each(COUNT, |sample| {
         let case = &sample.scenario.case;
         let speed = case.drive.at(0.0).omega.abs();
-        for solver in reference::all() {
+        for solver in analytic::all() {
             for k in [0, case.grid.len() / 2, case.grid.len() - 1] {
                 let around = Around::of(solver, sample, case.grid.times[k]);
                 let here = around.here();
@@ -94,7 +93,7 @@ fn velocities_and_accelerations_are_derivatives() {
 fn both_solvers_agree_to_rounding() {
     for_each(8 * COUNT, |sample| {
         let case = &sample.scenario.case;
-        let [a, b] = reference::all().map(|solver| solver.solve(case, &mut |_| {}).expect("solvable"));
+        let [a, b] = analytic::all().map(|solver| solver.solve(case, &mut |_| {}).expect("solvable"));
         let speed = case.drive.at(0.0).omega.abs();
         let largest = |stage: Stage| {
             let own = a.iter().filter(|(channel, _)| channel.kind.stage == stage);

@@ -4,13 +4,13 @@ mod common;
 
 use std::path::Path;
 
+use analytic::{self, witness::momentum, witness::power};
+use linkage::error::ErrorKind;
+use linkage::trajectory::Stage;
 use linkproof::compare::residuals;
-use linkproof::error::ErrorKind;
-use linkproof::export;
 use linkproof::proof::{Options, prove};
-use linkproof::reference::{self, momentum, power};
 use linkproof::scenario::Scenario;
-use linkproof::trajectory::Stage;
+use workshop::export;
 
 use common::{shipped, states};
 
@@ -39,7 +39,7 @@ fn both_sides_agree_and_balance_powers_and_momentum() {
     ] {
         let scenario = swing(law, grid);
         let case = &scenario.case;
-        let [a, b] = reference::all().map(|solver| solver.solve(case, &mut |_| {}).unwrap());
+        let [a, b] = analytic::all().map(|solver| solver.solve(case, &mut |_| {}).unwrap());
         let largest = |stage: Stage| {
             let own = a.iter().filter(move |(channel, _)| channel.kind.stage == stage);
             own.flat_map(|(_, values)| values).fold(0.0, |max: f64, v| max.max(v.abs()))
@@ -49,7 +49,7 @@ fn both_sides_agree_and_balance_powers_and_momentum() {
             assert!(share < 1e-12, "{law} {}: {share:e}", residual.channel);
         }
         let moment = largest(Stage::BalancingMoment);
-        for solver in reference::all() {
+        for solver in analytic::all() {
             for (state, &t) in states(solver, case, &case.grid.times).unwrap().iter().zip(&case.grid.times) {
                 let crank = state.motions[case.drive.link];
                 let law = case.drive.at(t);
@@ -70,7 +70,7 @@ fn rates_are_derivatives_under_every_law() {
     for (law, t) in [(RAMP, 0.07), (RAMP, 0.2), (TABLE, 0.05), (TABLE, 0.09), (CYCLOIDAL, 0.04)] {
         let scenario = swing(law, "from_s = 0\nto_s = 0.1\nstep_s = 0.1");
         let h = 1e-5;
-        for solver in reference::all() {
+        for solver in analytic::all() {
             let found = states(solver, &scenario.case, &[t - h, t, t + h]).unwrap();
             for link in 1..found[0].motions.len() {
                 let [back, here, ahead] = [0, 1, 2].map(|k| (found[k].angles[link], found[k].motions[link]));
@@ -137,11 +137,11 @@ fn what_knows_constant_speeds_only_refuses_by_name() {
     let case = shipped("cycloidal_start.toml").case;
     let mut unloaded = case.clone();
     unloaded.loads.clear();
-    let error = export::mjcf::mjcf(&unloaded, reference::all()[0], "swing", 1e-3).unwrap_err();
+    let error = export::mjcf::mjcf(&unloaded, analytic::all()[0], "swing", 1e-3).unwrap_err();
     assert_eq!(error.kind(), ErrorKind::Unsupported);
     assert!(error.message().contains("law \"cycloidal\""), "{error}");
     let table = swing(TABLE, "from_s = 0\nto_s = 0.2\nstep_s = 0.01").case;
-    let error = reference::peaks::over_range(&table).unwrap_err();
+    let error = workshop::bearings::over_range(&table).unwrap_err();
     assert!(error.message().contains("more than once"), "{error}");
-    assert!(reference::peaks::over_range(&case).is_ok());
+    assert!(workshop::bearings::over_range(&case).is_ok());
 }

@@ -4,9 +4,9 @@ mod common;
 
 use std::path::Path;
 
-use linkproof::reference::NewtonSolver;
-use linkproof::reference::peaks::{journal_diameter, over_range};
+use analytic::NewtonSolver;
 use linkproof::scenario::Scenario;
+use workshop::bearings::{journal_diameter, over_range};
 
 /// A crank alone with its mass centre at radius r: |R| = m |w^2 r e + g|, largest where the centre is lowest.
 #[test]

@@ -14,13 +14,13 @@ use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::path::Path;
 
-use linkproof::case::Case;
-use linkproof::diagram::plan::state_at;
-use linkproof::diagram::{Part, Plan, Plans, SingularPoint, TipKind, Vector};
-use linkproof::math::{Vec2, rotated, unit};
-use linkproof::reference::{AssurSolver, NewtonSolver};
+use analytic::{AssurSolver, NewtonSolver};
+use linkage::case::Case;
+use linkage::math::{Vec2, rotated, unit};
+use linkage::solver::Solver;
 use linkproof::scenario::Scenario;
-use linkproof::solver::Solver;
+use workshop::diagram::plan::state_at;
+use workshop::diagram::{Part, Plan, Plans, SingularPoint, TipKind, Vector};
 
 const REVOLUTE: [&str; 5] = ["crank_rocker", "ov7_base", "ov7_new", "ov7_new_tabulated", "fourth_class"];
 const SLIDERS: [&str; 5] = ["compressor", "six_bar_slider", "quick_return", "scotch_yoke", "tangent"];
@@ -42,7 +42,7 @@ fn scenario(name: &str) -> Scenario {
 }
 
 /// The plans of a case at a crank angle (deg).
-fn plans_of(case: &Case, solver: &dyn Solver, degrees: f64) -> linkproof::Result<Plans> {
+fn plans_of(case: &Case, solver: &dyn Solver, degrees: f64) -> linkage::Result<Plans> {
     let crank = degrees.to_radians();
     Ok(Plans::of(case, solver, &state_at(case, solver, crank)?, crank))
 }
@@ -235,7 +235,7 @@ fn the_singular_point_gives_the_solvers_velocities_and_accelerations() {
     for solver in [&AssurSolver as &dyn Solver, &NewtonSolver] {
         for degrees in 0..72 {
             let state =
-                linkproof::diagram::plan::state_at(&case, solver, (5.0 * f64::from(degrees)).to_radians()).unwrap();
+                workshop::diagram::plan::state_at(&case, solver, (5.0 * f64::from(degrees)).to_radians()).unwrap();
             let point = SingularPoint::of(&case, group, &state.motions).unwrap().unwrap();
             assert_eq!(point.lines(), "BD x CE");
             // The farther S is from the group, the more digits cancel; its distance over the size of the group measures that.
@@ -257,7 +257,7 @@ fn the_singular_point_gives_the_solvers_velocities_and_accelerations() {
     }
     for name in ["crank_rocker", "ov7_new"] {
         let case = scenario(name).case;
-        let state = linkproof::diagram::plan::state_at(&case, &AssurSolver, 0.3).unwrap();
+        let state = workshop::diagram::plan::state_at(&case, &AssurSolver, 0.3).unwrap();
         for group in &case.structure.groups {
             assert_eq!(SingularPoint::of(&case, group, &state.motions).unwrap(), None, "{name}");
         }

@@ -2,12 +2,12 @@
 
 mod common;
 
+use analytic::{self, witness::power};
 use common::sliders::{self, SPEED, Sample};
 use common::{centre, centre_acceleration, states};
-use linkproof::case::Case;
-use linkproof::math::{Vec2, cross};
-use linkproof::reference::{self, power};
-use linkproof::solver::{Solver, State};
+use linkage::case::Case;
+use linkage::math::{Vec2, cross};
+use linkage::solver::{Solver, State};
 
 /// The states of a solver on the sample's grid, with their times and crank angles.
 fn solved(solver: &dyn Solver, case: &Case) -> Vec<(f64, f64, State)> {
@@ -19,7 +19,7 @@ fn solved(solver: &dyn Solver, case: &Case) -> Vec<(f64, f64, State)> {
 /// Every mechanism with every solver.
 fn each(check: impl Fn(&Sample, &dyn Solver)) {
     for sample in sliders::all() {
-        for solver in reference::all() {
+        for solver in analytic::all() {
             check(&sample, solver);
         }
     }

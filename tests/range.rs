@@ -4,19 +4,19 @@ mod common;
 
 use std::f64::consts::{PI, TAU};
 
+use analytic::range::{Extent, FourBarType, Kind, Range, Singularity};
+use analytic::{AssurSolver, NewtonSolver, PoseSolver, all, modes};
 use common::four_link;
 use common::random;
 use common::shipped;
 use common::spec::{Dyad, Pin, Spec, four_bar};
-use linkproof::ErrorKind;
-use linkproof::case::{Case, Grid};
-use linkproof::math::angle::wrapped;
-use linkproof::mechanism::assembly::configurations;
-use linkproof::mechanism::{LinkPose, Pose};
-use linkproof::reference::range::{Extent, FourBarType, Kind, Range, Singularity};
-use linkproof::reference::{AssurSolver, NewtonSolver, PoseSolver, all, modes};
-use linkproof::solver::Solver;
-use linkproof::trajectory::Stage;
+use linkage::ErrorKind;
+use linkage::case::{Case, Grid};
+use linkage::math::angle::wrapped;
+use linkage::mechanism::assembly::configurations;
+use linkage::mechanism::{LinkPose, Pose};
+use linkage::solver::Solver;
+use linkage::trajectory::Stage;
 
 /// To what limits and extreme positions are promised (rad).
 const EXACT: f64 = 1e-9;
@@ -168,7 +168,7 @@ fn limits_and_extremes_of_chains_lie_where_the_solver_finds_them() {
     random::for_each_of(&random::SORTS[..1], 3, 40, |sample| {
         let case = &sample.scenario.case;
         let range = Range::of(case).unwrap();
-        let omegas = |crank: f64| -> linkproof::Result<Vec<f64>> {
+        let omegas = |crank: f64| -> linkage::Result<Vec<f64>> {
             let mut poses = PoseSolver::new(case)?;
             let state = poses.solve(crank, 1.0, 0.0, Stage::Velocities)?;
             Ok(state.motions.iter().map(|motion| motion.omega).collect())
@@ -322,7 +322,7 @@ fn an_angle_out_of_reach_is_answered_with_the_interval() {
     let spec = started(lengths, true).unwrap();
     let case = spec.scenario().unwrap().case;
     let [from, to] = closed_form(lengths, spec.start).unwrap().map(f64::to_degrees);
-    let check = |error: linkproof::Error, who: &str| {
+    let check = |error: linkage::Error, who: &str| {
         let text = error.to_string();
         let found =
             text.split_once("can be reached from ").expect(&text).1.split_once(" deg on this branch").expect(&text).0;
@@ -382,9 +382,9 @@ fn loss_of_digits_near_a_dead_point_is_that_of_the_condition_number() {
                 (AssurSolver.solve(&case, &mut |_| {}).unwrap(), NewtonSolver.solve(&case, &mut |_| {}).unwrap());
             let condition = 1.0 / (angle / 2.0).tan();
             for (stage, channel) in ["angle_rad", "omega_rad_s", "alpha_rad_s2"].into_iter().enumerate() {
-                let values = |t: &linkproof::trajectory::Trajectory| {
+                let values = |t: &linkage::trajectory::Trajectory| {
                     let name = format!("link.rocker.{channel}");
-                    t.column(&linkproof::trajectory::Channel::named(&name).unwrap()).unwrap()[0]
+                    t.column(&linkage::trajectory::Channel::named(&name).unwrap()).unwrap()[0]
                 };
                 let (x, y) = (values(&ours), values(&theirs));
                 let size = if stage == 0 { 1.0 } else { y.abs() };

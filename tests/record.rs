@@ -3,11 +3,11 @@
 #[path = "record/sliders.rs"]
 mod sliders;
 
-use linkproof::ErrorKind;
-use linkproof::math::{Motion, Vec2, cross, turned, unit};
-use linkproof::mechanism::{Joint, JointKind, Link, Mechanism, Point, Side as On};
+use linkage::ErrorKind;
+use linkage::math::{Motion, Vec2, cross, turned, unit};
+use linkage::mechanism::{Joint, JointKind, Link, Mechanism, Point, Side as On};
+use linkage::trajectory::{CHANNELS, Channel, Stage, Subject, Trajectory};
 use linkproof::record::{Level, LogEntry, Recording, Side, read, write};
-use linkproof::trajectory::{CHANNELS, Channel, Stage, Subject, Trajectory};
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::fs;
@@ -197,7 +197,7 @@ impl Run {
         Run { mechanism, metadata, log, reference, engine, errors }
     }
 
-    fn write(&self, path: &Path) -> linkproof::Result<()> {
+    fn write(&self, path: &Path) -> linkage::Result<()> {
         let sides = [
             Side { name: "reference", trajectory: &self.reference },
             Side { name: "engine", trajectory: &self.engine },

@@ -4,22 +4,22 @@
 
 mod common;
 
+use analytic::{AssurSolver, NewtonSolver};
 use common::higher::{Among, FAMILIES, mechanism};
 use common::random::for_each;
 use common::sketch::Random;
 use common::sliders;
 use common::spec::{Spec, four_bar};
 use common::{shipped, states};
-use linkproof::ErrorKind;
-use linkproof::case::{Case, Grid};
+use linkage::ErrorKind;
+use linkage::case::{Case, Grid};
+use linkage::engine::{self, Engine};
+use linkage::math::Vec2;
+use linkage::solver::Solver;
+use linkage::trajectory::{Channel, Stage, Trajectory};
 use linkproof::compare::{Verdict, residuals};
-use linkproof::engine::simbody::Simbody;
-use linkproof::engine::{self, Engine};
-use linkproof::math::Vec2;
 use linkproof::proof::{Options, prove};
-use linkproof::reference::{AssurSolver, NewtonSolver};
-use linkproof::solver::Solver;
-use linkproof::trajectory::{Channel, Stage, Trajectory};
+use simbody_twin::Simbody;
 
 /// Every scenario of the repository's top level.
 fn scenarios() -> Vec<String> {
@@ -145,7 +145,7 @@ fn variants_of_a_four_bar_agree() {
 fn laws_other_than_constant_speeds_are_refused_by_name() {
     let case = shipped("cycloidal_start.toml").case;
     let error = default().solve(&case, &mut |_| {}).unwrap_err();
-    assert_eq!(error.kind(), linkproof::ErrorKind::Unsupported);
+    assert_eq!(error.kind(), linkage::ErrorKind::Unsupported);
     assert!(error.message().contains("law \"cycloidal\"") && error.way_out().is_some(), "{error}");
 }
 
@@ -155,11 +155,11 @@ fn loads_of_all_sorts_agree() {
     let mut case = shipped("loaded_slider.toml").case;
     let ram = case.mechanism.link_named("ram").unwrap();
     let local = case.mechanism.links()[ram].points[2].local;
-    let at = linkproof::mechanism::Side { link: ram, local };
-    case.loads.push(linkproof::drive::Load::ResistingForce { at, force: 200.0 });
+    let at = linkage::mechanism::Side { link: ram, local };
+    case.loads.push(linkage::drive::Load::ResistingForce { at, force: 200.0 });
     let rod = case.mechanism.link_named("rod").unwrap();
-    case.loads.push(linkproof::drive::Load::TorsionSpring { links: [0, rod], stiffness: 30.0, free_angle: 0.4 });
-    case.loads.push(linkproof::drive::Load::Resistance { link: rod, moment: 7.0 });
+    case.loads.push(linkage::drive::Load::TorsionSpring { links: [0, rod], stiffness: 30.0, free_angle: 0.4 });
+    case.loads.push(linkage::drive::Load::Resistance { link: rod, moment: 7.0 });
     let cranks = (-7..20).map(|k| 0.05 + 0.31 * f64::from(k)).collect();
     let case = case.on(Grid::of_cranks(&case.drive, cranks));
     println!("{:?}", agree(&case, &default(), &AssurSolver, 1.0));
@@ -177,7 +177,7 @@ fn sliders_agree_however_their_joints_are_written() {
 
 /// The same case with its joints in the other order, so that the driven one stands last.
 fn crank_last(case: &Case) -> Case {
-    use linkproof::mechanism::{AssemblyMode, Mechanism, Structure};
+    use linkage::mechanism::{AssemblyMode, Mechanism, Structure};
     let joints: Vec<_> = case.mechanism.joints().iter().rev().cloned().collect();
     let driven = joints.len() - 1 - case.drive.joint;
     let mechanism = Mechanism::new(case.mechanism.links().to_vec(), joints).unwrap();
@@ -256,7 +256,7 @@ fn positions_alone_are_the_same_positions() {
     let times = [0.0, 0.01, 0.02];
     let whole = states(&default(), &case, &times).unwrap();
     let mut bare = case.clone();
-    bare.wanted = linkproof::case::Wanted::of(&[Stage::Positions]);
+    bare.wanted = linkage::case::Wanted::of(&[Stage::Positions]);
     for (a, b) in whole.iter().zip(states(&default(), &bare, &times).unwrap()) {
         assert!(a.motions == b.motions && a.angles == b.angles);
     }
@@ -274,7 +274,7 @@ fn a_proof_with_simbody_agrees() {
 
 #[test]
 fn it_is_listed_with_an_accuracy_instead_of_a_step() {
-    let engine = engine::named("simbody", 1e-3).unwrap();
+    let engine = linkproof::engines::named("simbody", 1e-3).unwrap();
     assert!(engine.controls_error());
     assert_eq!(engine.settings().resolution, Simbody::ACCURACY);
     assert_eq!(engine.at(1e-5).settings().resolution, 1e-5);

@@ -5,12 +5,12 @@ mod common;
 use std::f64::consts::FRAC_PI_2;
 use std::path::Path;
 
+use analytic::range::{Extent, Kind, Range};
+use analytic::{self, AssurSolver};
 use common::shipped;
 use common::sliders::short_rod;
-use linkproof::ErrorKind;
-use linkproof::case::{Case, Grid};
-use linkproof::reference::range::{Extent, Kind, Range};
-use linkproof::reference::{self, AssurSolver};
+use linkage::ErrorKind;
+use linkage::case::{Case, Grid};
 use linkproof::scenario::Scenario;
 
 fn on_cranks(case: &Case, cranks: &[f64]) -> Case {
@@ -37,7 +37,7 @@ fn regress_a_slide_that_goes_to_infinity_ends_the_range() {
 #[test]
 fn no_solver_goes_on_behind_parallel_axes() {
     let case = shipped("tangent.toml").case;
-    for solver in reference::all() {
+    for solver in analytic::all() {
         for cranks in [vec![0.0, 85.0, 95.0], vec![0.0, 120.0], vec![-60.0, 91.0]] {
             let error = solver.solve(&on_cranks(&case, &cranks), &mut |_| {}).err();
             let error = error.unwrap_or_else(|| panic!("{} solves {cranks:?}", solver.name()));
@@ -64,14 +64,14 @@ fn a_start_at_a_dead_point_of_a_slider_says_so() {
         .motions
         .iter()
         .zip(&last.angles)
-        .map(|(motion, &angle)| linkproof::mechanism::LinkPose { origin: motion.origin, angle })
+        .map(|(motion, &angle)| linkage::mechanism::LinkPose { origin: motion.origin, angle })
         .collect();
     case.drive.start = to.crank;
     let case = on_cranks(&case, &[to.crank.to_degrees(), to.crank.to_degrees() + 5.0]);
     let error = Range::of(&case).unwrap_err();
     assert_eq!(error.kind(), ErrorKind::Geometry, "{error}");
     assert!(error.message().contains("singular") && error.way_out().is_some(), "{error}");
-    for solver in reference::all() {
+    for solver in analytic::all() {
         let error = solver.solve(&case, &mut |_| {}).unwrap_err();
         assert!(error.way_out().is_some(), "{error}");
     }

@@ -4,16 +4,16 @@ mod common;
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
+use analytic::all;
+use analytic::range::Range;
 use common::{shipped, states};
-use linkproof::case::{Case, Grid};
-use linkproof::math::{Matrix, Vec2, unit};
-use linkproof::reference::all;
-use linkproof::reference::range::Range;
-use linkproof::solver::State;
+use linkage::case::{Case, Grid};
+use linkage::math::{Matrix, Vec2, unit};
+use linkage::solver::State;
 
 /// States of both analytic solvers at every instant of the grid, with the crank angles.
 fn solved(case: &Case) -> Vec<Vec<(f64, State)>> {
-    let states_of = |&solver: &&'static dyn linkproof::solver::Solver| {
+    let states_of = |&solver: &&'static dyn linkage::solver::Solver| {
         let found = states(solver, case, &case.grid.times).unwrap();
         case.grid.cranks.iter().copied().zip(found).collect()
     };
@@ -82,7 +82,7 @@ fn val_compressor_closed_form() {
                     let [at, velocity, acceleration] = place(&case, state, pin);
                     let motion = &state.motions[link];
                     // Clockwise from +y: 90 deg less the angle, and rates with the other sign.
-                    let phi2 = linkproof::math::angle::wrapped(FRAC_PI_2 - state.angles[link]);
+                    let phi2 = linkage::math::angle::wrapped(FRAC_PI_2 - state.angles[link]);
                     let found = [phi2, at.y, -motion.omega, velocity.y, -motion.alpha, acceleration.y];
                     (found[quantity], cylinder(l1, l2, FRAC_PI_2 - crank + delta, COMPRESSOR_SPEED)[quantity])
                 };

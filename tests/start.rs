@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use linkproof::math::Vec2;
-use linkproof::mechanism::AssemblyMode;
+use linkage::math::Vec2;
+use linkage::mechanism::AssemblyMode;
 use linkproof::scenario::Scenario;
 
 /// A crank OA of 100 mm and the given links, joints and start; the crank stands at `crank` degrees.
-fn parse(ground: &str, body: &str, crank: f64, start: &str) -> linkproof::Result<Scenario> {
+fn parse(ground: &str, body: &str, crank: f64, start: &str) -> linkage::Result<Scenario> {
     let text = format!(
         "format = 1\nname = \"start\"\ntitle = \"start\"\n[ground.points]\nO = {{ x_mm = 0, y_mm = 0 }}\n{ground}\n\
          [links.crank.points]\nO = {{ x_mm = 0, y_mm = 0 }}\nA = {{ x_mm = 100, y_mm = 0 }}\n{body}\n\
@@ -47,7 +47,7 @@ links = ["rod", "slider"]
 "#;
 
 /// Slider-crank with the given guide: its links and axis.
-fn slider_crank(guide: &str, start: &str) -> linkproof::Result<Scenario> {
+fn slider_crank(guide: &str, start: &str) -> linkage::Result<Scenario> {
     let guide = format!("[[joints]]\nname = \"guide\"\ntype = \"prismatic\"\n{guide}\n");
     parse("G = { x_mm = 10, y_mm = 0 }", &format!("{SLIDER}{guide}"), 90.0, start)
 }

@@ -7,18 +7,18 @@ use std::cell::Cell;
 use std::fmt::Write;
 use std::path::Path;
 
+use analytic::witness::triad::class_change::ClassChange;
+use analytic::witness::triad::cramer::{self, Contours};
+use analytic::witness::triad::{Triad, assur_point, linear_system};
+use analytic::{AssurSolver, NewtonSolver};
 use common::{shipped, states};
-use linkproof::ErrorKind;
-use linkproof::case::Case;
-use linkproof::math::{Matrix, Vec2, cross, rotated, turned, unit};
-use linkproof::mechanism::GROUND;
+use linkage::ErrorKind;
+use linkage::case::Case;
+use linkage::math::{Matrix, Vec2, cross, rotated, turned, unit};
+use linkage::mechanism::GROUND;
+use linkage::solver::{Solver, State};
 use linkproof::proof::{Options, prove};
-use linkproof::reference::triad::class_change::ClassChange;
-use linkproof::reference::triad::cramer::{self, Contours};
-use linkproof::reference::triad::{Triad, assur_point, linear_system};
-use linkproof::reference::{AssurSolver, NewtonSolver};
 use linkproof::scenario::Scenario;
-use linkproof::solver::{Solver, State};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 

@@ -7,7 +7,7 @@ mod exhaustive;
 #[path = "tune/prices.rs"]
 mod prices;
 
-use linkproof::engine::{self, Engine};
+use linkage::engine::Engine;
 use linkproof::proof::Options;
 use linkproof::scenario::Scenario;
 use linkproof::tune::{Tuning, Wish, tune};
@@ -19,9 +19,9 @@ use prices::price_of;
 /// Within this factor of the cheapest.
 const FACTOR: f64 = 1.5;
 
-fn tuned(scenario: &Scenario, within: f64, channels: &[&str], options: &Options) -> linkproof::Result<Tuning> {
+fn tuned(scenario: &Scenario, within: f64, channels: &[&str], options: &Options) -> linkage::Result<Tuning> {
     let wish = Wish { within, channels: channels.iter().map(|name| name.to_string()).collect() };
-    let mut price = |engine: &dyn Engine, run: &mut dyn FnMut() -> linkproof::Result<()>| {
+    let mut price = |engine: &dyn Engine, run: &mut dyn FnMut() -> linkage::Result<()>| {
         run()?;
         Ok(price_of(&scenario.case, engine))
     };
@@ -36,7 +36,7 @@ fn near_the_cheapest(names: &[&str], every: usize, within: f64, below: f64, spac
         let engines = ["rapier", "rapier-f32", "impulse", "impulse-f32"].map(String::from);
         let options = Options { engines: engines.into(), ..Options::default() };
         let found = tuned(&scenario, within, &[], &options).unwrap_or_else(|error| panic!("{name}: {error}"));
-        let best = engine::named(found.best.engine, 1e-3).unwrap().with(found.best.settings);
+        let best = linkproof::engines::named(found.best.engine, 1e-3).unwrap().with(found.best.settings);
         let verified = error_of(&scenario, &truth(&scenario), best.as_ref());
         assert!(verified <= within, "{name}: {verified:e} with {:?}", found.best);
         let promised = found.best.verified;
@@ -128,7 +128,7 @@ fn a_route_that_is_refused_is_given_up_at_once() {
     let options = Options { route: Some("probe".into()), ..Options::of_engine("rapier") };
     let mut runs = 0;
     let wish = Wish { within: 1e-3, channels: Vec::new() };
-    let mut price = |_: &dyn Engine, run: &mut dyn FnMut() -> linkproof::Result<()>| {
+    let mut price = |_: &dyn Engine, run: &mut dyn FnMut() -> linkage::Result<()>| {
         runs += 1;
         run()?;
         Ok(1.0)

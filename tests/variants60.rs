@@ -14,13 +14,13 @@ mod plan;
 
 use std::path::{Path, PathBuf};
 
-use linkproof::math::Vec2;
-use linkproof::math::angle::wrapped;
-use linkproof::mechanism::{LinkPose, Pose};
-use linkproof::reference::range::{Extent, Kind, Range};
-use linkproof::reference::{AssurSolver, NewtonSolver};
+use analytic::range::{Extent, Kind, Range};
+use analytic::{AssurSolver, NewtonSolver};
+use linkage::math::Vec2;
+use linkage::math::angle::wrapped;
+use linkage::mechanism::{LinkPose, Pose};
+use linkage::solver::Solver;
 use linkproof::scenario::Scenario;
-use linkproof::solver::Solver;
 use plan::Plan;
 
 fn path(name: &str) -> PathBuf {

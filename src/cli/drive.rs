@@ -9,14 +9,15 @@ use super::motor_choice;
 use super::output;
 use super::run::load;
 use super::{drive_graphs, drive_run_up};
-use crate::error::{Error, ErrorKind, Result};
-use crate::reference::AssurSolver;
-use crate::reference::dynamics::course::{Extremes, Row};
-use crate::reference::dynamics::regime::At;
-use crate::reference::dynamics::{ACCURACY, Averaged, Flywheel, Model, Regime, RunUp};
-use crate::reference::reduced::{self, Means};
 use crate::report::text::table;
 use crate::scenario::Scenario;
+use analytic::AssurSolver;
+use analytic::reduced::course::{Extremes, Row};
+use analytic::reduced::means::{self as reduced, Means};
+use analytic::reduced::regime::At;
+use analytic::reduced::{ACCURACY, Averaged, Model, Regime, RunUp};
+use linkage::error::{Error, ErrorKind, Result};
+use workshop::flywheel::Flywheel;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -163,7 +164,7 @@ fn find(args: &Args, scenario: &Scenario, model: &Model) -> Result<Found> {
             Some(([sense * speed, sense * speed * motor.ratio], model.regime(&cranks, ACCURACY)?))
         }
     };
-    let flywheel = args.non_uniformity.map(|wanted| model.flywheel(wanted, ACCURACY)).transpose()?;
+    let flywheel = args.non_uniformity.map(|wanted| Flywheel::of(&model, wanted, ACCURACY)).transpose()?;
     let (extremes, rows) = (model.extremes()?, model.rows(&cranks)?);
     Ok(Found { means, extremes, added: model.added_inertia(), rows, steady, averaged, flywheel })
 }

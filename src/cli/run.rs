@@ -10,12 +10,11 @@ use super::engine_args::EngineArgs;
 use super::output;
 use super::progress::Bar;
 use crate::compare::Verdict;
-use crate::error::{Error, ErrorKind, Result};
 use crate::proof::{EngineProof, Proof, prove};
 use crate::record::{self as recorder, Level, LogEntry, Recording, Side};
-use crate::reference;
 use crate::report::{json, text};
 use crate::scenario::Scenario;
+use linkage::error::{Error, ErrorKind, Result};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -62,7 +61,7 @@ pub(super) fn load(file: &Path, modes: &[String]) -> Result<Scenario> {
 }
 
 pub(super) fn reference_names() -> Vec<&'static str> {
-    reference::all().iter().map(|solver| solver.name()).collect()
+    analytic::all().iter().map(|solver| solver.name()).collect()
 }
 
 /// Proves every file; one that is bad does not keep the others from being proven.

@@ -10,11 +10,11 @@ use serde_json::json;
 use super::engine_args::EngineArgs;
 use super::output;
 use super::progress::Bar;
-use crate::engine::Engine;
-use crate::error::{Error, ErrorKind, Result};
 use crate::report::text::table;
 use crate::scenario::{EngineKeys, Scenario, edit};
 use crate::tune::{Candidate, Tuning, Wish, tune};
+use linkage::engine::Engine;
+use linkage::error::{Error, ErrorKind, Result};
 
 const EXAMPLES: &str = "\
 Examples:

@@ -2,13 +2,13 @@
 
 use super::engines::Runs;
 use super::observe::Observed;
-use crate::case::Case;
 use crate::compare::{Check, Convergence, magnitudes, residuals};
-use crate::engine::Engine;
-use crate::math::statistics::share;
 use crate::scenario::Scenario;
 use crate::tolerance::{Basis, Tolerance};
-use crate::trajectory::{Channel, ChannelKind, Stage};
+use linkage::case::Case;
+use linkage::engine::Engine;
+use linkage::math::statistics::share;
+use linkage::trajectory::{Channel, ChannelKind, Stage};
 
 /// Closure of the joints, relative to the mechanism's size or its distance from the origin, that rounding allows an analytic side.
 const CLOSURE: f64 = 1e-13;

@@ -2,9 +2,9 @@
 
 use super::scene::{Placed, Scene, column};
 use super::shapes::{pose, short, stamp};
-use crate::math::Vec2;
-use crate::mechanism::Joint;
 use foxglove::messages::{ArrowPrimitive, SceneEntity, SceneUpdate};
+use linkage::math::Vec2;
+use linkage::mechanism::Joint;
 
 /// Length of the largest arrow against the size of the mechanism.
 const LONGEST: f64 = 0.4;

@@ -16,7 +16,7 @@
 //! force arrows stand in the metadata record `linkproof`.
 //!
 //! Another program's recording can be read too: it needs `/<side>/grid` and the topics above in protobuf, with fields
-//! named like the suffixes of [`CHANNELS`](crate::trajectory::CHANNELS); their numbers are looked up in the file.
+//! named like the suffixes of [`CHANNELS`](linkage::trajectory::CHANNELS); their numbers are looked up in the file.
 
 mod forces;
 mod guides;
@@ -28,9 +28,9 @@ mod schema;
 mod shapes;
 mod write;
 
-use crate::error::Result;
-use crate::mechanism::Mechanism;
-use crate::trajectory::Trajectory;
+use linkage::error::Result;
+use linkage::mechanism::Mechanism;
+use linkage::trajectory::Trajectory;
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -87,8 +87,8 @@ pub enum Level {
 /// Writes a recording to `path`, by way of `<path>.partial`: an older recording is replaced only by a complete one.
 ///
 /// # Errors
-/// [`ErrorKind::Io`](crate::ErrorKind::Io) with the path if a file cannot be written;
-/// [`ErrorKind::Input`](crate::ErrorKind::Input) if a side's name is empty, taken or contains `/`, or if a time of a
+/// [`ErrorKind::Io`](linkage::ErrorKind::Io) with the path if a file cannot be written;
+/// [`ErrorKind::Input`](linkage::ErrorKind::Input) if a side's name is empty, taken or contains `/`, or if a time of a
 /// grid is not finite.
 pub fn write(recording: &Recording, path: &Path) -> Result<()> {
     write::write(recording, path)
@@ -97,12 +97,12 @@ pub fn write(recording: &Recording, path: &Path) -> Result<()> {
 /// Reads every side of a recording, in the order in which they were recorded.
 ///
 /// Times, crank angles and values come back bit for bit, rows in the order in which the solver gave them. Columns
-/// stand in the order of subjects in the recording, and of [`CHANNELS`](crate::trajectory::CHANNELS) within a subject.
+/// stand in the order of subjects in the recording, and of [`CHANNELS`](linkage::trajectory::CHANNELS) within a subject.
 ///
 /// # Errors
-/// [`ErrorKind::Io`](crate::ErrorKind::Io) with the path if the file cannot be read, is cut off or damaged;
-/// [`ErrorKind::Input`](crate::ErrorKind::Input) if it holds no side, or if a topic lacks samples;
-/// [`ErrorKind::Numeric`](crate::ErrorKind::Numeric) if a value is not finite.
+/// [`ErrorKind::Io`](linkage::ErrorKind::Io) with the path if the file cannot be read, is cut off or damaged;
+/// [`ErrorKind::Input`](linkage::ErrorKind::Input) if it holds no side, or if a topic lacks samples;
+/// [`ErrorKind::Numeric`](linkage::ErrorKind::Numeric) if a value is not finite.
 pub fn read(path: &Path) -> Result<Vec<(String, Trajectory)>> {
     read::read(path)
 }

@@ -2,10 +2,10 @@
 
 use super::scene::{Scene, outline};
 use super::shapes::{GREY, pose, stamp};
-use crate::math::Vec2;
-use crate::mechanism::GROUND;
 use foxglove::messages::packed_element_field::NumericType;
 use foxglove::messages::{PackedElementField, PointCloud};
+use linkage::math::Vec2;
+use linkage::mechanism::GROUND;
 
 /// Points in one mechanism size along a segment of the first side; closer ones would only fill the disk.
 const POINTS: f64 = 64.0;

@@ -3,15 +3,15 @@
 use super::Side;
 use super::guides::{Guide, Strip};
 use super::shapes::{Paint, extent, grey, point, pose, stamp, turn, vector};
-use crate::math::Vec2;
-use crate::math::statistics::ascending;
-use crate::mechanism::{GROUND, Link, LinkPose, Mechanism};
-use crate::trajectory::{Channel, Trajectory};
 use foxglove::messages::line_primitive::Type as LineType;
 use foxglove::messages::{
     CylinderPrimitive, FrameTransform, FrameTransforms, LinePrimitive, Point3, SceneEntity, SceneUpdate,
     SpherePrimitive, TextPrimitive, TriangleListPrimitive,
 };
+use linkage::math::Vec2;
+use linkage::math::statistics::ascending;
+use linkage::mechanism::{GROUND, Link, LinkPose, Mechanism};
+use linkage::trajectory::{Channel, Trajectory};
 
 /// Frames of a recording, at most, unless it is so long that they would be fewer than [`FRAMES_PER_SECOND`].
 const FRAMES: f64 = 400.0;
@@ -275,7 +275,7 @@ pub fn outline(places: &[Vec2]) -> (Vec<Vec2>, bool) {
     let centre = places.iter().sum::<Vec2>() / places.len().max(1) as f64;
     let axis = places.iter().map(|place| place - centre).max_by(|a, b| a.norm().total_cmp(&b.norm()));
     let axis = axis.unwrap_or_else(Vec2::zeros);
-    let off = |place: &Vec2| crate::math::cross(axis, place - centre).abs();
+    let off = |place: &Vec2| linkage::math::cross(axis, place - centre).abs();
     let closed = places.len() > 2 && places.iter().any(|place| off(place) > 1e-6 * axis.norm_squared());
     if closed {
         let bearing = |place: &Vec2| (place.y - centre.y).atan2(place.x - centre.x);

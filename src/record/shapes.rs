@@ -2,7 +2,7 @@
 
 use foxglove::messages::{Color, Point3, Pose, Quaternion, Timestamp, Vector3};
 
-use crate::math::Vec2;
+use linkage::math::Vec2;
 
 /// How one side is drawn. Sides lie over each other: the first broad and pale, each later one thinner and before it,
 /// so that two that agree show both colours and two that do not come apart.

@@ -7,7 +7,7 @@ use comfy_table::Table;
 use super::text::{self, share, used};
 use crate::compare::overall;
 use crate::proof::{EngineProof, Proof};
-use crate::trajectory::Stage;
+use linkage::trajectory::Stage;
 
 /// One row an engine, one column a stage: the channel that uses most of its bound.
 pub(super) fn table(engines: &[EngineProof]) -> Table {

@@ -5,9 +5,9 @@ use super::oracle::number;
 use super::reader::Table;
 use super::unit::{LENGTH, Unit};
 use super::words::suggestion;
-use crate::case::Case;
-use crate::error::{ErrorKind, Result};
-use crate::mechanism::{GROUND, Side};
+use linkage::case::Case;
+use linkage::error::{ErrorKind, Result};
+use linkage::mechanism::{GROUND, Side};
 
 /// One published figure.
 #[derive(Clone, Debug, PartialEq)]
@@ -123,7 +123,7 @@ fn distance(entry: &mut Table, case: &Case) -> Result<(Figure, String)> {
 /// The point called `name` on the first link that has it.
 fn place(entry: &Table, case: &Case, name: &str) -> Result<Side> {
     let links = || case.mechanism.links().iter().enumerate();
-    let on = |(link, body): (usize, &crate::mechanism::Link)| {
+    let on = |(link, body): (usize, &linkage::mechanism::Link)| {
         let point = body.points.iter().find(|point| point.name == name)?;
         Some(Side { link, local: point.local })
     };

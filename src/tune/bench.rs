@@ -5,12 +5,12 @@ use std::f64::consts::PI;
 use super::search::{Found, largest_step};
 use super::ways::{sweeps, ways};
 use super::{Candidate, Price};
-use crate::case::Case;
 use crate::compare::{Convergence, Ladder, residuals};
-use crate::engine::{Engine, Settings};
-use crate::error::{ErrorKind, Result};
 use crate::proof::Options;
-use crate::trajectory::{Channel, Trajectory};
+use linkage::case::Case;
+use linkage::engine::{Engine, Settings};
+use linkage::error::{ErrorKind, Result};
+use linkage::trajectory::{Channel, Trajectory};
 
 /// Coarsest accuracy that is tried of an engine that controls its error: less is none.
 const COARSEST: f64 = 0.1;

@@ -9,15 +9,15 @@ mod bench;
 mod search;
 mod ways;
 
-use crate::case::{Case, Wanted};
-use crate::engine::{Engine, Settings};
-use crate::error::{Error, ErrorKind, Result};
 use crate::proof::Options;
-use crate::reference::AssurSolver;
 use crate::scenario::Scenario;
-use crate::solver::Solver;
-use crate::trajectory::{Channel, Stage};
+use analytic::AssurSolver;
 use bench::{Bench, Outcome};
+use linkage::case::{Case, Wanted};
+use linkage::engine::{Engine, Settings};
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::solver::Solver;
+use linkage::trajectory::{Channel, Stage};
 
 /// What is wanted.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,6 +1,6 @@
 //! What goes wrong with sliders.
 
-use linkproof::ErrorKind;
+use linkage::ErrorKind;
 
 use super::{Bad, INPUT, TABLE, assert_refused, parse};
 

@@ -1,6 +1,6 @@
 //! Random mechanisms with a higher group, prismatic joints anywhere in it, alone or among dyads.
 
-use linkproof::math::Vec2;
+use linkage::math::Vec2;
 
 use super::random::{SORTS, dyad, sort};
 use super::sketch::{Drawn, Random, Sketch};
@@ -139,7 +139,7 @@ pub enum Among {
 const ROUGH: f64 = 0.01;
 
 /// A mechanism with such a group, whose start is asked for by rough places of its joints.
-pub fn mechanism(random: &mut Random, family: &Family, among: Among) -> (Spec, Vec<linkproof::mechanism::LinkPose>) {
+pub fn mechanism(random: &mut Random, family: &Family, among: Among) -> (Spec, Vec<linkage::mechanism::LinkPose>) {
     let mut sketch = Sketch::new(random, [0.02, 0.05]);
     sketch.spec.grid = (sketch.spec.start - 0.25, 0.05, 10);
     let mut driver = 1;

@@ -10,10 +10,10 @@ pub mod sketch;
 pub mod sliders;
 pub mod spec;
 
-use linkproof::case::{Case, Grid};
-use linkproof::math::Vec2;
+use linkage::case::{Case, Grid};
+use linkage::math::Vec2;
+use linkage::solver::{Solver, State};
 use linkproof::scenario::Scenario;
-use linkproof::solver::{Solver, State};
 
 /// A scenario of the repository.
 pub fn shipped(name: &str) -> Scenario {
@@ -22,7 +22,7 @@ pub fn shipped(name: &str) -> Scenario {
 }
 
 /// The states that a solver finds at the given times (s), in their order.
-pub fn states(solver: &dyn Solver, case: &Case, times: &[f64]) -> linkproof::Result<Vec<State>> {
+pub fn states(solver: &dyn Solver, case: &Case, times: &[f64]) -> linkage::Result<Vec<State>> {
     let case = case.on(Grid::of_times(&case.drive, times.to_vec()));
     let mut found: Vec<Option<State>> = vec![None; times.len()];
     let mut keep = |row: usize, state: &State| {

@@ -3,9 +3,9 @@
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
-use linkproof::math::cross;
-use linkproof::mechanism::assembly::transmission_sine;
-use linkproof::mechanism::{Group, GroupKind, LinkPose, Pose, StartGroup, first_pose};
+use linkage::math::cross;
+use linkage::mechanism::assembly::transmission_sine;
+use linkage::mechanism::{Group, GroupKind, LinkPose, Pose, StartGroup, first_pose};
 use linkproof::scenario::Scenario;
 use proptest::test_runner::TestCaseError;
 
@@ -140,7 +140,7 @@ pub fn sample(spec: Spec) -> Option<Sample> {
 /// That the mode asked for is the pose that was drawn.
 fn starts_as_drawn(sample: &Sample, drawn: &[LinkPose]) {
     for (found, drawn) in sample.scenario.case.start.0.iter().zip(drawn) {
-        let turn = linkproof::math::angle::wrapped(found.angle - drawn.angle);
+        let turn = linkage::math::angle::wrapped(found.angle - drawn.angle);
         let off = (found.origin - drawn.origin).norm().max(turn.abs());
         // Rounding through the dyads, as between the solvers.
         assert!(off <= 1e-13 * sample.condition.powi(2), "{off:e}\n{}", sample.spec.toml());

@@ -1,8 +1,8 @@
 //! Mechanisms drawn at random in the pose that they start in: links lie anywhere in any direction, and a joint is put where both of its
 //! links happen to be. So every drawing can be assembled, and the pose it must start in is known without any formula.
 
-use linkproof::math::{Vec2, rotated, unit};
-use linkproof::mechanism::LinkPose;
+use linkage::math::{Vec2, rotated, unit};
+use linkage::mechanism::LinkPose;
 use proptest::prelude::Rng;
 use proptest::test_runner::{RngAlgorithm, TestRng};
 

@@ -4,10 +4,10 @@
 pub mod double;
 
 use double::{oldham, scotch_yoke, slotted_crank};
-use linkproof::case::{Case, Grid, Wanted};
-use linkproof::drive::{Drive, MotionLaw};
-use linkproof::math::{Vec2, rotated, turned, unit};
-use linkproof::mechanism::{
+use linkage::case::{Case, Grid, Wanted};
+use linkage::drive::{Drive, MotionLaw};
+use linkage::math::{Vec2, rotated, turned, unit};
+use linkage::mechanism::{
     AssemblyMode, Group, GroupKind, Joint, JointKind, Link, LinkPose, Mechanism, Point, Pose, Side, Structure,
 };
 

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use linkproof::math::{Vec2, rotated, unit};
+use linkage::math::{Vec2, rotated, unit};
 use linkproof::scenario::Scenario;
 
 /// A link with its own points.
@@ -163,7 +163,7 @@ impl Spec {
     }
 
     /// The scenario, read from its text.
-    pub fn scenario(&self) -> linkproof::Result<Scenario> {
+    pub fn scenario(&self) -> linkage::Result<Scenario> {
         Scenario::parse(&self.toml(), Path::new("test.toml"))
     }
 

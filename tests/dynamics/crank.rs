@@ -3,10 +3,11 @@
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
-use linkproof::case::Case;
-use linkproof::drive::{Load, MotionLaw, Motor, MotorLaw, ShaftInertia};
-use linkproof::reference::dynamics::{ACCURACY, Averaged, End, Model, RunUp, motion};
-use linkproof::reference::{AssurSolver, reduced};
+use analytic::AssurSolver;
+use analytic::reduced::means;
+use analytic::reduced::{ACCURACY, Averaged, End, Model, RunUp, motion};
+use linkage::case::Case;
+use linkage::drive::{Load, MotionLaw, Motor, MotorLaw, ShaftInertia};
 use linkproof::scenario::Scenario;
 
 /// A bar of 2 kg and 0.05 kg m^2 about its mass centre, 0.3 m from the pivot; from the direction `start` (deg).
@@ -69,7 +70,7 @@ fn the_averaged_model_is_exact_for_constant_coefficients() {
         let motor = Motor { efficiency, inertia, ..Motor::ideal(law.clone(), 10.0) };
         case.motor = Some(motor.clone());
         let model = Model::of(&case).unwrap();
-        let means = reduced::means_over_turn(&case, &AssurSolver).unwrap();
+        let means = means::means_over_turn(&case, &AssurSolver).unwrap();
         let averaged = Averaged::of(&motor, means.inertia + model.added_inertia(), speed * means.resistance).unwrap();
         // 40 N m and 2 N m s on the crank without losses.
         assert!((averaged.time_constant - 0.48 / (2.0 * efficiency)).abs() < 1e-15, "{averaged:?}");

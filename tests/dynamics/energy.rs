@@ -3,10 +3,10 @@
 use std::f64::consts::TAU;
 
 use crate::common::{centre, centre_velocity, shipped};
-use linkproof::case::Case;
-use linkproof::reference::PoseSolver;
-use linkproof::reference::dynamics::{CrankState, End, Model, motion};
-use linkproof::trajectory::Stage;
+use analytic::PoseSolver;
+use analytic::reduced::{CrankState, End, Model, motion};
+use linkage::case::Case;
+use linkage::trajectory::Stage;
 
 /// Kinetic and potential energy (J).
 fn energy(case: &Case, poses: &mut PoseSolver, at: &CrankState) -> [f64; 2] {

@@ -3,10 +3,11 @@
 use std::f64::consts::TAU;
 
 use crate::common::shipped;
-use linkproof::drive::{Load, MotorLaw};
-use linkproof::math::Vec2;
-use linkproof::reference::dynamics::{ACCURACY, End, Model, RunUp, motion};
-use linkproof::reference::{self, reduced};
+use analytic::reduced::means;
+use analytic::reduced::{ACCURACY, End, Model, RunUp, motion};
+use linkage::drive::{Load, MotorLaw};
+use linkage::math::Vec2;
+use workshop::flywheel::Flywheel;
 
 /// Half a millisecond to half a second: the run-up of the published problem.
 fn times() -> Vec<f64> {
@@ -16,8 +17,8 @@ fn times() -> Vec<f64> {
 #[test]
 fn val_crank_rocker_reduced_means_and_maximum() {
     let case = shipped("crank_rocker.toml").case;
-    for solver in reference::all() {
-        let means = reduced::means_over_turn(&case, solver).unwrap();
+    for solver in analytic::all() {
+        let means = means::means_over_turn(&case, solver).unwrap();
         assert!((means.inertia - 0.164_846_013).abs() < 5.1e-10, "{}: {}", solver.name(), means.inertia);
         // Over a turn gravity does no work and the rocker goes through its swing of 32 deg twice.
         let closed = 100.0 * 2.0 * 32.0 / 360.0;
@@ -29,7 +30,7 @@ fn val_crank_rocker_reduced_means_and_maximum() {
     let crank = &mut links[1];
     crank.inertia += crank.mass * crank.mass_centre.norm_squared();
     crank.mass_centre = Vec2::zeros();
-    weightless.mechanism = linkproof::mechanism::Mechanism::new(links, case.mechanism.joints().to_vec()).unwrap();
+    weightless.mechanism = linkage::mechanism::Mechanism::new(links, case.mechanism.joints().to_vec()).unwrap();
     let [inertia, resistance] = Model::of(&weightless).unwrap().extremes().unwrap();
     assert!((resistance.greatest.1 - 37.016_264_0).abs() < 5.1e-8, "{resistance:?}");
     let [own, _] = Model::of(&case).unwrap().extremes().unwrap();
@@ -114,12 +115,12 @@ fn a_flywheel_does_what_is_asked() {
     let case = shipped("crank_rocker.toml").case;
     let model = Model::of(&case).unwrap();
     for wanted in [0.2, 0.02, 1e-3] {
-        let found = model.flywheel(wanted, ACCURACY).unwrap();
+        let found = Flywheel::of(&model, wanted, ACCURACY).unwrap();
         let again = model.with_flywheel(found.inertia).regime(&[], ACCURACY).unwrap();
         assert!((again.non_uniformity() / wanted - 1.0).abs() < 1e-10, "{wanted}");
     }
     // Uniform enough without.
-    assert_eq!(model.flywheel(0.5, ACCURACY).unwrap().inertia, 0.0);
+    assert_eq!(Flywheel::of(&model, 0.5, ACCURACY).unwrap().inertia, 0.0);
     // With a large flywheel the speed hardly changes, and J = W / (delta omega^2) with the largest surplus W of work that the mechanism's own kinetic
     // energy does not take, as in textbooks (Merzalow): the motor's moment is then the mean resistance.
     let count = 36_000;
@@ -134,7 +135,7 @@ fn a_flywheel_does_what_is_asked() {
     }
     let wanted = 1e-5;
     let textbook = (most - least) / (wanted * speed * speed);
-    let found = model.flywheel(wanted, ACCURACY).unwrap();
+    let found = Flywheel::of(&model, wanted, ACCURACY).unwrap();
     // What the changes of I* and of the motor's moment do is of the order of I* / J.
     assert!((found.inertia / textbook - 1.0).abs() < 1e-3, "{} {textbook}", found.inertia);
 }
@@ -178,7 +179,7 @@ fn losses_of_the_reducer_cost_their_share() {
 fn what_a_motor_cannot_move_is_held() {
     let mut case = shipped("crank_rocker.toml").case;
     // 10 N m against a greatest resistance of 37: it gets so far and stops for good.
-    case.motor = Some(linkproof::drive::Motor::ideal(MotorLaw::Constant { torque: 10.0 }, 1.0));
+    case.motor = Some(linkage::drive::Motor::ideal(MotorLaw::Constant { torque: 10.0 }, 1.0));
     let model = Model::of(&case).unwrap();
     let (found, end) = motion(&model, 0.0, &times(), ACCURACY).unwrap();
     let End::Held(t, crank) = end else { panic!("{end:?}") };

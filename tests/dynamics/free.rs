@@ -1,15 +1,15 @@
 //! Motion that forces decide: both analytic sides against each other, against textbook equations, and the twin.
 
-use linkproof::case::{Case, Grid, Wanted};
+use analytic::{AssurSolver, NewtonSolver};
+use linkage::case::{Case, Grid, Wanted};
+use linkage::engine::{Engine, Route, Settings};
+use linkage::math::Vec2;
+use linkage::mechanism::Mechanism;
+use linkage::solver::Solver;
+use linkage::trajectory::{Channel, Stage, Trajectory};
 use linkproof::compare::{Verdict, residuals};
-use linkproof::engine::{self, Engine, Route, Settings};
-use linkproof::math::Vec2;
-use linkproof::mechanism::Mechanism;
 use linkproof::proof::{Options, prove};
-use linkproof::reference::{AssurSolver, NewtonSolver};
 use linkproof::scenario::Scenario;
-use linkproof::solver::Solver;
-use linkproof::trajectory::{Channel, Stage, Trajectory};
 
 use crate::common::shipped;
 
@@ -48,7 +48,7 @@ fn two_ways_of_side_1_agree() {
     for name in ["crank_rocker_runup", "compressor_runup"] {
         let case = shipped(&format!("{name}.toml")).case;
         let mut damped = case.clone();
-        damped.loads.push(linkproof::drive::Load::TorsionDamper { links: [0, 1], damping: 0.0 });
+        damped.loads.push(linkage::drive::Load::TorsionDamper { links: [0, 1], damping: 0.0 });
         let found = worst(&solve(&AssurSolver, &case), &solve(&AssurSolver, &damped), |_| true);
         assert!(found < 1e-10, "{name}: {found:e}");
     }
@@ -127,7 +127,7 @@ fn several_freedoms_keep_their_energy() {
 }
 
 fn twin(name: &str, scenario: &Scenario, settings: impl Fn(Settings) -> Settings) -> Box<dyn Engine> {
-    let engine = engine::named(name, scenario.dt).unwrap();
+    let engine = linkproof::engines::named(name, scenario.dt).unwrap();
     engine.with(settings(engine.settings()))
 }
 
@@ -221,7 +221,7 @@ fn what_a_free_motion_cannot_be_asked_says_so() {
         case.mechanism = Mechanism::new(links, case.mechanism.joints().to_vec()).unwrap();
     });
     let extrapolated = twin("rapier", &scenario, |settings| Settings { extrapolated: true, ..settings });
-    let engines: Vec<_> = engine::all(scenario.dt).into_iter().chain([extrapolated]).collect();
+    let engines: Vec<_> = linkproof::engines::all(scenario.dt).into_iter().chain([extrapolated]).collect();
     let solvers = engines.iter().map(|engine| engine.as_ref() as &dyn Solver);
     for solver in solvers.clone().chain([&AssurSolver as &dyn Solver, &NewtonSolver]) {
         let error = solver.solve(&before, &mut |_| {}).unwrap_err();

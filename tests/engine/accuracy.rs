@@ -1,12 +1,12 @@
 //! How good Rapier's twin is at a step of 0.08 deg of the crank: the figures of `docs/rapier.md`, with the sweeps given there.
 
-use linkproof::case::{Case, Wanted};
+use analytic::AssurSolver;
+use linkage::case::{Case, Wanted};
+use linkage::engine::{Engine, Route, Settings};
+use linkage::solver::{Solver, State};
+use linkage::trajectory::Stage;
 use linkproof::compare::convergence::observed_order;
 use linkproof::compare::{Residual, residuals};
-use linkproof::engine::{self, Engine, Route, Settings};
-use linkproof::reference::AssurSolver;
-use linkproof::solver::{Solver, State};
-use linkproof::trajectory::Stage;
 
 use crate::common::shipped;
 use crate::{epsilon, solve};
@@ -20,7 +20,7 @@ fn whole(name: &str) -> Case {
 
 /// The engine at a step of 0.08 deg of the crank.
 fn fine(name: &str, case: &Case, route: Route, extrapolated: bool) -> Box<dyn Engine> {
-    let engine = engine::named(name, 0.08f64.to_radians() / case.drive.at(0.0).omega.abs()).unwrap();
+    let engine = linkproof::engines::named(name, 0.08f64.to_radians() / case.drive.at(0.0).omega.abs()).unwrap();
     engine.with(Settings { route, extrapolated, sweeps: SWEEPS, ..engine.settings() })
 }
 
@@ -75,7 +75,7 @@ fn gap(case: &Case, state: &State) -> f64 {
 /// around the loop. Every step corrects all of the gap before it (erp = 1), so that one step's is all there is.
 fn gap_of_a_step(case: &Case, state: &State, step: f64) -> f64 {
     let joints = case.mechanism.joints();
-    let around: linkproof::math::Vec2 = (0..joints.len())
+    let around: linkage::math::Vec2 = (0..joints.len())
         .map(|k| {
             // Joints O, A, B, C in turn: link k leads from joint k - 1 to joint k.
             let (from, to) = (&joints[k], &joints[(k + 1) % joints.len()]);
@@ -214,7 +214,7 @@ fn regress_63_extrapolation_raises_the_order_by_one() {
 #[test]
 fn regress_14_thirty_two_sweeps_are_as_good_as_a_thousand() {
     let case = whole("crank_rocker");
-    let engine = engine::named("rapier", 1e-3).unwrap();
+    let engine = linkproof::engines::named("rapier", 1e-3).unwrap();
     let runs = [32, 1024].map(|sweeps| solve(engine.with(Settings { sweeps, ..engine.settings() }).as_ref(), &case));
     for residual in residuals(&runs[1], &runs[0]).unwrap() {
         let share = residual.share();
@@ -233,13 +233,13 @@ fn regress_60_single_precision_is_within_its_rounding_bound() {
         let base = whole(name);
         let turn = std::f64::consts::TAU / base.drive.at(0.0).omega.abs();
         let times = (0..=45).map(|k| turn * (from + (to - from) * f64::from(k) / 45.0)).collect();
-        let case = base.on(linkproof::case::Grid::of_times(&base.drive, times));
+        let case = base.on(linkage::case::Grid::of_times(&base.drive, times));
         // Rows of ill-conditioned loops weigh more in an impulse, the constants of whose routes were found on the crank-rocker.
         let routes: &[Route] = if name == "crank_rocker" { &Route::ALL } else { &[Route::Differences, Route::Native] };
         for (single, double) in [("rapier-f32", "rapier"), ("impulse-f32", "impulse")] {
             for (&route, step) in routes.iter().flat_map(|route| [(route, 1e-3), (route, 2.5e-4)]) {
                 let engines = [double, single].map(|name| {
-                    let engine = engine::named(name, step).unwrap();
+                    let engine = linkproof::engines::named(name, step).unwrap();
                     engine.with(Settings { route, ..engine.settings() })
                 });
                 assert!(epsilon(engines[1].as_ref()) > 1e-8);

@@ -1,11 +1,11 @@
 //! Long chains, and links without mass in the impulses that an engine reports.
 
-use linkproof::case::{Case, Grid};
+use analytic::AssurSolver;
+use linkage::case::{Case, Grid};
+use linkage::engine::{Route, Settings};
+use linkage::math::Vec2;
+use linkage::trajectory::{Stage, Trajectory};
 use linkproof::compare::residuals;
-use linkproof::engine::{self, Route, Settings};
-use linkproof::math::Vec2;
-use linkproof::reference::AssurSolver;
-use linkproof::trajectory::{Stage, Trajectory};
 
 use crate::common::spec::{Body, Dyad, Pin, Spec, four_bar};
 use crate::solve;
@@ -57,7 +57,7 @@ fn regress_68_twelve_links_converge_in_the_impulse_build() {
     assert_eq!(case.mechanism.links().len(), 12);
     let truth = solve(&AssurSolver, &case);
     let errors = [2e-3, 1e-3].map(|step| {
-        let run = solve(engine::named("impulse", step).unwrap().as_ref(), &case);
+        let run = solve(linkproof::engines::named("impulse", step).unwrap().as_ref(), &case);
         [Stage::Positions, Stage::Velocities, Stage::Accelerations, Stage::Reactions]
             .map(|stage| worst(&truth, &run, |own| own == stage))
     });
@@ -83,7 +83,7 @@ fn regress_69_stand_ins_are_taken_off_reported_impulses() {
     for name in ["rapier", "impulse"] {
         for (route, formal, bound) in [(Route::Native, 1.0, 0.125), (Route::Probe, 2.0, 5e-3)] {
             let errors = [2e-3, 1e-3].map(|step| {
-                let engine = engine::named(name, step).unwrap();
+                let engine = linkproof::engines::named(name, step).unwrap();
                 let run = solve(engine.with(Settings { route, sweeps: 1024, ..engine.settings() }).as_ref(), &case);
                 worst(&truth, &run, |stage| stage >= Stage::Reactions)
             });

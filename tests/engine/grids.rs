@@ -1,9 +1,9 @@
 //! The same run, asked at other instants.
 
-use linkproof::case::{Case, Grid};
+use linkage::case::{Case, Grid};
+use linkage::engine::Settings;
+use linkage::trajectory::Trajectory;
 use linkproof::compare::residuals;
-use linkproof::engine::Settings;
-use linkproof::trajectory::Trajectory;
 
 use crate::common::spec::four_bar;
 use crate::{double, solve, stepping};
@@ -60,7 +60,7 @@ fn regress_21_samples_between_steps_are_as_good_as_samples_on_steps() {
             let on = at(&case, (0..600).map(|k| f64::from(k) * DT).collect());
             let between = at(&case, (0..600).map(|k| (f64::from(k) + shift) * DT).collect());
             let worst = [on, between].map(|case| {
-                let truth = solve(&linkproof::reference::AssurSolver, &case);
+                let truth = solve(&analytic::AssurSolver, &case);
                 let found = residuals(&truth, &solve(engine.as_ref(), &case)).unwrap();
                 found.iter().map(|r| r.share()).fold(0.0, f64::max)
             });
@@ -74,9 +74,9 @@ fn regress_21_samples_between_steps_are_as_good_as_samples_on_steps() {
 #[test]
 fn regress_22_instants_before_the_start_are_as_good_as_others() {
     let case = case();
-    for engine in linkproof::engine::all(DT) {
+    for engine in linkproof::engines::all(DT) {
         let whole = at(&case, (-300..=300).map(|k| f64::from(k) * DT).collect());
-        let truth = solve(&linkproof::reference::AssurSolver, &whole);
+        let truth = solve(&analytic::AssurSolver, &whole);
         let run = solve(engine.as_ref(), &whole);
         let half = solve(engine.as_ref(), &at(&case, (0..=300).map(|k| f64::from(k) * DT).collect()));
         // The two runs turn about at different poses; what is left of it must be less than their rounding.

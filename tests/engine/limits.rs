@@ -1,10 +1,9 @@
 //! Steps that are far too large and poses that cannot be reached: an error that helps, never numbers that look good.
 
-use linkproof::ErrorKind;
-use linkproof::engine;
+use analytic::{self, AssurSolver, NewtonSolver};
+use linkage::ErrorKind;
+use linkage::solver::Solver;
 use linkproof::proof::{Options, prove};
-use linkproof::reference::{self, AssurSolver, NewtonSolver};
-use linkproof::solver::Solver;
 
 use crate::common::shipped;
 use crate::common::sliders::short_rod;
@@ -33,7 +32,7 @@ fn regress_40_steps_that_are_too_large_prove_nothing() {
 }
 
 /// The error says where it happened and what to do.
-fn assert_helpful(error: &linkproof::Error) {
+fn assert_helpful(error: &linkage::Error) {
     assert_eq!(error.kind(), ErrorKind::Numeric, "{error}");
     assert!(error.message().contains("crank angle"), "{error}");
     // An engine that chooses its steps cannot be helped by smaller ones.
@@ -50,11 +49,11 @@ fn regress_41_a_pose_that_cannot_be_assembled_is_an_error_with_its_crank_angle()
     spec.grid = (0.5, 0.05, 60);
     let case = spec.scenario().unwrap().case;
     for step in [1e-2, 1e-3, 1e-4] {
-        for engine in engine::all(step) {
+        for engine in linkproof::engines::all(step) {
             assert_helpful(&engine.solve(&case, &mut |_| {}).unwrap_err());
         }
     }
-    for solver in reference::all() {
+    for solver in analytic::all() {
         let error = solver.solve(&case, &mut |_| {}).unwrap_err();
         assert!(error.message().contains("crank angle"), "{error}");
     }
@@ -67,7 +66,7 @@ fn regress_41_a_pose_that_cannot_be_assembled_is_an_error_with_its_crank_angle()
 fn regress_42_a_slider_out_of_reach_is_an_error_with_its_crank_angle() {
     let case = short_rod();
     for step in [1e-2, 1e-3, 1e-4] {
-        for engine in engine::all(step) {
+        for engine in linkproof::engines::all(step) {
             assert_helpful(&engine.solve(&case, &mut |_| {}).unwrap_err());
         }
     }

@@ -1,11 +1,11 @@
 //! Rapier's own readings: impulses and velocities as the engine reports them.
 
-use linkproof::case::Case;
-use linkproof::engine::rapier::tree::Tree;
-use linkproof::engine::rapier::world::World;
-use linkproof::engine::rapier::{Build, Precision, Rapier};
-use linkproof::math::Vec2;
-use linkproof::reference::AssurSolver;
+use analytic::AssurSolver;
+use linkage::case::Case;
+use linkage::math::Vec2;
+use rapier_twin::tree::Tree;
+use rapier_twin::world::World;
+use rapier_twin::{Build, Precision, Rapier};
 
 use crate::common::spec::{Spec, four_bar};
 use crate::common::{shipped, states};

@@ -1,12 +1,11 @@
 //! Prismatic joints: one mechanism of every sort of dyad, built by hand, against the whole-mechanism solver.
 
-use linkproof::case::{Case, Grid};
-use linkproof::engine;
-use linkproof::engine::rapier::tree::Tree;
-use linkproof::engine::rapier::{Build, Precision, Rapier};
-use linkproof::mechanism::{Link, Mechanism, Side};
-use linkproof::reference::NewtonSolver;
-use linkproof::solver::Solver;
+use analytic::NewtonSolver;
+use linkage::case::{Case, Grid};
+use linkage::mechanism::{Link, Mechanism, Side};
+use linkage::solver::Solver;
+use rapier_twin::tree::Tree;
+use rapier_twin::{Build, Precision, Rapier};
 
 use crate::common::sliders::{self, SPEED, swapped};
 use crate::common::states;
@@ -28,9 +27,9 @@ fn lighter(case: &Case) -> Case {
 fn regress_50_all_sorts_of_sliders_converge_with_the_formal_order() {
     for sample in sliders::all() {
         for case in [sample.case.clone(), swapped(&sample.case), lighter(&sample.case)] {
-            has_formal_order(&case, engine::named("rapier", 1e-3).into_iter(), &NewtonSolver);
+            has_formal_order(&case, linkproof::engines::named("rapier", 1e-3).into_iter(), &NewtonSolver);
         }
-        has_formal_order(&sample.case, engine::named("impulse", 2e-3).into_iter(), &NewtonSolver);
+        has_formal_order(&sample.case, linkproof::engines::named("impulse", 2e-3).into_iter(), &NewtonSolver);
     }
 }
 
@@ -99,7 +98,7 @@ fn regress_53_errors_of_sliders_are_as_measured() {
     let measured = [1.4e-6, 8.3e-6, 7.8e-7, 2.0e-5, 1.7e-6];
     for (sample, measured) in sliders::all().into_iter().zip(measured) {
         let truth = solve(&NewtonSolver, &sample.case);
-        for engine in [engine::named("rapier", 1e-4).unwrap()] {
+        for engine in [linkproof::engines::named("rapier", 1e-4).unwrap()] {
             let found = linkproof::compare::residuals(&truth, &solve(engine.as_ref(), &sample.case)).unwrap();
             for residual in found {
                 let error = residual.share();

@@ -1,10 +1,10 @@
 //! Several substeps a step: what they are to Rapier, and what of it can be read.
 
-use linkproof::case::{Case, Grid};
+use analytic::AssurSolver;
+use linkage::case::{Case, Grid};
+use linkage::engine::{Engine, Route, Settings};
+use linkage::trajectory::{Channel, Stage};
 use linkproof::compare::residuals;
-use linkproof::engine::{self, Engine, Route, Settings};
-use linkproof::reference::AssurSolver;
-use linkproof::trajectory::{Channel, Stage};
 
 use crate::common::spec::four_bar;
 use crate::{epsilon, has_formal_order, solve};
@@ -21,7 +21,7 @@ fn case() -> Case {
 }
 
 fn engine(name: &str, route: Route, substeps: usize) -> Box<dyn Engine> {
-    let engine = engine::named(name, 1e-3).unwrap();
+    let engine = linkproof::engines::named(name, 1e-3).unwrap();
     engine.with(Settings { route, substeps, sweeps: SWEEPS, ..engine.settings() })
 }
 

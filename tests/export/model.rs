@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use linkproof::math::{Vec2, rotated, turned, unit};
+use linkage::math::{Vec2, rotated, turned, unit};
 use roxmltree::Node;
 
 /// Type of a joint.

@@ -1,10 +1,9 @@
 //! Forces against the laws of momentum and energy, with all derivatives taken by differences.
 
-use linkproof::case::Case;
-use linkproof::drive::Wrench;
-use linkproof::math::{Vec2, cross};
-use linkproof::reference;
-use linkproof::solver::State;
+use linkage::case::Case;
+use linkage::drive::Wrench;
+use linkage::math::{Vec2, cross};
+use linkage::solver::State;
 use proptest::test_runner::TestCaseError;
 
 use crate::common::random::{REACH, for_each, within};
@@ -26,7 +25,7 @@ impl Instant<'_> {
         self.around.here()
     }
 
-    fn masses(&self) -> impl Iterator<Item = (usize, &linkproof::mechanism::Link)> {
+    fn masses(&self) -> impl Iterator<Item = (usize, &linkage::mechanism::Link)> {
         self.case.mechanism.links().iter().enumerate().skip(1)
     }
 
@@ -68,7 +67,7 @@ impl Action {
 fn at_instants(check: impl Fn(&Instant) -> Result<(), TestCaseError>) {
     for_each(COUNT, |sample| {
         let case = &sample.scenario.case;
-        for solver in reference::all() {
+        for solver in analytic::all() {
             for k in [0, case.grid.len() / 2, case.grid.len() - 1] {
                 let around = Around::of(solver, sample, case.grid.times[k]);
                 let fastest = around.here().motions.iter().map(|m| m.omega.abs()).fold(0.0, f64::max);
@@ -98,7 +97,7 @@ fn ground_reactions_drive_loads_and_gravity_change_the_angular_momentum() {
     at_instants(|at| {
         let case = at.case;
         let momentum = |s: &State| -> f64 {
-            let of = |(link, body): (usize, &linkproof::mechanism::Link)| {
+            let of = |(link, body): (usize, &linkage::mechanism::Link)| {
                 body.mass * cross(centre(case, s, link), centre_velocity(case, s, link))
                     + body.inertia * s.motions[link].omega
             };
@@ -138,7 +137,7 @@ fn drive_and_loads_change_the_energy() {
     at_instants(|at| {
         let case = at.case;
         let energy = |s: &State| -> f64 {
-            let of = |(link, body): (usize, &linkproof::mechanism::Link)| {
+            let of = |(link, body): (usize, &linkage::mechanism::Link)| {
                 let (v, spin) = (centre_velocity(case, s, link), s.motions[link].omega);
                 0.5 * (body.mass * v.norm_squared() + body.inertia * spin * spin)
                     - body.mass * case.gravity.dot(&centre(case, s, link))

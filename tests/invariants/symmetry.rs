@@ -2,11 +2,10 @@
 
 use std::f64::consts::PI;
 
-use linkproof::case::Case;
-use linkproof::math::{Vec2, cross, rotated, unit};
-use linkproof::mechanism::GroupKind;
-use linkproof::reference;
-use linkproof::solver::{Solver, State};
+use linkage::case::Case;
+use linkage::math::{Vec2, cross, rotated, unit};
+use linkage::mechanism::GroupKind;
+use linkage::solver::{Solver, State};
 use proptest::test_runner::TestCaseError;
 
 use crate::COUNT;
@@ -46,7 +45,7 @@ fn case_of(spec: &Spec) -> Case {
 
 fn check(sample: &Sample, other: &Spec, sense: f64, expected: &Expected) -> Result<(), TestCaseError> {
     let other = case_of(other);
-    for solver in reference::all() {
+    for solver in analytic::all() {
         for (ours, theirs) in pairs(solver, sample, &other, sense) {
             compare(sample, &other, [&ours, &theirs], expected)?;
         }
@@ -68,7 +67,7 @@ fn compare(
         let (a, b, c) = (&ours.motions[link], &theirs.motions[link], body.mass_centre);
         let d = other.mechanism.links()[link].mass_centre;
         let turn = theirs.angles[link] - (expected.angle)(ours.angles[link]);
-        within("angle", linkproof::math::angle::wrapped(turn).abs(), bound)?;
+        within("angle", linkage::math::angle::wrapped(turn).abs(), bound)?;
         within("omega", (b.omega - expected.omega * a.omega).abs(), bound * spin)?;
         within("alpha", (b.alpha - expected.alpha * a.alpha).abs(), bound * spin * spin)?;
         within("place", (b.point(d) - (expected.place)(a.point(c))).norm(), bound * 10.0)?;
@@ -168,7 +167,7 @@ fn joints_read_the_other_way_round_flip_their_own_force_only() {
             other.guides.iter_mut().filter(|guide| guide.name == joint.name).for_each(|guide| guide.reverse());
             turn_modes(case, &mut other, index, |kind| kind == GroupKind::Rpr);
             let other = case_of(&other);
-            for solver in reference::all() {
+            for solver in analytic::all() {
                 for (ours, mut theirs) in pairs(solver, sample, &other, 1.0) {
                     theirs.forces[index] = -theirs.forces[index];
                     // About the place on the link that was second before.
@@ -219,7 +218,7 @@ fn guides_read_against_their_axes_and_named_elsewhere_work_alike() {
                 *at += unit(guide.axes[k]) * by;
             }
             let moved = case_of(&moved);
-            for solver in reference::all() {
+            for solver in analytic::all() {
                 for (ours, mut theirs) in pairs(solver, sample, &moved, 1.0) {
                     let place = |state: &State| state.motions[joint.second.link].point(joint.second.local);
                     let second = moved.mechanism.joints()[index].second;
@@ -240,7 +239,7 @@ fn twice_the_masses_make_exactly_twice_the_forces() {
         free.loads.clear();
         let sample = crate::common::random::sample(free).expect("loads do not matter to the motion");
         let heavier = case_of(&sample.spec.heavier(2.0));
-        for solver in reference::all() {
+        for solver in analytic::all() {
             for (ours, theirs) in pairs(solver, &sample, &heavier, 1.0) {
                 // A factor of two changes no rounding, so that the equality is exact.
                 let doubled: Vec<Vec2> = ours.forces.iter().map(|force| force * 2.0).collect();

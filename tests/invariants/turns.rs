@@ -2,8 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use linkproof::case::Grid;
-use linkproof::reference;
+use linkage::case::Grid;
 
 use crate::common::spec::four_bar;
 use crate::common::states;
@@ -39,7 +38,7 @@ fn three_turns(lengths: [f64; 4], turning: [f64; 2], left: bool, speed: f64, ste
     let turn = (360.0 / step_deg) as usize;
     let cranks = (0..=3 * turn).map(|k| (k as f64 * step_deg).to_radians() * speed.signum());
     let times = Grid::of_cranks(&case.drive, cranks.collect()).times;
-    for solver in reference::all() {
+    for solver in analytic::all() {
         let found = states(solver, &case, &times).unwrap_or_else(|error| panic!("{error}"));
         for (first, second) in found.iter().zip(&found[turn..]) {
             for (link, turns) in [(1, 1.0), (2, turning[0]), (3, turning[1])] {

@@ -2,9 +2,8 @@
 
 use std::path::Path;
 
-use linkproof::case::Case;
-use linkproof::math::quadrature;
-use linkproof::reference;
+use linkage::case::Case;
+use linkage::math::quadrature;
 use linkproof::scenario::Scenario;
 
 use crate::common::states;
@@ -48,7 +47,7 @@ fn rod(phi: f64) -> [f64; 2] {
 fn balances(loads: &str, size: f64, moment: impl Fn(f64) -> f64) {
     let scenario = slider_crank(loads);
     let case = &scenario.case;
-    for solver in reference::all() {
+    for solver in analytic::all() {
         let found = states(solver, case, &case.grid.times).unwrap();
         for (state, &phi) in found.iter().zip(&case.grid.cranks) {
             let (found, expected) = (state.torques[0], moment(phi));
@@ -135,7 +134,7 @@ fn val_a_torsional_spring_is_wound_up_turn_by_turn() {
 fn work(case: &Case, from: f64, to: f64) -> f64 {
     let nodes = quadrature::composite(&[from, to], 0.05);
     let times: Vec<f64> = nodes.iter().map(|&(crank, _)| case.drive.time_of(crank)).collect();
-    let found = states(reference::all()[0], case, &times).unwrap();
+    let found = states(analytic::all()[0], case, &times).unwrap();
     found.iter().zip(&nodes).map(|(state, &(_, weight))| state.torques[0] * weight).sum()
 }
 

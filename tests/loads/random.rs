@@ -2,11 +2,11 @@
 
 use std::fmt::Write;
 
-use linkproof::case::Case;
+use analytic::{self, witness::momentum, witness::power};
+use linkage::case::Case;
+use linkage::trajectory::Stage;
 use linkproof::compare::residuals;
-use linkproof::reference::{self, momentum, power};
 use linkproof::scenario::Scenario;
-use linkproof::trajectory::Stage;
 
 use crate::common::random::{for_each, within};
 use crate::common::sketch::Random;
@@ -96,7 +96,7 @@ fn reactions_balance_powers_and_momentum_on_both_sides() {
         for load in &case.loads {
             *sorts.borrow_mut().entry(load.sort()).or_insert(0) += 1;
         }
-        let [a, b] = reference::all().map(|solver| solver.solve(case, &mut |_| {}).expect("solvable"));
+        let [a, b] = analytic::all().map(|solver| solver.solve(case, &mut |_| {}).expect("solvable"));
         let forces = |stage| {
             let own = a.iter().filter(move |(channel, _)| channel.kind.stage == stage);
             own.flat_map(|(_, values)| values).fold(0.0, |max: f64, v| max.max(v.abs()))
@@ -109,7 +109,7 @@ fn reactions_balance_powers_and_momentum_on_both_sides() {
                 within(residual.channel.kind.stage.name(), residual.max / scale, bound)?;
             }
         }
-        for solver in reference::all() {
+        for solver in analytic::all() {
             for state in states(solver, case, &case.grid.times).expect("solvable") {
                 let moment = power::balancing_moment(case, &state);
                 within("power", (moment - state.torques[0]).abs() / scale, bound)?;
@@ -130,7 +130,7 @@ fn higher_groups_bear_loads_too() {
         for _ in 0..4 {
             let scenario = loaded(&mut random, &shipped(name));
             let case = &scenario.case;
-            let [a, b] = reference::all().map(|solver| solver.solve(case, &mut |_| {}).expect("solvable"));
+            let [a, b] = analytic::all().map(|solver| solver.solve(case, &mut |_| {}).expect("solvable"));
             let own = a.iter().filter(|(channel, _)| channel.kind.stage >= Stage::Reactions);
             let scale = own.flat_map(|(_, values)| values).fold(0.0, |max: f64, v| max.max(v.abs()));
             for residual in residuals(&a, &b).expect("one grid") {
@@ -142,7 +142,7 @@ fn higher_groups_bear_loads_too() {
                     residual.max / scale
                 );
             }
-            for solver in reference::all() {
+            for solver in analytic::all() {
                 for state in states(solver, case, &case.grid.times).expect("solvable") {
                     let drives = case.drives().zip(&state.torques);
                     let driving: f64 = drives.map(|(drive, torque)| torque * state.motions[drive.link].omega).sum();

@@ -2,12 +2,12 @@
 
 use std::f64::consts::TAU;
 
-use linkproof::case::Case;
-use linkproof::drive::Load;
-use linkproof::error::ErrorKind;
-use linkproof::reference::PoseSolver;
-use linkproof::reference::dynamics::{CrankState, End, Model, RunUp, motion};
-use linkproof::trajectory::Stage;
+use analytic::PoseSolver;
+use analytic::reduced::{CrankState, End, Model, RunUp, motion};
+use linkage::case::Case;
+use linkage::drive::Load;
+use linkage::error::ErrorKind;
+use linkage::trajectory::Stage;
 
 use crate::common::{centre, centre_velocity, shipped};
 
@@ -55,8 +55,8 @@ fn a_spring_gives_back_what_it_takes() {
 fn the_reduced_moment_of_tables_and_one_sided_moments_is_that_of_the_reactions() {
     let mut case = press(|load| matches!(load, Load::Force { .. } | Load::Spring { .. }));
     let rod = case.mechanism.link_named("rod").unwrap();
-    let table = linkproof::drive::Course::table(&[(0.3, 2.0), (4.0, -5.0), (9.0, 8.0)], 2, false);
-    let acts = linkproof::drive::Acts::Clockwise;
+    let table = linkage::drive::Course::table(&[(0.3, 2.0), (4.0, -5.0), (9.0, 8.0)], 2, false);
+    let acts = linkage::drive::Acts::Clockwise;
     case.loads.push(Load::Moment { link: rod, moment: table, acts });
     case.loads.push(Load::Resistance { link: rod, moment: 3.0 });
     let model = Model::of(&case).unwrap();
@@ -85,9 +85,9 @@ fn what_the_reduction_does_not_know_is_refused_by_name() {
     case.loads = vec![Load::ResistingForce { at, force: 1.0 }];
     let error = Model::of(&case).unwrap_err();
     assert!(error.message().contains("\"resisting_force\" turns with the motion of a point"), "{error}");
-    let (link, acts) = (at.link, linkproof::drive::Acts::Always);
+    let (link, acts) = (at.link, linkage::drive::Acts::Always);
     case.loads = [7, 11, 17]
-        .map(|turns| Load::Moment { link, moment: linkproof::drive::Course::table(&[(0.0, 1.0)], turns, true), acts })
+        .map(|turns| Load::Moment { link, moment: linkage::drive::Course::table(&[(0.0, 1.0)], turns, true), acts })
         .into();
     assert!(Model::of(&case).unwrap_err().message().contains("after 1309 turns"));
     let crank = case.drive.link;

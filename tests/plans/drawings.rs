@@ -1,7 +1,7 @@
 //! Drawings of plans: well formed, complete, true to scale, legible.
 
-use linkproof::diagram::draw;
-use linkproof::math::Vec2;
+use linkage::math::Vec2;
+use workshop::diagram::draw;
 
 use crate::{Named, REVOLUTE, SLIDERS, all, degrees_of, plans};
 

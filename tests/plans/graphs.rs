@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use linkproof::diagram::{Graph, Graphs, Mark, draw};
+use workshop::diagram::{Graph, Graphs, Mark, draw};
 
 /// A cosine about 3 N over one turn from 90 deg on, in the sense of `way`.
 fn cosine(amplitude: f64, way: f64) -> Graphs {

@@ -2,10 +2,10 @@
 
 use std::f64::consts::{PI, TAU};
 
-use linkproof::diagram::motion::Method;
-use linkproof::diagram::plan::state_at;
-use linkproof::diagram::{Course, MotionDiagram, draw};
-use linkproof::reference::AssurSolver;
+use analytic::AssurSolver;
+use workshop::diagram::motion::Method;
+use workshop::diagram::plan::state_at;
+use workshop::diagram::{Course, MotionDiagram, draw};
 
 use crate::scenario;
 

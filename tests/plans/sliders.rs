@@ -1,13 +1,13 @@
 //! Sliding pairs in plans and diagrams: known directions, Coriolis part and relative acceleration against numerical derivatives, guides drawn.
 
-use linkproof::case::Case;
-use linkproof::diagram::plan::state_at;
-use linkproof::diagram::{Part, TipKind, draw};
-use linkproof::math::{Vec2, cross, rotated, turned};
-use linkproof::reference::{AssurSolver, NewtonSolver};
+use analytic::{AssurSolver, NewtonSolver};
+use linkage::case::Case;
+use linkage::math::{Vec2, cross, rotated, turned};
+use linkage::solver::{Solver, State};
+use linkage::trajectory::Stage;
 use linkproof::scenario::Scenario;
-use linkproof::solver::{Solver, State};
-use linkproof::trajectory::Stage;
+use workshop::diagram::plan::state_at;
+use workshop::diagram::{Part, TipKind, draw};
 
 use crate::{Named, SLIDERS, angles, contours, degrees_of, longest, plans, plans_of, plans_with, scenario};
 
@@ -200,7 +200,7 @@ step_deg = 0.5
 fn guides_in_the_diagram_span_the_travel() {
     for name in SLIDERS {
         let case = scenario(name).case;
-        let wanted = linkproof::case::Wanted::of(&[Stage::Positions]);
+        let wanted = linkage::case::Wanted::of(&[Stage::Positions]);
         let trajectory = AssurSolver.solve(&Case { wanted, ..case.clone() }, &mut |_| {}).unwrap();
         let plans = plans(name, degrees_of(name, 67.0));
         let sliding: Vec<_> = case.mechanism.joints().iter().filter(|joint| joint.slides()).collect();

@@ -4,16 +4,16 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 
+use analytic::AssurSolver;
 use foxglove::messages::line_primitive::Type as LineType;
 use foxglove::messages::{PointCloud, SceneEntity, SceneUpdate};
-use linkproof::case::Case;
-use linkproof::math::{Vec2, cross, rotated, unit};
-use linkproof::mechanism::GROUND;
+use linkage::case::Case;
+use linkage::math::{Vec2, cross, rotated, unit};
+use linkage::mechanism::GROUND;
+use linkage::solver::Solver;
+use linkage::trajectory::{Channel, Trajectory};
 use linkproof::record::{Recording, Side, read, write};
-use linkproof::reference::AssurSolver;
 use linkproof::scenario::Scenario;
-use linkproof::solver::Solver;
-use linkproof::trajectory::{Channel, Trajectory};
 use prost::Message;
 
 const SLIDERS: [&str; 5] = ["compressor", "six_bar_slider", "quick_return", "scotch_yoke", "tangent"];

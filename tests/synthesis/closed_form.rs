@@ -3,14 +3,14 @@
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
-use linkproof::case::Case;
-use linkproof::math::Vec2;
-use linkproof::reference::range::{Extent, FourBarType, Range};
-use linkproof::reference::{AssurSolver, NewtonSolver};
+use analytic::range::{Extent, FourBarType, Range};
+use analytic::{AssurSolver, NewtonSolver};
+use linkage::case::Case;
+use linkage::math::Vec2;
 use linkproof::scenario::Scenario;
-use linkproof::synthesis::Sheet;
-use linkproof::synthesis::crank_rocker::{CrankRocker, Wish};
-use linkproof::synthesis::slider_crank::{Given, SliderCrank};
+use workshop::synthesis::Sheet;
+use workshop::synthesis::crank_rocker::{CrankRocker, Wish};
+use workshop::synthesis::slider_crank::{Given, SliderCrank};
 
 use crate::common::{shipped, states};
 

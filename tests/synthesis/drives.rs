@@ -2,14 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
+use analytic::{AssurSolver, NewtonSolver};
+use linkage::math::{Vec2, unit};
 use linkproof::compare::Verdict;
-use linkproof::math::{Vec2, unit};
 use linkproof::proof::{Options, prove};
-use linkproof::reference::{AssurSolver, NewtonSolver};
 use linkproof::scenario::Scenario;
 use linkproof::scenario::task_file::TaskFile;
-use linkproof::synthesis::{Achieved, search};
-use linkproof::task::{Effort, Task};
+use workshop::synthesis::{Achieved, search};
+use workshop::task::{Effort, Task};
 
 use crate::common::{shipped, states};
 
@@ -124,15 +124,15 @@ fn a_class_three_group_is_searched() {
     assert!(found.candidates[1] > 10 && found.cost < found.refined[1].min(found.random_cost) + 1e-15, "{found:?}");
     let mut mechanism = task.case.mechanism.clone();
     task.places.iter().for_each(|place| place.apply(&found.values, &mut mechanism));
-    let drive = linkproof::drive::Drive { zero: task.zero.value(&found.values), ..task.case.drive.clone() };
-    let (start, modes) = linkproof::mechanism::first_pose(
+    let drive = linkage::drive::Drive { zero: task.zero.value(&found.values), ..task.case.drive.clone() };
+    let (start, modes) = linkage::mechanism::first_pose(
         &mechanism,
         &task.case.structure,
         &[drive.world_angle(drive.start)],
         &task.starts,
     )
     .unwrap();
-    let case = linkproof::case::Case { mechanism, drive, start, modes, ..task.case.clone() };
+    let case = linkage::case::Case { mechanism, drive, start, modes, ..task.case.clone() };
     let better = Achieved::of(&Task { case, ..task.clone() }, found.forward).unwrap();
     let (own, published) = measured("eyelet_needle", shipped("ov7_new.toml"));
     eprintln!("{} against {}", better.unrest(&task), published.unrest(&own));

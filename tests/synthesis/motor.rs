@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use linkproof::reference::dynamics::Choice;
 use linkproof::scenario::catalogue;
+use workshop::motor::Choice;
 
 use crate::common::shipped;
 
-fn motors() -> Vec<linkproof::drive::CatalogueMotor> {
+fn motors() -> Vec<workshop::motor::CatalogueMotor> {
     catalogue::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("catalogues/motors.toml")).unwrap()
 }
 
@@ -43,7 +43,7 @@ fn the_published_motor_comes_out() {
     // Printed to three digits, and kept to them.
     assert!((choice.power - 503.0).abs() < 1.0 && (choice.asked - 547.0).abs() < 1.0);
     // The balance of the means with the losses left out, as published: 14.332 rad/s with the law rounded to 22.51 - 0.0716 omega, 14.322 with its digits.
-    let lossless = linkproof::drive::Motor { efficiency: 1.0, ..choice.geared.clone() };
+    let lossless = linkage::drive::Motor { efficiency: 1.0, ..choice.geared.clone() };
     assert!(
         (lossless.steady_speed(choice.mean).unwrap() - 14.3217).abs() < 1e-4,
         "{:?}",

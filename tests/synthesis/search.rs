@@ -3,12 +3,14 @@
 use std::f64::consts::TAU;
 use std::path::PathBuf;
 
+use linkage::ErrorKind;
+use linkage::math::Vec2;
+use linkproof::scenario::Scenario;
 use linkproof::scenario::redraw;
 use linkproof::scenario::task_file::TaskFile;
-use linkproof::synthesis::crank_rocker::{CrankRocker, Wish};
-use linkproof::synthesis::{Achieved, search};
-use linkproof::task::{Effort, Task};
-use linkproof::{ErrorKind, math::Vec2, scenario::Scenario};
+use workshop::synthesis::crank_rocker::{CrankRocker, Wish};
+use workshop::synthesis::{Achieved, search};
+use workshop::task::{Effort, Task};
 
 use crate::common::shipped;
 

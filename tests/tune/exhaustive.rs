@@ -1,13 +1,13 @@
 //! All settings of all Rapier engines on a dense grid: what `tune` is measured against, by a price model in the tests and by the clock in
 //! `benches/tune.rs`.
 
-use linkproof::case::Grid;
+use analytic::NewtonSolver;
+use linkage::case::Grid;
+use linkage::engine::{Engine, Settings};
+use linkage::solver::Solver;
+use linkage::trajectory::Trajectory;
 use linkproof::compare::{Residual, residuals};
-use linkproof::engine::{self, Engine, Settings};
-use linkproof::reference::NewtonSolver;
 use linkproof::scenario::Scenario;
-use linkproof::solver::Solver;
-use linkproof::trajectory::Trajectory;
 
 /// Mechanisms with published figures, of every class, with and without sliders.
 pub const REFERENCES: [&str; 8] = [
@@ -66,7 +66,7 @@ pub fn truth(scenario: &Scenario) -> Trajectory {
 /// All ways of setting the Rapier engines but for the step: engine, route, extrapolation, substeps, sweeps.
 fn rows(space: &Space) -> Vec<Box<dyn Engine>> {
     let mut rows = Vec::new();
-    for engine in engine::all(1e-3).into_iter().filter(|engine| !engine.controls_error()) {
+    for engine in linkproof::engines::all(1e-3).into_iter().filter(|engine| !engine.controls_error()) {
         for &route in engine.routes() {
             for extrapolated in [false, true] {
                 for substeps in [1, 2] {

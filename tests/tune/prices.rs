@@ -1,8 +1,8 @@
 //! What a run costs, as a model, so that no clock decides a test.
 
-use linkproof::case::Case;
-use linkproof::engine::rapier::tree::Tree;
-use linkproof::engine::{Engine, Route};
+use linkage::case::Case;
+use linkage::engine::{Engine, Route};
+use rapier_twin::tree::Tree;
 
 /// Steps that a run does besides those between the first and the last instant: a few backwards, the same forwards, and some beyond the end.
 const EXTRA_STEPS: f64 = 16.0;

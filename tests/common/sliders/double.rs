@@ -1,7 +1,7 @@
 //! Dyads with two prismatic pairs.
 
-use linkproof::math::{Vec2, cross, rotated, turned, unit};
-use linkproof::mechanism::{AssemblyMode, LinkPose};
+use linkage::math::{Vec2, cross, rotated, turned, unit};
+use linkage::mechanism::{AssemblyMode, LinkPose};
 
 use super::{
     BLOCK_AXIS, BLOCK_PLACE, CRANK, Exact, GUIDE, PIN, SLIDER_AXIS, SPEED, Sample, TURN, along, case, crank, joint,

@@ -1,0 +1,59 @@
+//! Flywheel for a wanted coefficient of non-uniformity.
+
+use analytic::reduced::{Model, Regime};
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::root::{self, Close};
+
+/// A flywheel on the crank's shaft, and the motion with it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Flywheel {
+    /// Moment of inertia (kg m^2); 0 if none is needed.
+    pub inertia: f64,
+    /// The steady motion with it.
+    pub regime: Regime,
+}
+
+/// So many times the first guess is the largest flywheel before a wish counts as out of reach: sixty doublings.
+const LARGEST: f64 = (1u64 << 60) as f64;
+/// Regula falsi steps; it takes about eight.
+const STEPS: usize = 80;
+/// Relative deviation of the coefficient that is good enough.
+const CLOSE: f64 = 1e-12;
+
+impl Flywheel {
+    /// The flywheel with which the steady motion's coefficient of non-uniformity is `wanted`, or none where it is less already, by regula falsi (Illinois) over
+    /// true regimes.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Input`] for a coefficient that is not positive, [`ErrorKind::Numeric`] for one that no flywheel reaches, and those of
+    /// [`Model::regime`].
+    pub fn of(model: &Model, wanted: f64, accuracy: f64) -> Result<Self> {
+        if !(wanted > 0.0 && wanted.is_finite()) {
+            let message = format!("a coefficient of non-uniformity of {wanted} is asked for");
+            return Err(Error::new(ErrorKind::Input, message).help("give a number above zero, such as 0.02"));
+        }
+        let mut last = Flywheel { inertia: 0.0, regime: model.with_flywheel(0.0).regime(&[], accuracy)? };
+        // The inverse is nearly linear in the flywheel: delta J is about the largest surplus of work over omega^2.
+        let excess = |regime: &Regime| 1.0 / regime.non_uniformity() - 1.0 / wanted;
+        let none = (0.0, excess(&last.regime));
+        if none.1 >= 0.0 {
+            return Ok(last);
+        }
+        let mut with = |inertia: f64| -> Result<f64> {
+            last = Flywheel { inertia, regime: model.with_flywheel(inertia).regime(&[], accuracy)? };
+            Ok(excess(&last.regime))
+        };
+        let guess = model.inertia_at_start()?.max(f64::MIN_POSITIVE);
+        let Some(ends) = root::widened(none, guess, guess * LARGEST, &mut with)? else {
+            let message = format!("no flywheel makes the coefficient of non-uniformity {wanted}");
+            return Err(Error::new(ErrorKind::Numeric, message).help("ask for a larger coefficient"));
+        };
+        let close = Close { value: CLOSE / wanted, width: 0.0 };
+        if root::regula_falsi(ends, close, STEPS, with)?.is_some() {
+            return Ok(last);
+        }
+        let message =
+            format!("the flywheel for a coefficient of non-uniformity of {wanted} was not found in {STEPS} steps");
+        Err(Error::new(ErrorKind::Numeric, message).help("ask for a larger coefficient"))
+    }
+}
