@@ -1,6 +1,6 @@
 //! How the vectors of a plan are found: from the motions of the links, pair of points by pair of points.
 
-use super::names::{Place, fixed_guide, pair, pivot};
+use super::names::{Place, fixed_guide, pair, pivot, primed};
 use super::plan::{Part, Plan, Quantity, Tip, TipKind, Vector};
 use super::scale::factor;
 use super::sliding::Slide;
@@ -174,11 +174,8 @@ impl<'a> Builder<'a> {
     }
 
     /// `letter`, with as many primes as no other end of a vector has.
-    fn unused(&self, mut letter: String) -> String {
-        while self.tips.iter().any(|tip| tip.letter == letter) {
-            letter.push('\'');
-        }
-        letter
+    fn unused(&self, letter: String) -> String {
+        primed(letter, |letter| self.tips.iter().any(|tip| tip.letter == letter))
     }
 
     /// Normal and tangential parts of every relative acceleration, and of those about a pivot on the ground.

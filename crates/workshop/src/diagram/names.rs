@@ -35,10 +35,7 @@ pub fn fixed_guide(mechanism: &Mechanism, link: usize) -> Option<&Joint> {
 pub fn places(mechanism: &Mechanism, poles: &[&str]) -> Vec<Place> {
     let mut taken: Vec<String> = poles.iter().map(ToString::to_string).collect();
     let mut letter = |name: &str| {
-        let mut letter = name.to_lowercase();
-        while taken.contains(&letter) {
-            letter.push('\'');
-        }
+        let letter = primed(name.to_lowercase(), |letter| taken.iter().any(|other| other == letter));
         taken.push(letter.clone());
         letter
     };
@@ -56,6 +53,14 @@ pub fn places(mechanism: &Mechanism, poles: &[&str]) -> Vec<Place> {
         all.push(Place { name: name.to_string(), letter: letter(name), side, fixed: false });
     }
     all
+}
+
+/// `name` with as many primes as it takes not to be `taken`.
+pub fn primed(mut name: String, taken: impl Fn(&str) -> bool) -> String {
+    while taken(&name) {
+        name.push('\'');
+    }
+    name
 }
 
 /// Two names as the field writes them side by side: BA, but P3,P2 where letters alone would run together.
