@@ -6,7 +6,7 @@ use cobyla::{RhoBeg, minimize};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use super::{Candidate, free_zero, values};
+use super::candidate::{Candidate, free_zero, values};
 use crate::synthesis::evaluate::Evaluator;
 use crate::synthesis::rating::Rater;
 use crate::task::Task;
