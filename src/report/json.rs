@@ -246,6 +246,5 @@ pub fn provision(provision: &Provision) -> String {
     match provision {
         Provision::Computed => "read".into(),
         Provision::Derived(how) => format!("derived: {how}"),
-        Provision::Absent(why) => format!("absent: {why}"),
     }
 }

@@ -115,7 +115,8 @@ fn grashof_types_agree_with_turns_that_were_followed() {
             (found.lengths.map(|l| (l * 1e12).round()), found.of_type),
             (lengths.map(|l| (l * 1e12).round()), expected)
         );
-        assert_eq!(found.of_type.driver_turns(), turning[0]);
+        let turns_by_name = matches!(found.of_type, FourBarType::CrankRocker | FourBarType::DoubleCrank);
+        assert_eq!(turns_by_name, turning[0]);
         counts[found.of_type as usize] += 1;
     }
     assert!(counts.iter().all(|&count| count >= 10), "{counts:?}");
