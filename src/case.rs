@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use crate::drive::{Action, Drive, Load, MotionLaw, Motor, Setting, Wrench};
 use crate::math::statistics::ascending;
-use crate::math::{Motion, Vec2};
+use crate::math::{KeepNan, Motion, Vec2};
 use crate::mechanism::{AssemblyMode, Mechanism, Pose, Structure};
 use crate::trajectory::{CHANNELS, Channel, Stage, Subject};
 
@@ -68,7 +68,7 @@ impl Grid {
                 ));
             }
         }
-        let most = self.cranks.iter().fold(0.0, |most: f64, crank| most.max(crank.abs())) / TAU;
+        let most = self.cranks.iter().fold(0.0, |most: f64, crank| most.larger(crank.abs())) / TAU;
         if most <= Self::MOST_TURNS && self.times.iter().chain(&self.cranks).all(|value| value.is_finite()) {
             return Ok(());
         }
@@ -232,7 +232,7 @@ impl Case {
     /// Largest speed of a driving link (rad/s), without sign.
     #[must_use]
     pub fn fastest_drive(&self) -> f64 {
-        self.drives().fold(0.0, |most: f64, drive| most.max(drive.top_speed().abs()))
+        self.drives().fold(0.0, |most: f64, drive| most.larger(drive.top_speed().abs()))
     }
 
     /// The same problem with the crank turning at its drive's top speed all the time.

@@ -9,6 +9,7 @@ use common::random::{for_each, within};
 use common::shipped;
 use linkproof::Result;
 use linkproof::case::Case;
+use linkproof::math::KeepNan;
 use linkproof::reference::PoseSolver;
 use linkproof::reference::batch::{Batch, Poses};
 use linkproof::solver::State;
@@ -74,8 +75,8 @@ fn differences(ours: &[State], theirs: &[State]) -> [f64; 9] {
             for (a, b) in ours.iter().zip(theirs) {
                 let apart = (a - b).abs();
                 // NaN counts as endless.
-                difference[sort] = difference[sort].max(if apart.is_nan() { f64::INFINITY } else { apart });
-                scale[sort] = scale[sort].max(b.abs());
+                difference[sort] = difference[sort].larger(if apart.is_nan() { f64::INFINITY } else { apart });
+                scale[sort] = scale[sort].larger(b.abs());
             }
         }
     }

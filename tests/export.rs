@@ -8,7 +8,7 @@ use linkproof::ErrorKind;
 use linkproof::case::Case;
 use linkproof::drive::Load;
 use linkproof::export::mjcf::{Model, mjcf};
-use linkproof::math::{Vec2, cross, rotated, unit};
+use linkproof::math::{KeepNan, Vec2, cross, rotated, unit};
 use linkproof::mechanism::{GROUND, JointKind, Mechanism, Side, Tree};
 use linkproof::reference::AssurSolver;
 use linkproof::scenario::Scenario;
@@ -89,7 +89,7 @@ fn the_file_holds_the_start_pose_and_its_speeds() {
         let motions = document.motions();
         let size = mechanism.size();
         let speed = case.drive.at(0.0).omega.abs();
-        let fastest = motions.iter().map(|motion| motion.omega.abs()).fold(speed, f64::max);
+        let fastest = motions.iter().map(|motion| motion.omega.abs()).fold(speed, f64::larger);
         for joint in mechanism.joints() {
             let [first, second] = [("first", joint.first), ("second", joint.second)].map(|(word, side)| {
                 let (owner, local) = document.site(&format!("{}.{word}", joint.name));

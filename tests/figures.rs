@@ -6,6 +6,7 @@ use approx::assert_abs_diff_eq;
 use linkproof::case::{Case, Grid};
 use linkproof::compare::{Verdict, difference, residuals, scales};
 use linkproof::engine;
+use linkproof::math::KeepNan;
 use linkproof::proof::{Options, Proof, prove};
 use linkproof::reference::{AssurSolver, NewtonSolver, power, reduced};
 use linkproof::scenario::Scenario;
@@ -87,8 +88,8 @@ fn balancing_moment_from_equilibrium_and_from_powers() {
         for solver in [&AssurSolver as &dyn Solver, &NewtonSolver] {
             let (mut amplitude, mut worst): (f64, f64) = (0.0, 0.0);
             let mut visit = |_: usize, state: &State| {
-                amplitude = amplitude.max(state.torques[0].abs());
-                worst = worst.max((state.torques[0] - power::balancing_moment(&case, state)).abs());
+                amplitude = amplitude.larger(state.torques[0].abs());
+                worst = worst.larger((state.torques[0] - power::balancing_moment(&case, state)).abs());
                 Ok(())
             };
             solver.sweep(&case, &mut visit, &mut |_| {}).unwrap();
@@ -113,7 +114,7 @@ fn val_crank_rocker_lengths_follow_from_the_extreme_positions() {
     let rocker = Channel::named("link.rocker.angle_rad").unwrap();
     let turn = solve(&AssurSolver, &fine(&scenario.case));
     let angles = turn.column(&rocker).unwrap();
-    let (low, high) = angles.iter().fold((f64::MAX, f64::MIN), |(l, h), &a| (l.min(a), h.max(a)));
+    let (low, high) = angles.iter().fold((f64::MAX, f64::MIN), |(l, h), &a| (l.smaller(a), h.larger(a)));
     // Between two samples a tenth of a degree apart the rocker turns by less than 1e-6 rad near its extremes.
     assert_abs_diff_eq!(low.to_degrees(), 50.0, epsilon = 1e-4);
     assert_abs_diff_eq!(high.to_degrees(), 82.0, epsilon = 1e-4);
@@ -137,7 +138,7 @@ fn worst_share(reference: &Trajectory, run: &Trajectory, wanted: &[Stage]) -> f6
         wanted.contains(&channel.kind.stage)
             && !(channel.kind.stage == Stage::Positions && channel.kind.suffix != "angle_rad")
     });
-    shares.map(|((_, e), scale)| e.iter().fold(0.0f64, |m, x| m.max(x.abs())) / scale).fold(0.0, f64::max)
+    shares.map(|((_, e), scale)| e.iter().fold(0.0f64, |m, x| m.larger(x.abs())) / scale).fold(0.0, f64::larger)
 }
 
 #[test]
@@ -256,11 +257,11 @@ fn val_ov7_new_printed_r1_and_moment_come_from_half_a_reaction() {
         if row.is_multiple_of(300) && row < 3600 {
             assert_abs_diff_eq!(r1.norm(), printed[row / 300], epsilon = 0.02);
         }
-        largest_force = largest_force.max(r1.norm());
+        largest_force = largest_force.larger(r1.norm());
         let arm = motion.arm(mechanism.joints()[1].first.local);
         let centre = motion.arm(body.mass_centre);
         let moment = -(arm.perp(&half) + centre.perp(&inertial));
-        largest = largest.max(moment.abs());
+        largest = largest.larger(moment.abs());
         if row == 0 {
             first = moment;
         }
@@ -280,7 +281,7 @@ fn val_fourth_class_branch_closes_after_a_turn() {
     let turn = solve(&AssurSolver, &case);
     for (channel, values) in turn.iter().filter(|(channel, _)| channel.of != "crank") {
         let (first, last) = (values[0], values[values.len() - 1]);
-        let size = values.iter().fold(0.0f64, |max, v| max.max(v.abs()));
+        let size = values.iter().fold(0.0f64, |max, v| max.larger(v.abs()));
         assert!((first - last).abs() <= 1e-11 * size, "{channel}: {first} {last}");
     }
 }

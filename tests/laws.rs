@@ -7,6 +7,7 @@ use std::path::Path;
 use linkproof::compare::residuals;
 use linkproof::error::ErrorKind;
 use linkproof::export;
+use linkproof::math::KeepNan;
 use linkproof::proof::{Options, prove};
 use linkproof::reference::{self, momentum, power};
 use linkproof::scenario::Scenario;
@@ -42,7 +43,7 @@ fn both_sides_agree_and_balance_powers_and_momentum() {
         let [a, b] = reference::all().map(|solver| solver.solve(case, &mut |_| {}).unwrap());
         let largest = |stage: Stage| {
             let own = a.iter().filter(move |(channel, _)| channel.kind.stage == stage);
-            own.flat_map(|(_, values)| values).fold(0.0, |max: f64, v| max.max(v.abs()))
+            own.flat_map(|(_, values)| values).fold(0.0, |max: f64, v| max.larger(v.abs()))
         };
         for residual in residuals(&a, &b).unwrap() {
             let share = residual.max / largest(residual.channel.kind.stage);

@@ -2,6 +2,7 @@
 
 use crate::diagram::{Graph, Graphs, Mark, draw};
 use crate::error::Result;
+use crate::math::KeepNan;
 use crate::reference::dynamics::course::{Extremes, Row};
 use crate::reference::dynamics::{ACCURACY, Model, Regime};
 use crate::reference::reduced::Means;
@@ -30,7 +31,7 @@ pub(super) fn draw(
     let reduced = |[name, symbol, unit]: [&'static str; 3], of: fn(&Row) -> f64, mean, found: &Extremes| {
         let marks = [("least", found.least), ("greatest", found.greatest)];
         let marks = marks.map(|(word, (crank, value))| Mark { at: [crank, value], word });
-        let size = found.least.1.abs().max(found.greatest.1.abs());
+        let size = found.least.1.abs().larger(found.greatest.1.abs());
         Graph { name, symbol, unit, points: points(of), mean, mean_word: "mean", marks, size }
     };
     let slope = model.slope_extremes()?;
@@ -38,7 +39,7 @@ pub(super) fn draw(
         reduced(["reduced moment of inertia", "I*", "kg m^2"], |row| row.inertia, means.inertia, &extremes[0]),
         Graph {
             // A constant inertia has a derivative of roundings.
-            size: extremes[0].greatest.1.max(slope.greatest.1),
+            size: extremes[0].greatest.1.larger(slope.greatest.1),
             // After a period the inertia is what it was.
             ..reduced(["derivative of the reduced moment of inertia", "dI*/dφ", "kg m^2"], |row| row.slope, 0.0, &slope)
         },

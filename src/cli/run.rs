@@ -11,6 +11,7 @@ use super::output;
 use super::progress::Bar;
 use crate::compare::Verdict;
 use crate::error::{Error, ErrorKind, Result};
+use crate::math::KeepNan;
 use crate::proof::{EngineProof, Proof, prove};
 use crate::record::{self as recorder, Level, LogEntry, Recording, Side};
 use crate::reference;
@@ -197,7 +198,7 @@ fn metadata(proof: &Proof) -> BTreeMap<String, String> {
 
 /// The verdict at the start, and every disagreement where it is worst.
 fn log(proof: &Proof) -> Vec<LogEntry> {
-    let start = proof.reference_trajectory.times().iter().copied().fold(f64::INFINITY, f64::min);
+    let start = proof.reference_trajectory.times().iter().copied().fold(f64::INFINITY, f64::smaller);
     let level = |verdict: &Verdict| match verdict {
         Verdict::Agree { .. } | Verdict::Expected { .. } => Level::Info,
         Verdict::Inconclusive { .. } => Level::Warning,

@@ -12,6 +12,7 @@ use super::output;
 use super::progress::Bar;
 use crate::engine::Engine;
 use crate::error::{Error, ErrorKind, Result};
+use crate::math::KeepNan;
 use crate::report::text::table;
 use crate::scenario::{EngineKeys, Scenario, edit};
 use crate::tune::{Candidate, Tuning, Wish, tune};
@@ -67,7 +68,7 @@ pub(super) fn run(args: &Args) -> Result<()> {
         for _ in 0..REPEATS {
             let since = Instant::now();
             run()?;
-            shortest = shortest.min(since.elapsed().as_secs_f64());
+            shortest = shortest.smaller(since.elapsed().as_secs_f64());
             if shortest > LONG {
                 break;
             }

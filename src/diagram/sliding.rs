@@ -2,7 +2,7 @@
 
 use super::names::Place;
 use crate::case::{Case, Wanted};
-use crate::math::{Vec2, rotated};
+use crate::math::{KeepNan, Vec2, rotated};
 use crate::mechanism::{GROUND, Mechanism, Side};
 use crate::solver::{Solver, State};
 use crate::trajectory::Stage;
@@ -132,7 +132,7 @@ pub fn travels(case: &Case, solver: &dyn Solver, state: &State, slides: &[Slide]
     let mut visit = |_: usize, state: &State| {
         for (travel, slide) in travels.iter_mut().zip(slides) {
             let way = slide.way(&case.mechanism, state);
-            *travel = [travel[0].min(way), travel[1].max(way)];
+            *travel = [travel[0].smaller(way), travel[1].larger(way)];
         }
         Ok(())
     };

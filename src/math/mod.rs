@@ -5,11 +5,13 @@ pub mod dense;
 pub mod golden;
 pub mod harmonic;
 pub mod interpolate;
+pub mod keep_nan;
 pub mod motion;
 pub mod piecewise;
 pub mod quadrature;
 pub mod statistics;
 
+pub use keep_nan::{KeepNan, largest_size};
 pub use motion::Motion;
 pub use piecewise::Piecewise;
 

@@ -189,8 +189,8 @@ fn judge(scenario: &Scenario, engine: &dyn Engine, reference: &Trajectory, runs:
         let convergence =
             Convergence::of_channel(ladder, &channel, engine.formal_order(case, kind), finest.noise(case, kind))
                 .expect("all runs of an engine have the same channels");
-        let tolerance = convergence.tolerance(resolution, engine.noise(case, kind));
-        let Basis::Truncation { parts, .. } = tolerance.basis else { unreachable!("that is what it rests on") };
+        let parts = convergence.parts(engine.noise(case, kind));
+        let basis = convergence.tolerance(resolution, parts, checks::noise_origin(engine)).basis;
         let verdict = Verdict::of_engine(&residual, &convergence, parts, scenario.engine_rel);
         let verdict = unless_turning_about(case, [reference, single], &residual, resolution, verdict);
         let [single, half, reference] =
@@ -204,7 +204,7 @@ fn judge(scenario: &Scenario, engine: &dyn Engine, reference: &Trajectory, runs:
             convergence,
             limit,
             sensitivity: None,
-            basis: tolerance.basis,
+            basis,
             verdict,
         }
     });

@@ -6,7 +6,7 @@ use crate::compare::{Check, Verdict};
 use crate::drive::DriveState;
 use crate::error::{ErrorKind, Result};
 use crate::math::statistics::share;
-use crate::math::{Vec2, cross};
+use crate::math::{KeepNan, Vec2, cross};
 use crate::reference::triad::class_change::ClassChange;
 use crate::reference::triad::{Reactions, Triad, assur_point, cramer, linear_system};
 use crate::solver::{Solver, State};
@@ -90,7 +90,7 @@ impl Watch {
 
     fn grow(&mut self, quantity: Quantity, value: f64) {
         let scale = &mut self.scales[quantity as usize];
-        *scale = scale.max(value.abs());
+        *scale = scale.larger(value.abs());
     }
 
     fn see(&mut self, case: &Case, row: usize, state: &State) {

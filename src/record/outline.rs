@@ -2,7 +2,7 @@
 
 use super::scene::{Scene, outline};
 use super::shapes::{GREY, pose, stamp};
-use crate::math::Vec2;
+use crate::math::{KeepNan, Vec2};
 use crate::mechanism::GROUND;
 use foxglove::messages::packed_element_field::NumericType;
 use foxglove::messages::{PackedElementField, PointCloud};
@@ -97,7 +97,7 @@ fn along(corners: &[Vec2], closed: bool, size: f64) -> Vec<Vec2> {
     let mut points = Vec::new();
     for start in 0..segments {
         let (a, b) = (corners[start], corners[(start + 1) % corners.len()]);
-        let count = (POINTS * (b - a).norm() / size).ceil().max(2.0);
+        let count = (POINTS * (b - a).norm() / size).ceil().larger(2.0);
         points.extend((0..count as usize).map(|k| a + (b - a) * (k as f64 / count)));
     }
     points.extend(if closed { None } else { corners.last().copied() });

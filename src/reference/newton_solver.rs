@@ -15,7 +15,7 @@ use crate::case::Case;
 use crate::drive::{Drive, DriveState, Wrench};
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::dense::Lu;
-use crate::math::{Motion, Vec2, unit};
+use crate::math::{KeepNan, Motion, Vec2, unit};
 use crate::mechanism::EQUATIONS;
 use crate::solver::{Progress, Provision, Solver, State, Visit};
 use crate::trajectory::{Channel, Stage};
@@ -154,8 +154,8 @@ impl<'a> System<'a> {
             // It may go there and back in between.
             None => drive.top_speed().abs() * (t - self.time).abs(),
         };
-        let turn = self.case.drives().map(turned).fold(0.0, f64::max);
-        let parts = (turn / TRACKING_STEP).ceil().max(1.0);
+        let turn = self.case.drives().map(turned).fold(0.0, f64::larger);
+        let parts = (turn / TRACKING_STEP).ceil().larger(1.0);
         let from = self.time;
         for part in 1..parts as usize {
             self.step_to(from + (t - from) * (part as f64 / parts), HALVINGS)?;
@@ -196,7 +196,7 @@ impl<'a> System<'a> {
     /// Newton to rounding, from the pose that stands in `q`. The Jacobian is left factored at the last pose but one
     /// (which differs from the last by rounding).
     fn correct(&mut self) -> Result<()> {
-        let size = self.case.mechanism.size().max(f64::MIN_POSITIVE);
+        let size = self.case.mechanism.size().larger(f64::MIN_POSITIVE);
         let mut last = f64::INFINITY;
         for _ in 0..MAX_ITERATIONS {
             self.assemble();
@@ -207,7 +207,7 @@ impl<'a> System<'a> {
             let mut change: f64 = 0.0;
             for (i, step) in self.residual.iter().enumerate() {
                 self.q[i] -= step;
-                change = change.max(step.abs() / if i % 3 == 2 { 1.0 } else { size });
+                change = change.larger(step.abs() / if i % 3 == 2 { 1.0 } else { size });
             }
             // Quadratic convergence: once below 1e-9 the next change is rounding, and one more step makes sure of it.
             if change < 1e-14 || (last < 1e-9 && change < 1e-9) {

@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use super::PoseSolver;
 use crate::case::Case;
 use crate::error::{Error, ErrorKind, Result};
+use crate::math::KeepNan;
 use crate::math::golden;
 use crate::solver::State;
 use crate::trajectory::Stage;
@@ -54,8 +55,9 @@ pub fn over_range(case: &Case) -> Result<Peaks> {
         );
     }
     let mut poses = PoseSolver::new(case)?;
-    let (from, to) = case.grid.cranks.iter().fold((f64::MAX, f64::MIN), |(low, high), &c| (low.min(c), high.max(c)));
-    let parts = ((to - from) / SAMPLE_STEP).ceil().max(1.0) as usize;
+    let (from, to) =
+        case.grid.cranks.iter().fold((f64::MAX, f64::MIN), |(low, high), &c| (low.smaller(c), high.larger(c)));
+    let parts = ((to - from) / SAMPLE_STEP).ceil().larger(1.0) as usize;
     let cranks: Vec<f64> = (0..=parts).map(|k| from + (to - from) * (k as f64 / parts as f64)).collect();
     let joints = case.mechanism.joints();
     let mut quantities: Vec<Quantity> = (0..joints.len()).map(Quantity::Reaction).collect();

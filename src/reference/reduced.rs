@@ -7,7 +7,7 @@ use super::range::{Extent, Range};
 use crate::case::{Case, Grid, Wanted};
 use crate::drive::{Course, Load};
 use crate::error::{Error, ErrorKind, Result};
-use crate::math::{Motion, quadrature};
+use crate::math::{KeepNan, Motion, quadrature};
 use crate::solver::{Solver, State};
 use crate::trajectory::Stage;
 
@@ -118,7 +118,7 @@ pub fn kinks(case: &Case) -> Result<Kinks> {
         let Some([from, to]) = period.map(|period| [start, start + period]).or(limits) else { continue };
         for &knot in &knots[1..] {
             let first = knot + ((from - knot) / own).ceil() * own;
-            let copies = ((to - first) / own).floor().max(-1.0) as i64;
+            let copies = ((to - first) / own).floor().larger(-1.0) as i64;
             cranks.extend((0..=copies).map(|copy| first + own * copy as f64));
         }
     }

@@ -79,6 +79,8 @@ struct Channel {
     discretisation: f64,
     iteration: f64,
     rounding: f64,
+    /// How the bound is known, in one word, and on what it rests.
+    origin: &'static str,
     basis: String,
     verdict: &'static str,
     reason: Option<String>,
@@ -94,11 +96,16 @@ struct CheckRow {
     value: f64,
     bound: f64,
     unit: &'static str,
+    /// How the bound is known, in one word, and on what it rests.
+    origin: &'static str,
     basis: String,
     verdict: &'static str,
     reason: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     finding: Option<String>,
+    /// How far the printed number is off that the finding calls wrong; `value` is how far the right one is off.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    printed_off: Option<f64>,
 }
 
 #[derive(Debug, Serialize)]
@@ -205,6 +212,7 @@ fn channel(proof: &ChannelProof) -> Channel {
         discretisation: proof.parts.discretisation,
         iteration: proof.parts.iteration,
         rounding: proof.parts.rounding,
+        origin: proof.basis.origin().word(),
         basis: proof.basis.to_string(),
         verdict: proof.verdict.word(),
         reason: reason(&proof.verdict),
@@ -216,18 +224,21 @@ fn channel(proof: &ChannelProof) -> Channel {
 }
 
 fn check(check: &Check) -> CheckRow {
+    let (finding, printed_off) = match &check.verdict {
+        Verdict::Expected { finding, off } => (Some(finding.clone()), Some(*off)),
+        _ => (None, None),
+    };
     CheckRow {
         name: check.name(),
         value: check.value,
         bound: check.bound,
         unit: check.unit,
+        origin: check.basis.origin().word(),
         basis: check.basis.to_string(),
         verdict: check.verdict.word(),
         reason: reason(&check.verdict),
-        finding: match &check.verdict {
-            Verdict::Expected { finding } => Some(finding.clone()),
-            _ => None,
-        },
+        finding,
+        printed_off,
     }
 }
 
@@ -244,7 +255,7 @@ pub fn provision(provision: &Provision) -> String {
 fn reason(verdict: &Verdict) -> Option<String> {
     match verdict {
         Verdict::Agree { .. } => None,
-        Verdict::Expected { finding } => Some(format!("expected, see docs/findings.md#{finding}")),
+        Verdict::Expected { finding, .. } => Some(format!("expected, see docs/findings.md#{finding}")),
         Verdict::Disagree { place } => Some(place.clone()),
         Verdict::Inconclusive { reason } => Some(reason.clone()),
     }

@@ -9,6 +9,7 @@ use crate::case::Case;
 use crate::compare::{Convergence, Ladder, residuals};
 use crate::engine::{Engine, Settings};
 use crate::error::{ErrorKind, Result};
+use crate::math::KeepNan;
 use crate::proof::Options;
 use crate::trajectory::{Channel, Trajectory};
 
@@ -65,10 +66,10 @@ impl Floor {
     /// With `sweeps` a run costs a constant and a part in proportion to them, neither of them negative.
     fn at(&self, sweeps: usize) -> f64 {
         let sweeps = sweeps.max(1) as f64;
-        let of = |&(many, price): &(usize, f64)| price * (sweeps / many.max(1) as f64).min(1.0);
-        let least = self.0.iter().map(of).fold(0.0, f64::max);
+        let of = |&(many, price): &(usize, f64)| price * (sweeps / many.max(1) as f64).smaller(1.0);
+        let least = self.0.iter().map(of).fold(0.0, f64::larger);
         let [(few, low), (many, high)] = self.0[..] else { return least };
-        least.max(low + (high - low) / (many - few) as f64 * (sweeps - few as f64))
+        least.larger(low + (high - low) / (many - few) as f64 * (sweeps - few as f64))
     }
 }
 
@@ -97,7 +98,7 @@ struct Search<'e> {
 impl Search<'_> {
     /// Price that is worth a run.
     fn limit(&self) -> f64 {
-        self.best.as_ref().map_or(self.others, |best| best.price.min(self.others)) * GAIN
+        self.best.as_ref().map_or(self.others, |best| best.price.smaller(self.others)) * GAIN
     }
 }
 
@@ -176,14 +177,14 @@ impl Bench<'_> {
                         price,
                     });
                 }
-                within * (price / limit).max(1.0)
+                within * (price / limit).larger(1.0)
             }
             Found::TooDear { resolution, error } => {
                 (row.start, search.dear) = (resolution, true);
                 error
             }
             Found::TooCoarse(error) => {
-                (row.start, search.least) = (row.start / COARSER, search.least.min(error));
+                (row.start, search.least) = (row.start / COARSER, search.least.smaller(error));
                 error
             }
         }
@@ -270,7 +271,7 @@ impl Bench<'_> {
             let noise = finest.noise(self.case, kind);
             let found = Convergence::of_channel(ladder, channel, engine.formal_order(self.case, kind), noise);
             let found = found.expect("all runs of an engine have the same channels");
-            predicted = predicted.max((found.error + found.iteration) / residual.scale);
+            predicted = predicted.larger((found.error + found.iteration) / residual.scale);
         }
         Ok(predicted)
     }

@@ -12,6 +12,7 @@ mod ways;
 use crate::case::{Case, Wanted};
 use crate::engine::{Engine, Settings};
 use crate::error::{Error, ErrorKind, Result};
+use crate::math::KeepNan;
 use crate::proof::Options;
 use crate::reference::AssurSolver;
 use crate::scenario::Scenario;
@@ -91,7 +92,7 @@ pub fn tune(
     let (mut by_engine, mut too_coarse, mut too_dear): (Vec<Candidate>, _, _) = (Vec::new(), Vec::new(), Vec::new());
     for (index, engine) in engines.iter().enumerate() {
         let mut part = |part: f64| progress((index as f64 + part) / engines.len() as f64);
-        let cheapest = by_engine.iter().map(|candidate| candidate.price).fold(f64::INFINITY, f64::min);
+        let cheapest = by_engine.iter().map(|candidate| candidate.price).fold(f64::INFINITY, f64::smaller);
         match bench.best_of(engine.as_ref(), wish.within, options, cheapest, &mut part) {
             Outcome::Met(candidate) => by_engine.push(candidate),
             Outcome::TooCoarse(error) => too_coarse.push((engine.name(), error)),

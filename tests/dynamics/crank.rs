@@ -5,6 +5,7 @@ use std::path::Path;
 
 use linkproof::case::Case;
 use linkproof::drive::{Load, MotionLaw, Motor, MotorLaw, ShaftInertia};
+use linkproof::math::KeepNan;
 use linkproof::reference::dynamics::{ACCURACY, Averaged, End, Model, RunUp, motion};
 use linkproof::reference::{AssurSolver, reduced};
 use linkproof::scenario::Scenario;
@@ -80,7 +81,7 @@ fn the_averaged_model_is_exact_for_constant_coefficients() {
         for at in &found {
             let (omega, angle) = (speed * at.omega, speed * (at.crank - case.drive.start));
             let off = [omega - averaged.speed(at.t), angle - averaged.angle(at.t)];
-            most = [0, 1].map(|k| most[k].max(off[k].abs()));
+            most = [0, 1].map(|k| most[k].larger(off[k].abs()));
         }
         assert!(most.iter().all(|off| *off < 1e-12), "{most:?}");
     }

@@ -3,7 +3,7 @@
 use linkproof::case::{Case, Grid};
 use linkproof::compare::residuals;
 use linkproof::engine::{self, Route, Settings};
-use linkproof::math::Vec2;
+use linkproof::math::{KeepNan, Vec2};
 use linkproof::reference::AssurSolver;
 use linkproof::trajectory::{Stage, Trajectory};
 
@@ -46,7 +46,7 @@ fn quarter(case: &Case) -> Case {
 /// Largest error over the scale in the channels of some stages.
 fn worst(truth: &Trajectory, run: &Trajectory, stages: impl Fn(Stage) -> bool) -> f64 {
     let found = residuals(truth, run).unwrap();
-    found.iter().filter(|r| stages(r.channel.kind.stage)).map(|r| r.share()).fold(0.0, f64::max)
+    found.iter().filter(|r| stages(r.channel.kind.stage)).map(|r| r.share()).fold(0.0, f64::larger)
 }
 
 /// Story 68. Errors of the impulse build go along a chain joint by joint, and need sweeps for it: over twelve links its default is enough for the

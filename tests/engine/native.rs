@@ -4,7 +4,7 @@ use linkproof::case::Case;
 use linkproof::engine::rapier::tree::Tree;
 use linkproof::engine::rapier::world::World;
 use linkproof::engine::rapier::{Build, Precision, Rapier};
-use linkproof::math::Vec2;
+use linkproof::math::{KeepNan, Vec2};
 use linkproof::reference::AssurSolver;
 
 use crate::common::spec::{Spec, four_bar};
@@ -60,11 +60,11 @@ fn errors(case: &Case, (build, tree): &(Build, Tree), dt: f64, end: f64, from: f
     let (mut worst, mut size) = ([0.0f64; 2], [0.0f64; 2]);
     for (reading, state) in readings.iter().zip(&truth) {
         for (force, &joint) in reading.forces.iter().zip(&tree.cut) {
-            worst[0] = worst[0].max((force - state.forces[joint]).norm());
-            size[0] = size[0].max(state.forces[joint].norm());
+            worst[0] = worst[0].larger((force - state.forces[joint]).norm());
+            size[0] = size[0].larger(state.forces[joint].norm());
         }
-        worst[1] = worst[1].max((reading.torque - state.torques[0]).abs());
-        size[1] = size[1].max(state.torques[0].abs());
+        worst[1] = worst[1].larger((reading.torque - state.torques[0]).abs());
+        size[1] = size[1].larger(state.torques[0].abs());
     }
     [0, 1].map(|k| worst[k] / size[k])
 }
@@ -136,7 +136,7 @@ fn regress_12_velocities_are_one_step_late() {
         for (reading, state) in readings.iter().zip(&truth) {
             for (branch, speed) in tree.branches.iter().zip(&reading.speeds) {
                 let omega = |link: usize| state.motions[link].omega;
-                worst = worst.max((speed - (omega(branch.link) - omega(branch.parent))).abs());
+                worst = worst.larger((speed - (omega(branch.link) - omega(branch.parent))).abs());
             }
         }
         worst / case.drive.at(0.0).omega

@@ -4,6 +4,7 @@ use linkproof::case::{Case, Grid};
 use linkproof::engine;
 use linkproof::engine::rapier::tree::Tree;
 use linkproof::engine::rapier::{Build, Precision, Rapier};
+use linkproof::math::KeepNan;
 use linkproof::mechanism::{Link, Mechanism, Side};
 use linkproof::reference::NewtonSolver;
 use linkproof::solver::Solver;
@@ -58,7 +59,7 @@ fn regress_51_slide_speeds_are_one_step_late() {
                     // The first steps have a transient.
                     if n > 20 {
                         (now, late, size) =
-                            (now.max((speed - is).abs()), late.max((speed - was).abs()), size.max(is.abs()));
+                            (now.larger((speed - is).abs()), late.larger((speed - was).abs()), size.larger(is.abs()));
                     }
                 }
             }

@@ -4,6 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use linkproof::diagram::motion::Method;
 use linkproof::diagram::{Course, MotionDiagram, Plans, draw};
+use linkproof::math::KeepNan;
 use linkproof::reference::AssurSolver;
 
 use crate::scenario;
@@ -75,7 +76,7 @@ fn a_piston_by_chords_errs_as_its_closed_form_says() {
         let scale = |which: usize| diagram.half_range(which);
         for which in 0..3 {
             let gap = |row: usize| (diagram.exact[which][row] - at(angle(row))[which]).abs();
-            let worst = (0..diagram.cranks.len()).map(gap).fold(0.0, f64::max);
+            let worst = (0..diagram.cranks.len()).map(gap).fold(0.0, f64::larger);
             // Rounding of lengths of 0.3 m and of what follows from them.
             assert!(worst <= 1e-12 * scale(which), "{worst:e}");
         }

@@ -6,7 +6,7 @@ use super::world::{LinkFrame, World, masses, opening};
 use crate::case::Case;
 use crate::drive::{Drive, Wrench};
 use crate::error::{Error, ErrorKind, Result};
-use crate::math::Vec2;
+use crate::math::{KeepNan, Vec2};
 use crate::mechanism::{LinkPose, Side};
 use crate::solver::State;
 
@@ -180,7 +180,7 @@ impl<'a> Guard<'a> {
                 format!("the engine's kinetic energy has grown {growth:.1e} times in one step, {}", crank(before));
             return Err(failed(message));
         }
-        self.energy = self.energy.max(energy);
+        self.energy = self.energy.larger(energy);
         for &joint in &world.tree().cut {
             let gap = opening(frames, &joints[joint], *size);
             if !(gap <= self.largest_gap) {
@@ -203,7 +203,7 @@ impl<'a> Guard<'a> {
         let case = self.case;
         for (index, (link, pose)) in case.mechanism.links().iter().zip(&case.start.0).enumerate().skip(1) {
             let off = |local| (self.world.point(Side { link: index, local }) - pose.point(local)).norm();
-            let far = link.points.iter().map(|point| off(point.local)).fold(off(link.mass_centre), f64::max);
+            let far = link.points.iter().map(|point| off(point.local)).fold(off(link.mass_centre), f64::larger);
             // Written so that NaN stops the run too.
             if !(far <= self.largest_gap) {
                 let crank = case.drive.start.to_degrees();

@@ -11,6 +11,7 @@ use super::{Build, Precision, Rapier};
 use crate::case::Case;
 use crate::engine::{Route, Settings};
 use crate::error::{Error, ErrorKind, Result};
+use crate::math::KeepNan;
 use crate::solver::{Progress, State, Visit, check_instants};
 use crate::trajectory::Stage;
 
@@ -33,7 +34,7 @@ pub(super) fn sweep(engine: &Rapier, case: &Case, visit: Visit, progress: Progre
     let rows = case.grid.ascending();
     let (Some(&first), Some(&last)) = (rows.first(), rows.last()) else { return Ok(()) };
     let step = engine.settings.resolution;
-    let begin = (case.grid.times[first].min(0.0) / step).floor();
+    let begin = (case.grid.times[first].smaller(0.0) / step).floor();
     let end = (case.grid.times[last] / step).floor();
     check(&engine.settings, end - begin)?;
     let start = match case.is_free() {

@@ -6,7 +6,7 @@ use super::tree::Tree;
 use crate::case::Case;
 use crate::drive::Wrench;
 use crate::engine::bodies::stand_in;
-use crate::math::{Vec2, cross, rotated};
+use crate::math::{KeepNan, Vec2, cross, rotated};
 use crate::mechanism::{GROUND, Joint, Link, LinkPose, Side};
 
 /// What is known of a link's angle (rad, counter-clockwise positive).
@@ -204,7 +204,7 @@ pub(super) fn opening(frames: &[LinkFrame], joint: &Joint, size: f64) -> f64 {
         return (places[1] - places[0]).norm();
     }
     let (distance, turn) = joint.opening(places, sides.map(|side| frames[side.link].direction));
-    distance.max(turn * size)
+    distance.larger(turn * size)
 }
 
 #[cfg(test)]

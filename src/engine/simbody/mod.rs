@@ -14,7 +14,7 @@ use super::{Engine, Route, Settings};
 use crate::case::Case;
 use crate::drive::{Load, Wrench};
 use crate::error::{Error, ErrorKind, Result};
-use crate::math::unit;
+use crate::math::{KeepNan, unit};
 use crate::solver::{Progress, Provision, Solver, State, Visit, check_instants};
 use crate::trajectory::{Channel, ChannelKind, Stage};
 use model::Linkage;
@@ -73,7 +73,7 @@ impl Simbody {
             tolerance: tolerance(case),
             time_scale: 1.0 / case.fastest_drive(),
             // An error of fourth order a step.
-            steps: (MAX_STEPS * (Simbody::ACCURACY / self.accuracy).max(1.0).powf(0.25)) as usize,
+            steps: (MAX_STEPS * (Simbody::ACCURACY / self.accuracy).larger(1.0).powf(0.25)) as usize,
         }
     }
 }
@@ -107,6 +107,10 @@ impl Engine for Simbody {
 
     fn noise(&self, case: &Case, channel: &ChannelKind) -> f64 {
         noise::bound(case, [tolerance(case), self.accuracy], channel)
+    }
+
+    fn is_noise_measured(&self) -> bool {
+        false
     }
 
     fn told(&self) -> Vec<(&'static str, String)> {
@@ -192,7 +196,7 @@ fn other_loads(case: &Case) -> Vec<Load> {
 /// Largest error of a constraint (m).
 fn tolerance(case: &Case) -> f64 {
     let size = case.mechanism.size();
-    TOLERANCE * case.start.0.iter().fold(size, |most: f64, pose| most.max(pose.origin.norm()))
+    TOLERANCE * case.start.0.iter().fold(size, |most: f64, pose| most.larger(pose.origin.norm()))
 }
 
 /// That the start pose is closed. Simbody would assemble another one nearby without a word.

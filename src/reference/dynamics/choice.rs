@@ -8,6 +8,7 @@ use crate::case::Case;
 use crate::drive::catalogue::weakest_sufficient;
 use crate::drive::{CatalogueMotor, Motor};
 use crate::error::{Error, ErrorKind, Result};
+use crate::math::KeepNan;
 use crate::reference::AssurSolver;
 use crate::reference::reduced::{self, means_over_turn};
 
@@ -59,7 +60,7 @@ impl Choice {
         }
         let asked = power / efficiency;
         let Some(motor) = weakest_sufficient(catalogue, asked) else {
-            let strongest = catalogue.iter().map(|motor| motor.power).fold(0.0, f64::max);
+            let strongest = catalogue.iter().map(|motor| motor.power).fold(0.0, f64::larger);
             let message =
                 format!("the drive asks for {:.4} kW, the strongest motor has {:.4} kW", asked / 1e3, strongest / 1e3);
             return Err(Error::new(ErrorKind::Input, message).help(

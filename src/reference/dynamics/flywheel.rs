@@ -3,6 +3,7 @@
 use super::model::Model;
 use super::regime::Regime;
 use crate::error::{Error, ErrorKind, Result};
+use crate::math::KeepNan;
 
 /// A flywheel on the crank's shaft, and the motion with it.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,7 +42,7 @@ impl Model<'_> {
         if below >= 0.0 {
             return Ok(Flywheel { inertia: 0.0, regime });
         }
-        let mut high = regime_inertia(self)?.max(f64::MIN_POSITIVE);
+        let mut high = regime_inertia(self)?.larger(f64::MIN_POSITIVE);
         let mut above = with(high)?.0;
         let mut doublings = 0;
         while above < 0.0 {

@@ -10,6 +10,7 @@ use differential_equations::ode::{ODE, OrdinaryNumericalMethod};
 use differential_equations::status::Status;
 
 use crate::error::{Error, ErrorKind, Result};
+use crate::math::KeepNan;
 
 /// DOP853 on a state of `N` numbers.
 pub(in crate::reference) type Method<const N: usize> =
@@ -76,7 +77,7 @@ pub(in crate::reference) fn march<const N: usize, F: Flow<N>>(
     let mut targets = targets.iter().copied().skip_while(|&target| target <= begun_at);
     let Some(mut target) = targets.next() else { return Ok(Stop::End) };
     flow.begin(place.x, &place.y);
-    let h0 = if place.h > 0.0 { place.h.min(last - place.x) } else { 0.0 };
+    let h0 = if place.h > 0.0 { place.h.smaller(last - place.x) } else { 0.0 };
     let mut method: Method<N> = ExplicitRungeKutta::dop853().rtol(accuracy).atol(accuracy).max_steps(MOST_STEPS).h0(h0);
     let begun = method.init(flow, place.x, last, &place.y);
     checked(flow, begun, place.x)?;
@@ -95,7 +96,7 @@ pub(in crate::reference) fn march<const N: usize, F: Flow<N>>(
             return end_on_bound(flow, place, &mut method, visit);
         }
         // Of a step that had to be short, nothing is learnt about the length of the next.
-        place.h = if cut { wished.max(method.h()) } else { method.h() };
+        place.h = if cut { wished.larger(method.h()) } else { method.h() };
         method.set_h(place.h);
         let before = (place.x, place.y);
         (place.x, place.y) = (if cut { target } else { method.t() }, *method.y());

@@ -9,6 +9,7 @@ use super::march::{Place, Step, Stop, march, one_step};
 use super::model::{Model, Piece};
 use super::run_up::MOST_EMPTY;
 use crate::error::{Error, ErrorKind, Result};
+use crate::math::KeepNan;
 
 /// Newton steps of the shooting; it takes three to six.
 const MOST_SHOTS: usize = 60;
@@ -143,7 +144,7 @@ impl<'m, 'a> Turn<'m, 'a> {
             let alpha = forces.acceleration(way * place.x, omega);
             forces.branch.set(forces.model.branch(omega, alpha));
             let from = place.x;
-            let end = end.min(last);
+            let end = end.smaller(last);
             let inner = targets.iter().copied().filter(|&target| target > from && target < end);
             let targets: Vec<f64> = inner.chain([end]).collect();
             let stop = march(&self.flow, &mut place, &targets, accuracy, visit)

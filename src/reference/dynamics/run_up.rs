@@ -6,6 +6,7 @@ use super::march::{Place, Step, Stop, march};
 use super::model::{Model, Piece};
 use crate::case::{Case, Grid};
 use crate::error::{Error, ErrorKind, Result};
+use crate::math::KeepNan;
 use crate::solver::{Provision, Sampler, State, Visit};
 use crate::trajectory::{Channel, Stage, Trajectory};
 
@@ -241,7 +242,7 @@ impl RunUp {
         let mut sampler = Sampler::new(&case);
         let (mut natural, size) = (0.0f64, case.mechanism.size());
         states(&case, &motion, &mut |row, state| {
-            natural = state.forces.iter().fold(natural, |most, force| most.max(force.norm() * size));
+            natural = state.forces.iter().fold(natural, |most, force| most.larger(force.norm() * size));
             sampler.put(&case, row, state);
             Ok(())
         })?;
@@ -255,8 +256,9 @@ impl RunUp {
     pub fn power_residual(&self) -> Option<f64> {
         let asked = self.trajectory.column(&Channel::named("drive.torque_N_m")?)?;
         let scale =
-            asked.iter().chain(self.motion.iter().map(|i| &i.motor)).fold(self.natural, |most, m| most.max(m.abs()));
-        let worst = self.motion.iter().zip(asked).fold(0.0f64, |most, (i, &asked)| most.max((i.shaft - asked).abs()));
+            asked.iter().chain(self.motion.iter().map(|i| &i.motor)).fold(self.natural, |most, m| most.larger(m.abs()));
+        let worst =
+            self.motion.iter().zip(asked).fold(0.0f64, |most, (i, &asked)| most.larger((i.shaft - asked).abs()));
         Some(if scale > 0.0 { worst / scale } else { worst })
     }
 }

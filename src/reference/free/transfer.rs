@@ -11,8 +11,8 @@ use crate::assur::Plan;
 use crate::case::Case;
 use crate::drive::Wrench;
 use crate::error::{Error, ErrorKind, Result};
-use crate::math::Vec2;
 use crate::math::dense::Lu;
+use crate::math::{KeepNan, Vec2};
 use crate::mechanism::GROUND;
 use crate::solver::State;
 use crate::trajectory::Stage;
@@ -90,8 +90,8 @@ impl<'a> TransferSide<'a> {
     }
 
     fn go_to(&mut self, angles: &[f64]) -> Result<()> {
-        let farthest = self.at.iter().zip(angles).fold(0.0f64, |most, (a, b)| most.max((b - a).abs()));
-        let parts = (farthest / STEP).ceil().max(1.0);
+        let farthest = self.at.iter().zip(angles).fold(0.0f64, |most, (a, b)| most.larger((b - a).abs()));
+        let parts = (farthest / STEP).ceil().larger(1.0);
         for part in 1..=parts as usize {
             let share = part as f64 / parts;
             for ((target, &from), &to) in self.target.iter_mut().zip(&self.at).zip(angles) {

@@ -7,6 +7,7 @@ use super::super::free::{Held, Inputs, Side, embed, loads_held};
 use super::{System, TRACKING_STEP};
 use crate::drive::Wrench;
 use crate::error::Result;
+use crate::math::KeepNan;
 use crate::math::dense::Lu;
 use crate::mechanism::EQUATIONS;
 use crate::solver::State;
@@ -60,8 +61,8 @@ impl<'a> Embedded<'a> {
     /// Follows the branch to the angles of the driving links, in small turns.
     fn go_to(&mut self, angles: &[f64]) -> Result<()> {
         let from: Vec<f64> = self.system.inputs.iter().map(|input| input.angle).collect();
-        let farthest = from.iter().zip(angles).fold(0.0f64, |most, (a, b)| most.max((b - a).abs()));
-        let parts = (farthest / TRACKING_STEP).ceil().max(1.0);
+        let farthest = from.iter().zip(angles).fold(0.0f64, |most, (a, b)| most.larger((b - a).abs()));
+        let parts = (farthest / TRACKING_STEP).ceil().larger(1.0);
         let n = self.system.q.len();
         for part in 1..=parts as usize {
             let share = part as f64 / parts;

@@ -7,7 +7,7 @@ use proptest::prelude::*;
 use super::seam::Pair;
 use super::*;
 use crate::math::dense::Lu;
-use crate::math::{Motion, cross, turned, unit};
+use crate::math::{KeepNan, Motion, cross, turned, unit};
 use crate::mechanism::Joint;
 use crate::scenario::Scenario;
 
@@ -132,7 +132,7 @@ proptest! {
             prop_assert!(lu.factor());
             let mut known = right.clone();
             lu.solve(&mut known);
-            let most = |of: &[f64]| of.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+            let most = |of: &[f64]| of.iter().fold(0.0, |most: f64, value| most.larger(value.abs()));
             // How far rounding is carried: the largest entry of the inverse.
             let inverse = (0..n).map(|k| {
                 let mut column = vec![0.0; n];
@@ -140,11 +140,11 @@ proptest! {
                 lu.solve(&mut column);
                 most(&column)
             });
-            let inverse = inverse.fold(1.0, f64::max);
+            let inverse = inverse.fold(1.0, f64::larger);
             for mut equations in along_all_trees(&case) {
                 equations.solve(&case, &mut state, 0.0).unwrap();
                 let found = flat(&case, &state);
-                let largest = most(&known).max(most(&found));
+                let largest = most(&known).larger(most(&found));
                 let rest = |row: &[f64], right: &f64| row.iter().zip(&found).map(|(a, x)| a * x).sum::<f64>() - right;
                 let rest: Vec<f64> = matrix.iter().zip(&right).map(|(row, right)| rest(row, right)).collect();
                 prop_assert!(most(&rest) <= 1e-12 * largest, "{name}: {:e} of {largest:e}", most(&rest));

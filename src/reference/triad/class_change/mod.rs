@@ -23,7 +23,7 @@ mod chain;
 use super::Triad;
 use crate::case::Case;
 use crate::error::{Error, ErrorKind, Result};
-use crate::math::{Vec2, cross, rotated, turned, unit};
+use crate::math::{KeepNan, Vec2, cross, rotated, turned, unit};
 use crate::mechanism::{GROUND, JointKind};
 use chain::{Chain, Grounded, Place, along};
 
@@ -142,7 +142,7 @@ impl ClassChange {
     /// [`ErrorKind::Geometry`] if the branch has a dead point on the way there.
     pub fn solve(&mut self, crank: f64) -> Result<&Transfer> {
         let from = self.crank;
-        let parts = ((crank - from).abs() / TRACKING_STEP).ceil().max(1.0);
+        let parts = ((crank - from).abs() / TRACKING_STEP).ceil().larger(1.0);
         for part in 1..parts as usize {
             self.step_to(from + (crank - from) * (part as f64 / parts), HALVINGS)?;
         }
@@ -262,7 +262,7 @@ fn zero(gap: impl Fn(f64) -> Option<(f64, f64)>, guess: f64) -> Option<f64> {
         let (now, slope) = gap(at)?;
         bounds[usize::from(now * value <= 0.0)] = at;
         let next = at - now / slope;
-        let [low, high] = [bounds[0].min(bounds[1]), bounds[0].max(bounds[1])];
+        let [low, high] = [bounds[0].smaller(bounds[1]), bounds[0].larger(bounds[1])];
         // Quadratic convergence: what is left is of the order of the square.
         if (next - at).abs() < LAST_CHANGE {
             return Some(next);
