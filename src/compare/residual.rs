@@ -206,6 +206,18 @@ mod tests {
     }
 
     #[test]
+    fn a_difference_is_the_other_less_the_reference_and_keeps_nan() {
+        let a = trajectory(&[("joint.A.fx_N", vec![1.0, 2.0])]);
+        let b = trajectory(&[("joint.A.fx_N", vec![1.5, 1.0])]);
+        assert_eq!(difference(&a, &b).unwrap().iter().next().unwrap().1, [0.5, -1.0]);
+        for place in 0..3 {
+            let mut values = [3.0, 2.0, 1.0];
+            values[place] = f64::NAN;
+            assert!(largest_difference(&[0.0; 3], &values, false).is_nan(), "{place}");
+        }
+    }
+
+    #[test]
     fn different_grids_are_refused() {
         let a = trajectory(&[("joint.A.fx_N", vec![0.0, 2.0])]);
         let b = trajectory(&[("joint.A.fx_N", vec![0.0, 2.0, 3.0])]);

@@ -197,16 +197,7 @@ fn judge(scenario: &Scenario, engine: &dyn Engine, reference: &Trajectory, runs:
             [single, half, reference].map(|side| side.column(&channel).expect("all sides have the channel"));
         let limit = convergence.limit(single, half, kind.periodic);
         let limit = limit.map(|limit| largest_difference(reference, &limit, kind.periodic));
-        ChannelProof {
-            residual,
-            bound: parts.sum(),
-            parts,
-            convergence,
-            limit,
-            sensitivity: None,
-            basis,
-            verdict,
-        }
+        ChannelProof { residual, bound: parts.sum(), parts, convergence, limit, sensitivity: None, basis, verdict }
     });
     Ok(judged.collect())
 }

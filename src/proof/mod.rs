@@ -7,6 +7,8 @@ mod observe;
 mod options;
 mod oracle;
 mod parties;
+#[cfg(test)]
+mod planted;
 mod sensitivity;
 
 pub use engines::{ChannelProof, EngineInfo, EngineProof};

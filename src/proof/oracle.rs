@@ -7,9 +7,7 @@ use crate::math::angle::wrapped;
 use crate::mechanism::Side;
 use crate::reference;
 use crate::reference::reduced::{self, Means};
-use crate::scenario::{
-    ExpectedCell, Figure, FigureValue, Oracle, OracleBasis, OraclePoint, OracleSeries, Scenario,
-};
+use crate::scenario::{ExpectedCell, Figure, FigureValue, Oracle, OracleBasis, OraclePoint, OracleSeries, Scenario};
 use crate::solver::{Solver, State};
 use crate::tolerance::{Basis, Origin, Tolerance};
 use crate::trajectory::{Channel, Stage, Trajectory};

@@ -126,7 +126,8 @@ fn distance(entry: &mut Table, case: &Case) -> Result<(Figure, String)> {
     let has = |link: usize, of: &[Side]| of.iter().any(|side| side.link == link);
     let measured = |this: usize| places[this].iter().find(|side| !has(side.link, &places[1 - this])).copied();
     let (Some(first), Some(second)) = (measured(0), measured(1)) else {
-        let message = format!("the distance of {} stands in the file: only one link has both points", names.join(" and "));
+        let message =
+            format!("the distance of {} stands in the file: only one link has both points", names.join(" and "));
         let help = "name points whose distance follows from how the links stand together";
         return Err(entry.wrong(ErrorKind::Input, "points", message).help(help));
     };

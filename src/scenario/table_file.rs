@@ -126,7 +126,9 @@ fn whole_column(table: &mut Table, printed: &[Printed]) -> Result<Option<(String
     right.finish()?;
     if values.len() != printed.len() {
         let message = format!("found {} right values for the column's {} rows", values.len(), printed.len());
-        return Err(right.wrong(ErrorKind::Input, "values", message).help("give one value for every row, in their order"));
+        return Err(right
+            .wrong(ErrorKind::Input, "values", message)
+            .help("give one value for every row, in their order"));
     }
     let right: Vec<Printed> = values.into_iter().map(|value| Printed { value, digits }).collect();
     printed.iter().zip(&right).try_for_each(|(printed, right)| check_apart(table, printed, right))?;

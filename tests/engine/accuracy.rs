@@ -1,5 +1,7 @@
 //! How good Rapier's twin is at a step of 0.08 deg of the crank: the figures of `docs/rapier.md`, with the sweeps given there.
 
+use std::collections::BTreeMap;
+
 use linkproof::case::{Case, Wanted};
 use linkproof::compare::convergence::observed_order;
 use linkproof::compare::{Residual, residuals};
@@ -246,8 +248,12 @@ fn regress_60_single_precision_is_within_its_rounding_bound() {
                 });
                 assert!(epsilon(engines[1].as_ref()) > 1e-8);
                 let [wide, narrow] = [0, 1].map(|k| solve(engines[k].as_ref(), &case));
+                let mut used: BTreeMap<(Stage, &str), f64> = BTreeMap::new();
                 for residual in residuals(&wide, &narrow).unwrap() {
-                    let noise = engines[1].noise(&case, residual.channel.kind);
+                    let kind = residual.channel.kind;
+                    let noise = engines[1].noise(&case, kind);
+                    let most = used.entry((kind.stage, kind.unit)).or_insert(0.0);
+                    *most = most.larger(residual.max / noise);
                     assert!(
                         residual.max <= noise,
                         "{name} {from}..{to} {single} {route:?} {step} {}: {:e} of {noise:e}",
@@ -255,6 +261,7 @@ fn regress_60_single_precision_is_within_its_rounding_bound() {
                         residual.max
                     );
                 }
+                println!("{name} {from}..{to} {single} {route:?} {step} {used:.1e?}");
             }
         }
     }
