@@ -59,7 +59,13 @@ impl Convergence {
         let fine = differences(single, half, periodic);
         let largest = largest_size(fine.iter().copied());
         let (before, after) = (rms(coarse), rms(fine));
-        let observed = if after <= noise { f64::NAN } else { (before / after).log2() };
+        let quotient = (before / after).log2();
+        // NaN stands for differences that are rounding, and for nothing else: what is not a number shows no convergence.
+        let observed = match quotient.is_nan() {
+            _ if after <= noise => f64::NAN,
+            true => f64::NEG_INFINITY,
+            false => quotient,
+        };
         let (order, safety) = if (observed - formal).abs() <= AS_GOOD * formal {
             (formal, 1.25)
         } else if observed.is_nan() {

@@ -261,7 +261,7 @@ fn regress_60_single_precision_is_within_its_rounding_bound() {
                         residual.max
                     );
                 }
-                println!("{name} {from}..{to} {single} {route:?} {step} {used:.1e?}");
+                println!("{name} {from}..{to} {single} {route:?} {step} {used:?}");
             }
         }
     }

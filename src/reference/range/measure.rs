@@ -48,7 +48,8 @@ fn of_columns(mut matrix: Matrix, sign: f64) -> Measure {
         }
     }
     let values = matrix.singular_values();
-    let condition = (values.max() / values.min()).smaller(f64::MAX);
+    // Of a matrix of zeros, whose quotient is no number, the condition is as bad as that of any singular one.
+    let condition = (values.max() / values.min()).smaller_number(f64::MAX);
     Measure { determinant: sign * values.product(), condition }
 }
 
