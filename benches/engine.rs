@@ -1,17 +1,17 @@
 //! Cost of the harness: a run of an engine as a ratio to a bare loop of the same Rapier world with the same settings, timed in turns in the
 //! same run. `cargo bench --bench engine [-- SCENARIO|BUILD|SWEEPS...]`.
 
+use linkage::math::KeepNan;
 use std::hint::black_box;
 use std::path::Path;
 use std::time::Instant;
 
-use linkproof::case::{Case, Grid, Wanted};
-use linkproof::engine::rapier::tree::Tree;
-use linkproof::engine::rapier::{Build, Precision, Rapier};
-use linkproof::engine::{Engine, Settings};
-use linkproof::math::KeepNan;
+use linkage::case::{Case, Grid, Wanted};
+use linkage::engine::{Engine, Settings};
+use linkage::solver::Solver;
 use linkproof::scenario::Scenario;
-use linkproof::solver::Solver;
+use rapier_twin::tree::Tree;
+use rapier_twin::{Build, Precision, Rapier};
 
 /// Steps a run: short runs fit between whatever else the machine does.
 const STEPS: usize = 500;

@@ -3,16 +3,16 @@
 
 mod four_bar;
 
+use linkage::math::KeepNan;
 use std::hint::black_box;
 use std::path::Path;
 use std::time::Instant;
 
+use analytic::PoseSolver;
+use analytic::assur::batch::{Batch, Poses};
 use four_bar::FourBar;
-use linkproof::math::KeepNan;
-use linkproof::reference::PoseSolver;
-use linkproof::reference::batch::{Batch, Poses};
+use linkage::trajectory::Stage;
 use linkproof::scenario::Scenario;
-use linkproof::trajectory::Stage;
 
 /// Poses a timing; one turn in as many steps.
 const POSES: usize = 3600;
@@ -41,7 +41,7 @@ fn angle(k: usize) -> f64 {
 fn by_hand(scenario: &Scenario) -> FourBar {
     let case = &scenario.case;
     let [crank, coupler, rocker] = [1, 2, 3].map(|k| &case.mechanism.links()[k]);
-    let length = |link: &linkproof::mechanism::Link| link.points[1].local.x;
+    let length = |link: &linkage::mechanism::Link| link.points[1].local.x;
     FourBar {
         crank: length(crank),
         coupler: length(coupler),

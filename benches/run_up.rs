@@ -1,12 +1,12 @@
 //! Cost of a run-up: half a second of `crank_rocker`, 500 output points with all channels, against the accuracy of the crank angle; and of the steady
 //! motion. `cargo bench --bench run_up`.
 
+use linkage::math::KeepNan;
 use std::hint::black_box;
 use std::path::Path;
 use std::time::Instant;
 
-use linkproof::math::KeepNan;
-use linkproof::reference::dynamics::{ACCURACY, Model, RunUp, motion};
+use analytic::reduced::{ACCURACY, Model, RunUp, motion};
 use linkproof::scenario::Scenario;
 
 /// Timings, of which the shortest counts: whatever else the machine does only adds.

@@ -1,20 +1,20 @@
 //! `tune` by the clock: its choice against the cheapest settings of an exhaustive search over engines, routes, extrapolation, substeps, sweeps and
-//! steps, both timed in turns. `cargo bench --bench tune [-- SCENARIO...]`; with `-- prices` what the price model of `tests/tune/prices.rs`
+//! steps, both timed in turns. `cargo bench --bench tune [-- SCENARIO...]`; with `-- prices` what the price model of `tests/suite/tune/prices.rs`
 //! needs.
 
+use linkage::math::KeepNan;
 use std::hint::black_box;
 use std::path::Path;
 use std::time::Instant;
 
-use linkproof::case::{Case, Grid, Wanted};
-use linkproof::engine::{self, Engine, Route, Settings};
-use linkproof::math::KeepNan;
+use linkage::case::{Case, Grid, Wanted};
+use linkage::engine::{Engine, Route, Settings};
+use linkage::trajectory::Stage;
 use linkproof::proof::Options;
 use linkproof::scenario::Scenario;
-use linkproof::trajectory::Stage;
 use linkproof::tune::{Wish, tune};
 
-#[path = "../tests/tune/exhaustive.rs"]
+#[path = "../tests/suite/tune/exhaustive.rs"]
 mod exhaustive;
 
 use exhaustive::{Met, REFERENCES, Space, cheaper, error_of, thinned, truth};
@@ -90,7 +90,7 @@ fn compare(name: &str) {
     let engines = ["rapier", "rapier-f32", "impulse", "impulse-f32"].map(String::from);
     let options = Options { engines: engines.into(), ..Options::default() };
     let wish = Wish { within: WITHIN, channels: Vec::new() };
-    let mut price = |_: &dyn Engine, run: &mut dyn FnMut() -> linkproof::Result<()>| {
+    let mut price = |_: &dyn Engine, run: &mut dyn FnMut() -> linkage::Result<()>| {
         let mut shortest = f64::INFINITY;
         for _ in 0..2 {
             let since = Instant::now();
@@ -102,7 +102,7 @@ fn compare(name: &str) {
     let since = Instant::now();
     let found = tune(&scenario, &wish, &options, &mut price, &mut |_| {}).unwrap_or_else(|error| panic!("{error}"));
     let tuning = since.elapsed().as_secs_f64();
-    let best = engine::named(found.best.engine, 1e-3).expect("it is one of them").with(found.best.settings);
+    let best = linkproof::engines::named(found.best.engine, 1e-3).expect("it is one of them").with(found.best.settings);
     let mut clock = Clock { case, row: None, fit: [0.0; 2] };
     let since = Instant::now();
     let (mut met, runs) = cheaper(&scenario, WITHIN, 1.3 * found.best.price, &SPACE, &mut |engine| clock.price(engine));
@@ -143,7 +143,7 @@ fn prices() {
     let times = (1..=steps).map(|k| k as f64 * step).collect();
     let all = Case { wanted: Wanted::ALL, ..base.on(Grid::of_times(&base.drive, times)) };
     let mut unit = f64::NAN;
-    for engine in engine::all(step).into_iter().filter(|engine| !engine.controls_error()) {
+    for engine in linkproof::engines::all(step).into_iter().filter(|engine| !engine.controls_error()) {
         let set = |sweeps, substeps, route| engine.with(Settings { sweeps, substeps, route, ..engine.settings() });
         let cost = |case: &Case, sweeps, substeps, route| {
             seconds(set(sweeps, substeps, route).as_ref(), case, 15) / (steps + 16) as f64

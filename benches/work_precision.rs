@@ -1,17 +1,17 @@
 //! Error against time of every engine, by every route, raw and extrapolated: a table in Markdown for docs/engines.md.
 //! `cargo bench --bench work_precision [-- SCENARIO]`, with `--features simbody` for that engine too.
 
+use linkage::math::KeepNan;
 use std::path::Path;
 use std::time::Instant;
 
+use analytic::AssurSolver;
+use linkage::engine::{Engine, Settings};
+use linkage::solver::Solver;
+use linkage::trajectory::{Stage, Trajectory};
 use linkproof::compare::residuals;
-use linkproof::engine::rapier::Rapier;
-use linkproof::engine::{self, Engine, Settings};
-use linkproof::math::KeepNan;
-use linkproof::reference::AssurSolver;
 use linkproof::scenario::Scenario;
-use linkproof::solver::Solver;
-use linkproof::trajectory::{Stage, Trajectory};
+use rapier_twin::Rapier;
 
 /// Steps of fixed-step engines, in degrees of crank angle.
 const STEPS: [f64; 3] = [0.8, 0.24, 0.08];
@@ -64,7 +64,7 @@ fn main() {
     let reference = AssurSolver.solve(&scenario.case, &mut |_| {}).unwrap_or_else(|error| panic!("{error}"));
     let omega = scenario.case.drive.at(0.0).omega.abs();
     let mut rows = Vec::new();
-    for engine in engine::all(scenario.dt) {
+    for engine in linkproof::engines::all(scenario.dt) {
         let resolutions: Vec<(f64, String)> = match engine.controls_error() {
             true => ACCURACIES.map(|accuracy| (accuracy, format!("{accuracy:e}"))).to_vec(),
             false => STEPS.map(|degrees: f64| (degrees.to_radians() / omega, format!("{degrees} deg"))).to_vec(),

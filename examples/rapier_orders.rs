@@ -6,14 +6,14 @@
 use std::path::Path;
 use std::time::Instant;
 
-use linkproof::case::{Case, Wanted};
+use analytic::AssurSolver;
+use linkage::case::{Case, Wanted};
+use linkage::engine::{Engine, Route, Settings};
+use linkage::solver::Solver;
+use linkage::trajectory::{Stage, Trajectory};
 use linkproof::compare::convergence::observed_order;
 use linkproof::compare::residuals;
-use linkproof::engine::{self, Engine, Route, Settings};
-use linkproof::reference::AssurSolver;
 use linkproof::scenario::Scenario;
-use linkproof::solver::Solver;
-use linkproof::trajectory::{Stage, Trajectory};
 
 fn solve(solver: &dyn Solver, case: &Case) -> Option<(Trajectory, f64)> {
     let since = Instant::now();
@@ -45,7 +45,7 @@ fn main() {
         Stage::ALL.map(Stage::name).join(", ")
     );
     for name in at(2, "rapier,impulse,rapier-f32,impulse-f32").split(',') {
-        let engine = engine::named(name, step).unwrap_or_else(|| panic!("no engine {name}"));
+        let engine = linkproof::engines::named(name, step).unwrap_or_else(|| panic!("no engine {name}"));
         for route in at(3, "differences,native,probe").split(',') {
             let route = Route::named(route).expect("a route");
             for extrapolated in at(4, "plain,extrapolated").split(',').map(|word| word == "extrapolated") {

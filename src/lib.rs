@@ -7,27 +7,12 @@
 //! SI units and world axes (x right, y up, angles counter-clockwise from +x) everywhere inside; other units exist
 //! only in scenario files and carry their suffix there.
 
-pub mod assur;
-pub mod case;
 pub mod cli;
 pub mod compare;
-pub mod diagram;
-pub mod drive;
-pub mod engine;
-pub mod error;
-pub mod export;
-pub mod math;
-pub mod mechanism;
+pub mod engines;
 pub mod proof;
 pub mod record;
-pub mod reference;
 pub mod report;
 pub mod scenario;
-pub mod solver;
-pub mod synthesis;
-pub mod task;
 pub mod tolerance;
-pub mod trajectory;
 pub mod tune;
-
-pub use error::{Error, ErrorKind, Result};

@@ -6,10 +6,10 @@ use std::path::PathBuf;
 use serde_json::json;
 
 use super::output;
-use crate::error::{Error, ErrorKind, Result};
-use crate::reference::peaks::{self, Peak, Peaks, journal_diameter};
-use crate::report::text::table;
+use crate::report::table;
 use crate::scenario::Scenario;
+use linkage::error::{Error, ErrorKind, Result};
+use workshop::bearings::{self, Peak, Peaks, journal_diameter};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -43,7 +43,7 @@ pub(super) fn bearings(args: &Args) -> Result<()> {
         }
     }
     let scenario = Scenario::load(&args.file)?.nominal();
-    let peaks = peaks::over_range(&scenario.case)?;
+    let peaks = bearings::over_range(&scenario.case)?;
     match &args.json {
         Some(to) => output::write(&format!("{}\n", as_json(args, &scenario, &peaks)), to),
         None => output::print(&as_text(args, &scenario, &peaks)),

@@ -6,13 +6,12 @@ use std::path::PathBuf;
 use clap::builder::PossibleValuesParser;
 use serde_json::{Value, json};
 
+use super::load::reference_names;
 use super::output;
-use super::run::reference_names;
-use crate::diagram::draw::{self, significant};
-use crate::diagram::{Course, MotionDiagram};
-use crate::error::Result;
-use crate::reference;
 use crate::scenario::Scenario;
+use linkage::error::Result;
+use workshop::diagram::draw::{self, significant};
+use workshop::diagram::{Course, MotionDiagram};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -51,7 +50,7 @@ pub(super) struct Args {
 
 pub(super) fn diagram(args: &Args) -> Result<()> {
     let scenario = Scenario::load(&args.file)?.nominal();
-    let solver = reference::named(&args.with).expect("the argument parser knows all names");
+    let solver = analytic::named(&args.with).expect("the argument parser knows all names");
     let course = Course::named(&scenario.case, &args.channel)?;
     let diagram = MotionDiagram::of(&scenario.case, solver, &course, args.divisions)?;
     if let Some(to) = &args.svg {

@@ -5,18 +5,20 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 
+use super::load::load;
 use super::motor_choice;
 use super::output;
-use super::run::load;
 use super::{drive_graphs, drive_run_up};
-use crate::error::{Error, ErrorKind, Result};
-use crate::reference::AssurSolver;
-use crate::reference::dynamics::course::{Extremes, Row};
-use crate::reference::dynamics::regime::At;
-use crate::reference::dynamics::{ACCURACY, Averaged, Flywheel, Model, Regime, RunUp};
-use crate::reference::reduced::{self, Means};
-use crate::report::text::table;
+use crate::report::table;
 use crate::scenario::Scenario;
+use analytic::AssurSolver;
+use analytic::reduced::means::{self as reduced, Means};
+use analytic::reduced::{ACCURACY, Model, RunUp};
+use analytic::steady::course::{Extremes, Row};
+use analytic::steady::regime::At;
+use analytic::steady::{Averaged, Regime};
+use linkage::error::{Error, ErrorKind, Result};
+use workshop::flywheel::Flywheel;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -163,7 +165,7 @@ fn find(args: &Args, scenario: &Scenario, model: &Model) -> Result<Found> {
             Some(([sense * speed, sense * speed * motor.ratio], model.regime(&cranks, ACCURACY)?))
         }
     };
-    let flywheel = args.non_uniformity.map(|wanted| model.flywheel(wanted, ACCURACY)).transpose()?;
+    let flywheel = args.non_uniformity.map(|wanted| Flywheel::of(&model, wanted, ACCURACY)).transpose()?;
     let (extremes, rows) = (model.extremes()?, model.rows(&cranks)?);
     Ok(Found { means, extremes, added: model.added_inertia(), rows, steady, averaged, flywheel })
 }

@@ -1,12 +1,13 @@
 //! `linkproof drive --svg`: the reduced quantities and the steady motion as graphs.
 
-use crate::diagram::{Graph, Graphs, Mark, draw};
-use crate::error::Result;
-use crate::math::KeepNan;
-use crate::reference::dynamics::course::{Extremes, Row};
-use crate::reference::dynamics::{ACCURACY, Model, Regime};
-use crate::reference::reduced::Means;
 use crate::scenario::Scenario;
+use analytic::reduced::means::Means;
+use analytic::reduced::{ACCURACY, Model};
+use analytic::steady::Regime;
+use analytic::steady::course::{Extremes, Row};
+use linkage::error::Result;
+use linkage::math::KeepNan;
+use workshop::diagram::{Graph, Graphs, Mark, draw};
 
 /// Equal parts of the period, at whose ends graphs have points: half a degree over one turn.
 const PARTS: u32 = 720;

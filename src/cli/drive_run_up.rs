@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
-use crate::error::{Error, ErrorKind, Result};
-use crate::reference::dynamics::{End, RunUp};
+use analytic::reduced::{End, RunUp};
+use linkage::error::{Error, ErrorKind, Result};
 
 /// How a run-up ended.
 pub(super) fn told(run_up: &RunUp) -> String {

@@ -2,8 +2,8 @@
 
 use clap::builder::PossibleValuesParser;
 
-use crate::engine::{self, Route};
 use crate::proof::Options;
+use linkage::engine::Route;
 
 /// Which engines, and how they are set.
 #[derive(Clone, Debug, clap::Args)]
@@ -48,7 +48,7 @@ impl EngineArgs {
 }
 
 pub(super) fn engine_names() -> Vec<&'static str> {
-    engine::all(1.0).iter().map(|engine| engine.name()).collect()
+    crate::engines::all(1.0).iter().map(|engine| engine.name()).collect()
 }
 
 fn names_and_all() -> Vec<&'static str> {

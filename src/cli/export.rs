@@ -2,11 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
+use super::load::load;
 use super::output;
-use super::run::load;
-use crate::error::Result;
-use crate::export::mjcf;
-use crate::reference::AssurSolver;
+use analytic::AssurSolver;
+use linkage::error::Result;
+use workshop::export::mjcf;
 
 const EXAMPLES: &str = "\
 Examples:

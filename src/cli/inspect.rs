@@ -6,12 +6,11 @@ use std::path::PathBuf;
 use serde_json::{Value, json};
 
 use super::{modes, output, range};
-use crate::case::Grid;
-use crate::error::{Error, ErrorKind, Result};
-use crate::mechanism::assembly::{Choice, transmission_sine};
-use crate::mechanism::{GROUND, Joint, Mechanism};
-use crate::reference;
 use crate::scenario::Scenario;
+use linkage::case::Grid;
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::mechanism::assembly::{Choice, transmission_sine};
+use linkage::mechanism::{GROUND, Joint, Mechanism};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -49,11 +48,11 @@ pub(super) fn inspect(args: &Args) -> Result<()> {
             Grid::of_cranks(&case.drive, vec![crank])
                 .check(&case.drive)
                 .map_err(|message| Error::new(ErrorKind::Input, message).help("check --at-crank-deg"))?;
-            Some((crank, reference::modes::all(case, crank)?))
+            Some((crank, analytic::modes::all(case, crank)?))
         }
         false => None,
     };
-    let range = if args.range { Some(reference::range::Range::of(case)?) } else { None };
+    let range = if args.range { Some(analytic::range::Range::of(case)?) } else { None };
     match &args.json {
         Some(to) => {
             let mut value = as_json(&scenario);

@@ -5,11 +5,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::output;
-use crate::engine;
-use crate::error::{Error, ErrorKind, Result};
-use crate::reference;
 use crate::scenario::Scenario;
-use crate::trajectory::{CHANNELS, Channel};
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::trajectory::{CHANNELS, Channel};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -84,10 +82,10 @@ fn channels() -> String {
 
 fn solvers() -> String {
     let mut text = String::new();
-    for solver in reference::all() {
+    for solver in analytic::all() {
         let _ = writeln!(text, "{:10} analytic", solver.name());
     }
-    for engine in engine::all(1.0) {
+    for engine in crate::engines::all(1.0) {
         let _ = writeln!(text, "{:10} engine, {}", engine.name(), engine.version());
     }
     text

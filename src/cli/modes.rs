@@ -4,9 +4,9 @@ use std::fmt::Write;
 
 use serde_json::Value;
 
-use crate::mechanism::AssemblyMode;
-use crate::reference::modes::Modes;
 use crate::scenario::Scenario;
+use analytic::modes::Modes;
+use linkage::mechanism::AssemblyMode;
 
 /// Why a configuration has no angular velocities.
 const SINGULAR: &str = "the configuration is singular: angular velocities are not determined";

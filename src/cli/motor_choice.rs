@@ -7,10 +7,10 @@ use std::path::{Path, PathBuf};
 use serde_json::json;
 
 use super::output;
-use crate::drive::MotorLaw;
-use crate::error::{Error, ErrorKind, Result};
-use crate::reference::dynamics::Choice;
 use crate::scenario::{Scenario, catalogue};
+use linkage::drive::MotorLaw;
+use linkage::error::{Error, ErrorKind, Result};
+use workshop::motor::Choice;
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {

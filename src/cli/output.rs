@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
-use crate::error::{Error, ErrorKind, Result};
+use linkage::error::{Error, ErrorKind, Result};
 
 /// Path that results may be written to, `-` for standard output. Scenarios are refused: `--json scenarios/*.toml` would
 /// take the first of them for the target.
@@ -43,10 +43,10 @@ pub(super) fn print(text: &str) -> Result<()> {
 /// Exit code of a command, its error shown.
 pub(super) fn exit(result: Result<()>) -> u8 {
     match result {
-        Ok(()) => super::AGREE,
+        Ok(()) => super::exit_code::AGREE,
         Err(error) => {
             show(&error);
-            super::BAD_INPUT
+            super::exit_code::BAD_INPUT
         }
     }
 }

@@ -6,15 +6,14 @@ use std::path::PathBuf;
 use clap::builder::PossibleValuesParser;
 use serde_json::{Value, json};
 
+use super::load::reference_names;
 use super::output;
-use super::run::reference_names;
-use crate::case::Case;
-use crate::diagram::draw::{self, significant};
-use crate::diagram::plan::state_at;
-use crate::diagram::{Plan, Plans, SingularPoint};
-use crate::error::Result;
-use crate::reference;
 use crate::scenario::Scenario;
+use linkage::case::Case;
+use linkage::error::Result;
+use workshop::diagram::draw::{self, significant};
+use workshop::diagram::plan::state_at;
+use workshop::diagram::{Plan, Plans, SingularPoint};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -49,7 +48,7 @@ pub(super) fn plan(args: &Args) -> Result<()> {
     let scenario = Scenario::load(&args.file)?.nominal();
     let case = &scenario.case;
     let crank = args.crank_deg.map_or(case.drive.start, f64::to_radians);
-    let solver = reference::named(&args.with).expect("the argument parser knows all names");
+    let solver = analytic::named(&args.with).expect("the argument parser knows all names");
     let state = state_at(case, solver, crank)?;
     let plans = Plans::of(case, solver, &state, crank);
     let singular: Vec<Result<SingularPoint>> = case
@@ -118,7 +117,7 @@ fn as_text(scenario: &Scenario, plans: &Plans, singular: &[Result<SingularPoint>
 }
 
 fn singular_text(text: &mut String, case: &Case, point: &SingularPoint) -> std::fmt::Result {
-    let shown = |v: crate::math::Vec2| format!("({}, {})", significant(v.x), significant(v.y));
+    let shown = |v: linkage::math::Vec2| format!("({}, {})", significant(v.x), significant(v.y));
     writeln!(text, "\nsingular point of the class IV group   S = {} at {} m", point.lines(), shown(point.at))?;
     writeln!(text, "  v_S {} m/s on both base links", shown(point.velocity))?;
     let [first, second] = point.accelerations;

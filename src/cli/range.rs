@@ -5,9 +5,9 @@ use std::fmt::Write;
 
 use serde_json::{Value, json};
 
-use crate::reference::range::{At, Extent, Extreme, LinkRange, Measure, Range, Singularity};
-use crate::report::text::table;
+use crate::report::table;
 use crate::scenario::Scenario;
+use analytic::range::{At, Extent, Extreme, LinkRange, Measure, Range, Singularity};
 
 /// Extreme positions of one link shown in full before the rest is only counted.
 const EXTREMES: usize = 8;

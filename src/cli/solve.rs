@@ -6,14 +6,12 @@ use clap::builder::PossibleValuesParser;
 
 use super::engine_args::engine_names;
 use super::grid::Range;
+use super::load::{load, reference_names};
 use super::output;
 use super::progress::Bar;
-use super::run::{load, reference_names};
-use crate::case::{Case, Grid};
-use crate::engine;
-use crate::error::{Error, ErrorKind, Result};
-use crate::reference;
-use crate::trajectory::Trajectory;
+use linkage::case::{Case, Grid};
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::trajectory::Trajectory;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -60,12 +58,14 @@ pub(super) fn solve(args: &Args) -> Result<()> {
     let case = on_grid(&scenario.case, args)?;
     let mut bar = Bar::new(&scenario.name);
     let mut progress = |part| bar.at(part);
-    let trajectory = match reference::named(&args.with) {
+    let trajectory = match analytic::named(&args.with) {
         Some(_) if args.dt.is_some() => return Err(no_step(&args.with)),
         Some(solver) => solver.solve(&case, &mut progress)?,
         None => {
             let step = args.dt.unwrap_or(scenario.dt);
-            engine::named(&args.with, step).expect("the argument parser knows all names").solve(&case, &mut progress)?
+            crate::engines::named(&args.with, step)
+                .expect("the argument parser knows all names")
+                .solve(&case, &mut progress)?
         }
     };
     drop(bar);

@@ -1,5 +1,6 @@
 //! `linkproof tune`.
 
+use linkage::math::KeepNan;
 use std::fmt::Write;
 use std::fs;
 use std::path::PathBuf;
@@ -10,12 +11,11 @@ use serde_json::json;
 use super::engine_args::EngineArgs;
 use super::output;
 use super::progress::Bar;
-use crate::engine::Engine;
-use crate::error::{Error, ErrorKind, Result};
-use crate::math::KeepNan;
-use crate::report::text::table;
+use crate::report::table;
 use crate::scenario::{EngineKeys, Scenario, edit};
 use crate::tune::{Candidate, Tuning, Wish, tune};
+use linkage::engine::Engine;
+use linkage::error::{Error, ErrorKind, Result};
 
 const EXAMPLES: &str = "\
 Examples:

@@ -10,11 +10,11 @@
 //! left is q / (1 - q) of the difference; the factor 3 covers q up to 3/4 (ASME V&V 20 counts iteration apart as well).
 
 use super::residual::{differences, largest_difference};
-use crate::error::Result;
-use crate::math::largest_size;
-use crate::math::statistics::rms;
 use crate::tolerance::{Basis, Origin, Parts, Tolerance};
-use crate::trajectory::{Channel, Trajectory};
+use linkage::error::Result;
+use linkage::math::largest_size;
+use linkage::math::statistics::rms;
+use linkage::trajectory::{Channel, Trajectory};
 
 /// Share of the formal order within which the observed one is as good. With a tenth, random chains with an order of 1.91 had
 /// errors 1.1 times the bound.

@@ -1,11 +1,11 @@
 //! What is left when one trajectory is taken from another, channel by channel.
 
+use linkage::math::{KeepNan, largest_size};
 use std::f64::consts::TAU;
 
-use crate::error::{Error, ErrorKind, Result};
-use crate::math::statistics::{half_range, quantile, rms, share};
-use crate::math::{KeepNan, largest_size};
-use crate::trajectory::{Channel, Trajectory};
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::statistics::{half_range, quantile, rms, share};
+use linkage::trajectory::{Channel, Trajectory};
 
 /// A channel that moves less than this share of what is natural for its quantity is measured by that share: its errors come
 /// from its neighbours, not from its own motion (a nearly constant coordinate).

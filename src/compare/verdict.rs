@@ -1,9 +1,9 @@
 //! Agree, disagree, or not decided.
 
 use super::{Convergence, Residual};
-use crate::math::KeepNan;
-use crate::math::statistics::share;
 use crate::tolerance::{Basis, Part, Parts, Tolerance};
+use linkage::math::KeepNan;
+use linkage::math::statistics::share;
 
 /// Outcome of one comparison.
 #[derive(Clone, Debug, PartialEq)]
@@ -235,7 +235,7 @@ pub fn overall<'a>(verdicts: impl IntoIterator<Item = &'a Verdict>) -> Verdict {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::trajectory::Channel;
+    use linkage::trajectory::Channel;
 
     fn residual(max: f64) -> Residual {
         let channel = Channel::named("joint.A.fx_N").unwrap();

@@ -2,14 +2,14 @@
 
 use super::engines::Runs;
 use super::observe::Observed;
-use crate::case::Case;
 use crate::compare::{Check, Convergence, magnitudes, residuals};
-use crate::engine::{Engine, Route};
-use crate::math::KeepNan;
-use crate::math::statistics::share;
 use crate::scenario::Scenario;
 use crate::tolerance::{Basis, Origin, Tolerance};
-use crate::trajectory::{Channel, ChannelKind, Stage};
+use linkage::case::Case;
+use linkage::engine::{Engine, Route};
+use linkage::math::KeepNan;
+use linkage::math::statistics::share;
+use linkage::trajectory::{Channel, ChannelKind, Stage};
 
 /// Wanted of an analytic side: closure of the joints, relative to the mechanism's size or its distance from the origin,; the shipped mechanisms have 5e-16 at most.
 const CLOSURE: f64 = 1e-13;

@@ -4,17 +4,17 @@ use std::fmt::Write;
 
 use super::checks;
 use super::observe::{Observed, Stopped, observe};
-use crate::case::Case;
 use crate::compare::{
     Check, Convergence, Ladder, Residual, Verdict, difference, largest_difference, overall, residuals,
 };
-use crate::drive::Load;
-use crate::engine::{Engine, Settings};
-use crate::error::{Error, Result};
 use crate::scenario::Scenario;
-use crate::solver::Provision;
 use crate::tolerance::{Basis, Parts};
-use crate::trajectory::{CHANNELS, Channel, Stage, Trajectory};
+use linkage::case::Case;
+use linkage::drive::Load;
+use linkage::engine::{Engine, Settings};
+use linkage::error::{Error, Result};
+use linkage::solver::Provision;
+use linkage::trajectory::{CHANNELS, Channel, Stage, Trajectory};
 
 /// What is known of an engine that was run.
 #[derive(Clone, Debug, PartialEq)]

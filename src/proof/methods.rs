@@ -1,16 +1,16 @@
 //! Published methods for class III groups of order 3 against the reference, pose by pose.
 
 use super::checks::rounding;
-use crate::case::Case;
 use crate::compare::{Check, Verdict};
-use crate::drive::DriveState;
-use crate::error::{ErrorKind, Result};
-use crate::math::statistics::share;
-use crate::math::{KeepNan, Vec2, cross};
-use crate::reference::triad::class_change::ClassChange;
-use crate::reference::triad::{Reactions, Triad, assur_point, cramer, linear_system};
-use crate::solver::{Solver, State};
-use crate::trajectory::Stage;
+use analytic::witness::triad::class_change::ClassChange;
+use analytic::witness::triad::{Reactions, Triad, assur_point, cramer, linear_system};
+use linkage::case::Case;
+use linkage::drive::DriveState;
+use linkage::error::{ErrorKind, Result};
+use linkage::math::statistics::share;
+use linkage::math::{KeepNan, Vec2, cross};
+use linkage::solver::{Solver, State};
+use linkage::trajectory::Stage;
 
 /// Largest difference, relative to the largest value of the quantity, that rounding allows: that of forces between the two analytic
 /// sides, which passes through as many linear equations.

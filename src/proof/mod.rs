@@ -15,13 +15,12 @@ pub use engines::{ChannelProof, EngineInfo, EngineProof};
 pub use options::Options;
 pub use parties::Dispute;
 
-use crate::case::Case;
 use crate::compare::{Check, Verdict, overall};
-use crate::error::{Error, ErrorKind, Result};
-use crate::reference;
 use crate::scenario::Scenario;
-use crate::solver::Solver;
-use crate::trajectory::Trajectory;
+use linkage::case::Case;
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::solver::Solver;
+use linkage::trajectory::Trajectory;
 use observe::observe;
 
 /// Everything that one proof found out.
@@ -85,7 +84,7 @@ pub fn prove_against(
     let main = options.reference()?;
     let engines = options.engines(scenario)?;
     let observed = |solver: &dyn Solver| -> Result<_> { Ok((solver.name(), observe(case, solver, &mut |_| {})?)) };
-    let [first, second] = reference::all();
+    let [first, second] = analytic::all();
     let sides = [observed(first)?, observed(second)?];
     let own = &sides.iter().find(|(name, _)| *name == main.name()).expect("the reference is one of the sides").1;
     let mut checks = checks::of_sides(case, &sides);

@@ -1,12 +1,12 @@
 //! One solver over one case, with everything that is watched on the way.
 
-use crate::case::Case;
-use crate::error::Error;
-use crate::math::statistics::share;
-use crate::math::{KeepNan, largest_size};
-use crate::reference::{momentum, power};
-use crate::solver::{Sampler, Solver, State};
-use crate::trajectory::{Stage, Trajectory};
+use analytic::witness::{momentum, power};
+use linkage::case::Case;
+use linkage::error::Error;
+use linkage::math::statistics::share;
+use linkage::math::{KeepNan, largest_size};
+use linkage::solver::{Sampler, Solver, State};
+use linkage::trajectory::{Stage, Trajectory};
 
 /// A trajectory and what was watched while it was made.
 #[derive(Clone, Debug)]

@@ -1,11 +1,10 @@
 //! What to prove a scenario with.
 
 use super::unknown;
-use crate::engine::{self, Engine, Route, Settings};
-use crate::error::{Error, ErrorKind, Result};
-use crate::reference;
 use crate::scenario::Scenario;
-use crate::solver::Solver;
+use linkage::engine::{Engine, Route, Settings};
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::solver::Solver;
 
 /// What to prove a scenario with. What is not given is the scenario's own, and what that does not say is the engine's default.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,8 +51,8 @@ impl Options {
 
     /// The analytic solver.
     pub(super) fn reference(&self) -> Result<&'static dyn Solver> {
-        let known = || reference::all().into_iter().map(|solver| solver.name());
-        reference::named(&self.reference).ok_or_else(|| unknown("analytic solver", &self.reference, known()))
+        let known = || analytic::all().into_iter().map(|solver| solver.name());
+        analytic::named(&self.reference).ok_or_else(|| unknown("analytic solver", &self.reference, known()))
     }
 
     /// The engines with their settings.
@@ -63,7 +62,7 @@ impl Options {
     pub fn engines(&self, scenario: &Scenario) -> Result<Vec<Box<dyn Engine>>> {
         let own = &scenario.engine;
         let step = self.step.unwrap_or(scenario.dt);
-        let known = engine::all(step);
+        let known = crate::engines::all(step);
         let chosen = match (self.engines.as_slice(), &own.name) {
             ([], None) => known.into_iter().take(1).collect(),
             ([], Some(name)) => vec![named(name, step).map_err(|error| error.key("engine.name"))?],
@@ -114,8 +113,8 @@ impl Options {
 }
 
 fn named(name: &str, step: f64) -> Result<Box<dyn Engine>> {
-    engine::named(name, step).ok_or_else(|| {
-        let known = engine::all(step);
+    crate::engines::named(name, step).ok_or_else(|| {
+        let known = crate::engines::all(step);
         unknown("engine", name, known.iter().map(|engine| engine.name()).chain(["all"]))
     })
 }

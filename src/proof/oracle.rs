@@ -1,23 +1,22 @@
 //! Numbers from elsewhere against both analytic sides.
 
-use crate::case::{Case, Grid, Wanted};
 use crate::compare::{Check, Verdict};
-use crate::error::{Error, ErrorKind, Result};
-use crate::math::angle::wrapped;
-use crate::mechanism::Side;
-use crate::reference;
-use crate::reference::reduced::{self, Means};
 use crate::scenario::{ExpectedCell, Figure, FigureValue, Oracle, OracleBasis, OraclePoint, OracleSeries, Scenario};
-use crate::solver::{Solver, State};
 use crate::tolerance::{Basis, Origin, Tolerance};
-use crate::trajectory::{Channel, Stage, Trajectory};
+use analytic::reduced::means::{self as reduced, Means};
+use linkage::case::{Case, Grid, Wanted};
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::angle::wrapped;
+use linkage::mechanism::Side;
+use linkage::solver::{Solver, State};
+use linkage::trajectory::{Channel, Stage, Trajectory};
 
 /// One check for every series and figure of an oracle and each analytic side.
 pub(super) fn checks(scenario: &Scenario) -> Result<Vec<Check>> {
     // Numbers at crank angles are of the nominal motion, where forces decide the true one.
     let scenario = &scenario.clone().nominal();
     let mut checks = Vec::new();
-    for solver in reference::all() {
+    for solver in analytic::all() {
         checks.extend(of_series(scenario, solver)?);
         checks.extend(of_figures(scenario, solver)?);
     }

@@ -2,7 +2,7 @@
 
 use super::engines::EngineProof;
 use crate::compare::largest_difference;
-use crate::trajectory::{Channel, Trajectory};
+use linkage::trajectory::{Channel, Trajectory};
 
 /// A channel in which not all agree.
 #[derive(Clone, Debug, PartialEq)]

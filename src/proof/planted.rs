@@ -4,17 +4,18 @@ use std::path::Path;
 
 use super::observe::{Observed, observe};
 use super::{checks, engines, methods, oracle};
-use crate::case::{Case, Wanted};
 use crate::compare::{Check, magnitudes};
-use crate::engine::{Engine, Route, Settings, rapier::Rapier};
-use crate::error::Result;
-use crate::mechanism::GROUND;
 use crate::proof::{EngineProof, Options, prove};
-use crate::reference::triad::Triad;
-use crate::reference::{AssurSolver, NewtonSolver};
 use crate::scenario::Scenario;
-use crate::solver::{Progress, Provision, Solver, State, Visit};
-use crate::trajectory::{Channel, ChannelKind};
+use analytic::witness::triad::Triad;
+use analytic::{AssurSolver, NewtonSolver};
+use linkage::case::{Case, Wanted};
+use linkage::engine::{Engine, Route, Settings};
+use linkage::error::Result;
+use linkage::mechanism::GROUND;
+use linkage::solver::{Progress, Provision, Solver, State, Visit};
+use linkage::trajectory::{Channel, ChannelKind};
+use rapier_twin::Rapier;
 
 /// What a fault of a size does to every state.
 type Fault = fn(&mut State, f64);
@@ -213,7 +214,7 @@ fn every_class_three_method_finds_a_wrong_group_and_stands_in_the_proof() {
 
 fn engine_proof(scenario: &Scenario, fault: Fault, size: f64) -> EngineProof {
     let reference = AssurSolver.solve(&scenario.case, &mut |_| {}).unwrap();
-    let [rapier, ..] = Rapier::all(scenario.dt);
+    let rapier = Rapier::all(scenario.dt).into_iter().next().unwrap();
     let inner = Box::new(rapier) as Box<dyn Engine>;
     let engine: Planted<dyn Engine> = Planted { fault, size, inner };
     engines::prove(scenario, &scenario.case, &engine, &reference, &mut |_| {}).unwrap()

@@ -1,11 +1,11 @@
 //! How much a free motion depends on the forces that make it: the condition of the problem itself, whoever solves it.
 
-use crate::case::Case;
 use crate::compare::largest_difference;
-use crate::drive::Motor;
-use crate::error::Result;
-use crate::solver::Solver;
-use crate::trajectory::Trajectory;
+use linkage::case::Case;
+use linkage::drive::Motor;
+use linkage::error::Result;
+use linkage::solver::Solver;
+use linkage::trajectory::Trajectory;
 
 /// Share by which gravity and the motor's torque are changed: small beside the motion, large beside rounding.
 const CHANGE: f64 = 1e-6;
@@ -23,7 +23,7 @@ pub(super) fn of(case: &Case, solver: &dyn Solver, reference: &Trajectory) -> Re
     let motor = case.motor.as_ref().map(|motor| Motor { law: motor.law.scaled(share), ..motor.clone() });
     let changed = Case { gravity: case.gravity * share, motor, ..case.clone() };
     let other = solver.solve(&changed, &mut |_| {})?;
-    let of = |((channel, ours), (_, theirs)): ((&crate::trajectory::Channel, &[f64]), (_, &[f64]))| {
+    let of = |((channel, ours), (_, theirs)): ((&linkage::trajectory::Channel, &[f64]), (_, &[f64]))| {
         largest_difference(ours, theirs, channel.kind.periodic) / CHANGE
     };
     Ok(reference.iter().zip(other.iter()).map(of).collect())

@@ -1,10 +1,11 @@
 //! Reactions as arrows: the force of each joint's first link on its second, at the joint.
 
-use super::scene::{Placed, Scene, column};
+use super::placed::{Placed, column};
+use super::scene::Scene;
 use super::shapes::{pose, short, stamp};
-use crate::math::{KeepNan, Vec2};
-use crate::mechanism::Joint;
 use foxglove::messages::{ArrowPrimitive, SceneEntity, SceneUpdate};
+use linkage::math::{KeepNan, Vec2};
+use linkage::mechanism::Joint;
 
 /// Length of the largest arrow against the size of the mechanism.
 const LONGEST: f64 = 0.4;

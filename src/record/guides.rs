@@ -1,8 +1,8 @@
 //! Guides and the blocks that slide on them, as lines: rails of the ground, lines of moving links, rectangles.
 
-use super::scene::Placed;
-use crate::math::{KeepNan, Vec2, turned};
-use crate::mechanism::{GROUND, Mechanism, Side};
+use super::placed::Placed;
+use linkage::math::{KeepNan, Vec2, turned};
+use linkage::mechanism::{GROUND, Mechanism, Side};
 
 /// Half length and half width of a block in a fixed guide against the size of the mechanism, and of one on a moving guide: where both sit
 /// on one pin, both are seen.

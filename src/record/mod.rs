@@ -16,79 +16,31 @@
 //! force arrows stand in the metadata record `linkproof`.
 //!
 //! Another program's recording can be read too: it needs `/<side>/grid` and the topics above in protobuf, with fields
-//! named like the suffixes of [`CHANNELS`](crate::trajectory::CHANNELS); their numbers are looked up in the file.
+//! named like the suffixes of [`CHANNELS`](linkage::trajectory::CHANNELS); their numbers are looked up in the file.
 
 mod forces;
 mod guides;
 mod outline;
 mod output;
+mod placed;
 mod read;
+mod recording;
 mod scene;
 mod schema;
 mod shapes;
 mod write;
 
-use crate::error::Result;
-use crate::mechanism::Mechanism;
-use crate::trajectory::Trajectory;
-use std::collections::BTreeMap;
+pub use recording::{Level, LogEntry, Recording, Side};
+
+use linkage::error::Result;
+use linkage::trajectory::Trajectory;
 use std::path::Path;
-
-/// Everything that goes into one recording.
-#[derive(Clone, Copy, Debug)]
-pub struct Recording<'a> {
-    /// Name of the scenario.
-    pub name: &'a str,
-    /// Text of the scenario file, attached as `scenario.toml`.
-    pub scenario_text: &'a str,
-    /// Versions, settings, verdict: whatever tells where the numbers come from.
-    pub metadata: &'a BTreeMap<String, String>,
-    /// The mechanism that is drawn.
-    pub mechanism: &'a Mechanism,
-    /// The trajectories, the reference first, then the engines. A side without samples leaves no trace.
-    pub sides: &'a [Side<'a>],
-    /// Engine minus reference, channel by channel, in SI units. Written for people, not read back.
-    pub errors: Option<&'a Trajectory>,
-    /// Verdicts and warnings.
-    pub log: &'a [LogEntry],
-}
-
-/// One trajectory of a recording.
-#[derive(Clone, Copy, Debug)]
-pub struct Side<'a> {
-    /// First part of its topics and frames: "reference", "engine". Not empty, without `/`, unique.
-    pub name: &'a str,
-    /// Its values.
-    pub trajectory: &'a Trajectory,
-}
-
-/// One line of the recording's log.
-#[derive(Clone, Debug, PartialEq)]
-pub struct LogEntry {
-    /// Time on the trajectories' clock (s).
-    pub time: f64,
-    /// How much it matters.
-    pub level: Level,
-    /// The message.
-    pub text: String,
-}
-
-/// How much a log entry matters.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Level {
-    /// Worth knowing.
-    Info,
-    /// To be looked at.
-    Warning,
-    /// Something failed.
-    Error,
-}
 
 /// Writes a recording to `path`, by way of `<path>.partial`: an older recording is replaced only by a complete one.
 ///
 /// # Errors
-/// [`ErrorKind::Io`](crate::ErrorKind::Io) with the path if a file cannot be written;
-/// [`ErrorKind::Input`](crate::ErrorKind::Input) if a side's name is empty, taken or contains `/`, or if a time of a
+/// [`ErrorKind::Io`](linkage::ErrorKind::Io) with the path if a file cannot be written;
+/// [`ErrorKind::Input`](linkage::ErrorKind::Input) if a side's name is empty, taken or contains `/`, or if a time of a
 /// grid is not finite.
 pub fn write(recording: &Recording, path: &Path) -> Result<()> {
     write::write(recording, path)
@@ -97,12 +49,12 @@ pub fn write(recording: &Recording, path: &Path) -> Result<()> {
 /// Reads every side of a recording, in the order in which they were recorded.
 ///
 /// Times, crank angles and values come back bit for bit, rows in the order in which the solver gave them. Columns
-/// stand in the order of subjects in the recording, and of [`CHANNELS`](crate::trajectory::CHANNELS) within a subject.
+/// stand in the order of subjects in the recording, and of [`CHANNELS`](linkage::trajectory::CHANNELS) within a subject.
 ///
 /// # Errors
-/// [`ErrorKind::Io`](crate::ErrorKind::Io) with the path if the file cannot be read, is cut off or damaged;
-/// [`ErrorKind::Input`](crate::ErrorKind::Input) if it holds no side, or if a topic lacks samples;
-/// [`ErrorKind::Numeric`](crate::ErrorKind::Numeric) if a value is not finite.
+/// [`ErrorKind::Io`](linkage::ErrorKind::Io) with the path if the file cannot be read, is cut off or damaged;
+/// [`ErrorKind::Input`](linkage::ErrorKind::Input) if it holds no side, or if a topic lacks samples;
+/// [`ErrorKind::Numeric`](linkage::ErrorKind::Numeric) if a value is not finite.
 pub fn read(path: &Path) -> Result<Vec<(String, Trajectory)>> {
     read::read(path)
 }

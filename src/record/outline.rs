@@ -1,11 +1,11 @@
 //! The links as clouds of points, for viewers that draw no scenes.
 
-use super::scene::{Scene, outline};
-use super::shapes::{GREY, pose, stamp};
-use crate::math::{KeepNan, Vec2};
-use crate::mechanism::GROUND;
+use super::scene::Scene;
+use super::shapes::{GREY, outline, pose, stamp};
 use foxglove::messages::packed_element_field::NumericType;
 use foxglove::messages::{PackedElementField, PointCloud};
+use linkage::math::{KeepNan, Vec2};
+use linkage::mechanism::GROUND;
 
 /// Points in one mechanism size along a segment of the first side; closer ones would only fill the disk.
 const POINTS: f64 = 64.0;

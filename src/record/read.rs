@@ -1,8 +1,8 @@
 //! From an MCAP file back to trajectories.
 
 use super::schema;
-use crate::error::{Error, ErrorKind, Result};
-use crate::trajectory::{Channel, Trajectory};
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::trajectory::{Channel, Trajectory};
 use mcap::{Message, MessageStream};
 use std::collections::{BTreeMap, HashMap};
 use std::fmt::Display;

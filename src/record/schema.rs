@@ -2,7 +2,7 @@
 //!
 //! Every field has presence (proto3 `optional`): a channel that was not computed is absent, which is not zero.
 
-use crate::trajectory::{CHANNELS, ChannelKind, Subject};
+use linkage::trajectory::{CHANNELS, ChannelKind, Subject};
 use prost::Message;
 use prost::encoding::{WireType, decode_key, double, encode_key, skip_field};
 use prost_types::field_descriptor_proto::{Label, Type};

@@ -3,9 +3,9 @@
 use serde::Serialize;
 
 use crate::compare::{Check, Verdict};
-use crate::error::Error;
 use crate::proof::{ChannelProof, Dispute, EngineProof, Proof};
-use crate::solver::Provision;
+use linkage::error::Error;
+use linkage::solver::Provision;
 
 /// The whole document.
 #[derive(Debug, Serialize)]
@@ -134,7 +134,7 @@ impl Document {
         self.errors.push(Failure {
             scenario: scenario.into(),
             message: error.message().into(),
-            line: error.place().map(crate::error::Place::line),
+            line: error.place().map(linkage::error::Place::line),
             key: error.scenario_key().map(Into::into),
             help: error.way_out().map(Into::into),
         });

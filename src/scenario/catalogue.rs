@@ -6,8 +6,8 @@ use super::check_format;
 use super::reader::{Sign, Table};
 use super::source::Source;
 use super::unit::{ANGULAR_SPEED, POWER};
-use crate::drive::CatalogueMotor;
-use crate::error::{Error, ErrorKind, Result};
+use linkage::error::{Error, ErrorKind, Result};
+use workshop::motor::CatalogueMotor;
 
 /// Reads the motors of a catalogue file, in its order.
 ///

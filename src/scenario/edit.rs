@@ -3,7 +3,7 @@
 use toml_edit::{DocumentMut, Item, Table, value};
 
 use super::settings::EngineKeys;
-use crate::error::{Error, ErrorKind, Result};
+use linkage::error::{Error, ErrorKind, Result};
 
 /// The text of a scenario with another `[engine]` section: its step (s) and the keys that are given. Comments, order and everything else stay as
 /// they are.

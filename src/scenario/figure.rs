@@ -5,9 +5,9 @@ use super::printed::Printed;
 use super::reader::Table;
 use super::unit::{LENGTH, Unit};
 use super::words::suggestion;
-use crate::case::Case;
-use crate::error::{ErrorKind, Result};
-use crate::mechanism::Side;
+use linkage::case::Case;
+use linkage::error::{ErrorKind, Result};
+use linkage::mechanism::Side;
 
 /// One figure with the number it must have.
 #[derive(Clone, Debug, PartialEq)]
@@ -137,7 +137,7 @@ fn distance(entry: &mut Table, case: &Case) -> Result<(Figure, String)> {
 /// The point called `name` on every link that has it.
 fn places(entry: &Table, case: &Case, name: &str) -> Result<Vec<Side>> {
     let links = || case.mechanism.links().iter().enumerate();
-    let on = |(link, body): (usize, &crate::mechanism::Link)| {
+    let on = |(link, body): (usize, &linkage::mechanism::Link)| {
         let point = body.points.iter().find(|point| point.name == name)?;
         Some(Side { link, local: point.local })
     };

@@ -2,9 +2,9 @@
 
 use super::reader::{Sign, Table};
 use super::unit::{ANGLE, TIME};
-use crate::case::Grid;
-use crate::drive::Drive;
-use crate::error::{ErrorKind, Result};
+use linkage::case::Grid;
+use linkage::drive::Drive;
+use linkage::error::{ErrorKind, Result};
 
 /// Largest number of points of a range.
 pub const MOST: usize = 1_000_000;

@@ -6,9 +6,9 @@ use super::links::{NAME_HELP, sound_name};
 use super::reader::{Sign, Table};
 use super::unit::ANGLE;
 use super::words::suggestion;
-use crate::error::{ErrorKind, Result};
-use crate::math::{Vec2, unit};
-use crate::mechanism::{Joint, JointKind, Link, Side};
+use linkage::error::{ErrorKind, Result};
+use linkage::math::{Vec2, unit};
+use linkage::mechanism::{Joint, JointKind, Link, Side};
 
 /// All joints, in the order of the file.
 pub fn read(tables: Vec<Table>, links: &[Link]) -> Result<Vec<Joint>> {

@@ -3,9 +3,9 @@
 use super::reader::{Sign, Table};
 use super::unit::{ANGLE, INERTIA, LENGTH, MASS};
 use super::words::suggestion;
-use crate::error::{ErrorKind, Result};
-use crate::math::{Vec2, unit};
-use crate::mechanism::{Link, Point};
+use linkage::error::{ErrorKind, Result};
+use linkage::math::{Vec2, unit};
+use linkage::mechanism::{Link, Point};
 
 /// The ground and all links, in the order of the file.
 pub fn read(mut ground: Table, mut links: Table) -> Result<Vec<Link>> {

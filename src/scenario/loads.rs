@@ -4,9 +4,9 @@ use super::joints::link;
 use super::reader::{Sign, Table};
 use super::unit::{ANGLE, DAMPING, FORCE, Family, LENGTH, MOMENT, MOMENT_PER_SPEED, STIFFNESS, TORSIONAL_STIFFNESS};
 use super::words::suggestion;
-use crate::drive::{Acts, Course, Load};
-use crate::error::{Error, ErrorKind, Result};
-use crate::mechanism::{GROUND, Mechanism, Side};
+use linkage::drive::{Acts, Course, Load};
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::mechanism::{GROUND, Mechanism, Side};
 use std::f64::consts::TAU;
 
 /// A sort of load: its name in scenario files, and its reader.

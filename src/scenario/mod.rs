@@ -32,10 +32,10 @@ use std::path::{Path, PathBuf};
 
 use self::reader::{Sign, Table};
 use self::source::Source;
-use crate::case::{Case, Grid};
-use crate::error::{Error, ErrorKind, Result};
-use crate::mechanism::assembly::{Choice, first_choices};
-use crate::mechanism::{Mechanism, Pose, StartGroup, Structure};
+use linkage::case::{Case, Grid};
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::mechanism::assembly::{Choice, first_choices};
+use linkage::mechanism::{Mechanism, Pose, StartGroup, Structure};
 
 /// Version of the file format that this crate reads.
 pub const FORMAT: i64 = 1;
@@ -103,7 +103,7 @@ impl Scenario {
 
     /// The same scenario with some groups started otherwise. Each of `asked` is `LINK,LINK=MODE` or `LINK,LINK=NUMBER`: the links
     /// of a group and its mode, by name as in the file (of links in another order, left and right change places), or by its number in
-    /// the list of [`configurations`](crate::mechanism::assembly::configurations), counted from 1. If that leads to another
+    /// the list of [`configurations`](linkage::mechanism::assembly::configurations), counted from 1. If that leads to another
     /// start pose, the published numbers are left out: they belong to the scenario's own.
     ///
     /// # Errors

@@ -5,10 +5,10 @@ use std::sync::Arc;
 use super::reader::{Sign, Table};
 use super::unit::{ACCELERATION, ANGLE, ANGULAR_SPEED, TIME};
 use super::words::suggestion;
-use crate::drive::{Drive, MotionLaw};
-use crate::error::{ErrorKind, Result};
-use crate::math::{Piecewise, Vec2};
-use crate::mechanism::{GROUND, Mechanism, Side};
+use linkage::drive::{Drive, MotionLaw};
+use linkage::error::{ErrorKind, Result};
+use linkage::math::{Piecewise, Vec2};
+use linkage::mechanism::{GROUND, Mechanism, Side};
 
 /// The crank's drive, with `start` as the crank angle at t = 0 (rad), and further drives, which say their own.
 pub fn drives(tables: Vec<Table>, mechanism: &Mechanism, start: f64) -> Result<(Drive, Vec<Drive>)> {

@@ -3,8 +3,8 @@
 use super::reader::{Sign, Table};
 use super::unit::{ANGULAR_SPEED, INERTIA, MOMENT, MOMENT_PER_SPEED};
 use super::words::suggestion;
-use crate::drive::{Motor, MotorLaw, ShaftInertia};
-use crate::error::{ErrorKind, Result};
+use linkage::drive::{Motor, MotorLaw, ShaftInertia};
+use linkage::error::{ErrorKind, Result};
 
 /// A law: its name in scenario files, and its reader.
 type Law = (&'static str, fn(&mut Table) -> Result<MotorLaw>);

@@ -6,9 +6,9 @@ use super::reader::{Sign, Table};
 use super::table_file;
 use super::unit::ANGLE;
 use super::words::suggestion;
-use crate::case::{Case, Wanted};
-use crate::error::{ErrorKind, Result};
-use crate::trajectory::{CHANNELS, Channel};
+use linkage::case::{Case, Wanted};
+use linkage::error::{ErrorKind, Result};
+use linkage::trajectory::{CHANNELS, Channel};
 
 /// Numbers of one source.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! Printed numbers: their value, and how far the true value may be away.
 
 use super::unit::{ANGLE, Family, LENGTH, Unit};
-use crate::trajectory::Channel;
+use linkage::trajectory::Channel;
 
 /// A number as printed: its value and its count of decimals.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -12,7 +12,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::source::Source;
 use super::words::{choice, nearest};
-use crate::error::{Error, ErrorKind, Result};
+use linkage::error::{Error, ErrorKind, Result};
 
 struct Entry<'a> {
     key: &'a str,

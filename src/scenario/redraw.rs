@@ -2,10 +2,10 @@
 
 use toml_edit::{DocumentMut, InlineTable, Item, TableLike, value};
 
-use crate::error::{Error, ErrorKind, Result};
-use crate::math::Vec2;
-use crate::mechanism::{GROUND, Link};
-use crate::task::{Entry, Task};
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::Vec2;
+use linkage::mechanism::{GROUND, Link};
+use workshop::task::{Entry, Task};
 
 /// Decimals that are kept of millimetres and of degrees: what a workshop can use.
 const DECIMALS: [f64; 2] = [1e3, 1e4];
@@ -18,7 +18,7 @@ fn rounded(value: f64, parts: f64) -> f64 {
 /// Values of a task's variables (SI), rounded as [`redrawn`] writes them: to a micrometre and a ten thousandth of a degree.
 #[must_use]
 pub fn round_values(task: &Task, values: &[f64]) -> Vec<f64> {
-    let round = |(value, variable): (&f64, &crate::task::Variable)| match variable.is_angle {
+    let round = |(value, variable): (&f64, &workshop::task::Variable)| match variable.is_angle {
         true => rounded(value.to_degrees(), DECIMALS[1]).to_radians(),
         false => rounded(value * 1e3, DECIMALS[0]) / 1e3,
     };
@@ -119,7 +119,7 @@ fn weigh(table: &mut dyn TableLike, body: &Link, bar: f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mechanism::Point;
+    use linkage::mechanism::Point;
 
     #[test]
     fn a_bar_has_its_mass_at_its_middle() {

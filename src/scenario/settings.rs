@@ -3,10 +3,10 @@
 use super::reader::{Sign, Table};
 use super::unit::{ANGLE, TIME};
 use super::words::suggestion;
-use crate::case::Wanted;
-use crate::drive::Drive;
-use crate::error::{ErrorKind, Result};
-use crate::trajectory::Stage;
+use linkage::case::Wanted;
+use linkage::drive::Drive;
+use linkage::error::{ErrorKind, Result};
+use linkage::trajectory::Stage;
 
 /// Stages of channels that are wanted; all without a table.
 pub fn wanted(table: Option<Table>) -> Result<Wanted> {

@@ -6,7 +6,7 @@ use std::path::Path;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::error::{Error, ErrorKind, Place, Result};
+use linkage::error::{Error, ErrorKind, Place, Result};
 
 /// Text of a file and the path that messages call it by.
 pub struct Source<'a> {

@@ -4,10 +4,10 @@ use super::joints::link;
 use super::reader::{Sign, Table};
 use super::unit::LENGTH;
 use super::words::suggestion;
-use crate::error::{Error, ErrorKind, Result};
-use crate::math::Vec2;
-use crate::mechanism::pose::SidePoint;
-use crate::mechanism::{AssemblyMode, Group, GroupKind, Mechanism, Side, StartGroup, Structure};
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::Vec2;
+use linkage::mechanism::pose::SidePoint;
+use linkage::mechanism::{AssemblyMode, Group, GroupKind, Mechanism, Side, StartGroup, Structure};
 
 /// What is asked of each group, in the order of the structure. `start` is the table the groups stand in.
 pub fn groups(

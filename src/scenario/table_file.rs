@@ -9,7 +9,7 @@ use super::reader::{Sign, Table};
 use super::source::Source;
 use super::unit::ANGLE;
 use super::words::suggestion;
-use crate::error::{Error, ErrorKind, Result};
+use linkage::error::{Error, ErrorKind, Result};
 
 /// Crank angles (rad) nearer than this are the same row.
 const SAME_CRANK: f64 = 1e-9;

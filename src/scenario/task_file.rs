@@ -8,10 +8,10 @@ use super::source::Source;
 use super::unit::{ANGLE, Family, LENGTH, MASS_PER_LENGTH};
 use super::words::suggestion;
 use super::{Scenario, check_format, name};
-use crate::error::{Error, ErrorKind, Result};
-use crate::math::{Vec2, unit};
-use crate::mechanism::{GROUND, Mechanism};
-use crate::task::{Effort, Entry, Output, Phase, Place, Sense, Task, Timing, Variable};
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::{Vec2, unit};
+use linkage::mechanism::{GROUND, Mechanism};
+use workshop::task::{Effort, Entry, Output, Phase, Place, Sense, Task, Timing, Variable};
 
 /// Least displacement of a moving phase (share of the stroke), unless the file says otherwise.
 const LEAST: f64 = 0.1;

@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 use proptest::prelude::*;
 
 use super::*;
-use crate::math::Vec2;
-use crate::mechanism::{AssemblyMode, Side};
-use crate::trajectory::Channel;
+use linkage::math::Vec2;
+use linkage::mechanism::{AssemblyMode, Side};
+use linkage::trajectory::Channel;
 
 fn scenarios() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios")
@@ -40,7 +40,7 @@ fn val_ov7_base_first_pose() {
     let angles = scenario.oracles.iter().find(|oracle| oracle.name == "angles.csv").unwrap();
     for series in &angles.series {
         let link = scenario.case.mechanism.link_named(&series.channel.of).unwrap();
-        let away = crate::math::angle::wrapped(scenario.case.start.0[link].angle - series.points[0].value);
+        let away = linkage::math::angle::wrapped(scenario.case.start.0[link].angle - series.points[0].value);
         assert!(away.abs() <= series.points[0].bound, "{}: {away} rad away", series.name);
     }
     assert_eq!(scenario.case.modes, [AssemblyMode::Right; 3]);
@@ -75,7 +75,7 @@ fn crank_rocker_starts_where_two_circles_meet() {
     let (a, c) = (Vec2::new(0.025_995_627_740_337, 0.0), Vec2::new(0.15, 0.015));
     let b = start_point(&scenario, "B");
     assert!(((b - a).norm() - 0.347_071_931_891_81).abs() < 1e-15 && ((b - c).norm() - 0.25).abs() < 1e-15);
-    assert!(crate::math::cross(c - a, b - a) > 0.0, "B lies left of the line from A to C");
+    assert!(linkage::math::cross(c - a, b - a) > 0.0, "B lies left of the line from A to C");
     let d = start_point(&scenario, "D");
     assert!((d - c - (b - c) * (4.0 / 3.0)).norm() < 1e-15);
     let crank = &scenario.case.mechanism.links()[1];
@@ -113,8 +113,8 @@ fn val_crank_rocker_extreme_positions_are_in_line() {
     let scenario = load("crank_rocker.toml");
     for (oracle, sign) in scenario.oracles.iter().zip([1.0, -1.0]) {
         let (crank, angle) = (oracle.series[0].points[0].crank, oracle.series[0].points[0].value);
-        let a = crate::math::unit(crank) * 0.025_995_627_740_337;
-        let b = Vec2::new(0.15, 0.015) + crate::math::unit(angle) * 0.25;
+        let a = linkage::math::unit(crank) * 0.025_995_627_740_337;
+        let b = Vec2::new(0.15, 0.015) + linkage::math::unit(angle) * 0.25;
         assert!(((b - a).norm() - 0.347_071_931_891_81).abs() < 1e-14);
         assert!((b.norm() - 0.347_071_931_891_81 - sign * 0.025_995_627_740_337).abs() < 1e-14);
     }

@@ -1,17 +1,17 @@
 //! Runs of one engine against the reference, and its cheapest settings.
 
+use linkage::math::KeepNan;
 use std::f64::consts::PI;
 
+use super::candidate::{Candidate, Measured, Price};
 use super::search::{Found, largest_step};
 use super::ways::{sweeps, ways};
-use super::{Candidate, Price};
-use crate::case::Case;
 use crate::compare::{Convergence, Ladder, residuals};
-use crate::engine::{Engine, Settings};
-use crate::error::{ErrorKind, Result};
-use crate::math::KeepNan;
 use crate::proof::Options;
-use crate::trajectory::{Channel, Trajectory};
+use linkage::case::Case;
+use linkage::engine::{Engine, Settings};
+use linkage::error::{ErrorKind, Result};
+use linkage::trajectory::{Channel, Trajectory};
 
 /// Coarsest accuracy that is tried of an engine that controls its error: less is none.
 const COARSEST: f64 = 0.1;
@@ -45,17 +45,6 @@ pub(super) struct Bench<'a> {
     pub(super) runs: usize,
     /// Whether the engine has refused the last way of setting it: no step and no sweeps change that.
     pub(super) refused: bool,
-}
-
-/// Error and price of one run.
-#[derive(Clone, Debug)]
-pub(super) struct Measured {
-    /// Largest error over the channel's scale; infinite if the run failed.
-    pub(super) error: f64,
-    /// Channel with that error.
-    pub(super) worst: String,
-    /// Infinite if the run failed.
-    pub(super) price: f64,
 }
 
 /// What a run costs at least, however coarse its step: instants are read, some routes work at each of them with all sweeps. Known for some numbers of

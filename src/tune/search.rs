@@ -1,7 +1,7 @@
 //! The largest step that meets an error.
 
-use super::bench::Measured;
-use crate::math::KeepNan;
+use super::candidate::Measured;
+use linkage::math::KeepNan;
 
 /// Runs that one search may take.
 const MOST_RUNS: usize = 9;

@@ -1,9 +1,9 @@
 //! What can be set on an engine besides its step.
 
-use crate::case::Case;
-use crate::engine::{Engine, Route, Settings};
 use crate::proof::Options;
-use crate::trajectory::Stage;
+use linkage::case::Case;
+use linkage::engine::{Engine, Route, Settings};
+use linkage::trajectory::Stage;
 
 /// Numbers of sweeps that are tried.
 const SWEEPS: [usize; 11] = [4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096];

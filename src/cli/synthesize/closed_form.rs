@@ -6,13 +6,14 @@ use std::path::{Path, PathBuf};
 
 use serde_json::json;
 
-use super::{output, scenario_target, write_scenario};
-use crate::error::{Error, ErrorKind, Result};
-use crate::math::Vec2;
+use super::target::{scenario_target, write_scenario};
+use crate::cli::output;
 use crate::scenario::Scenario;
-use crate::synthesis::Sheet;
-use crate::synthesis::crank_rocker::{self, CrankRocker, Extreme};
-use crate::synthesis::slider_crank::{Given, SliderCrank};
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::Vec2;
+use workshop::synthesis::Sheet;
+use workshop::synthesis::crank_rocker::{self, CrankRocker, Extreme};
+use workshop::synthesis::slider_crank::{Given, SliderCrank};
 
 /// Where results go, and what a scenario needs besides dimensions.
 #[derive(Debug, clap::Args)]

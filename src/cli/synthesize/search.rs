@@ -2,14 +2,15 @@
 
 use std::path::{Path, PathBuf};
 
+use super::target::{scenario_target, write_scenario};
 use super::told::{self, Story};
-use super::{output, progress, scenario_target, write_scenario};
-use crate::diagram::draw;
-use crate::error::{Error, ErrorKind, Result};
+use crate::cli::{output, progress};
 use crate::scenario::task_file::TaskFile;
 use crate::scenario::{Scenario, redraw};
-use crate::synthesis::{self, Achieved};
-use crate::task::Task;
+use linkage::error::{Error, ErrorKind, Result};
+use workshop::diagram::draw;
+use workshop::synthesis::{self, Achieved};
+use workshop::task::Task;
 
 /// Where results go.
 #[derive(Debug, clap::Args)]

@@ -4,11 +4,11 @@ use std::fmt::Write;
 
 use serde_json::{Value, json};
 
-use crate::diagram::timing::{Stretch, TimingDiagram};
-use crate::report::text::table;
-use crate::synthesis::achieved::BAND;
-use crate::synthesis::{Achieved, Found};
-use crate::task::{Output, Sense, Task};
+use crate::report::table;
+use workshop::diagram::timing::{Stretch, TimingDiagram};
+use workshop::synthesis::achieved::BAND;
+use workshop::synthesis::{Achieved, Found};
+use workshop::task::{Output, Sense, Task};
 
 /// A task, what was achieved, and how it was found.
 pub(super) struct Story<'a> {
@@ -124,7 +124,7 @@ pub(super) fn json(story: &Story) -> Value {
 pub(super) fn diagram(story: &Story) -> TimingDiagram {
     let (task, achieved) = (story.task, story.achieved);
     let rows = (0..achieved.turns.len()).step_by((achieved.turns.len() / 720).max(1));
-    let stretch = |(phase, done): (&crate::task::Phase, &crate::synthesis::achieved::PhaseDone)| Stretch {
+    let stretch = |(phase, done): (&workshop::task::Phase, &workshop::synthesis::achieved::PhaseDone)| Stretch {
         from: phase.from,
         to: phase.to,
         word: phase.sense.name(),

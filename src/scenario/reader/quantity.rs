@@ -3,9 +3,9 @@
 use toml::de::DeValue;
 
 use super::{Entry, Table, found};
-use crate::error::{Error, Result};
 use crate::scenario::unit::Family;
 use crate::scenario::words::choice;
+use linkage::error::{Error, Result};
 
 /// Which numbers a quantity may be.
 #[derive(Clone, Copy, PartialEq, Eq)]

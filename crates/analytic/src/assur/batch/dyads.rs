@@ -1,0 +1,175 @@
+//! The constants of a case of driving links and RRR dyads: what [`super::equations`] needs of it, derived once.
+
+use super::poses::Layout;
+use linkage::case::Case;
+use linkage::drive::Load;
+use linkage::math::Vec2;
+use linkage::mechanism::{AssemblyMode, GROUND, Group, GroupKind, Side};
+
+/// A joint as it acts on one of its links: `sign` times its reaction, at `arm` from the link's pole, in the link's
+/// frame.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Action {
+    /// Column of the reaction.
+    pub(super) force: usize,
+    pub(super) arm: Vec2,
+    pub(super) sign: f64,
+}
+
+/// A link with what acts on it; moments are about its pole, one of its joints.
+#[derive(Clone, Debug)]
+pub(super) struct Body {
+    /// First column of the link.
+    pub(super) link: usize,
+    pub(super) mass: f64,
+    pub(super) mass_centre: Vec2,
+    /// From the pole to the mass centre, in the link's frame.
+    pub(super) centre: Vec2,
+    pub(super) inertia: f64,
+    /// Joints at which later groups hang on it.
+    pub(super) hanging: Vec<Action>,
+    /// Loads that act against its rotation.
+    pub(super) loads: Vec<Load>,
+}
+
+/// A driving link, which turns about a joint with the ground: its pole.
+#[derive(Clone, Debug)]
+pub(super) struct Driver {
+    pub(super) ground: Vec2,
+    pub(super) pivot: Vec2,
+    pub(super) body: Body,
+    pub(super) reaction: Action,
+}
+
+/// One link of a dyad.
+#[derive(Clone, Debug)]
+pub(super) struct Arm {
+    /// First column of the known link and the joint's place on it; no column for the ground.
+    pub(super) base: (Option<usize>, Vec2),
+    /// The outer joint, and the vector from there to the inner one, in the link's frame.
+    pub(super) outer: Vec2,
+    pub(super) span: Vec2,
+    pub(super) squared: f64,
+    pub(super) inverse_squared: f64,
+    /// The pole is the inner joint.
+    pub(super) body: Body,
+    pub(super) reaction: Action,
+}
+
+/// RRR dyad.
+#[derive(Clone, Debug)]
+pub(super) struct Dyad {
+    pub(super) arms: [Arm; 2],
+    pub(super) side: f64,
+    /// The inner joint as it acts on the first link.
+    pub(super) inner: Action,
+}
+
+/// A case of driving links and RRR dyads.
+#[derive(Clone, Debug)]
+pub(super) struct Dyads {
+    pub(super) layout: Layout,
+    pub(super) gravity: Vec2,
+    pub(super) drivers: Vec<Driver>,
+    pub(super) dyads: Vec<Dyad>,
+}
+
+impl Dyads {
+    /// `None` if a group is of another kind, a driving link hangs on another one, or a load is other than a moment of resistance: what needs places
+    /// and other links is left to poses one by one.
+    pub(super) fn of(case: &Case, layout: Layout) -> Option<Self> {
+        let groups = &case.structure.groups;
+        let simple = |load: &Load| matches!(load, Load::Resistance { .. });
+        let hinged = |&(link, joint): &(usize, usize)| case.mechanism.joints()[joint].other(link).link == GROUND;
+        let known = groups.iter().all(|group| group.kind == GroupKind::Rrr) && case.loads.iter().all(simple);
+        if !(known && case.structure.drivers.iter().all(hinged)) {
+            return None;
+        }
+        let mut settled = vec![false; case.mechanism.joints().len()];
+        let mut dyads = Vec::with_capacity(groups.len());
+        for (group, &mode) in groups.iter().zip(&case.modes).rev() {
+            dyads.push(Reader { case, layout, settled: &settled }.dyad(group, mode));
+            group.inner.iter().chain(&group.outer).for_each(|&joint| settled[joint] = true);
+        }
+        dyads.reverse();
+        let reader = Reader { case, layout, settled: &settled };
+        let drivers = case.structure.drivers.iter().map(|&(link, joint)| reader.driver(link, joint)).collect();
+        Some(Dyads { layout, gravity: case.gravity, drivers, dyads })
+    }
+}
+
+/// Takes the constants out of a case.
+struct Reader<'a> {
+    case: &'a Case,
+    layout: Layout,
+    /// Joints whose reactions are known once it is the group's turn.
+    settled: &'a [bool],
+}
+
+impl Reader<'_> {
+    fn place(&self, joint: usize, link: usize) -> Vec2 {
+        self.case.mechanism.joints()[joint].on(link).expect("the joint is on the link")
+    }
+
+    fn base(&self, joint: usize, link: usize) -> (Option<usize>, Vec2) {
+        let Side { link, local } = self.case.mechanism.joints()[joint].other(link);
+        (self.layout.link(link), local)
+    }
+
+    fn action(&self, joint: usize, link: usize, pole: Vec2) -> Action {
+        let is_second = self.case.mechanism.joints()[joint].second.link == link;
+        Action {
+            force: self.layout.force(joint),
+            arm: self.place(joint, link) - pole,
+            sign: if is_second { 1.0 } else { -1.0 },
+        }
+    }
+
+    fn body(&self, link: usize, pole: Vec2) -> Body {
+        let joints = self.case.mechanism.joints();
+        let hanging = (0..joints.len()).filter(|&joint| self.settled[joint] && joints[joint].on(link).is_some());
+        let body = &self.case.mechanism.links()[link];
+        Body {
+            link: self.layout.link(link).expect("the link moves"),
+            mass: body.mass,
+            mass_centre: body.mass_centre,
+            centre: body.mass_centre - pole,
+            inertia: body.inertia,
+            hanging: hanging.map(|joint| self.action(joint, link, pole)).collect(),
+            loads: self.case.loads.iter().filter(|load| load.sensed_link() == Some(link)).cloned().collect(),
+        }
+    }
+
+    fn driver(&self, link: usize, joint: usize) -> Driver {
+        let pivot = self.place(joint, link);
+        Driver {
+            ground: self.base(joint, link).1,
+            pivot,
+            body: self.body(link, pivot),
+            reaction: self.action(joint, link, pivot),
+        }
+    }
+
+    fn dyad(&self, group: &Group, mode: AssemblyMode) -> Dyad {
+        let arm = |k: usize| {
+            let (link, joint) = (group.links[k], group.outer[k]);
+            let (outer, pole) = (self.place(joint, link), self.place(group.inner[0], link));
+            let squared = (pole - outer).norm_squared();
+            Arm {
+                base: self.base(joint, link),
+                outer,
+                span: pole - outer,
+                squared,
+                inverse_squared: 1.0 / squared,
+                body: self.body(link, pole),
+                reaction: self.action(joint, link, pole),
+            }
+        };
+        let first = group.links[0];
+        Dyad {
+            arms: [arm(0), arm(1)],
+            side: if mode == AssemblyMode::Right { -1.0 } else { 1.0 },
+            inner: self.action(group.inner[0], first, self.place(group.inner[0], first)),
+        }
+    }
+}

@@ -1,0 +1,197 @@
+//! One number or plane vector for several poses at once, on the widest registers that the machine has.
+//!
+//! Every operation is one of IEEE 754 on each lane by itself, and none is fused: a lane's value depends neither on its
+//! neighbours nor on how many there are.
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use pulp::Simd;
+
+use linkage::math::Vec2;
+
+/// Poses that stand together in memory.
+pub(super) const TILE: usize = 8;
+
+/// One column of a tile.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
+pub(super) struct Eight(pub(super) [f64; TILE]);
+
+/// One number a pose.
+#[derive(Clone, Copy)]
+pub(super) struct Lanes<S: Simd> {
+    simd: S,
+    value: S::f64s,
+}
+
+macro_rules! lane_by_lane {
+    ($($operation:ident $name:ident $on_lanes:ident)*) => { $(
+        impl<S: Simd> $operation for Lanes<S> {
+            type Output = Self;
+            #[inline(always)]
+            fn $name(self, other: Self) -> Self {
+                Lanes { value: self.simd.$on_lanes(self.value, other.value), ..self }
+            }
+        }
+        impl<S: Simd> $operation<f64> for Lanes<S> {
+            type Output = Self;
+            #[inline(always)]
+            fn $name(self, other: f64) -> Self {
+                self.$name(Lanes { value: self.simd.splat_f64s(other), ..self })
+            }
+        }
+    )* };
+}
+
+lane_by_lane! { Add add add_f64s  Sub sub sub_f64s  Mul mul mul_f64s  Div div div_f64s }
+
+impl<S: Simd> Neg for Lanes<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Lanes { value: self.simd.neg_f64s(self.value), ..self }
+    }
+}
+
+impl<S: Simd> Lanes<S> {
+    #[inline(always)]
+    pub(super) fn splat(simd: S, value: f64) -> Self {
+        Lanes { simd, value: simd.splat_f64s(value) }
+    }
+
+    #[inline(always)]
+    pub(super) fn sqrt(self) -> Self {
+        Lanes { value: self.simd.sqrt_f64s(self.value), ..self }
+    }
+
+    /// `f` of every lane.
+    #[inline(always)]
+    pub(super) fn map(self, f: impl Fn(f64) -> f64) -> Self {
+        let mut column = Eight([0.0; TILE]);
+        S::as_mut_simd_f64s(&mut column.0).0[0] = self.value;
+        for lane in &mut column.0[..S::F64_LANES] {
+            *lane = f(*lane);
+        }
+        Lanes { value: S::as_simd_f64s(&column.0).0[0], ..self }
+    }
+
+    /// 1 / self.
+    #[inline(always)]
+    pub(super) fn inverse(self) -> Self {
+        Self::splat(self.simd, 1.0) / self
+    }
+}
+
+/// One plane vector a pose.
+#[derive(Clone, Copy)]
+pub(super) struct Plane<S: Simd> {
+    pub(super) x: Lanes<S>,
+    pub(super) y: Lanes<S>,
+}
+
+impl<S: Simd> Add for Plane<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Plane { x: self.x + other.x, y: self.y + other.y }
+    }
+}
+
+impl<S: Simd> Add<Vec2> for Plane<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Vec2) -> Self {
+        Plane { x: self.x + other.x, y: self.y + other.y }
+    }
+}
+
+impl<S: Simd> Sub for Plane<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Plane { x: self.x - other.x, y: self.y - other.y }
+    }
+}
+
+impl<S: Simd> Neg for Plane<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Plane { x: -self.x, y: -self.y }
+    }
+}
+
+impl<S: Simd, T: Copy> Mul<T> for Plane<S>
+where
+    Lanes<S>: Mul<T, Output = Lanes<S>>,
+{
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, factor: T) -> Self {
+        Plane { x: self.x * factor, y: self.y * factor }
+    }
+}
+
+impl<S: Simd> Plane<S> {
+    #[inline(always)]
+    pub(super) fn splat(simd: S, v: Vec2) -> Self {
+        Plane { x: Lanes::splat(simd, v.x), y: Lanes::splat(simd, v.y) }
+    }
+
+    #[inline(always)]
+    pub(super) fn dot(self, other: Self) -> Lanes<S> {
+        self.x * other.x + self.y * other.y
+    }
+
+    #[inline(always)]
+    pub(super) fn cross(self, other: Self) -> Lanes<S> {
+        self.x * other.y - self.y * other.x
+    }
+
+    #[inline(always)]
+    pub(super) fn turned(self) -> Self {
+        Plane { x: -self.y, y: self.x }
+    }
+
+    /// `v` rotated by the direction that this is.
+    #[inline(always)]
+    pub(super) fn rotate(self, v: Vec2) -> Self {
+        Plane { x: self.x * v.x - self.y * v.y, y: self.x * v.y + self.y * v.x }
+    }
+}
+
+/// The columns of one tile, of which as many poses are seen as fit into a register.
+#[derive(Debug)]
+pub(super) struct Window<'a, S: Simd> {
+    pub(super) simd: S,
+    pub(super) columns: &'a mut [Eight],
+    /// Which share of the tile's poses.
+    pub(super) part: usize,
+}
+
+impl<S: Simd> Window<'_, S> {
+    /// Number of shares in a tile.
+    pub(super) const PARTS: usize = TILE / S::F64_LANES;
+
+    #[inline(always)]
+    pub(super) fn get(&self, column: usize) -> Lanes<S> {
+        Lanes { simd: self.simd, value: S::as_simd_f64s(&self.columns[column].0).0[self.part] }
+    }
+
+    #[inline(always)]
+    pub(super) fn put(&mut self, column: usize, lanes: Lanes<S>) {
+        S::as_mut_simd_f64s(&mut self.columns[column].0).0[self.part] = lanes.value;
+    }
+
+    /// The vector whose components are at `column` and behind it.
+    #[inline(always)]
+    pub(super) fn vector(&self, column: usize) -> Plane<S> {
+        Plane { x: self.get(column), y: self.get(column + 1) }
+    }
+
+    #[inline(always)]
+    pub(super) fn put_vector(&mut self, column: usize, v: Plane<S>) {
+        self.put(column, v.x);
+        self.put(column + 1, v.y);
+    }
+}

@@ -1,0 +1,250 @@
+//! Many poses of one case in one call.
+//!
+//! A case of driving links and RRR dyads, loaded by moments of resistance only, is solved for as many crank angles at once as the machine's registers hold:
+//! such poses do not depend on each other. Any other case is solved pose by pose.
+
+mod dyads;
+mod equations;
+mod lanes;
+mod poses;
+
+use std::f64::consts::PI;
+
+use pulp::{Arch, Simd, WithSimd};
+use wide::f64x8;
+
+use self::dyads::Dyads;
+use self::equations::OF_DYAD;
+use self::lanes::{Eight, TILE, Window};
+pub use self::poses::Poses;
+use self::poses::{ALPHA, DIRECTION, Layout, OMEGA};
+use crate::PoseSolver;
+use linkage::case::Case;
+use linkage::error::Result;
+use linkage::solver::State;
+use linkage::trajectory::Stage;
+
+/// Crank angle between two rows (rad) beyond which the way between them is looked at too; not more than
+/// [`PoseSolver`]'s step for poses in closed form.
+const STEP: f64 = PI / 12.0;
+
+/// Angle (rad) beyond which the vector sine is not relied on: ten times what a grid may hold.
+const FAR: f64 = 1e7;
+
+/// Solves a case for many crank angles in one call, on the branch of its start pose.
+#[derive(Debug)]
+pub struct Batch<'a> {
+    case: &'a Case,
+    layout: Layout,
+    dyads: Option<Dyads>,
+    work: Vec<Eight>,
+    arch: Arch,
+    /// Solves what the dyads do not, and says what is wrong.
+    poses: PoseSolver<'a>,
+    /// Last crank angle reached (rad).
+    crank: f64,
+}
+
+impl<'a> Batch<'a> {
+    /// At the start pose of the case, which fixes the branch.
+    ///
+    /// # Errors
+    /// Those of [`PoseSolver::new`].
+    pub fn of(case: &'a Case) -> Result<Self> {
+        let poses = PoseSolver::new(case)?;
+        let dyads = Dyads::of(case, Layout::of(case, false));
+        Ok(Batch {
+            case,
+            layout: Layout::of(case, dyads.is_none()),
+            dyads,
+            work: vec![Eight([0.0; TILE]); OF_DYAD * case.structure.groups.len()],
+            arch: Arch::new(),
+            poses,
+            crank: case.drive.start,
+        })
+    }
+
+    /// Whether many poses are solved at once; if not, the case has other groups than RRR dyads, or other loads than moments of
+    /// resistance, and goes pose by pose.
+    #[must_use]
+    pub fn is_vectorised(&self) -> bool {
+        self.dyads.is_some()
+    }
+
+    /// The poses at the crank angles `cranks` (rad, as the scenario states them) for one angular velocity `omega`
+    /// (rad/s) and acceleration `alpha` (rad/s^2) of the crank, computed as far as `deepest`: to rounding, what
+    /// [`PoseSolver::solve`] finds for one after the other. It starts from the last crank angle reached, at first
+    /// from the start pose. Where poses are [vectorised](Batch::is_vectorised), a crank angle gives the same bits
+    /// wherever it stands; rows that are more than 15 degrees apart cost a walk from one to the next.
+    ///
+    /// # Errors
+    /// Those of [`PoseSolver::solve`] at the first crank angle that cannot be reached; the poses before it are in
+    /// `out`.
+    pub fn solve(&mut self, cranks: &[f64], omega: f64, alpha: f64, deepest: Stage, out: &mut Poses) -> Result<()> {
+        out.prepare(self.layout, cranks.len());
+        if let Some(dyads) = &self.dyads {
+            let asked = Asked { cranks, omega, alpha, deepest };
+            self.arch.dispatch(Tiles { case: self.case, dyads, asked, work: &mut self.work, out });
+        }
+        for (row, &crank) in cranks.iter().enumerate() {
+            let is_placed = self.is_vectorised() && out.is_placed(row);
+            if !(is_placed && (crank - self.crank).abs() <= STEP) {
+                let deepest = if is_placed { Stage::Positions } else { deepest };
+                match self.walk(crank, omega, alpha, deepest) {
+                    Ok(_) if is_placed => {}
+                    Ok(state) => out.put(row, state),
+                    Err(error) => {
+                        out.truncate(row);
+                        return Err(error);
+                    }
+                }
+            }
+            self.crank = crank;
+        }
+        Ok(())
+    }
+
+    /// Goes to a crank angle pose by pose, from the last one reached.
+    fn walk(&mut self, crank: f64, omega: f64, alpha: f64, deepest: Stage) -> Result<&State> {
+        if self.is_vectorised() {
+            self.poses.solve(self.crank, omega, alpha, Stage::Positions)?;
+        }
+        self.poses.solve(crank, omega, alpha, deepest)
+    }
+}
+
+/// What is asked of a batch.
+#[derive(Clone, Copy, Debug)]
+struct Asked<'a> {
+    cranks: &'a [f64],
+    omega: f64,
+    alpha: f64,
+    deepest: Stage,
+}
+
+/// All tiles of a batch, to be solved with the instructions that the machine has.
+struct Tiles<'a> {
+    case: &'a Case,
+    dyads: &'a Dyads,
+    asked: Asked<'a>,
+    work: &'a mut [Eight],
+    out: &'a mut Poses,
+}
+
+/// What the drives do in one tile: directions, angular velocities and accelerations of the driving links. Rows that
+/// are left over repeat the last crank angle.
+#[inline(always)]
+fn drive(case: &Case, dyads: &Dyads, asked: Asked, cranks: &[f64], tile: &mut [Eight]) {
+    let mut own = [cranks[cranks.len() - 1]; TILE];
+    own[..cranks.len()].copy_from_slice(cranks);
+    for (index, (drive, driver)) in case.drives().zip(&dyads.drivers).enumerate() {
+        let (mut angles, mut ratios) = (own.map(|crank| case.drive.world_angle(crank)), [1.0; TILE]);
+        if index > 0 {
+            for (row, crank) in own.into_iter().enumerate() {
+                let t = case.drive.time_of(crank);
+                angles[row] = drive.world_angle(drive.at(t).angle);
+                ratios[row] = case.ratios(t).nth(index).expect("every drive has a ratio");
+            }
+        }
+        let link = driver.body.link;
+        [tile[link + DIRECTION], tile[link + DIRECTION + 1]] = units(angles);
+        tile[link + OMEGA] = Eight(ratios.map(|ratio| asked.omega * ratio));
+        tile[link + ALPHA] = Eight(ratios.map(|ratio| asked.alpha * ratio));
+    }
+}
+
+/// Cosines and sines of eight angles (rad).
+#[inline(always)]
+fn units(angles: [f64; TILE]) -> [Eight; 2] {
+    let (sin, cos) = f64x8::from(angles).sin_cos();
+    let (mut sin, mut cos) = (sin.to_array(), cos.to_array());
+    for (row, angle) in angles.into_iter().enumerate() {
+        if !(angle.abs() <= FAR) {
+            (sin[row], cos[row]) = angle.sin_cos();
+        }
+    }
+    [Eight(cos), Eight(sin)]
+}
+
+impl WithSimd for Tiles<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Tiles { case, dyads, asked, work, out } = self;
+        for (cranks, tile) in asked.cranks.chunks(TILE).zip(out.tiles()) {
+            drive(case, dyads, asked, cranks, tile);
+            for part in 0..Window::<S>::PARTS {
+                let mut tile = Window { simd, columns: &mut *tile, part };
+                let mut work = Window { simd, columns: &mut *work, part };
+                dyads.move_links(asked.deepest, &mut tile, &mut work);
+                if asked.deepest >= Stage::Reactions {
+                    dyads.load_joints(&mut tile, &work);
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use linkage::fixtures::{four_bar, turning};
+    use linkage::math::{KeepNan, Vec2};
+    use linkage::mechanism::{AssemblyMode, LinkPose, Mechanism, Pose};
+
+    /// Angles of coupler and rocker while the crank points to the right: an isosceles triangle.
+    const START: [f64; 2] = [0.8410686705679303, 1.6821373411358607];
+
+    /// Every width that this machine has.
+    fn widths() -> Vec<Arch> {
+        let mut widths = vec![Arch::Scalar, Arch::new()];
+        #[cfg(target_arch = "x86_64")]
+        widths.extend(pulp::x86::V3::try_new().map(Arch::V3));
+        widths
+    }
+
+    /// An error of each of one unit in the last place of 1: the standard library's has half of it at most, the rest
+    /// is the vector's.
+    #[test]
+    fn units_are_those_of_the_standard_library() {
+        for k in -400_000..400_000 {
+            // A tenth of them are multiples of a quarter turn, where one of the two vanishes.
+            let quarters = f64::from(k) * if k % 10 == 0 { 1.0 } else { 1.600_123_4 };
+            let angles = [1.0, 1e-5, 3.0, 15.0, -1.0, -0.1, 7.3, 0.5].map(|share| quarters * share * PI / 2.0);
+            let [cos, sin] = units(angles);
+            for (row, angle) in angles.into_iter().enumerate() {
+                let apart = (cos.0[row] - angle.cos()).abs().larger((sin.0[row] - angle.sin()).abs());
+                assert!(apart <= f64::EPSILON, "{apart:e} at {angle}");
+            }
+        }
+        let [cos, _] = units([1e300, f64::NAN, 0.0, f64::INFINITY, -1e8, 2.0, 3.0, 4.0]);
+        assert_eq!([cos.0[0], cos.0[4]], [1e300f64.cos(), 1e8f64.cos()]);
+        assert!(cos.0[1].is_nan() && cos.0[3].is_nan());
+    }
+
+    #[test]
+    fn the_width_of_registers_does_not_show() {
+        let (plain, pose) =
+            (four_bar(), [(0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (1.0, 0.0, START[0]), (4.0, 0.0, START[1])]);
+        let mut links = plain.links().to_vec();
+        for (link, mass) in links.iter_mut().zip([0.0, 1.2, 0.7, 2.3]) {
+            (link.mass, link.mass_centre, link.inertia) = (mass, Vec2::new(0.4, 0.1), 0.3 * mass);
+        }
+        let pose = pose.map(|(x, y, angle)| LinkPose { origin: Vec2::new(x, y), angle });
+        let case = Case {
+            start: Pose(pose.to_vec()),
+            modes: vec![AssemblyMode::Left],
+            gravity: Vec2::new(0.0, -9.81),
+            ..turning(Mechanism::new(links, plain.joints().to_vec()).unwrap())
+        };
+        let cranks: Vec<f64> = (0..500).map(|k| -0.0123 * f64::from(k)).collect();
+        let solve = |arch: Arch| {
+            let (mut batch, mut poses) = (Batch { arch, ..Batch::of(&case).unwrap() }, Poses::new());
+            batch.solve(&cranks, -97.2, 3.0, Stage::BalancingMoment, &mut poses).unwrap();
+            poses.tiles().flatten().flat_map(|column| column.0.map(f64::to_bits)).collect::<Vec<_>>()
+        };
+        let found: Vec<_> = widths().into_iter().map(solve).collect();
+        assert!(found.iter().all(|bits| *bits == found[0]));
+    }
+}

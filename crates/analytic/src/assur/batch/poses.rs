@@ -1,0 +1,208 @@
+//! Where a batch puts its poses: columns, cut into tiles of eight rows that stand together in memory.
+
+use super::lanes::{Eight, TILE};
+use linkage::case::Case;
+use linkage::math::{Motion, Vec2};
+use linkage::mechanism::GROUND;
+use linkage::solver::State;
+
+/// Columns of one link's motion, in this order: two each of origin, direction, velocity and acceleration, one each of
+/// angular velocity and angular acceleration.
+const OF_LINK: usize = 10;
+/// Places of these in a link's columns.
+pub(super) const ORIGIN: usize = 0;
+pub(super) const DIRECTION: usize = 2;
+pub(super) const VELOCITY: usize = 4;
+pub(super) const ACCELERATION: usize = 6;
+pub(super) const OMEGA: usize = 8;
+pub(super) const ALPHA: usize = 9;
+
+/// Which column holds what.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Layout {
+    links: usize,
+    joints: usize,
+    drives: usize,
+    /// Whether joints have a column for their moment; if not, all moments are 0.
+    has_moments: bool,
+}
+
+impl Layout {
+    pub(super) fn of(case: &Case, has_moments: bool) -> Self {
+        let mechanism = &case.mechanism;
+        let (links, joints) = (mechanism.links().len(), mechanism.joints().len());
+        Layout { links, joints, drives: case.drives().count(), has_moments }
+    }
+
+    /// First column of a link; the ground has none.
+    pub(super) fn link(&self, link: usize) -> Option<usize> {
+        (link != GROUND).then(|| (link - 1) * OF_LINK)
+    }
+
+    /// Two columns: the force in a joint.
+    #[inline(always)]
+    pub(super) fn force(&self, joint: usize) -> usize {
+        (self.links - 1) * OF_LINK + 2 * joint
+    }
+
+    /// The balancing moment of a drive.
+    #[inline(always)]
+    pub(super) fn torque(&self, drive: usize) -> usize {
+        self.force(self.joints) + drive
+    }
+
+    /// A number that is not one (NaN) where the pose cannot be assembled.
+    #[inline(always)]
+    pub(super) fn reach(&self) -> usize {
+        self.torque(self.drives)
+    }
+
+    fn moment(&self, joint: usize) -> usize {
+        self.reach() + 1 + joint
+    }
+
+    pub(super) fn columns(&self) -> usize {
+        self.moment(if self.has_moments { self.joints } else { 0 })
+    }
+}
+
+/// The poses that [`Batch::solve`](super::Batch::solve) has found, a row for every crank angle. Kept between calls,
+/// its memory is used again. What lies beyond the stage that was asked for is meaningless. Methods panic on a row
+/// that is not there.
+#[derive(Clone, Debug, Default)]
+pub struct Poses {
+    layout: Layout,
+    rows: usize,
+    tiles: Vec<Eight>,
+}
+
+impl Poses {
+    /// No poses yet.
+    #[must_use]
+    pub fn new() -> Self {
+        Poses::default()
+    }
+
+    /// Number of poses.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.rows
+    }
+
+    /// Whether there is no pose.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.rows == 0
+    }
+
+    /// Motion of a link's frame in the pose `row`; the ground's is [`Motion::REST`].
+    #[must_use]
+    pub fn motion(&self, row: usize, link: usize) -> Motion {
+        let Some(first) = self.layout.link(link) else { return Motion::REST };
+        Motion {
+            origin: self.vector(row, first + ORIGIN),
+            direction: self.vector(row, first + DIRECTION),
+            velocity: self.vector(row, first + VELOCITY),
+            omega: self.get(row, first + OMEGA),
+            acceleration: self.vector(row, first + ACCELERATION),
+            alpha: self.get(row, first + ALPHA),
+        }
+    }
+
+    /// Force of the first link on the second in a joint (N), in the pose `row`.
+    #[must_use]
+    pub fn force(&self, row: usize, joint: usize) -> Vec2 {
+        self.vector(row, self.layout.force(joint))
+    }
+
+    /// Moment of the first link on the second in a joint, about the joint's place on the second (N m), in the pose
+    /// `row`; 0 in revolute joints.
+    #[must_use]
+    pub fn moment(&self, row: usize, joint: usize) -> f64 {
+        if self.layout.has_moments { self.get(row, self.layout.moment(joint)) } else { 0.0 }
+    }
+
+    /// Balancing moment on the driving link of the drive `drive` of [`Case::drives`] (N m), in the pose `row`.
+    #[must_use]
+    pub fn torque(&self, row: usize, drive: usize) -> f64 {
+        self.get(row, self.layout.torque(drive))
+    }
+
+    /// Copies the pose `row` to a state of the same case. Its angles, which count turns, are left as they are, as by
+    /// [`PoseSolver::solve`](crate::PoseSolver::solve).
+    pub fn copy_to(&self, row: usize, state: &mut State) {
+        for (link, motion) in state.motions.iter_mut().enumerate() {
+            *motion = self.motion(row, link);
+        }
+        for (joint, (force, moment)) in state.forces.iter_mut().zip(&mut state.moments).enumerate() {
+            (*force, *moment) = (self.force(row, joint), self.moment(row, joint));
+        }
+        for (drive, torque) in state.torques.iter_mut().enumerate() {
+            *torque = self.torque(row, drive);
+        }
+    }
+
+    /// Room for as many rows.
+    pub(super) fn prepare(&mut self, layout: Layout, rows: usize) {
+        let tiles = rows.div_ceil(TILE) * layout.columns();
+        (self.layout, self.rows) = (layout, rows);
+        self.tiles.resize(tiles, Eight([0.0; TILE]));
+    }
+
+    /// Keeps the first rows only.
+    pub(super) fn truncate(&mut self, rows: usize) {
+        self.rows = rows;
+    }
+
+    /// The columns of every tile.
+    pub(super) fn tiles(&mut self) -> impl Iterator<Item = &mut [Eight]> {
+        self.tiles.chunks_exact_mut(self.layout.columns())
+    }
+
+    /// Whether the pose in a row could be assembled.
+    #[inline]
+    pub(super) fn is_placed(&self, row: usize) -> bool {
+        !self.get(row, self.layout.reach()).is_nan()
+    }
+
+    /// Puts a state into a row.
+    pub(super) fn put(&mut self, row: usize, state: &State) {
+        let layout = self.layout;
+        let mut put = |column: usize, value: f64| {
+            self.tiles[row / TILE * layout.columns() + column].0[row % TILE] = value;
+        };
+        let vectors = |column: usize, v: Vec2| [(column, v.x), (column + 1, v.y)];
+        for (link, motion) in state.motions.iter().enumerate() {
+            let Some(first) = layout.link(link) else { continue };
+            let all = [
+                vectors(first + ORIGIN, motion.origin),
+                vectors(first + DIRECTION, motion.direction),
+                vectors(first + VELOCITY, motion.velocity),
+                vectors(first + ACCELERATION, motion.acceleration),
+                [(first + OMEGA, motion.omega), (first + ALPHA, motion.alpha)],
+            ];
+            all.into_iter().flatten().for_each(|(column, value)| put(column, value));
+        }
+        for (joint, (&force, &moment)) in state.forces.iter().zip(&state.moments).enumerate() {
+            vectors(layout.force(joint), force).into_iter().for_each(|(column, value)| put(column, value));
+            if layout.has_moments {
+                put(layout.moment(joint), moment);
+            }
+        }
+        for (drive, &torque) in state.torques.iter().enumerate() {
+            put(layout.torque(drive), torque);
+        }
+        put(layout.reach(), 0.0);
+    }
+
+    #[inline]
+    fn get(&self, row: usize, column: usize) -> f64 {
+        assert!(row < self.rows, "row {row} of {}", self.rows);
+        self.tiles[row / TILE * self.layout.columns() + column].0[row % TILE]
+    }
+
+    #[inline]
+    fn vector(&self, row: usize, column: usize) -> Vec2 {
+        Vec2::new(self.get(row, column), self.get(row, column + 1))
+    }
+}

@@ -1,0 +1,91 @@
+//! Reactions of any higher group.
+//!
+//! Virtual work on the unknowns of its contours, with the closing joints cut, gives the forces there (J^T lambda = -Q); those of
+//! the other joints follow from the outermost link inwards.
+
+use super::body::{Action, Body, Reactions};
+use crate::assur::groups::{Chain, Node, Plan, Step};
+use linkage::case::Case;
+use linkage::math::{Motion, Vec2, cross};
+
+/// A higher group, seen from its forces.
+#[derive(Clone, Debug)]
+pub(super) struct Higher {
+    /// Index of the group's [`Chain`] in the plan.
+    step: usize,
+    bodies: Vec<Body>,
+    /// Of each node: its own hanging joint, as it acts on the node's link.
+    hung: Vec<Action>,
+    /// Known force on each node's link and on all that hangs on it (N), and its moment about the node's own joint (N m).
+    carried: Vec<(Vec2, f64)>,
+    /// The same of the forces in the closing joints.
+    cut: Vec<(Vec2, f64)>,
+    multipliers: Vec<f64>,
+}
+
+impl Higher {
+    pub(super) fn of(case: &Case, step: usize, chain: &Chain, settled: &[bool]) -> Self {
+        let nodes = chain.nodes();
+        Higher {
+            step,
+            bodies: nodes.iter().map(|node| Body::of(case, node.link, settled)).collect(),
+            hung: nodes.iter().map(|node| Action::of(case, node.joint, node.link)).collect(),
+            carried: vec![(Vec2::zeros(), 0.0); nodes.len()],
+            cut: vec![(Vec2::zeros(), 0.0); nodes.len()],
+            multipliers: vec![0.0; nodes.len()],
+        }
+    }
+
+    pub(super) fn solve(&mut self, case: &Case, plan: &Plan, motions: &[Motion], reactions: &mut Reactions) {
+        let Step::Chain(chain) = &plan.steps()[self.step] else { unreachable!("the step is a chain") };
+        let nodes = chain.nodes();
+        for (index, node) in nodes.iter().enumerate() {
+            self.carried[index] = self.bodies[index].resultant(case, motions, reactions, pole(node, motions));
+            self.cut[index] = (Vec2::zeros(), 0.0);
+        }
+        gather(&mut self.carried, nodes, motions);
+        for (index, node) in nodes.iter().enumerate() {
+            let (force, moment) = self.carried[index];
+            self.multipliers[index] = node.axis(motions).map_or(moment, |axis| axis.dot(&force) * chain.size());
+        }
+        chain.multipliers(&mut self.multipliers);
+        for (index, closing) in chain.closings().iter().enumerate() {
+            let force = Vec2::new(self.multipliers[2 * index], self.multipliers[2 * index + 1]);
+            reactions.forces[closing.joint] = force;
+            for (node, sign) in closing.nodes.into_iter().zip([-1.0, 1.0]) {
+                let Some(node) = node else { continue };
+                let (total, moment) = &mut self.cut[node];
+                *total += force * sign;
+                *moment += cross(closing.place(motions) - pole(&nodes[node], motions), force) * sign;
+            }
+        }
+        gather(&mut self.cut, nodes, motions);
+        for (index, action) in self.hung.iter().enumerate() {
+            let force = self.carried[index].0 + self.cut[index].0;
+            if nodes[index].axis(motions).is_some() {
+                let moment = self.carried[index].1 + self.cut[index].1;
+                action.put_guided(-force, moment, pole(&nodes[index], motions), motions, reactions);
+            } else {
+                action.put(-force, reactions);
+            }
+        }
+    }
+}
+
+/// World place of the joint that a node hangs by, on its own link.
+#[inline]
+fn pole(node: &Node, motions: &[Motion]) -> Vec2 {
+    motions[node.link].point(node.own)
+}
+
+/// Adds up force and moment from the outermost link inwards. A link on a pin hands on a force only; one on a guide turns with
+/// its parent and hands on its moment as well.
+fn gather(carried: &mut [(Vec2, f64)], nodes: &[Node], motions: &[Motion]) {
+    for (index, node) in nodes.iter().enumerate().rev() {
+        let Some(parent) = node.parent_node else { continue };
+        let (force, moment) = carried[index];
+        let arm = pole(node, motions) - pole(&nodes[parent], motions);
+        carried[parent].0 += force;
+        carried[parent].1 += cross(arm, force) + if node.is_guided() { moment } else { 0.0 };
+    }
+}

@@ -1,0 +1,85 @@
+//! Joint reactions group by group, last group first, and the balancing moment from the driving link's equilibrium.
+//!
+//! D'Alembert: every link carries m (g - a) at its mass centre, the moment -J alpha, its loads, and the forces of the
+//! groups that hang on it; one file a sort of group.
+
+mod body;
+mod higher;
+mod rrr;
+mod sliding;
+
+use crate::assur::groups::{Plan, Step};
+use body::{Action, Body, Reactions};
+use higher::Higher;
+use linkage::case::Case;
+use linkage::drive::{Drive, Wrench};
+use linkage::solver::State;
+use rrr::Pinned;
+use sliding::Sliding;
+
+/// One group, seen from its forces.
+#[derive(Clone, Debug)]
+enum Part {
+    Pinned(Pinned),
+    Sliding(Sliding),
+    Higher(Higher),
+}
+
+/// The force analysis of a case, ready for pose after pose without allocation.
+#[derive(Clone, Debug)]
+pub(super) struct Kinetostatics {
+    parts: Vec<Part>,
+    /// The driving links, their pivots and the numbers of their drives, the outermost first.
+    drivers: Vec<(Body, Action, usize)>,
+    /// Loads on every link; empty if there are none.
+    loads: Vec<Wrench>,
+}
+
+impl Kinetostatics {
+    /// Prepares the groups in reverse order, then the driving link.
+    pub(super) fn of(case: &Case, plan: &Plan) -> Self {
+        let mut settled = vec![false; case.mechanism.joints().len()];
+        let mut parts = Vec::with_capacity(case.structure.groups.len());
+        for (step, group) in case.structure.groups.iter().enumerate().rev() {
+            parts.push(match &plan.steps()[step] {
+                Step::Chain(chain) => Part::Higher(Higher::of(case, step, chain, &settled)),
+                Step::Rrr(_) => Part::Pinned(Pinned::of(case, step, group, &settled)),
+                _ => Part::Sliding(Sliding::of(case, group, &settled)),
+            });
+            group.inner.iter().chain(&group.outer).for_each(|&joint| settled[joint] = true);
+        }
+        let drives: Vec<&Drive> = case.drives().collect();
+        let mut drivers = Vec::with_capacity(drives.len());
+        for (index, drive) in drives.into_iter().enumerate().rev() {
+            drivers.push((Body::of(case, drive.link, &settled), Action::of(case, drive.joint, drive.link), index));
+            settled[drive.joint] = true;
+        }
+        let loads = if case.loads.is_empty() { 0 } else { case.mechanism.links().len() };
+        Kinetostatics { parts, drivers, loads: vec![Wrench::ZERO; loads] }
+    }
+
+    /// Fills in what the first link exerts on the second in every joint, and the balancing moments on the driving
+    /// links (N m), from their equilibrium about the pivots. The pose must be the last one that `plan` has solved; loads may ask for the state's
+    /// angles.
+    pub(super) fn solve(&mut self, case: &Case, plan: &Plan, state: &mut State) {
+        let State { motions, forces, moments, torques, angles } = state;
+        case.loads_on(motions, angles, &mut self.loads);
+        let reactions = &mut Reactions { forces, moments, loads: &self.loads };
+        for part in &mut self.parts {
+            match part {
+                Part::Pinned(part) => {
+                    let Step::Rrr(dyad) = &plan.steps()[part.step] else { unreachable!("the step is an RRR dyad") };
+                    part.solve(case, dyad, motions, reactions);
+                }
+                Part::Sliding(dyad) => dyad.solve(case, motions, reactions),
+                Part::Higher(higher) => higher.solve(case, plan, motions, reactions),
+            }
+        }
+        for (driver, pivot, index) in &self.drivers {
+            let pole = pivot.place(motions);
+            let (force, moment) = driver.resultant(case, motions, reactions, pole);
+            pivot.put(-force, reactions);
+            torques[*index] = -moment;
+        }
+    }
+}

@@ -1,0 +1,45 @@
+//! Reactions of the RRR dyad.
+//!
+//! With F and M the known force on a link and its moment about the inner joint, r1 and r2 the vectors from the outer joints there, and R
+//! the force at the first outer joint: r1 x R = M_1 and r2 x (R + F_1 + F_2) = -M_2. Artobolevsky, "Theory of mechanisms and
+//! machines", kinetostatics of class II groups.
+
+use super::body::{Action, Body, Reactions};
+use crate::assur::groups::Rrr;
+use linkage::case::Case;
+use linkage::math::{Motion, cross};
+use linkage::mechanism::Group;
+
+/// An RRR dyad, seen from its forces.
+#[derive(Clone, Debug)]
+pub(super) struct Pinned {
+    /// Index of the group in the plan.
+    pub(super) step: usize,
+    bodies: [Body; 2],
+    outer: [Action; 2],
+    inner: Action,
+}
+
+impl Pinned {
+    pub(super) fn of(case: &Case, step: usize, group: &Group, settled: &[bool]) -> Self {
+        Pinned {
+            step,
+            bodies: [0, 1].map(|k| Body::of(case, group.links[k], settled)),
+            outer: [0, 1].map(|k| Action::of(case, group.outer[k], group.links[k])),
+            inner: Action::of(case, group.inner[0], group.links[0]),
+        }
+    }
+
+    #[inline]
+    pub(super) fn solve(&self, case: &Case, dyad: &Rrr, motions: &[Motion], reactions: &mut Reactions) {
+        let pole = self.inner.place(motions);
+        let ([r1, r2], inverse) = dyad.spans();
+        let (force_a, moment_a) = self.bodies[0].resultant(case, motions, reactions, pole);
+        let (force_b, moment_b) = self.bodies[1].resultant(case, motions, reactions, pole);
+        let total = force_a + force_b;
+        let reaction = (r1 * (moment_b + cross(r2, total)) - r2 * -moment_a) * inverse;
+        self.outer[0].put(reaction, reactions);
+        self.outer[1].put(-(reaction + total), reactions);
+        self.inner.put(-(reaction + force_a), reactions);
+    }
+}

@@ -1,0 +1,140 @@
+//! Reactions of the four dyads with prismatic pairs.
+//!
+//! An outer or inner revolute pair passes a force, a prismatic one a force across its axis and a moment. With F and M the known
+//! force and moment on a link, u and w the vectors from the pole to the outer joints, R the force on link a at its outer joint:
+//! RRP: u x R = -M_a about the inner joint, e . (R + F) = 0 for the whole.
+//! RPR, with R on the pair's second link: e . (R + F_b) = 0 there, d x R = -M for the whole about the first pin. RPP: b . (R + F_a) = 0 on the
+//! pinned link, e . (R + F) = 0 for the whole. PRP: the inner force I on link a has e . (I + F_a) = 0 and
+//! b . (I - F_b) = 0. Moments of the guides follow from the moments of their links. Artobolevsky, "Theory of mechanisms and
+//! machines", kinetostatics of class II groups.
+
+use super::body::{Action, Body, Reactions};
+use linkage::case::Case;
+use linkage::math::{Motion, Vec2, cross, turned};
+use linkage::mechanism::{Group, GroupKind};
+
+/// A dyad with prismatic pairs, seen from its forces. The links stand in the order in which the formulas name them.
+#[derive(Clone, Debug)]
+pub(super) struct Sliding {
+    kind: GroupKind,
+    bodies: [Body; 2],
+    outer: [Action; 2],
+    inner: [Action; 2],
+    /// Axis of the prismatic pair of RRP, RPR (the inner) and PRP (the first), or of RPP's guide, on the link given with it.
+    axis: (usize, Vec2),
+    /// Axis of PRP's second guide, or of RPP's inner pair.
+    other: (usize, Vec2),
+}
+
+impl Sliding {
+    pub(super) fn of(case: &Case, group: &Group, settled: &[bool]) -> Self {
+        let joints = case.mechanism.joints();
+        let inner = &joints[group.inner[0]];
+        let mut order = [0, 1];
+        let swapped = match group.kind {
+            GroupKind::Rrp | GroupKind::Rpp => joints[group.outer[0]].is_prismatic(),
+            GroupKind::Rpr => inner.first.link == group.links[1],
+            _ => false,
+        };
+        if swapped {
+            order = [1, 0];
+        }
+        let links = order.map(|k| group.links[k]);
+        let outer = order.map(|k| group.outer[k]);
+        // The axis in the world: on the first link of its joint, which moves as the joint does.
+        let axis = |joint: usize| {
+            let link = joints[joint].first.link;
+            (link, joints[joint].axis_on(link).unwrap_or_else(Vec2::zeros))
+        };
+        let (axis, other) = match group.kind {
+            GroupKind::Rrp | GroupKind::Rpp => (axis(outer[1]), axis(group.inner[0])),
+            GroupKind::Prp => (axis(outer[0]), axis(outer[1])),
+            _ => (axis(group.inner[0]), axis(group.inner[0])),
+        };
+        Sliding {
+            kind: group.kind,
+            bodies: links.map(|link| Body::of(case, link, settled)),
+            outer: [0, 1].map(|k| Action::of(case, outer[k], links[k])),
+            inner: links.map(|link| Action::of(case, group.inner[0], link)),
+            axis,
+            other,
+        }
+    }
+
+    #[inline]
+    pub(super) fn solve(&self, case: &Case, motions: &[Motion], reactions: &mut Reactions) {
+        match self.kind {
+            GroupKind::Rrp => self.rrp(case, motions, reactions),
+            GroupKind::Rpr => self.rpr(case, motions, reactions),
+            GroupKind::Rpp => self.rpp(case, motions, reactions),
+            GroupKind::Prp => self.prp(case, motions, reactions),
+            GroupKind::Rrr | GroupKind::Higher => unreachable!("the dyad slides"),
+        }
+    }
+
+    /// Known forces and moments about `pole` on both links.
+    #[inline]
+    fn known(&self, case: &Case, motions: &[Motion], reactions: &Reactions, pole: Vec2) -> ([Vec2; 2], [f64; 2]) {
+        let (force_a, moment_a) = self.bodies[0].resultant(case, motions, reactions, pole);
+        let (force_b, moment_b) = self.bodies[1].resultant(case, motions, reactions, pole);
+        ([force_a, force_b], [moment_a, moment_b])
+    }
+
+    fn axes(&self, motions: &[Motion]) -> [Vec2; 2] {
+        [self.axis, self.other].map(|(link, axis)| motions[link].arm(axis))
+    }
+
+    fn rrp(&self, case: &Case, motions: &[Motion], reactions: &mut Reactions) {
+        let pole = self.inner[0].place(motions);
+        let u = self.outer[0].place(motions) - pole;
+        let [axis, _] = self.axes(motions);
+        let ([force_a, force_b], [moment_a, moment_b]) = self.known(case, motions, reactions, pole);
+        let total = force_a + force_b;
+        let along = -axis.dot(&total);
+        let across = (-moment_a - along * cross(u, axis)) / axis.dot(&u);
+        let reaction = axis * along + turned(axis) * across;
+        self.outer[0].put(reaction, reactions);
+        self.inner[0].put(-(reaction + force_a), reactions);
+        self.outer[1].put_guided(-(reaction + total), moment_b, pole, motions, reactions);
+    }
+
+    fn rpr(&self, case: &Case, motions: &[Motion], reactions: &mut Reactions) {
+        let pole = self.outer[0].place(motions);
+        let d = self.outer[1].place(motions) - pole;
+        let [axis, _] = self.axes(motions);
+        let ([force_a, force_b], [moment_a, moment_b]) = self.known(case, motions, reactions, pole);
+        let along = -axis.dot(&force_b);
+        let across = (-moment_a - moment_b - along * cross(d, axis)) / axis.dot(&d);
+        let reaction = axis * along + turned(axis) * across;
+        self.outer[1].put(reaction, reactions);
+        self.outer[0].put(-(reaction + force_a + force_b), reactions);
+        let moment = moment_b + cross(d, reaction);
+        self.inner[1].put_guided(-(reaction + force_b), moment, pole, motions, reactions);
+    }
+
+    fn rpp(&self, case: &Case, motions: &[Motion], reactions: &mut Reactions) {
+        let pole = self.outer[0].place(motions);
+        let [axis, inner] = self.axes(motions);
+        let ([force_a, force_b], [moment_a, moment_b]) = self.known(case, motions, reactions, pole);
+        let total = force_a + force_b;
+        let reaction = with_components([axis, inner], [-axis.dot(&total), -inner.dot(&force_a)]);
+        self.outer[0].put(reaction, reactions);
+        self.inner[0].put_guided(-(reaction + force_a), moment_a, pole, motions, reactions);
+        self.outer[1].put_guided(-(reaction + total), moment_a + moment_b, pole, motions, reactions);
+    }
+
+    fn prp(&self, case: &Case, motions: &[Motion], reactions: &mut Reactions) {
+        let pole = self.inner[0].place(motions);
+        let [axis, other] = self.axes(motions);
+        let ([force_a, force_b], [moment_a, moment_b]) = self.known(case, motions, reactions, pole);
+        let inner = with_components([axis, other], [-axis.dot(&force_a), other.dot(&force_b)]);
+        self.inner[0].put(inner, reactions);
+        self.outer[0].put_guided(-(inner + force_a), moment_a, pole, motions, reactions);
+        self.outer[1].put_guided(inner - force_b, moment_b, pole, motions, reactions);
+    }
+}
+
+/// The vector R with e . R and b . R given.
+fn with_components([e, b]: [Vec2; 2], [along_e, along_b]: [f64; 2]) -> Vec2 {
+    (turned(e) * along_b - turned(b) * along_e) / cross(e, b)
+}

@@ -1,0 +1,143 @@
+//! A group's links as a tree, and the joints that close its contours.
+
+use crate::assur::groups::guide::turn_between;
+use linkage::math::{Motion, Vec2};
+use linkage::mechanism::{Group, Joint, Mechanism, Side};
+
+/// How a link is guided by the one it hangs on with a prismatic joint.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Guided {
+    /// The axis in the parent's frame.
+    pub(super) axis: Vec2,
+    /// Direction of the link's frame in the parent's.
+    pub(super) turn: Vec2,
+}
+
+/// A link of the group, hung on one that is known before it.
+#[derive(Clone, Copy, Debug)]
+pub struct Node {
+    /// The link.
+    pub link: usize,
+    /// The joint it hangs by.
+    pub joint: usize,
+    /// That joint in the link's own frame.
+    pub own: Vec2,
+    /// That joint on the link it hangs on.
+    pub parent: Side,
+    /// Position of the parent among the nodes; `None` for a link outside the group.
+    pub parent_node: Option<usize>,
+    /// Position of the node whose unknown is this link's angle: its own if it hangs by a revolute joint, else its parent's; `None` if
+    /// a link outside the group leads it.
+    pub spin: Option<usize>,
+    pub(super) guided: Option<Guided>,
+}
+
+impl Node {
+    fn of(joints: &[Joint], joint: usize, link: usize, before: &[Node]) -> Self {
+        let found = &joints[joint];
+        let parent = found.other(link);
+        let parent_node = before.iter().position(|node| node.link == parent.link);
+        let guided = found.axis_on(parent.link).zip(found.axis_on(link));
+        let guided = guided.map(|(axis, own)| Guided { axis, turn: turn_between(axis, own) });
+        let spin = if guided.is_none() { Some(before.len()) } else { parent_node.and_then(|node| before[node].spin) };
+        let own = found.on(link).expect("the joint is on the link");
+        Node { link, joint, own, parent, parent_node, spin, guided }
+    }
+
+    /// Whether the link hangs by a prismatic joint.
+    #[inline]
+    #[must_use]
+    pub fn is_guided(&self) -> bool {
+        self.guided.is_some()
+    }
+
+    /// World direction of the prismatic joint that the link hangs by; `None` for a revolute one.
+    #[inline]
+    #[must_use]
+    pub fn axis(&self, motions: &[Motion]) -> Option<Vec2> {
+        self.guided.map(|guided| motions[self.parent.link].arm(guided.axis))
+    }
+}
+
+/// Part of the way to a closing joint: a vector of one link, or the slide vector of a node.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Segment {
+    pub(super) node: usize,
+    /// Vector in the link's frame; `None` for the node's slide.
+    pub(super) local: Option<Vec2>,
+    pub(super) sign: f64,
+}
+
+/// A joint that closes a contour.
+#[derive(Clone, Debug)]
+pub struct Closing {
+    /// The joint.
+    pub joint: usize,
+    /// Nodes of the joint's first and second link; none of a link outside the group.
+    pub nodes: [Option<usize>; 2],
+    /// The joint on its second link.
+    place: Side,
+    /// Known points from which the two ways start: second with sign +1, first with -1.
+    pub(super) ends: [(Side, f64); 2],
+    pub(super) segments: Vec<Segment>,
+}
+
+impl Closing {
+    /// World place of the joint.
+    #[inline]
+    #[must_use]
+    pub fn place(&self, motions: &[Motion]) -> Vec2 {
+        motions[self.place.link].point(self.place.local)
+    }
+}
+
+/// The group's links in the order in which they are hung, and the joints left over.
+pub(super) fn contours(mechanism: &Mechanism, group: &Group) -> (Vec<Node>, Vec<Closing>) {
+    let joints = mechanism.joints();
+    let mut nodes: Vec<Node> = Vec::new();
+    let mut used = vec![false; joints.len()];
+    // Breadth first: all outer joints, then inner ones from the links already hung.
+    while nodes.len() < group.links.len() {
+        let known = |link: usize| !group.links.contains(&link) || nodes.iter().any(|node| node.link == link);
+        let hung = |&joint: &usize| {
+            let (a, b) = (joints[joint].first.link, joints[joint].second.link);
+            match (known(a), known(b)) {
+                (true, false) => Some((joint, b)),
+                (false, true) => Some((joint, a)),
+                _ => None,
+            }
+        };
+        let next = || group.outer.iter().chain(&group.inner).filter_map(hung);
+        // Prismatic joints first: so none of them is left over (Prim's spanning tree of smallest weight).
+        let slider = next().find(|&(joint, _)| joints[joint].is_prismatic());
+        let (joint, link) = slider.or_else(|| next().next()).expect("a group hangs together");
+        used[joint] = true;
+        nodes.push(Node::of(joints, joint, link, &nodes));
+    }
+    let left = group.inner.iter().chain(&group.outer).copied().filter(|&joint| !used[joint]);
+    let closings: Vec<Closing> = left.map(|joint| closing(mechanism, &nodes, joint)).collect();
+    (nodes, closings)
+}
+
+/// The way to a closing joint over both of its links.
+fn closing(mechanism: &Mechanism, nodes: &[Node], joint: usize) -> Closing {
+    let found = &mechanism.joints()[joint];
+    let mut segments = Vec::new();
+    let mut way = |side: Side, sign: f64| {
+        // Where sliders carry all links, an outer pin is left over too: the way to it over the link outside is none.
+        let node = nodes.iter().position(|node| node.link == side.link);
+        let (mut next, mut local, mut end) = (node, side.local, side);
+        while let Some(index) = next {
+            let own = &nodes[index];
+            segments.push(Segment { node: index, local: Some(local - own.own), sign });
+            if own.guided.is_some() {
+                segments.push(Segment { node: index, local: None, sign });
+            }
+            (next, local, end) = (own.parent_node, own.parent.local, own.parent);
+        }
+        (node, (end, sign))
+    };
+    let (second, second_end) = way(found.second, 1.0);
+    let (first, first_end) = way(found.first, -1.0);
+    Closing { joint, place: found.second, nodes: [first, second], ends: [second_end, first_end], segments }
+}

@@ -1,0 +1,81 @@
+//! Outer prismatic pair of a dyad: a link that slides on one that is known, and turns with it.
+
+use linkage::math::{Motion, Vec2, cross, rotated, turned};
+use linkage::mechanism::{Joint, Side};
+
+/// `a` times the conjugate of `b` as complex numbers: the direction of a frame in which the unit vector `b` shows along `a`.
+#[inline]
+pub(super) fn turn_between(a: Vec2, b: Vec2) -> Vec2 {
+    Vec2::new(b.dot(&a), cross(b, a))
+}
+
+/// A link on its guide.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Guide {
+    pub(super) link: usize,
+    /// The guide's link and the joint's place on it.
+    pub(super) base: Side,
+    /// The axis in the guide's link.
+    axis: Vec2,
+    /// The joint's place on the sliding link.
+    own: Vec2,
+    /// Direction of the sliding link's frame in the frame of the guide's link.
+    turn: Vec2,
+}
+
+impl Guide {
+    pub(super) fn of(joint: &Joint, link: usize) -> Self {
+        let base = joint.other(link);
+        let axis = |on: usize| joint.axis_on(on).expect("the joint is prismatic and on the link");
+        Guide {
+            link,
+            base,
+            axis: axis(base.link),
+            own: joint.on(link).expect("the joint is on the link"),
+            turn: turn_between(axis(base.link), axis(link)),
+        }
+    }
+
+    /// Unit vector of the axis in the world.
+    #[inline]
+    pub(super) fn axis(&self, motions: &[Motion]) -> Vec2 {
+        motions[self.base.link].arm(self.axis)
+    }
+
+    /// Turns the sliding link as the guide stands.
+    #[inline]
+    pub(super) fn aim(&self, motions: &mut [Motion]) {
+        motions[self.link].direction = rotated(motions[self.base.link].direction, self.turn);
+    }
+
+    /// World place of the sliding link's point `local` at slide zero; the link must have been aimed.
+    #[inline]
+    pub(super) fn at_zero(&self, local: Vec2, motions: &[Motion]) -> Vec2 {
+        motions[self.base.link].point(self.base.local) + motions[self.link].arm(local - self.own)
+    }
+
+    /// Puts the sliding link's point `local` on a world place.
+    #[inline]
+    pub(super) fn put(&self, local: Vec2, place: Vec2, motions: &mut [Motion]) {
+        motions[self.link].origin = place - motions[self.link].arm(local);
+    }
+
+    /// Gives the sliding link the guide's rotation and its point `local` a velocity.
+    #[inline]
+    pub(super) fn put_velocity(&self, local: Vec2, velocity: Vec2, motions: &mut [Motion]) {
+        let omega = motions[self.base.link].omega;
+        let motion = &mut motions[self.link];
+        motion.omega = omega;
+        motion.velocity = velocity - turned(motion.arm(local)) * omega;
+    }
+
+    /// Gives the sliding link the guide's rotation and its point `local` an acceleration.
+    #[inline]
+    pub(super) fn put_acceleration(&self, local: Vec2, acceleration: Vec2, motions: &mut [Motion]) {
+        let alpha = motions[self.base.link].alpha;
+        let motion = &mut motions[self.link];
+        let arm = motion.arm(local);
+        motion.alpha = alpha;
+        motion.acceleration = acceleration - turned(arm) * alpha + arm * (motion.omega * motion.omega);
+    }
+}

@@ -1,0 +1,183 @@
+//! Kinematics group by group: the driving link, then every Assur group, one file a kind: dyads in closed form, higher groups
+//! by Newton's method on their contours.
+
+mod chain;
+mod guide;
+mod half;
+mod misfit;
+mod pin;
+mod prp;
+mod rpp;
+mod rpr;
+mod rrp;
+mod rrr;
+
+pub use chain::{Chain, Closing, Node};
+pub use misfit::Misfit;
+pub use prp::Prp;
+pub use rpp::Rpp;
+pub use rpr::Rpr;
+pub use rrp::Rrp;
+pub use rrr::Rrr;
+
+use linkage::math::{Motion, Vec2, rotated, turned, unit};
+use linkage::mechanism::{AssemblyMode, GROUND, GroupKind, Mechanism, Structure};
+
+/// Driving link that turns about a joint with the ground, or with a driving link before it.
+#[derive(Clone, Copy, Debug)]
+struct Driver {
+    link: usize,
+    base: usize,
+    /// The joint in the link's own frame, and in that of its base.
+    pivot: Vec2,
+    place: Vec2,
+}
+
+/// An Assur group, ready for solving.
+#[derive(Clone, Debug)]
+pub enum Step {
+    /// RRR dyad.
+    Rrr(Rrr),
+    /// RRP dyad.
+    Rrp(Rrp),
+    /// RPR dyad.
+    Rpr(Rpr),
+    /// RPP dyad.
+    Rpp(Rpp),
+    /// PRP dyad.
+    Prp(Prp),
+    /// Group of more than two links.
+    Chain(Chain),
+}
+
+/// A mechanism made ready for solving pose after pose without allocation.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    drivers: Vec<Driver>,
+    steps: Vec<Step>,
+    /// World angle of the first driving link at the last pose (rad).
+    angle: f64,
+}
+
+/// A group that cannot be placed at some crank angle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OutOfReach {
+    /// Index of the group in [`Structure::groups`].
+    pub group: usize,
+    /// Why.
+    pub why: Misfit,
+}
+
+impl Plan {
+    /// Prepares a mechanism of the given structure in the given assembly modes (one a group).
+    #[must_use]
+    pub fn of(mechanism: &Mechanism, structure: &Structure, modes: &[AssemblyMode]) -> Self {
+        let drivers = structure.drivers.iter().map(|&(link, joint)| {
+            let joint = &mechanism.joints()[joint];
+            let pivot = joint.on(link).expect("the driven joint is on its link");
+            let base = joint.other(link);
+            Driver { link, base: base.link, pivot, place: base.local }
+        });
+        let steps = structure.groups.iter().zip(modes).map(|(group, &mode)| match group.kind {
+            GroupKind::Rrr => Step::Rrr(Rrr::of(mechanism, group, mode)),
+            GroupKind::Rrp => Step::Rrp(Rrp::of(mechanism, group, mode)),
+            GroupKind::Rpr => Step::Rpr(Rpr::of(mechanism, group, mode)),
+            GroupKind::Rpp => Step::Rpp(Rpp::of(mechanism, group)),
+            GroupKind::Prp => Step::Prp(Prp::of(mechanism, group)),
+            GroupKind::Higher => Step::Chain(Chain::of(mechanism, group)),
+        });
+        Plan { drivers: drivers.collect(), steps: steps.collect(), angle: f64::NAN }
+    }
+
+    /// The groups, in the order of [`Structure::groups`].
+    #[must_use]
+    pub fn steps(&self) -> &[Step] {
+        &self.steps
+    }
+
+    /// Whether all groups are placed in closed form; if not, poses must be followed in small steps.
+    #[must_use]
+    pub fn is_closed_form(&self) -> bool {
+        !self.steps.iter().any(|step| matches!(step, Step::Chain(_)))
+    }
+
+    /// Positions of all links for the world angles of the driving links (rad), in the order of [`Structure::drivers`]. Higher groups
+    /// start from the last pose in `motions`.
+    ///
+    /// # Errors
+    /// The first group that cannot be placed.
+    #[inline]
+    pub fn positions(&mut self, angles: &[f64], motions: &mut [Motion]) -> std::result::Result<(), OutOfReach> {
+        let angle = angles[0];
+        for (driver, &angle) in self.drivers.iter().zip(angles) {
+            let direction = unit(angle);
+            let place = if driver.base == GROUND { driver.place } else { motions[driver.base].point(driver.place) };
+            let motion = &mut motions[driver.link];
+            motion.direction = direction;
+            motion.origin = place - rotated(direction, driver.pivot);
+        }
+        for (group, step) in self.steps.iter_mut().enumerate() {
+            let placed = match step {
+                Step::Rrr(dyad) => dyad.positions(motions),
+                Step::Rrp(dyad) => dyad.positions(motions),
+                Step::Rpr(dyad) => dyad.positions(motions),
+                Step::Rpp(dyad) => dyad.positions(motions),
+                Step::Prp(dyad) => dyad.positions(motions),
+                Step::Chain(chain) => match chain.positions(angle - self.angle, motions) {
+                    true => Ok(()),
+                    false => Err(Misfit::Lost),
+                },
+            };
+            placed.map_err(|why| OutOfReach { group, why })?;
+        }
+        self.angle = angle;
+        Ok(())
+    }
+
+    /// Velocities of all links, once their positions are known; `omegas` are the driving links' (rad/s).
+    #[inline]
+    pub fn velocities(&mut self, omegas: &[f64], motions: &mut [Motion]) {
+        for (driver, &omega) in self.drivers.iter().zip(omegas) {
+            let motion = &mut motions[driver.link];
+            motion.omega = omega;
+            motion.velocity = turned(motion.arm(driver.pivot)) * -omega;
+            if driver.base != GROUND {
+                motions[driver.link].velocity += motions[driver.base].point_velocity(driver.place);
+            }
+        }
+        for step in &mut self.steps {
+            match step {
+                Step::Rrr(dyad) => dyad.velocities(motions),
+                Step::Rrp(dyad) => dyad.velocities(motions),
+                Step::Rpr(dyad) => dyad.velocities(motions),
+                Step::Rpp(dyad) => dyad.velocities(motions),
+                Step::Prp(dyad) => dyad.velocities(motions),
+                Step::Chain(chain) => chain.velocities(motions),
+            }
+        }
+    }
+
+    /// Accelerations of all links, once their velocities are known; `alphas` are the driving links' (rad/s^2).
+    #[inline]
+    pub fn accelerations(&mut self, alphas: &[f64], motions: &mut [Motion]) {
+        for (driver, &alpha) in self.drivers.iter().zip(alphas) {
+            let motion = &mut motions[driver.link];
+            let arm = motion.arm(driver.pivot);
+            motion.alpha = alpha;
+            motion.acceleration = arm * (motion.omega * motion.omega) - turned(arm) * alpha;
+            if driver.base != GROUND {
+                motions[driver.link].acceleration += motions[driver.base].point_acceleration(driver.place);
+            }
+        }
+        for step in &mut self.steps {
+            match step {
+                Step::Rrr(dyad) => dyad.accelerations(motions),
+                Step::Rrp(dyad) => dyad.accelerations(motions),
+                Step::Rpr(dyad) => dyad.accelerations(motions),
+                Step::Rpp(dyad) => dyad.accelerations(motions),
+                Step::Prp(dyad) => dyad.accelerations(motions),
+                Step::Chain(chain) => chain.accelerations(motions),
+            }
+        }
+    }
+}

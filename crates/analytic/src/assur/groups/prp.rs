@@ -1,0 +1,83 @@
+//! Dyad of two sliders on one pin: outer prismatic pairs, inner revolute pair (class II, order 2).
+//!
+//! Both links turn with their guides. The inner joint C lies on two lines along the axes e and b: (C1 + s e - C2) x b = 0, where C1 and C2 are
+//! its places on either link at slide zero; and with E1, E2 the points of the guides' links at C,
+//! v_E1 + s' e = v_E2 + t' b and the accelerations with their Coriolis parts. Artobolevsky, "Theory of mechanisms and
+//! machines", kinematics of class II groups of the fourth kind.
+
+use super::guide::Guide;
+use super::misfit::{Misfit, kept_side};
+use linkage::math::{Motion, Vec2, cross, turned};
+use linkage::mechanism::{Group, Mechanism};
+
+/// PRP dyad, ready for solving.
+#[derive(Clone, Copy, Debug)]
+pub struct Prp {
+    guides: [Guide; 2],
+    /// The inner joint in each slider's frame.
+    inner: [Vec2; 2],
+    /// Sign of the sine of the angle between the axes on the branch that is followed; 0 before the first pose.
+    side: f64,
+}
+
+impl Prp {
+    /// Prepares the dyad `group`, which has one configuration.
+    #[must_use]
+    pub fn of(mechanism: &Mechanism, group: &Group) -> Self {
+        let joints = mechanism.joints();
+        let inner = &joints[group.inner[0]];
+        let sliders = [group.links[0], group.links[1]];
+        Prp {
+            guides: [0, 1].map(|k| Guide::of(&joints[group.outer[k]], sliders[k])),
+            inner: sliders.map(|link| inner.on(link).expect("the inner joint is on both links")),
+            side: 0.0,
+        }
+    }
+
+    #[inline]
+    fn axes(&self, motions: &[Motion]) -> [Vec2; 2] {
+        self.guides.map(|guide| guide.axis(motions))
+    }
+
+    #[inline]
+    pub(super) fn positions(&mut self, motions: &mut [Motion]) -> Result<(), Misfit> {
+        self.guides.iter().for_each(|guide| guide.aim(motions));
+        let [e, b] = self.axes(motions);
+        let [from, other] = [0, 1].map(|k| self.guides[k].at_zero(self.inner[k], motions));
+        let sine = cross(b, e);
+        self.side = kept_side(self.side, sine)?;
+        let slide = cross(b, other - from) / sine;
+        for (guide, inner) in self.guides.iter().zip(self.inner) {
+            guide.put(inner, from + e * slide, motions);
+        }
+        Ok(())
+    }
+
+    #[inline]
+    pub(super) fn velocities(&self, motions: &mut [Motion]) {
+        let [e, b] = self.axes(motions);
+        let place = motions[self.guides[0].link].point(self.inner[0]);
+        let [first, second] = self.guides.map(|guide| motions[guide.base.link].velocity_at(place));
+        let velocity = first + e * (cross(b, second - first) / cross(b, e));
+        for (guide, inner) in self.guides.iter().zip(self.inner) {
+            guide.put_velocity(inner, velocity, motions);
+        }
+    }
+
+    #[inline]
+    pub(super) fn accelerations(&self, motions: &mut [Motion]) {
+        let axes = self.axes(motions);
+        let slider = &motions[self.guides[0].link];
+        let (place, velocity) = (slider.point(self.inner[0]), slider.point_velocity(self.inner[0]));
+        let [first, second] = [0, 1].map(|k| {
+            let base = &motions[self.guides[k].base.link];
+            let speed = axes[k].dot(&(velocity - base.velocity_at(place)));
+            base.acceleration_at(place) + turned(axes[k]) * (2.0 * base.omega * speed)
+        });
+        let [e, b] = axes;
+        let acceleration = first + e * (cross(b, second - first) / cross(b, e));
+        for (guide, inner) in self.guides.iter().zip(self.inner) {
+            guide.put_acceleration(inner, acceleration, motions);
+        }
+    }
+}

@@ -1,0 +1,85 @@
+//! Dyad of a swinging guide and a block: outer revolute pairs, inner prismatic pair (class II, order 2).
+//!
+//! With the outer pins P1 (on the pair's first link) and P2, d = P2 - P1 and the axis e with its normal n, d = e s + n h, where h is a
+//! constant of the two links and s = +-sqrt(d^2 - h^2) gives the common direction. d' = s' e + omega x d gives
+//! omega = n . d' / s, s' = e . d' + omega h, and once more alpha = (n . d'' - 2 s' omega + omega^2 h) / s.
+//! Artobolevsky, "Theory of mechanisms and machines", kinematics of class II groups of the third kind.
+
+use super::guide::turn_between;
+use super::misfit::Misfit;
+use super::pin::Pin;
+use linkage::math::{Motion, Vec2, cross, rotated, turned};
+use linkage::mechanism::{AssemblyMode, Group, Mechanism};
+
+/// RPR dyad, ready for solving.
+#[derive(Clone, Copy, Debug)]
+pub struct Rpr {
+    pins: [Pin; 2],
+    /// The axis in the frame of each link.
+    axes: [Vec2; 2],
+    /// Distance of the second pin from the line through the first along the axis, to its left.
+    across: f64,
+    sense: f64,
+}
+
+impl Rpr {
+    /// Prepares the dyad `group` in the assembly mode `mode`.
+    #[must_use]
+    pub fn of(mechanism: &Mechanism, group: &Group, mode: AssemblyMode) -> Self {
+        let joints = mechanism.joints();
+        let inner = &joints[group.inner[0]];
+        let sides = [inner.first, inner.second];
+        let pins = sides.map(|side| {
+            let outer = group.outer_on(mechanism, side.link).expect("each link of a dyad has one outer joint");
+            Pin::of(&joints[outer], side.link)
+        });
+        let axes = sides.map(|side| inner.axis_on(side.link).expect("the inner joint is prismatic"));
+        let off = |k: usize| cross(axes[k], sides[k].local - pins[k].own);
+        let sense = if mode == AssemblyMode::Behind { -1.0 } else { 1.0 };
+        Rpr { pins, axes, across: off(0) - off(1), sense }
+    }
+
+    #[inline]
+    pub(super) fn positions(&self, motions: &mut [Motion]) -> Result<(), Misfit> {
+        let [p1, p2] = self.pins.map(|pin| pin.place(motions));
+        let d = p2 - p1;
+        let squared = d.norm_squared();
+        let along_squared = squared - self.across * self.across;
+        // Pins on one point have no direction: refused by the second condition.
+        if !(along_squared >= 0.0 && squared > 0.0) {
+            return Err(Misfit::Swing { distance: squared.sqrt(), shortest: self.across.abs() });
+        }
+        let local = Vec2::new(self.sense * along_squared.sqrt(), self.across);
+        let axis = turn_between(d, local) / squared;
+        for (pin, own) in self.pins.iter().zip(self.axes) {
+            pin.put(turn_between(axis, own), motions);
+        }
+        Ok(())
+    }
+
+    /// The axis in the world and the distance of the pins along it.
+    #[inline]
+    fn along(&self, motions: &[Motion]) -> (Vec2, f64) {
+        let axis = rotated(motions[self.pins[0].link].direction, self.axes[0]);
+        (axis, axis.dot(&(self.pins[1].place(motions) - self.pins[0].place(motions))))
+    }
+
+    #[inline]
+    pub(super) fn velocities(&self, motions: &mut [Motion]) {
+        let (axis, along) = self.along(motions);
+        let [v1, v2] = self.pins.map(|pin| pin.velocity(motions));
+        let omega = turned(axis).dot(&(v2 - v1)) / along;
+        self.pins.iter().for_each(|pin| pin.put_velocity(omega, motions));
+    }
+
+    #[inline]
+    pub(super) fn accelerations(&self, motions: &mut [Motion]) {
+        let (axis, along) = self.along(motions);
+        let omega = motions[self.pins[0].link].omega;
+        let [v1, v2] = self.pins.map(|pin| pin.velocity(motions));
+        let slide = axis.dot(&(v2 - v1)) + omega * self.across;
+        let [a1, a2] = self.pins.map(|pin| pin.acceleration(motions));
+        let alpha = (turned(axis).dot(&(a2 - a1)) - 2.0 * slide * omega + omega * omega * self.across) / along;
+        self.pins.iter().for_each(|pin| pin.put_acceleration(alpha, motions));
+    }
+}

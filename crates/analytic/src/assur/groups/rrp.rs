@@ -1,0 +1,84 @@
+//! Dyad of a connecting rod and a slider: outer and inner revolute pair, outer prismatic pair (class II, order 2).
+//!
+//! With the outer pin P, the inner joint C, r = C - P, the guide's axis e and its normal n: C lies on a line along e, so that
+//! h = n . r is known and e . r = +-sqrt(l^2 - h^2). From v_P + omega x r = v_E + s' e, where E is the point of the guide's link
+//! at C: omega = n . (v_E - v_P) / (e . r), and with the Coriolis part 2 omega_E s' n
+//! alpha = (n . (a_E - a_P + omega^2 r) + 2 omega_E s') / (e . r). Artobolevsky, "Theory of mechanisms and machines",
+//! kinematics of class II groups of the second kind.
+
+use super::guide::{Guide, turn_between};
+use super::half::of_dyad;
+use super::misfit::Misfit;
+use super::pin::Pin;
+use linkage::math::{Motion, Vec2, turned};
+use linkage::mechanism::{AssemblyMode, Group, Mechanism};
+
+/// RRP dyad, ready for solving.
+#[derive(Clone, Copy, Debug)]
+pub struct Rrp {
+    rod: Pin,
+    /// Vector from the outer pin to the inner joint in the rod's frame.
+    span: Vec2,
+    guide: Guide,
+    /// The inner joint in the slider's frame.
+    inner: Vec2,
+    sense: f64,
+}
+
+impl Rrp {
+    /// Prepares the dyad `group` in the assembly mode `mode`.
+    #[must_use]
+    pub fn of(mechanism: &Mechanism, group: &Group, mode: AssemblyMode) -> Self {
+        let [slider, rod] = of_dyad(mechanism, group, |outer, _| outer.is_prismatic());
+        let inner = &mechanism.joints()[group.inner[0]];
+        let on = |link: usize| inner.on(link).expect("the inner joint is on both links");
+        let pin = Pin::of(rod.outer, rod.link);
+        Rrp {
+            rod: pin,
+            span: on(rod.link) - pin.own,
+            guide: Guide::of(slider.outer, slider.link),
+            inner: on(slider.link),
+            sense: if mode == AssemblyMode::Behind { -1.0 } else { 1.0 },
+        }
+    }
+
+    #[inline]
+    pub(super) fn positions(&self, motions: &mut [Motion]) -> Result<(), Misfit> {
+        self.guide.aim(motions);
+        let axis = self.guide.axis(motions);
+        let pin = self.rod.place(motions);
+        let across = turned(axis).dot(&(self.guide.at_zero(self.inner, motions) - pin));
+        let squared = self.span.norm_squared();
+        let along_squared = squared - across * across;
+        if !(along_squared >= 0.0) {
+            return Err(Misfit::Guide { distance: across.abs(), length: squared.sqrt() });
+        }
+        let r = axis * (self.sense * along_squared.sqrt()) + turned(axis) * across;
+        self.rod.put(turn_between(r, self.span) / squared, motions);
+        self.guide.put(self.inner, pin + r, motions);
+        Ok(())
+    }
+
+    #[inline]
+    pub(super) fn velocities(&self, motions: &mut [Motion]) {
+        let (axis, r) = (self.guide.axis(motions), motions[self.rod.link].arm(self.span));
+        let pin = self.rod.velocity(motions);
+        let guided = motions[self.guide.base.link].velocity_at(self.rod.place(motions) + r);
+        let omega = turned(axis).dot(&(guided - pin)) / axis.dot(&r);
+        self.rod.put_velocity(omega, motions);
+        self.guide.put_velocity(self.inner, pin + turned(r) * omega, motions);
+    }
+
+    #[inline]
+    pub(super) fn accelerations(&self, motions: &mut [Motion]) {
+        let (axis, r) = (self.guide.axis(motions), motions[self.rod.link].arm(self.span));
+        let (base, place) = (&motions[self.guide.base.link], self.rod.place(motions) + r);
+        let slide = axis.dot(&(motions[self.guide.link].point_velocity(self.inner) - base.velocity_at(place)));
+        let pin = self.rod.acceleration(motions);
+        let centripetal = r * motions[self.rod.link].omega.powi(2);
+        let normal = turned(axis).dot(&(base.acceleration_at(place) - pin + centripetal));
+        let alpha = (normal + 2.0 * base.omega * slide) / axis.dot(&r);
+        self.rod.put_acceleration(alpha, motions);
+        self.guide.put_acceleration(self.inner, pin + turned(r) * alpha - centripetal, motions);
+    }
+}

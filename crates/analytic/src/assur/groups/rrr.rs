@@ -1,0 +1,125 @@
+//! Dyad with three revolute pairs (class II, order 2): closed form of position, velocity and acceleration.
+//!
+//! With the outer joints P1, P2, the inner joint P3, r1 = P3 - P1, r2 = P3 - P2 and D = r1 x r2:
+//! r1 = d f + (z x d) h with d = P2 - P1, f = (l1^2 - l2^2 + d^2) / 2 d^2, h = +-sqrt(l1^2 / d^2 - f^2);
+//! omega1 = (v2 - v1) . r2 / D, omega2 = (v2 - v1) . r1 / D from v1 + omega1 x r1 = v2 + omega2 x r2, and the same with
+//! the accelerations less their centripetal parts. Follows from the vector contour of the group, for example Artobolevsky,
+//! "Theory of mechanisms and machines", chapter on the kinematics of class II groups.
+
+use super::misfit::Misfit;
+use linkage::math::{Motion, Vec2, cross, turned};
+use linkage::mechanism::{AssemblyMode, Group, Mechanism, Side};
+
+/// One of the two links of a dyad.
+#[derive(Clone, Copy, Debug)]
+struct Arm {
+    link: usize,
+    /// The outer joint on the link that is already known.
+    base: Side,
+    /// The outer joint in the link's own frame.
+    outer: Vec2,
+    /// Vector from outer to inner joint in the link's own frame, divided by the square of its length (1/m).
+    inverse_span: Vec2,
+}
+
+/// RRR dyad, ready for solving.
+#[derive(Clone, Copy, Debug)]
+pub struct Rrr {
+    arms: [Arm; 2],
+    squared: [f64; 2],
+    side: f64,
+    /// World vectors from the origins of the known links to the outer joints (m).
+    bases: [Vec2; 2],
+    /// World vectors from the origins of the dyad's own links to the outer joints (m).
+    outers: [Vec2; 2],
+    /// World vectors from the outer joints to the inner one, r1 and r2 (m).
+    spans: [Vec2; 2],
+    /// 1 / D (1/m^2).
+    inverse: f64,
+}
+
+impl Rrr {
+    /// Prepares the dyad `group` in the assembly mode `mode`.
+    #[must_use]
+    pub fn of(mechanism: &Mechanism, group: &Group, mode: AssemblyMode) -> Self {
+        let on = |joint: usize, link: usize| mechanism.joints()[joint].on(link).expect("the joint is on the link");
+        let spans = [0, 1].map(|k| on(group.inner[0], group.links[k]) - on(group.outer[k], group.links[k]));
+        let squared = spans.map(|span| span.norm_squared());
+        let arms = [0, 1].map(|k| Arm {
+            link: group.links[k],
+            base: mechanism.joints()[group.outer[k]].other(group.links[k]),
+            outer: on(group.outer[k], group.links[k]),
+            inverse_span: spans[k] / squared[k],
+        });
+        Rrr {
+            arms,
+            squared,
+            side: if mode == AssemblyMode::Right { -1.0 } else { 1.0 },
+            bases: [Vec2::zeros(); 2],
+            outers: [Vec2::zeros(); 2],
+            spans: [Vec2::zeros(); 2],
+            inverse: f64::NAN,
+        }
+    }
+
+    /// World vectors from the outer joints of the group's first and second link to the inner one (m), and the inverse of their vector
+    /// product (1/m^2), once positions and velocities are known.
+    #[inline]
+    #[must_use]
+    pub fn spans(&self) -> ([Vec2; 2], f64) {
+        (self.spans, self.inverse)
+    }
+
+    #[inline]
+    pub(super) fn positions(&mut self, motions: &mut [Motion]) -> Result<(), Misfit> {
+        self.bases = self.arms.map(|arm| motions[arm.base.link].arm(arm.base.local));
+        let [p1, p2] = [0, 1].map(|k| motions[self.arms[k].base.link].origin + self.bases[k]);
+        let d = p2 - p1;
+        let d_squared = d.norm_squared();
+        let along = 0.5 * (self.squared[0] - self.squared[1] + d_squared) / d_squared;
+        let across_squared = self.squared[0] / d_squared - along * along;
+        // Written so that NaN (outer joints on one point) is refused too.
+        if !(across_squared >= 0.0) {
+            let [l1, l2] = self.squared.map(f64::sqrt);
+            return Err(Misfit::Span { distance: d_squared.sqrt(), reach: [(l1 - l2).abs(), l1 + l2] });
+        }
+        let r1 = d * along + turned(d) * (self.side * across_squared.sqrt());
+        self.spans = [r1, r1 - d];
+        for (k, (pivot, r)) in [p1, p2].into_iter().zip(self.spans).enumerate() {
+            let Arm { link, outer, inverse_span, .. } = self.arms[k];
+            let motion = &mut motions[link];
+            // Quotient of the world and the body vector as complex numbers: the direction of the frame.
+            motion.direction = Vec2::new(inverse_span.dot(&r), cross(inverse_span, r));
+            self.outers[k] = motion.arm(outer);
+            motion.origin = pivot - self.outers[k];
+        }
+        Ok(())
+    }
+
+    #[inline]
+    pub(super) fn velocities(&mut self, motions: &mut [Motion]) {
+        let [r1, r2] = self.spans;
+        self.inverse = 1.0 / cross(r1, r2);
+        let [v1, v2] = [0, 1].map(|k| motions[self.arms[k].base.link].velocity_beyond(self.bases[k]));
+        let quotient = (v2 - v1) * self.inverse;
+        for (k, (v, omega)) in [(v1, quotient.dot(&r2)), (v2, quotient.dot(&r1))].into_iter().enumerate() {
+            let motion = &mut motions[self.arms[k].link];
+            motion.omega = omega;
+            motion.velocity = v - turned(self.outers[k]) * omega;
+        }
+    }
+
+    #[inline]
+    pub(super) fn accelerations(&self, motions: &mut [Motion]) {
+        let [r1, r2] = self.spans;
+        let [a1, a2] = [0, 1].map(|k| motions[self.arms[k].base.link].acceleration_beyond(self.bases[k]));
+        let [w1, w2] = self.arms.map(|arm| motions[arm.link].omega);
+        let quotient = ((a2 - r2 * (w2 * w2)) - (a1 - r1 * (w1 * w1))) * self.inverse;
+        for (k, (a, alpha)) in [(a1, quotient.dot(&r2)), (a2, quotient.dot(&r1))].into_iter().enumerate() {
+            let motion = &mut motions[self.arms[k].link];
+            let outer = self.outers[k];
+            motion.alpha = alpha;
+            motion.acceleration = a - turned(outer) * alpha + outer * (motion.omega * motion.omega);
+        }
+    }
+}

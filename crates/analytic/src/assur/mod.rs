@@ -1,0 +1,11 @@
+//! Side 1: group by group, forwards for the motion and backwards for the forces; dyads in closed form.
+
+#[cfg(feature = "batch")]
+pub mod batch;
+mod forces;
+pub mod groups;
+mod pose_solver;
+pub(crate) mod transfer;
+mod turns;
+
+pub use pose_solver::PoseSolver;

@@ -1,0 +1,198 @@
+//! Pose after pose by Assur groups: the part of side 1 that is fast.
+
+use super::forces::Kinetostatics;
+use super::turns::Turns;
+use crate::assur::groups::{Misfit, OutOfReach, Plan};
+use crate::range;
+use linkage::case::Case;
+use linkage::drive::Load;
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::solver::State;
+use linkage::trajectory::Stage;
+
+/// Crank angle between two poses (rad) over which no link turns so far that its turns could be miscounted.
+const CLOSED_FORM_STEP: f64 = std::f64::consts::PI / 12.0;
+/// The same where a group is followed by Newton's method from pose to pose.
+const FOLLOWED_STEP: f64 = std::f64::consts::PI / 90.0;
+/// How often a step that fails is halved: down to a millionth of it.
+const HALVINGS: u32 = 20;
+
+/// Goes from crank angle to crank angle on one branch and solves the pose there, without allocation.
+#[derive(Debug)]
+pub struct PoseSolver<'a> {
+    case: &'a Case,
+    plan: Plan,
+    statics: Kinetostatics,
+    state: State,
+    /// Turns of the links, where somebody or a load asks for their angles.
+    turns: Option<Turns>,
+    /// Angles, angular velocities or accelerations of all driving links, as each stage needs them.
+    inputs: Vec<f64>,
+    crank: f64,
+    step: f64,
+}
+
+impl<'a> PoseSolver<'a> {
+    /// At the start pose of the case, which fixes the branch.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Geometry`] if the start pose is a singular one.
+    pub fn new(case: &'a Case) -> Result<Self> {
+        let plan = Plan::of(&case.mechanism, &case.structure, &case.modes);
+        let step = if plan.is_closed_form() { CLOSED_FORM_STEP } else { FOLLOWED_STEP };
+        let (statics, state) = (Kinetostatics::of(case, &plan), State::at_start(case));
+        let inputs = vec![0.0; case.drives().count()];
+        let mut solver = PoseSolver { case, plan, statics, state, turns: None, inputs, crank: case.drive.start, step };
+        solver.step_to(case.drive.start, 0)?;
+        if case.loads.iter().any(Load::needs_angles) {
+            solver.turns = Some(Turns::from(&case.start, &solver.state.motions));
+        }
+        Ok(solver)
+    }
+
+    /// The same, and counts the turns of all links on the way.
+    ///
+    /// # Errors
+    /// Those of [`PoseSolver::new`].
+    pub fn counting_turns(case: &'a Case) -> Result<Self> {
+        let mut solver = PoseSolver::new(case)?;
+        solver.turns = Some(Turns::from(&case.start, &solver.state.motions));
+        Ok(solver)
+    }
+
+    /// The state at the crank angle `crank` (rad, as the scenario states it) for the crank's angular velocity `omega` (rad/s)
+    /// and acceleration `alpha` (rad/s^2), to which further drives are geared as at that instant, computed as far as `deepest`; what lies beyond is left from before, and so are the angles:
+    /// see [`PoseSolver::with_angles`].
+    ///
+    /// # Errors
+    /// [`ErrorKind::Geometry`] if the crank angle cannot be reached on the branch, with the group and the angle at which it fails.
+    #[inline]
+    pub fn solve(&mut self, crank: f64, omega: f64, alpha: f64, deepest: Stage) -> Result<&State> {
+        self.go_to(crank)?;
+        if deepest >= Stage::Velocities {
+            self.drive(omega);
+            self.plan.velocities(&self.inputs, &mut self.state.motions);
+        }
+        if deepest >= Stage::Accelerations {
+            self.drive(alpha);
+            self.plan.accelerations(&self.inputs, &mut self.state.motions);
+        }
+        if deepest >= Stage::Reactions {
+            if self.turns.is_some() && !self.case.loads.is_empty() {
+                self.with_angles();
+            }
+            self.statics.solve(self.case, &self.plan, &mut self.state);
+        }
+        Ok(&self.state)
+    }
+
+    /// Places the mechanism at the crank angle `target`, in small steps from where it is.
+    #[inline]
+    fn go_to(&mut self, target: f64) -> Result<()> {
+        if (target - self.crank).abs() <= self.step && self.place(target).is_ok() {
+            return Ok(());
+        }
+        self.go_far_to(target)
+    }
+
+    /// The same where one step does not do.
+    #[cold]
+    fn go_far_to(&mut self, target: f64) -> Result<()> {
+        let from = self.crank;
+        let parts = ((target - from).abs() / self.step).ceil();
+        for part in 1..parts as usize {
+            self.step_to(from + (target - from) * (part as f64 / parts), HALVINGS)?;
+        }
+        self.step_to(target, HALVINGS)
+    }
+
+    /// World angles of all driving links at a crank angle into the inputs.
+    #[inline]
+    fn turn(&mut self, crank: f64) {
+        let (first, further) = self.inputs.split_first_mut().expect("there is a drive");
+        *first = self.case.drive.world_angle(crank);
+        if !further.is_empty() {
+            let t = self.case.drive.time_of(crank);
+            for (angle, drive) in further.iter_mut().zip(&self.case.further_drives) {
+                *angle = drive.world_angle(drive.at(t).angle);
+            }
+        }
+    }
+
+    /// The crank's `rate` and those of further driving links, which are geared to it, into the inputs.
+    #[inline]
+    fn drive(&mut self, rate: f64) {
+        let (first, further) = self.inputs.split_first_mut().expect("there is a drive");
+        *first = rate;
+        if !further.is_empty() {
+            let ratios = self.case.ratios(self.case.drive.time_of(self.crank));
+            further.iter_mut().zip(ratios.skip(1)).for_each(|(own, ratio)| *own = rate * ratio);
+        }
+    }
+
+    /// One step as a whole.
+    #[inline]
+    fn place(&mut self, target: f64) -> std::result::Result<(), OutOfReach> {
+        self.turn(target);
+        self.plan.positions(&self.inputs, &mut self.state.motions)?;
+        self.crank = target;
+        if let Some(turns) = &mut self.turns {
+            turns.count(&self.state.motions);
+        }
+        Ok(())
+    }
+
+    /// One step; where a group cannot be followed over it, two of half the size.
+    fn step_to(&mut self, target: f64, halvings: u32) -> Result<()> {
+        match self.place(target) {
+            Ok(()) => Ok(()),
+            Err(OutOfReach { why: Misfit::Lost, .. }) if halvings > 0 => {
+                self.step_to((self.crank + target) / 2.0, halvings - 1)?;
+                self.step_to(target, halvings - 1)
+            }
+            Err(reach) => Err(self.unreachable(target, reach)),
+        }
+    }
+
+    /// The last state with its links' angles (rad): turns kept if they are [counted](PoseSolver::counting_turns), else as they were at the
+    /// start of the case.
+    pub fn with_angles(&mut self) -> &State {
+        if let Some(turns) = &self.turns {
+            self.state.angles.iter_mut().zip(turns.angles()).for_each(|(angle, found)| *angle = found);
+        }
+        self.turn(self.crank);
+        for (drive, &angle) in self.case.drives().zip(&self.inputs) {
+            self.state.angles[drive.link] = angle;
+        }
+        &self.state
+    }
+
+    /// The last state, with its links' angles if they are asked for: see [`PoseSolver::with_angles`].
+    pub(crate) fn last(&mut self, angles: bool) -> &State {
+        if angles { self.with_angles() } else { &self.state }
+    }
+
+    fn unreachable(&self, crank: f64, reach: OutOfReach) -> Error {
+        let group = self.case.structure.groups[reach.group].names(&self.case.mechanism);
+        let crank = crank.to_degrees();
+        let assembled = format!("the group ({group}) cannot be assembled at crank angle {crank:.4} deg");
+        let message = match reach.why {
+            Misfit::Span { distance, reach: [shortest, longest] } => format!(
+                "{assembled}: its outer joints are {distance:.6} m apart, its links span {shortest:.6} to {longest:.6} m"
+            ),
+            Misfit::Guide { distance, length } => format!(
+                "{assembled}: its rod is {length:.6} m long, its outer pin {distance:.6} m from the line on which the other end slides"
+            ),
+            Misfit::Swing { distance, shortest } => format!(
+                "{assembled}: its outer pins are {distance:.6} m apart, its slider holds them at least {shortest:.6} m apart"
+            ),
+            Misfit::Parallel => format!("{assembled}: its two axes are parallel there"),
+            Misfit::Lost => format!(
+                "the group ({group}) cannot be followed beyond crank angle {crank:.4} deg: it has a dead point there"
+            ),
+        };
+        let error = Error::new(ErrorKind::Geometry, message)
+            .help("shorten the grid to the crank angles that can be reached, or check the lengths");
+        range::explained(self.case, &error)
+    }
+}

@@ -1,0 +1,196 @@
+//! Side 1 for several freedoms: Jourdain's principle with the transfer functions of every driving link, group by group.
+//!
+//! With the first transfer functions v_j, w_j of a link's mass centre and angle for driving link j alone, A_ij = sum of m v_i . v_j + J w_i w_j, and
+//! A alpha = T + sum of v_i . (F - m a0) + w_i (M - J alpha0), where a0, alpha0 are the accelerations that are left when no free driving link accelerates.
+
+use super::forces::Kinetostatics;
+use super::turns::Turns;
+use crate::assur::groups::Plan;
+use crate::motion::march::SETTING_OFF;
+use crate::motion::side::{Held, Inputs, Side, embed, loads_held};
+use linkage::case::Case;
+use linkage::drive::Wrench;
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::dense::Lu;
+use linkage::math::{KeepNan, Vec2};
+use linkage::mechanism::GROUND;
+use linkage::solver::State;
+use linkage::trajectory::Stage;
+
+/// A driving link turns at most this much (rad) between two poses, so that no link's turns are miscounted.
+const STEP: f64 = std::f64::consts::PI / 12.0;
+
+/// The equations of motion of a case by its Assur groups.
+pub(crate) struct TransferSide<'a> {
+    case: &'a Case,
+    plan: Plan,
+    statics: Kinetostatics,
+    state: State,
+    turns: Turns,
+    /// Angles of the driving links at the last pose.
+    at: Vec<f64>,
+    target: Vec<f64>,
+    unit: Vec<f64>,
+    /// Numbers of the free drives.
+    free: Vec<usize>,
+    /// First transfer functions of every link's mass centre and angle, link by link, for one free driving link after the other.
+    transfer: Vec<(Vec2, f64)>,
+    matrix: Lu,
+    right: Vec<f64>,
+    loads: Vec<Wrench>,
+}
+
+impl<'a> TransferSide<'a> {
+    /// At the start pose of a case.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Unsupported`] for mechanisms with groups of more than two links; [`ErrorKind::Geometry`] if the start pose is singular.
+    pub(crate) fn new(case: &'a Case) -> Result<Self> {
+        let plan = Plan::of(&case.mechanism, &case.structure, &case.modes);
+        if !plan.is_closed_form() {
+            let message = "side \"assur\" solves the free motion of several freedoms with dyads only, but the mechanism has a larger group";
+            return Err(Error::new(ErrorKind::Unsupported, message).help("take side \"newton\": --reference newton"));
+        }
+        let (statics, state) = (Kinetostatics::of(case, &plan), State::at_start(case));
+        let free: Vec<usize> = case.free_drives().map(|(index, _)| index).collect();
+        let at: Vec<f64> = case.drives().map(|drive| drive.world_angle(drive.start)).collect();
+        let turns = Turns::from(&case.start, &state.motions);
+        let mut side = TransferSide {
+            case,
+            plan,
+            statics,
+            state,
+            turns,
+            target: at.clone(),
+            unit: vec![0.0; at.len()],
+            at,
+            transfer: vec![(Vec2::zeros(), 0.0); free.len() * case.mechanism.links().len()],
+            matrix: Lu::new(free.len()),
+            right: vec![0.0; free.len()],
+            free,
+            loads: vec![Wrench::ZERO; case.mechanism.links().len()],
+        };
+        side.place()?;
+        Ok(side)
+    }
+
+    /// Places the mechanism at the target angles.
+    fn place(&mut self) -> Result<()> {
+        self.plan.positions(&self.target, &mut self.state.motions).map_err(|reach| {
+            let group = self.case.structure.groups[reach.group].names(&self.case.mechanism);
+            let crank = (self.target[0] - self.case.drive.zero).to_degrees();
+            Error::new(
+                ErrorKind::Geometry,
+                format!("the group ({group}) cannot be assembled at crank angle {crank:.4} deg"),
+            )
+            .help("let the grid end before the motion comes there")
+        })?;
+        self.turns.count(&self.state.motions);
+        Ok(())
+    }
+
+    fn go_to(&mut self, angles: &[f64]) -> Result<()> {
+        let farthest = self.at.iter().zip(angles).fold(0.0f64, |most, (a, b)| most.larger((b - a).abs()));
+        let parts = (farthest / STEP).ceil().larger(1.0);
+        for part in 1..=parts as usize {
+            let share = part as f64 / parts;
+            for ((target, &from), &to) in self.target.iter_mut().zip(&self.at).zip(angles) {
+                *target = if share < 1.0 { from + (to - from) * share } else { to };
+            }
+            self.place()?;
+        }
+        self.at.copy_from_slice(angles);
+        Ok(())
+    }
+
+    /// Angles of all links, turns kept.
+    fn find_angles(&mut self, driving: &[f64]) {
+        self.state.angles.iter_mut().zip(self.turns.angles()).for_each(|(angle, found)| *angle = found);
+        for (drive, &angle) in self.case.drives().zip(driving) {
+            self.state.angles[drive.link] = angle;
+        }
+    }
+
+    fn find_transfer(&mut self) {
+        let links = self.case.mechanism.links();
+        for (k, &index) in self.free.iter().enumerate() {
+            self.unit.fill(0.0);
+            self.unit[index] = 1.0;
+            self.plan.velocities(&self.unit, &mut self.state.motions);
+            for (link, body) in links.iter().enumerate() {
+                let motion = &self.state.motions[link];
+                self.transfer[k * links.len() + link] = (motion.point_velocity(body.mass_centre), motion.omega);
+            }
+        }
+    }
+}
+
+impl Side for TransferSide<'_> {
+    fn accelerate(&mut self, inputs: &mut Inputs, held: &Held) -> Result<()> {
+        self.go_to(&inputs.angles)?;
+        self.find_transfer();
+        for &index in &self.free {
+            inputs.accelerations[index] = 0.0;
+        }
+        self.plan.velocities(&inputs.speeds, &mut self.state.motions);
+        self.plan.accelerations(&inputs.accelerations, &mut self.state.motions);
+        if !self.case.loads.is_empty() {
+            self.find_angles(&inputs.angles);
+            loads_held(self.case, &self.state.motions, &self.state.angles, &held.senses, &mut self.loads);
+        }
+        let links = self.case.mechanism.links();
+        self.matrix.clear();
+        for i in 0..self.free.len() {
+            let of_i = &self.transfer[i * links.len()..][..links.len()];
+            let mut right = 0.0;
+            for (link, body) in links.iter().enumerate().filter(|&(link, _)| link != GROUND) {
+                let motion = &self.state.motions[link];
+                let (velocity, omega) = of_i[link];
+                let force = (self.case.gravity - motion.point_acceleration(body.mass_centre)) * body.mass;
+                let load = self.loads[link];
+                right += velocity.dot(&(force + load.force)) + omega * (load.moment - body.inertia * motion.alpha);
+                for j in 0..self.free.len() {
+                    let (other, spin) = self.transfer[j * links.len() + link];
+                    self.matrix.add(i, j, body.mass * velocity.dot(&other) + body.inertia * omega * spin);
+                }
+            }
+            if self.free[i] == 0 {
+                right += held.motor;
+                self.matrix.add(i, i, held.added);
+            }
+            self.right[i] = right;
+        }
+        embed(&mut self.matrix, &mut self.right, &self.free, inputs)?;
+        self.plan.accelerations(&inputs.accelerations, &mut self.state.motions);
+        Ok(())
+    }
+
+    fn spin(&mut self, inputs: &Inputs, link: usize) -> Result<f64> {
+        self.go_to(&inputs.angles)?;
+        self.plan.velocities(&inputs.speeds, &mut self.state.motions);
+        Ok(self.state.motions[link].omega)
+    }
+
+    fn link_rates(&self, link: usize) -> [f64; 2] {
+        let motion = &self.state.motions[link];
+        [motion.omega, motion.alpha]
+    }
+
+    fn fill(&mut self, inputs: &Inputs, state: &mut State) -> Result<()> {
+        self.find_angles(&inputs.angles);
+        if self.case.wanted.deepest() >= Stage::Reactions {
+            // At the very moment of setting off, loads act against the motion that begins.
+            let setting_off = inputs.speeds.iter().all(|&speed| speed == 0.0);
+            if setting_off {
+                let begun: Vec<f64> = inputs.accelerations.iter().map(|alpha| SETTING_OFF.copysign(*alpha)).collect();
+                self.plan.velocities(&begun, &mut self.state.motions);
+            }
+            self.statics.solve(self.case, &self.plan, &mut self.state);
+            if setting_off {
+                self.plan.velocities(&inputs.speeds, &mut self.state.motions);
+            }
+        }
+        state.clone_from(&self.state);
+        Ok(())
+    }
+}

@@ -1,0 +1,31 @@
+//! The analytic side: two solvers that share nothing but the mechanism and small mathematics.
+//!
+//! Side 1 ([`assur`]) goes group by group, side 2 ([`newton`]) takes the whole mechanism at once.
+
+pub mod assur;
+mod assur_solver;
+pub mod modes;
+pub mod motion;
+pub mod newton;
+pub mod range;
+pub mod reduced;
+pub mod steady;
+pub mod witness;
+
+pub use assur::PoseSolver;
+pub use assur_solver::AssurSolver;
+pub use newton::NewtonSolver;
+
+use linkage::solver::Solver;
+
+/// The analytic solvers, the default first.
+#[must_use]
+pub fn all() -> [&'static dyn Solver; 2] {
+    [&AssurSolver, &NewtonSolver]
+}
+
+/// The analytic solver called `name`.
+#[must_use]
+pub fn named(name: &str) -> Option<&'static dyn Solver> {
+    all().into_iter().find(|solver| solver.name() == name)
+}

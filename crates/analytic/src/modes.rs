@@ -1,0 +1,90 @@
+//! All real configurations of every group at one crank angle.
+
+use super::range::is_singular;
+use crate::PoseSolver;
+use crate::assur::groups::Plan;
+use linkage::case::Case;
+use linkage::error::{ErrorKind, Result};
+use linkage::math::unit;
+use linkage::mechanism::assembly::{Configuration, configurations};
+use linkage::mechanism::{AssemblyMode, LinkPose, Pose, Structure};
+use linkage::trajectory::Stage;
+
+/// One real configuration of a group.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mode {
+    /// Its assembly mode.
+    pub mode: AssemblyMode,
+    /// Pose of each link of the group, in the order of its links.
+    pub poses: Vec<LinkPose>,
+    /// Angular velocity of each link (rad/s); `None` in a singular configuration, where none is determined.
+    pub omegas: Option<Vec<f64>>,
+    /// Whether it is the one that the case follows.
+    pub is_followed: bool,
+}
+
+/// What is known of one group's real configurations.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Modes {
+    /// Its configurations; the followed one alone if not all are known.
+    pub modes: Vec<Mode>,
+    /// Why not all are known, for groups of more than four links; `None` if these are all there are.
+    pub unknown: Option<String>,
+}
+
+/// The real configurations of every group (in the order of the structure) at the crank angle `crank` (rad, as the scenario states
+/// it), each group hung on the links before it as the case follows them.
+///
+/// # Errors
+/// [`ErrorKind::Geometry`] if the crank angle cannot be reached on the case's branch.
+pub fn all(case: &Case, crank: f64) -> Result<Vec<Modes>> {
+    let mechanism = &case.mechanism;
+    let mut poses = PoseSolver::counting_turns(case)?;
+    let t = case.drive.time_of(crank);
+    let omega = if case.is_steady() { case.drive.at(t).omega } else { case.drive.top_speed() };
+    let (angles, omegas) = (case.drive_angles(crank), case.ratios(t).map(|ratio| ratio * omega).collect::<Vec<f64>>());
+    poses.solve(crank, omega, 0.0, Stage::Velocities)?;
+    let state = poses.with_angles().clone();
+    let followed: Vec<LinkPose> =
+        state.motions.iter().zip(&state.angles).map(|(m, &angle)| LinkPose { origin: m.origin, angle }).collect();
+    let pose = Pose(followed);
+    let mut groups = Vec::with_capacity(case.structure.groups.len());
+    for (index, group) in case.structure.groups.iter().enumerate() {
+        let part = Structure { groups: case.structure.groups[..=index].to_vec(), ..case.structure.clone() };
+        let mut modes = Vec::new();
+        let (found, unknown) = match configurations(mechanism, group, &pose) {
+            Ok(found) => (found, None),
+            Err(error) if error.kind() == ErrorKind::Unsupported => {
+                let links = group.links.iter().map(|&link| pose.0[link]).collect();
+                (vec![Configuration { mode: case.modes[index], links }], Some(error.message().to_string()))
+            }
+            Err(error) => return Err(error),
+        };
+        for one in found {
+            let mut motions = state.motions.clone();
+            for (&link, place) in group.links.iter().zip(&one.links) {
+                motions[link].origin = place.origin;
+                motions[link].direction = unit(place.angle);
+            }
+            let mut chosen = case.modes[..=index].to_vec();
+            chosen[index] = one.mode;
+            let mut plan = Plan::of(mechanism, &part, &chosen);
+            // The configurations are exact: solving them again only prepares the velocities.
+            let solved = plan.positions(&angles, &mut motions).is_ok();
+            let mut placed = pose.clone();
+            for (&link, place) in group.links.iter().zip(&one.links) {
+                placed.0[link] = *place;
+            }
+            let omegas = (solved && !is_singular(mechanism, group, &placed)).then(|| {
+                plan.velocities(&omegas, &mut motions);
+                group.links.iter().map(|&link| motions[link].omega).collect()
+            });
+            let near =
+                |(&link, place): (&usize, &LinkPose)| (unit(place.angle) - state.motions[link].direction).norm() < 1e-9;
+            let is_followed = group.links.iter().zip(&one.links).all(near);
+            modes.push(Mode { mode: one.mode, poses: one.links, omegas, is_followed });
+        }
+        groups.push(Modes { modes, unknown });
+    }
+    Ok(groups)
+}

@@ -1,0 +1,235 @@
+//! The pieces of a free motion: what is held in each, and where it ends.
+
+use std::cell::{Cell, RefCell};
+
+use differential_equations::ode::ODE;
+
+use super::march::{Flow, Place};
+use super::side::{Held, Inputs, Side};
+use linkage::case::Case;
+use linkage::drive::Branch;
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::solver::State;
+
+/// Farthest that a driving link may turn within a step (rad). A first try of a step may lead anywhere; it is to be refused, not followed.
+const FARTHEST: f64 = std::f64::consts::PI;
+/// Bounds of the motor's piece, which follow those of the loads: too fast, too slow.
+const OF_MOTOR: usize = 2;
+/// The first of them.
+const TOO_FAST: usize = 0;
+
+/// Angles and speeds of the free driving links at t = 0: first all angles in the world, then all speeds.
+pub(super) fn start<const N: usize>(case: &Case) -> [f64; N] {
+    let mut y = [0.0; N];
+    for (k, (_, drive)) in case.free_drives().enumerate() {
+        (y[k], y[N / 2 + k]) = (drive.world_angle(drive.start), drive.initial_speed());
+    }
+    y
+}
+
+/// A motion in pieces: first-order equations of the free driving links' angles and speeds.
+pub(super) struct Pieces<'a, const N: usize> {
+    case: &'a Case,
+    work: RefCell<Work<'a>>,
+    /// Loads that ask for the sense of a link's rotation, with that link.
+    sensed: Vec<(usize, usize)>,
+    branch: Cell<Option<Branch>>,
+    origin: Cell<[f64; N]>,
+}
+
+/// What an evaluation works with.
+struct Work<'a> {
+    side: &'a mut dyn Side,
+    inputs: Inputs,
+    held: Held,
+    fault: Option<Error>,
+}
+
+impl<'a, const N: usize> Pieces<'a, N> {
+    pub(super) fn new(case: &'a Case, side: &'a mut dyn Side) -> Self {
+        let drives = case.drives().count();
+        let zeros = || vec![0.0; drives];
+        let held = Held { motor: 0.0, added: case.inertia_on_free_crank(), senses: vec![0.0; case.loads.len()] };
+        let sensed = case.loads.iter().enumerate().filter_map(|(index, load)| Some((index, load.sensed_link()?)));
+        let inputs = Inputs { angles: zeros(), speeds: zeros(), accelerations: zeros() };
+        Pieces {
+            case,
+            work: RefCell::new(Work { side, inputs, held, fault: None }),
+            sensed: sensed.collect(),
+            branch: Cell::new(None),
+            origin: Cell::new(start(case)),
+        }
+    }
+
+    /// The driving links at time `t` in the state `y`.
+    fn put(&self, inputs: &mut Inputs, t: f64, y: &[f64; N]) {
+        let mut free = 0;
+        for (index, drive) in self.case.drives().enumerate() {
+            if drive.free.is_some() {
+                (inputs.angles[index], inputs.speeds[index]) = (y[free], y[N / 2 + free]);
+                free += 1;
+            } else {
+                let state = drive.at(t);
+                inputs.angles[index] = drive.world_angle(state.angle);
+                (inputs.speeds[index], inputs.accelerations[index]) = (state.omega, state.alpha);
+            }
+        }
+    }
+
+    /// Moment of the motor on the crank (N m), counter-clockwise positive.
+    fn motor_moment(&self, y: &[f64; N]) -> f64 {
+        self.branch.get().map_or(0.0, |branch| self.case.drive.sense() * branch.moment(self.crank_speed(y)))
+    }
+
+    /// Accelerations of the driving links, left in the inputs of `work`.
+    fn accelerate(&self, work: &mut Work, t: f64, y: &[f64; N]) -> Result<()> {
+        self.put(&mut work.inputs, t, y);
+        work.held.motor = self.motor_moment(y);
+        work.side.accelerate(&mut work.inputs, &work.held)
+    }
+
+    /// The whole state.
+    pub(super) fn fill(&self, t: f64, y: &[f64; N], state: &mut State) -> Result<()> {
+        let work = &mut *self.work.borrow_mut();
+        self.accelerate(work, t, y)?;
+        work.side.fill(&work.inputs, state)
+    }
+
+    /// Chooses the senses and the motor's branch with which the motion goes on from where it is: at its beginning, or after it has come to a bound.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Numeric`] where a resistance holds a link at rest, and those of the side.
+    pub(super) fn enter(&self, place: &mut Place<N>, bound: Option<usize>) -> Result<()> {
+        let work = &mut *self.work.borrow_mut();
+        let stood = match bound.map(|bound| (bound, bound.checked_sub(self.case.loads.len()))) {
+            None => {
+                self.choose_branch(place, 1.0);
+                self.begin_senses(work, place)?
+            }
+            Some((_, Some(end))) => {
+                // Exactly on the bound, or the same piece would be chosen again.
+                let speeds = self.branch.get().map_or([0.0; 2], |branch| branch.speeds);
+                place.y[N / 2] = self.case.drive.sense() * speeds[1 - end];
+                self.choose_branch(place, if end == TOO_FAST { 1.0 } else { -1.0 });
+                Vec::new()
+            }
+            Some((bound, None)) => self.sensed.iter().copied().filter(|&(index, _)| index == bound).collect(),
+        };
+        self.origin.set(place.y);
+        match stood.is_empty() {
+            true => self.accelerate(work, place.x, &place.y),
+            false => self.set_off(work, place, &stood),
+        }
+    }
+
+    /// The motor's branch at the crank's speed, and from there towards higher speeds for a positive `towards`, else towards lower ones.
+    fn choose_branch(&self, place: &Place<N>, towards: f64) {
+        let motor = self.case.motor_of_free_crank();
+        self.branch.set(motor.map(|motor| motor.branch(self.crank_speed(&place.y), towards)));
+    }
+
+    /// Senses at the beginning; gives back what of `sensed` stands still.
+    fn begin_senses(&self, work: &mut Work, place: &Place<N>) -> Result<Vec<(usize, usize)>> {
+        self.put(&mut work.inputs, place.x, &place.y);
+        let mut stood = Vec::new();
+        for &(index, link) in &self.sensed {
+            let spin = work.side.spin(&work.inputs, link)?;
+            if spin == 0.0 {
+                stood.push((index, link));
+            } else {
+                work.held.senses[index] = spin.signum();
+            }
+        }
+        Ok(stood)
+    }
+
+    /// Links at rest, with their loads in `stood`, go where they are accelerated without their resistances, if their resistances let them.
+    fn set_off(&self, work: &mut Work, place: &Place<N>, stood: &[(usize, usize)]) -> Result<()> {
+        let before = work.held.senses.clone();
+        for &(index, _) in stood {
+            work.held.senses[index] = 0.0;
+        }
+        self.accelerate(work, place.x, &place.y)?;
+        for &(index, link) in stood {
+            let [_, alpha] = work.side.link_rates(link);
+            work.held.senses[index] = if alpha == 0.0 { before[index] } else { alpha.signum() };
+        }
+        self.accelerate(work, place.x, &place.y)?;
+        let goes = |index: usize, link: usize| work.side.link_rates(link)[1] * work.held.senses[index] >= 0.0;
+        match stood.iter().find(|&&(index, link)| !goes(index, link)) {
+            Some(&(_, link)) => Err(self.is_held(place, link)),
+            None => Ok(()),
+        }
+    }
+
+    fn is_held(&self, place: &Place<N>, link: usize) -> Error {
+        let name = &self.case.mechanism.links()[link].name;
+        let message = format!("the resistance of link \"{name}\" holds it at t = {:.6} s", place.x);
+        Error::new(ErrorKind::Numeric, message)
+            .help("give the motor more torque or the mechanism more speed, or let the grid end before")
+    }
+
+    /// The crank's own speed in the motor's sense: it is the first that is free, wherever there is a branch.
+    fn crank_speed(&self, y: &[f64; N]) -> f64 {
+        self.case.drive.sense() * y[N / 2]
+    }
+
+    /// How far within the speeds of its branch the motor is.
+    fn branch_margin(&self, bound: usize, y: &[f64; N]) -> f64 {
+        let speed = self.crank_speed(y);
+        self.branch.get().map_or(f64::INFINITY, |branch| match bound {
+            TOO_FAST => branch.speeds[1] - speed,
+            _ => speed - branch.speeds[0],
+        })
+    }
+}
+
+impl<const N: usize> ODE<f64, [f64; N]> for Pieces<'_, N> {
+    fn diff(&self, t: f64, y: &[f64; N], rate: &mut [f64; N]) {
+        let origin = self.origin.get();
+        let near = (0..N / 2).all(|k| (y[k] - origin[k]).abs() <= FARTHEST);
+        let work = &mut *self.work.borrow_mut();
+        if !near {
+            rate.fill(f64::NAN);
+            return;
+        }
+        if let Err(error) = self.accelerate(work, t, y) {
+            work.fault.get_or_insert(error);
+            rate.fill(f64::NAN);
+            return;
+        }
+        for (k, (index, _)) in self.case.free_drives().enumerate() {
+            (rate[k], rate[N / 2 + k]) = (y[N / 2 + k], work.inputs.accelerations[index]);
+        }
+    }
+}
+
+impl<const N: usize> Flow<N> for Pieces<'_, N> {
+    fn bounds(&self) -> usize {
+        self.case.loads.len() + OF_MOTOR
+    }
+
+    fn margin(&self, bound: usize, t: f64, y: &[f64; N]) -> f64 {
+        let Some(load) = self.case.loads.get(bound) else {
+            return self.branch_margin(bound - self.case.loads.len(), y);
+        };
+        let Some(link) = load.sensed_link() else { return f64::INFINITY };
+        let work = &mut *self.work.borrow_mut();
+        self.put(&mut work.inputs, t, y);
+        match work.side.spin(&work.inputs, link) {
+            Ok(spin) => work.held.senses[bound] * spin,
+            Err(error) => {
+                work.fault.get_or_insert(error);
+                f64::NAN
+            }
+        }
+    }
+
+    fn begin(&self, _: f64, y: &[f64; N]) {
+        self.origin.set(*y);
+    }
+
+    fn fault(&self) -> Option<Error> {
+        self.work.borrow_mut().fault.take()
+    }
+}

@@ -1,0 +1,95 @@
+//! Motion that forces decide, of any number of freedoms: each analytic side gives the accelerations of the driving links in its own way, and the shared
+//! integrator follows them in time.
+//!
+//! Independent coordinates are the angles of the driving links (coordinate partitioning: Wehage and Haug 1982). What jumps with a sense of motion,
+//! a resistance or the losses of a reducer, is held within a piece of the motion; pieces end exactly where the sense changes.
+
+use super::flow::{self, Pieces};
+use super::march::{ACCURACY, MOST_EMPTY, Place, Step, Stop, march};
+use super::side::Side;
+use linkage::case::Case;
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::solver::{Progress, State, Visit, check_instants};
+
+/// Most free driving links.
+pub const MOST_FREEDOMS: usize = 4;
+
+/// Checks that a case can be solved as a free motion.
+///
+/// # Errors
+/// [`ErrorKind::Input`] for instants before t = 0, and for mechanisms in which nothing has a mass; [`ErrorKind::Unsupported`] for too many freedoms.
+pub(crate) fn check(case: &Case) -> Result<()> {
+    check_instants(case)?;
+    let free = case.free_drives().count();
+    if free > MOST_FREEDOMS {
+        let message = format!("{free} driving links are free, at most {MOST_FREEDOMS} are solved");
+        return Err(Error::new(ErrorKind::Unsupported, message).help("prescribe the motion of some of them"));
+    }
+    if let Some(load) = case.loads.iter().find(|load| load.sensed_point().is_some()) {
+        let message =
+            format!("the motion is free, but a load of type \"{}\" turns with the motion of a point", load.sort());
+        return Err(Error::new(ErrorKind::Unsupported, message)
+            .key("loads")
+            .help("give it as a force over the crank angle, or as a moment against the rotation of its link"));
+    }
+    if case.inertia_on_free_crank() == 0.0 && case.mechanism.links().iter().all(|link| link.mass == 0.0) {
+        let message = "the motion under forces is asked for, but nothing in the mechanism has a mass";
+        return Err(Error::new(ErrorKind::Input, message).help("give the links masses, or the motor a rotor"));
+    }
+    Ok(())
+}
+
+/// Follows the motion over the case's grid.
+///
+/// # Errors
+/// Those of [`check`] and of the side; [`ErrorKind::Numeric`] where a resistance holds the mechanism.
+pub(crate) fn sweep(case: &Case, side: &mut dyn Side, visit: Visit, progress: Progress) -> Result<()> {
+    check(case)?;
+    match case.free_drives().count() {
+        1 => run::<2>(case, side, visit, progress),
+        2 => run::<4>(case, side, visit, progress),
+        3 => run::<6>(case, side, visit, progress),
+        _ => run::<8>(case, side, visit, progress),
+    }
+}
+
+fn run<const N: usize>(case: &Case, side: &mut dyn Side, visit: Visit, progress: Progress) -> Result<()> {
+    let rows = case.grid.ascending();
+    let mut targets: Vec<f64> = rows.iter().map(|&row| case.grid.times[row]).collect();
+    targets.dedup();
+    let Some(&last) = targets.last() else { return Ok(()) };
+    let mut place = Place { x: 0.0, y: flow::start::<N>(case), h: 0.0 };
+    let pieces: Pieces<N> = Pieces::new(case, side);
+    pieces.enter(&mut place, None)?;
+    let mut next = 0;
+    let mut state = State::at_rest(case);
+    let mut reach = |pieces: &Pieces<N>, t: f64, y: &[f64; N]| -> Result<()> {
+        if rows.get(next).is_none_or(|&row| case.grid.times[row] != t) {
+            return Ok(());
+        }
+        pieces.fill(t, y, &mut state)?;
+        while let Some(&row) = rows.get(next).filter(|&&row| case.grid.times[row] == t) {
+            visit(row, &state)?;
+            next += 1;
+        }
+        progress(next as f64 / rows.len() as f64);
+        Ok(())
+    };
+    if targets[0] == 0.0 {
+        reach(&pieces, 0.0, &place.y)?;
+    }
+    let mut empty = 0;
+    while place.x < last {
+        let from = place.x;
+        let mut at_step = |pieces: &Pieces<N>, &[_, (t, y)]: &Step<N>| reach(pieces, t, &y);
+        let Stop::Bound(bound) = march(&pieces, &mut place, &targets, ACCURACY, &mut at_step)? else { break };
+        empty = if place.x > from { 0 } else { empty + 1 };
+        if empty > MOST_EMPTY {
+            let message = format!("the motion does not get away from t = {from:.9} s, where a sense of motion changes");
+            return Err(Error::new(ErrorKind::Numeric, message)
+                .help("a load that turns about just there holds and lets go in turn: start a little aside"));
+        }
+        pieces.enter(&mut place, Some(bound))?;
+    }
+    Ok(())
+}

@@ -1,0 +1,212 @@
+//! Steps of DOP853 that end exactly where a piece of the equation of motion ends.
+//!
+//! An eighth-order step over a kink is of first order only. The equations are therefore written piece by piece, each going on smoothly beyond its
+//! ends; a step that leaves its piece is taken again, as long as its end lies on the boundary. Hairer, Norsett, Wanner, "Solving ordinary
+//! differential equations I", II.5 (DOP853) and II.6 (discontinuities).
+
+use differential_equations::interpolate::Interpolation;
+use differential_equations::methods::{DormandPrince, ExplicitRungeKutta, Ordinary};
+use differential_equations::ode::{ODE, OrdinaryNumericalMethod};
+use differential_equations::status::Status;
+use linkage::math::KeepNan;
+
+use linkage::error::{Error, ErrorKind, Result};
+
+/// DOP853 on a state of `N` numbers.
+pub(crate) type Method<const N: usize> = ExplicitRungeKutta<Ordinary, DormandPrince, f64, [f64; N], 8, 12, 16>;
+
+/// Relative and absolute error that each step may make, by its own estimate, which is cautious: the run-up of `crank_rocker` is then exact to 2e-14 rad.
+pub const ACCURACY: f64 = 1e-11;
+/// Speed (rad/s) with which a crank at rest that is about to turn is told from one that stands: its square vanishes.
+pub(crate) const SETTING_OFF: f64 = 1e-200;
+/// Pieces in a row that take no time: the motion does not get away from a kink.
+pub(crate) const MOST_EMPTY: usize = 8;
+/// Most steps of one piece: a hundred turns of a mechanism take some ten thousand.
+const MOST_STEPS: usize = 10_000_000;
+/// How much longer than wished a step may be to reach a target at once: no sliver is left before it.
+const STRETCH: f64 = 1.001;
+/// Bisections of a step for a first guess of the place where a bound is passed.
+const BISECTIONS: usize = 30;
+/// Times that a shortened step is taken again, at most: secants from a guess of order 4 take three.
+const CORRECTIONS: usize = 6;
+
+/// An equation of motion on one piece.
+pub(crate) trait Flow<const N: usize>: ODE<f64, [f64; N]> {
+    /// Number of bounds of the piece.
+    fn bounds(&self) -> usize;
+
+    /// How far within a bound the state is: negative beyond it.
+    fn margin(&self, bound: usize, x: f64, y: &[f64; N]) -> f64;
+
+    /// Told where every step begins.
+    fn begin(&self, x: f64, y: &[f64; N]);
+
+    /// What went wrong in an evaluation since the last call.
+    fn fault(&self) -> Option<Error>;
+}
+
+/// Why a march ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Stop {
+    /// At the wanted end.
+    End,
+    /// On a bound of the piece.
+    Bound(usize),
+}
+
+/// Where a march is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Place<const N: usize> {
+    /// Independent variable.
+    pub(crate) x: f64,
+    /// State.
+    pub(crate) y: [f64; N],
+    /// Length of the next step; 0 for not known.
+    pub(crate) h: f64,
+}
+
+/// One step: where it began, and where it ended.
+pub(crate) type Step<const N: usize> = [(f64, [f64; N]); 2];
+
+/// Goes on from `place` over all `targets`, which ascend and lie ahead, to the last of them or to the first bound. Every target ends a step, so that
+/// the state there is as exact as the method. `visit` sees every step.
+pub(crate) fn march<const N: usize, F: Flow<N>>(
+    flow: &F,
+    place: &mut Place<N>,
+    targets: &[f64],
+    accuracy: f64,
+    visit: &mut dyn FnMut(&F, &Step<N>) -> Result<()>,
+) -> Result<Stop> {
+    let Some(&last) = targets.last() else { return Ok(Stop::End) };
+    let begun_at = place.x;
+    let mut targets = targets.iter().copied().skip_while(|&target| target <= begun_at);
+    let Some(mut target) = targets.next() else { return Ok(Stop::End) };
+    flow.begin(place.x, &place.y);
+    let h0 = if place.h > 0.0 { place.h.smaller(last - place.x) } else { 0.0 };
+    let mut method: Method<N> = ExplicitRungeKutta::dop853().rtol(accuracy).atol(accuracy).max_steps(MOST_STEPS).h0(h0);
+    let begun = method.init(flow, place.x, last, &place.y);
+    checked(flow, begun, place.x)?;
+    loop {
+        let (from, wished) = (method.t(), method.h());
+        let cut = wished * STRETCH >= target - from;
+        if cut {
+            method.set_h(target - from);
+        }
+        let taken = method.step(flow);
+        checked(flow, taken, from)?;
+        if matches!(method.status(), Status::RejectedStep) {
+            continue;
+        }
+        if (0..flow.bounds()).any(|bound| flow.margin(bound, method.t(), method.y()) < 0.0) {
+            return end_on_bound(flow, place, &mut method, visit);
+        }
+        // Of a step that had to be short, nothing is learnt about the length of the next.
+        place.h = if cut { wished.larger(method.h()) } else { method.h() };
+        method.set_h(place.h);
+        let before = (place.x, place.y);
+        (place.x, place.y) = (if cut { target } else { method.t() }, *method.y());
+        visit(flow, &[before, (place.x, place.y)])?;
+        flow.begin(place.x, &place.y);
+        if cut {
+            match targets.next() {
+                Some(next) => target = next,
+                None => return Ok(Stop::End),
+            }
+        }
+    }
+}
+
+/// Takes the last step of a method again, so that it ends on the first bound that it passed.
+fn end_on_bound<const N: usize, F: Flow<N>>(
+    flow: &F,
+    place: &mut Place<N>,
+    method: &mut Method<N>,
+    visit: &mut dyn FnMut(&F, &Step<N>) -> Result<()>,
+) -> Result<Stop> {
+    let mut first = (f64::INFINITY, 0);
+    for bound in 0..flow.bounds() {
+        if flow.margin(bound, method.t(), method.y()) < 0.0 {
+            let at = crossing(flow, method, bound)?;
+            if at < first.0 {
+                first = (at, bound);
+            }
+        }
+    }
+    let (at, bound) = first;
+    let before = (place.x, place.y);
+    // A bound that was all but reached before needs no step of its own.
+    if at - place.x > 8.0 * f64::EPSILON * at.abs() {
+        (place.x, place.y) = shortened(flow, before, at - place.x, method, bound)?;
+        visit(flow, &[before, (place.x, place.y)])?;
+    }
+    Ok(Stop::Bound(bound))
+}
+
+/// About where in its last step a method passes a bound. The library's interpolation is of order 4 only: good for a first guess.
+fn crossing<const N: usize, F: Flow<N>>(flow: &F, method: &mut Method<N>, bound: usize) -> Result<f64> {
+    let (mut low, mut high) = (method.t_prev(), method.t());
+    for _ in 0..BISECTIONS {
+        let middle = low + (high - low) / 2.0;
+        let state = method.interpolate(middle).map_err(|why| lost(middle, &format!("{why:?}")))?;
+        if flow.margin(bound, middle, &state) < 0.0 {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    Ok(low)
+}
+
+/// The end of a step of about the length `h` that ends on the bound: secants between steps of that length.
+fn shortened<const N: usize, F: Flow<N>>(
+    flow: &F,
+    (x, y): (f64, [f64; N]),
+    mut h: f64,
+    method: &Method<N>,
+    bound: usize,
+) -> Result<(f64, [f64; N])> {
+    let mut known = (method.t() - x, flow.margin(bound, method.t(), method.y()));
+    let mut end = (x + h, one_step(flow, x, &y, h)?);
+    for _ in 0..CORRECTIONS {
+        let margin = flow.margin(bound, end.0, &end.1);
+        let shift = margin * (h - known.0) / (margin - known.1);
+        if !(shift.abs() > 4.0 * f64::EPSILON * h && shift.abs() < h) {
+            break;
+        }
+        known = (h, margin);
+        h -= shift;
+        end = (x + h, one_step(flow, x, &y, h)?);
+    }
+    Ok(end)
+}
+
+/// State after one step of a given length, whatever its error estimate: it is part of one that was accepted.
+pub(crate) fn one_step<const N: usize, F: Flow<N>>(flow: &F, x: f64, y: &[f64; N], h: f64) -> Result<[f64; N]> {
+    flow.begin(x, y);
+    let mut method: Method<N> = ExplicitRungeKutta::dop853().rtol(1e6).atol(1e6).h0(h);
+    // The interval is longer than the step, or rounding would make it too short for it.
+    let begun = method.init(flow, x, x + 2.0 * h, y);
+    checked(flow, begun, x)?;
+    let taken = method.step(flow);
+    checked(flow, taken, x)?;
+    match method.status() {
+        Status::RejectedStep => Err(lost(x, "a step onto a kink was refused")),
+        _ => Ok(*method.y()),
+    }
+}
+
+/// The flow's own fault before the library's. A fault in a trial step that was taken again does not count.
+fn checked<const N: usize, F: Flow<N>, T, E: std::fmt::Debug>(
+    flow: &F,
+    answer: std::result::Result<T, E>,
+    x: f64,
+) -> Result<()> {
+    let fault = flow.fault();
+    answer.map(|_| ()).map_err(|why| fault.unwrap_or_else(|| lost(x, &format!("{why:?}"))))
+}
+
+fn lost(x: f64, why: &str) -> Error {
+    Error::new(ErrorKind::Numeric, format!("the equation of motion cannot be integrated beyond {x:.9}: {why}")).help(
+        "where masses nearly vanish at a crank angle it is stiff: give the crank or the rotor a moment of inertia",
+    )
+}

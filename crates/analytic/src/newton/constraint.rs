@@ -1,0 +1,86 @@
+//! The two equations of every joint: their residuals, their rows of the Jacobian, and what their second derivatives leave on the
+//! right-hand side.
+//!
+//! Revolute: C = p2 - p1. Prismatic, with the axis e and its normal n = z x e on the first link and d = p2 - p1: C1 = n . d and C2 =
+//! theta2 - theta1 - twist. As n' = -omega1 e, dC1/dtheta1 = -e . (d + r1) with r1 from the mass centre to p1, and C1'' = 0 gives
+//! n . d'' = 2 omega1 e . d' + alpha1 e . d, of which the first term and the centripetal ones of d'' are gamma. So the multiplier
+//! of C1 is a force along n that acts at p2 on either link, and that of C2 a moment (Haug, chapter 3.3).
+
+use super::system::System;
+use linkage::math::{Vec2, turned};
+use linkage::mechanism::{Joint, JointKind, Side};
+
+impl System<'_> {
+    /// Residuals and Jacobian of a joint's equations, the first of them in `row`.
+    #[inline]
+    pub(super) fn assemble_joint(&mut self, row: usize, joint: &Joint) {
+        match joint.kind {
+            JointKind::Revolute => self.assemble_revolute(row, joint),
+            JointKind::Prismatic { axes } => self.assemble_prismatic(row, joint, axes[0]),
+        }
+    }
+
+    #[inline]
+    fn assemble_revolute(&mut self, row: usize, joint: &Joint) {
+        let mut gap = Vec2::zeros();
+        for (side, sign) in [(joint.first, -1.0), (joint.second, 1.0)] {
+            let arm = self.arm(side.link, side.local);
+            gap += (self.centre(side.link) + arm) * sign;
+            if side.link > 0 {
+                let column = 3 * (side.link - 1);
+                self.jacobian.add(row, column, sign);
+                self.jacobian.add(row + 1, column + 1, sign);
+                self.jacobian.add(row, column + 2, -arm.y * sign);
+                self.jacobian.add(row + 1, column + 2, arm.x * sign);
+            }
+        }
+        self.residual[row] = gap.x;
+        self.residual[row + 1] = gap.y;
+    }
+
+    fn assemble_prismatic(&mut self, row: usize, joint: &Joint, axis: Vec2) {
+        let [first, second] = [joint.first.link, joint.second.link];
+        let axis = self.along(first, axis);
+        let normal = turned(axis);
+        let place = self.centre(second) + self.arm(second, joint.second.local);
+        let gap = place - (self.centre(first) + self.arm(first, joint.first.local));
+        for (link, sign) in [(first, -1.0), (second, 1.0)] {
+            if link > 0 {
+                let column = 3 * (link - 1);
+                self.jacobian.add(row, column, normal.x * sign);
+                self.jacobian.add(row, column + 1, normal.y * sign);
+                self.jacobian.add(row, column + 2, axis.dot(&(place - self.centre(link))) * sign);
+                self.jacobian.add(row + 1, column + 2, sign);
+            }
+        }
+        self.residual[row] = normal.dot(&gap);
+        self.residual[row + 1] = self.angle(second) - self.angle(first) - self.twists[row / 2];
+    }
+
+    /// Right-hand side of a joint's equations for the accelerations.
+    #[inline]
+    pub(super) fn gamma(&self, joint: &Joint) -> [f64; 2] {
+        let centripetal = |side: Side| {
+            let omega = self.omega(side.link);
+            self.arm(side.link, side.local) * (omega * omega)
+        };
+        let gamma = centripetal(joint.second) - centripetal(joint.first);
+        match joint.kind {
+            JointKind::Revolute => [gamma.x, gamma.y],
+            JointKind::Prismatic { axes } => {
+                let axis = self.along(joint.first.link, axes[0]);
+                let speed = self.velocity(joint.second) - self.velocity(joint.first);
+                [turned(axis).dot(&gamma) + 2.0 * self.omega(joint.first.link) * axis.dot(&speed), 0.0]
+            }
+        }
+    }
+
+    /// Force (N) and moment (N m) of the first link on the second, from the joint's multipliers.
+    #[inline]
+    pub(super) fn reaction(&self, joint: &Joint, [first, second]: [f64; 2]) -> (Vec2, f64) {
+        match joint.kind {
+            JointKind::Revolute => (Vec2::new(first, second), 0.0),
+            JointKind::Prismatic { axes } => (turned(self.along(joint.first.link, axes[0])) * first, second),
+        }
+    }
+}

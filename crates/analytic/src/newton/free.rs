@@ -1,0 +1,170 @@
+//! Free motion of the whole mechanism: J q'' = gamma + E alpha with unknown accelerations alpha of the free driving links, found by embedding.
+//!
+//! With V = J^-1 E, the columns of the drives, q'' = a0 + V alpha and V^T J^T lambda = E^T lambda, the moments of the drives, which motor and rotor give:
+//! (V^T M V + added) alpha = T + V^T (Q - M a0). The multipliers then are the reactions (Haug, chapters 3 and 8).
+
+use super::steps::TRACKING_STEP;
+use super::system::System;
+use crate::motion::side::{Held, Inputs, Side, embed, loads_held};
+use linkage::drive::Wrench;
+use linkage::error::Result;
+use linkage::math::KeepNan;
+use linkage::math::dense::Lu;
+use linkage::mechanism::EQUATIONS;
+use linkage::solver::State;
+use linkage::trajectory::Stage;
+
+/// How far a corrected angle or place may lie from its prediction over one tracking step (rad, or of the mechanism's size).
+const JUMP: f64 = 10.0 * TRACKING_STEP;
+
+/// A system whose free driving links move under forces.
+pub(super) struct Embedded<'a> {
+    system: System<'a>,
+    free: Vec<usize>,
+    /// Columns V of all drives, one after the other.
+    columns: Vec<f64>,
+    /// a0, then Q - M a0.
+    rest: Vec<f64>,
+    force: Vec<f64>,
+    matrix: Lu,
+    right: Vec<f64>,
+}
+
+impl<'a> Embedded<'a> {
+    /// Of a system at its start pose.
+    pub(super) fn new(system: System<'a>) -> Self {
+        let n = system.q.len();
+        let drives = system.inputs.len();
+        let free: Vec<usize> = system.case.free_drives().map(|(index, _)| index).collect();
+        let mut embedded = Embedded {
+            columns: vec![0.0; n * drives],
+            rest: vec![0.0; n],
+            force: vec![0.0; n],
+            matrix: Lu::new(free.len()),
+            right: vec![0.0; free.len()],
+            free,
+            system,
+        };
+        embedded.find_columns();
+        embedded
+    }
+
+    fn find_columns(&mut self) {
+        let n = self.system.q.len();
+        let first = EQUATIONS * self.system.case.mechanism.joints().len();
+        for (index, column) in self.columns.chunks_mut(n).enumerate() {
+            column.fill(0.0);
+            column[first + index] = 1.0;
+            self.system.jacobian.solve(column);
+        }
+    }
+
+    /// Follows the branch to the angles of the driving links, in small turns.
+    fn go_to(&mut self, angles: &[f64]) -> Result<()> {
+        let from: Vec<f64> = self.system.inputs.iter().map(|input| input.angle).collect();
+        let farthest = from.iter().zip(angles).fold(0.0f64, |most, (a, b)| most.larger((b - a).abs()));
+        let parts = (farthest / TRACKING_STEP).ceil().larger(1.0);
+        let n = self.system.q.len();
+        for part in 1..=parts as usize {
+            let share = part as f64 / parts;
+            let system = &mut self.system;
+            for (index, (&from, &to)) in from.iter().zip(angles).enumerate() {
+                let target = if share < 1.0 { from + (to - from) * share } else { to };
+                let turn = target - system.inputs[index].angle;
+                for (q, rate) in system.q.iter_mut().zip(&self.columns[index * n..]) {
+                    *q += turn * rate;
+                }
+                system.inputs[index].angle = target;
+            }
+            system.predicted.copy_from_slice(&system.q);
+            system.correct()?;
+            self.check_branch()?;
+            self.find_columns();
+        }
+        Ok(())
+    }
+
+    fn check_branch(&self) -> Result<()> {
+        let system = &self.system;
+        if system.jacobian.determinant_sign() != system.branch {
+            return Err(system.lost("the mechanism has passed a dead point on the way there"));
+        }
+        let size = system.case.mechanism.size();
+        for (index, (q, predicted)) in system.q.iter().zip(&system.predicted).enumerate() {
+            let allowed = JUMP * if index % 3 == 2 { 1.0 } else { size };
+            if !((q - predicted).abs() <= allowed) {
+                return Err(system.lost("the solution has jumped to another branch"));
+            }
+        }
+        Ok(())
+    }
+
+    fn set_rates(&mut self, inputs: &Inputs) {
+        for (own, (&omega, &alpha)) in
+            self.system.inputs.iter_mut().zip(inputs.speeds.iter().zip(&inputs.accelerations))
+        {
+            (own.omega, own.alpha) = (omega, alpha);
+        }
+        self.system.differentiate();
+    }
+}
+
+impl Side for Embedded<'_> {
+    fn accelerate(&mut self, inputs: &mut Inputs, held: &Held) -> Result<()> {
+        self.go_to(&inputs.angles)?;
+        for &index in &self.free {
+            inputs.accelerations[index] = 0.0;
+        }
+        self.set_rates(inputs);
+        self.rest.copy_from_slice(&self.system.second);
+        self.system.find_loads(|case, motions, angles, out| loads_held(case, motions, angles, &held.senses, out));
+        let (case, n) = (self.system.case, self.system.q.len());
+        for (index, link) in case.mechanism.links()[1..].iter().enumerate() {
+            let i = 3 * index;
+            let Wrench { force, moment } = self.system.loads[index + 1];
+            self.force[i] = link.mass * (case.gravity.x - self.rest[i]) + force.x;
+            self.force[i + 1] = link.mass * (case.gravity.y - self.rest[i + 1]) + force.y;
+            self.force[i + 2] = moment - link.inertia * self.rest[i + 2];
+        }
+        self.matrix.clear();
+        for (row, &drive) in self.free.iter().enumerate() {
+            let column = &self.columns[drive * n..][..n];
+            self.right[row] = column.iter().zip(&self.force).map(|(v, f)| v * f).sum();
+            for (other, &second) in self.free.iter().enumerate() {
+                let beside = &self.columns[second * n..][..n];
+                let mass = |i: usize| {
+                    let link = &case.mechanism.links()[1 + i / 3];
+                    if i % 3 == 2 { link.inertia } else { link.mass }
+                };
+                let sum = (0..n).map(|i| mass(i) * column[i] * beside[i]).sum();
+                self.matrix.add(row, other, sum);
+            }
+            if drive == 0 {
+                self.right[row] += held.motor;
+                self.matrix.add(row, row, held.added);
+            }
+        }
+        embed(&mut self.matrix, &mut self.right, &self.free, inputs)?;
+        self.set_rates(inputs);
+        Ok(())
+    }
+
+    fn spin(&mut self, inputs: &Inputs, link: usize) -> Result<f64> {
+        self.go_to(&inputs.angles)?;
+        self.set_rates(inputs);
+        Ok(self.link_rates(link)[0])
+    }
+
+    fn link_rates(&self, link: usize) -> [f64; 2] {
+        let theta = 3 * (link - 1) + 2;
+        [self.system.rate[theta], self.system.second[theta]]
+    }
+
+    fn fill(&mut self, _: &Inputs, state: &mut State) -> Result<()> {
+        if self.system.stage >= Stage::Reactions {
+            self.system.multipliers();
+        }
+        self.system.fill(state);
+        Ok(())
+    }
+}

@@ -1,0 +1,9 @@
+//! Side 2: all constraints of the mechanism at once, by Newton's method and Lagrange multipliers.
+
+mod constraint;
+mod free;
+mod solver;
+mod steps;
+mod system;
+
+pub use solver::NewtonSolver;

@@ -1,0 +1,60 @@
+//! Side 2: the whole mechanism at once, from its constraint equations and their Jacobian.
+//!
+//! Coordinates are (x, y, theta) of every link's mass centre frame. Constraints: two equations C = 0 of every joint, and the
+//! driving link has its angle. Positions by Newton, then J q' = rate of the drive, J q'' = gamma with the centripetal terms,
+//! and M q'' = Q + J^T lambda, whose multipliers are the reactions on the second links and the balancing moment (Haug,
+//! "Computer aided kinematics and dynamics of mechanical systems", 1989, chapters 3 and 8).
+
+use super::free::Embedded;
+use super::system::System;
+use crate::motion::free;
+use crate::range;
+use linkage::case::Case;
+use linkage::error::Result;
+use linkage::solver::{Progress, Provision, Solver, State, Visit};
+use linkage::trajectory::Channel;
+
+/// Whole mechanism by Newton and Lagrange multipliers.
+#[derive(Clone, Copy, Debug)]
+pub struct NewtonSolver;
+
+impl Solver for NewtonSolver {
+    fn name(&self) -> &'static str {
+        "newton"
+    }
+
+    fn provides(&self, _: &Channel) -> Provision {
+        Provision::Computed
+    }
+
+    fn sweep(&self, case: &Case, visit: Visit, progress: Progress) -> Result<()> {
+        let mut system = System::new(case);
+        if case.is_free() {
+            system.settle().map_err(|error| range::explained(case, &error))?;
+            return free::sweep(case, &mut Embedded::new(system), visit, progress);
+        }
+        let mut state = State::at_rest(case);
+        let rows = case.grid.ascending();
+        // Outwards from the start in both directions: first the rows at and after t = 0, then those before it, backwards.
+        let split = rows.partition_point(|&row| case.grid.times[row] < 0.0);
+        let mut done = 0;
+        let mut follow = |rows: &mut dyn Iterator<Item = usize>, system: &mut System| -> Result<()> {
+            for row in rows {
+                system.go_to(case.grid.times[row]).map_err(|error| range::explained(case, &error))?;
+                system.fill(&mut state);
+                visit(row, &state)?;
+                done += 1;
+                progress(done as f64 / case.grid.len() as f64);
+            }
+            Ok(())
+        };
+        system.settle().map_err(|error| range::explained(case, &error))?;
+        follow(&mut rows[split..].iter().copied(), &mut system)?;
+        if split > 0 {
+            system = System::new(case);
+            system.settle()?;
+            follow(&mut rows[..split].iter().rev().copied(), &mut system)?;
+        }
+        Ok(())
+    }
+}

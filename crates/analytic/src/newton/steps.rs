@@ -1,0 +1,187 @@
+//! Following the branch: Newton from a prediction, in small turns of the crank, then velocities, accelerations and multipliers.
+
+use std::f64::consts::PI;
+
+use super::system::System;
+use linkage::case::Case;
+use linkage::drive::{Drive, Wrench};
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::{KeepNan, Motion};
+use linkage::mechanism::EQUATIONS;
+use linkage::solver::State;
+use linkage::trajectory::Stage;
+
+/// Largest turn of the crank between two poses (rad): a prediction from there stays on the branch.
+pub(super) const TRACKING_STEP: f64 = PI / 90.0;
+/// How often a step that fails is halved: down to a millionth of it.
+const HALVINGS: u32 = 20;
+/// Newton from a predicted pose converges in two or three iterations; more mean that something is wrong.
+const MAX_ITERATIONS: usize = 12;
+
+impl System<'_> {
+    /// Polishes the pose at t = 0 and fixes the branch there.
+    pub(super) fn settle(&mut self) -> Result<()> {
+        self.correct()?;
+        self.branch = self.jacobian.determinant_sign();
+        self.differentiate();
+        Ok(())
+    }
+
+    /// Follows the branch to time `t`, in small turns of the crank.
+    pub(super) fn go_to(&mut self, t: f64) -> Result<()> {
+        let turned = |drive: &Drive| match drive.law.constant() {
+            Some(_) => (drive.at(t).angle - drive.at(self.time).angle).abs(),
+            // It may go there and back in between.
+            None => drive.top_speed().abs() * (t - self.time).abs(),
+        };
+        let turn = self.case.drives().map(turned).fold(0.0, f64::larger);
+        let parts = (turn / TRACKING_STEP).ceil().larger(1.0);
+        let from = self.time;
+        for part in 1..parts as usize {
+            self.step_to(from + (t - from) * (part as f64 / parts), HALVINGS)?;
+        }
+        // The last part lands on t itself, not on a rounded neighbour.
+        self.step_to(t, HALVINGS)?;
+        if self.stage >= Stage::Reactions {
+            self.find_loads(Case::loads_on);
+            self.multipliers();
+        }
+        Ok(())
+    }
+
+    /// One step from a prediction; where the branch cannot be followed over it, two of half the size.
+    pub(super) fn step_to(&mut self, t: f64, halvings: u32) -> Result<()> {
+        let (from, dt) = (self.time, t - self.time);
+        self.before.copy_from_slice(&self.q);
+        for i in 0..self.q.len() {
+            self.q[i] += dt * (self.rate[i] + 0.5 * dt * self.second[i]);
+        }
+        self.set_time(t);
+        self.predicted.copy_from_slice(&self.q);
+        match self.correct().and_then(|()| self.check_branch(dt)) {
+            Ok(()) => {
+                self.differentiate();
+                Ok(())
+            }
+            Err(error) if halvings == 0 => Err(error),
+            Err(_) => {
+                self.q.copy_from_slice(&self.before);
+                self.set_time(from);
+                self.step_to(from + dt / 2.0, halvings - 1)?;
+                self.step_to(t, halvings - 1)
+            }
+        }
+    }
+
+    /// Newton to rounding, from the pose that stands in `q`. The Jacobian is left factored at the last pose but one
+    /// (which differs from the last by rounding).
+    pub(super) fn correct(&mut self) -> Result<()> {
+        let size = self.case.mechanism.size().larger(f64::MIN_POSITIVE);
+        let mut last = f64::INFINITY;
+        for _ in 0..MAX_ITERATIONS {
+            self.assemble();
+            if !self.jacobian.factor() {
+                return Err(self.lost("the Jacobian is singular there (dead point)"));
+            }
+            self.jacobian.solve(&mut self.residual);
+            let mut change: f64 = 0.0;
+            for (i, step) in self.residual.iter().enumerate() {
+                self.q[i] -= step;
+                change = change.larger(step.abs() / if i % 3 == 2 { 1.0 } else { size });
+            }
+            // Quadratic convergence: once below 1e-9 the next change is rounding, and one more step makes sure of it.
+            if change < 1e-14 || (last < 1e-9 && change < 1e-9) {
+                return Ok(());
+            }
+            last = change;
+        }
+        Err(self.lost("Newton's method does not converge there"))
+    }
+
+    /// Residuals of all constraints and their Jacobian at the pose in `q`.
+    pub(super) fn assemble(&mut self) {
+        self.jacobian.clear();
+        let case = self.case;
+        for (index, joint) in case.mechanism.joints().iter().enumerate() {
+            self.assemble_joint(2 * index, joint);
+        }
+        let first = EQUATIONS * case.mechanism.joints().len();
+        for (row, drive) in self.drives() {
+            let theta = 3 * (drive.link - 1) + 2;
+            self.residual[row] = self.q[theta] - self.inputs[row - first].angle;
+            self.jacobian.add(row, theta, 1.0);
+        }
+    }
+
+    /// Velocities and accelerations from the factored Jacobian.
+    pub(super) fn differentiate(&mut self) {
+        self.rate.fill(0.0);
+        let first = EQUATIONS * self.case.mechanism.joints().len();
+        for (index, input) in self.inputs.iter().enumerate() {
+            (self.rate[first + index], self.second[first + index]) = (input.omega, input.alpha);
+        }
+        self.jacobian.solve(&mut self.rate);
+        for (index, joint) in self.case.mechanism.joints().iter().enumerate() {
+            let gamma = self.gamma(joint);
+            self.second[2 * index..2 * index + 2].copy_from_slice(&gamma);
+        }
+        self.jacobian.solve(&mut self.second);
+    }
+
+    /// Motions and angles of all links from the coordinates, for the loads, which are then found by `of`.
+    pub(super) fn find_loads(&mut self, of: impl FnOnce(&Case, &[Motion], &[f64], &mut [Wrench])) {
+        if !self.case.loads.is_empty() {
+            for link in 1..self.motions.len() {
+                (self.motions[link], self.angles[link]) = self.motion(link);
+            }
+            of(self.case, &self.motions, &self.angles, &mut self.loads);
+        }
+    }
+
+    /// J^T lambda = M q'' - Q, with the loads last found.
+    pub(super) fn multipliers(&mut self) {
+        for (index, link) in self.case.mechanism.links()[1..].iter().enumerate() {
+            let i = 3 * index;
+            let Wrench { force, moment } = self.loads[index + 1];
+            self.lambda[i] = link.mass * (self.second[i] - self.case.gravity.x) - force.x;
+            self.lambda[i + 1] = link.mass * (self.second[i + 1] - self.case.gravity.y) - force.y;
+            self.lambda[i + 2] = link.inertia * self.second[i + 2] - moment;
+        }
+        self.jacobian.solve_transposed(&mut self.lambda);
+    }
+
+    /// A pose reached by going through a singular one, or by a correction far beyond the prediction, is another branch.
+    pub(super) fn check_branch(&self, dt: f64) -> Result<()> {
+        if self.jacobian.determinant_sign() != self.branch {
+            return Err(self.lost("the mechanism has passed a dead point on the way there"));
+        }
+        // Places too: where axes become parallel, a slider comes back from infinity on the other side.
+        let size = self.case.mechanism.size();
+        for (index, rate) in self.rate.iter().enumerate() {
+            let allowed = (dt * rate).abs() + if index % 3 == 2 { TRACKING_STEP } else { size };
+            if !((self.q[index] - self.predicted[index]).abs() <= allowed) {
+                return Err(self.lost("the solution has jumped to another branch"));
+            }
+        }
+        Ok(())
+    }
+
+    pub(super) fn fill(&self, state: &mut State) {
+        for link in 1..state.motions.len() {
+            (state.motions[link], state.angles[link]) = self.motion(link);
+        }
+        for (index, joint) in self.case.mechanism.joints().iter().enumerate() {
+            let multipliers = [self.lambda[2 * index], self.lambda[2 * index + 1]];
+            (state.forces[index], state.moments[index]) = self.reaction(joint, multipliers);
+        }
+        for ((row, _), torque) in self.drives().zip(&mut state.torques) {
+            *torque = self.lambda[row];
+        }
+    }
+
+    pub(super) fn lost(&self, why: &str) -> Error {
+        let crank = (self.inputs[0].angle - self.case.drive.zero).to_degrees();
+        Error::new(ErrorKind::Numeric, format!("crank angle {crank:.4} deg, t = {:.6} s: {why}", self.time))
+            .help("shorten the grid to the crank angles that can be reached on this branch")
+    }
+}

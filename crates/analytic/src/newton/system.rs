@@ -1,0 +1,149 @@
+//! The equations of one case and the state that they are solved for.
+
+use std::f64::consts::TAU;
+
+use linkage::case::Case;
+use linkage::drive::{Drive, DriveState, Wrench};
+use linkage::math::dense::Lu;
+use linkage::math::{Motion, Vec2, rotated, turned, unit};
+use linkage::mechanism::{EQUATIONS, Joint, JointKind, Side};
+use linkage::trajectory::Stage;
+
+/// The equations of one case and the state they are solved for.
+pub(super) struct System<'a> {
+    pub(super) case: &'a Case,
+    pub(super) stage: Stage,
+    pub(super) time: f64,
+    /// Coordinates, velocities and accelerations: x, y, theta of each moving link's mass centre.
+    pub(super) q: Vec<f64>,
+    pub(super) rate: Vec<f64>,
+    pub(super) second: Vec<f64>,
+    /// Multipliers: two a joint, then the drives'.
+    pub(super) lambda: Vec<f64>,
+    /// Of every joint: see [`twist`].
+    pub(super) twists: Vec<f64>,
+    pub(super) jacobian: Lu,
+    /// Sign of the Jacobian's determinant on the branch that is followed.
+    pub(super) branch: f64,
+    pub(super) residual: Vec<f64>,
+    pub(super) predicted: Vec<f64>,
+    /// Coordinates before the step, to go back to.
+    pub(super) before: Vec<f64>,
+    /// The driving links now: angles in the world, angular velocities and accelerations.
+    pub(super) inputs: Vec<DriveState>,
+    /// Motions and angles of all links, for their loads, and these.
+    pub(super) motions: Vec<Motion>,
+    pub(super) angles: Vec<f64>,
+    pub(super) loads: Vec<Wrench>,
+}
+
+impl<'a> System<'a> {
+    pub(super) fn new(case: &'a Case) -> Self {
+        let links = &case.mechanism.links()[1..];
+        let n = 3 * links.len();
+        let mut q = Vec::with_capacity(n);
+        for (link, pose) in links.iter().zip(&case.start.0[1..]) {
+            let centre = pose.point(link.mass_centre);
+            q.extend([centre.x, centre.y, pose.angle]);
+        }
+        let zeros = || vec![0.0; n];
+        System {
+            case,
+            stage: case.wanted.deepest(),
+            time: 0.0,
+            q,
+            rate: zeros(),
+            second: zeros(),
+            lambda: zeros(),
+            twists: case.mechanism.joints().iter().map(|joint| twist(case, joint)).collect(),
+            jacobian: Lu::new(n),
+            branch: 0.0,
+            residual: zeros(),
+            predicted: zeros(),
+            before: zeros(),
+            motions: vec![Motion::REST; links.len() + 1],
+            angles: vec![0.0; links.len() + 1],
+            loads: vec![Wrench::ZERO; links.len() + 1],
+            inputs: case.drives().map(|drive| by_law(drive, 0.0)).collect(),
+        }
+    }
+
+    /// Sets the time, and the driving links as their laws have them then.
+    pub(super) fn set_time(&mut self, t: f64) {
+        self.time = t;
+        for (input, drive) in self.inputs.iter_mut().zip(self.case.drives()) {
+            *input = by_law(drive, t);
+        }
+    }
+
+    /// Motion and angle of a moving link's frame.
+    pub(super) fn motion(&self, link: usize) -> (Motion, f64) {
+        let i = 3 * (link - 1);
+        let pair = |of: &[f64]| Vec2::new(of[i], of[i + 1]);
+        let motion = Motion::of_point(
+            self.case.mechanism.links()[link].mass_centre,
+            [pair(&self.q), pair(&self.rate), pair(&self.second)],
+            unit(self.q[i + 2]),
+            self.rate[i + 2],
+            self.second[i + 2],
+        );
+        (motion, self.q[i + 2])
+    }
+
+    /// The drives with their rows, which stand below those of the joints.
+    pub(super) fn drives(&self) -> impl Iterator<Item = (usize, &'a Drive)> + use<'a> {
+        let first = EQUATIONS * self.case.mechanism.joints().len();
+        self.case.drives().enumerate().map(move |(index, drive)| (first + index, drive))
+    }
+
+    /// World position of a link's mass centre; the origin for the ground.
+    pub(super) fn centre(&self, link: usize) -> Vec2 {
+        if link == 0 { Vec2::zeros() } else { Vec2::new(self.q[3 * (link - 1)], self.q[3 * (link - 1) + 1]) }
+    }
+
+    /// World vector from a link's mass centre (the origin for the ground) to a point of it.
+    pub(super) fn arm(&self, link: usize, local: Vec2) -> Vec2 {
+        if link == 0 {
+            return local;
+        }
+        rotated(unit(self.q[3 * (link - 1) + 2]), local - self.case.mechanism.links()[link].mass_centre)
+    }
+
+    /// World vector of a vector in a link's frame.
+    pub(super) fn along(&self, link: usize, local: Vec2) -> Vec2 {
+        if link == 0 { local } else { rotated(unit(self.angle(link)), local) }
+    }
+
+    pub(super) fn angle(&self, link: usize) -> f64 {
+        if link == 0 { 0.0 } else { self.q[3 * (link - 1) + 2] }
+    }
+
+    pub(super) fn omega(&self, link: usize) -> f64 {
+        if link == 0 { 0.0 } else { self.rate[3 * (link - 1) + 2] }
+    }
+
+    /// Velocity of a joint's place on a link.
+    pub(super) fn velocity(&self, side: Side) -> Vec2 {
+        if side.link == 0 {
+            return Vec2::zeros();
+        }
+        let i = 3 * (side.link - 1);
+        Vec2::new(self.rate[i], self.rate[i + 1]) + turned(self.arm(side.link, side.local)) * self.rate[i + 2]
+    }
+}
+
+/// A driving link as its law has it, with its angle in the world.
+fn by_law(drive: &Drive, t: f64) -> DriveState {
+    let state = drive.at(t);
+    DriveState { angle: drive.world_angle(state.angle), ..state }
+}
+
+/// Angle of a joint's second link less that of its first (rad) while the axes of a prismatic pair are parallel; its whole turns
+/// are those of the start pose. 0 for a revolute joint, which does not use it.
+fn twist(case: &Case, joint: &Joint) -> f64 {
+    let JointKind::Prismatic { axes } = joint.kind else { return 0.0 };
+    let [first, second] = axes.map(|axis| axis.y.atan2(axis.x));
+    let start = case.start.0[joint.second.link].angle - case.start.0[joint.first.link].angle;
+    let parallel = first - second;
+    parallel + TAU * ((start - parallel) / TAU).round()
+}

@@ -1,0 +1,169 @@
+//! Constraint equations of a mechanism whose drive is let go: one equation fewer than coordinates, so that their solutions are curves.
+//!
+//! Coordinates are x, y (in sizes of the mechanism, so that they compare with angles) of the middle of the joints of every moving link, and its
+//! angle. The rows of a joint stand in one function for each kind of joint.
+
+use linkage::math::{Column, KeepNan, Matrix, Vec2, cross, rotated, unit};
+use linkage::mechanism::{EQUATIONS, Group, Joint, JointKind, LinkPose, Mechanism, Pose, Side};
+
+/// A driving link that is geared to the crank: its angle follows the crank's.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Gearing {
+    pub(super) crank: usize,
+    pub(super) link: usize,
+    /// Turns of the link in a turn of the crank, and its angle where the crank's is zero (rad).
+    pub(super) ratio: f64,
+    pub(super) offset: f64,
+}
+
+/// The equations of a mechanism.
+#[derive(Debug)]
+pub(super) struct Constraints<'a> {
+    mechanism: &'a Mechanism,
+    /// World place that coordinates count from, so that a mechanism far from the origin loses no digits (m).
+    origin: Vec2,
+    /// What lengths are divided by (m).
+    size: f64,
+    gearings: Vec<Gearing>,
+    /// Middle of the joints of every link, in its frame (m).
+    middles: Vec<Vec2>,
+}
+
+/// Residuals and their derivatives by the coordinates.
+#[derive(Debug)]
+pub(super) struct Equations {
+    pub(super) residual: Column,
+    pub(super) jacobian: Matrix,
+}
+
+impl<'a> Constraints<'a> {
+    /// The equations of `mechanism`, counted from the place `origin` (m).
+    pub(super) fn of(mechanism: &'a Mechanism, origin: Vec2, gearings: Vec<Gearing>) -> Self {
+        let middle = |link: usize| {
+            let locals: Vec<Vec2> = mechanism.joints().iter().filter_map(|joint| joint.on(link)).collect();
+            locals.iter().sum::<Vec2>() / locals.len().max(1) as f64
+        };
+        Constraints {
+            mechanism,
+            origin,
+            size: mechanism.size().larger(f64::MIN_POSITIVE),
+            gearings,
+            middles: (0..mechanism.links().len()).map(middle).collect(),
+        }
+    }
+
+    /// Number of coordinates: three a moving link.
+    pub(super) fn coordinates(&self) -> usize {
+        3 * (self.mechanism.links().len() - 1)
+    }
+
+    /// Number of equations.
+    pub(super) fn rows(&self) -> usize {
+        EQUATIONS * self.mechanism.joints().len() + self.gearings.len()
+    }
+
+    /// Coordinate that is the angle of `link`.
+    pub(super) fn angle(link: usize) -> usize {
+        3 * (link - 1) + 2
+    }
+
+    /// Coordinates of a pose.
+    pub(super) fn coordinates_of(&self, pose: &Pose) -> Column {
+        let mut q = Column::zeros(self.coordinates());
+        for (link, place) in pose.0.iter().enumerate().skip(1) {
+            let middle = (place.point(self.middles[link]) - self.origin) / self.size;
+            (q[3 * link - 3], q[3 * link - 2], q[3 * link - 1]) = (middle.x, middle.y, place.angle);
+        }
+        q
+    }
+
+    /// The pose of coordinates.
+    pub(super) fn pose(&self, q: &Column) -> Pose {
+        let place = |link: usize| {
+            let middle = Vec2::new(q[3 * link - 3], q[3 * link - 2]) * self.size + self.origin;
+            LinkPose::through(self.middles[link], middle, q[3 * link - 1])
+        };
+        Pose(std::iter::once(LinkPose::GROUND).chain((1..self.middles.len()).map(place)).collect())
+    }
+
+    /// All equations at the coordinates `q`.
+    pub(super) fn at(&self, q: &Column) -> Equations {
+        let mut equations =
+            Equations { residual: Column::zeros(self.rows()), jacobian: Matrix::zeros(self.rows(), q.len()) };
+        for (index, joint) in self.mechanism.joints().iter().enumerate() {
+            let row = EQUATIONS * index;
+            match joint.kind {
+                JointKind::Revolute => self.revolute(joint, q, row, &mut equations),
+                JointKind::Prismatic { axes } => self.prismatic(joint, axes, q, row, &mut equations),
+            }
+        }
+        for (index, gearing) in self.gearings.iter().enumerate() {
+            let (row, [own, crank]) =
+                (EQUATIONS * self.mechanism.joints().len() + index, [gearing.link, gearing.crank].map(Self::angle));
+            equations.residual[row] = q[own] - gearing.ratio * q[crank] - gearing.offset;
+            equations.jacobian[(row, own)] += 1.0;
+            equations.jacobian[(row, crank)] -= gearing.ratio;
+        }
+        equations
+    }
+
+    /// p_second - p_first = 0.
+    fn revolute(&self, joint: &Joint, q: &Column, row: usize, equations: &mut Equations) {
+        for (side, sign) in [(joint.first, -1.0), (joint.second, 1.0)] {
+            let (place, arm) = self.point(side, q);
+            equations.residual[row] += sign * place.x;
+            equations.residual[row + 1] += sign * place.y;
+            if side.link > 0 {
+                let column = 3 * (side.link - 1);
+                equations.jacobian[(row, column)] += sign;
+                equations.jacobian[(row + 1, column + 1)] += sign;
+                equations.jacobian[(row, column + 2)] -= sign * arm.y;
+                equations.jacobian[(row + 1, column + 2)] += sign * arm.x;
+            }
+        }
+    }
+
+    /// n . (p_second - p_first) = 0 with the normal n of the axis on the first link, and both axes at one angle.
+    fn prismatic(&self, joint: &Joint, axes: [Vec2; 2], q: &Column, row: usize, equations: &mut Equations) {
+        let angle_of = |link: usize| if link == 0 { 0.0 } else { q[Self::angle(link)] };
+        let [first, second] = [joint.first, joint.second];
+        let axis = rotated(unit(angle_of(first.link)), axes[0]);
+        let other = rotated(unit(angle_of(second.link)), axes[1]);
+        let gap = self.point(second, q).0 - self.point(first, q).0;
+        equations.residual[row] = cross(axis, gap);
+        equations.residual[row + 1] = cross(axis, other).atan2(axis.dot(&other));
+        for (side, sign) in [(first, -1.0), (second, 1.0)] {
+            if side.link > 0 {
+                let column = 3 * (side.link - 1);
+                let arm = self.point(side, q).1;
+                equations.jacobian[(row, column)] -= sign * axis.y;
+                equations.jacobian[(row, column + 1)] += sign * axis.x;
+                equations.jacobian[(row, column + 2)] += sign * axis.dot(&arm);
+                equations.jacobian[(row + 1, column + 2)] += sign;
+            }
+        }
+        if first.link > 0 {
+            // The normal turns with the first link.
+            equations.jacobian[(row, Self::angle(first.link))] -= axis.dot(&gap);
+        }
+    }
+
+    /// Place of one side of a joint, and the vector to it from the middle of its link, in sizes.
+    fn point(&self, side: Side, q: &Column) -> (Vec2, Vec2) {
+        if side.link == 0 {
+            return ((side.local - self.origin) / self.size, Vec2::zeros());
+        }
+        let at = 3 * (side.link - 1);
+        let arm = rotated(unit(q[at + 2]), side.local - self.middles[side.link]) / self.size;
+        (Vec2::new(q[at], q[at + 1]) + arm, arm)
+    }
+
+    /// The part of a Jacobian that belongs to the joints and links of a group: square, first all x and y, then all angles.
+    pub(super) fn block(&self, jacobian: &Matrix, group: &Group) -> Matrix {
+        let joints = group.inner.iter().chain(&group.outer);
+        let rows: Vec<usize> = joints.flat_map(|&joint| [EQUATIONS * joint, EQUATIONS * joint + 1]).collect();
+        let places = group.links.iter().flat_map(|&link| [3 * link - 3, 3 * link - 2]);
+        let columns: Vec<usize> = places.chain(group.links.iter().map(|&link| Self::angle(link))).collect();
+        Matrix::from_fn(rows.len(), columns.len(), |r, c| jacobian[(rows[r], columns[c])])
+    }
+}

@@ -1,0 +1,146 @@
+//! What is extreme along the curve of poses: angles of links, determinants, condition numbers.
+//!
+//! A link is at an extreme position where its part of the tangent, hence its angular velocity, changes sign: a simple zero of the curve.
+
+use linkage::math::KeepNan;
+use std::f64::consts::TAU;
+
+use super::constraints::Constraints;
+use super::singularity::{At, Kind, Singularity};
+use super::tracking::{Point, Tracker};
+
+/// Part of the tangent that is rounding and no motion, times the square of the smallest singular value: a pose is known to rounding over that
+/// value, and its tangent to the error of the pose over it once more.
+const STILL: f64 = 50.0 * f64::EPSILON;
+
+/// Extreme position of a link: its angular velocity changes sign.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Extreme {
+    /// Crank angle (rad, as the scenario states it), to 1e-9 rad.
+    pub crank: f64,
+    /// Angle of the link (rad).
+    pub angle: f64,
+    /// Whether the angle is greatest there; if not, it is smallest.
+    pub is_greatest: bool,
+}
+
+/// How far a link turns.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LinkRange {
+    /// The link.
+    pub link: usize,
+    /// Smallest and greatest angle (rad, counted on from that of the start pose), with their crank angles.
+    pub angles: [At; 2],
+    /// Whole turns that the link makes until the mechanism is back at its first pose, counter-clockwise positive for a
+    /// crank that turns so; 0 for one that rocks, or if the crank cannot turn fully.
+    pub turns: i32,
+    /// Extreme positions in ascending order of the crank angle.
+    pub extremes: Vec<Extreme>,
+}
+
+/// Ranges of all moving links.
+pub(super) fn links(tracker: &Tracker, points: &[Point], closed: bool, count: usize) -> Vec<LinkRange> {
+    (1..count).map(|link| of_link(tracker, points, closed, link)).collect()
+}
+
+fn of_link(tracker: &Tracker, points: &[Point], closed: bool, link: usize) -> LinkRange {
+    let angle = Constraints::angle(link);
+    let rate = |point: &Point| point.tangent[angle];
+    let at = |point: &Point| At { crank: tracker.crank_of(&point.q), value: point.q[angle] };
+    let mut extremes: Vec<Extreme> = Vec::new();
+    let mut add = |point: &Point, is_greatest: bool| {
+        extremes.push(Extreme { crank: tracker.crank_of(&point.q), angle: point.q[angle], is_greatest });
+    };
+    // Places of poses in which the link turns at all: between two of them that differ in sense lies one extreme.
+    let moving: Vec<usize> =
+        (0..points.len()).filter(|&k| rate(&points[k]).abs() * points[k].sigma.powi(2) > STILL).collect();
+    for pair in moving.windows(2) {
+        let (a, b) = (&points[pair[0]], &points[pair[1]]);
+        if rate(a) * rate(b) < 0.0 {
+            match pair[1] - pair[0] {
+                1 => add(&tracker.zero(a, b, rate), rate(a) > 0.0),
+                _ => add(&points[(pair[0] + pair[1]) / 2], rate(a) > 0.0),
+            }
+        }
+    }
+    let last = points.len() - 1;
+    // A start in an extreme position is first and last pose of a closed curve.
+    if let (true, Some(&first), Some(&end)) = (closed, moving.first(), moving.last())
+        && first > 0
+        && rate(&points[first]) * rate(&points[end]) < 0.0
+    {
+        add(&points[0], rate(&points[end]) > 0.0);
+    }
+    extremes.sort_by(|a, b| a.crank.total_cmp(&b.crank));
+    let ends = extremes.iter().map(|extreme| At { crank: extreme.crank, value: extreme.angle });
+    let all: Vec<At> = [at(&points[0]), at(&points[last])].into_iter().chain(ends).collect();
+    let by_value = |a: &&At, b: &&At| a.value.total_cmp(&b.value);
+    let least = all.iter().min_by(by_value).copied().unwrap_or(all[0]);
+    let most = all.iter().max_by(by_value).copied().unwrap_or(all[0]);
+    let turns = if closed { ((points[last].q[angle] - points[0].q[angle]) / TAU).round() as i32 } else { 0 };
+    LinkRange { link, angles: [least, most], turns, extremes }
+}
+
+/// The pose in which `f`, smooth along the curve, is smallest.
+pub(super) fn least(tracker: &Tracker, points: &[Point], closed: bool, f: &dyn Fn(&Point) -> f64) -> Point {
+    let values: Vec<f64> = points.iter().map(f).collect();
+    let place = (0..values.len()).min_by(|&a, &b| values[a].total_cmp(&values[b])).unwrap_or(0);
+    refined(tracker, points, closed, place, f)
+}
+
+/// The local minimum of `f` next to the pose at `place`.
+fn refined(tracker: &Tracker, points: &[Point], closed: bool, place: usize, f: &dyn Fn(&Point) -> f64) -> Point {
+    let slope = |point: &Point| {
+        let step = (0.01 * point.sigma).smaller(1e-4);
+        match (tracker.advance(point, step), tracker.advance(point, -step)) {
+            (Some(ahead), Some(behind)) => f(&ahead) - f(&behind),
+            _ => 0.0,
+        }
+    };
+    let here = &points[place];
+    let last = points.len() - 1;
+    let falls = slope(here);
+    let (a, b) = if falls < 0.0 {
+        let next = if closed && place == last { 0 } else { place };
+        (&points[next], points.get(next + 1))
+    } else {
+        let end = if closed && place == 0 { last } else { place };
+        (points.get(end.wrapping_sub(1)).unwrap_or(here), Some(&points[end]))
+    };
+    match b {
+        Some(b) if slope(a) * slope(b) < 0.0 => {
+            let found = tracker.zero(a, b, slope);
+            if f(&found) <= f(here) { found } else { here.clone() }
+        }
+        _ => here.clone(),
+    }
+}
+
+/// Poses in which a group's determinant has a minimum below `bound` without vanishing.
+pub(super) fn contacts(tracker: &Tracker, points: &[Point], closed: bool, bound: f64) -> Vec<Singularity> {
+    let last = points.len() - 1;
+    let groups = points[0].measures.len();
+    let mut found = Vec::new();
+    for group in 0..groups {
+        let size = |point: &Point| point.measures[group].determinant.abs();
+        let range = if closed { 0..last } else { 1..last };
+        for place in range {
+            let before = size(&points[if place == 0 { last - 1 } else { place - 1 }]);
+            let (here, after) = (size(&points[place]), size(&points[place + 1]));
+            // A sample near a deep minimum: where the minimum itself lies is found below.
+            if here < before && here <= after && here < 10.0 * bound {
+                let lowest = refined(tracker, points, closed, place, &size);
+                let contact = Singularity {
+                    kind: Kind::BranchContact,
+                    crank: tracker.crank_of(&lowest.q),
+                    group,
+                    determinant: lowest.measures[group].determinant,
+                };
+                if contact.determinant.abs() < bound {
+                    found.push(contact);
+                }
+            }
+        }
+    }
+    found
+}

@@ -1,0 +1,134 @@
+//! Grashof's type of a four-bar.
+//!
+//! With the shortest link s, the longest l and the others p, q: if s + l < p + q, the shortest link turns fully against all others, so that the link
+//! that is shortest decides; if s + l > p + q, none does; if both sums are equal, all joints can come into one line, where branches cross (Grashof
+//! 1883; for example Hunt, "Kinematic geometry of mechanisms", 1978, section 4.1).
+
+use linkage::case::Case;
+use linkage::mechanism::{GROUND, GroupKind, JointKind};
+
+/// Lengths whose sums differ by no more than this part of the sum are equal: the rounding of four lengths read from decimal numbers.
+const EQUAL: f64 = 1e-14;
+
+/// What the links of a four-bar do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FourBarType {
+    /// The driving link is the shortest: it turns fully, the output link rocks.
+    CrankRocker,
+    /// The output link is the shortest: the driving link rocks, the output link can turn fully.
+    RockerCrank,
+    /// The frame is the shortest (drag link): driving and output link turn fully.
+    DoubleCrank,
+    /// The coupler is the shortest: driving and output link rock, the coupler turns fully against both.
+    DoubleRocker,
+    /// No link turns fully against another: s + l > p + q.
+    TripleRocker,
+    /// s + l = p + q: all joints come into one line.
+    ChangePoint,
+}
+
+impl FourBarType {
+    /// Name, as in reports.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            FourBarType::CrankRocker => "crank-rocker (Grashof, the driving link is shortest)",
+            FourBarType::RockerCrank => "rocker-crank (Grashof, the output link is shortest: the driving link rocks)",
+            FourBarType::DoubleCrank => "double-crank, drag link (Grashof, the frame is shortest)",
+            FourBarType::DoubleRocker => "double-rocker (Grashof, the coupler is shortest)",
+            FourBarType::TripleRocker => "triple-rocker (non-Grashof, s + l > p + q)",
+            FourBarType::ChangePoint => "change-point mechanism (s + l = p + q)",
+        }
+    }
+
+    /// Whether the driving link turns fully, between change points at least.
+    #[must_use]
+    pub fn driver_turns(self) -> bool {
+        matches!(self, FourBarType::CrankRocker | FourBarType::DoubleCrank)
+    }
+}
+
+/// A four-bar.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FourBar {
+    /// Lengths of frame, driving link, coupler and output link (m).
+    pub lengths: [f64; 4],
+    /// Its type.
+    pub of_type: FourBarType,
+}
+
+impl FourBar {
+    /// The four-bar of these lengths (m): frame, driving link, coupler, output link.
+    #[must_use]
+    pub fn of_lengths(lengths: [f64; 4]) -> Self {
+        let mut sorted = lengths;
+        sorted.sort_by(f64::total_cmp);
+        let [s, p, q, l] = sorted;
+        let excess = (s + l) - (p + q);
+        let of_type = if excess.abs() <= EQUAL * (s + l + p + q) {
+            FourBarType::ChangePoint
+        } else if excess > 0.0 {
+            FourBarType::TripleRocker
+        } else if lengths[0] == s {
+            FourBarType::DoubleCrank
+        } else if lengths[1] == s {
+            FourBarType::CrankRocker
+        } else if lengths[2] == s {
+            FourBarType::DoubleRocker
+        } else {
+            FourBarType::RockerCrank
+        };
+        FourBar { lengths, of_type }
+    }
+
+    /// The four-bar that a case is; `None` if it is another mechanism.
+    #[must_use]
+    pub fn of(case: &Case) -> Option<Self> {
+        let (mechanism, drive) = (&case.mechanism, &case.drive);
+        let joints = mechanism.joints();
+        let [group] = case.structure.groups.as_slice() else { return None };
+        if group.kind != GroupKind::Rrr || joints.len() != 4 || joints.iter().any(|j| j.kind != JointKind::Revolute) {
+            return None;
+        }
+        let output = *group
+            .links
+            .iter()
+            .find(|&&link| joints.iter().any(|j| j.on(link).is_some() && j.other(link).link == GROUND))?;
+        // Distance between the two joints on a link.
+        let length = |link: usize| {
+            let mut on_link = joints.iter().filter_map(|joint| joint.on(link));
+            let (a, b) = (on_link.next()?, on_link.next()?);
+            on_link.next().is_none().then(|| (a - b).norm())
+        };
+        let coupler = *group.links.iter().find(|&&link| link != output)?;
+        let all = [length(GROUND)?, length(drive.link)?, length(coupler)?, length(output)?];
+        Some(FourBar::of_lengths(all))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_shortest_link_decides() {
+        for (place, expected) in
+            [FourBarType::DoubleCrank, FourBarType::CrankRocker, FourBarType::DoubleRocker, FourBarType::RockerCrank]
+                .into_iter()
+                .enumerate()
+        {
+            let mut lengths = [4.0; 4];
+            lengths[place] = 1.0;
+            assert_eq!(FourBar::of_lengths(lengths).of_type, expected);
+        }
+        assert_eq!(FourBar::of_lengths([4.0, 3.5, 3.0, 3.0]).of_type, FourBarType::TripleRocker);
+    }
+
+    #[test]
+    fn equal_sums_are_equal_in_spite_of_rounding() {
+        // Parallelogram, deltoid, and lengths of which the sums differ in the last digit.
+        for lengths in [[0.4, 0.1, 0.4, 0.1], [0.1, 0.1, 0.4, 0.4], [0.1, 0.2, 0.5, 0.4]] {
+            assert_eq!(FourBar::of_lengths(lengths).of_type, FourBarType::ChangePoint, "{lengths:?}");
+        }
+    }
+}

@@ -1,0 +1,178 @@
+//! Over which crank angles a mechanism can be followed on its branch, what limits it, and how well conditioned it is on the way.
+//!
+//! The drive is let go and the curve of all poses is followed by its length, both ways from the start pose: until the mechanism is back there, or up
+//! to a singular pose. At a *limit of rotation* (dead point of the crank) one group's determinant vanishes, the two branches that meet there are one smooth
+//! curve, and along it the crank turns back. At a *change point* two such curves cross: the determinant
+//! changes its sign while the crank goes on, and which way the mechanism takes is not decided by geometry.
+
+mod constraints;
+mod extremes;
+mod grashof;
+mod measure;
+mod singularity;
+mod tracking;
+
+pub use extremes::{Extreme, LinkRange};
+pub use grashof::{FourBar, FourBarType};
+pub use measure::Measure;
+pub use singularity::{At, Kind, Singularity};
+
+use constraints::Constraints;
+use linkage::case::Case;
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::Vec2;
+use linkage::mechanism::{Group, Mechanism, Pose};
+use tracking::{End, Point, Tracker};
+
+/// Below this, a determinant that does not vanish is reported as [`Kind::BranchContact`]: transmission angle 0.06 deg, at which accelerations have lost
+/// six digits.
+const CONTACT: f64 = 1e-3;
+/// Below this, a pose counts as singular: configurations that meet are parted by the root of rounding, 1e-8 to 1e-7.
+const SINGULAR: f64 = 1e-6;
+
+/// Crank angles over which a mechanism can be followed on its branch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Extent {
+    /// All of them; the mechanism is back at its first pose after so many turns (one, unless it has a higher group).
+    FullTurn(i32),
+    /// From one singular pose to another, the start between them; may be more than a turn.
+    Limited([Singularity; 2]),
+}
+
+/// The worst of one group.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GroupRange {
+    /// Normalised determinant of smallest size, with its sign.
+    pub determinant: At,
+    /// Largest condition number; `None` if the group is singular at a limit, where it grows without bound.
+    pub condition: Option<At>,
+}
+
+/// All groups at one pose.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sample {
+    /// Crank angle (rad, as the scenario states it).
+    pub crank: f64,
+    /// Determinant and condition number of each group, in the order of the structure. The determinant of a dyad is positive in the mode
+    /// [`AssemblyMode::Left`](linkage::mechanism::AssemblyMode::Left), that of a higher group at the start.
+    pub groups: Vec<Measure>,
+}
+
+/// What can be said about a mechanism on its branch.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Range {
+    /// Crank angles that can be reached.
+    pub extent: Extent,
+    /// Limits, change points and contacts, in ascending order of the crank angle.
+    pub singularities: Vec<Singularity>,
+    /// The worst of each group.
+    pub groups: Vec<GroupRange>,
+    /// Every moving link.
+    pub links: Vec<LinkRange>,
+    /// All groups along the way, in ascending order of the crank angle, at most two degrees of it apart; without the limits themselves.
+    pub samples: Vec<Sample>,
+    /// Grashof's type, if the mechanism is a four-bar.
+    pub four_bar: Option<FourBar>,
+}
+
+impl Range {
+    /// Follows the mechanism of a case over all crank angles that its branch reaches.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Geometry`] if the start pose is singular, [`ErrorKind::Numeric`] if the branch cannot be followed.
+    pub fn of(case: &Case) -> Result<Self> {
+        let (tracker, start) = Tracker::new(case)?;
+        let (points, extent) = both_ways(&tracker, &start)?;
+        let closed = matches!(extent, Extent::FullTurn(_));
+        let inside = if closed { &points[..points.len() - 1] } else { &points[1..points.len() - 1] };
+        let samples: Vec<Sample> = inside
+            .iter()
+            .map(|point| Sample { crank: tracker.crank_of(&point.q), groups: point.measures.clone() })
+            .collect();
+        let contacts = extremes::contacts(&tracker, &points, closed, CONTACT);
+        let mut singularities: Vec<Singularity> = match extent {
+            Extent::FullTurn(_) => contacts,
+            Extent::Limited([from, to]) => [from].into_iter().chain(contacts).chain([to]).collect(),
+        };
+        singularities.sort_by(|a, b| a.crank.total_cmp(&b.crank));
+        let groups = (0..case.structure.groups.len()).map(|group| worst(&tracker, &points, extent, group)).collect();
+        let links = extremes::links(&tracker, &points, closed, case.mechanism.links().len());
+        Ok(Range { extent, singularities, groups, links, samples, four_bar: FourBar::of(case) })
+    }
+}
+
+/// Crank angles that the branch of a case reaches: what [`Range::of`] knows first.
+///
+/// # Errors
+/// Those of [`Range::of`].
+pub fn reachable(case: &Case) -> Result<Extent> {
+    let (tracker, start) = Tracker::new(case)?;
+    Ok(both_ways(&tracker, &start)?.1)
+}
+
+/// The same error, which came of a crank angle that cannot be reached, with the interval that can.
+pub(crate) fn explained(case: &Case, error: &Error) -> Error {
+    let reached = match reachable(case) {
+        Ok(Extent::Limited(limits)) => format!("; crank angles can be reached {}", interval(limits)),
+        Ok(Extent::FullTurn(_)) => String::new(),
+        Err(why) if why.kind() == ErrorKind::Geometry => format!("; {}", why.message()),
+        Err(_) => String::new(),
+    };
+    let told = Error::new(error.kind(), format!("{}{reached}", error.message()));
+    match error.way_out() {
+        Some(help) => told.help(help),
+        None => told,
+    }
+}
+
+/// `from X to Y deg on this branch`, to 1e-6 deg and rounded inwards, so that the numbers can be asked for.
+fn interval([from, to]: [Singularity; 2]) -> String {
+    // What lies within 1e-9 deg of a printed number is that number.
+    let from = (from.crank.to_degrees() * 1e6 - 1e-3).ceil() / 1e6 + 0.0;
+    let to = (to.crank.to_degrees() * 1e6 + 1e-3).floor() / 1e6 + 0.0;
+    format!("from {from:.6} to {to:.6} deg on this branch")
+}
+
+/// Whether two configurations of a group meet in this pose to rounding, so that velocities are not determined.
+#[must_use]
+pub fn is_singular(mechanism: &Mechanism, group: &Group, pose: &Pose) -> bool {
+    let constraints = Constraints::of(mechanism, Vec2::zeros(), Vec::new());
+    let jacobian = constraints.at(&constraints.coordinates_of(pose)).jacobian;
+    !(measure::of(&constraints.block(&jacobian, group), mechanism, group, pose).determinant.abs() > SINGULAR)
+}
+
+/// All poses in ascending order of the crank angle.
+fn both_ways(tracker: &Tracker, start: &Point) -> Result<(Vec<Point>, Extent)> {
+    let forwards = tracker.follow(start, 1.0)?;
+    let to = match forwards.end {
+        End::Closed(turns) => return Ok((forwards.points, Extent::FullTurn(turns))),
+        End::Limit(to) => to,
+    };
+    let backwards = tracker.follow(start, -1.0)?;
+    let End::Limit(from) = backwards.end else { return Err(tracking::lost(tracker.crank_of(&start.q))) };
+    let turned = |mut point: Point| {
+        point.tangent.neg_mut();
+        point
+    };
+    let points = backwards.points.into_iter().rev().map(turned).chain(forwards.points.into_iter().skip(1));
+    Ok((points.collect(), Extent::Limited([from, to])))
+}
+
+fn worst(tracker: &Tracker, points: &[Point], extent: Extent, group: usize) -> GroupRange {
+    let limits = match extent {
+        Extent::FullTurn(_) => None,
+        Extent::Limited(limits) => limits.into_iter().find(|limit| limit.group == group),
+    };
+    if let Some(limit) = limits {
+        return GroupRange { determinant: At { crank: limit.crank, value: 0.0 }, condition: None };
+    }
+    let closed = matches!(extent, Extent::FullTurn(_));
+    let least = |f: &dyn Fn(&Point) -> f64| extremes::least(tracker, points, closed, f);
+    let flattest = least(&|point| point.measures[group].determinant.abs());
+    let stiffest = least(&|point| 1.0 / point.measures[group].condition);
+    let at = |point: &Point, value: f64| At { crank: tracker.crank_of(&point.q), value };
+    GroupRange {
+        determinant: at(&flattest, flattest.measures[group].determinant),
+        condition: Some(at(&stiffest, stiffest.measures[group].condition)),
+    }
+}

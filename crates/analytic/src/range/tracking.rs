@@ -1,0 +1,393 @@
+//! The curve of all poses that a mechanism goes through, followed by its length (pseudo-arclength continuation; Allgower and
+//! Georg, "Numerical continuation methods", 1990, chapters 2 to 4 and 8).
+//!
+//! Along the length a limit of rotation is nothing special: the crank's component of the tangent changes its sign there, a simple zero, whereas
+//! as a function of the crank angle the pose has a square root. Where branches cross, the rank of the equations drops. The smallest singular value
+//! of the Jacobian bounds how near another branch can be, and steps are kept below it, so that none is jumped to.
+
+use std::f64::consts::TAU;
+
+use super::constraints::{Constraints, Gearing};
+use super::measure::{self, Measure};
+use super::singularity::{Kind, Singularity};
+use linkage::case::Case;
+use linkage::drive::Drive;
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::{Column, KeepNan, Matrix, unit};
+
+/// Longest step: two degrees, where the crank alone turns.
+const LONGEST: f64 = std::f64::consts::PI / 90.0;
+/// Step over the smallest singular value. The derivatives of the equations are at most of order one in sizes of the mechanism, so another
+/// branch is farther away than that.
+const SAFE: f64 = 0.5;
+/// Cosine of the angle between tangents of neighbouring poses: at most 0.25 rad.
+const STRAIGHT: f64 = 0.969;
+/// Branches nearer than this to each other (in sizes and rad) meet: lengths rounded to 16 digits part crossing branches by the root of that, 1e-8.
+const MEET: f64 = 1e-6;
+/// Shortest step before branches are said to meet.
+const SHORTEST: f64 = 1e-9;
+/// More poses mean that something is wrong.
+const MOST_POINTS: usize = 200_000;
+/// Turns after which a crank that has not come back to its first pose is left alone.
+const MOST_TURNS: i32 = 12;
+
+/// A pose on the curve.
+#[derive(Clone, Debug)]
+pub(super) struct Point {
+    pub(super) q: Column,
+    /// Unit vector along the curve.
+    pub(super) tangent: Column,
+    /// Smallest singular value of the equations.
+    pub(super) sigma: f64,
+    /// Each group's.
+    pub(super) measures: Vec<Measure>,
+}
+
+/// How a track ends.
+#[derive(Clone, Debug)]
+pub(super) enum End {
+    /// The mechanism is back at its first pose after so many turns of the crank.
+    Closed(i32),
+    /// It cannot be followed any further.
+    Limit(Singularity),
+}
+
+/// Poses from the start to an end.
+#[derive(Debug)]
+pub(super) struct Track {
+    pub(super) points: Vec<Point>,
+    pub(super) end: End,
+}
+
+/// Distance from the crank's pivot, in sizes of the mechanism, at which a link is on its way to infinity.
+const FAR: f64 = 50.0;
+
+/// Follows the curve of one case.
+#[derive(Debug)]
+pub(super) struct Tracker<'a> {
+    case: &'a Case,
+    constraints: Constraints<'a>,
+    /// The crank's coordinate.
+    crank: usize,
+    /// Makes every group's determinant positive at the start.
+    signs: Vec<f64>,
+}
+
+impl<'a> Tracker<'a> {
+    /// At the start pose of a case.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Geometry`] if it is singular.
+    pub(super) fn new(case: &'a Case) -> Result<(Self, Point)> {
+        let drive = &case.drive;
+        let joint = &case.mechanism.joints()[drive.joint];
+        let constraints = Constraints::of(&case.mechanism, joint.other(drive.link).local, gearings(case));
+        let q = constraints.coordinates_of(&case.start);
+        let mut tracker = Tracker {
+            case,
+            constraints,
+            crank: Constraints::angle(drive.link),
+            signs: vec![1.0; case.structure.groups.len()],
+        };
+        let mut along = Column::zeros(q.len());
+        along[tracker.crank] = 1.0;
+        let rough = tracker.point(q, &along);
+        tracker.check_regular(&rough)?;
+        let start = tracker.at_crank(&rough, drive.world_angle(drive.start)).ok_or_else(|| lost(drive.start))?;
+        for (index, group) in case.structure.groups.iter().enumerate() {
+            let sine = linkage::mechanism::assembly::transmission_sine(&case.mechanism, group, &case.start);
+            let wanted = sine.map_or(1.0, f64::signum);
+            tracker.signs[index] = wanted * start.measures[index].determinant.signum();
+        }
+        let start = tracker.point(start.q, &along);
+        Ok((tracker, start))
+    }
+
+    /// Crank angle of a pose as the scenario states it (rad).
+    pub(super) fn crank_of(&self, q: &Column) -> f64 {
+        q[self.crank] - self.case.drive.zero
+    }
+
+    /// The crank's part of the tangent.
+    pub(super) fn crank_rate(&self, point: &Point) -> f64 {
+        point.tangent[self.crank]
+    }
+
+    fn check_regular(&self, start: &Point) -> Result<()> {
+        for (group, measure) in self.case.structure.groups.iter().zip(&start.measures) {
+            if !(measure.determinant.abs() > MEET) {
+                let names = group.names(&self.case.mechanism);
+                return Err(Error::new(
+                    ErrorKind::Geometry,
+                    format!(
+                        "the start pose at crank angle {:.6} deg is singular: two configurations of the group ({names}) meet there",
+                        self.case.drive.start.to_degrees()
+                    ),
+                )
+                .key("start")
+                .help("start at another crank angle, where the configurations are apart"));
+            }
+        }
+        Ok(())
+    }
+
+    /// The pose at `q`, whose tangent goes the way of `along`.
+    fn point(&self, q: Column, along: &Column) -> Point {
+        let jacobian = self.constraints.at(&q).jacobian;
+        let tangent = tangent(&jacobian, along);
+        let sigma = bordered(&jacobian, &tangent).singular_values().min();
+        let groups = self.case.structure.groups.iter().zip(&self.signs);
+        let pose = self.constraints.pose(&q);
+        let measures = groups.map(|(group, sign)| {
+            let found = measure::of(&self.constraints.block(&jacobian, group), &self.case.mechanism, group, &pose);
+            Measure { determinant: sign * found.determinant, ..found }
+        });
+        let measures = measures.collect();
+        Point { q, tangent, sigma, measures }
+    }
+
+    /// Newton's method from `q` on all equations and `across . (q - from) = distance`; `None` if the first correction is longer than `most` or the
+    /// method does not converge.
+    fn correct(&self, mut q: Column, across: &Column, from: &Column, distance: f64, most: f64) -> Option<Column> {
+        let mut last = f64::INFINITY;
+        for _ in 0..10 {
+            let equations = self.constraints.at(&q);
+            let ahead = across.dot(&(&q - from)) - distance;
+            let rows = equations.residual.len();
+            let rest = equations.residual.insert_row(rows, ahead);
+            let step = bordered(&equations.jacobian, across).lu().solve(&rest)?;
+            let change = step.norm();
+            if !(change <= most) {
+                return None;
+            }
+            q -= step;
+            if change < 1e-15 || (last < 1e-8 && change < 1e-8) {
+                return Some(q);
+            }
+            last = change;
+        }
+        None
+    }
+
+    /// The pose that lies `distance` ahead of `from`, measured along its tangent.
+    pub(super) fn advance(&self, from: &Point, distance: f64) -> Option<Point> {
+        let predicted = &from.q + &from.tangent * distance;
+        let most = 0.25 * distance.abs() + 1e-12;
+        let q = self.correct(predicted, &from.tangent, &from.q, distance, most)?;
+        let point = self.point(q, &from.tangent);
+        (point.tangent.dot(&from.tangent) >= STRAIGHT).then_some(point)
+    }
+
+    /// The pose near `near` with the crank at the world angle `angle` (rad).
+    fn at_crank(&self, near: &Point, angle: f64) -> Option<Point> {
+        let mut across = Column::zeros(near.q.len());
+        across[self.crank] = 1.0;
+        let q = self.correct(near.q.clone(), &across, &Column::zeros(near.q.len()), angle, 2.0 * LONGEST)?;
+        Some(self.point(q, &near.tangent))
+    }
+
+    /// Zero of `f` between the neighbours `a` and `b`, where it has different signs, by the Illinois method in the distance from `a`.
+    pub(super) fn zero(&self, a: &Point, b: &Point, f: impl Fn(&Point) -> f64) -> Point {
+        let mut low = (0.0, f(a));
+        let mut high = (a.tangent.dot(&(&b.q - &a.q)), f(b));
+        let width = high.0;
+        let mut best = if low.1.abs() < high.1.abs() { a.clone() } else { b.clone() };
+        for _ in 0..60 {
+            let at = (low.0 * high.1 - high.0 * low.1) / (high.1 - low.1);
+            let Some(point) = self.advance(a, at) else { break };
+            let value = f(&point);
+            if value.abs() <= f(&best).abs() {
+                best = point;
+            }
+            if value == 0.0 || (high.0 - low.0).abs() <= 1e-14 * width.abs() {
+                break;
+            }
+            if value * high.1 < 0.0 {
+                low = high;
+            } else {
+                low.1 /= 2.0;
+            }
+            high = (at, value);
+        }
+        best
+    }
+
+    /// Follows the curve with the crank turning in the sense of `sense` at first.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Numeric`] if it does not end.
+    pub(super) fn follow(&self, start: &Point, sense: f64) -> Result<Track> {
+        let mut first = start.clone();
+        if self.crank_rate(&first) * sense < 0.0 {
+            first.tangent.neg_mut();
+        }
+        let mut points = vec![first];
+        let mut turns = 1;
+        let mut longest = LONGEST;
+        while points.len() < MOST_POINTS {
+            let here = &points[points.len() - 1];
+            let Some((next, step)) = self.step(here, longest) else { return self.met(points) };
+            longest = (2.0 * step).smaller(LONGEST);
+            if self.crank_rate(&next) * sense <= 0.0 {
+                let limit = self.zero(here, &next, |point| self.crank_rate(point));
+                let singularity = self.singularity(Kind::DeadPoint, &limit);
+                points.push(limit);
+                return Ok(Track { points, end: End::Limit(singularity) });
+            }
+            let whole = points[0].q[self.crank] + sense * TAU * f64::from(turns);
+            if (next.q[self.crank] - whole) * sense >= 0.0 {
+                if let Some(last) = self.at_crank(&next, whole)
+                    && self.is_same(&last, &points[0])
+                {
+                    points.push(last);
+                    return Ok(Track { points, end: End::Closed(turns) });
+                }
+                turns += 1;
+                if turns > MOST_TURNS {
+                    break;
+                }
+            }
+            let is_near = next.sigma < MEET;
+            let is_far = next.q.iter().enumerate().any(|(k, x)| k % 3 < 2 && x.abs() > FAR);
+            points.push(next);
+            if is_far {
+                return self.escaped(points);
+            }
+            if is_near {
+                return self.met(points);
+            }
+        }
+        Err(lost(self.crank_of(&points[points.len() - 1].q)))
+    }
+
+    /// One step of at most `longest`, over no singular pose but a single limit of rotation; `None` where branches meet.
+    fn step(&self, here: &Point, longest: f64) -> Option<(Point, f64)> {
+        let mut step = longest.smaller(SAFE * here.sigma);
+        while step >= SHORTEST {
+            if let Some(next) = self.advance(here, step) {
+                let changed = |a: f64, b: f64| a * b <= 0.0;
+                let pairs = here.measures.iter().zip(&next.measures);
+                let passed = pairs.filter(|(a, b)| changed(a.determinant, b.determinant)).count();
+                let turned = usize::from(changed(self.crank_rate(here), self.crank_rate(&next)));
+                if passed == turned {
+                    return Some((next, step));
+                }
+            }
+            step /= 2.0;
+        }
+        None
+    }
+
+    /// The end of a track at a pose where branches meet. Near it the equations lose digits, but along the branch everything is a smooth
+    /// function of the determinant that vanishes: its value at zero follows from poses at a distance (Neville's scheme).
+    fn met(&self, mut points: Vec<Point>) -> Result<Track> {
+        let last = &points[points.len() - 1];
+        let Some(group) = weakest(&last.measures) else { return Err(lost(self.crank_of(&last.q))) };
+        let known = by_determinant(&points, group);
+        let q = if known.len() < 3 { last.q.clone() } else { neville_at_zero(&known) };
+        let moved = (&q - &last.q).norm();
+        let q = if moved < 1e-3 { q } else { last.q.clone() };
+        // A dead point of several groups at once: the crank stands still on the curve, as in one of a single group.
+        let kind = if self.crank_rate(last).abs() < 1e-3 { Kind::DeadPoint } else { Kind::ChangePoint };
+        let mut end = Point { q, ..last.clone() };
+        end.measures[group] = Measure { determinant: 0.0, condition: f64::MAX };
+        let singularity = self.singularity(kind, &end);
+        points.push(end);
+        Ok(Track { points, end: End::Limit(singularity) })
+    }
+
+    /// The end of a track along which a slide grows without bound: the crank angle is a smooth function of the determinant there too.
+    fn escaped(&self, mut points: Vec<Point>) -> Result<Track> {
+        let last = &points[points.len() - 1];
+        let Some(group) = weakest(&last.measures) else { return Err(lost(self.crank_of(&last.q))) };
+        let known = by_determinant(&points, group);
+        if known.len() < 3 {
+            return Err(lost(self.crank_of(&last.q)));
+        }
+        let mut end = last.clone();
+        end.q[self.crank] = neville_at_zero(&known)[self.crank];
+        end.measures[group] = Measure { determinant: 0.0, condition: f64::MAX };
+        let singularity = self.singularity(Kind::ParallelAxes, &end);
+        points.push(end);
+        Ok(Track { points, end: End::Limit(singularity) })
+    }
+
+    /// A singular pose, at the group of smallest determinant.
+    pub(super) fn singularity(&self, kind: Kind, at: &Point) -> Singularity {
+        let group = weakest(&at.measures).unwrap_or(0);
+        let determinant = if kind == Kind::BranchContact { at.measures[group].determinant } else { 0.0 };
+        Singularity { kind, crank: self.crank_of(&at.q), group, determinant }
+    }
+
+    /// Whether all links are where they were, whole turns apart.
+    fn is_same(&self, a: &Point, b: &Point) -> bool {
+        (1..self.case.mechanism.links().len())
+            .map(Constraints::angle)
+            .all(|k| (unit(a.q[k]) - unit(b.q[k])).norm() < 1e-6)
+    }
+}
+
+/// Coordinates of the last regular poses by the determinant of a group, the nearest to zero first, each half as far again as the one before.
+fn by_determinant(points: &[Point], group: usize) -> Vec<(f64, &Column)> {
+    let mut known: Vec<(f64, &Column)> = Vec::new();
+    for point in points.iter().rev().filter(|point| point.sigma > 1e-4) {
+        let determinant = point.measures[group].determinant;
+        let apart = known.last().is_none_or(|(nearer, _)| determinant.abs() > 1.5 * nearer.abs());
+        if apart && known.len() < 9 {
+            known.push((determinant, &point.q));
+        }
+    }
+    known
+}
+
+/// The group of smallest determinant.
+fn weakest(measures: &[Measure]) -> Option<usize> {
+    (0..measures.len()).min_by(|&a, &b| measures[a].determinant.abs().total_cmp(&measures[b].determinant.abs()))
+}
+
+pub(super) fn lost(crank: f64) -> Error {
+    Error::new(
+        ErrorKind::Numeric,
+        format!("the poses of the mechanism cannot be followed at crank angle {:.4} deg", crank.to_degrees()),
+    )
+    .help("check the lengths, or start at another crank angle")
+}
+
+/// A Jacobian with one more row.
+fn bordered(jacobian: &Matrix, row: &Column) -> Matrix {
+    let mut square = jacobian.clone().insert_row(jacobian.nrows(), 0.0);
+    square.row_mut(jacobian.nrows()).copy_from(&row.transpose());
+    square
+}
+
+/// Unit vector that the Jacobian takes to zero, on the side of `along`; `along` itself if there are several.
+fn tangent(jacobian: &Matrix, along: &Column) -> Column {
+    let mut ahead = Column::zeros(along.len());
+    ahead[along.len() - 1] = 1.0;
+    match bordered(jacobian, along).lu().solve(&ahead) {
+        Some(solved) if solved.norm().is_finite() => solved.normalize(),
+        _ => along.clone(),
+    }
+}
+
+/// Value at zero of the polynomial through (x, column) pairs with different x.
+fn neville_at_zero(known: &[(f64, &Column)]) -> Column {
+    let mut row: Vec<Column> = known.iter().map(|(_, q)| (*q).clone()).collect();
+    for level in 1..known.len() {
+        for k in 0..known.len() - level {
+            let (x0, x1) = (known[k].0, known[k + level].0);
+            row[k] = (&row[k] * x1 - &row[k + 1] * x0) / (x1 - x0);
+        }
+    }
+    row.swap_remove(0)
+}
+/// Further drives as gearings. With constant speeds the ratios are constant.
+fn gearings(case: &Case) -> Vec<Gearing> {
+    let crank = &case.drive;
+    let further = case.further_drives.iter().zip(case.ratios(0.0).skip(1));
+    let gearing = |(drive, ratio): (&Drive, f64)| {
+        let offset = drive.world_angle(drive.start) - ratio * crank.world_angle(crank.start);
+        Gearing { crank: crank.link, link: drive.link, ratio, offset }
+    };
+    further.map(gearing).collect()
+}

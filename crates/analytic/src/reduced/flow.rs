@@ -1,0 +1,174 @@
+//! The equation of motion on one piece, in two independent forms.
+//!
+//! In time, for run-ups, which begin at rest: phi' = omega, omega' = (M - omega^2 / 2 dI*/dphi) / I*. Over the crank angle, for regimes, whose interval
+//! is known there and whose kinks lie at known places: with E = I* omega^2 / 2, dE/dphi = M and dt/dphi = 1 / omega. The second form has no
+//! dI*/dphi, so that each proves the other.
+
+use std::cell::{Cell, RefCell};
+
+use differential_equations::ode::ODE;
+
+use super::model::{Model, Piece, Reduced};
+use crate::PoseSolver;
+use crate::motion::march::Flow;
+use linkage::drive::Branch;
+use linkage::error::{Error, Result};
+
+/// Farthest that a stage of a step may lie from its beginning (rad). A first try of a step may lead anywhere; it is to be refused, not followed.
+const FARTHEST: f64 = std::f64::consts::TAU;
+
+/// What both forms evaluate.
+#[derive(Debug)]
+pub(crate) struct Forces<'m, 'a> {
+    pub(crate) model: &'m Model<'a>,
+    poses: RefCell<PoseSolver<'a>>,
+    fault: RefCell<Option<Error>>,
+    /// Crank angle at which the present step began.
+    origin: Cell<f64>,
+    pub(crate) piece: Cell<Piece>,
+    /// Sense of the crank's speed: +1 or -1.
+    pub(crate) way: Cell<f64>,
+    pub(crate) branch: Cell<Option<Branch>>,
+}
+
+impl<'m, 'a> Forces<'m, 'a> {
+    pub(crate) fn of(model: &'m Model<'a>, piece: Piece, way: f64) -> Result<Self> {
+        Ok(Forces {
+            model,
+            poses: RefCell::new(PoseSolver::new(model.case)?),
+            fault: RefCell::new(None),
+            origin: Cell::new(model.case.drive.start),
+            piece: Cell::new(piece),
+            way: Cell::new(way),
+            branch: Cell::new(model.branch(0.0, way)),
+        })
+    }
+
+    /// A step begins at this crank angle, however far it is.
+    pub(crate) fn begin_at(&self, crank: f64) {
+        self.origin.set(crank);
+    }
+
+    /// Reduced quantities on the present piece, with what turns with the crank. Not a number too far away, so that the step is taken again, and after
+    /// a fault, which is kept.
+    pub(crate) fn reduced(&self, crank: f64) -> Reduced {
+        if !((crank - self.origin.get()).abs() <= FARTHEST) {
+            return Reduced { inertia: f64::NAN, slope: f64::NAN, applied: f64::NAN };
+        }
+        let piece = self.piece.get();
+        match self.model.on_piece(&mut self.poses.borrow_mut(), crank, self.way.get(), piece) {
+            Ok(found) => Reduced { inertia: found.inertia + self.model.added, ..found },
+            Err(error) => {
+                self.fault.borrow_mut().get_or_insert(error);
+                Reduced { inertia: f64::NAN, slope: f64::NAN, applied: f64::NAN }
+            }
+        }
+    }
+
+    /// Moment of the motor on the crank (N m), counter-clockwise positive.
+    pub(crate) fn motor_moment(&self, omega: f64) -> f64 {
+        let sense = self.model.sense;
+        self.branch.get().map_or(0.0, |branch| sense * branch.moment(sense * omega))
+    }
+
+    /// Its change with the crank's speed (N m s).
+    fn motor_slope(&self, omega: f64) -> f64 {
+        self.branch.get().map_or(0.0, |branch| branch.slope(self.model.sense * omega))
+    }
+
+    pub(crate) fn acceleration(&self, crank: f64, omega: f64) -> f64 {
+        let reduced = self.reduced(crank);
+        (reduced.applied + self.motor_moment(omega) - omega * omega / 2.0 * reduced.slope) / reduced.inertia
+    }
+
+    fn take_fault(&self) -> Option<Error> {
+        self.fault.borrow_mut().take()
+    }
+
+    /// How far within the speeds of its branch the motor is.
+    fn branch_margins(&self, omega: f64) -> [f64; 2] {
+        let speed = self.model.sense * omega;
+        self.branch.get().map_or([f64::INFINITY; 2], |branch| [branch.speeds[1] - speed, speed - branch.speeds[0]])
+    }
+}
+
+/// Crank angle and speed over time.
+#[derive(Debug)]
+pub(crate) struct InTime<'m, 'a>(pub(crate) Forces<'m, 'a>);
+
+impl InTime<'_, '_> {
+    pub(crate) const UPPER: usize = 0;
+    pub(crate) const LOWER: usize = 1;
+    pub(crate) const STANDSTILL: usize = 2;
+    pub(crate) const FAST: usize = 3;
+}
+
+impl ODE<f64, [f64; 2]> for InTime<'_, '_> {
+    fn diff(&self, _: f64, &[crank, omega]: &[f64; 2], rate: &mut [f64; 2]) {
+        *rate = [omega, self.0.acceleration(crank, omega)];
+    }
+}
+
+impl Flow<2> for InTime<'_, '_> {
+    fn bounds(&self) -> usize {
+        5
+    }
+
+    fn margin(&self, bound: usize, _: f64, &[crank, omega]: &[f64; 2]) -> f64 {
+        let [from, to] = self.0.piece.get().ends;
+        match bound {
+            Self::UPPER => to - crank,
+            Self::LOWER => crank - from,
+            Self::STANDSTILL => self.0.way.get() * omega,
+            _ => self.0.branch_margins(omega)[bound - Self::FAST],
+        }
+    }
+
+    fn begin(&self, _: f64, &[crank, _]: &[f64; 2]) {
+        self.0.begin_at(crank);
+    }
+
+    fn fault(&self) -> Option<Error> {
+        self.0.take_fault()
+    }
+}
+
+/// Kinetic energy, time, and the derivative of the energy by that at the beginning, over the crank angle counted in the sense of motion.
+#[derive(Debug)]
+pub(crate) struct OverAngle<'m, 'a>(pub(crate) Forces<'m, 'a>);
+
+impl OverAngle<'_, '_> {
+    /// Speed of the crank (rad/s) at the place `x` of the way with the energy `energy` (J).
+    pub(crate) fn speed(&self, x: f64, energy: f64) -> f64 {
+        let way = self.0.way.get();
+        way * (2.0 * energy / self.0.reduced(way * x).inertia).sqrt()
+    }
+}
+
+impl ODE<f64, [f64; 3]> for OverAngle<'_, '_> {
+    fn diff(&self, x: f64, &[energy, _, share]: &[f64; 3], rate: &mut [f64; 3]) {
+        let way = self.0.way.get();
+        let reduced = self.0.reduced(way * x);
+        let omega = way * (2.0 * energy / reduced.inertia).sqrt();
+        let moment = reduced.applied + self.0.motor_moment(omega);
+        *rate = [way * moment, 1.0 / omega.abs(), way * self.0.motor_slope(omega) * omega / (2.0 * energy) * share];
+    }
+}
+
+impl Flow<3> for OverAngle<'_, '_> {
+    fn bounds(&self) -> usize {
+        2
+    }
+
+    fn margin(&self, bound: usize, x: f64, y: &[f64; 3]) -> f64 {
+        self.0.branch_margins(self.speed(x, y[0]))[bound]
+    }
+
+    fn begin(&self, x: f64, _: &[f64; 3]) {
+        self.0.begin_at(self.0.way.get() * x);
+    }
+
+    fn fault(&self) -> Option<Error> {
+        self.0.take_fault()
+    }
+}

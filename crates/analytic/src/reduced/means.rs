@@ -1,0 +1,197 @@
+//! The mechanism reduced to its driving link: moment of inertia and moment of resistance as functions of the crank angle.
+
+use std::f64::consts::{PI, TAU};
+
+use crate::PoseSolver;
+use crate::range::{Extent, Range};
+use linkage::case::{Case, Grid, Wanted};
+use linkage::drive::{Course, Load};
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::{KeepNan, Motion, quadrature};
+use linkage::solver::{Solver, State};
+use linkage::trajectory::Stage;
+
+/// Reduced moment of inertia (kg m^2): twice the kinetic energy over the square of the driving link's speed,
+/// I* = sum of m (v / omega_1)^2 + J (omega / omega_1)^2.
+#[must_use]
+pub fn moment_of_inertia(case: &Case, motions: &[Motion]) -> f64 {
+    let energy = |(link, motion): (usize, &Motion)| {
+        let body = &case.mechanism.links()[link];
+        body.mass * motion.point_velocity(body.mass_centre).norm_squared() + body.inertia * motion.omega.powi(2)
+    };
+    let sum: f64 = motions.iter().enumerate().skip(1).map(energy).sum();
+    sum / motions[case.drive.link].omega.powi(2)
+}
+
+/// Reduced moment of resistance (N m): minus the power of gravity and loads over the driving link's speed, positive
+/// where the drive must do work against them.
+#[must_use]
+pub fn moment_of_resistance(case: &Case, state: &State) -> f64 {
+    let power = |(link, motion): (usize, &Motion)| {
+        let body = &case.mechanism.links()[link];
+        case.gravity.dot(&motion.point_velocity(body.mass_centre)) * body.mass
+    };
+    let weights: f64 = state.motions.iter().enumerate().skip(1).map(power).sum();
+    -(weights + case.load_power(&state.motions, &state.angles)) / state.motions[case.drive.link].omega
+}
+
+/// Over which crank angles the reduced quantities repeat, and where they have kinks.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Kinks {
+    /// Crank angle after which the mechanism is back at its first pose, under the same loads (rad): a whole turn, or several with higher groups and
+    /// with tables over several turns.
+    /// `None` if the crank cannot turn fully.
+    pub period: Option<f64>,
+    /// Crank angles (rad) at which a loaded link turns about, so that its load changes its sense, and those at which tables of loads have their
+    /// points: ascending, of one period that begins at the start, or all that can be reached.
+    pub cranks: Vec<f64>,
+    /// Crank angles (rad) that can be reached, if there are limits.
+    pub limits: Option<[f64; 2]>,
+}
+
+/// Most turns after which the reduced quantities may repeat.
+const MOST_TURNS: u32 = 1000;
+/// Newton steps from a crank angle known to 1e-9 rad to rounding.
+const POLISHING: usize = 3;
+
+/// Kinks of the reduced quantities of a case.
+///
+/// # Errors
+/// Those of [`Range::of`]; [`ErrorKind::Unsupported`] for loads against the motion of a point, and for tables that repeat together only after more than
+/// a thousand turns.
+pub fn kinks(case: &Case) -> Result<Kinks> {
+    if let Some(load) = case.loads.iter().find(|load| load.sensed_point().is_some()) {
+        let message = format!(
+            "reduced quantities are asked for, but a load of type \"{}\" turns with the motion of a point, which the reduction to the crank does not know",
+            load.sort()
+        );
+        return Err(
+            Error::new(ErrorKind::Unsupported, message).help("give it as a table of forces over the crank angle")
+        );
+    }
+    let range = Range::of(case)?;
+    let (turns, limits) = match range.extent {
+        Extent::FullTurn(turns) => (Some(turns.unsigned_abs()), None),
+        Extent::Limited([from, to]) => (None, Some([from.crank, to.crank])),
+    };
+    let start = case.drive.start;
+    let within = |crank: f64, period: f64| {
+        let inside = (crank - start).rem_euclid(period);
+        // A rounding before the start belongs to the start.
+        start + if period - inside < 1e-12 { 0.0 } else { inside }
+    };
+    let mut poses = PoseSolver::new(case)?;
+    let mut cranks = Vec::new();
+    for link in range.links.iter().filter(|link| case.loads.iter().any(|load| load.sensed_link() == Some(link.link))) {
+        for extreme in &link.extremes {
+            let mut crank = extreme.crank;
+            for _ in 0..POLISHING {
+                let motion = &poses.solve(crank, 1.0, 0.0, Stage::Accelerations)?.motions[link.link];
+                let step = motion.omega / motion.alpha;
+                // A flat extreme stays where it was found.
+                crank -= if step.abs() < 1e-6 { step } else { 0.0 };
+            }
+            cranks.push(turns.map_or(crank, |turns| within(crank, TAU * f64::from(turns))));
+        }
+    }
+    let tables = || case.loads.iter().flat_map(Load::courses).filter_map(Course::knots);
+    let mut all = turns;
+    for (_, own) in tables() {
+        all = all.map(|all| least_common_multiple(all, own));
+        if let Some(turns) = all.filter(|&turns| turns > MOST_TURNS) {
+            let message = format!(
+                "mechanism and tables of loads repeat together after {turns} turns only, the limit is {MOST_TURNS}"
+            );
+            return Err(
+                Error::new(ErrorKind::Unsupported, message).help("give the tables turns that divide each other")
+            );
+        }
+    }
+    if let (Some(turns), Some(all)) = (turns, all) {
+        let copies = (1..all / turns).map(|copy| TAU * f64::from(copy * turns));
+        let further: Vec<f64> = copies.flat_map(|by| cranks.iter().map(move |crank| crank + by)).collect();
+        cranks.extend(further);
+    }
+    let period = all.map(|all| TAU * f64::from(all));
+    for (knots, own) in tables() {
+        let own = TAU * f64::from(own);
+        let Some([from, to]) = period.map(|period| [start, start + period]).or(limits) else { continue };
+        for &knot in &knots[1..] {
+            let first = knot + ((from - knot) / own).ceil() * own;
+            let copies = ((to - first) / own).floor().larger(-1.0) as i64;
+            cranks.extend((0..=copies).map(|copy| first + own * copy as f64));
+        }
+    }
+    if let Some(period) = period {
+        cranks.iter_mut().for_each(|crank| *crank = within(*crank, period));
+    }
+    cranks.sort_by(f64::total_cmp);
+    cranks.dedup_by(|a, b| (*a - *b).abs() < 1e-12);
+    Ok(Kinks { period, cranks, limits })
+}
+
+fn least_common_multiple(a: u32, b: u32) -> u32 {
+    let (mut larger, mut smaller) = (a, b);
+    while smaller > 0 {
+        (larger, smaller) = (smaller, larger % smaller);
+    }
+    a / larger * b
+}
+
+/// Means of the reduced quantities over one turn of the crank, or as many as bring the mechanism back to its first pose.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Means {
+    /// Mean reduced moment of inertia (kg m^2).
+    pub inertia: f64,
+    /// Mean reduced moment of resistance (N m).
+    pub resistance: f64,
+}
+
+/// Longest panel of the quadrature (rad), on eight nodes each: quantities whose nearest singularity lies a tenth of a radian off the real axis are
+/// integrated to 1e-16.
+const PANEL: f64 = PI / 90.0;
+
+/// Means over one turn at the drive's top speed, with the motion of the given solver: Gauss's rule between the kinks.
+///
+/// # Errors
+/// Those of the solver, [`ErrorKind::Geometry`] for mechanisms whose crank cannot turn fully.
+pub fn means_over_turn(case: &Case, solver: &dyn Solver) -> Result<Means> {
+    let found = kinks(case)?;
+    let Some(period) = found.period else { return Err(no_turn(&found)) };
+    let start = case.drive.start;
+    let mut breaks = vec![start];
+    breaks.extend(found.cranks.iter().filter(|&&kink| kink > start));
+    breaks.push(start + period);
+    let nodes = quadrature::composite(&breaks, PANEL);
+    let cranks = nodes.iter().map(|&(crank, _)| crank).collect();
+    let steady = case.nominal().at_top_speed();
+    let turn = Case { wanted: Wanted::of(&[Stage::Velocities]), ..steady.on(Grid::of_cranks(&steady.drive, cranks)) };
+    let mut means = Means { inertia: 0.0, resistance: 0.0 };
+    let mut visit = |row: usize, state: &State| {
+        means.inertia += moment_of_inertia(&turn, &state.motions) * nodes[row].1 / period;
+        means.resistance += moment_of_resistance(&turn, state) * nodes[row].1 / period;
+        Ok(())
+    };
+    solver.sweep(&turn, &mut visit, &mut |_| {})?;
+    Ok(means)
+}
+
+/// The error for a question about whole turns, where there are none.
+pub(crate) fn no_turn(kinks: &Kinks) -> Error {
+    let reached = kinks.limits.map_or(String::new(), |[from, to]| {
+        format!(": it can be turned from {:.6} to {:.6} deg only", from.to_degrees(), to.to_degrees())
+    });
+    Error::new(
+        ErrorKind::Geometry,
+        format!("means over a turn are asked for, but the crank does not turn fully{reached}"),
+    )
+    .help("`linkproof inspect FILE --range` shows what limits the crank")
+}
+
+/// The error for a resistance that no speed of the motor balances.
+#[must_use]
+pub fn no_steady_speed(resistance: f64) -> Error {
+    let message = format!("the motor has no stable speed at which its moment on the crank is {resistance:.6} N m");
+    Error::new(ErrorKind::Numeric, message)
+        .help("choose a stronger motor or a larger ratio; a constant torque balances nothing")
+}

@@ -1,0 +1,13 @@
+//! Motion under forces: the equation of motion of a mechanism of one freedom, reduced to its crank.
+//!
+//! `omega^2 / 2 dI*/dphi + I* domega/dt = M`, with I* and dI*/dphi from first and second transfer functions and M from the powers of motor, gravity and
+//! loads. Artobolevsky, "Theory of mechanisms and machines", motion of a machine under given forces.
+
+pub(crate) mod flow;
+pub mod means;
+pub(crate) mod model;
+pub mod run_up;
+
+pub use crate::motion::march::ACCURACY;
+pub use model::{Model, Reduced};
+pub use run_up::{CrankState, End, RunUp, motion};

@@ -1,0 +1,313 @@
+//! The mechanism as one body on the crank's shaft: what its equation of motion is made of, exactly, at every crank angle.
+
+use super::means::{self, Kinks};
+use crate::PoseSolver;
+use linkage::case::Case;
+use linkage::drive::{Branch, Load, Motor, Setting};
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::{Motion, Vec2};
+use linkage::mechanism::GROUND;
+use linkage::solver::State;
+use linkage::trajectory::Stage;
+
+/// How far from a limit of rotation a motion is followed (rad): there the reduced moment of inertia grows without bound.
+const LIMIT_MARGIN: f64 = 1e-4;
+
+/// Reduced quantities at one crank angle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reduced {
+    /// Reduced moment of inertia I* (kg m^2), without that of motor, reducer and flywheel.
+    pub inertia: f64,
+    /// Its derivative dI*/dphi (kg m^2): twice the sum of m v . a + J omega alpha for a crank that turns with 1 rad/s and 0 rad/s^2.
+    pub slope: f64,
+    /// Moment of gravity and loads reduced to the crank (N m), counter-clockwise positive.
+    pub applied: f64,
+}
+
+/// A mass of the mechanism.
+#[derive(Clone, Copy, Debug)]
+struct Mass {
+    link: usize,
+    mass: f64,
+    inertia: f64,
+    centre: Vec2,
+}
+
+/// A stretch of crank angles without a kink.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Piece {
+    index: i64,
+    /// Crank angles (rad) between which it lies.
+    pub(crate) ends: [f64; 2],
+}
+
+impl Piece {
+    /// All crank angles: for what has not been placed yet.
+    pub(crate) fn unbounded() -> Self {
+        Piece { index: 0, ends: [f64::NEG_INFINITY, f64::INFINITY] }
+    }
+}
+
+/// A mechanism of one freedom under forces: the coefficients of its equation of motion
+/// `omega^2 / 2 dI*/dphi + I* domega/dt = M`, and the crank angles at which they have kinks.
+#[derive(Clone, Debug)]
+pub struct Model<'a> {
+    pub(crate) case: &'a Case,
+    masses: Vec<Mass>,
+    /// Loads that turn with the sense of a link's rotation, and these links.
+    sensed: Vec<(usize, Load)>,
+    /// Loads that depend on the pose alone.
+    steady: Vec<Load>,
+    kinks: Kinks,
+    /// Crank angles between pieces: the kinks of one period, or its start if there are none; with limits those as well.
+    boundaries: Vec<f64>,
+    /// Sense of each such link's transfer function on each piece of one period: +1 or -1, pieces one after the other.
+    senses: Vec<f64>,
+    pub(crate) motor: Option<Motor>,
+    /// Sense in which the motor drives the crank: that of the scenario's prescribed speed.
+    pub(crate) sense: f64,
+    /// Moment of inertia that turns with the crank: motor and reducer reduced to it, and a flywheel (kg m^2).
+    pub(crate) added: f64,
+}
+
+impl<'a> Model<'a> {
+    /// The model of a case; its motor drives in the sense of its prescribed speed, which is not used otherwise.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Unsupported`] for mechanisms of several freedoms, [`ErrorKind::Input`] for one without masses, and those of
+    /// [`Range::of`](crate::range::Range::of).
+    pub fn of(case: &'a Case) -> Result<Self> {
+        if !case.further_drives.is_empty() {
+            let message = format!(
+                "the motion under forces is asked for, but the mechanism has {} freedoms: this version reduces to one crank",
+                case.drives().count()
+            );
+            return Err(Error::new(ErrorKind::Unsupported, message).help("take a scenario with one `[drive]`"));
+        }
+        let links = case.mechanism.links().iter().enumerate();
+        let masses = links.filter(|(link, body)| *link != GROUND && (body.mass > 0.0 || body.inertia > 0.0));
+        let masses =
+            masses.map(|(link, body)| Mass { link, mass: body.mass, inertia: body.inertia, centre: body.mass_centre });
+        let kinks = means::kinks(case)?;
+        check_loads(case, &kinks)?;
+        let steady = case.loads.iter().filter(|load| load.sensed_link().is_none()).cloned();
+        let sensed = case.loads.iter().filter_map(|load| Some((load.sensed_link()?, load.clone())));
+        let mut model = Model {
+            case,
+            masses: masses.collect(),
+            sensed: sensed.collect(),
+            steady: steady.collect(),
+            boundaries: boundaries(&kinks, case.drive.start),
+            kinks,
+            senses: Vec::new(),
+            motor: case.motor.clone(),
+            sense: case.drive.sense(),
+            added: case.motor.as_ref().map_or(0.0, Motor::inertia_on_crank),
+        };
+        if model.masses.is_empty() && model.added == 0.0 {
+            let message = "the motion under forces is asked for, but nothing in the mechanism has a mass";
+            return Err(Error::new(ErrorKind::Input, message).help("give the links masses, or the motor a rotor"));
+        }
+        model.find_senses()?;
+        Ok(model)
+    }
+
+    /// The same without a motor, its rotor and its reducer: the crank is free.
+    #[must_use]
+    pub fn without_motor(&self) -> Self {
+        let own = self.motor.as_ref().map_or(0.0, Motor::inertia_on_crank);
+        Model { motor: None, added: self.added - own, ..self.clone() }
+    }
+
+    /// The same with a flywheel on the crank's shaft (kg m^2, may be negative to take inertia away, as long as all in all it stays positive).
+    #[must_use]
+    pub fn with_flywheel(&self, inertia: f64) -> Self {
+        Model { added: self.added + inertia, ..self.clone() }
+    }
+
+    /// Kinks, period and limits of the reduced quantities.
+    #[must_use]
+    pub fn kinks(&self) -> &Kinks {
+        &self.kinks
+    }
+
+    /// Moment of inertia that turns with the crank besides the mechanism itself (kg m^2).
+    #[must_use]
+    pub fn added_inertia(&self) -> f64 {
+        self.added
+    }
+
+    fn find_senses(&mut self) -> Result<()> {
+        let mut poses = PoseSolver::new(self.case)?;
+        let count = self.boundaries.len() as i64;
+        for index in 0..count {
+            let piece = self.piece(index);
+            let middle = (piece.ends[0] + piece.ends[1]) / 2.0;
+            let motions = &poses.solve(middle, 1.0, 0.0, Stage::Velocities)?.motions;
+            self.senses.extend(self.sensed.iter().map(|&(link, _)| 1f64.copysign(motions[link].omega)));
+        }
+        Ok(())
+    }
+
+    /// How far to go back (rad) so that the crank angle stays small: the period, where `crank` is the end of the last piece going up; minus the
+    /// period, where it is the beginning of the first one going down; else nothing. Small angles keep their last digits.
+    pub(crate) fn wrap(&self, crank: f64, way: f64) -> f64 {
+        let first = self.boundaries[0];
+        match self.kinks.period {
+            Some(period) if way > 0.0 && crank >= first + period => period,
+            Some(period) if way < 0.0 && crank <= first => -period,
+            _ => 0.0,
+        }
+    }
+
+    /// Crank angle of a boundary, counted on through the periods.
+    fn boundary(&self, index: i64) -> f64 {
+        let all = &self.boundaries;
+        let count = all.len() as i64;
+        match self.kinks.period {
+            Some(period) => all[index.rem_euclid(count) as usize] + period * index.div_euclid(count) as f64,
+            None => all[index.clamp(0, count - 1) as usize],
+        }
+    }
+
+    /// The piece above the boundary of the same number.
+    fn piece(&self, index: i64) -> Piece {
+        Piece { index, ends: [self.boundary(index), self.boundary(index + 1)] }
+    }
+
+    /// The piece at `crank`; at a boundary, the one to which `way` (+1 or -1) leads. `None` beyond a limit.
+    pub(crate) fn piece_at(&self, crank: f64, way: f64) -> Option<Piece> {
+        let all = &self.boundaries;
+        let (turns, inside) = match self.kinks.period {
+            Some(period) => {
+                let turns = ((crank - all[0]) / period).floor();
+                (turns as i64, crank - turns * period)
+            }
+            None => (0, crank),
+        };
+        let below = all.iter().filter(|&&boundary| boundary <= inside).count() as i64 - 1;
+        let count = all.len() as i64;
+        // Rounding may have put the crank one piece off.
+        let guess = below + turns * count;
+        let holds = |piece: &Piece| match way > 0.0 {
+            true => crank >= piece.ends[0] && crank < piece.ends[1],
+            false => crank > piece.ends[0] && crank <= piece.ends[1],
+        };
+        let allowed = |index: &i64| self.kinks.period.is_some() || (0..count - 1).contains(index);
+        (guess - 1..=guess + 1).filter(allowed).map(|index| self.piece(index)).find(holds)
+    }
+
+    /// Reduced quantities at `crank` (rad) while the crank turns in the sense of `way` (+1, -1, or 0 for standstill, where no load acts that asks
+    /// for a sense). Beyond its ends the piece goes on smoothly.
+    pub(crate) fn on_piece(&self, poses: &mut PoseSolver, crank: f64, way: f64, piece: Piece) -> Result<Reduced> {
+        let state = self.at_unit_speed(poses, crank)?;
+        let count = self.sensed.len();
+        let row = piece.index.rem_euclid((self.senses.len() / count.max(1)).max(1) as i64) as usize;
+        let mut found = self.of_pose(state, crank);
+        for ((link, load), sense) in self.sensed.iter().zip(&self.senses[row * count..]) {
+            found.applied += load.moment_in(way * sense, crank) * state.motions[*link].omega;
+        }
+        Ok(found)
+    }
+
+    /// Reduced quantities at `crank` (rad) while the crank turns in the sense of `way` (+1 or -1).
+    ///
+    /// # Errors
+    /// [`ErrorKind::Geometry`] if the crank angle cannot be reached.
+    pub fn at(&self, poses: &mut PoseSolver, crank: f64, way: f64) -> Result<Reduced> {
+        let state = self.at_unit_speed(poses, crank)?;
+        let mut found = self.of_pose(state, crank);
+        for (link, load) in &self.sensed {
+            let omega = state.motions[*link].omega;
+            found.applied += load.moment_in(way * omega, crank) * omega;
+        }
+        Ok(found)
+    }
+
+    /// The state at a crank speed of 1 rad/s, with angles where a load asks for them.
+    /// Moment of inertia reduced to the crank at its start angle, with what turns with the crank (kg m^2).
+    ///
+    /// # Errors
+    /// Those of [`Model::at`].
+    pub fn inertia_at_start(&self) -> Result<f64> {
+        let mut poses = PoseSolver::new(self.case)?;
+        Ok(self.at(&mut poses, self.case.drive.start, self.sense)?.inertia + self.added)
+    }
+
+    fn at_unit_speed<'p>(&self, poses: &'p mut PoseSolver, crank: f64) -> Result<&'p State> {
+        poses.solve(crank, 1.0, 0.0, Stage::Accelerations)?;
+        Ok(poses.last(self.steady.iter().any(Load::needs_angles)))
+    }
+
+    /// What masses, gravity and steady loads contribute: virtual powers at a crank speed of 1 rad/s.
+    fn of_pose(&self, state: &State, crank: f64) -> Reduced {
+        let mut found = self.of_masses(&state.motions);
+        let (motions, angles) = (state.motions.as_slice(), state.angles.as_slice());
+        let setting = Setting { motions, angles, start: &self.case.start.0, crank };
+        for load in &self.steady {
+            load.act(&setting, &mut |action| found.applied += action.power(&motions[action.link]));
+        }
+        found
+    }
+
+    /// What masses and gravity contribute, from the motions at a crank speed of 1 rad/s.
+    #[inline]
+    fn of_masses(&self, motions: &[Motion]) -> Reduced {
+        let mut found = Reduced { inertia: 0.0, slope: 0.0, applied: 0.0 };
+        for own in &self.masses {
+            let motion = &motions[own.link];
+            let arm = motion.arm(own.centre);
+            let (velocity, acceleration) = (motion.velocity_beyond(arm), motion.acceleration_beyond(arm));
+            found.inertia += own.mass * velocity.norm_squared() + own.inertia * motion.omega * motion.omega;
+            found.slope += 2.0 * (own.mass * velocity.dot(&acceleration) + own.inertia * motion.omega * motion.alpha);
+            found.applied += own.mass * self.case.gravity.dot(&velocity);
+        }
+        found
+    }
+
+    /// Smooth piece of the motor's moment that holds while the crank turns with `omega` (rad/s) and goes on towards `towards` (rad/s^2).
+    pub(crate) fn branch(&self, omega: f64, towards: f64) -> Option<Branch> {
+        let motor = self.motor.as_ref()?;
+        Some(motor.branch(self.sense * omega, self.sense * towards))
+    }
+}
+
+/// That the loads are of those that the reduction to the crank knows.
+fn check_loads(case: &Case, kinks: &Kinks) -> Result<()> {
+    let refuse = |load: &Load, why: &str, help: &str| {
+        let message = format!("the motion under forces is asked for, but a load of type \"{}\" {why}", load.sort());
+        Err(Error::new(ErrorKind::Unsupported, message).help(help))
+    };
+    for load in &case.loads {
+        if load.is_viscous() {
+            let why = "depends on the size of speeds, which this reduction to the crank does not know";
+            return refuse(load, why, "leave it out, or take its part into the motor's law");
+        }
+        if let (&Load::TorsionSpring { links, .. }, Some(period)) = (load, kinks.period) {
+            let (mut poses, start) = (PoseSolver::new(case)?, case.drive.start);
+            let mut twist = |crank: f64| -> Result<f64> {
+                poses.solve(crank, 1.0, 0.0, Stage::Positions)?;
+                let state = poses.with_angles();
+                Ok(state.angles[links[1]] - state.angles[links[0]])
+            };
+            if (twist(start + period)? - twist(start)?).abs() > 1.0 {
+                let why = "is wound up by every turn of the crank";
+                return refuse(load, why, "fasten it to links that do not turn against each other");
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Crank angles between pieces, of a drive that starts at `start` (rad).
+fn boundaries(kinks: &Kinks, start: f64) -> Vec<f64> {
+    match kinks.limits {
+        None if kinks.cranks.is_empty() => vec![start],
+        None => kinks.cranks.clone(),
+        Some([from, to]) => {
+            let inner = kinks.cranks.iter().copied().filter(|&kink| kink > from && kink < to);
+            let ends = [from + LIMIT_MARGIN, to - LIMIT_MARGIN];
+            ends[..1].iter().copied().chain(inner).chain([ends[1]]).collect()
+        }
+    }
+}

@@ -1,0 +1,257 @@
+//! Motion in time from a given speed of the crank: run-up, run-down, swinging.
+
+use super::flow::{Forces, InTime};
+use super::model::{Model, Piece};
+use crate::PoseSolver;
+use crate::motion::march::{MOST_EMPTY, Place, SETTING_OFF, Step, Stop, march};
+use linkage::case::{Case, Grid};
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::KeepNan;
+use linkage::solver::{Provision, Sampler, State, Visit};
+use linkage::trajectory::{Channel, Stage, Trajectory};
+
+/// The crank at one instant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CrankState {
+    /// Time (s).
+    pub t: f64,
+    /// Crank angle (rad, as the scenario states it), turns kept.
+    pub crank: f64,
+    /// The same without the whole periods gone by, so that after many turns no digits are lost (rad).
+    pub within: f64,
+    /// Angular velocity of the crank (rad/s).
+    pub omega: f64,
+    /// Its angular acceleration (rad/s^2).
+    pub alpha: f64,
+    /// Static moment of the motor on the crank (N m), counter-clockwise positive; what accelerates rotor and reducer is not taken off.
+    pub motor: f64,
+    /// Moment that the crank's shaft passes on to the mechanism (N m): the motor's, less what accelerates rotor, reducer and flywheel.
+    pub shaft: f64,
+}
+
+/// How a motion ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum End {
+    /// At the last instant wanted.
+    Reached,
+    /// At a standstill that loads and losses hold, at this time (s) and crank angle (rad).
+    Held(f64, f64),
+    /// Before a limit of rotation, at this time (s) and crank angle (rad).
+    Limit(f64, f64),
+}
+
+/// Motion of the crank at wanted times (s, from 0, ascending), from the start of the case with the speed `omega` (rad/s); and how it ended: instants
+/// after the end are left out.
+///
+/// # Errors
+/// [`ErrorKind::Input`] for times that do not ascend from 0, [`ErrorKind::Numeric`] where the equation cannot be integrated on, and those of
+/// [`PoseSolver::solve`].
+pub fn motion(model: &Model, omega: f64, times: &[f64], accuracy: f64) -> Result<(Vec<CrankState>, End)> {
+    if times.iter().chain(&[omega]).any(|value| !value.is_finite())
+        || times.first().is_some_and(|&first| first < 0.0)
+        || times.windows(2).any(|pair| !(pair[0] < pair[1]))
+    {
+        let error = Error::new(
+            ErrorKind::Input,
+            "the instants of a motion do not ascend from zero, or the speed is not finite",
+        );
+        return Err(error.help("give finite times in ascending order, from 0 s on"));
+    }
+    let mut runner = Runner::begin(model, omega)?;
+    let mut found = Vec::with_capacity(times.len());
+    let end = runner.run(times, accuracy, &mut found)?;
+    Ok((found, end))
+}
+
+struct Runner<'m, 'a> {
+    flow: InTime<'m, 'a>,
+    /// Where it is; the crank angle without the periods gone.
+    place: Place<2>,
+    /// Periods gone by, as an angle of the crank (rad).
+    gone: f64,
+}
+
+impl<'m, 'a> Runner<'m, 'a> {
+    fn begin(model: &'m Model<'a>, omega: f64) -> Result<Self> {
+        let crank = model.case.drive.start;
+        let somewhere = Piece::unbounded();
+        let flow = InTime(Forces::of(model, somewhere, 1f64.copysign(omega))?);
+        Ok(Runner { flow, place: Place { x: 0.0, y: [crank, omega], h: 0.0 }, gone: 0.0 })
+    }
+
+    fn run(&mut self, times: &[f64], accuracy: f64, found: &mut Vec<CrankState>) -> Result<End> {
+        let Some(&last) = times.last() else { return Ok(End::Reached) };
+        let mut empty = 0;
+        if let Some(end) = self.enter()? {
+            self.held(times, found, end);
+            return Ok(end);
+        }
+        if times[0] == 0.0 {
+            found.push(instant(&self.flow, 0.0, self.place.y, self.gone));
+        }
+        while self.place.x < last {
+            let from = self.place.x;
+            let gone = self.gone;
+            let mut visit = |flow: &InTime, &[_, (x, y)]: &Step<2>| {
+                if times.get(found.len()) == Some(&x) {
+                    found.push(instant(flow, x, y, gone));
+                }
+                Ok(())
+            };
+            let stop = march(&self.flow, &mut self.place, times, accuracy, &mut visit)?;
+            empty = if self.place.x > from { 0 } else { empty + 1 };
+            if empty > MOST_EMPTY {
+                let crank = self.place.y[0].to_degrees();
+                let message = format!("the motion does not get away from crank angle {crank:.6} deg at {from:.9} s");
+                return Err(Error::new(ErrorKind::Numeric, message)
+                    .help("a load that turns about just there holds and lets go in turn: start it a little aside"));
+            }
+            if let Stop::Bound(bound) = stop {
+                self.arrive(bound);
+                if let Some(end) = self.enter()? {
+                    self.held(times, found, end);
+                    return Ok(end);
+                }
+            } else {
+                break;
+            }
+        }
+        Ok(End::Reached)
+    }
+
+    /// Puts the coordinate that has reached a bound exactly there.
+    fn arrive(&mut self, bound: usize) {
+        let forces = &self.flow.0;
+        let [from, to] = forces.piece.get().ends;
+        match bound {
+            InTime::UPPER | InTime::LOWER => {
+                let reached = if bound == InTime::UPPER { to } else { from };
+                let back = forces.model.wrap(reached, forces.way.get());
+                self.gone += back;
+                self.place.y[0] = reached - back;
+                forces.begin_at(self.place.y[0]);
+            }
+            InTime::STANDSTILL => self.place.y[1] = 0.0,
+            _ => {
+                let ends = forces.branch.get().map_or([0.0; 2], |branch| branch.speeds);
+                let speed = if bound == InTime::FAST { ends[1] } else { ends[0] };
+                self.place.y[1] = forces.model.sense * speed;
+            }
+        }
+    }
+
+    /// Chooses sense, piece and branch in which the motion goes on from where it is. The end, if it does not.
+    fn enter(&mut self) -> Result<Option<End>> {
+        let (t, [crank, omega]) = (self.place.x, self.place.y);
+        // At a standstill the crank goes where it is accelerated with what then resists it.
+        let ways: &[f64] = if omega == 0.0 { &[1.0, -1.0] } else { &[omega.signum()] };
+        for &way in ways {
+            let Some(piece) = self.flow.0.model.piece_at(crank, way) else {
+                if omega == 0.0 {
+                    continue;
+                }
+                return Ok(Some(End::Limit(t, crank + self.gone)));
+            };
+            let forces = &self.flow.0;
+            forces.piece.set(piece);
+            forces.way.set(way);
+            forces.branch.set(forces.model.branch(omega, way));
+            let alpha = forces.acceleration(crank, omega);
+            if omega == 0.0 && !(way * alpha > 0.0) {
+                continue;
+            }
+            if omega != 0.0 {
+                forces.branch.set(forces.model.branch(omega, alpha));
+            }
+            return Ok(None);
+        }
+        Ok(Some(End::Held(t, crank + self.gone)))
+    }
+
+    /// The instant at which a motion is held, if it is wanted.
+    fn held(&self, times: &[f64], found: &mut Vec<CrankState>, end: End) {
+        if let End::Held(t, crank) = end
+            && times.get(found.len()) == Some(&t)
+        {
+            // Whatever holds the crank balances the motor.
+            let motor = self.flow.0.motor_moment(0.0);
+            found.push(CrankState { t, crank, within: crank - self.gone, omega: 0.0, alpha: 0.0, motor, shaft: motor });
+        }
+    }
+}
+
+/// The crank at a state, `gone` (rad) of whole periods later.
+fn instant(flow: &InTime, t: f64, [crank, omega]: [f64; 2], gone: f64) -> CrankState {
+    let alpha = flow.0.acceleration(crank, omega);
+    let motor = flow.0.motor_moment(omega);
+    CrankState { t, crank: crank + gone, within: crank, omega, alpha, motor, shaft: motor - flow.0.model.added * alpha }
+}
+
+/// Kinetostatics of a motion: the state at every instant, as far as the case wants it.
+pub(crate) fn states(case: &Case, motion: &[CrankState], visit: Visit) -> Result<()> {
+    let mut poses = PoseSolver::counting_turns(case)?;
+    let deepest = case.wanted.deepest();
+    for (row, instant) in motion.iter().enumerate() {
+        poses.solve(instant.crank, instant.omega, instant.alpha, deepest)?;
+        // At the very moment of setting off, loads act against the motion that begins.
+        if instant.omega == 0.0 && instant.alpha != 0.0 && deepest >= Stage::Reactions {
+            let begun = SETTING_OFF.copysign(instant.alpha);
+            let loaded = poses.solve(instant.crank, begun, instant.alpha, deepest)?.clone();
+            poses.solve(instant.crank, 0.0, instant.alpha, Stage::Accelerations)?;
+            let still = poses.with_angles().clone();
+            visit(row, &State { motions: still.motions, angles: still.angles, ..loaded })?;
+            continue;
+        }
+        visit(row, poses.with_angles())?;
+    }
+    Ok(())
+}
+
+/// A motion with everything that it does to the mechanism.
+#[derive(Clone, Debug)]
+pub struct RunUp {
+    /// The crank at every instant.
+    pub motion: Vec<CrankState>,
+    /// All wanted channels at these instants. `drive.torque_N_m` is the moment on the crank that its equilibrium asks for, from the reactions.
+    pub trajectory: Trajectory,
+    /// How it ended.
+    pub end: End,
+    /// Largest reaction times the mechanism's size (N m): what moments are measured by where none acts on the crank.
+    natural: f64,
+}
+
+impl RunUp {
+    /// Motion of the case's mechanism at the given times, with the case's wanted channels: kinetostatics with the true speed and acceleration.
+    ///
+    /// # Errors
+    /// Those of [`motion`].
+    pub fn of(model: &Model, omega: f64, times: &[f64], accuracy: f64) -> Result<Self> {
+        let (motion, end) = motion(model, omega, times, accuracy)?;
+        let grid = Grid {
+            times: motion.iter().map(|instant| instant.t).collect(),
+            cranks: motion.iter().map(|instant| instant.crank).collect(),
+        };
+        let case: Case = model.case.on(grid);
+        let mut sampler = Sampler::new(&case);
+        let (mut natural, size) = (0.0f64, case.mechanism.size());
+        states(&case, &motion, &mut |row, state| {
+            natural = state.forces.iter().fold(natural, |most, force| most.larger(force.norm() * size));
+            sampler.put(&case, row, state);
+            Ok(())
+        })?;
+        let trajectory = sampler.finish(&case, |_| Provision::Computed)?;
+        Ok(RunUp { motion, trajectory, end, natural })
+    }
+
+    /// Largest difference between the moment that the shaft passes on and the one that the crank's equilibrium asks for, over the largest moment, or the largest reaction times the mechanism's size: the
+    /// equation of motion against the reactions, which know nothing of reduced quantities. `None` if the balancing moment is not wanted.
+    #[must_use]
+    pub fn power_residual(&self) -> Option<f64> {
+        let asked = self.trajectory.column(&Channel::named("drive.torque_N_m")?)?;
+        let scale =
+            asked.iter().chain(self.motion.iter().map(|i| &i.motor)).fold(self.natural, |most, m| most.larger(m.abs()));
+        let worst =
+            self.motion.iter().zip(asked).fold(0.0f64, |most, (i, &asked)| most.larger((i.shaft - asked).abs()));
+        Some(if scale > 0.0 { worst / scale } else { worst })
+    }
+}

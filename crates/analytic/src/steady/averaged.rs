@@ -1,0 +1,46 @@
+//! The averaged model in closed form: a linear motor against constant coefficients.
+
+use linkage::drive::{Motor, MotorLaw};
+
+/// Share by which a steady speed may lie beyond the end of the motor's line: rounding.
+const SAME: f64 = 1e-12;
+
+/// Motion from rest under `I domega/dt = M0 - B omega - R`, with the means I of the inertia and R of the resistance over the turn in place of their
+/// courses, and the motor's straight line M0 - B omega on the crank: omega = omega_s (1 - exp(-t / T)) with T = I / B and omega_s = (M0 - R) / B.
+///
+/// A linear law of the motor gives B = -slope ratio^2 efficiency, as long as the motor drives. Speeds and angles count positive in the motor's sense.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Averaged {
+    /// Time constant T (s): after it 1 - 1 / e = 63.2 % of the steady speed are reached.
+    pub time_constant: f64,
+    /// Steady speed omega_s of the crank (rad/s), above zero.
+    pub steady_speed: f64,
+}
+
+impl Averaged {
+    /// The model of a motor before a moment of inertia on the crank (kg m^2, rotor, reducer and flywheel among it) and a moment of resistance
+    /// (N m, positive where the motor must work against it).
+    ///
+    /// `None` where there is no such closed form: the law is not linear, the motor does not start against the resistance, or the resistance drives
+    /// the motor beyond its speed without load through a reducer with losses, where the line has a bend.
+    #[must_use]
+    pub fn of(motor: &Motor, inertia: f64, resistance: f64) -> Option<Self> {
+        let MotorLaw::Linear { .. } = motor.law else { return None };
+        let steady_speed = motor.steady_speed(resistance)?;
+        let line = motor.branch(0.0, 1.0);
+        let holds = steady_speed > 0.0 && steady_speed <= line.speeds[1] * (1.0 + SAME);
+        (holds && inertia > 0.0).then(|| Averaged { time_constant: inertia / -line.slope(0.0), steady_speed })
+    }
+
+    /// Speed of the crank (rad/s) at `t` (s) after the start from rest.
+    #[must_use]
+    pub fn speed(&self, t: f64) -> f64 {
+        -self.steady_speed * (-t / self.time_constant).exp_m1()
+    }
+
+    /// Angle that the crank has turned (rad) at `t` (s) after the start from rest.
+    #[must_use]
+    pub fn angle(&self, t: f64) -> f64 {
+        self.steady_speed * (t + self.time_constant * (-t / self.time_constant).exp_m1())
+    }
+}

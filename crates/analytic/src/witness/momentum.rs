@@ -1,0 +1,24 @@
+//! Momentum of the whole mechanism: a way to the shaking force and moment that knows no reaction.
+
+use linkage::case::Case;
+use linkage::math::{Vec2, cross};
+use linkage::solver::State;
+
+/// Shaking force (N) and shaking moment about the origin (N m) from d'Alembert's principle for all moving links together: inner
+/// reactions cancel, and so do loads between two links, the frame being one of them: it carries F = sum of m (g - a) + loads and
+/// M = sum of r x m (g - a) - J alpha + loads.
+#[must_use]
+pub fn shaking(case: &Case, state: &State) -> (Vec2, f64) {
+    let (mut force, mut moment) = (Vec2::zeros(), 0.0);
+    for (index, link) in case.mechanism.links().iter().enumerate().skip(1) {
+        let motion = &state.motions[index];
+        let own = (case.gravity - motion.point_acceleration(link.mass_centre)) * link.mass;
+        force += own;
+        moment += cross(motion.point(link.mass_centre), own) - link.inertia * motion.alpha;
+    }
+    case.each_load(&state.motions, &state.angles, |action| {
+        force += action.force;
+        moment += action.about(Vec2::zeros());
+    });
+    (force, moment)
+}

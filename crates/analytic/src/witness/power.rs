@@ -1,0 +1,24 @@
+//! Balance of powers: a way to the balancing moment that knows no reaction.
+
+use linkage::case::Case;
+use linkage::math::Motion;
+use linkage::solver::State;
+
+/// Power of gravity, inertia and loads on all links (W): sum of m (g - a) . v - J alpha omega, and that of the loads.
+#[must_use]
+pub fn of_known_forces(case: &Case, state: &State) -> f64 {
+    let power = |(link, motion): (usize, &Motion)| {
+        let body = &case.mechanism.links()[link];
+        let force = (case.gravity - motion.point_acceleration(body.mass_centre)) * body.mass;
+        force.dot(&motion.point_velocity(body.mass_centre)) - body.inertia * motion.alpha * motion.omega
+    };
+    let own: f64 = state.motions.iter().enumerate().skip(1).map(power).sum();
+    own + case.load_power(&state.motions, &state.angles)
+}
+
+/// Balancing moment on the crank (N m) with which the powers of all forces vanish, those of further drives reduced to it: the sum of
+/// their moments times the ratios of speed. Ideal joints do no work, so no reaction enters. The crank must turn.
+#[must_use]
+pub fn balancing_moment(case: &Case, state: &State) -> f64 {
+    -of_known_forces(case, state) / state.motions[case.drive.link].omega
+}

@@ -1,0 +1,95 @@
+//! The chain of dyads that is left when a ground lead drives: the other ground lead and the base link, then lead 3 and the crank.
+
+use linkage::math::{Vec2, cross, rotated, turned};
+
+/// A ground lead.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Grounded {
+    /// Its foot (m, world axes).
+    pub(super) foot: Vec2,
+    /// Its length (m).
+    pub(super) length: f64,
+    /// Its head in the base link's frame (m).
+    pub(super) on_base: Vec2,
+}
+
+/// The chain for one choice of the conditional driver.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Chain {
+    /// The ground lead that drives, then the other one.
+    pub(super) leads: [Grounded; 2],
+    /// Head of lead 3 in the base link's frame (m).
+    pub(super) third: Vec2,
+    /// On which side of the line from the driver's head to the other foot the other head lies: +1 left, -1 right.
+    pub(super) side: f64,
+}
+
+/// A pose of the chain (m, world axes).
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    /// Driving lead, foot to head.
+    pub(super) driver: Vec2,
+    /// Base link, driver's head to the other head.
+    pub(super) base: Vec2,
+    /// The other ground lead, foot to head.
+    pub(super) other: Vec2,
+    /// Base link, driver's head to the head of lead 3.
+    pub(super) arm: Vec2,
+    /// World place of the head of lead 3.
+    pub(super) third: Vec2,
+}
+
+/// Derivatives of the chain by the driving lead's angle: first and second.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Slopes {
+    pub(super) base: [f64; 2],
+    pub(super) other: [f64; 2],
+    /// Head of lead 3 (m).
+    pub(super) third: [Vec2; 2],
+}
+
+impl Chain {
+    /// First dyad: the driver's head is D, the other foot is G, d = |DG|, b = |DE| on the base link and l the other lead. The
+    /// cosine rule gives E = D + DG (b^2 - l^2 + d^2 +- i sqrt((b + l + d)(b + l - d)(d + b - l)(d - b + l))) / 2 d^2 as complex numbers; the
+    /// root is the fourfold area of the triangle by Heron's formula. `None` if the dyad cannot be assembled.
+    pub(super) fn place(&self, driver: Vec2) -> Option<Place> {
+        let [lead, other] = self.leads;
+        let head = lead.foot + driver;
+        let own = other.on_base - lead.on_base;
+        let span = other.foot - head;
+        let (b, l, d) = (own.norm(), other.length, span.norm());
+        let area = (b + l + d) * (b + l - d) * (d + b - l) * (d - b + l);
+        // Written so that NaN is refused too.
+        if !(area >= 0.0) {
+            return None;
+        }
+        let turn = Vec2::new((b - l) * (b + l) + d * d, self.side * area.sqrt()) / (2.0 * d * d);
+        let base = rotated(span, turn);
+        let arm = rotated(along(own, base), self.third - lead.on_base);
+        Some(Place { driver, base, other: head + base - other.foot, arm, third: head + arm })
+    }
+}
+
+impl Place {
+    /// Sine of the angle between base link and other lead, signed: zero where the conditional driver has a dead point in the first dyad.
+    pub(super) fn sine(&self) -> f64 {
+        cross(self.base, self.other) / (self.base.norm() * self.other.norm())
+    }
+
+    /// From driver + base = FG + other, differentiated once and twice; scalar products with one of the two vectors leave the other's rate.
+    pub(super) fn slopes(&self) -> Slopes {
+        let (p, r) = (self.base, self.other);
+        let d = [turned(self.driver), -self.driver];
+        let area = cross(p, r);
+        let (base, other) = (-d[0].dot(&r) / area, -d[0].dot(&p) / area);
+        let rest = d[1] - p * (base * base) + r * (other * other);
+        let second = [-rest.dot(&r) / area, -rest.dot(&p) / area];
+        let third = [d[0] + turned(self.arm) * base, d[1] + turned(self.arm) * second[0] - self.arm * (base * base)];
+        Slopes { base: [base, second[0]], other: [other, second[1]], third }
+    }
+}
+
+/// Direction of a frame in which the vector `local` lies as `world`.
+pub(super) fn along(local: Vec2, world: Vec2) -> Vec2 {
+    Vec2::new(local.dot(&world), cross(local, world)).normalize()
+}

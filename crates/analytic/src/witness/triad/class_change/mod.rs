@@ -1,0 +1,302 @@
+//! The class III group by exchange of the driving link.
+//!
+//! With one of its ground leads as conditional driver the mechanism is a chain of class II dyads: base link and other ground lead, then
+//! lead 3 and crank. The first dyad is placed in closed form, the second asks that the head F of lead 3 lies at its length from the
+//! crank pin C. The crank angle alpha is thus a function of the lead's angle theta, and the true motion follows by inverting it: for a given alpha
+//! the theta at which the second dyad closes, `|F(theta) - C(alpha)| = l_3`, is found between bounds by Newton's method with
+//! bisection, and with q = F - C
+//!
+//! `d alpha / d theta = (q . F') / (q . C')`, `omega_lead = omega_crank / (d alpha / d theta)`,
+//!
+//! all other rates and the accelerations by differentiating twice along the same chain (class III groups reduced to class II by another
+//! driving link; Artobolevsky, "Theory of mechanisms and machines"). No system of equations is solved.
+//!
+//! Dead points. At the limit positions of a ground lead d alpha / d theta is infinite: the conditional driver cannot drive there. There are
+//! two sorts. Where base link and *other* lead are in line, the first dyad is at its limit; then the other ground lead is the driver, and of
+//! the two always that is taken whose first dyad is farther from its limit. Where crank and lead 3 are in line both ground leads stand
+//! still at once, and neither is better; there the second dyad changes from one of its two configurations to the other. Its closing
+//! condition holds for both and is smooth in theta, so that solving it, and not the angle of the dyad, passes such points without notice. What
+//! cannot be passed is a dead point of the group itself, q . F' = 0.
+
+mod chain;
+
+use super::Triad;
+use chain::{Chain, Grounded, Place, along};
+use linkage::case::Case;
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::{KeepNan, Vec2, cross, rotated, turned, unit};
+use linkage::mechanism::{GROUND, JointKind};
+
+/// Largest turn of the crank between two poses (rad): one degree.
+const TRACKING_STEP: f64 = std::f64::consts::PI / 180.0;
+/// How often a step that fails is halved: down to a millionth of it.
+const HALVINGS: u32 = 20;
+/// Largest turn of a link in one step (rad) that is still a continuation.
+const MAX_TURN: f64 = 0.3;
+/// Largest change of the last iteration of Newton's method (rad).
+const LAST_CHANGE: f64 = 1e-9;
+/// Bisection alone ends after as many halvings as a double has bits.
+const MAX_ITERATIONS: usize = 64;
+
+/// Transfer functions of leads and base link at one crank angle, in the order of [`Triad::links`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Transfer {
+    /// Directions of the links' x axes.
+    pub directions: [Vec2; 4],
+    /// First transfer functions: derivatives of the links' angles by the crank angle.
+    pub first: [f64; 4],
+    /// Second transfer functions (1/rad).
+    pub second: [f64; 4],
+    /// The conditional driver: 0, 1 or 2 as in [`Triad::leads`].
+    pub driver: usize,
+    /// By so much rounding can grow in the angles, at least 1: the inverse sines of the angle between base link and other lead, and of that
+    /// at which lead 3 meets the path of its head.
+    pub condition: f64,
+}
+
+impl Transfer {
+    /// Angular velocities (rad/s) and accelerations (rad/s^2) of leads and base link for those of the crank.
+    #[must_use]
+    pub fn rates(&self, omega: f64, alpha: f64) -> [[f64; 4]; 2] {
+        let second = |k: usize| self.second[k] * omega * omega + self.first[k] * alpha;
+        [self.first.map(|slope| slope * omega), [0, 1, 2, 3].map(second)]
+    }
+}
+
+/// Follows the group over crank angles on one branch.
+#[derive(Clone, Debug)]
+pub struct ClassChange {
+    /// World angle of the crank at crank angle zero (rad).
+    zero: f64,
+    names: String,
+    /// Crank's pivot in the world and its pin from there in the crank's frame (m).
+    pivot: Vec2,
+    pin: Vec2,
+    /// Places of the ground leads and of lead 3 among the triad's leads.
+    order: [usize; 3],
+    grounded: [Grounded; 2],
+    /// Head of lead 3 in the base link's frame, and its length (m).
+    third: Vec2,
+    length: f64,
+    /// Vectors from foot to head in the frames of the triad's leads, and between the heads of the ground leads in that of the base link.
+    locals: [Vec2; 4],
+    crank: f64,
+    /// World vectors from foot to head of the ground leads.
+    spans: [Vec2; 2],
+    last: Transfer,
+    /// Sign of the group's determinant; zero before the first pose.
+    branch: f64,
+}
+
+impl ClassChange {
+    /// At the start pose of the case.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Unsupported`] if the group does not hang with two leads on the ground and with the third on a driving link that turns;
+    /// [`ErrorKind::Geometry`] if the start pose is a dead point.
+    pub fn new(case: &Case, triad: &Triad) -> Result<Self> {
+        let (mechanism, drive) = (&case.mechanism, &case.drive);
+        let hung_on = |link: usize| (0..3).filter(move |&k| triad.leads[k].support.link == link);
+        let grounds: Vec<usize> = hung_on(GROUND).collect();
+        let driven: Vec<usize> = hung_on(drive.link).collect();
+        let joint = &mechanism.joints()[drive.joint];
+        let turns = matches!(joint.kind, JointKind::Revolute);
+        let (&[a, b], &[c], true, Some(own)) = (&grounds[..], &driven[..], turns, joint.on(drive.link)) else {
+            return Err(unsupported(case, triad));
+        };
+        let grounded = [a, b].map(|k| {
+            let lead = triad.leads[k];
+            Grounded { foot: lead.support.local, length: (lead.head - lead.foot).norm(), on_base: lead.on_base }
+        });
+        let spans = triad.leads.map(|lead| lead.head - lead.foot);
+        let start = |link: usize| unit(case.start.0[link].angle);
+        let last = Transfer {
+            directions: triad.links().map(start),
+            first: [0.0; 4],
+            second: [0.0; 4],
+            driver: a,
+            condition: f64::INFINITY,
+        };
+        let mut change = ClassChange {
+            zero: drive.zero,
+            names: names(case, triad),
+            pivot: joint.other(drive.link).local,
+            pin: triad.leads[c].support.local - own,
+            order: [a, b, c],
+            grounded,
+            third: triad.leads[c].on_base,
+            length: spans[c].norm(),
+            locals: [spans[0], spans[1], spans[2], grounded[1].on_base - grounded[0].on_base],
+            crank: drive.start,
+            spans: [a, b].map(|k| rotated(last.directions[k], spans[k])),
+            last,
+            branch: 0.0,
+        };
+        change.step_to(drive.start, 0)?;
+        Ok(change)
+    }
+
+    /// Transfer functions at the crank angle `crank` (rad, as the scenario states it), reached from the last one in small steps.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Geometry`] if the branch has a dead point on the way there.
+    pub fn solve(&mut self, crank: f64) -> Result<&Transfer> {
+        let from = self.crank;
+        let parts = ((crank - from).abs() / TRACKING_STEP).ceil().larger(1.0);
+        for part in 1..parts as usize {
+            self.step_to(from + (crank - from) * (part as f64 / parts), HALVINGS)?;
+        }
+        self.step_to(crank, HALVINGS)?;
+        Ok(&self.last)
+    }
+
+    fn step_to(&mut self, target: f64, halvings: u32) -> Result<()> {
+        if self.try_step(target).is_some() {
+            return Ok(());
+        }
+        if halvings == 0 {
+            let (names, crank) = (&self.names, target.to_degrees());
+            let message = format!(
+                "class change: the group ({names}) cannot be followed beyond crank angle {crank:.4} deg: it has a dead point there"
+            );
+            return Err(Error::new(ErrorKind::Geometry, message)
+                .help("shorten the grid to the crank angles that can be reached on this branch"));
+        }
+        self.step_to((self.crank + target) / 2.0, halvings - 1)?;
+        self.step_to(target, halvings - 1)
+    }
+
+    /// The chain driven by one of the two ground leads, in its configuration at the last pose, and that pose.
+    fn chain(&self, driver: usize) -> Option<(Chain, Place)> {
+        let other = 1 - driver;
+        let leads = [self.grounded[driver], self.grounded[other]];
+        let head = |k: usize| self.grounded[k].foot + self.spans[k];
+        let side = cross(self.grounded[other].foot - head(driver), head(other) - head(driver)).signum();
+        let chain = Chain { leads, third: self.third, side };
+        Some((chain, chain.place(self.spans[driver])?))
+    }
+
+    fn try_step(&mut self, target: f64) -> Option<()> {
+        let both = [0, 1].map(|driver| self.chain(driver));
+        let sine = |k: usize| both[k].map_or(0.0, |(_, place)| place.sine().abs());
+        let driver = usize::from(sine(1) > sine(0));
+        let (chain, before) = both[driver]?;
+        let pin = rotated(unit(self.zero + target), self.pin);
+        let closing = |place: &Place| place.third - (self.pivot + pin);
+        let lead = self.order[driver];
+        let change = target - self.crank;
+        let expected = change * (self.last.first[lead] + 0.5 * change * self.last.second[lead]);
+        let gap = |turn: f64| {
+            let place = chain.place(rotated(unit(turn), before.driver))?;
+            let q = closing(&place);
+            Some((q.norm_squared() - self.length.powi(2), 2.0 * q.dot(&place.slopes().third[0])))
+        };
+        let turn = zero(gap, expected)?;
+        let place = chain.place(rotated(unit(turn), before.driver))?;
+        let found = self.transfer(driver, &place, closing(&place), pin);
+        // q . F' times the first dyad's area is the determinant of the group; exchanging the ground leads exchanges two columns.
+        let sense = if driver == 0 { 1.0 } else { -1.0 };
+        let branch = (closing(&place).dot(&place.slopes().third[0]) * place.sine() * sense).signum();
+        let near = |k: usize| {
+            let (was, now) = (self.last.directions[k], found.directions[k]);
+            was.dot(&now) > 0.0 && cross(was, now).abs() <= MAX_TURN
+        };
+        let rates = found.first.iter().chain(&found.second);
+        if !((0..4).all(near) && rates.into_iter().all(|rate| rate.is_finite()) && branch * self.branch >= 0.0) {
+            return None;
+        }
+        (self.crank, self.branch, self.last) = (target, branch, found);
+        self.spans = if driver == 0 { [place.driver, place.other] } else { [place.other, place.driver] };
+        Some(())
+    }
+
+    /// Transfer functions at a pose of the chain, with q = F - C and the crank's arm `pin`.
+    fn transfer(&self, driver: usize, place: &Place, q: Vec2, pin: Vec2) -> Transfer {
+        let slopes = place.slopes();
+        let [f, ff] = slopes.third;
+        let [c, cc] = [turned(pin), -pin];
+        let first = q.dot(&c) / q.dot(&f);
+        let q1 = f * first - c;
+        let second = (q.dot(&cc) - q1.norm_squared() - q.dot(&ff) * first * first) / q.dot(&f);
+        let q2 = ff * (first * first) + f * second - cc;
+        let chained = |slope: [f64; 2]| [slope[0] * first, slope[1] * first * first + slope[0] * second];
+        let [lead, other, third] = [self.order[driver], self.order[1 - driver], self.order[2]];
+        let sense = if driver == 0 { 1.0 } else { -1.0 };
+        let found = [
+            (lead, place.driver, [first, second]),
+            (other, place.other, chained(slopes.other)),
+            (third, q, [cross(q, q1), cross(q, q2)].map(|value| value / q.norm_squared())),
+            (3, place.base * sense, chained(slopes.base)),
+        ];
+        let meeting = q.dot(&f).abs() / (q.norm() * f.norm());
+        let mut transfer = Transfer { driver: lead, condition: 1.0 / (place.sine().abs() * meeting), ..self.last };
+        for (link, world, [first, second]) in found {
+            transfer.directions[link] = along(self.locals[link], world);
+            (transfer.first[link], transfer.second[link]) = (first, second);
+        }
+        transfer
+    }
+}
+
+/// The zero next to `guess` (rad) of a function with its derivative, between bounds by Newton's method with bisection. `None` if there
+/// is none within [`MAX_TURN`], or the function ends before it.
+fn zero(gap: impl Fn(f64) -> Option<(f64, f64)>, guess: f64) -> Option<f64> {
+    let (value, slope) = gap(guess)?;
+    if value == 0.0 {
+        return Some(guess);
+    }
+    let newton = value / slope;
+    let mut width = (2.0 * newton.abs()).clamp(f64::EPSILON, MAX_TURN);
+    let mut bounds = loop {
+        if !(width <= MAX_TURN) {
+            return None;
+        }
+        let beyond = guess - newton.signum() * width;
+        if gap(beyond)?.0 * value <= 0.0 {
+            break [guess, beyond];
+        }
+        width *= 2.0;
+    };
+    let mut at = guess;
+    for _ in 0..MAX_ITERATIONS {
+        let (now, slope) = gap(at)?;
+        bounds[usize::from(now * value <= 0.0)] = at;
+        let next = at - now / slope;
+        let [low, high] = [bounds[0].smaller(bounds[1]), bounds[0].larger(bounds[1])];
+        // Quadratic convergence: what is left is of the order of the square.
+        if (next - at).abs() < LAST_CHANGE {
+            return Some(next);
+        }
+        at = if next > low && next < high { next } else { 0.5 * (low + high) };
+    }
+    Some(at)
+}
+
+fn names(case: &Case, triad: &Triad) -> String {
+    triad.links().map(|link| case.mechanism.links()[link].name.as_str()).join(", ")
+}
+
+fn unsupported(case: &Case, triad: &Triad) -> Error {
+    let links = case.mechanism.links();
+    let supports = triad.leads.map(|lead| links[lead.support.link].name.as_str()).join(", ");
+    let (names, crank) = (names(case, triad), &links[case.drive.link].name);
+    let message = format!(
+        "class change asks for a group with two leads on the ground and one on the driving link \"{crank}\", turning about the ground; the leads of the group ({names}) hang on: {supports}"
+    );
+    Error::new(ErrorKind::Unsupported, message).help("use Cramer's rule, which takes any supports")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_zero_is_found_where_newton_alone_runs_away() {
+        // From 0.1 Newton's method on atan(20 x) goes to -0.18, then to 0.7, and farther out each time.
+        let steep = |x: f64| Some(((20.0 * x).atan(), 20.0 / (1.0 + 400.0 * x * x)));
+        assert!(zero(steep, 0.1).unwrap().abs() < f64::EPSILON);
+        assert_eq!(zero(|x| Some((x * x + 1.0, 2.0 * x)), 0.1), None);
+        assert_eq!(zero(|x| (x < 0.1).then_some((x - 0.2, 1.0)), 0.0), None);
+        assert_eq!(zero(|_| Some((f64::NAN, f64::NAN)), 0.0), None);
+    }
+}

@@ -1,0 +1,149 @@
+//! First transfer functions and angular accelerations of the group's links by Cramer's rule.
+//!
+//! The two vector contours A_1 B_1 B_k A_k, k = 2, 3, of leads and base link,
+//! `l_1 e(alpha_1) + b_k e(alpha_4 + beta_k) = A_1 A_k + l_k e(alpha_k)`, differentiated by the crank angle (or by time), give four
+//! linear equations for alpha_1' .. alpha_4' with the velocities of the feet on the right; differentiated again, the same
+//! determinant and on the right the accelerations of the feet and the centripetal parts of the links. Each unknown is a quotient
+//! of two 4 x 4 determinants (method of the transfer functions for class III groups; Artobolevsky, "Theory of mechanisms
+//! and machines", analytical kinematics by vector contours).
+
+use super::{Triad, singular};
+use linkage::error::Result;
+use linkage::math::{Motion, Vec2, turned};
+
+/// The two contours in one pose.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contours {
+    /// Vectors from foot to head of each lead (m).
+    pub leads: [Vec2; 3],
+    /// Vectors from the first head to the second and to the third (m).
+    pub sides: [Vec2; 2],
+}
+
+type Matrix = [[f64; 4]; 4];
+
+impl Contours {
+    /// The contours of a group in the pose of `motions`, of which only the links' directions are read.
+    #[must_use]
+    pub fn of(triad: &Triad, motions: &[Motion]) -> Self {
+        let base = &motions[triad.base];
+        Contours {
+            leads: triad.leads.map(|lead| motions[lead.link].arm(lead.head - lead.foot)),
+            sides: [1, 2].map(|k| base.arm(triad.leads[k].on_base - triad.leads[0].on_base)),
+        }
+    }
+
+    /// Coefficients: two rows a contour, one column a link.
+    fn matrix(&self) -> Matrix {
+        let mut matrix = [[0.0; 4]; 4];
+        for (k, side) in self.sides.into_iter().enumerate() {
+            let columns = [(0, turned(self.leads[0])), (k + 1, -turned(self.leads[k + 1])), (3, turned(side))];
+            for (column, vector) in columns {
+                matrix[2 * k][column] = vector.x;
+                matrix[2 * k + 1][column] = vector.y;
+            }
+        }
+        matrix
+    }
+
+    /// Product of the lengths of the four columns over the size of the determinant, at least 1: by so much the rounding of the
+    /// coefficients can grow in the unknowns. Infinite at a dead point.
+    #[must_use]
+    pub fn condition(&self) -> f64 {
+        let matrix = self.matrix();
+        let length = |column: usize| matrix.iter().map(|row| row[column].powi(2)).sum::<f64>().sqrt();
+        (0..4).map(length).product::<f64>() / determinant4(&matrix).abs()
+    }
+
+    /// Angular velocities of the three leads and the base link (rad/s) for the velocities of the three feet (m/s); with the feet's
+    /// derivatives by the crank angle (m) the first transfer functions alpha_i'.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Numeric`](linkage::ErrorKind::Numeric) at a dead point of the group.
+    pub fn first(&self, feet: [Vec2; 3]) -> Result<[f64; 4]> {
+        self.solve([feet[1] - feet[0], feet[2] - feet[0]])
+    }
+
+    /// Angular accelerations (rad/s^2) for the accelerations of the feet (m/s^2) and the angular velocities `first` (rad/s); with
+    /// derivatives by the crank angle the second transfer functions.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Numeric`](linkage::ErrorKind::Numeric) at a dead point of the group.
+    pub fn second(&self, feet: [Vec2; 3], first: [f64; 4]) -> Result<[f64; 4]> {
+        let centripetal = |k: usize| {
+            self.leads[0] * first[0].powi(2) + self.sides[k - 1] * first[3].powi(2) - self.leads[k] * first[k].powi(2)
+        };
+        self.solve([1, 2].map(|k| feet[k] - feet[0] + centripetal(k)))
+    }
+
+    fn solve(&self, right: [Vec2; 2]) -> Result<[f64; 4]> {
+        let matrix = self.matrix();
+        let right = [right[0].x, right[0].y, right[1].x, right[1].y];
+        let whole = determinant4(&matrix);
+        let quotients = [0, 1, 2, 3].map(|column| {
+            let mut replaced = matrix;
+            replaced.iter_mut().zip(right).for_each(|(row, value)| row[column] = value);
+            determinant4(&replaced) / whole
+        });
+        if quotients.iter().all(|value| value.is_finite()) { Ok(quotients) } else { Err(singular("Cramer's rule")) }
+    }
+}
+
+/// Angular velocities (rad/s) and angular accelerations (rad/s^2) of leads and base link. Of `motions` are read the directions of the
+/// group's links and the whole motion of the links that carry its feet.
+///
+/// # Errors
+/// [`ErrorKind::Numeric`](linkage::ErrorKind::Numeric) at a dead point of the group.
+pub fn rates(triad: &Triad, motions: &[Motion]) -> Result<[[f64; 4]; 2]> {
+    let contours = Contours::of(triad, motions);
+    let support = triad.leads.map(|lead| lead.support);
+    let first = contours.first(support.map(|side| motions[side.link].point_velocity(side.local)))?;
+    let second = contours.second(support.map(|side| motions[side.link].point_acceleration(side.local)), first)?;
+    Ok([first, second])
+}
+
+/// Determinant by cofactors of the first row.
+fn determinant4(a: &Matrix) -> f64 {
+    let minor = |skipped: usize| {
+        let mut rest = [[0.0; 3]; 3];
+        for (row, values) in rest.iter_mut().zip(&a[1..]) {
+            let kept = (0..4).filter(|&column| column != skipped);
+            row.iter_mut().zip(kept).for_each(|(value, column)| *value = values[column]);
+        }
+        determinant3(&rest)
+    };
+    a[0][0] * minor(0) - a[0][1] * minor(1) + a[0][2] * minor(2) - a[0][3] * minor(3)
+}
+
+fn determinant3(a: &[[f64; 3]; 3]) -> f64 {
+    let minor = |i: usize, j: usize| a[1][i] * a[2][j] - a[1][j] * a[2][i];
+    a[0][0] * minor(1, 2) - a[0][1] * minor(0, 2) + a[0][2] * minor(0, 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use linkage::ErrorKind;
+
+    #[test]
+    fn determinants_of_known_matrices() {
+        // Vandermonde: the product of all differences of 1, 2, 3, 5.
+        let vandermonde = [1.0f64, 2.0, 3.0, 5.0].map(|x| [1.0, x, x * x, x * x * x]);
+        assert_eq!(determinant4(&vandermonde), 1.0 * 2.0 * 4.0 * 1.0 * 3.0 * 2.0);
+        let mut swapped = vandermonde;
+        swapped.swap(0, 3);
+        assert_eq!(determinant4(&swapped), -determinant4(&vandermonde));
+    }
+
+    #[test]
+    fn a_parallelogram_turns_as_one_and_three_parallel_leads_have_no_determinant() {
+        let (up, along) = (Vec2::new(0.0, 1.0), Vec2::new(1.0, 0.0));
+        let contours = Contours { leads: [up, up, along], sides: [along, along * 2.0] };
+        // The feet at rest but the third, which is drawn along its lead: the base moves along x without turning.
+        let rates = contours.first([Vec2::zeros(), Vec2::zeros(), along * 3.0]).unwrap();
+        assert_eq!(rates, [-3.0, -3.0, 0.0, 0.0]);
+        let parallel = Contours { leads: [up; 3], ..contours };
+        assert_eq!(parallel.first([Vec2::zeros(), up, along]).unwrap_err().kind(), ErrorKind::Numeric);
+        assert_eq!(parallel.condition(), f64::INFINITY);
+    }
+}

@@ -1,0 +1,180 @@
+//! Published methods for the class III group of order 3: a base link on three leads, all pairs revolute.
+//!
+//! They are ways of their own to numbers that the two solvers find too, and share no equation with them: first transfer
+//! functions by Cramer's rule ([`cramer`]), the exchange of the driving link ([`class_change`]), and reactions by the
+//! singular Assur point ([`assur_point`]) or by all equations of equilibrium at once ([`linear_system`]).
+//!
+//! Everywhere here lead i goes from its foot A_i, the outer joint, to its head B_i, the joint with the base link. Arrays of three are in
+//! the order of [`Triad::leads`]; arrays of four are the three leads and then the base link.
+
+pub mod assur_point;
+pub mod class_change;
+pub mod cramer;
+pub mod linear_system;
+
+use linkage::case::Case;
+use linkage::drive::Wrench;
+use linkage::error::{Error, ErrorKind};
+use linkage::math::{Motion, Vec2, cross};
+use linkage::mechanism::{Group, JointKind, Mechanism, Side};
+use linkage::solver::State;
+
+/// One of the three leads of the group.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lead {
+    /// The link.
+    pub link: usize,
+    /// Its outer joint.
+    pub outer: usize,
+    /// Its joint with the base link.
+    pub inner: usize,
+    /// The outer joint on the link that is known before the group.
+    pub support: Side,
+    /// The outer joint in the lead's own frame (m).
+    pub foot: Vec2,
+    /// The inner joint in the lead's own frame (m).
+    pub head: Vec2,
+    /// The inner joint in the base link's frame (m).
+    pub on_base: Vec2,
+}
+
+/// A class III group of order 3 with revolute pairs only.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Triad {
+    /// The link on which all three leads hang.
+    pub base: usize,
+    /// The leads, in the order of the group's outer joints.
+    pub leads: [Lead; 3],
+}
+
+impl Triad {
+    /// Sees a group as a base link on three leads; `None` for any other group, and where a pair on one of the group's links is not
+    /// revolute, those with later groups included: such a pair would also transmit a moment.
+    #[must_use]
+    pub fn of(mechanism: &Mechanism, group: &Group) -> Option<Self> {
+        let touching = mechanism.joints().iter().filter(|joint| group.links.iter().any(|&l| joint.on(l).is_some()));
+        let sizes = [group.class, group.links.len(), group.inner.len(), group.outer.len()];
+        if sizes != [3, 4, 3, 3] || !touching.clone().all(|joint| matches!(joint.kind, JointKind::Revolute)) {
+            return None;
+        }
+        let on = |joint: usize, link: usize| mechanism.joints()[joint].on(link);
+        let base =
+            group.links.iter().copied().find(|&link| group.inner.iter().all(|&joint| on(joint, link).is_some()))?;
+        let lead = |outer: usize| {
+            let link = group.links.iter().copied().find(|&link| link != base && on(outer, link).is_some())?;
+            let inner = group.inner.iter().copied().find(|&joint| on(joint, link).is_some())?;
+            Some(Lead {
+                link,
+                outer,
+                inner,
+                support: mechanism.joints()[outer].other(link),
+                foot: on(outer, link)?,
+                head: on(inner, link)?,
+                on_base: on(inner, base)?,
+            })
+        };
+        Some(Triad { base, leads: [lead(group.outer[0])?, lead(group.outer[1])?, lead(group.outer[2])?] })
+    }
+
+    /// All groups of this sort in a case.
+    #[must_use]
+    pub fn all(case: &Case) -> Vec<Self> {
+        case.structure.groups.iter().filter_map(|group| Triad::of(&case.mechanism, group)).collect()
+    }
+
+    /// The group's links: leads, then base link.
+    #[must_use]
+    pub fn links(&self) -> [usize; 4] {
+        [self.leads[0].link, self.leads[1].link, self.leads[2].link, self.base]
+    }
+
+    /// World places of feet and heads (m).
+    #[must_use]
+    pub fn places(&self, motions: &[Motion]) -> Places {
+        Places {
+            feet: self.leads.map(|lead| motions[lead.support.link].point(lead.support.local)),
+            heads: self.leads.map(|lead| motions[self.base].point(lead.on_base)),
+        }
+    }
+
+    /// What is known to act on each link before the group's reactions: gravity and inertia m (g - a) at the mass centre, the moment
+    /// -J alpha, loads, and the forces in the joints with later groups, read from the state.
+    #[must_use]
+    pub fn known(&self, case: &Case, state: &State) -> [Known; 4] {
+        let (motions, forces) = (&state.motions, &state.forces);
+        let mut loads = vec![Wrench::ZERO; motions.len()];
+        case.loads_on(motions, &state.angles, &mut loads);
+        let own = |joint: usize| self.leads.iter().any(|lead| lead.outer == joint || lead.inner == joint);
+        self.links().map(|link| {
+            let (body, motion) = (&case.mechanism.links()[link], &motions[link]);
+            let at = motion.point(body.mass_centre);
+            let inertia = (case.gravity - motion.point_acceleration(body.mass_centre)) * body.mass;
+            let Wrench { force, moment } = loads[link];
+            let mut known = Known { force: inertia + force, moment: moment - body.inertia * motion.alpha, at };
+            for (index, joint) in case.mechanism.joints().iter().enumerate() {
+                if let (Some(local), false) = (joint.on(link), own(index)) {
+                    let force = if joint.second.link == link { forces[index] } else { -forces[index] };
+                    known.force += force;
+                    known.moment += cross(motion.point(local) - at, force);
+                }
+            }
+            known
+        })
+    }
+
+    /// Reactions as forces of each joint's first link on its second (N): joint and force, feet first.
+    #[must_use]
+    pub fn joint_forces(&self, mechanism: &Mechanism, reactions: &Reactions) -> [(usize, Vec2); 6] {
+        let of = |joint: usize, loaded: usize, force: Vec2| {
+            (joint, if mechanism.joints()[joint].second.link == loaded { force } else { -force })
+        };
+        let foot = |k: usize| of(self.leads[k].outer, self.leads[k].link, reactions.feet[k]);
+        let head = |k: usize| of(self.leads[k].inner, self.base, reactions.heads[k]);
+        [foot(0), foot(1), foot(2), head(0), head(1), head(2)]
+    }
+}
+
+/// Where the joints of the group are (m, world axes).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Places {
+    /// Outer joints.
+    pub feet: [Vec2; 3],
+    /// Joints with the base link.
+    pub heads: [Vec2; 3],
+}
+
+/// Resultant of the known forces on one link.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Known {
+    /// Force (N, world axes).
+    pub force: Vec2,
+    /// Moment about `at` (N m, counter-clockwise positive).
+    pub moment: f64,
+    /// World point that the moment refers to (m).
+    pub at: Vec2,
+}
+
+impl Known {
+    /// Moment about another world point (N m).
+    #[must_use]
+    pub fn about(&self, pole: Vec2) -> f64 {
+        self.moment + cross(self.at - pole, self.force)
+    }
+}
+
+/// Reactions in the six joints of the group (N, world axes).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reactions {
+    /// At the feet: of the support on the lead.
+    pub feet: [Vec2; 3],
+    /// At the heads: of the lead on the base link.
+    pub heads: [Vec2; 3],
+}
+
+fn singular(method: &str) -> Error {
+    Error::new(
+        ErrorKind::Numeric,
+        format!("{method}: the lines of the three leads meet in one point or are parallel, the group has a dead point"),
+    )
+    .help("take a crank angle at which the lines of the leads form a triangle")
+}

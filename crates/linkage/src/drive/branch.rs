@@ -1,0 +1,124 @@
+//! One smooth piece of a motor's moment on the crank. Equations of motion are integrated piece by piece.
+
+use crate::math::KeepNan;
+
+/// A smooth curve of torque over speed, of the motor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Curve {
+    Line { at_rest: f64, slope: f64 },
+    Kloss { breakdown_torque: f64, breakdown_slip: f64, synchronous_speed: f64 },
+}
+
+impl Curve {
+    #[inline]
+    pub(super) fn torque(&self, omega: f64) -> f64 {
+        match *self {
+            Curve::Line { at_rest, slope } => at_rest + slope * omega,
+            // Multiplied out, so that zero slip is no exception.
+            Curve::Kloss { breakdown_torque, breakdown_slip: b, synchronous_speed } => {
+                let slip = 1.0 - omega / synchronous_speed;
+                2.0 * breakdown_torque * slip * b / (slip * slip + b * b)
+            }
+        }
+    }
+
+    #[inline]
+    fn slope(&self, omega: f64) -> f64 {
+        match *self {
+            Curve::Line { slope, .. } => slope,
+            Curve::Kloss { breakdown_torque, breakdown_slip: b, synchronous_speed } => {
+                let slip = 1.0 - omega / synchronous_speed;
+                let sum = slip * slip + b * b;
+                -2.0 * breakdown_torque * b * (b * b - slip * slip) / (sum * sum) / synchronous_speed
+            }
+        }
+    }
+
+    /// Speed without torque, if there is one.
+    pub(super) fn root(&self) -> Option<f64> {
+        match *self {
+            Curve::Line { slope: 0.0, .. } => None,
+            Curve::Line { at_rest, slope } => Some(-at_rest / slope),
+            Curve::Kloss { synchronous_speed, .. } => Some(synchronous_speed),
+        }
+    }
+
+    /// Speed at which the torque is `torque` and falls with the speed.
+    fn stable_speed(&self, torque: f64) -> Option<f64> {
+        match *self {
+            Curve::Line { at_rest, slope } if slope < 0.0 => Some((torque - at_rest) / slope),
+            Curve::Line { .. } => None,
+            // With x = s / b: torque (x + 1 / x) = 2 M, the root of smaller size, in a form that does not cancel.
+            Curve::Kloss { breakdown_torque, breakdown_slip, synchronous_speed } => {
+                let share = torque / breakdown_torque;
+                let root = (1.0 - share * share).larger(0.0).sqrt();
+                (share.abs() <= 1.0).then(|| synchronous_speed * (1.0 - breakdown_slip * share / (1.0 + root)))
+            }
+        }
+    }
+}
+
+/// One smooth piece of a motor's moment on the crank.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Branch {
+    curve: Curve,
+    ratio: f64,
+    /// Share of the static torque that reaches the crank, or its inverse where power flows back.
+    factor: f64,
+    /// Speeds of the crank (rad/s) between which the piece holds; beyond them it goes on smoothly.
+    pub speeds: [f64; 2],
+}
+
+impl Branch {
+    /// The piece of a curve between two speeds of the motor, on which torque and speed keep their senses, behind a reducer of this ratio and
+    /// efficiency.
+    pub(super) fn of(ratio: f64, efficiency: f64, curve: Curve, ends: [f64; 2]) -> Self {
+        let inside = match ends {
+            [from, to] if from.is_finite() && to.is_finite() => (from + to) / 2.0,
+            [from, _] if from.is_finite() => from + 1.0,
+            [_, to] if to.is_finite() => to - 1.0,
+            _ => 1.0,
+        };
+        let drives = curve.torque(inside) * inside >= 0.0;
+        let factor = if drives { efficiency } else { 1.0 / efficiency };
+        Branch { curve, ratio, factor, speeds: ends.map(|speed| speed / ratio) }
+    }
+
+    /// Moment on the crank (N m) at the crank's speed `omega` (rad/s).
+    #[inline]
+    #[must_use]
+    pub fn moment(&self, omega: f64) -> f64 {
+        self.ratio * self.factor * self.curve.torque(self.ratio * omega)
+    }
+
+    /// Change of that moment with the crank's speed (N m s).
+    #[inline]
+    #[must_use]
+    pub fn slope(&self, omega: f64) -> f64 {
+        self.ratio * self.ratio * self.factor * self.curve.slope(self.ratio * omega)
+    }
+
+    /// Speed of the crank (rad/s) on this piece at which the moment is `resistance` (N m) and falls with the speed.
+    pub(super) fn steady_speed(&self, resistance: f64) -> Option<f64> {
+        let speed = self.curve.stable_speed(resistance / (self.ratio * self.factor))? / self.ratio;
+        // A rounding beyond an end belongs to the end.
+        let slack = 4.0 * f64::EPSILON * speed.abs();
+        (speed >= self.speeds[0] - slack && speed <= self.speeds[1] + slack).then_some(speed)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::drive::{Motor, MotorLaw};
+
+    #[test]
+    fn the_slope_is_the_derivative_of_the_moment() {
+        let kloss = MotorLaw::Kloss { breakdown_torque: 5.0, breakdown_slip: 0.25, synchronous_speed: 100.0 };
+        let motor = Motor { efficiency: 0.9, ..Motor::ideal(kloss, 3.0) };
+        for omega in [-4.0, 3.0, 20.0, 25.1, 33.0, 36.0] {
+            let branch = motor.branch(omega, 1.0);
+            let slope = (branch.moment(omega + 1e-4) - branch.moment(omega - 1e-4)) / 2e-4;
+            assert!((slope - branch.slope(omega)).abs() < 1e-7, "{omega}: {slope} {}", branch.slope(omega));
+        }
+    }
+}

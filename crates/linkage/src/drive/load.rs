@@ -1,0 +1,301 @@
+//! Loads on links besides gravity and inertia: what each does to the links it acts on, in one place.
+
+use super::course::Course;
+use crate::math::{Motion, Vec2, angle, cross};
+use crate::mechanism::{LinkPose, Side};
+
+/// While which rotation of its link a moment acts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Acts {
+    /// Whatever the link does.
+    Always,
+    /// While the link turns counter-clockwise, not at standstill.
+    CounterClockwise,
+    /// While the link turns clockwise, not at standstill.
+    Clockwise,
+}
+
+/// A load on one link, or between two.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Load {
+    /// Moment of constant size that acts against the link's rotation, and not at all while it stands still.
+    Resistance {
+        /// The loaded link.
+        link: usize,
+        /// Size of the moment (N m), not negative.
+        moment: f64,
+    },
+    /// Moment that does not depend on the speed, but may rest while the link turns one way.
+    Moment {
+        /// The loaded link.
+        link: usize,
+        /// The moment (N m), counter-clockwise positive.
+        moment: Course,
+        /// When it acts.
+        acts: Acts,
+    },
+    /// Force on a point of a link.
+    Force {
+        /// The point.
+        at: Side,
+        /// Components (N), in world axes or in those of the link's frame.
+        force: [Course; 2],
+        /// Whether they are those of the link's frame, with which the force turns.
+        follows: bool,
+    },
+    /// Force of constant size against the motion of a point of a link, -F v / |v|; none while the point stands still.
+    ResistingForce {
+        /// The point.
+        at: Side,
+        /// Size of the force (N), not negative.
+        force: f64,
+    },
+    /// Spring between two points: it pulls them together with stiffness times (length - free length); without a direction where they coincide,
+    /// and there without a force.
+    Spring {
+        /// The points.
+        ends: [Side; 2],
+        /// Stiffness (N/m).
+        stiffness: f64,
+        /// Length without force (m).
+        free_length: f64,
+    },
+    /// Damper between two points: it pulls them together with damping times the rate of their distance; no force where they coincide.
+    Damper {
+        /// The points.
+        ends: [Side; 2],
+        /// Damping (N s/m).
+        damping: f64,
+    },
+    /// Torsional spring between two links: stiffness times (twist - free twist) on the first link, the opposite on the second. The twist is the
+    /// angle of the second link's frame less that of the first's: at t = 0 in (-pi, pi], from there with its turns.
+    TorsionSpring {
+        /// The links.
+        links: [usize; 2],
+        /// Stiffness (N m/rad).
+        stiffness: f64,
+        /// Twist without moment (rad).
+        free_angle: f64,
+    },
+    /// Torsional damper between two links: damping times the rate of the twist on the first link, the opposite on the second.
+    TorsionDamper {
+        /// The links.
+        links: [usize; 2],
+        /// Damping (N m s/rad).
+        damping: f64,
+    },
+}
+
+/// What loads depend on. Slices have one entry a link.
+#[derive(Clone, Copy, Debug)]
+pub struct Setting<'a> {
+    /// Motions of all links; loads read no accelerations.
+    pub motions: &'a [Motion],
+    /// Angles of all links (rad), turns kept. Only torsional springs read them.
+    pub angles: &'a [f64],
+    /// Poses at t = 0.
+    pub start: &'a [LinkPose],
+    /// Crank angle (rad, as the scenario states it). Only tables read it.
+    pub crank: f64,
+}
+
+impl Setting<'_> {
+    /// Twist between two links (rad): see [`Load::TorsionSpring`].
+    #[must_use]
+    pub fn twist(&self, [first, second]: [usize; 2]) -> f64 {
+        let begun = self.start[second].angle - self.start[first].angle;
+        self.angles[second] - self.angles[first] - begun + angle::wrapped(begun)
+    }
+}
+
+/// What a load does to one link.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Action {
+    /// The link.
+    pub link: usize,
+    /// Force (N, world axes).
+    pub force: Vec2,
+    /// World place at which the force acts (m).
+    pub place: Vec2,
+    /// Moment besides that of the force (N m), counter-clockwise positive.
+    pub moment: f64,
+}
+
+impl Action {
+    /// A moment (N m, counter-clockwise positive) alone.
+    #[must_use]
+    pub fn of_moment(link: usize, moment: f64) -> Self {
+        Action { link, force: Vec2::zeros(), place: Vec2::zeros(), moment }
+    }
+
+    /// Moment of all of it about a world point (N m).
+    #[inline]
+    #[must_use]
+    pub fn about(&self, pole: Vec2) -> f64 {
+        cross(self.place - pole, self.force) + self.moment
+    }
+
+    /// Power on a link that moves so (W).
+    #[inline]
+    #[must_use]
+    pub fn power(&self, motion: &Motion) -> f64 {
+        self.force.dot(&motion.velocity_at(self.place)) + self.moment * motion.omega
+    }
+}
+
+/// Resultant of all loads on a link.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wrench {
+    /// Force (N, world axes) at the link's mass centre.
+    pub force: Vec2,
+    /// Moment about the mass centre (N m), counter-clockwise positive.
+    pub moment: f64,
+}
+
+impl Wrench {
+    /// No load.
+    pub const ZERO: Wrench = Wrench { force: Vec2::new(0.0, 0.0), moment: 0.0 };
+}
+
+impl Load {
+    /// Hands what the load does to each link that it acts on to `put`, the ground included.
+    #[inline]
+    pub fn act(&self, setting: &Setting, put: &mut impl FnMut(Action)) {
+        let motions = setting.motions;
+        match self {
+            &Load::Resistance { link, .. } => {
+                put(Action::of_moment(link, self.moment_in(motions[link].omega, setting.crank)));
+            }
+            Load::Moment { link, moment, acts: Acts::Always } => {
+                put(Action::of_moment(*link, moment.at(setting.crank)));
+            }
+            &Load::Moment { link, .. } => {
+                put(Action::of_moment(link, self.moment_in(motions[link].omega, setting.crank)));
+            }
+            Load::Force { at, force: [x, y], follows } => {
+                let force = Vec2::new(x.at(setting.crank), y.at(setting.crank));
+                let force = if *follows { motions[at.link].arm(force) } else { force };
+                put(Action { link: at.link, force, place: motions[at.link].point(at.local), moment: 0.0 });
+            }
+            &Load::ResistingForce { at, force } => {
+                let velocity = motions[at.link].point_velocity(at.local);
+                let speed = velocity.norm();
+                let force = if speed > 0.0 { velocity * (-force / speed) } else { Vec2::zeros() };
+                put(Action { link: at.link, force, place: motions[at.link].point(at.local), moment: 0.0 });
+            }
+            &Load::Spring { ends, stiffness, free_length } => {
+                let (places, span) = span(motions, ends);
+                let length = span.norm();
+                let pull = if length > 0.0 { span * (stiffness * (1.0 - free_length / length)) } else { Vec2::zeros() };
+                pull_together(ends, places, pull, put);
+            }
+            &Load::Damper { ends, damping } => {
+                let (places, span) = span(motions, ends);
+                let squared = span.norm_squared();
+                let [first, second] = ends.map(|end| motions[end.link].point_velocity(end.local));
+                let rate = span.dot(&(second - first));
+                let pull = if squared > 0.0 { span * (damping * rate / squared) } else { Vec2::zeros() };
+                pull_together(ends, places, pull, put);
+            }
+            &Load::TorsionSpring { links, stiffness, free_angle } => {
+                twist_back(links, stiffness * (setting.twist(links) - free_angle), put);
+            }
+            &Load::TorsionDamper { links, damping } => {
+                twist_back(links, damping * (motions[links[1]].omega - motions[links[0]].omega), put);
+            }
+        }
+    }
+
+    /// The link on whose sense of rotation the load depends, so that it jumps where that link turns about.
+    #[must_use]
+    pub fn sensed_link(&self) -> Option<usize> {
+        match *self {
+            Load::Resistance { link, .. } => Some(link),
+            Load::Moment { link, acts, .. } if acts != Acts::Always => Some(link),
+            _ => None,
+        }
+    }
+
+    /// The point on whose sense of motion the load depends, so that it jumps where that point turns back.
+    #[must_use]
+    pub fn sensed_point(&self) -> Option<Side> {
+        match *self {
+            Load::ResistingForce { at, .. } => Some(at),
+            _ => None,
+        }
+    }
+
+    /// Moment (N m) of a load with a [sensed link](Load::sensed_link) while that link turns in the sense of `omega`, at the crank angle
+    /// `crank` (rad). Zero for loads without one.
+    #[inline]
+    #[must_use]
+    pub fn moment_in(&self, omega: f64, crank: f64) -> f64 {
+        match self {
+            Load::Resistance { moment, .. } if omega > 0.0 => -moment,
+            Load::Resistance { moment, .. } if omega < 0.0 => *moment,
+            Load::Moment { moment, acts: Acts::CounterClockwise, .. } if omega > 0.0 => moment.at(crank),
+            Load::Moment { moment, acts: Acts::Clockwise, .. } if omega < 0.0 => moment.at(crank),
+            _ => 0.0,
+        }
+    }
+
+    /// Whether the load depends on the size of speeds, not on their senses only.
+    #[must_use]
+    pub fn is_viscous(&self) -> bool {
+        matches!(self, Load::Damper { .. } | Load::TorsionDamper { .. })
+    }
+
+    /// Whether [`Setting::angles`] or [`Setting::crank`] is read.
+    #[must_use]
+    pub fn needs_angles(&self) -> bool {
+        matches!(self, Load::TorsionSpring { .. }) || self.courses().any(|course| course.knots().is_some())
+    }
+
+    /// Numbers that may depend on the crank angle.
+    pub fn courses(&self) -> impl Iterator<Item = &Course> {
+        let courses: &[Course] = match self {
+            Load::Moment { moment, .. } => std::slice::from_ref(moment),
+            Load::Force { force, .. } => force,
+            _ => &[],
+        };
+        courses.iter()
+    }
+
+    /// What sort of load it is, as scenario files call it.
+    #[must_use]
+    pub fn sort(&self) -> &'static str {
+        match self {
+            Load::Resistance { .. } => "resistance",
+            Load::Moment { .. } => "moment",
+            Load::Force { .. } => "force",
+            Load::ResistingForce { .. } => "resisting_force",
+            Load::Spring { .. } => "spring",
+            Load::Damper { .. } => "damper",
+            Load::TorsionSpring { .. } => "torsion_spring",
+            Load::TorsionDamper { .. } => "torsion_damper",
+        }
+    }
+}
+
+/// World places of two ends and the vector from the first to the second.
+#[inline]
+fn span(motions: &[Motion], ends: [Side; 2]) -> ([Vec2; 2], Vec2) {
+    let places = ends.map(|end| motions[end.link].point(end.local));
+    (places, places[1] - places[0])
+}
+
+/// The force `pull` on the first end, towards the second if the two attract each other, and its reaction.
+#[inline]
+fn pull_together(ends: [Side; 2], places: [Vec2; 2], pull: Vec2, put: &mut impl FnMut(Action)) {
+    put(Action { link: ends[0].link, force: pull, place: places[0], moment: 0.0 });
+    put(Action { link: ends[1].link, force: -pull, place: places[1], moment: 0.0 });
+}
+
+#[inline]
+fn twist_back(links: [usize; 2], moment: f64, put: &mut impl FnMut(Action)) {
+    put(Action::of_moment(links[0], moment));
+    put(Action::of_moment(links[1], -moment));
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,259 @@
+//! Motors: their torque as a function of their speed, and the gear between them and the crank.
+
+use super::branch::{Branch, Curve};
+
+/// Torque of a motor as a function of its own speed, in the sense in which it drives.
+#[derive(Clone, Debug, PartialEq)]
+pub enum MotorLaw {
+    /// The same torque at every speed.
+    Constant {
+        /// Torque (N m).
+        torque: f64,
+    },
+    /// M = `at_rest` + `slope` omega: the stable branch of an induction motor's characteristic, or a direct current motor.
+    Linear {
+        /// Torque at which the line meets standstill (N m).
+        at_rest: f64,
+        /// Change of the torque with the speed (N m s); negative, or the motor would run away.
+        slope: f64,
+    },
+    /// Induction motor after Kloss: M = 2 `breakdown_torque` / (s / `breakdown_slip` + `breakdown_slip` / s) with the slip
+    /// s = 1 - omega / `synchronous_speed`, without the stator's resistance. Kloss, Archiv fuer Elektrotechnik 5 (1916).
+    Kloss {
+        /// Largest torque (N m).
+        breakdown_torque: f64,
+        /// Slip at which it is reached, above 0.
+        breakdown_slip: f64,
+        /// Speed without load (rad/s), above 0.
+        synchronous_speed: f64,
+    },
+    /// Straight lines between measured points, the outer ones continued beyond the table. Straight lines, because they cannot
+    /// overshoot: a table that falls gives a law that falls.
+    Table {
+        /// Speeds (rad/s), ascending, at least two.
+        speeds: Vec<f64>,
+        /// Torques at these speeds (N m).
+        torques: Vec<f64>,
+    },
+}
+
+impl MotorLaw {
+    /// The law with `share` times the torque at every speed.
+    #[must_use]
+    pub fn scaled(&self, share: f64) -> MotorLaw {
+        match self {
+            MotorLaw::Constant { torque } => MotorLaw::Constant { torque: share * torque },
+            MotorLaw::Linear { at_rest, slope } => MotorLaw::Linear { at_rest: share * at_rest, slope: share * slope },
+            &MotorLaw::Kloss { breakdown_torque, breakdown_slip, synchronous_speed } => {
+                MotorLaw::Kloss { breakdown_torque: share * breakdown_torque, breakdown_slip, synchronous_speed }
+            }
+            MotorLaw::Table { speeds, torques } => MotorLaw::Table {
+                speeds: speeds.clone(),
+                torques: torques.iter().map(|torque| share * torque).collect(),
+            },
+        }
+    }
+
+    /// Torque (N m) at the motor's speed `omega` (rad/s).
+    #[must_use]
+    pub fn torque(&self, omega: f64) -> f64 {
+        let curves = self.curves();
+        let holds = |curve: &&([f64; 2], Curve)| omega <= curve.0[1];
+        curves.iter().find(holds).or(curves.last()).map_or(0.0, |(_, curve)| curve.torque(omega))
+    }
+
+    /// The smooth pieces of the law, with the speeds (rad/s) between which each holds; together they cover all speeds.
+    pub(super) fn curves(&self) -> Vec<([f64; 2], Curve)> {
+        let all = [f64::NEG_INFINITY, f64::INFINITY];
+        match self {
+            &MotorLaw::Constant { torque } => vec![(all, Curve::Line { at_rest: torque, slope: 0.0 })],
+            &MotorLaw::Linear { at_rest, slope } => vec![(all, Curve::Line { at_rest, slope })],
+            &MotorLaw::Kloss { breakdown_torque, breakdown_slip, synchronous_speed } => {
+                vec![(all, Curve::Kloss { breakdown_torque, breakdown_slip, synchronous_speed })]
+            }
+            MotorLaw::Table { speeds, torques } => {
+                let last = speeds.len().saturating_sub(2);
+                let piece = |k: usize| {
+                    let slope = (torques[k + 1] - torques[k]) / (speeds[k + 1] - speeds[k]);
+                    let ends = [
+                        if k == 0 { f64::NEG_INFINITY } else { speeds[k] },
+                        if k == last { f64::INFINITY } else { speeds[k + 1] },
+                    ];
+                    (ends, Curve::Line { at_rest: torques[k] - slope * speeds[k], slope })
+                };
+                (0..=last).map(piece).collect()
+            }
+        }
+    }
+}
+
+/// Moments of inertia of what turns with the motor and the reducer (kg m^2), each about its own shaft.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ShaftInertia {
+    /// The motor's rotor.
+    pub rotor: f64,
+    /// The reducer's input shaft, which turns with the motor.
+    pub input: f64,
+    /// Its intermediate shaft.
+    pub intermediate: f64,
+    /// Speed of the intermediate shaft over that of the crank; without a meaning where `intermediate` is 0.
+    pub intermediate_ratio: f64,
+    /// Its output shaft, which turns with the crank.
+    pub output: f64,
+}
+
+/// A motor that turns the crank through a reducer.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Motor {
+    /// The motor's law.
+    pub law: MotorLaw,
+    /// Speed of the motor over that of the crank, greater than zero.
+    pub ratio: f64,
+    /// Share of the power that passes the reducer, above 0 and at most 1, the same in either direction. It lessens the motor's static torque;
+    /// losses on what accelerates the shafts are left out.
+    pub efficiency: f64,
+    /// What turns with the motor and the reducer.
+    pub inertia: ShaftInertia,
+}
+
+impl Motor {
+    /// A motor behind a reducer without losses and without masses.
+    #[must_use]
+    pub fn ideal(law: MotorLaw, ratio: f64) -> Self {
+        Motor { law, ratio, efficiency: 1.0, inertia: ShaftInertia::default() }
+    }
+
+    /// Moment of the motor on the crank (N m) while the crank turns with `omega` (rad/s, positive where the motor drives): ratio times the
+    /// torque by equal powers, times the efficiency where power flows to the crank, over it where power flows back.
+    #[must_use]
+    pub fn moment_on_crank(&self, omega: f64) -> f64 {
+        self.branch(omega, 1.0).moment(omega)
+    }
+
+    /// Moment of inertia of rotor and reducer as the crank feels it (kg m^2): each times the square of its speed over the crank's.
+    #[must_use]
+    pub fn inertia_on_crank(&self) -> f64 {
+        let own = &self.inertia;
+        (own.rotor + own.input) * self.ratio.powi(2) + own.intermediate * own.intermediate_ratio.powi(2) + own.output
+    }
+
+    /// The smooth piece of the moment on the crank that holds at the crank's speed `omega` (rad/s) and from there towards higher speeds
+    /// for a positive `towards`, else towards lower ones.
+    #[must_use]
+    pub fn branch(&self, omega: f64, towards: f64) -> Branch {
+        let holds = |branch: &&Branch| match towards > 0.0 {
+            true => omega < branch.speeds[1],
+            false => omega <= branch.speeds[1],
+        };
+        let branches = self.branches();
+        *branches.iter().find(holds).or(branches.last()).expect("a law has at least one piece")
+    }
+
+    /// All smooth pieces, ascending in speed.
+    fn branches(&self) -> Vec<Branch> {
+        let mut found = Vec::new();
+        for ([from, to], curve) in self.law.curves() {
+            // Losses change their sense with the power: where motor or torque turn about.
+            let mut ends = vec![from, to];
+            if self.efficiency < 1.0 {
+                let turns = [Some(0.0), curve.root()].into_iter().flatten();
+                ends.extend(turns.filter(|&speed| speed > from && speed < to));
+                ends.sort_by(f64::total_cmp);
+                ends.dedup();
+            }
+            found
+                .extend(ends.windows(2).map(|pair| Branch::of(self.ratio, self.efficiency, curve, [pair[0], pair[1]])));
+        }
+        found
+    }
+
+    /// Speed of the crank (rad/s) at which the motor's moment on it is `resistance` (N m) and would fall with the speed: the stable
+    /// balance, the fastest if there are several. `None` if there is none.
+    #[must_use]
+    pub fn steady_speed(&self, resistance: f64) -> Option<f64> {
+        self.branches().iter().rev().find_map(|branch| branch.steady_speed(resistance))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LINEAR: MotorLaw = MotorLaw::Linear { at_rest: 22.51, slope: -0.0716 };
+    const KLOSS: MotorLaw = MotorLaw::Kloss { breakdown_torque: 5.0, breakdown_slip: 0.25, synchronous_speed: 100.0 };
+
+    #[test]
+    fn at_the_steady_speed_the_moment_is_the_resistance() {
+        let motor = Motor::ideal(LINEAR, 2745.0 / 130.0);
+        let steady = motor.steady_speed(17.0).unwrap();
+        assert!((motor.moment_on_crank(steady) - 17.0).abs() < 1e-12);
+        // Without resistance the motor runs at its synchronous speed, 22.51 / 0.0716 = 314.385 1/s.
+        assert!((motor.steady_speed(0.0).unwrap() * motor.ratio - 314.385_474_860_335_2).abs() < 1e-10);
+        let kloss = Motor { efficiency: 0.9, ..Motor::ideal(KLOSS, 10.0) };
+        for resistance in [-20.0, 0.0, 20.0, 44.9] {
+            let steady = kloss.steady_speed(resistance).unwrap();
+            assert!((kloss.moment_on_crank(steady) - resistance).abs() < 1e-10, "{resistance}");
+        }
+        // It breaks down at 10 * 0.9 * 5 N m.
+        assert_eq!(kloss.steady_speed(45.1), None);
+        assert_eq!(Motor::ideal(MotorLaw::Constant { torque: 3.0 }, 1.0).steady_speed(2.0), None);
+    }
+
+    #[test]
+    fn kloss_has_its_known_points() {
+        // Largest at the breakdown slip, zero at synchronous speed; at standstill 2 M / (1 / s + s) = 10 / 4.25.
+        assert!((KLOSS.torque(75.0) - 5.0).abs() < 1e-14);
+        assert_eq!(KLOSS.torque(100.0), 0.0);
+        assert!((KLOSS.torque(0.0) - 10.0 / 4.25).abs() < 1e-14);
+        assert!((KLOSS.torque(125.0) + 5.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn a_table_goes_through_its_points_and_on() {
+        let table = MotorLaw::Table { speeds: vec![0.0, 10.0, 30.0], torques: vec![4.0, 6.0, 0.0] };
+        let torques: Vec<f64> = [-5.0, 0.0, 5.0, 10.0, 20.0, 30.0, 40.0].map(|omega| table.torque(omega)).to_vec();
+        for (found, expected) in torques.iter().zip([3.0, 4.0, 5.0, 6.0, 3.0, 0.0, -3.0]) {
+            assert!((found - expected).abs() < 1e-14, "{torques:?}");
+        }
+        // The stable balance lies on the falling side.
+        let steady = Motor::ideal(table, 2.0).steady_speed(10.0).unwrap();
+        assert!((steady - 20.0 / 3.0).abs() < 1e-14, "{steady}");
+    }
+
+    #[test]
+    fn losses_take_power_whichever_way_it_flows() {
+        let motor = Motor { efficiency: 0.8, ..Motor::ideal(LINEAR, 10.0) };
+        for omega in [-3.0, 5.0, 31.0, 32.0, 40.0] {
+            let (given, taken) = (motor.law.torque(10.0 * omega) * 10.0 * omega, motor.moment_on_crank(omega) * omega);
+            assert!(given > taken, "{omega}: {given} {taken}");
+            let ratio = if given > 0.0 { taken / given } else { given / taken };
+            assert!((ratio - 0.8).abs() < 1e-12, "{omega}");
+        }
+    }
+
+    #[test]
+    fn branches_meet_and_cover_all_speeds() {
+        let table = MotorLaw::Table { speeds: vec![0.0, 10.0, 30.0], torques: vec![4.0, 6.0, 0.0] };
+        let motor = Motor { efficiency: 0.9, ..Motor::ideal(table, 2.0) };
+        let branches = motor.branches();
+        assert_eq!(branches[0].speeds[0], f64::NEG_INFINITY);
+        assert_eq!(branches[branches.len() - 1].speeds[1], f64::INFINITY);
+        for pair in branches.windows(2) {
+            let at = pair[0].speeds[1];
+            assert_eq!(at, pair[1].speeds[0]);
+            let jump = (pair[0].moment(at) - pair[1].moment(at)).abs();
+            // At standstill the losses turn about: there alone the moment jumps.
+            assert!(jump < 1e-12 || at == 0.0, "{at} {jump}");
+            assert_eq!(motor.branch(at, 1.0), pair[1]);
+            assert_eq!(motor.branch(at, -1.0), pair[0]);
+        }
+    }
+
+    #[test]
+    fn shafts_count_by_the_squares_of_their_speeds() {
+        let inertia =
+            ShaftInertia { rotor: 1e-3, input: 2e-3, intermediate: 5e-2, intermediate_ratio: 4.0, output: 0.7 };
+        let motor = Motor { inertia, ..Motor::ideal(LINEAR, 20.0) };
+        assert!((motor.inertia_on_crank() - (3e-3 * 400.0 + 5e-2 * 16.0 + 0.7)).abs() < 1e-14);
+    }
+}

@@ -1,0 +1,31 @@
+//! What engines ask of links because they integrate bodies.
+
+use crate::case::Case;
+use crate::error::{Error, ErrorKind, Result};
+
+/// Mass (kg) and moment of inertia (kg m^2) that engines add to a link, by its number, which has none: the mean mass of all links, and the moment of a rod of that
+/// mass and the mechanism's size. 0 of what it has itself.
+pub fn stand_in(case: &Case, link: usize) -> [f64; 2] {
+    let moving = &case.mechanism.links()[1..];
+    let total: f64 = moving.iter().map(|link| link.mass).sum();
+    let mean = if total > 0.0 { total / moving.len() as f64 } else { 1.0 };
+    let (own, size) = (&case.mechanism.links()[link], case.mechanism.size());
+    let mass = if own.mass > 0.0 { 0.0 } else { mean };
+    [mass, if own.inertia > 0.0 { 0.0 } else { (own.mass + mass) * size * size / 12.0 }]
+}
+
+/// Checks that every link has a mass and a moment of inertia. Under forces no stand-in will do: it would change the motion. `software`: what the engine's
+/// users know it by.
+///
+/// # Errors
+/// [`ErrorKind::Unsupported`] with the first link that lacks one of them.
+pub fn check_inertias(case: &Case, software: &str) -> Result<()> {
+    let Some(bare) = case.mechanism.links()[1..].iter().find(|link| !(link.mass > 0.0 && link.inertia > 0.0)) else {
+        return Ok(());
+    };
+    let message =
+        format!("link \"{}\" has no mass or no moment of inertia: {software} cannot move it under forces", bare.name);
+    Err(Error::new(ErrorKind::Unsupported, message)
+        .key(format!("links.{}", bare.name))
+        .help("give every link both, or solve the scenario with `linkproof solve --with newton`"))
+}

@@ -1,0 +1,93 @@
+//! Mechanisms built without a scenario file, for unit tests.
+
+use crate::Result;
+use crate::case::{Case, Grid, Wanted};
+use crate::drive::{Drive, MotionLaw};
+use crate::math::Vec2;
+use crate::mechanism::{Joint, JointKind, Link, LinkPose, Mechanism, Point, Pose, Side, Structure};
+
+/// A massless link from its points.
+pub fn link(name: &str, points: &[(&str, f64, f64)]) -> Link {
+    Link {
+        name: name.into(),
+        points: points.iter().map(|&(n, x, y)| Point { name: n.into(), local: Vec2::new(x, y) }).collect(),
+        mass: 0.0,
+        mass_centre: Vec2::zeros(),
+        inertia: 0.0,
+    }
+}
+
+/// A revolute joint at the point `point` that both links carry.
+pub fn pin(links: &[Link], name: &str, point: &str, first: &str, second: &str) -> Joint {
+    let side = |wanted: &str| {
+        let index = links.iter().position(|l| l.name == wanted).unwrap();
+        let local = links[index].points.iter().find(|p| p.name == point).unwrap().local;
+        Side { link: index, local }
+    };
+    Joint { name: name.into(), kind: JointKind::Revolute, first: side(first), second: side(second) }
+}
+
+/// Mechanism from links and pins given as (joint name, point, first link, second link).
+pub fn mechanism(links: Vec<Link>, pins: &[(&str, &str, &str, &str)]) -> Result<Mechanism> {
+    let joints = pins.iter().map(|&(n, p, a, b)| pin(&links, n, p, a, b)).collect();
+    Mechanism::new(links, joints)
+}
+
+/// Four-bar: ground O (0, 0) and C (4, 0), crank OA = 1, coupler AB = 4, rocker CB = 3.
+pub fn four_bar() -> Mechanism {
+    let links = vec![
+        link("ground", &[("O", 0.0, 0.0), ("C", 4.0, 0.0)]),
+        link("crank", &[("O", 0.0, 0.0), ("A", 1.0, 0.0)]),
+        link("coupler", &[("A", 0.0, 0.0), ("B", 4.0, 0.0)]),
+        link("rocker", &[("C", 0.0, 0.0), ("B", 3.0, 0.0)]),
+    ];
+    let pins = [
+        ("O", "O", "ground", "crank"),
+        ("A", "A", "crank", "coupler"),
+        ("B", "B", "coupler", "rocker"),
+        ("C", "C", "ground", "rocker"),
+    ];
+    mechanism(links, &pins).unwrap()
+}
+
+/// Reference 7: crank 1 = OA, triangles 2 = A-C-B and 5 = K-E-D, links 3 = BD and 4 = CE. B is C turned by +60 deg about A
+/// (`side_b` = 1) or by -60 deg (-1), D is E turned about K likewise.
+pub fn class_four(side_b: f64, side_d: f64) -> Mechanism {
+    let (x, y) = (15e-3, 30e-3 * 0.75f64.sqrt());
+    let links = vec![
+        link("ground", &[("O", 0.0, 0.0), ("K", 85e-3, -15e-3)]),
+        link("1", &[("O", 0.0, 0.0), ("A", 10e-3, 0.0)]),
+        link("2", &[("A", 0.0, 0.0), ("C", 30e-3, 0.0), ("B", x, side_b * y)]),
+        link("3", &[("B", 0.0, 0.0), ("D", 51e-3, 0.0)]),
+        link("4", &[("C", 0.0, 0.0), ("E", 40e-3, 0.0)]),
+        link("5", &[("K", 0.0, 0.0), ("E", 30e-3, 0.0), ("D", x, side_d * y)]),
+    ];
+    let pins = [
+        ("O", "O", "ground", "1"),
+        ("A", "A", "1", "2"),
+        ("B", "B", "2", "3"),
+        ("C", "C", "2", "4"),
+        ("D", "D", "3", "5"),
+        ("E", "E", "4", "5"),
+        ("K", "K", "ground", "5"),
+    ];
+    mechanism(links, &pins).unwrap()
+}
+
+/// A mechanism whose joint 0 drives its link 1 with 1 rad/s, without gravity; no grid, and a start pose that is none.
+pub fn turning(mechanism: Mechanism) -> Case {
+    let law = MotionLaw::ConstantSpeed(1.0);
+    Case {
+        structure: Structure::of(&mechanism, &[0]).unwrap(),
+        start: Pose(vec![LinkPose::GROUND; mechanism.links().len()]),
+        drive: Drive { joint: 0, link: 1, zero: 0.0, start: 0.0, law, free: None },
+        mechanism,
+        further_drives: Vec::new(),
+        motor: None,
+        loads: Vec::new(),
+        gravity: Vec2::zeros(),
+        modes: Vec::new(),
+        grid: Grid::default(),
+        wanted: Wanted::ALL,
+    }
+}

@@ -1,0 +1,143 @@
+//! Which configuration a group takes at the start: that of the mode, rank or rough places asked for.
+
+use super::configurations::configurations;
+use super::mode::{AssemblyMode, Choice, Configuration, StartGroup};
+use super::{four_link, rough};
+use crate::error::{Error, ErrorKind, Result};
+use crate::math::KeepNan;
+use crate::mechanism::{Group, GroupKind, Mechanism, Pose};
+
+/// Poses the links of a group as asked.
+pub(super) fn place(mechanism: &Mechanism, group: &Group, wanted: &StartGroup, pose: &mut Pose) -> Result<Choice> {
+    let all_known = group.kind != GroupKind::Higher || four_link::is_handled(mechanism, group, pose);
+    if !all_known && wanted.rank.is_none() && !wanted.near.is_empty() {
+        return rough::place(mechanism, group, &wanted.near, pose);
+    }
+    let all = configurations(mechanism, group, pose)?;
+    let (chosen, nearest_m, next_m) = choose(mechanism, group, wanted, &all)?;
+    for (&link, &place) in group.links.iter().zip(&chosen.links) {
+        pose.0[link] = place;
+    }
+    Ok(Choice { mode: chosen.mode, nearest_m, next_m })
+}
+
+fn choose<'a>(
+    mechanism: &Mechanism,
+    group: &Group,
+    wanted: &StartGroup,
+    all: &'a [Configuration],
+) -> Result<(&'a Configuration, Option<f64>, Option<f64>)> {
+    if let Some(rank) = wanted.rank {
+        return match rank.checked_sub(1).and_then(|index| all.get(index)) {
+            Some(one) => Ok((one, None, None)),
+            None => Err(out_of_range(rank, all.len())),
+        };
+    }
+    if !wanted.near.is_empty() {
+        let (nearest, first, next) = nearest(mechanism, group, wanted, all)?;
+        return match wanted.mode {
+            Some(mode) if mode != nearest.mode => Err(contradiction(wanted, mode)),
+            _ => Ok((nearest, Some(first), next)),
+        };
+    }
+    let only = all.iter().find(|one| one.mode == AssemblyMode::Only);
+    let asked = only.or_else(|| all.iter().find(|one| Some(one.mode) == wanted.mode));
+    asked.map(|one| (one, None, None)).ok_or_else(|| nothing_asked(group))
+}
+
+fn out_of_range(rank: usize, count: usize) -> Error {
+    let message = match count {
+        1 => format!("configuration {rank} is asked for, but the group has 1 here"),
+        _ => format!("configuration {rank} is asked for, but the group has {count} here"),
+    };
+    Error::new(ErrorKind::Input, message)
+        .help(format!("give a number from 1 to {count}; `linkproof inspect FILE --modes` lists them"))
+}
+
+fn nothing_asked(group: &Group) -> Error {
+    let near = "`near = { point = \"...\", x_mm = ..., y_mm = ... }`";
+    let modes = match group.kind {
+        GroupKind::Rrr => Some([AssemblyMode::Left, AssemblyMode::Right]),
+        GroupKind::Rrp | GroupKind::Rpr => Some([AssemblyMode::Ahead, AssemblyMode::Behind]),
+        _ => None,
+    };
+    match modes {
+        Some([one, other]) => {
+            Error::new(ErrorKind::Input, "neither an assembly mode nor a rough place is given for this group")
+                .help(format!("add `mode = \"{}\"` or `mode = \"{}\"`, or {near}", one.name(), other.name()))
+        }
+        None => {
+            Error::new(ErrorKind::Input, "no rough place is given for this group, which has up to six configurations")
+                .help(format!("add {near}"))
+        }
+    }
+}
+
+/// "the rough place of point "B" is", or "the rough places of points "B" and "C" are".
+fn rough_places(wanted: &StartGroup) -> String {
+    let names: Vec<String> = wanted.near.iter().map(|(point, _)| format!("\"{}\"", point.name)).collect();
+    match &names[..] {
+        [one] => format!("the rough place of point {one} is"),
+        [first @ .., last] => format!("the rough places of points {} and {last} are", first.join(", ")),
+        [] => "the rough place is".into(),
+    }
+}
+
+fn contradiction(wanted: &StartGroup, mode: AssemblyMode) -> Error {
+    let message = format!("{} nearer to another configuration than to mode {}", rough_places(wanted), mode.name());
+    Error::new(ErrorKind::Geometry, message)
+        .help("correct the mode or the rough place; the wrong branch is never chosen silently")
+}
+
+/// The configuration nearest to the rough places, with its largest distance from them and that of the next (m).
+fn nearest<'a>(
+    mechanism: &Mechanism,
+    group: &Group,
+    wanted: &StartGroup,
+    all: &'a [Configuration],
+) -> Result<(&'a Configuration, f64, Option<f64>)> {
+    let distance = |one: &Configuration| {
+        let distances = wanted.near.iter().map(|(point, guess)| {
+            let index = group.links.iter().position(|&link| link == point.side.link);
+            let links = &one.links[index.expect("the point is on a link of the group")];
+            (links.point(point.side.local) - guess).norm()
+        });
+        distances.fold(0.0, f64::larger)
+    };
+    let mut order: Vec<(f64, &Configuration)> = all.iter().map(|one| (distance(one), one)).collect();
+    order.sort_by(|a, b| a.0.total_cmp(&b.0));
+    // Places that are less than twice as near to one configuration as to the next do not tell them apart; nor do they
+    // if they lie beyond the mechanism from all of them.
+    if let [(first, a), (second, b), ..] = order[..]
+        && 2.0 * first > second
+    {
+        return Err(Error::new(
+            ErrorKind::Geometry,
+            format!(
+                "{} {first:.4} m from the {} and {second:.4} m from the {} configuration: it does not tell them apart",
+                rough_places(wanted),
+                named(a.mode, "nearest"),
+                named(b.mode, "next")
+            ),
+        )
+        .help("give a place nearer to the configuration you mean, or its mode"));
+    }
+    let next = order.get(1).map(|&(distance, _)| distance);
+    match order[..] {
+        [(first, one), ..] if first <= mechanism.size() => Ok((one, first, next)),
+        [(first, _), ..] => Err(Error::new(
+            ErrorKind::Geometry,
+            format!(
+                "{} {first:.4} m from the nearest configuration, farther than the longest link",
+                rough_places(wanted)
+            ),
+        )
+        .help("check its coordinates and their unit")),
+        [] => unreachable!("a group without configurations is an error before"),
+    }
+}
+
+/// The mode of a dyad; for higher groups, whose configurations have no names, `rank`.
+fn named(mode: AssemblyMode, rank: &'static str) -> &'static str {
+    if mode == AssemblyMode::Followed { rank } else { mode.name() }
+}

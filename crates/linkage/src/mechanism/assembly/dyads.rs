@@ -1,0 +1,261 @@
+//! All configurations of the five dyads, and how well each transmits.
+//!
+//! With one outer joint on each link and the inner joint between them, a dyad is closed by one scalar equation: of two circles (RRR), a
+//! circle and a line (RRP, and RPR seen from the guide), or two lines (RPP, PRP). A prismatic pair gives the angle of one link by
+//! the other's, and keeps the second's place on the line through the first's along the axis.
+
+#[cfg(test)]
+mod tests;
+
+use super::mode::{AssemblyMode, Configuration};
+use crate::error::{Error, ErrorKind, Result};
+use crate::math::{Vec2, cross, rotated, turned, unit};
+use crate::mechanism::{Group, GroupKind, Joint, LinkPose, Mechanism, Pose};
+
+/// Sine of the angle between two axes below which they count as parallel: rounding of their directions would move the links by
+/// more than a ten-thousandth of the mechanism.
+const PARALLEL: f64 = 1e-12;
+
+/// Angle (rad) that turns `from` into the direction of `to`.
+pub(super) fn turn(from: Vec2, to: Vec2) -> f64 {
+    cross(from, to).atan2(from.dot(&to))
+}
+
+/// One link of a dyad with its two joints.
+struct Member<'a> {
+    link: usize,
+    outer: &'a Joint,
+    inner: &'a Joint,
+    /// Pose of the link that the outer joint is hung on.
+    base: LinkPose,
+}
+
+impl<'a> Member<'a> {
+    /// Both links of a dyad, in the group's order.
+    fn both(mechanism: &'a Mechanism, group: &Group, pose: &Pose) -> [Self; 2] {
+        [0, 1].map(|k| {
+            let (link, outer) = (group.links[k], &mechanism.joints()[group.outer[k]]);
+            Member { link, outer, inner: &mechanism.joints()[group.inner[0]], base: pose.0[outer.other(link).link] }
+        })
+    }
+
+    /// Place of the outer joint in the link's frame (m).
+    fn outer_place(&self) -> Vec2 {
+        self.outer.on(self.link).expect("the outer joint is on its link")
+    }
+
+    /// Place of the inner joint in the link's frame (m).
+    fn inner_place(&self) -> Vec2 {
+        self.inner.on(self.link).expect("the inner joint is on both links")
+    }
+
+    /// From the outer joint's place to the inner's, in the link's frame (m).
+    fn span(&self) -> Vec2 {
+        self.inner_place() - self.outer_place()
+    }
+
+    /// Place of the outer joint on the base, in the world (m).
+    fn hook(&self) -> Vec2 {
+        self.base.point(self.outer.other(self.link).local)
+    }
+
+    /// World direction of an outer prismatic pair's axis.
+    fn guide(&self) -> Vec2 {
+        let axis = self.outer.axis_on(self.outer.other(self.link).link).expect("the outer pair is prismatic");
+        rotated(unit(self.base.angle), axis)
+    }
+
+    /// Axis of a prismatic joint in the link's frame.
+    fn axis_of(&self, joint: &Joint) -> Vec2 {
+        joint.axis_on(self.link).expect("the pair is prismatic")
+    }
+
+    /// The link's angle (rad) if its axis of the prismatic `joint` has the world direction `axis`.
+    fn angle(&self, joint: &Joint, axis: Vec2) -> f64 {
+        turn(self.axis_of(joint), axis)
+    }
+}
+
+/// All configurations of a dyad: `Left` before `Right`, `Ahead` before `Behind`.
+///
+/// # Errors
+/// [`ErrorKind::Geometry`] if there is none.
+pub(super) fn configurations(mechanism: &Mechanism, group: &Group, pose: &Pose) -> Result<Vec<Configuration>> {
+    let members = Member::both(mechanism, group, pose);
+    match group.kind {
+        GroupKind::Rrr => rrr(&members),
+        GroupKind::Rrp => rrp(&members),
+        GroupKind::Rpr => rpr(&members),
+        GroupKind::Rpp => rpp(&members),
+        _ => prp(&members),
+    }
+}
+
+/// Sine of a dyad's transmission angle, as [`super::transmission_sine`] describes it.
+pub(super) fn transmission_sine(mechanism: &Mechanism, group: &Group, pose: &Pose) -> f64 {
+    let members = Member::both(mechanism, group, pose);
+    let inner = pose.0[members[0].link].point(members[0].inner_place());
+    match group.kind {
+        GroupKind::Rrr => {
+            let [a, b] = members.map(|member| inner - member.hook());
+            cross(a, b) / (a.norm() * b.norm())
+        }
+        GroupKind::Rrp => {
+            let [rod, slider] = prismatic_last(&members);
+            let arm = inner - rod.hook();
+            slider.guide().dot(&arm) / arm.norm()
+        }
+        GroupKind::Rpr => {
+            let [first, second] = in_pair_order(&members);
+            let axis = rotated(unit(pose.0[first.link].angle), first.axis_of(first.inner));
+            let base = second.hook() - first.hook();
+            axis.dot(&base) / base.norm()
+        }
+        GroupKind::Rpp => {
+            let [swivel, slider] = prismatic_last(&members);
+            let axis = rotated(unit(pose.0[swivel.link].angle), swivel.axis_of(swivel.inner));
+            cross(axis, slider.guide())
+        }
+        _ => cross(members[0].guide(), members[1].guide()),
+    }
+}
+
+/// The link with the outer revolute pair, then that with the outer prismatic one.
+fn prismatic_last<'a, 'b>([a, b]: &'b [Member<'a>; 2]) -> [&'b Member<'a>; 2] {
+    if a.outer.is_prismatic() { [b, a] } else { [a, b] }
+}
+
+/// First and second link of the inner joint.
+fn in_pair_order<'a, 'b>([a, b]: &'b [Member<'a>; 2]) -> [&'b Member<'a>; 2] {
+    if a.inner.first.link == a.link { [a, b] } else { [b, a] }
+}
+
+/// The poses of both links in the group's order, from those of the given links.
+fn configuration(members: &[Member; 2], mode: AssemblyMode, poses: [(usize, LinkPose); 2]) -> Configuration {
+    let pose = |member: &Member| poses.iter().find(|(link, _)| *link == member.link).expect("both links are posed").1;
+    Configuration { mode, links: members.iter().map(pose).collect() }
+}
+
+fn out_of_reach(what: String) -> Error {
+    Error::new(ErrorKind::Geometry, format!("the dyad cannot be assembled: {what}"))
+        .help("check the lengths and the ground points, or start at a crank angle that can be reached")
+}
+
+fn parallel(sine: f64) -> Error {
+    Error::new(
+        ErrorKind::Geometry,
+        format!("the dyad cannot be assembled: the axes of its two prismatic joints are parallel (sine {sine:.1e})"),
+    )
+    .help("check the axes, or start at a crank angle at which they cross")
+}
+
+/// The inner joint is where the circles about the outer joints meet.
+fn rrr(members: &[Member; 2]) -> Result<Vec<Configuration>> {
+    let [first, second] = members.each_ref().map(Member::hook);
+    let [radius_1, radius_2] = members.each_ref().map(|member| member.span().norm());
+    let base = second - first;
+    let distance = base.norm();
+    let along = (distance * distance + radius_1 * radius_1 - radius_2 * radius_2) / (2.0 * distance);
+    let across_squared = (radius_1 - along) * (radius_1 + along);
+    if !(across_squared >= 0.0 && distance > 0.0) {
+        return Err(out_of_reach(format!(
+            "its outer joints are {distance:.6} m apart, its links span {:.6} to {:.6} m",
+            (radius_1 - radius_2).abs(),
+            radius_1 + radius_2
+        )));
+    }
+    let direction = base / distance;
+    let across = turned(direction) * across_squared.sqrt();
+    let one = |mode: AssemblyMode, across: Vec2| {
+        let inner = first + direction * along + across;
+        let pose =
+            |member: &Member| LinkPose::between(member.outer_place(), member.inner_place(), member.hook(), inner);
+        Configuration { mode, links: members.iter().map(pose).collect() }
+    };
+    Ok(vec![one(AssemblyMode::Left, across), one(AssemblyMode::Right, -across)])
+}
+
+/// The inner joint moves on a line along the guide; it is where the circle of the rod about the outer pin meets that line.
+fn rrp(members: &[Member; 2]) -> Result<Vec<Configuration>> {
+    let [rod, slider] = prismatic_last(members);
+    let (axis, pin, length) = (slider.guide(), rod.hook(), rod.span().norm());
+    let angle = slider.angle(slider.outer, axis);
+    let height = cross(axis, slider.hook() + rotated(unit(angle), slider.span()) - pin);
+    let along_squared = (length - height) * (length + height);
+    if !(along_squared >= 0.0) {
+        return Err(out_of_reach(format!(
+            "its inner joint slides along a line that passes its outer pin at {:.6} m, its rod spans {length:.6} m",
+            height.abs()
+        )));
+    }
+    let one = |mode: AssemblyMode, along: f64| {
+        let inner = pin + axis * along + turned(axis) * height;
+        let poses = [
+            (rod.link, LinkPose::between(rod.outer_place(), rod.inner_place(), pin, inner)),
+            (slider.link, LinkPose::through(slider.inner_place(), inner, angle)),
+        ];
+        configuration(members, mode, poses)
+    };
+    let along = along_squared.sqrt();
+    Ok(vec![one(AssemblyMode::Ahead, along), one(AssemblyMode::Behind, -along)])
+}
+
+/// Across the axis e, the outer pins are as far apart as both links' offsets say: e x d = h. Along it, they are sqrt(d^2 - h^2) apart, one
+/// way or the other; d and its components give e.
+fn rpr(members: &[Member; 2]) -> Result<Vec<Configuration>> {
+    let [first, second] = in_pair_order(members);
+    let offset = |member: &Member| cross(member.axis_of(member.inner), member.span());
+    let across = offset(first) - offset(second);
+    let base = second.hook() - first.hook();
+    let distance = base.norm();
+    let along_squared = (distance - across) * (distance + across);
+    if !(along_squared >= 0.0 && distance > 0.0) {
+        return Err(out_of_reach(format!(
+            "its outer joints are {distance:.6} m apart, but its links hold them {:.6} m apart across the axis of its prismatic joint",
+            across.abs()
+        )));
+    }
+    let one = |mode: AssemblyMode, along: f64| {
+        let axis = rotated(Vec2::new(along, -across), base) / (distance * distance);
+        let pose = |member: &Member| {
+            let angle = member.angle(member.inner, axis);
+            (member.link, LinkPose::through(member.outer_place(), member.hook(), angle))
+        };
+        configuration(members, mode, [pose(first), pose(second)])
+    };
+    let along = along_squared.sqrt();
+    Ok(vec![one(AssemblyMode::Ahead, along), one(AssemblyMode::Behind, -along)])
+}
+
+/// Both angles are those of the guides; the slider moves along the outer axis until the places of the inner joint are in line.
+fn rpp(members: &[Member; 2]) -> Result<Vec<Configuration>> {
+    let [swivel, slider] = prismatic_last(members);
+    let outer = slider.guide();
+    let slider_angle = slider.angle(slider.outer, outer);
+    let inner = rotated(unit(slider_angle), slider.axis_of(slider.inner));
+    let sine = cross(inner, outer);
+    if !(sine.abs() > PARALLEL) {
+        return Err(parallel(sine));
+    }
+    let swivel_pose = LinkPose::through(swivel.outer_place(), swivel.hook(), swivel.angle(swivel.inner, inner));
+    let start = LinkPose::through(slider.outer_place(), slider.hook(), slider_angle);
+    let gap = swivel_pose.point(swivel.inner_place()) - start.point(slider.inner_place());
+    let slide = cross(inner, gap) / sine;
+    let slider_pose = LinkPose { origin: start.origin + outer * slide, angle: slider_angle };
+    let poses = [(swivel.link, swivel_pose), (slider.link, slider_pose)];
+    Ok(vec![configuration(members, AssemblyMode::Only, poses)])
+}
+
+/// The inner pin is where the two lines cross on which the sliders carry it.
+fn prp(members: &[Member; 2]) -> Result<Vec<Configuration>> {
+    let axes = members.each_ref().map(Member::guide);
+    let sine = cross(axes[0], axes[1]);
+    if !(sine.abs() > PARALLEL) {
+        return Err(parallel(sine));
+    }
+    let angles = [0, 1].map(|k| members[k].angle(members[k].outer, axes[k]));
+    let [first, second] = [0, 1].map(|k| members[k].hook() + rotated(unit(angles[k]), members[k].span()));
+    let inner = first + axes[0] * (cross(second - first, axes[1]) / sine);
+    let pose = |k: usize| (members[k].link, LinkPose::through(members[k].inner_place(), inner, angles[k]));
+    Ok(vec![configuration(members, AssemblyMode::Only, [pose(0), pose(1)])])
+}

@@ -1,0 +1,144 @@
+//! All real configurations of an Assur group of four links, with any revolute and prismatic pairs.
+//!
+//! There are two such groups: the class III group of order 3, a base link on three leads, and the class IV group of order 2, a
+//! quadrilateral of two ternary and two binary links that changes shape. The second is the first seen from one of its
+//! ternary links: that link is the frame, the other the base, and the leads are the two binary links and what the group
+//! hangs on, taken as one body.
+
+use super::mode::{AssemblyMode, Configuration};
+use super::three_leads::{Conditions, End, Lead, Pair};
+use crate::error::{Error, ErrorKind, Result};
+use crate::math::angle::wrapped;
+use crate::math::{Vec2, rotated, unit};
+use crate::mechanism::{Group, LinkPose, Mechanism, Pose};
+use std::f64::consts::TAU;
+
+#[cfg(test)]
+mod tests;
+
+/// A body that takes part: a link of the group, or what the group hangs on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Body {
+    Link(usize),
+    World,
+}
+
+/// The group as a base on three leads.
+#[derive(Clone, Debug)]
+struct Layout {
+    frame: Body,
+    base: usize,
+    leads: [(Body, Lead); 3],
+}
+
+impl Layout {
+    /// Sorts out the links; `None` if the group is none of the two.
+    fn of(mechanism: &Mechanism, group: &Group, pose: &Pose) -> Option<Self> {
+        if group.links.len() != 4 {
+            return None;
+        }
+        let joints = mechanism.joints();
+        let inner_of = |link: usize| group.inner.iter().copied().filter(move |&j| joints[j].on(link).is_some());
+        let base_link = group.links.iter().copied().find(|&link| inner_of(link).count() == 3);
+        let ends: Vec<usize> =
+            group.links.iter().copied().filter(|&link| group.outer_on(mechanism, link).is_some()).collect();
+        let (frame, base) = match (base_link, &ends[..]) {
+            (Some(base), _) => (Body::World, base),
+            (None, &[first, last]) => (Body::Link(first), last),
+            _ => return None,
+        };
+        let body_of = |link: usize| if group.links.contains(&link) { Body::Link(link) } else { Body::World };
+        let end = |joint: usize, body: Body| {
+            let joint = &joints[joint];
+            let side = [joint.first, joint.second].into_iter().find(|side| body_of(side.link) == body)?;
+            let axis = joint.axis_on(side.link).unwrap_or_else(Vec2::zeros);
+            Some(match body {
+                Body::Link(_) => End { place: side.local, axis },
+                Body::World => {
+                    let hung_on = pose.0[side.link];
+                    End { place: hung_on.point(side.local), axis: rotated(unit(hung_on.angle), axis) }
+                }
+            })
+        };
+        // The joint between two bodies, if there is just one.
+        let between = |a: Body, b: Body| {
+            let both = |&&joint: &&usize| end(joint, a).is_some() && end(joint, b).is_some();
+            let mut found = group.inner.iter().chain(&group.outer).filter(both);
+            found.next().copied().filter(|_| found.next().is_none())
+        };
+        let lead = |body: Body| {
+            let pair = |other: Body| {
+                let joint = between(body, other)?;
+                let slides = joints[joint].is_prismatic();
+                Some(Pair { slides, lead: end(joint, body)?, body: end(joint, other)? })
+            };
+            Some((body, Lead { near: pair(frame)?, far: pair(Body::Link(base))? }))
+        };
+        let bodies = group.links.iter().map(|&link| Body::Link(link)).chain([Body::World]);
+        let mut bodies = bodies.filter(|&body| body != frame && body != Body::Link(base));
+        let leads = [lead(bodies.next()?)?, lead(bodies.next()?)?, lead(bodies.next()?)?];
+        Some(Layout { frame, base, leads })
+    }
+
+    /// Poses of the four links, in the order of the group, from the base's pose in the frame; `None` if a lead slides free.
+    fn poses(&self, group: &Group, base: &LinkPose) -> Option<Vec<LinkPose>> {
+        let mut in_frame = Vec::with_capacity(3);
+        for (body, lead) in &self.leads {
+            in_frame.push((*body, lead.near.lead.place, lead.pose(base)?));
+        }
+        let frame = match in_frame.iter().find(|(body, ..)| *body == Body::World) {
+            // The world is a lead, seen from the frame: one point of it tells where the frame is in the world.
+            Some((_, place, world)) => LinkPose::through(world.point(*place), *place, -world.angle),
+            None => LinkPose::GROUND,
+        };
+        in_frame.push((Body::Link(self.base), self.leads[0].1.far.body.place, *base));
+        let pose = |&link: &usize| {
+            if self.frame == Body::Link(link) {
+                return LinkPose { angle: wrapped(frame.angle), ..frame };
+            }
+            let (_, place, own) =
+                in_frame.iter().find(|(body, ..)| *body == Body::Link(link)).expect("all links are posed");
+            LinkPose::through(*place, frame.point(own.point(*place)), wrapped(own.angle + frame.angle))
+        };
+        Some(group.links.iter().map(pose).collect())
+    }
+}
+
+/// Whether all real configurations of the group can be found.
+pub(super) fn is_handled(mechanism: &Mechanism, group: &Group, pose: &Pose) -> bool {
+    Layout::of(mechanism, group, pose).is_some()
+}
+
+/// All real configurations of the group, by the angle of its base or, in class IV, of the last of its ternary links.
+///
+/// # Errors
+/// [`ErrorKind::Geometry`] if there is none, [`ErrorKind::Unsupported`] if the group is another than the two.
+pub(super) fn configurations(mechanism: &Mechanism, group: &Group, pose: &Pose) -> Result<Vec<Configuration>> {
+    let layout = Layout::of(mechanism, group, pose).ok_or_else(|| {
+        let (links, class) = (group.links.len(), group.class);
+        Error::new(
+            ErrorKind::Unsupported,
+            format!("the configurations of a group of {links} links of class {class} are not all known"),
+        )
+        .help("start from a rough drawing: give `near` for enough points; or drive another link, which may split the group")
+    })?;
+    let singular = || {
+        Error::new(ErrorKind::Geometry, "the group can move while its outer joints are held: its lengths are singular")
+            .help("check the lengths and axes: two links of the group may be parallel and equal by mistake")
+    };
+    let conditions = Conditions::of(&layout.leads.each_ref().map(|(_, lead)| *lead));
+    let mut all = Vec::new();
+    for base in conditions.base_poses().ok_or_else(singular)? {
+        let links = layout.poses(group, &base).ok_or_else(singular)?;
+        all.push(Configuration { mode: AssemblyMode::Followed, links });
+    }
+    if all.is_empty() {
+        return Err(Error::new(ErrorKind::Geometry, "the group cannot be assembled: it has no real configuration")
+            .help("check the lengths and the ground points, or start at a crank angle that can be reached"));
+    }
+    let index = group.links.iter().position(|&link| link == layout.base).expect("the base is a link of the group");
+    // From just below zero: an angle that is zero but for rounding has one place in the order.
+    let rank = |one: &Configuration| (one.links[index].angle + 1e-9).rem_euclid(TAU);
+    all.sort_by(|a, b| rank(a).total_cmp(&rank(b)));
+    Ok(all)
+}

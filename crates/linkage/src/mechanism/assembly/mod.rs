@@ -1,0 +1,133 @@
+//! The pose at t = 0: the crank at its angle, then group after group in its assembly mode.
+//!
+//! Dyads are placed in closed form, groups of four links by the zeros of a trigonometric polynomial, which misses
+//! none of their configurations, all other groups by Newton's method from a rough drawing. The formulas here are the trunk's own: the
+//! analytic solvers neither provide nor use them, so that a slip in one of the three shows.
+
+mod choice;
+mod configurations;
+mod dyads;
+mod four_link;
+mod mode;
+#[cfg(test)]
+mod random;
+mod rough;
+#[cfg(test)]
+mod scan;
+mod three_leads;
+
+pub use configurations::{configurations, transmission_sine};
+pub use mode::{AssemblyMode, Choice, Configuration, StartGroup};
+
+use super::{LinkPose, Mechanism, Pose, Structure};
+use crate::error::Result;
+
+/// Pose at the start, with the driving links at the world angles `drive_angles` (rad, in the order of
+/// [`Structure::drivers`]) and each group as asked in `wanted` (in the order of [`Structure::groups`]); and the
+/// assembly mode of each group.
+///
+/// # Errors
+/// Those of [`first_choices`].
+pub fn first_pose(
+    mechanism: &Mechanism,
+    structure: &Structure,
+    drive_angles: &[f64],
+    wanted: &[StartGroup],
+) -> Result<(Pose, Vec<AssemblyMode>)> {
+    let (pose, choices) = first_choices(mechanism, structure, drive_angles, wanted)?;
+    Ok((pose, choices.into_iter().map(|choice| choice.mode).collect()))
+}
+
+/// As [`first_pose`], with what is known of each group's choice.
+///
+/// # Errors
+/// [`ErrorKind::Geometry`](crate::ErrorKind::Geometry) if a group's links do not reach each other, if rough places fit two configurations,
+/// contradict the mode asked for, or lead to none; [`ErrorKind::Unsupported`](crate::ErrorKind::Unsupported) for a group whose
+/// configurations are not all known and that is given no rough places; [`ErrorKind::Input`](crate::ErrorKind::Input) if a group is asked for
+/// nothing, or for more configurations than it has.
+pub fn first_choices(
+    mechanism: &Mechanism,
+    structure: &Structure,
+    drive_angles: &[f64],
+    wanted: &[StartGroup],
+) -> Result<(Pose, Vec<Choice>)> {
+    let mut pose = Pose(vec![LinkPose::GROUND; mechanism.links().len()]);
+    for (&(link, joint), &angle) in structure.drivers.iter().zip(drive_angles) {
+        let joint = &mechanism.joints()[joint];
+        let base = joint.other(link);
+        let local = joint.on(link).expect("the driven joint is on the driving link");
+        pose.0[link] = LinkPose::through(local, pose.0[base.link].point(base.local), angle);
+    }
+    let mut choices = Vec::with_capacity(structure.groups.len());
+    for (group, wanted) in structure.groups.iter().zip(wanted) {
+        choices.push(
+            choice::place(mechanism, group, wanted, &mut pose)
+                .map_err(|error| error.key(format!("start.groups ({})", group.names(mechanism))))?,
+        );
+    }
+    Ok((pose, choices))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::error::ErrorKind;
+    use crate::fixtures::four_bar;
+    use crate::math::{Vec2, cross};
+    use crate::mechanism::pose::SidePoint;
+    use approx::assert_relative_eq;
+
+    fn start(wanted: StartGroup) -> Result<(Pose, Vec<AssemblyMode>)> {
+        let mechanism = four_bar();
+        let structure = Structure::of(&mechanism, &[0]).unwrap();
+        first_pose(&mechanism, &structure, &[std::f64::consts::FRAC_PI_2], &[wanted])
+    }
+
+    fn point_b(pose: &Pose) -> Vec2 {
+        pose.0[2].point(Vec2::new(4.0, 0.0))
+    }
+
+    #[test]
+    fn both_modes_close_and_mirror_each_other() {
+        let mechanism = four_bar();
+        let mode = |mode| start(StartGroup { mode: Some(mode), ..StartGroup::default() }).unwrap().0;
+        let (left, right) = (mode(AssemblyMode::Left), mode(AssemblyMode::Right));
+        assert!(left.closure(&mechanism) < 1e-15 && right.closure(&mechanism) < 1e-15);
+        // A = (0, 1), C = (4, 0): B of the two modes mirrors at the line AC.
+        let (a, axis) = (Vec2::new(0.0, 1.0), Vec2::new(4.0, -1.0).normalize());
+        let mirrored = a + axis * (2.0 * axis.dot(&(point_b(&left) - a))) - (point_b(&left) - a);
+        assert_relative_eq!(mirrored, point_b(&right), epsilon = 1e-14);
+        assert!(cross(Vec2::new(4.0, -1.0), point_b(&left) - a) > 0.0);
+    }
+
+    #[test]
+    fn a_guess_chooses_only_when_it_is_clear() {
+        let near = |x, y| {
+            vec![(
+                SidePoint { name: "B".into(), side: crate::mechanism::Side { link: 3, local: Vec2::new(3.0, 0.0) } },
+                Vec2::new(x, y),
+            )]
+        };
+        let left = start(StartGroup { mode: Some(AssemblyMode::Left), ..StartGroup::default() }).unwrap().0;
+        let b = point_b(&left);
+        let (_, modes) = start(StartGroup { mode: None, near: near(b.x + 0.1, b.y), ..StartGroup::default() }).unwrap();
+        assert_eq!(modes, [AssemblyMode::Left]);
+        let error = start(StartGroup { mode: None, near: near(2.0, 0.5), ..StartGroup::default() }).unwrap_err();
+        assert!(error.to_string().contains("does not tell them apart"), "{error}");
+        let error =
+            start(StartGroup { mode: Some(AssemblyMode::Right), near: near(b.x, b.y), ..StartGroup::default() })
+                .unwrap_err();
+        assert!(error.to_string().contains("nearer to another configuration"), "{error}");
+        assert_eq!(start(StartGroup::default()).unwrap_err().kind(), ErrorKind::Input);
+    }
+
+    #[test]
+    fn links_that_do_not_reach_are_an_error_with_the_distances() {
+        let mut mechanism = four_bar();
+        mechanism.joints[2].second.local = Vec2::new(0.05, 0.0);
+        let structure = Structure::of(&mechanism, &[0]).unwrap();
+        let wanted = [StartGroup { mode: Some(AssemblyMode::Left), ..StartGroup::default() }];
+        let error = first_pose(&mechanism, &structure, &[0.0], &wanted).unwrap_err();
+        assert!(error.to_string().contains("3.000000 m apart, its links span 3.950000 to 4.050000 m"), "{error}");
+    }
+}

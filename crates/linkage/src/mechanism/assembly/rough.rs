@@ -1,0 +1,259 @@
+//! A group whose configurations are not all known, started from a rough drawing.
+//!
+//! Each link is laid through the rough places of its points, through joints with links that are placed already, and along their
+//! axes. From there all joints of the group are closed at once by Newton's method, damped after Levenberg and Marquardt:
+//! (J^T J + lambda) dx = -J^T f with the gaps f of all joints, as many as unknowns.
+
+use super::dyads::turn;
+use super::mode::{AssemblyMode, Choice};
+use crate::error::{Error, ErrorKind, Result};
+use crate::math::angle::wrapped;
+use crate::math::dense::Lu;
+use crate::math::{KeepNan, Vec2, cross, rotated, turned, unit};
+use crate::mechanism::pose::SidePoint;
+use crate::mechanism::{EQUATIONS, Group, Joint, JointKind, LinkPose, Mechanism, Pose};
+
+#[cfg(test)]
+mod tests;
+
+type Near = [(SidePoint, Vec2)];
+
+/// The group counts as closed when no joint is open by more than this share of the mechanism's size: rounding.
+const CLOSED: f64 = 1e-13;
+/// Most steps of the damped iteration. From a drawing that is right to a tenth of a link it takes about ten.
+const STEPS: usize = 200;
+
+/// Poses the links of the group near the rough places `near`.
+pub(super) fn place(mechanism: &Mechanism, group: &Group, near: &Near, pose: &mut Pose) -> Result<Choice> {
+    let mut drawn = pose.clone();
+    lay_out(mechanism, group, near, &mut drawn)?;
+    let system = System { mechanism, group, size: mechanism.size() };
+    system.close(&mut drawn).ok_or_else(|| {
+        Error::new(ErrorKind::Geometry, "no configuration of the group is found from the rough places")
+            .help("give places nearer to the configuration you mean, or more of them; or check the lengths")
+    })?;
+    let mut farthest: f64 = 0.0;
+    for (point, guess) in near {
+        let distance = (drawn.0[point.side.link].point(point.side.local) - guess).norm();
+        let half = half_link(mechanism, group, &point.name);
+        if !(distance <= half) {
+            return Err(Error::new(
+                ErrorKind::Geometry,
+                format!(
+                    "the configuration found from the rough places has point \"{}\" {distance:.4} m away from its own, more than half a link ({half:.4} m)",
+                    point.name
+                ),
+            )
+            .help("give places nearer to the configuration you mean, or more of them; or check the lengths"));
+        }
+        farthest = farthest.larger(distance);
+    }
+    *pose = drawn;
+    Ok(Choice { mode: AssemblyMode::Followed, nearest_m: Some(farthest), next_m: None })
+}
+
+/// Half the length of the shortest link of the group that carries the point and has a length, else of the longest link of all.
+fn half_link(mechanism: &Mechanism, group: &Group, point: &str) -> f64 {
+    let links = group.links.iter().map(|&link| &mechanism.links()[link]);
+    let carriers = links.filter(|link| link.points.iter().any(|own| own.name == point));
+    let least = carriers.map(|link| link.size()).filter(|&size| size > 0.0).fold(f64::INFINITY, f64::smaller);
+    0.5 * if least.is_finite() { least } else { mechanism.size() }
+}
+
+/// Lays every link of the group as well as the rough places and what is placed allow.
+fn lay_out(mechanism: &Mechanism, group: &Group, near: &Near, pose: &mut Pose) -> Result<()> {
+    let mut left = group.links.clone();
+    while !left.is_empty() {
+        let is_placed = |link: usize| !left.contains(&link);
+        let laid = left.iter().enumerate().find_map(|(index, &link)| {
+            let joints = group.inner.iter().chain(&group.outer).map(|&joint| &mechanism.joints()[joint]);
+            let hooks = joints.filter(|joint| joint.on(link).is_some() && is_placed(joint.other(link).link));
+            lay(mechanism, link, near, &hooks.collect::<Vec<_>>(), pose).map(|place| (index, place))
+        });
+        let Some((index, place)) = laid else {
+            let name = &mechanism.links()[left[0]].name;
+            return Err(Error::new(
+                ErrorKind::Input,
+                format!("the rough places do not tell where link \"{name}\" of the group lies"),
+            )
+            .help("give `near` for two points of the link, or for one if it has a joint with a link that is placed already"));
+        };
+        pose.0[left.remove(index)] = place;
+    }
+    Ok(())
+}
+
+/// The pose of a link from its rough places and its joints with placed links, if they are enough.
+fn lay(mechanism: &Mechanism, link: usize, near: &Near, hooks: &[&Joint], pose: &Pose) -> Option<LinkPose> {
+    let own = |name: &str| mechanism.links()[link].points.iter().find(|point| point.name == name);
+    let rough = near.iter().filter_map(|(point, place)| Some((own(&point.name)?.local, *place)));
+    let pins = hooks.iter().filter(|joint| !joint.is_prismatic()).map(|joint| {
+        let other = joint.other(link);
+        (joint.on(link).expect("the joint is on the link"), pose.0[other.link].point(other.local))
+    });
+    let places: Vec<(Vec2, Vec2)> = rough.chain(pins).collect();
+    let count = places.len() as f64;
+    let mean = |of: fn(&(Vec2, Vec2)) -> Vec2| places.iter().map(of).sum::<Vec2>() / count;
+    let (local, world) = (mean(|place| place.0), mean(|place| place.1));
+    let guided = hooks.iter().find_map(|joint| {
+        let other = joint.other(link).link;
+        let axis = rotated(unit(pose.0[other].angle), joint.axis_on(other)?);
+        Some(turn(joint.axis_on(link)?, axis))
+    });
+    // The turn that fits the places best: that of the sum of conj(local) world, as complex numbers.
+    let fit: Vec2 = places
+        .iter()
+        .map(|place| (place.0 - local, place.1 - world))
+        .map(|(own, at)| Vec2::new(own.dot(&at), cross(own, at)))
+        .sum();
+    let fitted = (fit.norm() > 0.0).then(|| fit.y.atan2(fit.x));
+    (count > 0.0).then_some(())?;
+    Some(LinkPose::through(local, world, guided.or(fitted)?))
+}
+
+/// The gaps of a group's joints as functions of x, y and size * angle of its links.
+struct System<'a> {
+    mechanism: &'a Mechanism,
+    group: &'a Group,
+    size: f64,
+}
+
+impl System<'_> {
+    fn joints(&self) -> impl Iterator<Item = &Joint> {
+        self.group.inner.iter().chain(&self.group.outer).map(|&joint| &self.mechanism.joints()[joint])
+    }
+
+    /// Gaps of all joints (m).
+    fn gaps(&self, pose: &Pose) -> Vec<f64> {
+        let gaps = self.joints().flat_map(|joint| {
+            let [first, second] = [joint.first, joint.second].map(|side| pose.0[side.link].point(side.local));
+            let gap = second - first;
+            match joint.kind {
+                JointKind::Revolute => [gap.x, gap.y],
+                JointKind::Prismatic { axes } => {
+                    let [e, f] = self.axes(joint, axes, pose);
+                    [cross(e, gap), self.size * cross(e, f)]
+                }
+            }
+        });
+        gaps.collect()
+    }
+
+    fn axes(&self, joint: &Joint, axes: [Vec2; 2], pose: &Pose) -> [Vec2; 2] {
+        let links = [joint.first.link, joint.second.link];
+        [0, 1].map(|k| rotated(unit(pose.0[links[k]].angle), axes[k]))
+    }
+
+    /// Rows of the Jacobian, one a gap.
+    fn jacobian(&self, pose: &Pose) -> Vec<Vec<f64>> {
+        let mut rows = vec![vec![0.0; 3 * self.group.links.len()]; self.unknowns()];
+        for (index, joint) in self.joints().enumerate() {
+            let sides = [joint.first, joint.second];
+            let places = sides.map(|side| pose.0[side.link].point(side.local));
+            for (k, sign) in [(0, -1.0), (1, 1.0)] {
+                let Some(at) = self.group.links.iter().position(|&link| link == sides[k].link) else { continue };
+                // The place moves by (dx, dy) and by the turn of its arm.
+                let arm = turned(places[k] - pose.0[sides[k].link].origin) / self.size;
+                let moves = [Vec2::new(1.0, 0.0), Vec2::new(0.0, 1.0), arm];
+                for (column, by) in moves.into_iter().enumerate() {
+                    let column = 3 * at + column;
+                    match joint.kind {
+                        JointKind::Revolute => {
+                            rows[2 * index][column] = sign * by.x;
+                            rows[2 * index + 1][column] = sign * by.y;
+                        }
+                        JointKind::Prismatic { axes } => {
+                            let [e, f] = self.axes(joint, axes, pose);
+                            rows[2 * index][column] = sign * cross(e, by);
+                            if column % 3 == 2 {
+                                rows[2 * index + 1][column] = sign * e.dot(&f);
+                                // The line turns with the first link.
+                                if k == 0 {
+                                    rows[2 * index][column] -= e.dot(&(places[1] - places[0])) / self.size;
+                                }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        rows
+    }
+
+    fn unknowns(&self) -> usize {
+        EQUATIONS * (self.group.inner.len() + self.group.outer.len())
+    }
+
+    fn moved(&self, pose: &Pose, step: &[f64]) -> Pose {
+        let mut moved = pose.clone();
+        for (&link, step) in self.group.links.iter().zip(step.chunks(3)) {
+            let own = &mut moved.0[link];
+            *own = LinkPose {
+                origin: own.origin - Vec2::new(step[0], step[1]),
+                angle: wrapped(own.angle - step[2] / self.size),
+            };
+        }
+        moved
+    }
+
+    /// Closes all joints; `None` if that does not succeed.
+    fn close(&self, pose: &mut Pose) -> Option<()> {
+        let square = |gaps: &[f64]| gaps.iter().map(|gap| gap * gap).sum::<f64>();
+        let n = self.unknowns();
+        let mut damping = 1e-3;
+        let mut gaps = self.gaps(pose);
+        for _ in 0..STEPS {
+            let rows = self.jacobian(pose);
+            let mut normal = Lu::new(n);
+            let mut step = vec![0.0; n];
+            for (row, gap) in rows.iter().zip(&gaps) {
+                for i in 0..n {
+                    step[i] += row[i] * gap;
+                    (0..n).for_each(|j| normal.add(i, j, row[i] * row[j]));
+                }
+            }
+            (0..n).for_each(|i| normal.add(i, i, damping));
+            if !normal.factor() {
+                return None;
+            }
+            normal.solve(&mut step);
+            let next = self.moved(pose, &step);
+            let next_gaps = self.gaps(&next);
+            if square(&next_gaps) < square(&gaps) {
+                (*pose, gaps) = (next, next_gaps);
+                damping = (damping * 0.1).larger(1e-12);
+            } else {
+                damping *= 10.0;
+            }
+            if square(&gaps).sqrt() <= 1e-9 * self.size || damping > 1e9 {
+                break;
+            }
+        }
+        self.polish(pose)
+    }
+
+    /// A few steps of Newton's method as it is, which keeps all digits that the normal equations lose.
+    fn polish(&self, pose: &mut Pose) -> Option<()> {
+        let n = self.unknowns();
+        for _ in 0..4 {
+            let mut jacobian = Lu::new(n);
+            for (row, values) in self.jacobian(pose).iter().enumerate() {
+                values.iter().enumerate().for_each(|(column, &value)| jacobian.add(row, column, value));
+            }
+            let mut step = self.gaps(pose);
+            if !jacobian.factor() {
+                return None;
+            }
+            jacobian.solve(&mut step);
+            *pose = self.moved(pose, &step);
+        }
+        // Measured as everywhere: axes that point against each other are open.
+        let open = |joint: &Joint| {
+            let sides = [joint.first, joint.second];
+            let places = sides.map(|side| pose.0[side.link].point(side.local));
+            let (distance, turn) = joint.opening(places, sides.map(|side| unit(pose.0[side.link].angle)));
+            distance.larger(turn * self.size)
+        };
+        self.joints().all(|joint| open(joint) <= CLOSED * self.size).then_some(())
+    }
+}

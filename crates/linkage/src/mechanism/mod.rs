@@ -1,0 +1,375 @@
+//! What a mechanism is: links, joints, structure, and the pose it starts from. No time, no files, no solvers.
+
+pub mod assembly;
+mod placing;
+pub mod pose;
+pub mod spanning_tree;
+pub mod structure;
+
+pub use assembly::{AssemblyMode, StartGroup, first_pose};
+pub use placing::Handle;
+pub use pose::{LinkPose, Pose};
+pub use spanning_tree::{Branch, Tree};
+pub use structure::{Group, GroupKind, Structure};
+
+use crate::error::{Error, ErrorKind, Result};
+use crate::math::{KeepNan, Vec2, cross, rotated};
+
+/// Index of the ground (frame) in [`Mechanism::links`].
+pub const GROUND: usize = 0;
+
+/// Rigid member of a mechanism with its own frame, in which points and mass centre are given.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Link {
+    /// Name, unique in the mechanism.
+    pub name: String,
+    /// Named points with their coordinates in the link's frame (m).
+    pub points: Vec<Point>,
+    /// Mass (kg), not negative; 0 for the ground.
+    pub mass: f64,
+    /// Mass centre in the link's frame (m).
+    pub mass_centre: Vec2,
+    /// Moment of inertia about the mass centre (kg m^2), not negative.
+    pub inertia: f64,
+}
+
+impl Link {
+    /// Largest distance between two of its points (m).
+    #[must_use]
+    pub fn size(&self) -> f64 {
+        let pairs = self.points.iter().enumerate().flat_map(|(i, a)| self.points[i + 1..].iter().map(move |b| (a, b)));
+        pairs.map(|(a, b)| (a.local - b.local).norm()).fold(0.0, f64::larger)
+    }
+}
+
+/// Named point of a link.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Point {
+    /// Name. Points of different links that carry one name are one place: a joint holds them together.
+    pub name: String,
+    /// Coordinates in the link's frame (m).
+    pub local: Vec2,
+}
+
+/// Sort of kinematic pair. Either takes two equations and leaves one relative freedom.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum JointKind {
+    /// Revolute pair (pin): the joint's places on both links are one point.
+    Revolute,
+    /// Prismatic pair (slider in a guide): the second link's place lies on the line through the first link's along the axis,
+    /// and the two links turn together.
+    Prismatic {
+        /// Unit vector of the axis in the frame of the first link and in that of the second; one direction in the world.
+        axes: [Vec2; 2],
+    },
+}
+
+/// Number of constraint equations of any lower pair of the plane.
+pub const EQUATIONS: usize = 2;
+
+impl JointKind {
+    /// Letter of the pair in the names of groups: R or P.
+    #[must_use]
+    pub fn letter(self) -> char {
+        match self {
+            JointKind::Revolute => 'R',
+            JointKind::Prismatic { .. } => 'P',
+        }
+    }
+
+    /// Name, as in scenario files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            JointKind::Revolute => "revolute",
+            JointKind::Prismatic { .. } => "prismatic",
+        }
+    }
+}
+
+/// One side of a joint: a point of a link.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Side {
+    /// Index of the link.
+    pub link: usize,
+    /// Coordinates of the joint in that link's frame (m).
+    pub local: Vec2,
+}
+
+/// Kinematic pair between two links. Its reaction is what the first link exerts on the second: a force, and in a prismatic
+/// pair a moment besides, about the joint's place on the second link.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Joint {
+    /// Name, unique in the mechanism.
+    pub name: String,
+    /// Sort of pair.
+    pub kind: JointKind,
+    /// First link and the joint's place on it.
+    pub first: Side,
+    /// Second link and the joint's place on it.
+    pub second: Side,
+}
+
+impl Joint {
+    /// The joint's place on `link`, if the joint is on that link.
+    #[must_use]
+    pub fn on(&self, link: usize) -> Option<Vec2> {
+        [self.first, self.second].into_iter().find(|side| side.link == link).map(|side| side.local)
+    }
+
+    /// The side on the other link than `link`.
+    #[must_use]
+    pub fn other(&self, link: usize) -> Side {
+        if self.first.link == link { self.second } else { self.first }
+    }
+
+    /// Whether the pair is prismatic.
+    #[must_use]
+    pub fn is_prismatic(&self) -> bool {
+        matches!(self.kind, JointKind::Prismatic { .. })
+    }
+
+    /// Unit vector of a prismatic pair's axis in the frame of `link`, if the joint is prismatic and on that link.
+    #[must_use]
+    pub fn axis_on(&self, link: usize) -> Option<Vec2> {
+        let JointKind::Prismatic { axes } = self.kind else { return None };
+        let sides = [self.first, self.second];
+        sides.iter().position(|side| side.link == link).map(|index| axes[index])
+    }
+
+    /// How far the joint is from holding together: distance of its places, across the axis in a prismatic pair (m), and
+    /// angle between the axes (its sine; 0 in a revolute pair). `places` are the joint's on both links in the world,
+    /// `directions` the (cos, sin) of both links' angles.
+    #[must_use]
+    pub fn opening(&self, places: [Vec2; 2], directions: [Vec2; 2]) -> (f64, f64) {
+        let gap = places[1] - places[0];
+        match self.kind {
+            JointKind::Revolute => (gap.norm(), 0.0),
+            JointKind::Prismatic { axes } => {
+                let [first, second] = [0, 1].map(|k| rotated(directions[k], axes[k]));
+                // Axes that point against each other are as far off as can be.
+                let turn = if first.dot(&second) > 0.0 { cross(first, second).abs() } else { 1.0 };
+                (cross(first, gap).abs(), turn)
+            }
+        }
+    }
+}
+
+/// A planar mechanism: links, of which the first is the ground, and the joints between them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mechanism {
+    links: Vec<Link>,
+    joints: Vec<Joint>,
+}
+
+impl Mechanism {
+    /// A mechanism of the given links (the first is the ground) and joints.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Input`] with the key of the link or joint at fault: names used twice, a joint of a link with
+    /// itself, negative or non-finite masses and inertias, inertia without mass, a point name on two links that no
+    /// joint holds together.
+    pub fn new(links: Vec<Link>, joints: Vec<Joint>) -> Result<Self> {
+        let mechanism = Mechanism { links, joints };
+        mechanism.check_names()?;
+        for link in &mechanism.links {
+            check_masses(link).map_err(|error| error.key(format!("links.{}", link.name)))?;
+        }
+        mechanism.check_shared_points()?;
+        Ok(mechanism)
+    }
+
+    /// All links; index 0 is the ground.
+    #[must_use]
+    pub fn links(&self) -> &[Link] {
+        &self.links
+    }
+
+    /// All joints.
+    #[must_use]
+    pub fn joints(&self) -> &[Joint] {
+        &self.joints
+    }
+
+    /// Index of the link called `name`.
+    #[must_use]
+    pub fn link_named(&self, name: &str) -> Option<usize> {
+        self.links.iter().position(|link| link.name == name)
+    }
+
+    /// Index of the joint called `name`.
+    #[must_use]
+    pub fn joint_named(&self, name: &str) -> Option<usize> {
+        self.joints.iter().position(|joint| joint.name == name)
+    }
+
+    /// Guide and block of a prismatic joint: the ground is a guide, and so is the larger of two moving links, of equal ones the first. `None` for
+    /// a revolute joint.
+    #[must_use]
+    pub fn guide_and_block(&self, joint: &Joint) -> Option<[Side; 2]> {
+        let size = |side: Side| if side.link == GROUND { f64::INFINITY } else { self.links[side.link].size() };
+        let (first, second) = (joint.first, joint.second);
+        joint.is_prismatic().then(|| if size(first) >= size(second) { [first, second] } else { [second, first] })
+    }
+
+    /// Points that move, each name once: the link that carries it first, and its place there.
+    pub fn moving_points(&self) -> impl Iterator<Item = (&str, Side)> {
+        let on_ground = |name: &str| self.links[GROUND].points.iter().any(|point| point.name == name);
+        let mut seen: Vec<&str> = Vec::new();
+        let mut points = Vec::new();
+        for (link, body) in self.links.iter().enumerate().skip(1) {
+            for point in &body.points {
+                if !on_ground(&point.name) && !seen.contains(&point.name.as_str()) {
+                    seen.push(&point.name);
+                    points.push((point.name.as_str(), Side { link, local: point.local }));
+                }
+            }
+        }
+        points.into_iter()
+    }
+
+    /// Largest distance between two points of one link (m): the size that closure gaps are judged by.
+    #[must_use]
+    pub fn size(&self) -> f64 {
+        self.links.iter().map(Link::size).fold(0.0, f64::larger)
+    }
+
+    /// Whether a link can turn: it cannot if prismatic joints alone connect it with the ground.
+    #[must_use]
+    pub fn can_turn(&self, link: usize) -> bool {
+        let mut still = vec![GROUND];
+        let mut next = 0;
+        while let Some(&own) = still.get(next) {
+            next += 1;
+            for joint in self.joints.iter().filter(|joint| joint.is_prismatic() && joint.on(own).is_some()) {
+                let other = joint.other(own).link;
+                if !still.contains(&other) {
+                    still.push(other);
+                }
+            }
+        }
+        !still.contains(&link)
+    }
+
+    fn check_names(&self) -> Result<()> {
+        for (i, link) in self.links.iter().enumerate() {
+            if self.links[..i].iter().any(|other| other.name == link.name) {
+                return Err(Error::new(ErrorKind::Input, format!("two links are called \"{}\"", link.name))
+                    .key(format!("links.{}", link.name))
+                    .help("give every link its own name (\"ground\" is taken)"));
+            }
+        }
+        for (j, joint) in self.joints.iter().enumerate() {
+            let wrong = |message: String, help: &str| {
+                Err(Error::new(ErrorKind::Input, message).key(format!("joints.{}", joint.name)).help(help))
+            };
+            if self.joints[..j].iter().any(|other| other.name == joint.name) {
+                return wrong(format!("two joints are called \"{}\"", joint.name), "give every joint its own name");
+            }
+            if let JointKind::Prismatic { axes } = joint.kind
+                && !axes.iter().all(|axis| (axis.norm() - 1.0).abs() <= 1e-12)
+            {
+                return wrong("its axis is no unit vector".into(), "give the axis by its angle");
+            }
+            if joint.first.link == joint.second.link {
+                return wrong(
+                    format!("it joins \"{}\" with itself", self.links[joint.first.link].name),
+                    "name two different links",
+                );
+            }
+        }
+        Ok(())
+    }
+
+    fn check_shared_points(&self) -> Result<()> {
+        let mut places: Vec<(&str, usize, Vec2)> = Vec::new();
+        for (link, body) in self.links.iter().enumerate() {
+            for point in &body.points {
+                let key = || format!("links.{}.points.{}", body.name, point.name);
+                if places.iter().any(|&(name, other, _)| name == point.name && other == link) {
+                    return Err(Error::new(ErrorKind::Input, "the link has two points of this name").key(key()));
+                }
+                if let Some(&(_, other, _)) = places.iter().find(|&&(name, _, _)| name == point.name)
+                    && !self.held_together(&point.name, link, other)
+                {
+                    return Err(Error::new(
+                        ErrorKind::Input,
+                        format!(
+                            "links \"{}\" and \"{}\" both have a point \"{}\", but no joint holds the two together",
+                            self.links[other].name, body.name, point.name
+                        ),
+                    )
+                    .key(key())
+                    .help("rename one of the points, or add the joint"));
+                }
+                places.push((&point.name, link, point.local));
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether revolute joints that lie at points called `name` connect link `a` with link `b`, directly or through others.
+    fn held_together(&self, name: &str, a: usize, b: usize) -> bool {
+        let at = |side: Side| self.links[side.link].points.iter().any(|p| p.name == name && p.local == side.local);
+        let mut reached = vec![a];
+        let mut next = 0;
+        while let Some(&link) = reached.get(next) {
+            next += 1;
+            let pins = self.joints.iter().filter(|joint| joint.kind == JointKind::Revolute);
+            for joint in pins.filter(|joint| at(joint.first) && at(joint.second)) {
+                if joint.on(link).is_some() && !reached.contains(&joint.other(link).link) {
+                    reached.push(joint.other(link).link);
+                }
+            }
+        }
+        reached.contains(&b)
+    }
+}
+
+fn check_masses(link: &Link) -> Result<()> {
+    let wrong = |message: String, help: &str| Err(Error::new(ErrorKind::Input, message).help(help));
+    for (what, value) in [("mass", link.mass), ("moment of inertia", link.inertia)] {
+        if !(value >= 0.0 && value.is_finite()) {
+            return wrong(format!("the {what} is {value}"), "give a number that is zero or positive");
+        }
+    }
+    if link.mass == 0.0 && link.inertia > 0.0 {
+        return wrong(
+            format!("the link has a moment of inertia ({} kg m^2) but no mass", link.inertia),
+            "give the mass too, or leave both out",
+        );
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::fixtures::*;
+
+    #[test]
+    fn a_point_name_on_two_links_needs_a_joint() {
+        let links = vec![link("ground", &[("O", 0.0, 0.0)]), link("a", &[("O", 0.0, 0.0), ("P", 1.0, 0.0)]), {
+            link("b", &[("P", 0.0, 0.0)])
+        }];
+        let error = mechanism(links, &[("O", "O", "ground", "a")]).unwrap_err();
+        assert!(error.to_string().contains("no joint holds the two together"), "{error}");
+    }
+
+    #[test]
+    fn three_links_on_one_pin_are_held_together_by_two_joints() {
+        let links = vec![
+            link("ground", &[("O", 0.0, 0.0)]),
+            link("a", &[("O", 0.0, 0.0), ("P", 1.0, 0.0)]),
+            link("b", &[("P", 0.0, 0.0)]),
+            link("c", &[("P", 0.0, 0.0)]),
+        ];
+        let pins = [("O", "O", "ground", "a"), ("P1", "P", "a", "b"), ("P2", "P", "b", "c")];
+        let mechanism = mechanism(links, &pins).unwrap();
+        assert_eq!(mechanism.moving_points().map(|(name, _)| name).collect::<Vec<_>>(), ["P"]);
+    }
+
+    #[test]
+    fn size_is_the_longest_link() {
+        assert_eq!(four_bar().size(), 4.0);
+    }
+}

@@ -1,0 +1,69 @@
+//! Changing the dimensions of a mechanism: a point of a link, and the joints that lie there.
+
+use super::{Joint, Mechanism, Side};
+use crate::math::Vec2;
+
+/// A point of a link that can be moved.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Handle {
+    /// Index of the link.
+    pub link: usize,
+    /// Index of the point among the link's.
+    pub point: usize,
+    /// Joints that lie at it.
+    joints: Vec<usize>,
+}
+
+impl Mechanism {
+    /// The point `point` of the link `link` (both by index) with the joints that lie there; `None` if another point of the link has the same place, so that
+    /// joints could be at either.
+    #[must_use]
+    pub fn handle(&self, link: usize, point: usize) -> Option<Handle> {
+        let points = &self.links[link].points;
+        let local = points[point].local;
+        if points.iter().enumerate().any(|(index, other)| index != point && other.local == local) {
+            return None;
+        }
+        let lies_there = |joint: &Joint| joint.on(link) == Some(local);
+        let joints = (0..self.joints.len()).filter(|&joint| lies_there(&self.joints[joint])).collect();
+        Some(Handle { link, point, joints })
+    }
+
+    /// Moves a point to the place `local` in its link's frame (m), and its joints with it. Masses stay as they are.
+    pub fn place(&mut self, handle: &Handle, local: Vec2) {
+        self.links[handle.link].points[handle.point].local = local;
+        for &joint in &handle.joints {
+            let Joint { first, second, .. } = &mut self.joints[joint];
+            let side: &mut Side = if first.link == handle.link { first } else { second };
+            side.local = local;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fixtures::four_bar;
+
+    #[test]
+    fn joints_go_with_their_points() {
+        let mut mechanism = four_bar();
+        let old = mechanism.links()[3].points.clone();
+        let handle = mechanism.handle(3, 1).unwrap();
+        mechanism.place(&handle, Vec2::new(0.7, 0.1));
+        let moved: Vec<&Joint> =
+            mechanism.joints().iter().filter(|joint| joint.on(3) == Some(Vec2::new(0.7, 0.1))).collect();
+        assert_eq!(moved.len(), 1, "{moved:?}");
+        mechanism.place(&handle, old[1].local);
+        assert_eq!(mechanism, four_bar());
+    }
+
+    #[test]
+    fn points_in_one_place_cannot_be_told_apart() {
+        let mut mechanism = four_bar();
+        let handle = mechanism.handle(3, 1).unwrap();
+        let other = mechanism.links()[3].points[0].local;
+        mechanism.place(&handle, other);
+        assert!(mechanism.handle(3, 1).is_none());
+    }
+}

@@ -1,0 +1,211 @@
+//! Structural analysis: mobility and the decomposition into driving links and Assur groups.
+//!
+//! Every link has three freedoms, every revolute or prismatic pair takes two and every drive one. The equations are given owners
+//! among the links they touch, three to a link (a matching); a link then depends on the other link of every equation it
+//! owns, and the strongly connected parts of that dependence are the driving links and the Assur groups, in the order in which
+//! they can be solved. The parts do not depend on which matching was found (Dulmage and Mendelsohn 1958).
+
+mod contour;
+mod group;
+mod owners;
+#[cfg(test)]
+mod tests;
+
+pub use group::{Group, GroupKind};
+
+use super::{EQUATIONS, GROUND, Mechanism};
+use crate::error::{Error, ErrorKind, Result};
+use contour::highest_contour;
+use owners::{Owners, check_sparse};
+
+/// Result of the structural analysis of a mechanism.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Structure {
+    /// Mobility by Chebyshev-Gruebler, W = 3 n - 2 p (n moving links, p lower pairs).
+    pub mobility: i64,
+    /// Driving links in the order in which the drives were given: (link, driven joint).
+    pub drivers: Vec<(usize, usize)>,
+    /// Assur groups in the order in which they can be solved.
+    pub groups: Vec<Group>,
+}
+
+impl Structure {
+    /// Analyses a mechanism driven at the joints `drives`.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Input`] if links hang free of the ground, if the mobility is not the number of drives, or if a part is
+    /// over-constrained while another is free; [`ErrorKind::Unsupported`] if a drive does not act on a link hinged to the ground.
+    pub fn of(mechanism: &Mechanism, drives: &[usize]) -> Result<Self> {
+        check_connected(mechanism)?;
+        check_sliders(mechanism)?;
+        let mobility = mobility(mechanism);
+        if mobility != drives.len() as i64 {
+            return Err(wrong_mobility(mechanism, mobility, drives.len()));
+        }
+        check_sparse(mechanism, drives)?;
+        let owners = Owners::find(mechanism, drives)?;
+        let mut structure = Structure { mobility, drivers: Vec::new(), groups: Vec::new() };
+        let mut known = vec![false; mechanism.links().len()];
+        known[GROUND] = true;
+        for part in owners.parts(mechanism) {
+            let solved = part.clone();
+            let drive = drives
+                .iter()
+                .copied()
+                .find(|&joint| owners.owner_of_drive(joint).is_some_and(|link| part.contains(&link)));
+            match drive {
+                None => structure.groups.push(group(mechanism, part, &known)),
+                Some(joint) if part.len() == 1 && structure.carries(mechanism, joint, part[0]) => {
+                    structure.drivers.push((part[0], joint));
+                }
+                Some(joint) => return Err(unsupported_drive(mechanism, joint)),
+            }
+            for link in solved {
+                known[link] = true;
+            }
+        }
+        structure.drivers.sort_by_key(|&(_, joint)| drives.iter().position(|&drive| drive == joint));
+        structure.check_order(mechanism)?;
+        Ok(structure)
+    }
+
+    /// Whether a revolute joint hinges a driving link to the ground or to a driving link found before.
+    fn carries(&self, mechanism: &Mechanism, joint: usize, link: usize) -> bool {
+        let joint = &mechanism.joints()[joint];
+        let base = joint.other(link).link;
+        !joint.is_prismatic() && (base == GROUND || self.drivers.iter().any(|&(driving, _)| driving == base))
+    }
+
+    /// A driving link is placed after the one that carries it.
+    fn check_order(&self, mechanism: &Mechanism) -> Result<()> {
+        for (index, &(link, joint)) in self.drivers.iter().enumerate() {
+            let joint = &mechanism.joints()[joint];
+            let base = joint.other(link).link;
+            if base != GROUND && !self.drivers[..index].iter().any(|&(before, _)| before == base) {
+                let name = &mechanism.links()[base].name;
+                let message = format!("joint \"{}\" hangs on link \"{name}\", which is driven later", joint.name);
+                return Err(Error::new(ErrorKind::Input, message)
+                    .key("drive")
+                    .help("give the drives from the ground outwards: that of the carrying link first"));
+            }
+        }
+        Ok(())
+    }
+
+    /// Formula of structure, for example `I(ground, crank) -> II.2 RRR(coupler, rocker)`.
+    #[must_use]
+    pub fn formula(&self, mechanism: &Mechanism) -> String {
+        const ROMAN: [&str; 9] = ["", "I", "II", "III", "IV", "V", "VI", "VII", "VIII"];
+        let name = |&(link, joint): &(usize, usize)| {
+            let base = mechanism.joints()[joint].other(link).link;
+            format!("I({}, {})", mechanism.links()[base].name, mechanism.links()[link].name)
+        };
+        let mut parts: Vec<String> = self.drivers.iter().map(name).collect();
+        for group in &self.groups {
+            let class = ROMAN.get(group.class).map_or_else(|| group.class.to_string(), ToString::to_string);
+            let pairs = group.kind.letters().map_or_else(String::new, |letters| format!(" {letters}"));
+            parts.push(format!("{class}.{}{pairs}({})", group.order(), group.names(mechanism)));
+        }
+        parts.join(" -> ")
+    }
+}
+
+/// W = 3 n - 2 p.
+fn mobility(mechanism: &Mechanism) -> i64 {
+    3 * (mechanism.links().len() as i64 - 1) - (EQUATIONS * mechanism.joints().len()) as i64
+}
+
+fn check_connected(mechanism: &Mechanism) -> Result<()> {
+    let mut reached = vec![false; mechanism.links().len()];
+    reached[GROUND] = true;
+    while let Some(joint) = mechanism.joints().iter().find(|j| reached[j.first.link] != reached[j.second.link]) {
+        reached[joint.first.link] = true;
+        reached[joint.second.link] = true;
+    }
+    match reached.iter().position(|&is| !is) {
+        None => Ok(()),
+        Some(link) => {
+            let name = &mechanism.links()[link].name;
+            Err(Error::new(ErrorKind::Input, "the link is not connected to the ground by any chain of joints")
+                .key(format!("links.{name}"))
+                .help(format!("join \"{name}\" to another link, or take it out")))
+        }
+    }
+}
+
+/// A closed loop of prismatic pairs alone fixes the angle between its links twice over and leaves it free to slide.
+fn check_sliders(mechanism: &Mechanism) -> Result<()> {
+    let mut part: Vec<usize> = (0..mechanism.links().len()).collect();
+    for joint in mechanism.joints().iter().filter(|joint| joint.is_prismatic()) {
+        let (a, b) = (part[joint.first.link], part[joint.second.link]);
+        if a == b {
+            return Err(Error::new(ErrorKind::Input, "the joint closes a loop of prismatic joints alone")
+                .key(format!("joints.{}", joint.name))
+                .help("links that are joined by prismatic joints only cannot turn against each other: one joint of the loop must be revolute"));
+        }
+        part.iter_mut().filter(|own| **own == b).for_each(|own| *own = a);
+    }
+    Ok(())
+}
+
+fn wrong_mobility(mechanism: &Mechanism, mobility: i64, drives: usize) -> Error {
+    let (n, p) = (mechanism.links().len() - 1, mechanism.joints().len());
+    let help = if mobility > drives as i64 {
+        "add the missing joints or drives, or take the loose links out"
+    } else {
+        "the mechanism is over-constrained: take out the joints or drives that are too many"
+    };
+    Error::new(
+        ErrorKind::Input,
+        format!("the mobility is W = 3*{n} - 2*{p} = {mobility}, but the number of drives is {drives}"),
+    )
+    .key("joints")
+    .help(help)
+}
+
+fn unsupported_drive(mechanism: &Mechanism, joint: usize) -> Error {
+    Error::new(
+        ErrorKind::Unsupported,
+        format!(
+            "the driven joint \"{}\" does not turn a link against the ground or against another driving link",
+            mechanism.joints()[joint].name
+        ),
+    )
+    .key("drive.joint")
+    .help("drive a link that is hinged to the ground by a revolute joint")
+}
+
+/// The group of `links`, once all links marked in `known` are solved.
+fn group(mechanism: &Mechanism, links: Vec<usize>, known: &[bool]) -> Group {
+    let inside = |link: usize| links.contains(&link);
+    let (mut inner, mut outer) = (Vec::new(), Vec::new());
+    for (index, joint) in mechanism.joints().iter().enumerate() {
+        let (a, b) = (joint.first.link, joint.second.link);
+        if inside(a) && inside(b) {
+            inner.push(index);
+        } else if inside(a) && known[b] || inside(b) && known[a] {
+            outer.push(index);
+        }
+    }
+    // A dyad's outer joints stand in the order of its links.
+    outer.sort_by_key(|&j| links.iter().position(|&link| mechanism.joints()[j].on(link).is_some()));
+    let kind = kind(mechanism, &links, &inner, &outer);
+    let mut group = Group { links, inner, outer, class: 2, kind };
+    group.class = highest_contour(mechanism, &group);
+    group
+}
+
+fn kind(mechanism: &Mechanism, links: &[usize], inner: &[usize], outer: &[usize]) -> GroupKind {
+    if links.len() != 2 {
+        return GroupKind::Higher;
+    }
+    let slides = |joints: &[usize]| joints.iter().filter(|&&joint| mechanism.joints()[joint].is_prismatic()).count();
+    match (slides(inner), slides(outer)) {
+        (0, 0) => GroupKind::Rrr,
+        (0, 1) => GroupKind::Rrp,
+        (0, _) => GroupKind::Prp,
+        (_, 0) => GroupKind::Rpr,
+        // Three prismatic pairs are refused before.
+        (_, _) => GroupKind::Rpp,
+    }
+}

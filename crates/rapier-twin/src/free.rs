@@ -1,0 +1,134 @@
+//! What acts in a free motion: motor and loads, set anew before every step from the engine's own state.
+
+use super::guard::Guard;
+use super::window::Window;
+use linkage::case::Case;
+use linkage::drive::{Branch, Wrench};
+use linkage::engine::Settings;
+use linkage::engine::bodies::check_inertias;
+use linkage::error::Result;
+use linkage::math::KeepNan;
+use linkage::mechanism::GROUND;
+use linkage::solver::State;
+
+/// Turn of the fastest free link (rad) in the tiny step that brings the velocities of a start in line.
+const SETTLING_TURN: f64 = 1e-4;
+
+/// Motor and loads of a case in free motion.
+#[derive(Debug)]
+pub(super) struct Acting {
+    /// The engine's present state, and its angular velocities a step before.
+    state: State,
+    before: Vec<f64>,
+    /// Speeds to which links at rest set off, where that was tried.
+    setting_off: Vec<f64>,
+    loads: Vec<Wrench>,
+    branch: Option<Branch>,
+}
+
+impl Acting {
+    /// # Errors
+    /// Those of [`check_inertias`].
+    pub(super) fn new(case: &Case) -> Result<Self> {
+        check_inertias(case, "Rapier")?;
+        let links = case.mechanism.links().len();
+        Ok(Acting {
+            state: State::at_rest(case),
+            before: vec![f64::NAN; links],
+            setting_off: vec![0.0; links],
+            loads: vec![Wrench::ZERO; links],
+            branch: None,
+        })
+    }
+
+    /// Sets motor and loads of all worlds for the step between the instants `ends` (s), which begins with the newest state of the window.
+    pub(super) fn act(&mut self, case: &Case, window: &Window, worlds: &mut [Guard], ends: [f64; 2]) {
+        for (before, motion) in self.before.iter_mut().zip(&self.state.motions) {
+            *before = if window.newest() > 0 { motion.omega } else { f64::NAN };
+        }
+        window.newest_motion(case, &mut self.state);
+        let State { motions, angles, .. } = &self.state;
+        let (before, setting_off) = (&self.before, &self.setting_off);
+        // A link may turn about within the step: its load is what acts on either side of that instant, each for its share of the step.
+        let sensed = |_: usize, load: &linkage::drive::Load, link: usize, crank: f64| {
+            let now = motions[link].omega;
+            if now == 0.0 {
+                return load.moment_in(setting_off[link], crank);
+            }
+            let next = 2.0 * now - before[link];
+            let own = load.moment_in(now, crank);
+            if now * next < 0.0 {
+                let share = now / (now - next);
+                return share * own + (1.0 - share) * load.moment_in(next, crank);
+            }
+            own
+        };
+        case.loads_with(motions, angles, sensed, &mut self.loads);
+        let motor = self.motor(case);
+        self.loads[GROUND] = Wrench::ZERO;
+        for guard in worlds {
+            guard.put_loads(&self.loads);
+            guard.drive_freely(ends, motor);
+        }
+    }
+
+    /// Whether a load asks for the sense in which a link turns that stands at the beginning.
+    fn must_try(&self, case: &Case) -> bool {
+        let mut sensed = case.loads.iter().filter_map(linkage::drive::Load::sensed_link);
+        sensed.any(|link| self.state.motions[link].omega == 0.0)
+    }
+
+    /// Speed aimed at and damping of the motor that has the law's moment and slope at the crank's speed. Where the moment rises with the speed, or does
+    /// not depend on it, it goes to the loads instead.
+    fn motor(&mut self, case: &Case) -> [f64; 2] {
+        let Some(motor) = case.motor_of_free_crank() else { return [0.0; 2] };
+        let sense = case.drive.sense();
+        let omega = sense * self.state.motions[case.drive.link].omega;
+        let holds = |branch: &Branch| omega >= branch.speeds[0] && omega < branch.speeds[1];
+        let branch = match self.branch {
+            Some(branch) if holds(&branch) => branch,
+            _ => *self.branch.insert(motor.branch(omega, 1.0)),
+        };
+        let (moment, slope) = (branch.moment(omega), branch.slope(omega));
+        if slope < 0.0 {
+            return [sense * (omega - moment / slope), -slope];
+        }
+        self.loads[case.drive.link].moment += sense * moment;
+        [0.0; 2]
+    }
+}
+
+/// Gives worlds at the start pose the velocities of the driving links there, and gives back the window of the motion that begins. Where a load asks for the
+/// sense of a link at rest, one step is tried without it, and taken back.
+///
+/// # Errors
+/// Those of [`Guard::step`].
+pub(super) fn begin(case: &Case, acting: &mut Acting, worlds: &mut [Guard], settings: &Settings) -> Result<Window> {
+    let step = settings.resolution;
+    settle(case, worlds, step)?;
+    let window = Window::beginning(case, settings, &worlds[0]);
+    acting.act(case, &window, worlds, [0.0, step]);
+    if acting.must_try(case) {
+        worlds[0].step(step)?;
+        let world = worlds[0].world();
+        for (link, speed) in acting.setting_off.iter_mut().enumerate().skip(1) {
+            *speed = (world.angle(link) - case.start.0[link].angle) / step;
+        }
+        settle(case, worlds, step)?;
+    }
+    Ok(window)
+}
+
+/// Places worlds at the start with the velocities of the driving links there: a tiny step with rigid drives brings all others in line.
+fn settle(case: &Case, worlds: &mut [Guard], step: f64) -> Result<()> {
+    let fastest = case.drives().fold(0.0f64, |most, drive| most.larger(drive.initial_speed().abs()));
+    for guard in worlds {
+        guard.set_step(if fastest > 0.0 { SETTLING_TURN / fastest } else { SETTLING_TURN * step });
+        guard.drive_from_start();
+        guard.place(&case.start.0);
+        guard.step(0.0)?;
+        guard.place(&case.start.0);
+        guard.set_step(step);
+    }
+    Ok(())
+}

@@ -1,0 +1,51 @@
+//! What the engine's world has more or less than the case, and what that makes in reactions.
+//!
+//! Rapier needs a mass and a moment of inertia on every link. Reactions and moment are linear in both, and in the loads, for a given
+//! motion, so that those of the differences alone, by Newton and Euler's equations on the engine's own accelerations, can be taken off.
+
+use super::newton_euler::NewtonEuler;
+use super::world::{masses, masses_with_flywheels};
+use linkage::case::Case;
+use linkage::error::Result;
+use linkage::solver::State;
+
+/// Stand-ins for missing masses, flywheels that are accelerated, and loads that the engine was not given.
+#[derive(Debug)]
+pub(super) struct Ghost {
+    statics: NewtonEuler,
+    state: State,
+}
+
+impl Ghost {
+    /// The stand-ins of a case, and its loads if the engine was not given them (`unloaded`); `None` if there is neither.
+    pub(super) fn of(case: &Case, unloaded: bool) -> Option<Self> {
+        // A flywheel has a moment where it is accelerated, and none where it is not.
+        let masses = if case.is_steady() { masses(case) } else { masses_with_flywheels(case) };
+        let links = case.mechanism.links().iter().zip(masses);
+        let extra: Vec<[f64; 2]> =
+            links.map(|(link, [mass, inertia])| [mass - link.mass, inertia - link.inertia]).collect();
+        let unloaded = unloaded && !case.loads.is_empty();
+        let any = unloaded || extra.iter().flatten().any(|&extra| extra != 0.0);
+        // What is missing counts as a part to be taken off with the opposite sign.
+        let load_share = if unloaded { -1.0 } else { 0.0 };
+        any.then(|| Ghost { statics: NewtonEuler::of(case, extra, load_share), state: State::at_rest(case) })
+    }
+
+    /// Takes their part off reactions and moments.
+    ///
+    /// # Errors
+    /// Those of [`NewtonEuler::solve`].
+    pub(super) fn take_off(&mut self, case: &Case, state: &mut State, t: f64) -> Result<()> {
+        self.state.motions.clone_from(&state.motions);
+        self.state.angles.clone_from(&state.angles);
+        self.statics.solve(case, &mut self.state, t)?;
+        for (own, ghost) in state.forces.iter_mut().zip(&self.state.forces) {
+            *own -= ghost;
+        }
+        let moments = state.moments.iter_mut().zip(&self.state.moments);
+        for (own, ghost) in moments.chain(state.torques.iter_mut().zip(&self.state.torques)) {
+            *own -= ghost;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,368 @@
+//! A world that is watched: a loop that opens, a link that turns wildly, a number that is none, a panic inside the engine. All become an
+//! error that says when, at which crank angle and where.
+
+use super::quiet::quietly;
+use super::world::{LinkFrame, World, masses, opening};
+use linkage::case::Case;
+use linkage::drive::{Drive, Wrench};
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::{KeepNan, Vec2};
+use linkage::mechanism::{LinkPose, Side};
+use linkage::solver::State;
+
+/// Share of the mechanism's size to which a loop may open before the run is stopped.
+const LARGEST_GAP: f64 = 0.05;
+/// Turn of a link in one step (rad) beyond which there is no trajectory left to speak of.
+const LARGEST_TURN: f64 = std::f64::consts::FRAC_PI_2;
+/// Growth of kinetic energy in one step beyond which a run has blown up: ten times the speeds. The drives put in and take out whatever
+/// their speeds need, so that energy is no constant to be watched; but it depends on the pose alone, and the pose changes little in a step.
+const LARGEST_GROWTH: f64 = 100.0;
+
+/// A world and what is watched in it.
+pub(super) struct Guard<'a> {
+    case: &'a Case,
+    world: Box<dyn World>,
+    /// The mechanism's size (m).
+    size: f64,
+    largest_gap: f64,
+    /// Frames of all links after the last step, and their mass centres.
+    frames: Vec<LinkFrame>,
+    centres: Vec<Vec2>,
+    loads: Vec<Wrench>,
+    /// Mass and moment of inertia of all links.
+    masses: Vec<[f64; 2]>,
+    step: f64,
+    /// The largest kinetic energy so far (J), but at least that of all links at the mechanism's size from an axis about which they turn with the
+    /// fastest drive.
+    energy: f64,
+}
+
+impl<'a> Guard<'a> {
+    /// Watches a world in its start pose whose time step is `step` (s).
+    pub(super) fn new(case: &'a Case, world: Box<dyn World>, step: f64) -> Self {
+        let size = case.mechanism.size();
+        let masses = masses(case);
+        let energy = masses.iter().map(|[mass, inertia]| 0.5 * (mass * size * size + inertia)).sum::<f64>();
+        let mut guard = Guard {
+            case,
+            world,
+            size,
+            largest_gap: LARGEST_GAP * size,
+            frames: Vec::new(),
+            centres: Vec::new(),
+            masses,
+            step,
+            loads: vec![Wrench::ZERO; case.mechanism.links().len()],
+            energy: energy * case.fastest_drive().powi(2),
+        };
+        guard.stand();
+        guard
+    }
+
+    /// Takes the world's frames as those after the last step.
+    fn stand(&mut self) {
+        self.frames.clear();
+        self.frames.extend_from_slice(self.world.frames());
+        self.centres.clear();
+        let links = self.case.mechanism.links();
+        self.centres.extend(self.frames.iter().zip(links).map(|(frame, link)| frame.point(link.mass_centre)));
+    }
+
+    /// Frames of all links after the last step or placing.
+    pub(super) fn frames(&self) -> &[LinkFrame] {
+        &self.frames
+    }
+
+    /// Mass centres of all links (m) after the last step or placing.
+    pub(super) fn centres(&self) -> &[Vec2] {
+        &self.centres
+    }
+
+    pub(super) fn world(&self) -> &dyn World {
+        self.world.as_ref()
+    }
+
+    /// Sets all drives to their speeds at `t`.
+    pub(super) fn drive(&mut self, t: f64) {
+        for (index, drive) in self.case.drives().enumerate() {
+            self.world.set_drive(index, drive.at(t).omega);
+        }
+    }
+
+    /// Sets all drives to the speeds that take them from where they are at the time `from` (s) to where they are at `to`, a step later or earlier.
+    pub(super) fn drive_on(&mut self, from: f64, to: f64) {
+        for (index, drive) in self.case.drives().enumerate() {
+            self.world.set_drive(index, drive.step_speed(from, to));
+        }
+    }
+
+    /// Sets all drives to their speeds at t = 0: those from which free links start, those of the laws for the others.
+    pub(super) fn drive_from_start(&mut self) {
+        for (index, drive) in self.case.drives().enumerate() {
+            self.world.set_drive(index, drive.initial_speed());
+        }
+    }
+
+    /// Sets the speed, over a step between two instants, of the links whose motion is prescribed, and for free ones what `motor` says: speed aimed at
+    /// (rad/s) and damping (N m s/rad).
+    pub(super) fn drive_freely(&mut self, [from, to]: [f64; 2], motor: [f64; 2]) {
+        for (index, drive) in self.case.drives().enumerate() {
+            match (drive.free, index) {
+                (None, _) => self.world.set_drive(index, drive.step_speed(from, to)),
+                (Some(_), 0) => self.world.set_motor(index, motor[0], motor[1]),
+                (Some(_), _) => self.world.set_motor(index, 0.0, 0.0),
+            }
+        }
+    }
+
+    /// Sets the loads of all links.
+    pub(super) fn put_loads(&mut self, loads: &[Wrench]) {
+        for (link, &load) in loads.iter().enumerate().skip(1) {
+            self.world.set_load(link, load);
+        }
+    }
+
+    /// Sets the loads of all links as they are in a state.
+    pub(super) fn load(&mut self, state: &State) {
+        if self.case.loads.is_empty() {
+            return;
+        }
+        let mut loads = std::mem::take(&mut self.loads);
+        self.case.loads_on(&state.motions, &state.angles, &mut loads);
+        self.put_loads(&loads);
+        self.loads = loads;
+    }
+
+    /// Sets the time step (s).
+    pub(super) fn set_step(&mut self, step: f64) {
+        self.world.set_step(step);
+        self.step = step;
+    }
+
+    /// Puts all links into poses; velocities stay as they are.
+    pub(super) fn place(&mut self, poses: &[LinkPose]) {
+        self.world.place(poses);
+        self.stand();
+    }
+
+    /// One time step, after which the time is `t` (s).
+    ///
+    /// # Errors
+    /// [`ErrorKind::Numeric`] if a loop has opened, a link has turned by more than a quarter turn, the kinetic energy has grown a hundredfold, a
+    /// number is not finite, or the engine has panicked.
+    pub(super) fn step(&mut self, t: f64) -> Result<()> {
+        let Guard { case, world, frames: before, centres, masses, size, .. } = self;
+        let (links, joints) = (case.mechanism.links(), case.mechanism.joints());
+        // Said in the words of the frames before the step.
+        let crank = |before: &[LinkFrame]| at(&case.drive, before[case.drive.link].angle() - case.drive.zero, t);
+        quietly(|| world.step()).map_err(|cause| panicked(&crank(before), cause.as_ref()))?;
+        let frames = world.frames();
+        let mut twice_energy = 0.0;
+        for (link, (frame, before_it)) in frames.iter().zip(before.iter()).enumerate().skip(1) {
+            let turn = frame.turn_since(before_it);
+            // Written so that NaN stops the run too.
+            if !(turn <= LARGEST_TURN) {
+                let (name, turn) = (&links[link].name, turn.to_degrees());
+                let message =
+                    format!("the engine's link \"{name}\" has turned by {turn:.1} deg in one step, {}", crank(before));
+                return Err(failed(message));
+            }
+            let [mass, inertia] = masses[link];
+            let centre = frame.point(links[link].mass_centre);
+            let moved = (centre - centres[link]).norm_squared();
+            twice_energy += mass * moved + inertia * turn * turn;
+            centres[link] = centre;
+        }
+        let energy = 0.5 * twice_energy / (self.step * self.step);
+        if !(energy <= LARGEST_GROWTH * self.energy) {
+            let growth = energy / self.energy;
+            let message =
+                format!("the engine's kinetic energy has grown {growth:.1e} times in one step, {}", crank(before));
+            return Err(failed(message));
+        }
+        self.energy = self.energy.larger(energy);
+        for &joint in &world.tree().cut {
+            let gap = opening(frames, &joints[joint], *size);
+            if !(gap <= self.largest_gap) {
+                let name = &joints[joint].name;
+                let message =
+                    format!("the engine's loop has opened by {gap:.3e} m at joint \"{name}\", {}", crank(before));
+                return Err(failed(message));
+            }
+        }
+        before.copy_from_slice(frames);
+        Ok(())
+    }
+
+    /// That the world stands in the case's start pose again, after it has driven itself away and back.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Numeric`] if a link is farther away than a loop may open: on the way it went past a dead point, into another
+    /// configuration.
+    pub(super) fn check_start(&self) -> Result<()> {
+        let case = self.case;
+        for (index, (link, pose)) in case.mechanism.links().iter().zip(&case.start.0).enumerate().skip(1) {
+            let off = |local| (self.world.point(Side { link: index, local }) - pose.point(local)).norm();
+            let far = link.points.iter().map(|point| off(point.local)).fold(off(link.mass_centre), f64::larger);
+            // Written so that NaN stops the run too.
+            if !(far <= self.largest_gap) {
+                let crank = case.drive.start.to_degrees();
+                let message = format!(
+                    "the engine ran up from a few steps before the grid and came back to the start at crank angle {crank:.4} deg with link \"{}\" {far:.3e} m off: it has passed a dead point on the way",
+                    link.name
+                );
+                return Err(Error::new(ErrorKind::Numeric, message)
+                    .help("choose a smaller time step (--dt), or begin the grid farther from the dead point"));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// When and where, for messages: a free crank is where it was `before` the step.
+fn at(drive: &Drive, before: f64, t: f64) -> String {
+    let crank = if drive.free.is_some() { before } else { drive.at(t).angle };
+    format!("t = {t:.6} s, crank angle {:.4} deg", crank.to_degrees())
+}
+
+fn failed(message: String) -> Error {
+    Error::new(ErrorKind::Numeric, message)
+        .help("choose a smaller time step (--dt), or check that the pose can be assembled there")
+}
+
+fn panicked(place: &str, cause: &(dyn std::any::Any + Send)) -> Error {
+    let words = cause.downcast_ref::<&str>().copied().or_else(|| cause.downcast_ref::<String>().map(String::as_str));
+    let words = words.unwrap_or("no message");
+    Error::new(ErrorKind::Numeric, format!("the engine has panicked (\"{words}\"), {place}"))
+        .help("choose a smaller time step (--dt), or another engine")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tree::Tree;
+    use crate::world::LinkAngle;
+    use crate::{Build, Precision, Rapier};
+    use linkage::fixtures::{four_bar, turning};
+    use linkage::math::{rotated, unit};
+    use linkage::mechanism::Pose;
+
+    /// A world whose steps go wrong, after which it tells of places and angles that are off.
+    struct Broken {
+        world: Box<dyn World>,
+        wrong: fn(&mut dyn World),
+        off: (Vec2, f64),
+        frames: Vec<LinkFrame>,
+    }
+
+    impl World for Broken {
+        fn tree(&self) -> &Tree {
+            self.world.tree()
+        }
+        fn step(&mut self) {
+            (self.wrong)(self.world.as_mut());
+            for (frame, own) in self.frames.iter_mut().zip(self.world.frames()) {
+                let direction = rotated(unit(self.off.1), own.direction);
+                frame.follow(own.origin + self.off.0, direction);
+                if let LinkAngle::Whole(angle) = own.angle {
+                    frame.angle = LinkAngle::Whole(angle + self.off.1);
+                }
+            }
+        }
+        fn bare_step(&mut self) {
+            self.world.bare_step();
+        }
+        fn set_step(&mut self, step: f64) {
+            self.world.set_step(step);
+        }
+        fn set_drive(&mut self, drive: usize, omega: f64) {
+            self.world.set_drive(drive, omega);
+        }
+        fn set_motor(&mut self, drive: usize, target: f64, damping: f64) {
+            self.world.set_motor(drive, target, damping);
+        }
+        fn set_load(&mut self, link: usize, load: Wrench) {
+            self.world.set_load(link, load);
+        }
+        fn place(&mut self, poses: &[LinkPose]) {
+            self.world.place(poses);
+        }
+        fn frames(&self) -> &[LinkFrame] {
+            &self.frames
+        }
+        fn relative_speed(&self, index: usize) -> f64 {
+            self.world.relative_speed(index)
+        }
+        fn velocity(&self, link: usize) -> Option<(Vec2, f64)> {
+            self.world.velocity(link)
+        }
+        fn reaction(&self, joint: usize) -> Option<(Vec2, f64)> {
+            self.world.reaction(joint)
+        }
+        fn torque(&self, drive: usize) -> f64 {
+            self.world.torque(drive)
+        }
+    }
+
+    const BUILDS: [Build; 2] = [Build::Multibody, Build::Impulse];
+
+    /// What a guard says of a step that goes wrong, after which all places and angles are off by `off`.
+    fn step(build: Build, wrong: fn(&mut dyn World), off: (Vec2, f64)) -> Result<()> {
+        let start = [(0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (1.0, 0.0, 0.8410686705679303), (4.0, 0.0, 1.6821373411358607)];
+        let pose = |(x, y, angle)| LinkPose { origin: Vec2::new(x, y), angle };
+        let case = Case { start: Pose(start.map(pose).to_vec()), ..turning(four_bar()) };
+        let engine = Rapier::new(build, Precision::Double, 1e-3);
+        let tree = if build == Build::Impulse { Tree::none(&case.mechanism) } else { Tree::of(&case.mechanism) };
+        let world = engine.world(&case, tree, false).unwrap();
+        let frames = world.frames().to_vec();
+        let mut guard = Guard::new(&case, Box::new(Broken { world, wrong, off, frames }), 1e-3);
+        guard.step(0.25)
+    }
+
+    fn turned(by: f64) -> (Vec2, f64) {
+        (Vec2::zeros(), by)
+    }
+
+    #[test]
+    fn a_panic_of_the_engine_becomes_an_error_of_that_engine() {
+        for build in BUILDS {
+            let error = step(build, |_| panic!("index out of bounds"), turned(0.0)).unwrap_err();
+            assert_eq!(error.kind(), ErrorKind::Numeric);
+            for part in ["index out of bounds", "t = 0.250000 s", "crank angle"] {
+                assert!(error.message().contains(part), "{error}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_number_that_is_none_stops_the_run() {
+        for build in BUILDS {
+            let error = step(build, |_| {}, turned(f64::NAN)).unwrap_err();
+            assert!(error.message().contains("has turned by NaN deg in one step, t = 0.250000 s"), "{error}");
+        }
+    }
+
+    #[test]
+    fn a_wild_turn_stops_the_run() {
+        for build in BUILDS {
+            let error = step(build, |_| {}, turned(1.6)).unwrap_err();
+            assert!(error.message().contains("has turned by 91.7 deg in one step"), "{error}");
+            let error = step(build, |_| {}, turned(-1.6)).unwrap_err();
+            assert!(error.message().contains("has turned by 91.7 deg in one step"), "{error}");
+        }
+    }
+
+    /// Nothing turns and no loop opens, but all links run away, as slides can. The links reach 5 m and the drive turns with 1 rad/s: a step of a millisecond
+    /// may move them by some 5 cm, ten times what a link at that distance does.
+    #[test]
+    fn energy_out_of_nothing_stops_the_run() {
+        for build in BUILDS {
+            step(build, |_| {}, (Vec2::new(0.01, 0.0), 0.0)).unwrap();
+            let error = step(build, |_| {}, (Vec2::new(0.2, 0.0), 0.0)).unwrap_err();
+            assert!(error.message().contains("kinetic energy has grown"), "{error}");
+            assert!(error.message().contains("t = 0.250000 s, crank angle"), "{error}");
+            let error = step(build, |_| {}, (Vec2::new(f64::NAN, 0.0), 0.0)).unwrap_err();
+            assert!(error.message().contains("NaN"), "{error}");
+        }
+    }
+}

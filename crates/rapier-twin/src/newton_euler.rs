@@ -1,0 +1,228 @@
+//! Reactions and driving moment from the engine's own motion: the equations of Newton and Euler, link by link along a spanning tree.
+//!
+//! For every link m (a - g) = sum of forces + loads and J alpha = sum of moments about the mass centre + those of the loads. A joint acts with two
+//! components: the force of a revolute joint; of a prismatic one the force across its axis, at the place on the second link, and the moment.
+//!
+//! Unknown are the components in the joints that the tree cuts. What a joint of the tree must transmit follows from the motion of all links beyond it, the leaves
+//! first, as a linear function of them: a force and a moment on its outer link. Of the moment about a pin, or the force along a slide's axis, a joint
+//! transmits nothing: one equation for every joint of the tree (the composite bodies of Featherstone, "Rigid Body Dynamics Algorithms", 2008, ch. 8).
+//! Driven pins are in the tree, and what their equation leaves over is the driving moment. Left are as many equations as there are
+//! components in cut joints: two for a four-bar, where all links at once have nine.
+
+mod seam;
+mod stages;
+
+use linkage::case::Case;
+use linkage::drive::Wrench;
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::Vec2;
+use linkage::math::dense::solve_pair;
+use linkage::mechanism::{EQUATIONS, Tree};
+use linkage::solver::State;
+use seam::{Seam, Stand, Term};
+use stages::{Limb, Row, Stage, stages};
+
+/// The equations, reused from pose to pose.
+#[derive(Debug)]
+pub struct NewtonEuler {
+    /// The tree from the ground outwards.
+    tree: Vec<Limb>,
+    cut: Vec<Seam>,
+    /// The joints of the tree and of the cuts in the present pose.
+    stands: Vec<Stand>,
+    /// What every link of the tree needs from the joint that carries it: a term for every component of a cut joint, and the constant one.
+    needs: Vec<Term>,
+    stages: Vec<Stage>,
+    /// The components in the cut joints.
+    components: Vec<f64>,
+    /// Mass and moment of inertia of every link.
+    masses: Vec<[f64; 2]>,
+    loads: Vec<Wrench>,
+    /// Share of the loads that is counted.
+    load_share: f64,
+}
+
+impl NewtonEuler {
+    /// The equations of a case with its own masses and all its loads.
+    #[must_use]
+    pub fn new(case: &Case) -> Self {
+        let masses = case.mechanism.links().iter().map(|link| [link.mass, link.inertia]).collect();
+        NewtonEuler::of(case, masses, 1.0)
+    }
+
+    /// The equations with other masses and moments of inertia, and with a share of the loads.
+    #[must_use]
+    pub fn of(case: &Case, masses: Vec<[f64; 2]>, load_share: f64) -> Self {
+        let driven: Vec<usize> = case.drives().map(|drive| drive.joint).collect();
+        NewtonEuler::along(case, &Tree::with(&case.mechanism, &driven), masses, load_share)
+    }
+
+    /// The same along any tree that has all links and all driven joints.
+    #[must_use]
+    pub fn along(case: &Case, tree: &Tree, masses: Vec<[f64; 2]>, load_share: f64) -> Self {
+        let driven: Vec<usize> = case.drives().map(|drive| drive.joint).collect();
+        let mut numbers = vec![None; masses.len()];
+        for (number, branch) in tree.branches.iter().enumerate() {
+            numbers[branch.link] = Some(number);
+        }
+        let limbs = tree.branches.iter().map(|branch| Limb {
+            seam: Seam::new(case, branch.joint, [branch.parent, branch.link], &numbers),
+            drive: driven.iter().position(|&joint| joint == branch.joint),
+            terms: Vec::new(),
+        });
+        let mut limbs: Vec<Limb> = limbs.collect();
+        let cut = tree.cut.iter().map(|&joint| {
+            let sides = [case.mechanism.joints()[joint].first, case.mechanism.joints()[joint].second];
+            Seam::new(case, joint, sides.map(|side| side.link), &numbers)
+        });
+        let cut: Vec<Seam> = cut.collect();
+        for (index, seam) in cut.iter().enumerate() {
+            for side in seam.numbers {
+                let mut next = side;
+                while let Some(number) = next {
+                    let limb = &mut limbs[number];
+                    limb.terms.extend([EQUATIONS * index, EQUATIONS * index + 1]);
+                    next = limb.seam.numbers[0];
+                }
+            }
+        }
+        for limb in &mut limbs {
+            limb.terms.sort_unstable();
+            limb.terms.dedup();
+        }
+        let components = EQUATIONS * cut.len();
+        debug_assert_eq!(components, limbs.iter().filter(|limb| limb.drive.is_none()).count(), "mobility");
+        NewtonEuler {
+            stands: Vec::with_capacity(limbs.len() + cut.len()),
+            needs: vec![[0.0; 3]; limbs.len() * (components + 1)],
+            stages: stages(&limbs, cut.len()),
+            components: vec![0.0; components],
+            loads: vec![Wrench::ZERO; masses.len()],
+            tree: limbs,
+            cut,
+            masses,
+            load_share,
+        }
+    }
+
+    /// Fills in the forces and the driving moment of a state whose motion is known.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Numeric`] where they are not determined.
+    pub fn solve(&mut self, case: &Case, state: &mut State, t: f64) -> Result<()> {
+        self.begin(case, state);
+        self.pass_on();
+        if !self.find() {
+            return Err(Error::new(
+                ErrorKind::Numeric,
+                format!("the reactions are not determined at t = {t:.6} s (dead point)"),
+            )
+            .help("shorten the grid to the crank angles before the dead point"));
+        }
+        self.read(state);
+        Ok(())
+    }
+
+    /// Numbers of stages in which cut joints are solved: with two unknowns, and with more.
+    #[must_use]
+    pub fn stages(&self) -> [usize; 2] {
+        let pairs = self.stages.iter().filter(|stage| matches!(stage, Stage::Pair(..))).count();
+        [pairs, self.stages.len() - pairs]
+    }
+
+    /// Finds the components in the cut joints, stage by stage; false if they are not determined.
+    fn find(&mut self) -> bool {
+        let NewtonEuler { stages, stands, needs, components, .. } = self;
+        let width = components.len() + 1;
+        let of = |row: &Row| (stands[row.number].pass(), &needs[row.number * width..][..width]);
+        for stage in stages {
+            match stage {
+                Stage::Pair(term, rows) => {
+                    let (mut matrix, mut right) = ([[0.0; EQUATIONS]; EQUATIONS], [0.0; EQUATIONS]);
+                    for ((entries, right), row) in matrix.iter_mut().zip(&mut right).zip(rows) {
+                        *right = row.equation(of(row), components, |column, value| entries[column] = value);
+                    }
+                    let Some(values) = solve_pair(matrix, right) else { return false };
+                    components[*term..][..EQUATIONS].copy_from_slice(&values);
+                }
+                Stage::All { rows, terms, values, matrix } => {
+                    matrix.clear();
+                    for (number, row) in rows.iter().enumerate() {
+                        let put = |column, value| matrix.add(number, column, value);
+                        values[number] = row.equation(of(row), components, put);
+                    }
+                    if !matrix.factor() {
+                        return false;
+                    }
+                    matrix.solve(values);
+                    terms.iter().zip(values).for_each(|(&term, value)| components[term] = *value);
+                }
+            }
+        }
+        true
+    }
+
+    /// Adds to the needs of every link those of the links beyond it, the leaves first.
+    fn pass_on(&mut self) {
+        let width = self.components.len() + 1;
+        for (number, limb) in self.tree.iter().enumerate().rev() {
+            let Some(parent) = limb.seam.numbers[0] else { continue };
+            let pass = self.stands[number].pass();
+            let (inner, own) = self.needs.split_at_mut(number * width);
+            let (inner, own) = (&mut inner[parent * width..][..width], &own[..width]);
+            for &term in &limb.terms {
+                pass.on(&own[term], &mut inner[term]);
+            }
+            pass.on(&own[width - 1], &mut inner[width - 1]);
+        }
+    }
+
+    /// What every link needs for itself, and what cut joints give it.
+    fn begin(&mut self, case: &Case, state: &State) {
+        let width = self.components.len() + 1;
+        self.stands.clear();
+        self.stands.extend(self.tree.iter().map(|limb| &limb.seam).chain(&self.cut).map(|seam| seam.stand(state)));
+        case.loads_on(&state.motions, &state.angles, &mut self.loads);
+        self.needs.as_flattened_mut().fill(0.0);
+        for (limb, needs) in self.tree.iter().zip(self.needs.chunks_exact_mut(width)) {
+            let link = limb.seam.links[1];
+            let (motion, centre) = (&state.motions[link], case.mechanism.links()[link].mass_centre);
+            let [mass, inertia] = self.masses[link];
+            let Wrench { force, moment } = self.loads[link];
+            let inertial = (motion.point_acceleration(centre) - case.gravity) * mass - force * self.load_share;
+            needs[width - 1] = [inertial.x, inertial.y, inertia * motion.alpha - moment * self.load_share];
+        }
+        for (index, (seam, stand)) in self.cut.iter().zip(&self.stands[self.tree.len()..]).enumerate() {
+            for (k, (number, sign)) in seam.numbers.into_iter().zip(seam.signs).enumerate() {
+                let Some(number) = number else { continue };
+                let terms = &mut self.needs[number * width + EQUATIONS * index..][..EQUATIONS];
+                for (need, given) in terms.iter_mut().zip(stand.components(k)) {
+                    (0..3).for_each(|c| need[c] -= sign * given[c]);
+                }
+            }
+        }
+    }
+
+    /// Reactions and driving moments, from the components in the cut joints.
+    fn read(&self, state: &mut State) {
+        let (constant, (stands, cut)) = (self.components.len(), self.stands.split_at(self.tree.len()));
+        for ((seam, stand), components) in self.cut.iter().zip(cut).zip(self.components.chunks_exact(EQUATIONS)) {
+            (state.forces[seam.joint], state.moments[seam.joint]) = match stand.normal {
+                None => (Vec2::new(components[0], components[1]), 0.0),
+                Some(normal) => (normal * components[0], components[1]),
+            };
+        }
+        let needs = self.needs.chunks_exact(constant + 1);
+        for ((Limb { seam, drive, terms }, stand), own) in self.tree.iter().zip(stands).zip(needs) {
+            let mut need = own[constant];
+            for &term in terms {
+                (0..3).for_each(|c| need[c] += own[term][c] * self.components[term]);
+            }
+            let (force, moment) = stand.reaction(need);
+            (state.forces[seam.joint], state.moments[seam.joint]) = (force * seam.signs[1], moment * seam.signs[1]);
+            if let Some(drive) = *drive {
+                state.torques[drive] = stand.pass().left_over(&need);
+            }
+        }
+    }
+}

@@ -1,0 +1,141 @@
+//! A joint between two links: where it acts, and what a joint of the tree can transmit.
+
+use linkage::case::Case;
+use linkage::math::{Vec2, cross, turned};
+use linkage::mechanism::{EQUATIONS, Side};
+use linkage::solver::State;
+
+/// A joint between two links.
+#[derive(Clone, Debug)]
+pub(super) struct Seam {
+    pub(super) joint: usize,
+    /// The two links, and their numbers among the tree's; none for the ground.
+    pub(super) links: [usize; 2],
+    pub(super) numbers: [Option<usize>; 2],
+    /// +1 for the link that is the joint's second, else -1: the sense in which its reaction acts.
+    pub(super) signs: [f64; 2],
+    pub(super) pair: Pair,
+}
+
+#[derive(Clone, Debug)]
+pub(super) enum Pair {
+    /// The joint's places as seen from the mass centres, in the links' frames (m).
+    Pin([Vec2; 2]),
+    /// Axis in the frame of the joint's first link, place on the second, and mass centres in the frames of the two links.
+    Slide { axis: Side, place: Side, centres: [Vec2; 2] },
+}
+
+/// A joint at one instant: arms from the mass centres of its links to where it acts (m, world axes), and of a slide the unit vector across its axis.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stand {
+    pub(super) arms: [Vec2; 2],
+    pub(super) normal: Option<Vec2>,
+}
+
+/// What a joint of the tree makes of the force and moment that its outer link needs, as weights of their three numbers.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pass {
+    /// The part that it cannot transmit: the moment about a pin, the force along the axis of a slide.
+    left_over: Term,
+    /// The force that it transmits: weights of x in x, of either in the other, of y in y.
+    force: Term,
+    /// The moment about the inner link's mass centre that goes with it.
+    moment: Term,
+}
+
+/// Force and moment about a link's mass centre: x, y and z of one term of a linear function.
+pub(super) type Term = [f64; 3];
+
+impl Seam {
+    /// The joint between two links, in the order given.
+    pub(super) fn new(case: &Case, joint: usize, links: [usize; 2], numbers: &[Option<usize>]) -> Self {
+        let found = &case.mechanism.joints()[joint];
+        let centres = links.map(|link| case.mechanism.links()[link].mass_centre);
+        let on = links.map(|link| found.on(link).expect("the joint is on the link"));
+        let pair = match found.axis_on(found.first.link) {
+            None => Pair::Pin([on[0] - centres[0], on[1] - centres[1]]),
+            Some(axis) => {
+                Pair::Slide { axis: Side { link: found.first.link, local: axis }, place: found.second, centres }
+            }
+        };
+        let signs = links.map(|link| if link == found.second.link { 1.0 } else { -1.0 });
+        Seam { joint, links, numbers: links.map(|link| numbers[link]), signs, pair }
+    }
+
+    #[inline]
+    pub(super) fn stand(&self, state: &State) -> Stand {
+        let motion = |k: usize| &state.motions[self.links[k]];
+        match &self.pair {
+            Pair::Pin(places) => Stand { arms: [0, 1].map(|k| motion(k).arm(places[k])), normal: None },
+            Pair::Slide { axis, place, centres } => {
+                let place = state.motions[place.link].point(place.local);
+                let arms = [0, 1].map(|k| place - motion(k).point(centres[k]));
+                Stand { arms, normal: Some(turned(state.motions[axis.link].arm(axis.local))) }
+            }
+        }
+    }
+}
+
+impl Stand {
+    /// What the two components of the joint do to a link, as far as its arm `k` goes.
+    #[inline]
+    pub(super) fn components(&self, k: usize) -> [Term; EQUATIONS] {
+        let arm = self.arms[k];
+        match self.normal {
+            None => [[1.0, 0.0, -arm.y], [0.0, 1.0, arm.x]],
+            Some(normal) => [[normal.x, normal.y, cross(arm, normal)], [0.0, 0.0, 1.0]],
+        }
+    }
+
+    /// Of a joint of the tree, from the inner link to the outer one.
+    #[inline]
+    pub(super) fn pass(&self) -> Pass {
+        let [inner, outer] = self.arms;
+        match self.normal {
+            None => {
+                Pass { left_over: [outer.y, -outer.x, 1.0], force: [1.0, 0.0, 1.0], moment: [-inner.y, inner.x, 0.0] }
+            }
+            Some(normal) => {
+                let arm = cross(inner - outer, normal);
+                Pass {
+                    left_over: [normal.y, -normal.x, 0.0],
+                    force: [normal.x * normal.x, normal.x * normal.y, normal.y * normal.y],
+                    moment: [arm * normal.x, arm * normal.y, 1.0],
+                }
+            }
+        }
+    }
+
+    /// The joint's force (N) and moment about its place (N m) that give the outer link of a joint of the tree what it needs.
+    #[inline]
+    pub(super) fn reaction(&self, [x, y, moment]: Term) -> (Vec2, f64) {
+        match self.normal {
+            None => (Vec2::new(x, y), 0.0),
+            Some(normal) => {
+                let across = x * normal.x + y * normal.y;
+                (normal * across, moment - cross(self.arms[1], normal) * across)
+            }
+        }
+    }
+}
+
+impl Pass {
+    #[inline]
+    pub(super) fn left_over(&self, term: &Term) -> f64 {
+        weighed(&self.left_over, term)
+    }
+
+    /// Adds what the inner link needs besides, so that the outer one gets what it needs.
+    #[inline]
+    pub(super) fn on(&self, term: &Term, sum: &mut Term) {
+        let [xx, xy, yy] = self.force;
+        sum[0] += xx * term[0] + xy * term[1];
+        sum[1] += xy * term[0] + yy * term[1];
+        sum[2] += weighed(&self.moment, term);
+    }
+}
+
+#[inline]
+fn weighed(weights: &Term, term: &Term) -> f64 {
+    weights[0] * term[0] + weights[1] * term[1] + weights[2] * term[2]
+}

@@ -1,0 +1,88 @@
+//! The equations of the tree's joints, and the order in which they are solved.
+
+use super::seam::{Pass, Seam, Term};
+use linkage::math::dense::Lu;
+use linkage::mechanism::EQUATIONS;
+
+/// A link hung on the ground or another link by a joint of the tree.
+#[derive(Clone, Debug)]
+pub(super) struct Limb {
+    pub(super) seam: Seam,
+    /// Number of the drive that turns the link about its pin.
+    pub(super) drive: Option<usize>,
+    /// Components of cut joints on the links from this one outwards: all others are nothing to it.
+    pub(super) terms: Vec<usize>,
+}
+
+/// Equations that determine some of the components once others are known.
+#[derive(Debug)]
+pub(super) enum Stage {
+    /// Both components of a cut joint, the first of which is given, from two equations.
+    Pair(usize, [Row; EQUATIONS]),
+    /// All that are left, with room for the system.
+    All { rows: Vec<Row>, terms: Vec<usize>, values: Vec<f64>, matrix: Lu },
+}
+
+/// The equation of a joint of the tree: number of its limb, terms with their columns in the matrix of the stage, and terms known before.
+#[derive(Debug)]
+pub(super) struct Row {
+    pub(super) number: usize,
+    columns: Vec<(usize, usize)>,
+    known: Vec<usize>,
+}
+
+impl Row {
+    /// The equation of limb `number`, for the unknown `terms`.
+    fn of(number: usize, limb: &Limb, terms: &[usize]) -> Self {
+        let column = |term: &usize| terms.iter().position(|own| own == term);
+        let columns = limb.terms.iter().filter_map(|term| Some((column(term)?, *term)));
+        let known = limb.terms.iter().copied().filter(|term| column(term).is_none());
+        Row { number, columns: columns.collect(), known: known.collect() }
+    }
+
+    /// Gives the coefficients to `put`, by column, and gives back the right side, from what the limb's joint passes and what its link needs.
+    #[inline]
+    pub(super) fn equation(
+        &self,
+        (pass, own): (Pass, &[Term]),
+        components: &[f64],
+        mut put: impl FnMut(usize, f64),
+    ) -> f64 {
+        let mut right = -pass.left_over(&own[own.len() - 1]);
+        for &(column, term) in &self.columns {
+            put(column, pass.left_over(&own[term]));
+        }
+        for &term in &self.known {
+            right -= pass.left_over(&own[term]) * components[term];
+        }
+        right
+    }
+}
+
+/// Stages in which components are found: first cut joints whose two components stand alone in two equations, which is all that dyads need, then all
+/// others at once.
+pub(super) fn stages(limbs: &[Limb], cuts: usize) -> Vec<Stage> {
+    let mut left: Vec<usize> = (0..limbs.len()).rev().filter(|&number| limbs[number].drive.is_none()).collect();
+    let (mut unknown, mut stages): (Vec<usize>, _) = ((0..EQUATIONS * cuts).collect(), Vec::new());
+    while !left.is_empty() {
+        let new = |number: usize| limbs[number].terms.iter().filter(|term| unknown.contains(term));
+        let alone = unknown.iter().step_by(EQUATIONS).find_map(|&first| {
+            let terms = first..first + EQUATIONS;
+            let rows = left.iter().copied().filter(|&number| new(number).all(|term| terms.contains(term)));
+            let rows: Vec<usize> = rows.collect();
+            (rows.len() == EQUATIONS).then(|| (rows, terms.collect()))
+        });
+        let (rows, terms): (Vec<usize>, Vec<usize>) = alone.unwrap_or_else(|| (left.clone(), unknown.clone()));
+        left.retain(|number| !rows.contains(number));
+        unknown.retain(|term| !terms.contains(term));
+        let rows: Vec<Row> = rows.into_iter().map(|number| Row::of(number, &limbs[number], &terms)).collect();
+        stages.push(match <[Row; EQUATIONS]>::try_from(rows) {
+            Ok(pair) => Stage::Pair(terms[0], pair),
+            Err(rows) => {
+                let (values, matrix) = (vec![0.0; terms.len()], Lu::new(terms.len()));
+                Stage::All { rows, terms, values, matrix }
+            }
+        });
+    }
+    stages
+}

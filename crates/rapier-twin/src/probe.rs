@@ -1,0 +1,105 @@
+//! Reactions and moments from tiny steps of the engine, started on its own trajectory.
+//!
+//! A world of its own is put into the pose at t - h, and a step makes the velocities fit that pose and the drives: all freedoms are driven, so
+//! that there is one answer. Then it is put into the pose at t with these velocities, and a step of h is done, whose impulses are the
+//! reactions at t but for an error in proportion to h; the same with h / 2 gives 2 y(h / 2) - y(h). Only poses come from the trajectory: no
+//! velocity, no acceleration.
+
+use super::build::Precision;
+use super::ghost::Ghost;
+use super::guard::Guard;
+use super::native::reporters;
+use super::window::Window;
+use super::world::World;
+use linkage::case::Case;
+use linkage::error::Result;
+use linkage::math::Vec2;
+use linkage::mechanism::LinkPose;
+use linkage::solver::State;
+
+/// Worlds that are probed.
+pub(super) struct Probe<'a> {
+    worlds: Vec<Guard<'a>>,
+    /// The tiny step (s).
+    step: f64,
+    reporters: Vec<usize>,
+    ghost: Option<Ghost>,
+    poses: [Vec<LinkPose>; 2],
+}
+
+impl<'a> Probe<'a> {
+    /// Probes of worlds whose trees together cut every joint; the crank turns by `turn` (rad) in a tiny step.
+    pub(super) fn new(case: &'a Case, worlds: Vec<Guard<'a>>, turn: f64) -> Self {
+        let cuts: Vec<&[usize]> = worlds.iter().map(|guard| guard.world().tree().cut.as_slice()).collect();
+        let reporters = reporters(case, &cuts);
+        let speed = case.fastest_drive();
+        let poses = [Vec::new(), Vec::new()];
+        Probe { reporters, step: turn / speed, ghost: Ghost::of(case, false), worlds, poses }
+    }
+
+    /// Fills in the reactions and moments of a state, whose motion is that of the window at `t`.
+    pub(super) fn solve(&mut self, case: &Case, window: &Window, state: &mut State, t: f64) -> Result<()> {
+        state.forces.fill(Vec2::zeros());
+        state.moments.fill(0.0);
+        state.torques.fill(0.0);
+        for index in 0..self.worlds.len() {
+            for (step, share, settling) in [(self.step, -1.0, 2), (0.5 * self.step, 2.0, 1)] {
+                self.tiny_step(case, window, index, (t, step, settling), state)?;
+                self.add(index, share, state);
+            }
+        }
+        match &mut self.ghost {
+            Some(ghost) => ghost.take_off(case, state, t),
+            None => Ok(()),
+        }
+    }
+
+    fn tiny_step(
+        &mut self,
+        case: &Case,
+        window: &Window,
+        index: usize,
+        (t, step, settling): (f64, f64, usize),
+        state: &State,
+    ) -> Result<()> {
+        let guard = &mut self.worlds[index];
+        guard.set_step(step);
+        guard.load(state);
+        let [before, now] = &mut self.poses;
+        window.poses(case, t, step, before);
+        window.poses(case, t, 0.0, now);
+        guard.drive(t - step);
+        for _ in 0..settling {
+            guard.place(before);
+            guard.step(t)?;
+        }
+        guard.place(now);
+        guard.drive(t);
+        guard.step(t)
+    }
+
+    /// Adds `share` of what a world reports.
+    fn add(&self, index: usize, share: f64, state: &mut State) {
+        let world: &dyn World = self.worlds[index].world();
+        for joint in (0..self.reporters.len()).filter(|&joint| self.reporters[joint] == index) {
+            let (force, moment) = world.reaction(joint).expect("the tree of this world cuts the joint");
+            state.forces[joint] += force * share;
+            state.moments[joint] += moment * share;
+        }
+        if index == 0 {
+            for (drive, torque) in state.torques.iter_mut().enumerate() {
+                *torque += world.torque(drive) * share;
+            }
+        }
+    }
+}
+
+/// Turn of the fastest driving link in a tiny step (rad). After 2 y(h / 2) - y(h) the error is in proportion to its square, rounding to its
+/// inverse; the optimum is flat.
+pub(super) fn probe_turn(precision: Precision) -> f64 {
+    match precision {
+        Precision::Double => 1e-4,
+        #[cfg(feature = "f32")]
+        Precision::Single => 5e-3,
+    }
+}

@@ -1,0 +1,263 @@
+//! One run: worlds side by side in time, and what is read of them.
+
+use super::build::Build;
+use super::free::{self, Acting};
+use super::guard::Guard;
+use super::native::Native;
+use super::newton_euler::NewtonEuler;
+use super::probe::Probe;
+use super::probe::probe_turn;
+use super::rapier::Rapier;
+use super::tree::Tree;
+use super::window::Window;
+use linkage::case::Case;
+use linkage::engine::{Route, Settings};
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::KeepNan;
+use linkage::solver::{Progress, State, Visit, check_instants};
+use linkage::trajectory::Stage;
+
+/// Steps that the transient of a start or of a turn-about takes to fall below rounding (one does; the rest is margin).
+const SETTLING_STEPS: i64 = 3;
+/// More steps than this are refused: they would take minutes, and most likely a unit is wrong.
+const MAX_STEPS: f64 = 2e7;
+
+/// What reactions and moments come from.
+enum Reader<'a> {
+    Nothing,
+    Differences(NewtonEuler),
+    Native(Native),
+    Probe(Probe<'a>),
+}
+
+/// Solves a case: see [`Solver::sweep`](linkage::solver::Solver::sweep).
+pub(super) fn sweep(engine: &Rapier, case: &Case, visit: Visit, progress: Progress) -> Result<()> {
+    check_instants(case)?;
+    let rows = case.grid.ascending();
+    let (Some(&first), Some(&last)) = (rows.first(), rows.last()) else { return Ok(()) };
+    let step = engine.settings.resolution;
+    let begin = (case.grid.times[first].smaller(0.0) / step).floor();
+    let end = (case.grid.times[last] / step).floor();
+    check(&engine.settings, end - begin)?;
+    let start = match case.is_free() {
+        true => 0,
+        false => begin as i64 - Window::BEHIND - SETTLING_STEPS - Window::extra(engine.settings.substeps),
+    };
+    let total = (end as i64 + Window::AHEAD - start) as f64;
+    let mut visited = None;
+    let mut run = Run::new(engine, case, start)?;
+    run.aim(case.grid.times[first]);
+    let go = || {
+        match run.acting {
+            None => run.back_up()?,
+            Some(_) => run.begin()?,
+        }
+        let mut state = State::at_rest(case);
+        for row in rows {
+            let t = case.grid.times[row];
+            let last = run.aim(t);
+            while run.window.newest() < last {
+                run.step()?;
+                if run.window.newest() % 256 == 0 {
+                    progress((run.window.newest() - start) as f64 / total);
+                }
+            }
+            run.window.sample(case, t, &mut state);
+            run.read(&mut state, t)?;
+            visit(row, &state)?;
+            visited = Some(row);
+        }
+        progress(1.0);
+        Ok(())
+    };
+    go().map_err(|error| reached(error, case, visited))
+}
+
+/// Says in the way out how far the run has come: what has been visited stands.
+fn reached(error: Error, case: &Case, visited: Option<usize>) -> Error {
+    let (Some(row), ErrorKind::Numeric) = (visited, error.kind()) else { return error };
+    let until = match case.is_free() {
+        true => format!("the run stands up to t = {:.6} s", case.grid.times[row]),
+        false => format!("the run stands up to crank angle {:.4} deg", case.grid.cranks[row].to_degrees()),
+    };
+    match error.way_out().map(str::to_string) {
+        Some(way) => error.help(format!("{way}; {until}")),
+        None => error.help(until),
+    }
+}
+
+struct Run<'a> {
+    case: &'a Case,
+    settings: Settings,
+    /// Whether all drives turn with constant speeds, which are set once.
+    steady: bool,
+    step: f64,
+    start: i64,
+    /// The first moves the mechanism; the others only report joints that the first does not.
+    worlds: Vec<Guard<'a>>,
+    window: Window,
+    /// First step that the window needs for the next sample.
+    needed: i64,
+    reader: Reader<'a>,
+    /// In a free motion.
+    acting: Option<Acting>,
+}
+
+impl<'a> Run<'a> {
+    fn new(engine: &Rapier, case: &'a Case, start: i64) -> Result<Self> {
+        let settings = &engine.settings;
+        let route = (case.wanted.deepest() >= Stage::Reactions).then_some(settings.route);
+        let mechanism = &case.mechanism;
+        let moving = || match engine.build {
+            Build::Multibody => Tree::of(mechanism),
+            Build::Impulse => Tree::none(mechanism),
+        };
+        let reporting = || match engine.build {
+            Build::Multibody => Tree::covering(mechanism),
+            Build::Impulse => vec![Tree::none(mechanism)],
+        };
+        let acting = if case.is_free() { Some(Acting::new(case)?) } else { None };
+        if let (Some(_), Some(Route::Probe)) = (&acting, route) {
+            let message = "the motion is free, but a probe needs prescribed speeds";
+            return Err(Error::new(ErrorKind::Unsupported, message)
+                .help("take another way to the reactions: --route differences or --route native"));
+        }
+        let native = route == Some(Route::Native);
+        let trees = if native { reporting() } else { vec![moving()] };
+        let worlds: Result<Vec<Guard>> = trees
+            .into_iter()
+            .map(|tree| Ok(Guard::new(case, engine.world(case, tree, native)?, settings.resolution)))
+            .collect();
+        let worlds = worlds?;
+        // One step lies before the beginning of a free motion.
+        let reports_from = if acting.is_some() { start - 1 } else { start };
+        let reader = match route {
+            None => Reader::Nothing,
+            Some(Route::Differences) => Reader::Differences(NewtonEuler::new(case)),
+            Some(Route::Native) => Reader::Native(Native::new(case, &worlds, settings, reports_from)),
+            Some(Route::Probe) => {
+                // Put into a pose, a world has no gap to correct in its first substep and that of the first in its second, whose impulses would hold all
+                // of that correction: a tiny step is not divided.
+                let engine = engine.set(Settings { substeps: 1, ..*settings });
+                let probed: Result<Vec<Guard>> = reporting()
+                    .into_iter()
+                    .map(|tree| Ok(Guard::new(case, engine.world(case, tree, true)?, settings.resolution)))
+                    .collect();
+                Reader::Probe(Probe::new(case, probed?, probe_turn(engine.precision)))
+            }
+        };
+        let window = Window::new(case, settings, start);
+        Ok(Run {
+            case,
+            steady: case.is_steady(),
+            step: settings.resolution,
+            settings: *settings,
+            start,
+            worlds,
+            window,
+            needed: i64::MIN,
+            reader,
+            acting,
+        })
+    }
+
+    /// Gives all worlds of a free motion their velocities at the start.
+    fn begin(&mut self) -> Result<()> {
+        let Some(acting) = &mut self.acting else { return Ok(()) };
+        self.window = free::begin(self.case, acting, &mut self.worlds, &self.settings)?;
+        self.report();
+        self.report();
+        Ok(())
+    }
+
+    /// Drives all worlds backwards from the start to where they turn about.
+    fn back_up(&mut self) -> Result<()> {
+        for guard in &mut self.worlds {
+            guard.drive_on(0.0, -self.step);
+            for step in (self.start..0).rev() {
+                let (from, to) = ((step + 1) as f64 * self.step, step as f64 * self.step);
+                if !self.steady {
+                    guard.drive_on(from, to);
+                }
+                guard.step(to)?;
+            }
+            guard.drive_on(0.0, self.step);
+        }
+        self.take();
+        Ok(())
+    }
+
+    fn step(&mut self) -> Result<()> {
+        let step = self.window.newest() + 1;
+        if let Some(acting) = &mut self.acting {
+            acting.act(self.case, &self.window, &mut self.worlds, [step - 1, step].map(|step| step as f64 * self.step));
+        }
+        for guard in &mut self.worlds {
+            let (from, to) = ((step - 1) as f64 * self.step, step as f64 * self.step);
+            if !self.steady && self.acting.is_none() {
+                guard.drive_on(from, to);
+            }
+            guard.step(to)?;
+            if step == 0 {
+                guard.check_start()?;
+            }
+        }
+        self.take();
+        Ok(())
+    }
+
+    /// Looks ahead to a sample at `t`, and gives the last step that it needs.
+    fn aim(&mut self, t: f64) -> i64 {
+        let [first, last] = self.window.needs(t);
+        // What acts in a free motion is found from every step.
+        self.needed = if self.acting.is_some() { i64::MIN } else { first };
+        last
+    }
+
+    /// Takes what the worlds show after a step.
+    fn take(&mut self) {
+        if self.window.newest() + 1 < self.needed {
+            self.window.skip();
+        } else {
+            self.window.push(&self.worlds[0], self.case);
+        }
+        self.report();
+    }
+
+    fn report(&mut self) {
+        if let Reader::Native(native) = &mut self.reader {
+            native.push(&self.worlds);
+        }
+    }
+
+    /// Fills in the reactions and moments of a state whose motion is known.
+    fn read(&mut self, state: &mut State, t: f64) -> Result<()> {
+        match &mut self.reader {
+            Reader::Nothing => Ok(()),
+            Reader::Differences(statics) => statics.solve(self.case, state, t),
+            Reader::Native(native) => native.solve(self.case, state, t),
+            Reader::Probe(probe) => probe.solve(self.case, &self.window, state, t),
+        }
+    }
+}
+
+fn check(settings: &Settings, steps: f64) -> Result<()> {
+    let wrong = |message: String, help: &str| Err(Error::new(ErrorKind::Input, message).help(help));
+    let Settings { resolution: step, sweeps, substeps, .. } = *settings;
+    if !(step > 0.0 && step.is_finite()) {
+        return wrong(format!("the engine's time step is {step} s"), "give a time step greater than zero");
+    }
+    if sweeps == 0 || substeps == 0 {
+        return wrong(
+            format!("the engine has {sweeps} sweeps and {substeps} substeps a step"),
+            "give at least one of each",
+        );
+    }
+    if !(steps <= MAX_STEPS) {
+        return wrong(
+            format!("a time step of {step:e} s needs {steps:.3e} steps for this grid, the limit is {MAX_STEPS:e}"),
+            "choose a larger time step or a shorter grid",
+        );
+    }
+    Ok(())
+}

@@ -1,0 +1,160 @@
+//! Poses and velocities in and out, and the step itself.
+
+use super::rapier::prelude::{JointAxesMask, JointAxis, Multibody, PhysicsWorld, Pose, Rotation};
+use super::{RIGID_MOTOR, Twin, joints, real, wide};
+use crate::tree::{Tree, coordinate};
+use crate::world::{LinkAngle, LinkFrame, World};
+use linkage::drive::Wrench;
+use linkage::math::Vec2;
+use linkage::math::angle::arc_tangent;
+use linkage::mechanism::LinkPose;
+
+impl Twin {
+    fn multibody(&self) -> Option<&Multibody> {
+        Some(self.world.multibody_joints.get(self.any_link?)?.0)
+    }
+
+    pub(super) fn put_tree(&mut self, poses: &[LinkPose]) {
+        let Some(any_link) = self.any_link else { return };
+        let PhysicsWorld { multibody_joints, bodies, .. } = &mut self.world;
+        let (multibody, _) = multibody_joints.get_mut(any_link).expect("the multibody exists");
+        let mut displacements = vec![0.0; multibody.ndofs()];
+        for ((branch, &dof), &id) in self.tree.branches.iter().zip(&self.dofs).zip(&self.ids) {
+            let joint = &self.joints[branch.joint];
+            let coords = multibody.link(id).expect("known link").joint().coords();
+            // The free coordinate of a slider is the first, of a pin the last.
+            let now = coords[if joint.is_prismatic() { 0 } else { 2 }];
+            displacements[dof] = real(coordinate(joint, branch, poses)) - now;
+        }
+        multibody.apply_displacements(&displacements);
+        multibody.forward_kinematics(bodies, false);
+        multibody.update_rigid_bodies(bodies, true);
+    }
+
+    pub(super) fn put_bodies(&mut self, poses: &[LinkPose]) {
+        for &link in &self.plain {
+            let pose = Pose::from_parts(joints::vector(poses[link].origin), Rotation::new(real(poses[link].angle)));
+            self.world.bodies[self.bodies[link]].set_position(pose, true);
+        }
+    }
+
+    /// Frames of all links after a step.
+    pub(super) fn read_frames(&mut self) {
+        for (&body, frame) in self.bodies.iter().zip(&mut self.frames).skip(1) {
+            let (origin, direction) = place(self.world.bodies[body].position());
+            frame.follow(origin, direction);
+        }
+        let Some(any_link) = self.any_link else { return };
+        let (multibody, _) = self.world.multibody_joints.get(any_link).expect("the multibody exists");
+        for ((branch, &id), twist) in self.tree.branches.iter().zip(&self.ids).zip(&self.twists) {
+            let coordinate = || wide(multibody.link(id).expect("known link").joint().coords()[2]);
+            let parent = self.frames[branch.parent].angle();
+            self.frames[branch.link].angle = LinkAngle::Whole(parent + twist.unwrap_or_else(coordinate));
+        }
+    }
+
+    /// Frames of all links that have been put into poses.
+    pub(super) fn put_frames(&mut self, poses: &[LinkPose]) {
+        for ((&body, frame), pose) in self.bodies.iter().zip(&mut self.frames).zip(poses).skip(1) {
+            let (origin, direction) = place(self.world.bodies[body].position());
+            frame.put(origin, direction, pose.angle);
+        }
+    }
+
+    /// Duration of a substep (s): what Rapier itself takes for a step.
+    pub(super) fn substep(&self) -> f64 {
+        let parameters = &self.world.integration_parameters;
+        wide(parameters.dt) / parameters.num_solver_iterations as f64
+    }
+}
+
+/// Origin and direction of a body's frame.
+fn place(pose: &Pose) -> (Vec2, Vec2) {
+    let (at, rotation) = (pose.translation, pose.rotation);
+    (Vec2::new(wide(at.x), wide(at.y)), Vec2::new(wide(rotation.re), wide(rotation.im)))
+}
+
+impl World for Twin {
+    fn tree(&self) -> &Tree {
+        &self.tree
+    }
+
+    fn step(&mut self) {
+        if self.read {
+            self.keep_frames(1.0);
+        }
+        self.world.step();
+        self.read_frames();
+        let substeps = self.world.integration_parameters.num_solver_iterations;
+        if self.read && substeps > 1 {
+            self.keep_frames(1.0 - 1.0 / substeps as f64);
+        }
+    }
+
+    fn bare_step(&mut self) {
+        self.world.step();
+    }
+
+    fn set_step(&mut self, step: f64) {
+        self.world.integration_parameters.dt = real(step);
+    }
+
+    fn set_drive(&mut self, drive: usize, omega: f64) {
+        let motor = &self.motors[drive];
+        let turn = omega * self.substep();
+        // A body of its own turns by atan(omega dt) a substep; that much more is asked for. Beyond a radian nothing would hold anyway.
+        let omega = if motor.plain && turn.abs() < 1.0 { turn.tan() / self.substep() } else { omega };
+        let joint = self.world.impulse_joints.get_mut(motor.handle, true).expect("the motor exists");
+        joint.data.set_motor_velocity(JointAxis::AngX, real(omega * motor.sense), real(RIGID_MOTOR));
+    }
+
+    fn set_motor(&mut self, drive: usize, target: f64, damping: f64) {
+        let motor = &self.motors[drive];
+        let joint = self.world.impulse_joints.get_mut(motor.handle, true).expect("the motor exists");
+        joint.data.set_motor_velocity(JointAxis::AngX, real(target * motor.sense), real(damping));
+        if damping == 0.0 {
+            // Rapier holds a motor without stiffness and damping as if it were rigid.
+            joint.data.motor_axes = JointAxesMask::empty();
+        }
+    }
+
+    fn set_load(&mut self, link: usize, load: Wrench) {
+        let body = &mut self.world.bodies[self.bodies[link]];
+        body.reset_forces(true);
+        body.reset_torques(true);
+        body.add_force(joints::vector(load.force), true);
+        body.add_torque(real(load.moment), true);
+    }
+
+    fn place(&mut self, poses: &[LinkPose]) {
+        self.put(poses);
+    }
+
+    fn frames(&self) -> &[LinkFrame] {
+        &self.frames
+    }
+
+    fn relative_speed(&self, index: usize) -> f64 {
+        let multibody = self.multibody().expect("a branch is in the multibody");
+        wide(multibody.generalized_velocity()[self.dofs[index]])
+    }
+
+    fn velocity(&self, link: usize) -> Option<(Vec2, f64)> {
+        if let LinkAngle::Whole(_) = self.frames[link].angle {
+            return None;
+        }
+        let body = &self.world.bodies[self.bodies[link]];
+        let (velocity, step) = (body.linvel(), self.substep());
+        // What it turned in the substep: see `set_drive`.
+        let omega = arc_tangent(wide(body.angvel()) * step) / step;
+        Some((Vec2::new(wide(velocity.x), wide(velocity.y)), omega))
+    }
+
+    fn reaction(&self, joint: usize) -> Option<(Vec2, f64)> {
+        self.read_reaction(joint)
+    }
+
+    fn torque(&self, drive: usize) -> f64 {
+        self.read_torque(drive)
+    }
+}

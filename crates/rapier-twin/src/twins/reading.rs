@@ -1,0 +1,67 @@
+//! Impulses as forces.
+
+use super::frame::Frame;
+use super::{Twin, wide};
+use crate::world::World;
+use linkage::math::{Vec2, cross, rotated, turned};
+
+impl Twin {
+    /// Remembers where the joints to be read stand, as far as `share` says on the way from what was remembered before: Rapier gives impulses in
+    /// the axes at the start of the last substep, which lies between poses that can be seen. On that short way frames move along a straight line
+    /// but for errors of second order, where impulses themselves are of first.
+    pub(super) fn keep_frames(&mut self, share: f64) {
+        for index in 0..self.cuts.len() {
+            let joint = &self.cuts[index].joint;
+            let sides = [joint.first, joint.second];
+            let [first, second] = sides.map(|side| self.point(side));
+            let direction = self.frames[joint.first.link].direction;
+            let (axis, place) = match joint.axis_on(joint.first.link) {
+                None => (direction, first),
+                Some(axis) => {
+                    // Along the free axis the rows act at the place on the second body.
+                    let normal = turned(rotated(direction, axis));
+                    (rotated(direction, axis), second - normal * normal.dot(&(second - first)))
+                }
+            };
+            let centre = |link: usize| self.point(linkage::mechanism::Side { link, local: self.centres[link] });
+            let arms = [place - centre(joint.first.link), second - centre(joint.second.link)];
+            let start = &mut self.cuts[index].start;
+            *start = if share == 1.0 { Frame { axis, arms } } else { start.towards(Frame { axis, arms }, share) };
+        }
+    }
+
+    pub(super) fn read_reaction(&self, joint: usize) -> Option<(Vec2, f64)> {
+        let cut = self.cuts.iter().find(|cut| cut.index == joint)?;
+        let impulses = self.world.impulse_joints.get(cut.handle)?.impulses;
+        let mut rows = [impulses[0], impulses[1], impulses[2]].map(wide);
+        let Frame { axis, arms } = cut.start;
+        let across = turned(axis);
+        let inverse = [cut.joint.first.link, cut.joint.second.link].map(|link| self.inverse[link]);
+        let turning =
+            |of: [f64; 2], other: [f64; 2]| of[0] * other[0] * inverse[0][1] + of[1] * other[1] * inverse[1][1];
+        let lever = |along: Vec2| arms.map(|arm| cross(arm, along));
+        let (force, moment) = if cut.joint.is_prismatic() {
+            if cut.plain {
+                // The row across the axis was made orthogonal to the one that keeps the angle.
+                rows[2] -= rows[1] * turning(lever(across), [1.0; 2]) / turning([1.0; 2], [1.0; 2]);
+            }
+            (across * rows[1], rows[2])
+        } else {
+            if cut.plain {
+                // The second row was made orthogonal to the first.
+                let mass = inverse[0][0] + inverse[1][0] + turning(lever(axis), lever(axis));
+                rows[0] -= rows[1] * turning(lever(axis), lever(across)) / mass;
+            }
+            (axis * rows[0] + across * rows[1], 0.0)
+        };
+        // An impulse is that of the last substep, and counted as that on the first body.
+        let duration = -self.substep();
+        Some((force / duration, moment / duration))
+    }
+
+    pub(super) fn read_torque(&self, drive: usize) -> f64 {
+        let motor = &self.motors[drive];
+        let joint = self.world.impulse_joints.get(motor.handle).expect("the motor exists");
+        -wide(joint.data.motors[2].impulse) / self.substep() * motor.sense
+    }
+}

@@ -1,0 +1,271 @@
+//! The last few steps of a run, and the motion between them.
+
+use super::guard::Guard;
+use super::ring::{Place, Ring};
+use super::world::World;
+use linkage::case::Case;
+use linkage::engine::Settings;
+use linkage::math::interpolate::{POINTS, lagrange_weights};
+use linkage::math::{Motion, Vec2, rotated, turned, unit};
+use linkage::mechanism::LinkPose;
+use linkage::solver::State;
+use linkage::trajectory::Stage;
+
+/// Numbers a link: position of the mass centre and angle, or their rates. A row has those of all links, then the rates of all links.
+const WIDTH: usize = 3;
+
+/// Steps at the beginning of a free motion whose accelerations are not the motion's. Bodies of their own (`plain`) close the gaps of the first step in the
+/// second. In a multibody nothing is seen of that; but links that move at once have no step before the first, only a straight line that leads there, and the
+/// first step takes no account of how transfer functions change.
+pub(super) fn first_steps(case: &Case, plain: bool) -> i64 {
+    let moving = case.drives().any(|drive| drive.initial_speed() != 0.0);
+    if plain || moving { 2 } else { 0 }
+}
+
+/// The motion of the last steps, filled as the run goes on.
+#[derive(Debug)]
+pub(super) struct Window {
+    step: f64,
+    substeps: usize,
+    /// Whether the engine's velocities are those at the start of a step: so they are where drives turn with constant speeds.
+    steady: bool,
+    /// The deepest stage that is wanted: what lies beyond it is left out.
+    deepest: Stage,
+    /// Whether the engine's velocities are read.
+    rated: bool,
+    ring: Ring,
+    /// Velocity and angular velocity of every link while they are carried along the tree.
+    rates: Vec<(Vec2, f64)>,
+    /// Steps before which interpolation between positions and between their second differences may not be centred: it reaches two and three steps
+    /// farther back.
+    lowest: i64,
+    settled: i64,
+    /// Mass centre and angle of every link at the instant that the velocities belong to, and directions of the links of the tree.
+    poses: Vec<[f64; WIDTH]>,
+    directions: Vec<Vec2>,
+    /// Positions, rates and accelerations of a sample, a row each.
+    sample: [Vec<[f64; WIDTH]>; 3],
+}
+
+impl Window {
+    /// Steps that must lie before the one at or before an instant.
+    pub(super) const BEHIND: i64 = 3;
+    /// Steps that must lie after it.
+    pub(super) const AHEAD: i64 = 4;
+
+    /// An empty window of a run whose first state, pushed next, is that of step `start`.
+    pub(super) fn new(case: &Case, settings: &Settings, start: i64) -> Self {
+        let links = case.mechanism.links().len();
+        let (steady, deepest) = (case.is_steady(), case.wanted.deepest());
+        let row = || vec![[0.0; WIDTH]; links];
+        Window {
+            step: settings.resolution,
+            substeps: settings.substeps,
+            steady,
+            deepest,
+            rated: steady && deepest >= Stage::Velocities,
+            ring: Ring::new(2 * links * WIDTH, start),
+            rates: vec![(Vec2::zeros(), 0.0); links],
+            lowest: i64::MIN / 2,
+            settled: i64::MIN / 2,
+            poses: row(),
+            directions: vec![Vec2::new(1.0, 0.0); links],
+            sample: [row(), row(), row()],
+        }
+    }
+
+    /// A window of a free motion, which begins at step 0 with the pose and the velocities of a world. Before it lies one step that leads there
+    /// without acceleration.
+    pub(super) fn beginning(case: &Case, settings: &Settings, guard: &Guard) -> Self {
+        // There is nothing to interpolate before the beginning; of first order the velocities are wherever in the step they belong.
+        let mut window = Window::new(case, &Settings { substeps: 1, ..*settings }, -1);
+        (window.lowest, window.settled) = (2, 2 + first_steps(case, guard.world().tree().branches.is_empty()));
+        window.rated = true;
+        // The velocities of a push belong to the step before.
+        window.push(guard, case);
+        window.push(guard, case);
+        window.rated = false;
+        let (positions, rates) = window.ring.row_mut(-1).split_at_mut(window.poses.len() * WIDTH);
+        for (position, rate) in positions.iter_mut().zip(rates).skip(WIDTH) {
+            *position -= settings.resolution * *rate;
+        }
+        window
+    }
+
+    /// Steps that the start must lie farther back: with several substeps, poses between steps are needed for every step.
+    pub(super) fn extra(substeps: usize) -> i64 {
+        if substeps > 1 { POINTS as i64 - 2 } else { 0 }
+    }
+
+    /// Number of the newest step.
+    pub(super) fn newest(&self) -> i64 {
+        self.ring.newest()
+    }
+
+    fn place(&self, t: f64) -> Place {
+        Place::of(t / self.step).from(self.lowest)
+    }
+
+    /// The first and the last step that a sample at `t` needs.
+    pub(super) fn needs(&self, t: f64) -> [i64; 2] {
+        let before = self.place(t).from(self.settled).before;
+        [before - Self::BEHIND - Self::extra(self.substeps), before + Self::AHEAD]
+    }
+
+    /// Takes the state after a step. Poses belong to this step, the engine's velocities to the start of its last substep: without substeps
+    /// to the step before.
+    pub(super) fn push(&mut self, guard: &Guard, case: &Case) {
+        let (row, _) = self.ring.push().as_chunks_mut();
+        for (own, (centre, frame)) in row.iter_mut().zip(guard.centres().iter().zip(guard.frames())).skip(1) {
+            *own = [centre.x, centre.y, frame.angle()];
+        }
+        if self.rated {
+            self.carry_rates(guard.world(), case);
+        }
+    }
+
+    /// Lets a step pass that no sample needs.
+    pub(super) fn skip(&mut self) {
+        self.ring.skip();
+    }
+
+    /// Where all links were at the instant that the engine's velocities belong to.
+    fn place_rates(&mut self) {
+        let (newest, part) = (self.ring.newest(), 0..self.poses.len() * WIDTH);
+        let poses = self.poses.as_flattened_mut();
+        if self.substeps == 1 {
+            poses.copy_from_slice(&self.ring.row(newest - 1)[part]);
+            return;
+        }
+        let weights = lagrange_weights((POINTS - 1) as f64 - 1.0 / self.substeps as f64);
+        self.ring.weigh(newest + 1 - POINTS as i64, &weights, part, poses);
+    }
+
+    /// Carries the joints' speeds from the ground along the tree, over the poses of the instant they belong to.
+    fn carry_rates(&mut self, world: &dyn World, case: &Case) {
+        let branches = &world.tree().branches;
+        if !branches.is_empty() {
+            self.place_rates();
+        }
+        let (links, joints) = (case.mechanism.links(), case.mechanism.joints());
+        for (index, branch) in branches.iter().enumerate() {
+            let joint = &joints[branch.joint];
+            self.directions[branch.link] = unit(self.poses[branch.link][2]);
+            let along = |link: usize, local: Vec2| rotated(self.directions[link], local);
+            let (velocity, omega) = self.rates[branch.parent];
+            let speed = world.relative_speed(index);
+            self.rates[branch.link] = match joint.axis_on(branch.parent) {
+                None => {
+                    let arm = |link: usize| {
+                        let local = joint.on(link).expect("the joint is on the link");
+                        along(link, local - links[link].mass_centre)
+                    };
+                    let spin = omega + speed;
+                    (velocity + turned(arm(branch.parent)) * omega - turned(arm(branch.link)) * spin, spin)
+                }
+                Some(axis) => {
+                    let centre = |link: usize| match link {
+                        0 => Vec2::zeros(),
+                        _ => pair(&self.poses[link]),
+                    };
+                    let reach = centre(branch.link) - centre(branch.parent);
+                    (velocity + turned(reach) * omega + along(branch.parent, axis) * speed, omega)
+                }
+            };
+        }
+        let before = self.ring.row_mut(self.ring.newest() - 1)[self.poses.len() * WIDTH..].as_chunks_mut().0;
+        for (link, (own, carried)) in before.iter_mut().zip(&self.rates).enumerate().skip(1) {
+            let (velocity, omega) = world.velocity(link).unwrap_or(*carried);
+            *own = [velocity.x, velocity.y, omega];
+        }
+    }
+
+    /// The newest pose, with the velocities that led there: differences of positions over a step.
+    pub(super) fn newest_motion(&self, case: &Case, state: &mut State) {
+        let (now, before) = (self.ring.row(self.newest()), self.ring.row(self.newest() - 1));
+        for (link, body) in case.mechanism.links().iter().enumerate().skip(1) {
+            let at = |c: usize| now[link * WIDTH + c];
+            let rate = |c: usize| (at(c) - before[link * WIDTH + c]) / self.step;
+            state.angles[link] = at(2);
+            state.motions[link] = Motion::of_point(
+                body.mass_centre,
+                [Vec2::new(at(0), at(1)), Vec2::new(rate(0), rate(1)), Vec2::zeros()],
+                unit(at(2)),
+                rate(2),
+                0.0,
+            );
+        }
+    }
+
+    /// Poses of all links `back` seconds before `t`.
+    pub(super) fn poses(&self, case: &Case, t: f64, back: f64, into: &mut Vec<LinkPose>) {
+        let place = self.place(t);
+        let weights = place.weights(back / self.step);
+        into.clear();
+        into.push(LinkPose::GROUND);
+        for (link, body) in case.mechanism.links().iter().enumerate().skip(1) {
+            let mut sum = [0.0; WIDTH];
+            for (k, weight) in weights.iter().enumerate() {
+                let row = &self.ring.row(place.first() + k as i64)[link * WIDTH..];
+                (0..3).for_each(|c| sum[c] += weight * row[c]);
+            }
+            into.push(LinkPose::through(body.mass_centre, Vec2::new(sum[0], sum[1]), sum[2]));
+        }
+    }
+
+    /// The motion of all links at `t`: positions and rates interpolated between steps, accelerations from centred second
+    /// differences of the positions, as far as they are wanted. With drives whose speed changes, rates are centred first differences of the positions: the engine drives
+    /// through a step with the step's mean speed, but from the pose at its start.
+    pub(super) fn sample(&mut self, case: &Case, t: f64, state: &mut State) {
+        let place = self.place(t);
+        let weights = place.weights(0.0);
+        let [positions, rates, accelerations] = self.sample.each_mut().map(|row| row.as_flattened_mut());
+        let part = 0..positions.len();
+        self.ring.weigh(place.first(), &weights, part.clone(), positions);
+        if self.deepest >= Stage::Velocities && self.steady {
+            // The velocities of a row belong to an instant after its step, but for that without substeps.
+            let late = 1.0 - 1.0 / self.substeps as f64;
+            let weights = if self.substeps == 1 { weights } else { place.weights(late) };
+            self.ring.weigh(place.first(), &weights, part.end..2 * part.end, rates);
+        } else if self.deepest >= Stage::Velocities {
+            let mut first = [0.0; POINTS + 2];
+            for (k, weight) in weights.iter().enumerate() {
+                first[k] -= 0.5 * weight;
+                first[k + 2] += 0.5 * weight;
+            }
+            self.ring.weigh(place.before - Self::BEHIND, &first.map(|first| first / self.step), part.clone(), rates);
+        }
+        if self.deepest >= Stage::Accelerations {
+            // What the first steps of a free motion do to close gaps is left out of the second differences.
+            let settled = place.from(self.settled);
+            let weights = if settled.before == place.before { weights } else { settled.weights(0.0) };
+            let mut second = [0.0; POINTS + 2];
+            for (k, weight) in weights.iter().enumerate() {
+                second[k] += weight;
+                second[k + 1] -= 2.0 * weight;
+                second[k + 2] += weight;
+            }
+            self.ring.weigh(settled.before - Self::BEHIND, &second, part, accelerations);
+        }
+        let scale = 1.0 / (self.step * self.step);
+        let [positions, rates, accelerations] = &self.sample;
+        let rows = positions.iter().zip(rates).zip(accelerations);
+        let states = state.angles.iter_mut().zip(&mut state.motions);
+        let all = case.mechanism.links().iter().zip(rows).zip(states).skip(1);
+        for ((body, ((position, rate), acceleration)), (angle, motion)) in all {
+            *angle = position[2];
+            *motion = Motion::of_point(
+                body.mass_centre,
+                [pair(position), pair(rate), pair(acceleration) * scale],
+                unit(position[2]),
+                rate[2],
+                acceleration[2] * scale,
+            );
+        }
+    }
+}
+
+/// The first two numbers as a vector.
+fn pair(of: &[f64; WIDTH]) -> Vec2 {
+    Vec2::new(of[0], of[1])
+}

@@ -1,0 +1,76 @@
+//! A free motion: motor and loads as forces that Simbody asks for at every evaluation.
+
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use linkproof_simbody::{Act, Run, Settings};
+
+use super::model::Linkage;
+use super::stopped::stopped;
+use linkage::case::Case;
+use linkage::drive::Wrench;
+use linkage::engine::bodies::check_inertias;
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::solver::State;
+
+/// Starts the run of a free motion at t = 0.
+///
+/// # Errors
+/// Those of [`check_inertias`], and whatever keeps Simbody from the start.
+pub(super) fn start(case: &Case, settings: Settings) -> Result<(Linkage, Run)> {
+    check_inertias(case, "Simbody")?;
+    let wrong = |message: String| Error::new(ErrorKind::Input, format!("Simbody cannot take the mechanism: {message}"));
+    // Driven at the initial speeds, all other links show theirs.
+    let driven = Linkage::new(case, 1.0, None).map_err(wrong)?;
+    let told = |failure| stopped(case, &driven, 1.0, &failure);
+    let rates: Vec<f64> = {
+        let mut run = driven.model.run(settings).map_err(told)?;
+        run.read(false).map_err(told)?.bodies.iter().map(|body| body.rate).collect()
+    };
+    let linkage = Linkage::new(case, 1.0, Some(&rates)).map_err(wrong)?;
+    let setting_off = Rc::new(RefCell::new(vec![0.0; case.mechanism.links().len()]));
+    let begin = || {
+        linkage
+            .model
+            .run_under(settings, Some(acting(case, &linkage, Rc::clone(&setting_off))))
+            .map_err(|failure| stopped(case, &linkage, 1.0, &failure))
+    };
+    let mut run = begin()?;
+    if !case.loads.iter().any(|load| load.sensed_link().is_some()) {
+        return Ok((linkage, run));
+    }
+    // Links at rest set off where they are accelerated without the loads that ask for it.
+    let mut state = State::at_rest(case);
+    let found = run.read(false).map_err(|failure| stopped(case, &linkage, 1.0, &failure))?;
+    linkage.motion(&found.bodies, &mut state);
+    for (sense, motion) in setting_off.borrow_mut().iter_mut().zip(&state.motions) {
+        *sense = motion.alpha;
+    }
+    drop(run);
+    let run = begin()?;
+    Ok((linkage, run))
+}
+
+/// Motor and loads at positions and velocities of Simbody's; a link at rest has its load against the sense in which it sets off.
+fn acting(case: &Case, linkage: &Linkage, setting_off: Rc<RefCell<Vec<f64>>>) -> Act {
+    let (case, linkage) = (case.clone(), linkage.clone());
+    let mut state = State::at_rest(&case);
+    let mut wrenches = vec![Wrench::ZERO; case.mechanism.links().len()];
+    Box::new(move |bodies, loads| {
+        linkage.motion(bodies, &mut state);
+        let State { motions, angles, .. } = &state;
+        let senses = setting_off.borrow();
+        let sensed = |_: usize, load: &linkage::drive::Load, link: usize, crank: f64| {
+            let omega = motions[link].omega;
+            load.moment_in(if omega == 0.0 { senses[link] } else { omega }, crank)
+        };
+        case.loads_with(motions, angles, sensed, &mut wrenches);
+        if let Some(motor) = case.motor_of_free_crank() {
+            let (sense, crank) = (case.drive.sense(), case.drive.link);
+            wrenches[crank].moment += sense * motor.moment_on_crank(sense * motions[crank].omega);
+        }
+        for (load, found) in loads.iter_mut().zip(linkage.loads(&wrenches)) {
+            *load = found;
+        }
+    })
+}

@@ -1,0 +1,220 @@
+//! Simbody: bodies on mobilizers, loops closed by constraints, an integrator that controls its error. It shares no code with the
+//! other engines, and none of its numbers are derived here: motion, reactions and drives' moments are Simbody's own.
+//!
+//! It takes from the case its geometry, masses, drive and the pose at t = 0, nothing later. Instants before t = 0 are reached by a second
+//! run whose time goes the other way.
+
+mod free;
+mod model;
+mod noise;
+mod stopped;
+
+use linkproof_simbody::{Failure, Run};
+
+use linkage::case::Case;
+use linkage::drive::{Load, Wrench};
+use linkage::engine::{Engine, Route, Settings};
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::{KeepNan, unit};
+use linkage::solver::{Progress, Provision, Solver, State, Visit, check_instants};
+use linkage::trajectory::{Channel, ChannelKind, Stage};
+use model::Linkage;
+use stopped::stopped;
+
+/// Constraint tolerance as a share of how far the mechanism reaches from the origin. Under prescribed motion the pose follows from the
+/// constraints alone, so nothing is won by a looser one. Projections aim at a tenth of it, and rounding keeps them from less: on
+/// `fourth_class` they fail at 1e-14.
+const TOLERANCE: f64 = 1e-12;
+/// Share of the mechanism's size to which the start pose may be open: far more than rounding, less than anyone would notice.
+const LARGEST_GAP: f64 = 1e-9;
+/// Internal steps allowed for a radian of the crank, or between two instants nearer than that, at the default accuracy; `ov7_base` takes 200 of
+/// them, and 14 000 at 1e-14. Before a dead point the integrator would creep on for hours.
+const MAX_STEPS: f64 = 2000.0;
+
+/// Simbody 3.
+#[derive(Clone, Copy, Debug)]
+pub struct Simbody {
+    accuracy: f64,
+}
+
+impl Simbody {
+    /// Accuracy if nothing else is asked for. Steps are then about a degree of the crank: projections start close to their branch.
+    pub const ACCURACY: f64 = 1e-8;
+
+    /// The engine with the given accuracy of its integrator (a share of what coordinates usually are: 1 rad or 1 m).
+    #[must_use]
+    pub fn new(accuracy: f64) -> Self {
+        Simbody { accuracy }
+    }
+
+    fn start(self, case: &Case, sense: f64) -> Result<(Linkage, Run)> {
+        if !(self.accuracy > 0.0 && self.accuracy < 1.0) {
+            let message = format!("the engine's accuracy is {}", self.accuracy);
+            return Err(Error::new(ErrorKind::Input, message).help("give an accuracy between 0 and 1, 1e-8 for one"));
+        }
+        if let Some(drive) = case.drives().find(|drive| drive.law.constant().is_none()) {
+            let message =
+                format!("a drive with the law \"{}\" is not handed to Simbody by this version", drive.law.name());
+            return Err(Error::new(ErrorKind::Unsupported, message)
+                .help("take another engine: `linkproof list --solvers` names them"));
+        }
+        check_start(case)?;
+        let settings = self.settings_for(case);
+        if case.is_free() {
+            return free::start(case, settings);
+        }
+        let linkage = Linkage::new(case, sense, None)
+            .map_err(|message| Error::new(ErrorKind::Input, format!("Simbody cannot take the mechanism: {message}")))?;
+        let run = linkage.model.run(settings).map_err(|failure| stopped(case, &linkage, sense, &failure))?;
+        Ok((linkage, run))
+    }
+
+    fn settings_for(self, case: &Case) -> linkproof_simbody::Settings {
+        linkproof_simbody::Settings {
+            accuracy: self.accuracy,
+            tolerance: tolerance(case),
+            time_scale: 1.0 / case.fastest_drive(),
+            // An error of fourth order a step.
+            steps: (MAX_STEPS * (Simbody::ACCURACY / self.accuracy).larger(1.0).powf(0.25)) as usize,
+        }
+    }
+}
+
+impl Engine for Simbody {
+    fn version(&self) -> String {
+        format!("Simbody {}", linkproof_simbody::version())
+    }
+
+    fn settings(&self) -> Settings {
+        let (resolution, route) = (self.accuracy, Route::Native);
+        Settings { resolution, sweeps: 0, substeps: 1, route, extrapolated: false }
+    }
+
+    fn with(&self, settings: Settings) -> Box<dyn Engine> {
+        Box::new(Simbody { accuracy: settings.resolution })
+    }
+
+    fn controls_error(&self) -> bool {
+        true
+    }
+
+    fn routes(&self) -> &'static [Route] {
+        &[Route::Native]
+    }
+
+    fn formal_order(&self, _: &Case, _: &ChannelKind) -> f64 {
+        // Errors are held in proportion to the accuracy.
+        1.0
+    }
+
+    fn noise(&self, case: &Case, channel: &ChannelKind) -> f64 {
+        noise::bound(case, [tolerance(case), self.accuracy], channel)
+    }
+
+    fn is_noise_measured(&self) -> bool {
+        false
+    }
+
+    fn told(&self) -> Vec<(&'static str, String)> {
+        vec![
+            ("build", "spanning tree of pins and sliders, loops closed by two point-in-plane constraints each".into()),
+            ("drive", "prescribed coordinates; under forces, motor and loads at every evaluation".into()),
+            ("integrator", "Runge-Kutta-Merson, every step projected".into()),
+            ("accuracy", format!("{:e}", self.accuracy)),
+            ("constraint tolerance", format!("{TOLERANCE:e} of the mechanism's reach")),
+            ("reactions", "mobilizer reactions and multipliers".into()),
+        ]
+    }
+}
+
+impl Solver for Simbody {
+    fn name(&self) -> &'static str {
+        "simbody"
+    }
+
+    fn provides(&self, _: &Channel) -> Provision {
+        Provision::Computed
+    }
+
+    fn sweep(&self, case: &Case, visit: Visit, progress: Progress) -> Result<()> {
+        check_instants(case)?;
+        let rows = case.grid.ascending();
+        let (before, after) = rows.split_at(rows.partition_point(|&row| case.grid.times[row] < 0.0));
+        let reactions = case.wanted.deepest() >= Stage::Reactions;
+        let ends = [before.first(), after.last()].map(|row| row.map_or(0.0, |&row| case.grid.times[row].abs()));
+        let (total, mut done) = (ends[0] + ends[1], 0.0);
+        let backwards: Vec<usize> = before.iter().rev().copied().collect();
+        let mut state = State::at_rest(case);
+        // Resistances are forces of Simbody's own; the others are set wherever reactions are read.
+        let others = Case { loads: other_loads(case), ..case.clone() };
+        let mut wrenches = vec![Wrench::ZERO; case.mechanism.links().len()];
+        for (sense, rows, end) in [(-1.0, backwards.as_slice(), ends[0]), (1.0, after, ends[1])] {
+            if rows.is_empty() {
+                continue;
+            }
+            let (linkage, mut run) = self.start(case, sense)?;
+            for &row in rows {
+                let t = case.grid.times[row];
+                run.advance(t.abs()).map_err(|failure| stopped(case, &linkage, sense, &failure))?;
+                if reactions && !others.loads.is_empty() {
+                    let found = run.read(false).map_err(|failure| stopped(case, &linkage, sense, &failure))?;
+                    linkage.motion(&found.bodies, &mut state);
+                    others.loads_on(&state.motions, &state.angles, &mut wrenches);
+                    let loads: Vec<[f64; 3]> = linkage.loads(&wrenches).collect();
+                    run.load(&loads).map_err(|failure| stopped(case, &linkage, sense, &failure))?;
+                }
+                let found = run.read(reactions).map_err(|failure| stopped(case, &linkage, sense, &failure))?;
+                // Written so that NaN stops the run too.
+                if !found.loops.iter().all(|closed| closed.gap <= 2.0 * tolerance(case)) {
+                    let gaps = found.loops.iter().map(|closed| closed.gap).collect();
+                    let message = "a loop is open by more than its tolerance".into();
+                    return Err(stopped(case, &linkage, sense, &Failure { message, time: Some(t.abs()), gaps }));
+                }
+                linkage.motion(&found.bodies, &mut state);
+                if reactions {
+                    linkage.reactions(case, &found.bodies, &found.loops, &mut state);
+                }
+                visit(row, &state)?;
+                if total > 0.0 {
+                    progress((done + t.abs()) / total);
+                }
+            }
+            done += end;
+        }
+        progress(1.0);
+        Ok(())
+    }
+}
+
+/// Loads that are no forces of Simbody's own.
+fn other_loads(case: &Case) -> Vec<Load> {
+    match case.is_free() {
+        // Then all of them act all the time.
+        true => Vec::new(),
+        false => case.loads.iter().filter(|load| !matches!(load, Load::Resistance { .. })).cloned().collect(),
+    }
+}
+
+/// Largest error of a constraint (m).
+fn tolerance(case: &Case) -> f64 {
+    let size = case.mechanism.size();
+    TOLERANCE * case.start.0.iter().fold(size, |most: f64, pose| most.larger(pose.origin.norm()))
+}
+
+/// That the start pose is closed. Simbody would assemble another one nearby without a word.
+fn check_start(case: &Case) -> Result<()> {
+    let closure = case.start.closure(&case.mechanism);
+    if closure <= LARGEST_GAP * case.mechanism.size() {
+        return Ok(());
+    }
+    let gap = |joint: &linkage::mechanism::Joint| {
+        let places = [joint.first, joint.second].map(|side| case.start.0[side.link].point(side.local));
+        joint.opening(places, [joint.first, joint.second].map(|side| unit(case.start.0[side.link].angle))).0
+    };
+    let widest = case.mechanism.joints().iter().reduce(|a, b| if gap(a) >= gap(b) { a } else { b });
+    let name = widest.map_or("", |joint| joint.name.as_str());
+    let crank = case.drive.start.to_degrees();
+    let message =
+        format!("the pose at t = 0, crank angle {crank:.4} deg, is open by {closure:.3e} m, most at joint \"{name}\"");
+    Err(Error::new(ErrorKind::Geometry, message).help("give a start pose in which all joints are closed"))
+}

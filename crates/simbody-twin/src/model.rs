@@ -1,0 +1,163 @@
+//! A mechanism in Simbody's terms: what hangs on what, which joints close loops, what is prescribed.
+
+use linkproof_simbody::{Body, BodyState, Closing, Inertia, Joint, Law, LoopState, Model};
+
+use linkage::case::Case;
+use linkage::drive::{Drive, Load, Wrench};
+use linkage::engine::bodies::stand_in;
+use linkage::math::{Vec2, cross};
+use linkage::mechanism;
+use linkage::mechanism::spanning_tree::{Branch, Tree, coordinate};
+use linkage::solver::State;
+
+/// The model of a case, and what links its numbers with the mechanism's.
+#[derive(Clone, Debug)]
+pub(super) struct Linkage {
+    /// For Simbody: bodies in the order of the tree's branches, loops in that of its cuts.
+    pub(super) model: Model,
+    /// All drives are in it.
+    pub(super) tree: Tree,
+    /// +1 forwards, -1 backwards in time.
+    sense: f64,
+    /// Angle of the child less that of its parent (rad) of every branch whose joint keeps it.
+    twists: Vec<Option<f64>>,
+}
+
+impl Linkage {
+    /// The case's mechanism in its start pose. With `sense` -1 time runs backwards: drives turn the other way, resistance is with the
+    /// motion, and all else is the same.
+    ///
+    /// # Errors
+    /// The text of a number that Simbody cannot take.
+    ///
+    /// In a free motion, `rates` are those of all bodies' coordinates at t = 0; without them, free links turn with their initial speeds, as prescribed ones do.
+    pub(super) fn new(case: &Case, sense: f64, rates: Option<&[f64]>) -> Result<Self, String> {
+        let mechanism = &case.mechanism;
+        let driven: Vec<usize> = case.drives().map(|drive| drive.joint).collect();
+        let tree = Tree::with(mechanism, &driven);
+        let mut model = Model::new(case.gravity.into());
+        // Bodies are numbered in the order of the branches, the ground is 0 on both sides.
+        let mut numbers = vec![0; mechanism.links().len()];
+        let mut twists = Vec::new();
+        for (index, branch) in tree.branches.iter().enumerate() {
+            let found = &mechanism.joints()[branch.joint];
+            let [parent, child] = [branch.parent, branch.link].map(|link| case.start.0[link].angle);
+            let drive = case.drives().find(|drive| drive.joint == branch.joint);
+            let body = Body {
+                parent: numbers[branch.parent],
+                joint: joint(found, branch),
+                inertia: inertia(case, branch.link),
+                // Of a free motion all loads act together: see `acting`.
+                resistance: if case.is_free() { 0.0 } else { sense * resistance(case, branch.link) },
+                coordinate: coordinate(found, branch, &case.start.0),
+                rate: rates.map_or(0.0, |rates| rates[index]),
+                // Other laws are refused before.
+                law: drive
+                    .and_then(|drive| law(case, branch, drive, rates.is_some()))
+                    .map(|rate| Law { rate: sense * rate }),
+            };
+            numbers[branch.link] = model.add(body).map_err(|failure| failure.message)?;
+            twists.push(found.is_prismatic().then_some(child - parent));
+        }
+        for &cut in &tree.cut {
+            let mechanism::Joint { first, second, .. } = &mechanism.joints()[cut];
+            let sides = [first, second];
+            let closing =
+                Closing { bodies: sides.map(|side| numbers[side.link]), places: sides.map(|side| side.local.into()) };
+            model.close(closing).map_err(|failure| failure.message)?;
+        }
+        Ok(Linkage { model, tree, sense, twists })
+    }
+
+    /// Fills a state with the motion that was read, brought back to the sense of the case's time.
+    pub(super) fn motion(&self, bodies: &[BodyState], state: &mut State) {
+        for ((branch, body), twist) in self.tree.branches.iter().zip(bodies).zip(&self.twists) {
+            let motion = &mut state.motions[branch.link];
+            motion.origin = body.origin.into();
+            motion.direction = body.direction.into();
+            motion.velocity = Vec2::from(body.velocity) * self.sense;
+            motion.omega = body.omega * self.sense;
+            motion.acceleration = body.acceleration.into();
+            motion.alpha = body.alpha;
+            state.angles[branch.link] = state.angles[branch.parent] + twist.unwrap_or(body.coordinate);
+        }
+    }
+
+    /// Force at the mass centre and moment about it for every body of Simbody's, from the loads on the links.
+    pub(super) fn loads<'a>(&'a self, wrenches: &'a [Wrench]) -> impl Iterator<Item = [f64; 3]> + 'a {
+        self.tree.branches.iter().map(|branch| {
+            let Wrench { force, moment } = wrenches[branch.link];
+            [force.x, force.y, moment]
+        })
+    }
+
+    /// Fills in the reactions, after [`Linkage::motion`]. Forces do not change with the sense of time.
+    pub(super) fn reactions(&self, case: &Case, bodies: &[BodyState], loops: &[LoopState], state: &mut State) {
+        for (branch, body) in self.tree.branches.iter().zip(bodies) {
+            let joint = &case.mechanism.joints()[branch.joint];
+            let force = Vec2::from(body.force);
+            let places = [joint.first, joint.second].map(|side| state.motions[side.link].point(side.local));
+            // Simbody tells force and moment on the child, at the joint's place there.
+            let (force, moment) = if joint.second.link == branch.link {
+                (force, body.moment)
+            } else {
+                (-force, -body.moment - cross(places[0] - places[1], force))
+            };
+            state.forces[branch.joint] = force;
+            state.moments[branch.joint] = if joint.is_prismatic() { moment } else { 0.0 };
+            if let Some(index) = case.drives().position(|drive| drive.joint == branch.joint) {
+                state.torques[index] = body.drive;
+            }
+        }
+        if let Some(motor) = case.motor_of_free_crank() {
+            let (sense, crank) = (case.drive.sense(), &state.motions[case.drive.link]);
+            let inertial = motor.inertia_on_crank() * crank.alpha;
+            state.torques[0] = sense * motor.moment_on_crank(sense * crank.omega) - inertial;
+        }
+        for (&joint, closed) in self.tree.cut.iter().zip(loops) {
+            state.forces[joint] = closed.force.into();
+        }
+    }
+}
+
+/// Rate of a driven coordinate, unless it is left to forces.
+fn law(case: &Case, branch: &Branch, drive: &Drive, moving: bool) -> Option<f64> {
+    if moving && drive.free.is_some() {
+        return None;
+    }
+    // Drives turn links in the world, coordinates against the parent.
+    let parent = case.drives().find(|other| other.link == branch.parent);
+    Some(drive.initial_speed() - parent.map_or(0.0, Drive::initial_speed))
+}
+
+fn joint(found: &mechanism::Joint, branch: &Branch) -> Joint {
+    let [parent, child] = [branch.parent, branch.link];
+    let on = |link: usize| found.on(link).expect("the joint is on the link").into();
+    match (found.axis_on(parent), found.axis_on(child)) {
+        (Some(axis_parent), Some(axis_child)) => Joint::Slider {
+            on_parent: on(parent),
+            on_child: on(child),
+            axis_parent: axis_parent.into(),
+            axis_child: axis_child.into(),
+        },
+        _ => Joint::Pin { on_parent: on(parent), on_child: on(child) },
+    }
+}
+
+/// Mass and inertia of a link. Simbody cannot accelerate a free body without them: such a link carries some, which its reactions do not
+/// contain.
+pub(super) fn inertia(case: &Case, link: usize) -> Inertia {
+    let body = &case.mechanism.links()[link];
+    let [extra_mass, extra_inertia] = stand_in(case, link);
+    let inertia = body.inertia + if link == case.drive.link { case.inertia_on_free_crank() } else { 0.0 };
+    Inertia { mass: body.mass, centre: body.mass_centre.into(), inertia, extra_mass, extra_inertia }
+}
+
+/// Moment against a link's rotation (N m).
+fn resistance(case: &Case, link: usize) -> f64 {
+    let on_link = case.loads.iter().map(|load| match *load {
+        Load::Resistance { link: loaded, moment } if loaded == link => moment,
+        _ => 0.0,
+    });
+    on_link.sum()
+}

@@ -1,0 +1,262 @@
+//! How the vectors of a plan are found: from the motions of the links, pair of points by pair of points.
+
+use super::names::{Place, fixed_guide, pair, pivot};
+use super::scale::factor;
+use super::sliding::{Slide, translates};
+use super::vectors::{Part, Plan, Quantity, Tip, TipKind, Vector};
+use linkage::math::{KeepNan, Motion, Vec2, turned};
+use linkage::mechanism::Mechanism;
+use linkage::solver::State;
+
+/// Length (mm) that the longest vector of a plan is drawn with, at most.
+const ROOM: f64 = 100.0;
+/// A tangential part shorter than this on paper (mm) is none: the link turns uniformly.
+pub(super) const NOTHING: f64 = 1e-9;
+
+/// A point of a link and its letter.
+struct On<'a> {
+    name: &'a str,
+    letter: &'a str,
+    local: Vec2,
+    fixed: bool,
+}
+
+/// Puts the vectors of one plan together.
+pub(super) struct Builder<'a> {
+    quantity: Quantity,
+    mechanism: &'a Mechanism,
+    state: &'a State,
+    places: &'a [Place],
+    slides: &'a [Slide],
+    tips: Vec<Tip>,
+    vectors: Vec<Vector>,
+}
+
+impl<'a> Builder<'a> {
+    pub(super) fn new(
+        quantity: Quantity,
+        mechanism: &'a Mechanism,
+        state: &'a State,
+        places: &'a [Place],
+        slides: &'a [Slide],
+    ) -> Self {
+        let pole = Tip { letter: quantity.pole().into(), kind: TipKind::Fixed, at: Vec2::zeros() };
+        Builder { quantity, mechanism, state, places, slides, tips: vec![pole], vectors: Vec::new() }
+    }
+
+    pub(super) fn plan(mut self) -> Plan {
+        self.absolute();
+        self.coincident();
+        for link in 1..self.mechanism.links().len() {
+            self.relative(link);
+        }
+        self.sliding();
+        let longest = self.vectors.iter().map(|vector| vector.value.norm()).fold(0.0, f64::larger);
+        let scale = factor(longest, ROOM);
+        if self.quantity == Quantity::Acceleration {
+            self.split(scale);
+        }
+        Plan { quantity: self.quantity, scale, tips: self.tips, vectors: self.vectors }
+    }
+
+    fn of_point(&self, motion: &Motion, local: Vec2) -> Vec2 {
+        match self.quantity {
+            Quantity::Velocity => motion.point_velocity(local),
+            Quantity::Acceleration => motion.point_acceleration(local),
+        }
+    }
+
+    /// Vectors from the pole: of points, and of mass centres.
+    fn absolute(&mut self) {
+        let (pole, symbol, word) = (self.quantity.pole(), self.quantity.symbol(), self.quantity.word());
+        for place in self.places {
+            let value = self.of_point(&self.state.motions[place.side.link], place.side.local);
+            let kind = if place.fixed { TipKind::Fixed } else { TipKind::Point };
+            self.tips.push(Tip { letter: place.letter.clone(), kind, at: value });
+            if place.fixed {
+                continue;
+            }
+            let meaning = format!("{word} of {}{}", place.name, self.direction(place.side.link, &place.name));
+            self.push(
+                format!("{symbol}_{}", place.name),
+                Part::Absolute,
+                [pole, &place.letter],
+                value,
+                place.side.link,
+                meaning,
+            );
+        }
+        for (number, link) in self.mechanism.links().iter().enumerate().skip(1).filter(|(_, link)| link.mass > 0.0) {
+            let letter = self.unused(format!("s{number}"));
+            let value = self.of_point(&self.state.motions[number], link.mass_centre);
+            self.tips.push(Tip { letter: letter.clone(), kind: TipKind::MassCentre, at: value });
+            let guide = fixed_guide(self.mechanism, number).map_or_else(String::new, |guide| along(&guide.name));
+            let meaning = format!("{word} of the mass centre of link {number} ({}){guide}", link.name);
+            self.push(format!("{symbol}_S{number}"), Part::MassCentre, [pole, &letter], value, number, meaning);
+        }
+    }
+
+    /// What is known beforehand of the direction of the vector of a point of `link`.
+    fn direction(&self, link: usize, name: &str) -> String {
+        match (self.quantity, pivot(self.mechanism, link), fixed_guide(self.mechanism, link)) {
+            (Quantity::Velocity, Some((_, pivot)), _) => format!(", perpendicular to {}", pair(&pivot, name)),
+            (_, None, Some(guide)) => along(&guide.name),
+            _ => String::new(),
+        }
+    }
+
+    /// Vectors from the pole of the points of moving guides that lie under the sliding ones.
+    fn coincident(&mut self) {
+        let (pole, symbol, word) = (self.quantity.pole(), self.quantity.symbol(), self.quantity.word());
+        for slide in self.slides {
+            let Some(under) = &slide.under else { continue };
+            let guide = slide.guide.link;
+            let value = self.of_point(&self.state.motions[guide], slide.place_under(self.state));
+            self.tips.push(Tip { letter: under.letter.clone(), kind: TipKind::Coincident, at: value });
+            let direction = self.direction(guide, &under.name);
+            let meaning =
+                format!("{word} of {}, the point of link {guide} under {}{direction}", under.name, slide.name);
+            self.push(format!("{symbol}_{}", under.name), Part::Absolute, [pole, &under.letter], value, guide, meaning);
+        }
+    }
+
+    /// Vectors between the ends of a link's points.
+    fn relative(&mut self, link: usize) {
+        let (symbol, word) = (self.quantity.symbol(), self.quantity.word());
+        let motion = &self.state.motions[link];
+        for (from, to) in self.pairs(link).into_iter().filter(|(from, _)| !from.fixed) {
+            let arm = motion.arm(to.local - from.local);
+            let value = match self.quantity {
+                Quantity::Velocity => turned(arm) * motion.omega,
+                Quantity::Acceleration => turned(arm) * motion.alpha - arm * motion.omega.powi(2),
+            };
+            let line = pair(from.name, to.name);
+            let mut meaning = format!("{word} of {} relative to {}", to.name, from.name);
+            if self.quantity == Quantity::Velocity {
+                meaning += &format!(", perpendicular to {line}");
+            }
+            let name = format!("{symbol}_{}", pair(to.name, from.name));
+            self.push(name, Part::Relative, [from.letter, to.letter], value, link, meaning);
+        }
+    }
+
+    /// What a sliding pair on a moving guide adds: the relative velocity, or the Coriolis part and the relative acceleration. A fixed guide
+    /// adds nothing but the direction of the absolute vectors, a revolute pair nothing at all.
+    fn sliding(&mut self) {
+        let mut number = 0;
+        for slide in self.slides {
+            let Some(under) = &slide.under else { continue };
+            let along_guide = along(&slide.joint_name);
+            let (from, link) = (under.letter.as_str(), slide.block.link);
+            let to = if slide.fixed { self.quantity.pole() } else { &slide.letter };
+            let of = pair(&slide.name, &under.name);
+            let Some([speed, growth]) = slide.rates(self.mechanism, self.state) else { continue };
+            if self.quantity == Quantity::Velocity {
+                let meaning = format!("velocity of {} relative to {}{along_guide}", slide.name, under.name);
+                self.push(format!("v_{of}"), Part::Sliding, [from, to], speed, link, meaning);
+                continue;
+            }
+            let meaning = format!("acceleration of {} relative to {}{along_guide}", slide.name, under.name);
+            let coriolis = turned(speed) * (2.0 * self.state.motions[slide.guide.link].omega);
+            let start = self.tips.iter().find(|tip| tip.letter == *from).map_or_else(Vec2::zeros, |tip| tip.at);
+            let end = if translates(self.mechanism, slide.guide.link) {
+                from.to_string()
+            } else {
+                number += 1;
+                let letter = self.unused(format!("k{number}"));
+                self.tips.push(Tip { letter: letter.clone(), kind: TipKind::Coriolis, at: start + coriolis });
+                let meaning = format!("Coriolis part, 2 omega x v, perpendicular to the guide {}", slide.joint_name);
+                self.push(format!("a_{of}^cor"), Part::Coriolis, [from, &letter], coriolis, link, meaning);
+                letter
+            };
+            self.push(format!("a_{of}^r"), Part::Sliding, [&end, to], growth, link, meaning);
+        }
+    }
+
+    /// `letter`, with as many primes as no other end of a vector has.
+    fn unused(&self, mut letter: String) -> String {
+        while self.tips.iter().any(|tip| tip.letter == letter) {
+            letter.push('\'');
+        }
+        letter
+    }
+
+    /// Normal and tangential parts of every relative acceleration, and of those about a pivot on the ground.
+    fn split(&mut self, scale: f64) {
+        let mut number = 0;
+        for link in 1..self.mechanism.links().len() {
+            let motion = &self.state.motions[link];
+            for (from, to) in self.pairs(link) {
+                let arm = motion.arm(to.local - from.local);
+                let (normal, tangential) = (-arm * motion.omega.powi(2), turned(arm) * motion.alpha);
+                let (of, line) = (pair(to.name, from.name), pair(from.name, to.name));
+                let uniform = !(tangential.norm() / scale > NOTHING);
+                let end = if uniform {
+                    to.letter.to_string()
+                } else {
+                    number += 1;
+                    let at =
+                        self.tips.iter().find(|tip| tip.letter == from.letter).map_or(normal, |tip| tip.at + normal);
+                    let letter = self.unused(format!("n{number}"));
+                    self.tips.push(Tip { letter: letter.clone(), kind: TipKind::Normal, at });
+                    letter
+                };
+                let start = if from.fixed { self.quantity.pole() } else { from.letter };
+                let meaning = format!("normal part along {of}, omega^2 l");
+                self.push(format!("a_{of}^n"), Part::Normal, [start, &end], normal, link, meaning);
+                if !uniform {
+                    let meaning = format!("tangential part, alpha l, perpendicular to {line}");
+                    self.push(format!("a_{of}^t"), Part::Tangential, [&end, to.letter], tangential, link, meaning);
+                }
+            }
+        }
+    }
+
+    /// Pairs of points of a link: first its pivot on the ground with every other, then the moving ones among themselves, last those under
+    /// sliding points with its pivot or, where it has none, with its moving points. None of a link that never turns: all its points move alike.
+    fn pairs(&self, link: usize) -> Vec<(On<'a>, On<'a>)> {
+        if translates(self.mechanism, link) {
+            return Vec::new();
+        }
+        let places = self.places;
+        let pivot = pivot(self.mechanism, link);
+        let own = self.mechanism.links()[link].points.iter();
+        let moving: Vec<(&'a Place, Vec2)> = own
+            .filter(|point| pivot.as_ref().is_none_or(|(local, _)| point.local != *local))
+            .filter_map(|point| places.iter().find(|p| p.name == point.name && !p.fixed).map(|p| (p, point.local)))
+            .collect();
+        let on =
+            |&(place, local): &(&'a Place, Vec2)| On { name: &place.name, letter: &place.letter, local, fixed: false };
+        let base = pivot.as_ref().and_then(|(local, name)| {
+            let place = places.iter().find(|place| place.fixed && place.name == *name)?;
+            Some((place, *local))
+        });
+        let mut pairs = Vec::new();
+        for to in &moving {
+            pairs.extend(base.as_ref().map(|base| (On { fixed: true, ..on(base) }, on(to))));
+        }
+        for (index, from) in moving.iter().enumerate() {
+            pairs.extend(moving[index + 1..].iter().map(|to| (on(from), on(to))));
+        }
+        for slide in self.slides.iter().filter(|slide| slide.guide.link == link) {
+            let Some(under) = &slide.under else { continue };
+            let local = slide.place_under(self.state);
+            let to = || On { name: &under.name, letter: &under.letter, local, fixed: false };
+            match &base {
+                Some(base) => pairs.push((On { fixed: true, ..on(base) }, to())),
+                None => pairs.extend(moving.iter().map(|from| (on(from), to()))),
+            }
+        }
+        pairs
+    }
+
+    fn push(&mut self, name: String, part: Part, [from, to]: [&str; 2], value: Vec2, link: usize, meaning: String) {
+        let start = self.tips.iter().find(|tip| tip.letter == from).map_or_else(Vec2::zeros, |tip| tip.at);
+        self.vectors.push(Vector { name, part, from: from.into(), to: to.into(), start, value, link, meaning });
+    }
+}
+
+/// The direction along the guide of a joint, as meanings have it.
+fn along(joint: &str) -> String {
+    format!(", along the guide {joint}")
+}

@@ -1,0 +1,72 @@
+//! Axes with round numbers.
+
+use super::figure::{Figure, Style, Type, solid, words};
+use super::style::{BLACK, GREY};
+use crate::diagram::scale::{factor, round_up};
+use linkage::math::{KeepNan, Vec2};
+
+/// Line of a grid.
+pub const GRID: Style = solid("#c8c8c8", 0.15);
+
+/// An upright axis between two round values.
+#[derive(Clone, Copy, Debug)]
+pub struct Axis {
+    /// Its ends, in steps.
+    bottom: f64,
+    up: f64,
+    /// Values between two lines of the grid.
+    step: f64,
+    /// Scale factor (units a millimetre).
+    pub scale: f64,
+}
+
+impl Axis {
+    /// The axis for values from `low` to `high`, at most `room` (mm) long.
+    pub fn of([low, high]: [f64; 2], room: f64) -> Self {
+        let step = if high > low { round_up((high - low) / 6.0) } else { 1.0 };
+        let (bottom, up) = ((low / step).floor(), (high / step).ceil().larger((low / step).floor() + 1.0));
+        Axis { bottom, up, step, scale: factor((up - bottom) * step, room) }
+    }
+
+    /// Height (mm) of a value above the lower end.
+    pub fn y(&self, value: f64) -> f64 {
+        (value - self.bottom * self.step) / self.scale
+    }
+
+    /// Length of the axis (mm).
+    pub fn height(&self) -> f64 {
+        self.y(self.up * self.step)
+    }
+
+    /// Lines at round values, `long` (mm), and their numbers to the left.
+    pub fn draw(&self, figure: &mut Figure, long: f64) {
+        let step = self.step;
+        for k in 0..=(self.up - self.bottom).round() as i32 {
+            let value = (self.bottom + f64::from(k)) * step;
+            let y = self.y(value);
+            let style = if value == 0.0 { solid(BLACK, 0.25) } else { GRID };
+            figure.line([Vec2::new(0.0, y), Vec2::new(long, y)], style);
+            figure.text(Vec2::new(-2.0, y - 1.0), number(value, step), Type { anchor: "end", ..words(2.8) });
+        }
+    }
+}
+
+/// The frame of a diagram, its lower left corner at the origin.
+pub fn frame(figure: &mut Figure, [long, high]: [f64; 2]) {
+    let corners = [(0.0, 0.0), (long, 0.0), (long, high), (0.0, high)].map(|(x, y)| Vec2::new(x, y));
+    figure.shape(corners.to_vec(), true, None, solid(GREY, 0.25));
+}
+
+/// A multiple of `step` with the digits that it needs.
+fn number(value: f64, step: f64) -> String {
+    if (1e-4..1e6).contains(&step) {
+        let decimals = format!("{step}").split_once('.').map_or(0, |(_, decimals)| decimals.len());
+        return format!("{value:.decimals$}");
+    }
+    if value == 0.0 {
+        return "0".into();
+    }
+    // Some multiples of a round number are a rounding beside one.
+    let round: f64 = format!("{value:.9e}").parse().unwrap_or(value);
+    format!("{round:e}")
+}

@@ -1,0 +1,278 @@
+//! What a figure is made of: lines, shapes and words, in millimetres with y upwards, kept until they are put on paper.
+
+use svg::node::Blob;
+use svg::node::element::{Circle, Group, Line, Path, Title};
+
+use linkage::math::{KeepNan, Vec2, turned};
+
+/// Begins a subscript, a superscript, and ends either.
+const SUB: char = '\u{1}';
+const SUP: char = '\u{2}';
+const END: char = '\u{3}';
+/// Mean width of a letter over the size of the type.
+const LETTER: f64 = 0.56;
+/// Size of sub- and superscripts over that of the type.
+const SMALL: f64 = 0.72;
+/// Length of an arrow's head (mm), and its largest share of the arrow.
+const HEAD: f64 = 2.8;
+const HEAD_SHARE: f64 = 0.45;
+
+/// `text` as a subscript.
+pub fn sub(text: &str) -> String {
+    format!("{SUB}{text}{END}")
+}
+
+/// A name such as `a_BA^n` or a unit such as `m/s^2` with its sub- and superscripts.
+pub fn scripted(name: &str) -> String {
+    let (symbol, rest) = name.split_once('_').unwrap_or((name, ""));
+    let lifted = |text: &str, low: bool| {
+        let (base, power) = text.rsplit_once('^').unwrap_or((text, ""));
+        let base = if low && !base.is_empty() { sub(base) } else { base.to_string() };
+        if power.is_empty() { base } else { format!("{base}{SUP}{power}{END}") }
+    };
+    lifted(symbol, false) + &lifted(rest, true)
+}
+
+/// Text fit for XML: without control characters.
+pub fn clean(text: &str) -> String {
+    text.chars().filter(|sign| !sign.is_control()).collect()
+}
+
+/// Estimated width of a text (mm) at the size of its type.
+pub fn width(text: &str, size: f64) -> f64 {
+    let mut scale = 1.0;
+    let mut sum = 0.0;
+    for sign in text.chars() {
+        match sign {
+            SUB | SUP => scale = SMALL,
+            END => scale = 1.0,
+            _ => sum += scale * LETTER * size,
+        }
+    }
+    sum
+}
+
+/// How far a text reaches to the left of its place.
+fn left(text: &str, set: &Type) -> f64 {
+    match set.anchor {
+        "middle" => width(text, set.size) / 2.0,
+        "end" => width(text, set.size),
+        _ => 0.0,
+    }
+}
+
+/// How a line is drawn.
+#[derive(Clone, Copy, Debug)]
+pub struct Style {
+    pub colour: &'static str,
+    pub width: f64,
+    pub dash: &'static str,
+}
+
+/// A solid line.
+pub const fn solid(colour: &'static str, width: f64) -> Style {
+    Style { colour, width, dash: "" }
+}
+
+/// How a text is set.
+#[derive(Clone, Copy, Debug)]
+pub struct Type {
+    pub size: f64,
+    pub colour: &'static str,
+    /// `start`, `middle` or `end`.
+    pub anchor: &'static str,
+    pub italic: bool,
+    pub bold: bool,
+}
+
+/// Upright text that starts at its place.
+pub const fn words(size: f64) -> Type {
+    Type { size, colour: super::style::BLACK, anchor: "start", italic: false, bold: false }
+}
+
+#[derive(Clone, Debug)]
+enum Ink {
+    Line([Vec2; 2], Style),
+    Arrow([Vec2; 2], Style, String),
+    Shape { corners: Vec<Vec2>, closed: bool, fill: Option<(&'static str, f64)>, style: Style },
+    Disc { centre: Vec2, radius: f64, fill: &'static str, style: Style },
+    Text { at: Vec2, text: String, set: Type },
+}
+
+/// A figure, or a part of one.
+#[derive(Clone, Debug, Default)]
+pub struct Figure {
+    ink: Vec<Ink>,
+    low: Option<[Vec2; 2]>,
+}
+
+impl Figure {
+    pub fn line(&mut self, ends: [Vec2; 2], style: Style) {
+        ends.iter().for_each(|end| self.reach(*end));
+        self.ink.push(Ink::Line(ends, style));
+    }
+
+    /// An arrow with a name that shows when it is pointed at.
+    pub fn arrow(&mut self, ends: [Vec2; 2], style: Style, name: String) {
+        ends.iter().for_each(|end| self.reach(*end));
+        self.ink.push(Ink::Arrow(ends, style, name));
+    }
+
+    pub fn shape(&mut self, corners: Vec<Vec2>, closed: bool, fill: Option<(&'static str, f64)>, style: Style) {
+        corners.iter().for_each(|corner| self.reach(*corner));
+        self.ink.push(Ink::Shape { corners, closed, fill, style });
+    }
+
+    pub fn disc(&mut self, centre: Vec2, radius: f64, fill: &'static str, style: Style) {
+        let half = Vec2::new(radius, radius);
+        self.reach(centre - half);
+        self.reach(centre + half);
+        self.ink.push(Ink::Disc { centre, radius, fill, style });
+    }
+
+    /// A text whose base line starts, is centred or ends at `at`.
+    pub fn text(&mut self, at: Vec2, text: impl Into<String>, set: Type) {
+        let text = text.into();
+        let (wide, left) = (width(&text, set.size), left(&text, &set));
+        self.reach(at - Vec2::new(left, 0.3 * set.size));
+        self.reach(at + Vec2::new(wide - left, 0.8 * set.size));
+        self.ink.push(Ink::Text { at, text, set });
+    }
+
+    /// Lower left and upper right corner of everything drawn.
+    pub fn bounds(&self) -> [Vec2; 2] {
+        self.low.unwrap_or([Vec2::zeros(); 2])
+    }
+
+    /// Puts all of `other` into this figure, moved by `offset`.
+    pub fn add(&mut self, other: &Figure, offset: Vec2) {
+        if let Some(bounds) = other.low {
+            bounds.iter().for_each(|corner| self.reach(corner + offset));
+        }
+        self.ink.extend(other.ink.iter().map(|ink| ink.moved(offset)));
+    }
+
+    fn reach(&mut self, at: Vec2) {
+        let [low, high] = self.low.unwrap_or([at; 2]);
+        self.low = Some([low.inf(&at), high.sup(&at)]);
+    }
+
+    /// The figure as elements; its y axis is turned downwards.
+    pub fn nodes(&self) -> impl Iterator<Item = Box<dyn svg::Node>> + '_ {
+        self.ink.iter().map(Ink::node)
+    }
+}
+
+impl Ink {
+    fn moved(&self, by: Vec2) -> Ink {
+        let mut ink = self.clone();
+        match &mut ink {
+            Ink::Line(ends, _) | Ink::Arrow(ends, ..) => ends.iter_mut().for_each(|end| *end += by),
+            Ink::Shape { corners, .. } => corners.iter_mut().for_each(|corner| *corner += by),
+            Ink::Disc { centre, .. } => *centre += by,
+            Ink::Text { at, .. } => *at += by,
+        }
+        ink
+    }
+
+    fn node(&self) -> Box<dyn svg::Node> {
+        match self {
+            Ink::Line(ends, style) => Box::new(line(ends, style)),
+            Ink::Arrow(ends, style, name) => Box::new(arrow(*ends, style, name)),
+            Ink::Shape { corners, closed, fill, style } => {
+                let mut data = String::new();
+                for (index, corner) in corners.iter().enumerate() {
+                    data += &format!("{}{} {}", if index == 0 { "M" } else { "L" }, mm(corner.x), mm(-corner.y));
+                }
+                data += if *closed { "Z" } else { "" };
+                let (paint, opacity) = fill.unwrap_or(("none", 1.0));
+                let path = Path::new().set("d", data).set("fill", paint).set("stroke", style.colour);
+                let path = path.set("stroke-width", mm(style.width));
+                let path = if opacity < 1.0 { path.set("fill-opacity", opacity) } else { path };
+                Box::new(if style.dash.is_empty() { path } else { path.set("stroke-dasharray", style.dash) })
+            }
+            Ink::Disc { centre, radius, fill, style } => Box::new(
+                Circle::new()
+                    .set("cx", mm(centre.x))
+                    .set("cy", mm(-centre.y))
+                    .set("r", mm(*radius))
+                    .set("fill", *fill)
+                    .set("stroke", style.colour)
+                    .set("stroke-width", mm(style.width)),
+            ),
+            Ink::Text { at, text, set } => Box::new(Blob::new(text_element(*at, text, set))),
+        }
+    }
+}
+
+/// A length on paper with hundredths of a millimetre; without a sign if it is zero.
+fn mm(value: f64) -> f64 {
+    (value * 100.0).round() / 100.0 + 0.0
+}
+
+fn line(ends: &[Vec2; 2], style: &Style) -> Line {
+    let line = Line::new()
+        .set("x1", mm(ends[0].x))
+        .set("y1", mm(-ends[0].y))
+        .set("x2", mm(ends[1].x))
+        .set("y2", mm(-ends[1].y))
+        .set("stroke", style.colour)
+        .set("stroke-width", mm(style.width));
+    if style.dash.is_empty() { line } else { line.set("stroke-dasharray", style.dash) }
+}
+
+fn arrow(ends: [Vec2; 2], style: &Style, name: &str) -> Group {
+    let along = ends[1] - ends[0];
+    let length = along.norm();
+    let unit = along / length;
+    let head = HEAD.smaller(HEAD_SHARE * length);
+    let base = ends[1] - unit * head;
+    let side = turned(unit) * (head * 0.3);
+    let corners = [ends[1], base + side, base - side].map(|corner| format!("{} {}", mm(corner.x), mm(-corner.y)));
+    let head = Path::new().set("d", format!("M{}Z", corners.join("L"))).set("fill", style.colour);
+    let group = if name.is_empty() { Group::new() } else { Group::new().add(Title::new(clean(name))) };
+    group.add(line(&[ends[0], base + unit * 0.3], style)).add(head)
+}
+
+/// Written out, because an element inside a text must not be set apart by blanks.
+fn text_element(at: Vec2, text: &str, set: &Type) -> String {
+    let size = set.size;
+    let mut shift = 0.0;
+    let mut body = String::new();
+    let mut open = false;
+    let mut start = |body: &mut String, to: f64, size: f64| {
+        if open {
+            *body += "</tspan>";
+        }
+        *body += &format!("<tspan dy=\"{}\" font-size=\"{}\">", mm(to - shift), mm(size));
+        (shift, open) = (to, true);
+    };
+    for sign in text.chars() {
+        match sign {
+            SUB => start(&mut body, 0.28 * size, SMALL * size),
+            SUP => start(&mut body, -0.36 * size, SMALL * size),
+            END => start(&mut body, 0.0, size),
+            '&' => body += "&amp;",
+            '<' => body += "&lt;",
+            '>' => body += "&gt;",
+            sign if sign.is_control() => {}
+            sign => body.push(sign),
+        }
+    }
+    body += if open { "</tspan>" } else { "" };
+    let face =
+        if set.italic { " font-family=\"Liberation Serif, Times New Roman, serif\" font-style=\"italic\"" } else { "" };
+    let weight = if set.bold { " font-weight=\"bold\"" } else { "" };
+    // Not all viewers centre a text of several pieces; its estimated width serves them all.
+    let pieces = text.contains([SUB, SUP]);
+    let x = at.x - if pieces { left(text, set) } else { 0.0 };
+    let anchor =
+        if pieces || set.anchor == "start" { String::new() } else { format!(" text-anchor=\"{}\"", set.anchor) };
+    format!(
+        "<text x=\"{}\" y=\"{}\" font-size=\"{}\" fill=\"{}\"{anchor}{face}{weight}>{body}</text>",
+        mm(x),
+        mm(-at.y),
+        mm(size),
+        set.colour
+    )
+}

@@ -1,0 +1,104 @@
+//! The sheet of graphs over the crank angle, one below the other.
+
+use super::axes::{Axis, GRID, frame};
+use super::document::document;
+use super::figure::{Figure, Style, Type, scripted, solid, words};
+use super::style::{COLOURS, significant};
+use crate::diagram::graphs::{Graph, Graphs};
+use linkage::math::{KeepNan, Vec2};
+
+/// Length of the crank angle's axis (mm): over one turn two degrees a millimetre.
+const LONG: f64 = 180.0;
+/// Height of a graph, at most, and what stands between two.
+const HIGH: f64 = 56.0;
+const BETWEEN: f64 = 6.0;
+/// Margins to the left, for the numbers of the axis, and elsewhere.
+const LEFT: f64 = 22.0;
+const MARGIN: f64 = 12.0;
+/// Room above and below a curve for the words at its extremes, as a share of its range.
+const ROOM: f64 = 0.2;
+/// Closer to an end of the axis than this (mm), words at an extreme start or end at it.
+const ASIDE: f64 = 28.0;
+/// Line of a mean.
+const MEAN: Style = Style { colour: COLOURS[1], width: 0.3, dash: "2 1.2" };
+
+/// The graphs as an SVG document; `title` is written above them.
+#[must_use]
+pub fn graphs(graphs: &Graphs, title: &str) -> String {
+    let mut sheet = Figure::default();
+    sheet.text(Vec2::new(MARGIN, -MARGIN - 4.0), title, Type { bold: true, ..words(5.0) });
+    let mut top = -MARGIN - 10.0;
+    for note in &graphs.notes {
+        sheet.text(Vec2::new(MARGIN, top), note.as_str(), words(3.2));
+        top -= 4.6;
+    }
+    top -= 3.0;
+    for graph in &graphs.graphs {
+        let figure = panel(graph, graphs.period);
+        let [low, high] = figure.bounds();
+        sheet.add(&figure, Vec2::new(MARGIN + LEFT, top - high.y));
+        top -= high.y - low.y + BETWEEN;
+    }
+    let [low, high] = sheet.bounds();
+    document(&sheet, [(high.x + MARGIN).ceil(), (MARGIN - low.y).ceil()], title)
+}
+
+/// One graph: the lower left corner of its frame at the origin.
+fn panel(graph: &Graph, [start, end]: [f64; 2]) -> Figure {
+    let mut figure = Figure::default();
+    let constant = graph.is_constant();
+    // Roundings next to the quantity's size are zero.
+    let clear = |value: f64| if value.abs() <= 1e-9 * graph.size.abs() { 0.0 } else { value };
+    let mean = clear(graph.mean);
+    let [low, high] = if constant { [mean.smaller(0.0), mean.larger(0.0)] } else { graph.range() };
+    let room = if constant { 0.0 } else { ROOM * (high - low) };
+    let axis = Axis::of([low - room, high + room], HIGH);
+    let share = |crank: f64| (crank - start) / (end - start);
+    axis.draw(&mut figure, LONG);
+    angles(&mut figure, [start, end], axis.height());
+    frame(&mut figure, [LONG, axis.height()]);
+    let level = axis.y(mean);
+    figure.line([Vec2::new(0.0, level), Vec2::new(LONG, level)], MEAN);
+    let word = if constant { "constant" } else { graph.mean_word };
+    let set = Type { colour: MEAN.colour, ..words(2.8) };
+    figure.text(Vec2::new(LONG + 2.0, level - 1.0), format!("{word} {}", significant(mean)), set);
+    let curve = graph.points.iter().map(|&[crank, value]| Vec2::new(LONG * share(crank), axis.y(value)));
+    figure.shape(curve.collect(), false, None, solid(COLOURS[0], 0.45));
+    for (mark, above) in graph.marks.iter().zip([false, true]).filter(|_| !constant) {
+        let [crank, value] = mark.at;
+        let share = share(crank).rem_euclid(1.0);
+        let at = Vec2::new(LONG * share, axis.y(value));
+        figure.disc(at, 0.9, "white", solid(COLOURS[0], 0.4));
+        let degrees = (start + share * (end - start)).to_degrees();
+        let text = format!("{} {} at {:.1}°", mark.word, significant(clear(value)), degrees + 0.0);
+        let anchor = if at.x < ASIDE {
+            "start"
+        } else if at.x > LONG - ASIDE {
+            "end"
+        } else {
+            "middle"
+        };
+        let aside = at + Vec2::new(0.0, if above { 1.9 } else { -4.0 });
+        figure.text(aside, text, Type { anchor, ..words(2.8) });
+    }
+    let [symbol, unit] = [graph.symbol, graph.unit].map(scripted);
+    let per = if graph.unit.contains([' ', '/']) { format!("({unit})/mm") } else { format!("{unit}/mm") };
+    let heading = format!("{} {symbol}, {unit}; scale factor {} {per}", graph.name, axis.scale);
+    figure.text(Vec2::new(0.0, axis.height() + 3.0), heading, Type { bold: true, ..words(3.6) });
+    figure
+}
+
+/// Lines at round crank angles, their numbers, and what they are.
+fn angles(figure: &mut Figure, [start, end]: [f64; 2], height: f64) {
+    let (from, to) = (start.to_degrees(), end.to_degrees());
+    let every = 30.0 * ((to - from).abs() / 360.0).ceil().larger(1.0);
+    // A rounding beyond an end belongs to the end.
+    let [first, last] = [(from.smaller(to) / every - 1e-9).ceil(), (from.larger(to) / every + 1e-9).floor()];
+    for k in 0..=(last - first).larger(0.0) as u32 {
+        let degrees = (first + f64::from(k)) * every + 0.0;
+        let x = LONG * (degrees - from) / (to - from);
+        figure.line([Vec2::new(x, 0.0), Vec2::new(x, height)], GRID);
+        figure.text(Vec2::new(x, -4.0), format!("{degrees}°"), Type { anchor: "middle", ..words(2.8) });
+    }
+    figure.text(Vec2::new(LONG / 2.0, -8.4), "crank angle φ, deg", Type { anchor: "middle", ..words(2.8) });
+}

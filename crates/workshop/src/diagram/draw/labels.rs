@@ -1,0 +1,210 @@
+//! Places letters so that they touch neither lines nor each other: each takes the cheapest of the places around its anchor, in a few rounds.
+
+use linkage::math::{KeepNan, Vec2};
+
+/// Room that a letter keeps from lines (mm).
+const AIR: f64 = 0.5;
+/// Directions tried around an anchor.
+const DIRECTIONS: usize = 32;
+/// Distances tried (mm), nearest first.
+const DISTANCES: [f64; 8] = [0.6, 1.2, 2.0, 3.0, 4.5, 6.5, 9.0, 12.0];
+/// Rounds after which nothing moves any more in practice.
+const ROUNDS: usize = 6;
+/// Distance (mm) of points whose letters may get in each other's way.
+const NEIGHBOURS: f64 = 12.0;
+
+/// A letter to be placed; paper coordinates (mm), y upwards.
+#[derive(Clone, Copy, Debug)]
+pub struct Label {
+    /// The point it names.
+    pub anchor: Vec2,
+    /// Direction in which it should stand; zero if that is all the same.
+    pub away: Vec2,
+    /// Width and height of its box.
+    pub size: Vec2,
+    /// Radius around the anchor that is taken by its mark.
+    pub clear: f64,
+}
+
+/// What letters must not touch.
+#[derive(Clone, Debug, Default)]
+pub struct Obstacles {
+    /// Lines.
+    pub segments: Vec<[Vec2; 2]>,
+    /// Marks: centre and radius.
+    pub discs: Vec<(Vec2, f64)>,
+}
+
+/// Centres of the labels' boxes.
+pub fn place(labels: &[Label], obstacles: &Obstacles) -> Vec<Vec2> {
+    let mut places: Vec<Option<Vec2>> = vec![None; labels.len()];
+    for _ in 0..ROUNDS {
+        let before = places.clone();
+        for index in 0..labels.len() {
+            places[index] = cheapest(index, labels, &places, obstacles);
+        }
+        trade(labels, &mut places, obstacles);
+        if places == before {
+            break;
+        }
+    }
+    places.into_iter().zip(labels).map(|(place, label)| place.unwrap_or(label.anchor)).collect()
+}
+
+/// Lets neighbours change places where that is better for the two together: one alone would not leave a place that only it can take.
+fn trade(labels: &[Label], places: &mut [Option<Vec2>], obstacles: &Obstacles) {
+    let both = |a: usize, b: usize, places: &[Option<Vec2>]| {
+        let one = |index: usize| places[index].map_or(f64::INFINITY, |at| cost(index, at, labels, places, obstacles));
+        one(a) + one(b)
+    };
+    for a in 0..labels.len() {
+        for b in 0..labels.len() {
+            if a == b || (labels[a].anchor - labels[b].anchor).norm() > NEIGHBOURS {
+                continue;
+            }
+            let (old, was) = ([places[a], places[b]], both(a, b, places));
+            places[b] = None;
+            places[a] = cheapest(a, labels, places, obstacles);
+            places[b] = cheapest(b, labels, places, obstacles);
+            // A trade that gains nothing would be taken back and forth.
+            if !(both(a, b, places) < was - 1e-9) {
+                [places[a], places[b]] = old;
+            }
+        }
+    }
+}
+
+fn cheapest(index: usize, labels: &[Label], places: &[Option<Vec2>], obstacles: &Obstacles) -> Option<Vec2> {
+    candidates(&labels[index])
+        .map(|place| (cost(index, place, labels, places, obstacles), place))
+        .min_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, place)| place)
+}
+
+fn candidates(label: &Label) -> impl Iterator<Item = Vec2> + '_ {
+    let directions = (0..DIRECTIONS).map(|k| linkage::math::unit(std::f64::consts::TAU * k as f64 / DIRECTIONS as f64));
+    directions.flat_map(move |direction| {
+        DISTANCES.into_iter().map(move |distance| {
+            // The box touches the ray's end with the side or corner that faces the anchor.
+            let half = label.size / 2.0;
+            let reach = (half.x / direction.x.abs().larger(1e-9)).smaller(half.y / direction.y.abs().larger(1e-9));
+            label.anchor + direction * (label.clear + distance + reach)
+        })
+    })
+}
+
+fn cost(index: usize, place: Vec2, labels: &[Label], places: &[Option<Vec2>], obstacles: &Obstacles) -> f64 {
+    let label = &labels[index];
+    let offset = place - label.anchor;
+    let distance = offset.norm();
+    let mut cost = 0.5 * (distance - label.clear);
+    if label.away.norm() > 0.0 {
+        cost += 1.2 * (1.0 - offset.dot(&label.away) / (distance * label.away.norm()));
+    }
+    let half = label.size / 2.0 + Vec2::new(AIR, AIR);
+    for segment in &obstacles.segments {
+        let inside = length_inside(segment, place, half);
+        if inside > 0.0 {
+            cost += 8.0 + 3.0 * inside;
+        }
+    }
+    for &(centre, radius) in &obstacles.discs {
+        let gap = (centre - place).abs() - half;
+        let gap = Vec2::new(gap.x.larger(0.0), gap.y.larger(0.0)).norm();
+        if gap < radius {
+            cost += 15.0 + 4.0 * (radius - gap);
+        }
+    }
+    for (other, at) in labels.iter().zip(places).enumerate().filter(|(k, _)| *k != index).map(|(_, pair)| pair) {
+        if let Some(at) = at {
+            let overlap = (label.size + other.size) / 2.0 + Vec2::new(AIR, AIR) - (place - at).abs();
+            if overlap.x > 0.0 && overlap.y > 0.0 {
+                cost += 40.0 + 10.0 * overlap.x.smaller(overlap.y);
+            }
+            // What leads from a letter to its point must not pass through another letter.
+            let crossed = length_inside(&[label.anchor, place], *at, other.size / 2.0)
+                + length_inside(&[other.anchor, *at], place, label.size / 2.0);
+            cost += if crossed > 0.0 { 7.0 } else { 0.0 };
+        }
+        // Nearer to another point than to its own, a letter misleads.
+        if (other.anchor - place).norm() < distance {
+            cost += 9.0;
+        }
+    }
+    cost
+}
+
+/// Length of the part of a segment inside the box around `centre`.
+fn length_inside(segment: &[Vec2; 2], centre: Vec2, half: Vec2) -> f64 {
+    inside(segment, centre, half).map_or(0.0, |[from, to]| (to - from) * (segment[1] - segment[0]).norm())
+}
+
+/// Shares of a segment's length at which it enters and leaves the box around `centre` (Liang and Barsky 1984).
+pub fn inside(segment: &[Vec2; 2], centre: Vec2, half: Vec2) -> Option<[f64; 2]> {
+    let [start, end] = segment.map(|point| point - centre);
+    let along = end - start;
+    let (mut from, mut to) = (0.0f64, 1.0f64);
+    for axis in 0..2 {
+        if along[axis] == 0.0 {
+            if start[axis].abs() >= half[axis] {
+                return None;
+            }
+            continue;
+        }
+        let (a, b) = ((-half[axis] - start[axis]) / along[axis], (half[axis] - start[axis]) / along[axis]);
+        from = from.larger(a.smaller(b));
+        to = to.smaller(a.larger(b));
+    }
+    (to > from).then_some([from, to])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn label(x: f64, y: f64) -> Label {
+        Label { anchor: Vec2::new(x, y), away: Vec2::new(1.0, 0.0), size: Vec2::new(3.0, 3.0), clear: 0.5 }
+    }
+
+    #[test]
+    fn the_part_inside_a_box_is_measured() {
+        let half = Vec2::new(1.0, 2.0);
+        let inside = |a: [f64; 2], b: [f64; 2]| length_inside(&[a.into(), b.into()], Vec2::zeros(), half);
+        for (a, b, length) in [
+            ([-5.0, 0.0], [5.0, 0.0], 2.0),
+            ([0.0, -5.0], [0.0, 1.0], 3.0),
+            ([3.0, -5.0], [3.0, 5.0], 0.0),
+            ([-5.0, 4.0], [5.0, 4.0], 0.0),
+        ] {
+            // Rounding of two quotients, times the segment's length of ten at most.
+            assert!((inside(a, b) - length).abs() <= 20.0 * f64::EPSILON);
+        }
+    }
+
+    #[test]
+    fn letters_keep_off_lines_and_each_other() {
+        let obstacles = Obstacles {
+            segments: vec![
+                [Vec2::new(-20.0, 0.0), Vec2::new(20.0, 0.0)],
+                [Vec2::new(0.0, -20.0), Vec2::new(0.0, 20.0)],
+            ],
+            discs: Vec::new(),
+        };
+        let labels = [label(0.0, 0.0), label(0.5, 0.0), label(0.0, 0.4), label(-0.3, 0.0)];
+        let places = place(&labels, &obstacles);
+        for (index, at) in places.iter().enumerate() {
+            let half = labels[index].size / 2.0;
+            assert!(obstacles.segments.iter().all(|line| length_inside(line, *at, half) == 0.0), "{at:?}");
+            for other in &places[index + 1..] {
+                let gap = (at - other).abs();
+                assert!(gap.x >= 3.0 || gap.y >= 3.0, "{at:?} {other:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_free_letter_stands_where_it_should() {
+        let places = place(&[label(0.0, 0.0)], &Obstacles::default());
+        assert!(places[0].x > 1.5 && places[0].y.abs() < 1e-9);
+    }
+}

@@ -1,0 +1,21 @@
+//! Drawings as SVG, one unit a millimetre: printed at full size they are true to the scale factors written on them.
+
+mod axes;
+mod document;
+mod figure;
+mod graph_sheet;
+mod guide_figure;
+mod labels;
+mod motion_sheet;
+mod plan_figure;
+mod plan_sheet;
+mod scheme_figure;
+mod style;
+mod table;
+mod timing_sheet;
+
+pub use graph_sheet::graphs;
+pub use motion_sheet::motion;
+pub use plan_sheet::plans;
+pub use style::significant;
+pub use timing_sheet::timing;

@@ -1,0 +1,131 @@
+//! The sheet of motion diagrams: displacement, velocity and acceleration over the crank angle, one below the other.
+
+use super::axes::{Axis, GRID, frame};
+use super::document::document;
+use super::figure::{Figure, Style, Type, solid, sub, words};
+use super::style::{BLACK, COLOURS, significant};
+use crate::diagram::motion::{Found, Method, MotionDiagram};
+use linkage::math::{KeepNan, Vec2};
+
+/// Length of the crank angle's axis (mm): two degrees a millimetre.
+const LONG: f64 = 180.0;
+/// Height of a diagram, at most, and what stands between two.
+const HIGH: f64 = 60.0;
+const BETWEEN: f64 = 10.0;
+/// Margins to the left, for the numbers of the axis, and elsewhere.
+const LEFT: f64 = 28.0;
+const MARGIN: f64 = 12.0;
+/// Most points of a curve on paper: more do not show.
+const POINTS: usize = 361;
+
+/// The diagrams as an SVG document; `title` is written above them.
+#[must_use]
+pub fn motion(diagram: &MotionDiagram, title: &str) -> String {
+    let mut sheet = Figure::default();
+    sheet.text(Vec2::new(MARGIN, -MARGIN - 4.0), title, Type { bold: true, ..words(5.0) });
+    let line = format!(
+        "chord method and graphical integration, {} divisions of the turn; errors as shares of half the range of the exact curve",
+        diagram.divisions
+    );
+    sheet.text(Vec2::new(MARGIN, -MARGIN - 10.0), line, words(3.2));
+    let mut top = -MARGIN - 18.0;
+    for which in 0..3 {
+        let figure = panel(diagram, which);
+        let [low, high] = figure.bounds();
+        sheet.add(&figure, Vec2::new(MARGIN + LEFT, top - high.y));
+        top -= high.y - low.y + BETWEEN;
+    }
+    let [low, high] = sheet.bounds();
+    document(&sheet, [(high.x + MARGIN).ceil(), (MARGIN - low.y).ceil()], title)
+}
+
+/// One diagram: the lower left corner of its frame at the origin.
+fn panel(diagram: &MotionDiagram, which: usize) -> Figure {
+    let mut figure = Figure::default();
+    let exact = &diagram.exact[which];
+    let found: Vec<&Found> = diagram.found.iter().filter(|found| found.method.gives() == which).collect();
+    let values = exact.iter().chain(found.iter().flat_map(|found| &found.values));
+    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &v| (l.smaller(v), h.larger(v)));
+    let axis = Axis::of([low, high], HIGH);
+    let y = |value: f64| axis.y(value);
+    let rows = exact.len() - 1;
+    let x = |row: usize| LONG * row as f64 / rows as f64;
+    let (height, scale) = (axis.height(), axis.scale);
+    axes(&mut figure, diagram, &axis);
+    let stride = rows.div_ceil(POINTS - 1).max(1);
+    let curve = (0..=rows).filter(|row| row % stride == 0 || *row == rows).map(|row| Vec2::new(x(row), y(exact[row])));
+    figure.shape(curve.collect(), false, None, solid(BLACK, 0.45));
+    if which == 0 {
+        let ends = (0..=rows).step_by(diagram.stride).map(|row| Vec2::new(x(row), y(exact[row])));
+        figure.shape(ends.collect(), false, None, Style { colour: COLOURS[0], width: 0.25, dash: "1.5 1" });
+    }
+    for one in &found {
+        for (&row, &value) in one.rows.iter().zip(&one.values) {
+            mark(&mut figure, one.method, Vec2::new(x(row), y(value)));
+        }
+    }
+    let channel = &diagram.course.0[which];
+    let symbol = ["s", "v", "a"][which];
+    let unit = channel.kind.unit.replace("s^2", "s²");
+    let per = if unit.contains('/') { format!("({unit})/mm") } else { format!("{unit}/mm") };
+    let heading = format!("{channel}, scale factor μ{} = {scale} {per}", sub(symbol));
+    figure.text(Vec2::new(0.0, height + 3.0), heading, Type { bold: true, ..words(3.6) });
+    caption(&mut figure, &found, which, &unit);
+    figure
+}
+
+/// Which mark is what, and how far it is from the curve.
+fn caption(figure: &mut Figure, found: &[&Found], which: usize, unit: &str) {
+    let mut line = -9.5;
+    if which == 0 {
+        figure.line(
+            [Vec2::new(0.0, line + 1.0), Vec2::new(6.0, line + 1.0)],
+            Style { colour: COLOURS[0], width: 0.25, dash: "1.5 1" },
+        );
+        figure.text(Vec2::new(8.0, line), "chords whose slopes give the velocity", words(3.0));
+        line -= 4.6;
+    }
+    for one in found {
+        mark(figure, one.method, Vec2::new(3.0, line + 1.0));
+        let orders = one.orders.map(|order| order.map_or_else(|| "–".into(), |order| format!("{order:.2}"))).join(", ");
+        let text = format!(
+            "{}: largest error {} {unit} ({:.2} %), rms {} {unit}, observed order {orders}",
+            one.method.words(),
+            significant(one.largest),
+            one.share * 100.0,
+            significant(one.rms)
+        );
+        figure.text(Vec2::new(8.0, line), text, words(3.0));
+        line -= 4.6;
+    }
+}
+
+fn mark(figure: &mut Figure, method: Method, at: Vec2) {
+    let corner = |x: f64, y: f64| at + Vec2::new(x, y);
+    match method {
+        Method::ChordVelocity | Method::ChordAcceleration => figure.disc(at, 0.95, "white", solid(COLOURS[0], 0.4)),
+        Method::IntegratedDisplacement | Method::IntegratedVelocity => {
+            figure.line([corner(-0.9, -0.9), corner(0.9, 0.9)], solid(COLOURS[1], 0.4));
+            figure.line([corner(-0.9, 0.9), corner(0.9, -0.9)], solid(COLOURS[1], 0.4));
+        }
+    }
+}
+
+/// Frame, grid lines at round values and at the divisions of the turn, and their numbers.
+fn axes(figure: &mut Figure, diagram: &MotionDiagram, axis: &Axis) {
+    let height = axis.height();
+    axis.draw(figure, LONG);
+    let every = diagram.divisions.div_ceil(24);
+    let whole = diagram.divisions;
+    let (start, turn) = (diagram.cranks[0], diagram.cranks[diagram.cranks.len() - 1] - diagram.cranks[0]);
+    for k in (0..=whole).filter(|k| k % every == 0 || *k == whole) {
+        let x = LONG * k as f64 / whole as f64;
+        figure.line([Vec2::new(x, 0.0), Vec2::new(x, height)], GRID);
+        let labelled = whole.div_ceil(12);
+        if k % labelled == 0 || k == whole {
+            let degrees = ((start + turn * k as f64 / whole as f64).to_degrees() * 10.0).round() / 10.0 + 0.0;
+            figure.text(Vec2::new(x, -4.0), format!("{degrees}°"), Type { anchor: "middle", ..words(2.8) });
+        }
+    }
+    frame(figure, [LONG, height]);
+}

@@ -1,0 +1,60 @@
+//! Tables of a drawing.
+
+use super::figure::{Figure, Style, Type, solid, width, words};
+use super::style::{BLACK, GREY};
+use linkage::math::{KeepNan, Vec2};
+
+/// Size of the type (mm) and distance of lines.
+const SIZE: f64 = 2.5;
+const LINE: f64 = 3.9;
+/// Room between columns, and of the sample of a line before the first.
+const GAP: f64 = 3.0;
+const SAMPLE: f64 = 9.0;
+
+/// A table: a heading, and rows that each start with a sample of the line they explain.
+pub struct Table {
+    pub head: Vec<&'static str>,
+    pub rows: Vec<(Style, Vec<String>)>,
+    /// Columns of numbers, which stand flush right.
+    pub numbers: &'static [usize],
+}
+
+impl Table {
+    /// The table as a figure whose upper left corner is the origin.
+    pub fn figure(&self) -> Figure {
+        let mut figure = Figure::default();
+        let cells = |column: usize| self.rows.iter().filter_map(move |(_, row)| row.get(column));
+        let wide = |column: usize| {
+            let head = width(self.head[column], SIZE);
+            cells(column).map(|text| width(text, SIZE)).fold(head, f64::larger)
+        };
+        let widths: Vec<f64> = (0..self.head.len()).map(wide).collect();
+        let left = |column: usize| SAMPLE + widths[..column].iter().map(|w| w + GAP).sum::<f64>();
+        let right = left(self.head.len()) - GAP;
+        let mut put = |column: usize, y: f64, text: &str, set: Type| {
+            let number = self.numbers.contains(&column);
+            let (x, anchor) = if number { (left(column) + widths[column], "end") } else { (left(column), "start") };
+            figure.text(Vec2::new(x, y), text, Type { anchor, ..set });
+        };
+        for (column, text) in self.head.iter().enumerate() {
+            put(column, -SIZE, text, Type { bold: true, ..words(SIZE) });
+        }
+        for (index, (_, row)) in self.rows.iter().enumerate() {
+            for (column, text) in row.iter().enumerate() {
+                put(column, row_y(index), text, words(SIZE));
+            }
+        }
+        figure.line([Vec2::new(0.0, -SIZE - 1.3), Vec2::new(right, -SIZE - 1.3)], solid(BLACK, 0.25));
+        for (index, (style, _)) in self.rows.iter().enumerate() {
+            let y = row_y(index) + 0.35 * SIZE;
+            figure.line([Vec2::new(0.5, y), Vec2::new(SAMPLE - 2.0, y)], *style);
+        }
+        let end = row_y(self.rows.len()) + SIZE;
+        figure.line([Vec2::new(0.0, end), Vec2::new(right, end)], solid(GREY, 0.15));
+        figure
+    }
+}
+
+fn row_y(index: usize) -> f64 {
+    -SIZE - 1.3 - LINE * (index + 1) as f64 + 0.4
+}

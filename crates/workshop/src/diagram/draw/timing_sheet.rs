@@ -1,0 +1,96 @@
+//! The sheet of a timing diagram.
+
+use std::f64::consts::TAU;
+
+use super::document::document;
+use super::figure::{Figure, Style, Type, solid, words};
+use super::style::{BLACK, COLOURS, GREY};
+use crate::diagram::timing::TimingDiagram;
+use linkage::math::Vec2;
+
+/// Length of the crank angle's axis (mm): two degrees a millimetre.
+const LONG: f64 = 180.0;
+/// Height of the stroke (mm).
+const HIGH: f64 = 80.0;
+/// Height of the strip of phases above it (mm).
+const STRIP: f64 = 11.0;
+/// Margins: to the left, for the numbers of the axis, and elsewhere.
+const LEFT: f64 = 14.0;
+const MARGIN: f64 = 12.0;
+/// Ground of a phase in which the output shall rest.
+const REST: &str = "#e3edf4";
+
+/// The diagram as an SVG document; `title` is written above it.
+#[must_use]
+pub fn timing(diagram: &TimingDiagram, title: &str) -> String {
+    let mut figure = Figure::default();
+    let x = |crank: f64| LONG * crank / TAU;
+    let at = |[crank, share]: [f64; 2]| Vec2::new(x(crank), HIGH * share);
+    for stretch in &diagram.stretches {
+        let [from, to] = [x(stretch.from), x(stretch.to)];
+        if stretch.rests {
+            let corners =
+                [(from, 0.0), (to, 0.0), (to, HIGH + STRIP), (from, HIGH + STRIP)].map(|(x, y)| Vec2::new(x, y));
+            figure.shape(corners.to_vec(), true, Some((REST, 1.0)), solid(REST, 0.1));
+        }
+    }
+    axes(&mut figure, &x);
+    for stretch in &diagram.stretches {
+        let [from, to] = [x(stretch.from), x(stretch.to)];
+        figure.line([Vec2::new(to, 0.0), Vec2::new(to, HIGH + STRIP)], solid(GREY, 0.25));
+        // Narrow phases carry their words in smaller type.
+        let size = ((to - from) / 6.0).clamp(1.8, 2.8);
+        let middle = (from + to) / 2.0;
+        let set = Type { anchor: "middle", ..words(size) };
+        figure.text(Vec2::new(middle, HIGH + STRIP - 4.0), stretch.word, set);
+        figure.text(Vec2::new(middle, HIGH + STRIP - 8.5), stretch.figure.as_str(), set);
+    }
+    if !diagram.wanted.is_empty() {
+        let style = Style { colour: COLOURS[1], width: 0.35, dash: "2 1.2" };
+        figure.shape(diagram.wanted.iter().copied().map(at).collect(), false, None, style);
+    }
+    figure.shape(diagram.curve.iter().copied().map(at).collect(), false, None, solid(COLOURS[0], 0.5));
+    legend(&mut figure, diagram);
+    let mut sheet = Figure::default();
+    let [low, high] = figure.bounds();
+    sheet.text(Vec2::new(MARGIN, -MARGIN), title, Type { bold: true, ..words(4.4) });
+    sheet.add(&figure, Vec2::new(MARGIN + LEFT, -MARGIN - 6.0 - high.y));
+    let bottom = -MARGIN - 6.0 - high.y + low.y;
+    let mut line = bottom - 5.0;
+    for part in diagram.note.split("; ") {
+        sheet.text(Vec2::new(MARGIN, line), part, words(2.8));
+        line -= 4.2;
+    }
+    let [low, high] = sheet.bounds();
+    document(&sheet, [(high.x + MARGIN).ceil(), (MARGIN - low.y).ceil()], title)
+}
+
+/// Frame, grid and numbers.
+fn axes(figure: &mut Figure, x: &dyn Fn(f64) -> f64) {
+    for share in 0..=4 {
+        let y = HIGH * f64::from(share) / 4.0;
+        figure.line([Vec2::new(0.0, y), Vec2::new(LONG, y)], solid("#c8c8c8", 0.15));
+        let text = format!("{} %", 25 * share);
+        figure.text(Vec2::new(-2.0, y - 1.0), text, Type { anchor: "end", ..words(2.8) });
+    }
+    for deg in (0..=360).step_by(30) {
+        let at = x(f64::from(deg).to_radians());
+        figure.line([Vec2::new(at, 0.0), Vec2::new(at, HIGH)], solid("#c8c8c8", 0.15));
+        figure.text(Vec2::new(at, -4.0), format!("{deg}°"), Type { anchor: "middle", ..words(2.8) });
+    }
+    let corners = [(0.0, 0.0), (LONG, 0.0), (LONG, HIGH), (0.0, HIGH)].map(|(x, y)| Vec2::new(x, y));
+    figure.shape(corners.to_vec(), true, None, solid(BLACK, 0.25));
+}
+
+fn legend(figure: &mut Figure, diagram: &TimingDiagram) {
+    let mut left = 0.0;
+    let mut entry = |style: Style, text: &str| {
+        figure.line([Vec2::new(left, -9.0), Vec2::new(left + 8.0, -9.0)], style);
+        figure.text(Vec2::new(left + 10.0, -10.0), text, words(2.8));
+        left += 62.0;
+    };
+    entry(solid(COLOURS[0], 0.5), "achieved, share of the stroke");
+    if !diagram.wanted.is_empty() {
+        entry(Style { colour: COLOURS[1], width: 0.35, dash: "2 1.2" }, "wanted, cycloidal");
+    }
+}

@@ -1,0 +1,60 @@
+//! Graphs of quantities over one period of the crank angle, whoever found them.
+
+use linkage::math::KeepNan;
+
+/// A place on a graph that is marked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mark {
+    /// Crank angle (rad; any of those a period apart) and value.
+    pub at: [f64; 2],
+    /// What it is, such as "greatest".
+    pub word: &'static str,
+}
+
+/// One quantity over the crank angle.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Graph {
+    /// Its name.
+    pub name: &'static str,
+    /// Its symbol, `_` before what is set as a subscript.
+    pub symbol: &'static str,
+    /// Its unit, `^` before a power.
+    pub unit: &'static str,
+    /// Crank angles (rad) over the period, in the sense of motion, and values.
+    pub points: Vec<[f64; 2]>,
+    /// Its mean.
+    pub mean: f64,
+    /// What the mean is called.
+    pub mean_word: &'static str,
+    /// Its lowest and its highest point on paper.
+    pub marks: [Mark; 2],
+    /// What the range of its values is compared with: below a billionth of this size it is rounding, and the quantity constant.
+    pub size: f64,
+}
+
+impl Graph {
+    /// Lowest and highest value.
+    #[must_use]
+    pub fn range(&self) -> [f64; 2] {
+        let values = self.points.iter().map(|point| point[1]).chain(self.marks.iter().map(|mark| mark.at[1]));
+        values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.smaller(value), high.larger(value)])
+    }
+
+    /// Whether the quantity is the same all over the period, but for rounding.
+    #[must_use]
+    pub fn is_constant(&self) -> bool {
+        let [low, high] = self.range();
+        high - low <= 1e-9 * self.size.abs()
+    }
+}
+
+/// Graphs over one and the same period, one below the other.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Graphs {
+    /// Crank angle at the start of the period and at its end (rad), in the sense of motion.
+    pub period: [f64; 2],
+    /// The graphs, from the top.
+    pub graphs: Vec<Graph>,
+    /// Lines below the title.
+    pub notes: Vec<String>,
+}

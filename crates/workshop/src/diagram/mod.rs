@@ -1,0 +1,24 @@
+//! The graphical methods of the theory of mechanisms as results of their own: velocity and acceleration plans, the singular Assur
+//! point of a class IV group, motion diagrams by chords and by graphical integration, and graphs over the crank angle; as data and as drawings true to scale.
+
+mod builder;
+pub mod chord;
+pub mod draw;
+pub mod graphs;
+pub mod motion;
+mod names;
+pub mod plan;
+pub mod scale;
+pub mod scheme;
+pub mod singular;
+mod sliding;
+pub mod timing;
+mod vectors;
+
+pub use graphs::{Graph, Graphs, Mark};
+pub use motion::{Course, MotionDiagram};
+pub use plan::Plans;
+pub use scheme::Scheme;
+pub use singular::SingularPoint;
+pub use timing::TimingDiagram;
+pub use vectors::{Part, Plan, Quantity, Tip, TipKind, Vector};

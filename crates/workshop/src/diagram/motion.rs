@@ -1,0 +1,253 @@
+//! Motion diagrams over one turn of the crank: displacement, velocity and acceleration, exact and by the graphical methods.
+//!
+//! Forwards: chords of the displacement give the velocity at the middles of the divisions, chords of that the acceleration at their ends. Backwards: the exact
+//! velocity at the middles gives the displacement, the exact acceleration there the velocity, each from its exact first value.
+
+use super::chord::{closed_slopes, integral, slopes};
+use linkage::case::{Case, Grid, Wanted};
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::KeepNan;
+use linkage::math::statistics::{half_range, rms, share};
+use linkage::solver::Solver;
+use linkage::trajectory::{Channel, Stage, Subject};
+use std::f64::consts::TAU;
+
+/// Divisions of the turn that make sense: fewer show no motion, more only cost time.
+pub const DIVISIONS: std::ops::RangeInclusive<usize> = 4..=1000;
+/// Points of the exact curves, at least.
+const CURVE: usize = 720;
+/// A derivative that hardly changes takes its errors from the displacement: its scale is this share of the natural one at least.
+const SMALLEST: f64 = 1e-3;
+/// Errors below this share of the half range are rounding, from which no order can be read.
+const ROUNDING: f64 = 1e-11;
+/// Endings of a channel and of its two derivatives.
+const ENDINGS: [[&str; 3]; 3] =
+    [["angle_rad", "omega_rad_s", "alpha_rad_s2"], ["x_m", "vx_m_s", "ax_m_s2"], ["y_m", "vy_m_s", "ay_m_s2"]];
+
+/// A displacement or angle and its two derivatives with respect to time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Course(pub [Channel; 3]);
+
+impl Course {
+    /// That of the channel called `name`, which must be a position or an angle of something that moves in `case`.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Input`] for any other name, with those that are possible.
+    pub fn named(case: &Case, name: &str) -> Result<Self> {
+        let all = Case { wanted: Wanted::ALL, ..case.clone() }.channels();
+        let wrong = |message: String, help: String| Error::new(ErrorKind::Input, message).help(help);
+        let Some(channel) = all.iter().find(|channel| channel.to_string() == name) else {
+            return Err(wrong(format!("the mechanism has no channel \"{name}\""), help(&all, name)));
+        };
+        let stem = name.strip_suffix(channel.kind.suffix).unwrap_or(name);
+        match ENDINGS.into_iter().find(|endings| endings.contains(&channel.kind.suffix)) {
+            Some(endings) if endings[0] == channel.kind.suffix => {
+                let found = endings.map(|ending| Channel::named(&format!("{stem}{ending}")));
+                match found {
+                    [Some(a), Some(b), Some(c)] => Ok(Course([a, b, c])),
+                    _ => Err(wrong(format!("\"{name}\" has no derivatives among the channels"), help(&all, name))),
+                }
+            }
+            Some(endings) => Err(wrong(
+                format!("\"{name}\" is a derivative already; a motion diagram starts from a position or an angle"),
+                format!("ask for {stem}{}: its diagram shows this one too", endings[0]),
+            )),
+            None => Err(wrong(format!("\"{name}\" is neither a position nor an angle"), help(&all, ""))),
+        }
+    }
+}
+
+/// The names that could have been meant: of the same thing, of things of the same sort, or the sorts.
+fn help(all: &[Channel], name: &str) -> String {
+    let positions = all.iter().filter(|channel| channel.kind.stage == Stage::Positions);
+    let parts: Vec<&str> = name.splitn(2, '.').collect();
+    let sort = [Subject::Link, Subject::Point].into_iter().find(|sort| parts.first() == Some(&sort.word()));
+    let Some(sort) = sort else {
+        return "channels are named like point.B.x_m, point.B.y_m or link.crank.angle_rad".into();
+    };
+    let of = parts.get(1).and_then(|rest| rest.rsplit_once('.')).map_or("", |(of, _)| of);
+    let names: Vec<String> = positions
+        .filter(|channel| {
+            channel.kind.subject == sort
+                && (channel.of == of || all.iter().all(|c| c.kind.subject != sort || c.of != of))
+        })
+        .map(ToString::to_string)
+        .collect();
+    format!("allowed here: {}", names.join(", "))
+}
+
+/// Way from one diagram to another.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Method {
+    /// Velocity from chords of the displacement.
+    ChordVelocity,
+    /// Acceleration from chords of that velocity.
+    ChordAcceleration,
+    /// Displacement by graphical integration of the velocity.
+    IntegratedDisplacement,
+    /// Velocity by graphical integration of the acceleration.
+    IntegratedVelocity,
+}
+
+impl Method {
+    /// All of them.
+    pub const ALL: [Method; 4] =
+        [Method::ChordVelocity, Method::ChordAcceleration, Method::IntegratedDisplacement, Method::IntegratedVelocity];
+
+    /// In words.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            Method::ChordVelocity => "velocity by chords",
+            Method::ChordAcceleration => "acceleration by chords of chords",
+            Method::IntegratedDisplacement => "displacement by integration",
+            Method::IntegratedVelocity => "velocity by integration",
+        }
+    }
+
+    /// What it gives: 0 displacement, 1 velocity, 2 acceleration.
+    #[must_use]
+    pub fn gives(self) -> usize {
+        match self {
+            Method::IntegratedDisplacement => 0,
+            Method::ChordVelocity | Method::IntegratedVelocity => 1,
+            Method::ChordAcceleration => 2,
+        }
+    }
+}
+
+/// What a method found, and how far it is from the truth.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Found {
+    /// The method.
+    pub method: Method,
+    /// Rows of [`MotionDiagram::cranks`] that its values belong to.
+    pub rows: Vec<usize>,
+    /// Its values (SI).
+    pub values: Vec<f64>,
+    /// Largest error (SI).
+    pub largest: f64,
+    /// Root mean square of the errors (SI).
+    pub rms: f64,
+    /// Largest error over half the range of the exact curve, but at least a thousandth of what is natural for it: the displacement's half range
+    /// times the crank's angular velocity, once or twice.
+    pub share: f64,
+    /// Observed order of the error (of its root mean square), from these divisions to twice as many and from those to four times as many.
+    /// `None` where the error is rounding.
+    pub orders: [Option<f64>; 2],
+}
+
+/// The motion diagrams of one course.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MotionDiagram {
+    /// The channels.
+    pub course: Course,
+    /// Divisions of the turn.
+    pub divisions: usize,
+    /// Rows between two ends of divisions, an even number.
+    pub stride: usize,
+    /// Crank angle of every row (rad, as the scenario states it).
+    pub cranks: Vec<f64>,
+    /// Time of every row (s).
+    pub times: Vec<f64>,
+    /// Exact displacement, velocity, acceleration in every row (SI).
+    pub exact: [Vec<f64>; 3],
+    /// What the methods found, in the order of [`Method::ALL`].
+    pub found: Vec<Found>,
+}
+
+impl MotionDiagram {
+    /// The diagrams of `course` over one turn of the crank from its start, in the sense of its rotation, in so many equal divisions.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Input`] for a number of divisions outside [`DIVISIONS`]; those of the solver, where the crank cannot turn fully.
+    pub fn of(case: &Case, solver: &dyn Solver, course: &Course, divisions: usize) -> Result<Self> {
+        if !DIVISIONS.contains(&divisions) {
+            let (least, most) = DIVISIONS.into_inner();
+            return Err(Error::new(ErrorKind::Input, format!("a turn cannot be divided into {divisions} parts here"))
+                .help(format!("give from {least} to {most} divisions")));
+        }
+        if !case.is_steady() {
+            let message = "the chord method divides a turn into equal times, but the drive's speed changes";
+            return Err(Error::new(ErrorKind::Unsupported, message).help("give the drive a constant speed"));
+        }
+        // Divisions, their halves and quarters all have their middles among the rows.
+        let stride = 8 * CURVE.div_ceil(8 * divisions);
+        let rows = divisions * stride;
+        let sense = case.drive.sense();
+        let crank = |row: usize| case.drive.start + sense * TAU * (row as f64 / rows as f64);
+        let grid = Grid::of_cranks(&case.drive, (0..=rows).map(crank).collect());
+        let wanted = Wanted::of(&[Stage::Positions, Stage::Velocities, Stage::Accelerations]);
+        let trajectory = solver.solve(&Case { wanted, ..case.on(grid) }, &mut |_| {})?;
+        let column = |channel: &Channel| {
+            trajectory.column(channel).map(<[f64]>::to_vec).ok_or_else(|| {
+                Error::new(ErrorKind::Unsupported, format!("{} does not provide {channel}", solver.name()))
+                    .help("solve with another solver")
+            })
+        };
+        let [x, v, a] = &course.0;
+        let exact = [column(x)?, column(v)?, column(a)?];
+        let (cranks, times) = (trajectory.cranks().to_vec(), trajectory.times().to_vec());
+        let scales = scales(&exact, (times[rows] - times[0]).abs());
+        let found = Method::ALL.into_iter().map(|method| {
+            let runs = [stride, stride / 2, stride / 4].map(|stride| apply(method, stride, &times, &exact));
+            let errors = runs.each_ref().map(|(rows, values)| {
+                rows.iter().zip(values).map(|(&row, value)| value - exact[method.gives()][row]).collect::<Vec<f64>>()
+            });
+            let size = errors.each_ref().map(|errors| rms(errors.iter().copied()));
+            let scale = scales[method.gives()];
+            let order = |coarse: f64, fine: f64| (fine > ROUNDING * scale).then(|| (coarse / fine).log2());
+            let largest = errors[0].iter().fold(0.0f64, |most, error| most.larger(error.abs()));
+            let orders = [order(size[0], size[1]), order(size[1], size[2])];
+            let [(rows, values), ..] = runs;
+            // What stands perfectly still has no scale, and no error either.
+            let share = share(largest, scale);
+            Found { method, rows, values, largest, rms: size[0], share, orders }
+        });
+        let found = found.collect();
+        Ok(MotionDiagram { course: course.clone(), divisions, stride, cranks, times, exact, found })
+    }
+
+    /// Half the range of the exact curve (SI); 0 displacement, 1 velocity, 2 acceleration.
+    #[must_use]
+    pub fn half_range(&self, which: usize) -> f64 {
+        half_range(&self.exact[which])
+    }
+
+    /// What `method` found.
+    #[must_use]
+    pub fn by(&self, method: Method) -> Option<&Found> {
+        self.found.iter().find(|found| found.method == method)
+    }
+}
+
+/// Scales that errors are judged by.
+fn scales(exact: &[Vec<f64>; 3], period: f64) -> [f64; 3] {
+    let natural = |order: i32| SMALLEST * half_range(&exact[0]) * (TAU / period).powi(order);
+    [0, 1, 2].map(|order| half_range(&exact[order as usize]).larger(natural(order)))
+}
+
+/// Rows and values that a method gives with divisions of `stride` rows.
+fn apply(method: Method, stride: usize, times: &[f64], exact: &[Vec<f64>; 3]) -> (Vec<usize>, Vec<f64>) {
+    let ends: Vec<usize> = (0..times.len()).step_by(stride).collect();
+    let middles: Vec<usize> = (stride / 2..times.len()).step_by(stride).collect();
+    let at = |rows: &[usize], of: &[f64]| rows.iter().map(|&row| of[row]).collect::<Vec<f64>>();
+    let places = at(&ends, times);
+    let velocity = || slopes(&places, &at(&ends, &exact[0]));
+    let integrated = |of: usize| integral(exact[of][0], &places, &at(&middles, &exact[of + 1]));
+    match method {
+        Method::ChordVelocity => {
+            let values = velocity();
+            (middles, values)
+        }
+        Method::ChordAcceleration => (ends[1..].to_vec(), closed_slopes(&places, &velocity())),
+        Method::IntegratedDisplacement => {
+            let values = integrated(0);
+            (ends, values)
+        }
+        Method::IntegratedVelocity => {
+            let values = integrated(1);
+            (ends, values)
+        }
+    }
+}

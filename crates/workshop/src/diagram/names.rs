@@ -1,0 +1,89 @@
+//! Letters of the plans: points A, B are a, b there, mass centres s2, ends of normal parts n1; the pole has its own.
+
+use linkage::math::Vec2;
+use linkage::mechanism::{GROUND, Joint, JointKind, Mechanism, Side};
+
+/// A named point of the mechanism, once for all links that carry it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Place {
+    /// Name in the mechanism.
+    pub name: String,
+    /// Letter in the plans.
+    pub letter: String,
+    /// A link that carries it, and where: one hinged to the ground or in a fixed guide, where there is one.
+    pub side: Side,
+    /// Whether it is a point of the ground.
+    pub fixed: bool,
+}
+
+/// Place on `link` of its revolute joint with the ground, and the name of that pivot.
+pub fn pivot(mechanism: &Mechanism, link: usize) -> Option<(Vec2, String)> {
+    let mut pins = mechanism.joints().iter().filter(|joint| joint.kind == JointKind::Revolute);
+    let joint = pins.find(|joint| joint.on(link).is_some() && joint.other(link).link == GROUND)?;
+    let (own, ground) = (joint.on(link)?, joint.other(link).local);
+    let named = mechanism.links()[GROUND].points.iter().find(|point| point.local == ground);
+    Some((own, named.map_or_else(|| joint.name.clone(), |point| point.name.clone())))
+}
+
+/// The prismatic joint that leads `link` along a guide of the ground.
+pub fn fixed_guide(mechanism: &Mechanism, link: usize) -> Option<&Joint> {
+    let mut sliding = mechanism.joints().iter().filter(|joint| joint.is_prismatic());
+    sliding.find(|joint| joint.on(link).is_some() && joint.other(link).link == GROUND)
+}
+
+/// All named points, those of the ground first, each with a letter of its own.
+pub fn places(mechanism: &Mechanism, poles: &[&str]) -> Vec<Place> {
+    let mut taken: Vec<String> = poles.iter().map(ToString::to_string).collect();
+    let mut letter = |name: &str| {
+        let mut letter = name.to_lowercase();
+        while taken.contains(&letter) {
+            letter.push('\'');
+        }
+        taken.push(letter.clone());
+        letter
+    };
+    let mut all: Vec<Place> = Vec::new();
+    for point in &mechanism.links()[GROUND].points {
+        let side = Side { link: GROUND, local: point.local };
+        all.push(Place { name: point.name.clone(), letter: letter(&point.name), side, fixed: true });
+    }
+    for (name, first) in mechanism.moving_points() {
+        let carriers = mechanism.links().iter().enumerate().skip(1).filter_map(|(link, body)| {
+            body.points.iter().find(|point| point.name == name).map(|point| Side { link, local: point.local })
+        });
+        let led = |side: &Side| pivot(mechanism, side.link).is_some() || fixed_guide(mechanism, side.link).is_some();
+        let side = carriers.into_iter().find(led).unwrap_or(first);
+        all.push(Place { name: name.to_string(), letter: letter(name), side, fixed: false });
+    }
+    all
+}
+
+/// Two names as the field writes them side by side: BA, but P3,P2 where letters alone would run together.
+pub fn pair(a: &str, b: &str) -> String {
+    let single = |name: &str| name.chars().count() == 1;
+    if single(a) && single(b) { format!("{a}{b}") } else { format!("{a},{b}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use linkage::fixtures::{four_bar, link, mechanism};
+
+    #[test]
+    fn every_point_has_its_own_letter_and_the_pole_too() {
+        let letters = |all: Vec<Place>| all.into_iter().map(|place| place.letter).collect::<Vec<_>>();
+        assert_eq!(letters(places(&four_bar(), &["p"])), ["o", "c", "a", "b"]);
+        let links = vec![
+            link("ground", &[("O", 0.0, 0.0)]),
+            link("crank", &[("O", 0.0, 0.0), ("P", 1.0, 0.0), ("p", 2.0, 0.0)]),
+        ];
+        let own = mechanism(links, &[("O", "O", "ground", "crank")]).unwrap();
+        assert_eq!(letters(places(&own, &["p"])), ["o", "p'", "p''"]);
+    }
+
+    #[test]
+    fn a_point_belongs_to_a_link_hinged_to_the_ground_where_there_is_one() {
+        let all = places(&four_bar(), &["p"]);
+        assert_eq!(all.iter().map(|place| place.side.link).collect::<Vec<_>>(), [0, 0, 1, 3]);
+    }
+}

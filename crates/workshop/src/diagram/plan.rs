@@ -1,0 +1,76 @@
+//! Velocity and acceleration plans.
+//!
+//! All absolute vectors start in the pole; the plane motion of a rigid link, v_B = v_A + omega x AB and
+//! a_B = a_A + alpha x AB - omega^2 AB, makes the vector between the ends of two of them the relative one. So the image of a link in the velocity
+//! plan is the link itself, turned by 90 deg and enlarged omega times; in the acceleration plan it is turned by
+//! 180 deg - atan2(alpha, omega^2) and enlarged sqrt(alpha^2 + omega^4) times (Mehmke's and Burmester's theorems).
+//!
+//! A point A that slides on a moving guide of link 3 lies over a point A3 of that link. In the axes of the guide it moves along it by s(t); differentiated
+//! in resting axes, v_A = v_A3 + s' e and a_A = a_A3 + 2 omega x (s' e) + s'' e with the guide's unit vector e and angular velocity omega (Coriolis 1835).
+//!
+//! Each vector comes from the motion of its own link, those along a guide from the slide, none from the difference of two others: that the polygons
+//! close is a result.
+
+use super::builder::Builder;
+use super::names::places;
+use super::scheme::Scheme;
+use super::sliding::{slides, travels};
+use super::vectors::{Plan, Quantity};
+use linkage::case::{Case, Grid, Wanted};
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::solver::{Solver, State};
+use linkage::trajectory::Stage;
+
+/// Kinematic diagram, velocity plan and acceleration plan of one instant.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plans {
+    /// Crank angle (rad, as the scenario states it).
+    pub crank: f64,
+    /// The mechanism.
+    pub scheme: Scheme,
+    /// The velocity plan.
+    pub velocity: Plan,
+    /// The acceleration plan.
+    pub acceleration: Plan,
+}
+
+impl Plans {
+    /// The plans of `case` at the crank angle `crank` (rad, as the scenario states it), from a solution by `solver`.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Input`] for a crank angle too far away to be followed; those of the solver.
+    pub fn at(case: &Case, solver: &dyn Solver, crank: f64) -> Result<Self> {
+        Ok(Plans::of(case, solver, &state_at(case, solver, crank)?, crank))
+    }
+
+    /// The plans of a state that holds motions up to accelerations. `solver` finds how far sliders travel on the case's grid: so long are
+    /// the guides in the kinematic diagram.
+    #[must_use]
+    pub fn of(case: &Case, solver: &dyn Solver, state: &State, crank: f64) -> Self {
+        let mut all = places(&case.mechanism, &[Quantity::Velocity.pole(), Quantity::Acceleration.pole()]);
+        let slides = slides(&case.mechanism, &mut all);
+        let plan = |quantity| Builder::new(quantity, &case.mechanism, state, &all, &slides).plan();
+        let travels = travels(case, solver, state, &slides);
+        let scheme = Scheme::of(case, state, &all, &slides, &travels);
+        Plans { crank, scheme, velocity: plan(Quantity::Velocity), acceleration: plan(Quantity::Acceleration) }
+    }
+}
+
+/// The state of `case` at the crank angle `crank` (rad, as the scenario states it), up to accelerations.
+///
+/// # Errors
+/// As [`Plans::at`].
+pub fn state_at(case: &Case, solver: &dyn Solver, crank: f64) -> Result<State> {
+    let grid = Grid::of_cranks(&case.drive, vec![crank]);
+    grid.check(&case.drive)
+        .map_err(|message| Error::new(ErrorKind::Input, message).help("give a crank angle in degrees, as 70 or -30"))?;
+    let wanted = Wanted::of(&[Stage::Positions, Stage::Velocities, Stage::Accelerations]);
+    let case = Case { wanted, ..case.on(grid) };
+    let mut found = State::at_start(&case);
+    let mut visit = |_: usize, state: &State| {
+        found = state.clone();
+        Ok(())
+    };
+    solver.sweep(&case, &mut visit, &mut |_| {})?;
+    Ok(found)
+}

@@ -1,0 +1,136 @@
+//! The kinematic diagram: the mechanism drawn to scale.
+
+use super::names::{Place, pivot};
+use super::scale::factor;
+use super::singular::SingularPoint;
+use super::sliding::Slide;
+use linkage::case::Case;
+use linkage::math::{KeepNan, Vec2};
+use linkage::mechanism::{GROUND, Joint};
+use linkage::solver::State;
+
+/// Width and height (mm) that the kinematic diagram may take on paper.
+const ROOM: [f64; 2] = [150.0, 215.0];
+
+/// One moving link of the diagram.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SchemeLink {
+    /// Its number: its place in the mechanism, where the ground is 0.
+    pub number: usize,
+    /// Its name.
+    pub name: String,
+    /// World positions of its points and joints (m).
+    pub places: Vec<Vec2>,
+    /// World position of its mass centre (m), if it has a mass.
+    pub mass_centre: Option<Vec2>,
+    /// World position of its pivot on the ground (m), if it has one.
+    pub pivot: Option<Vec2>,
+    /// Angular velocity (rad/s), counter-clockwise positive.
+    pub omega: f64,
+    /// Angular acceleration (rad/s^2), counter-clockwise positive.
+    pub alpha: f64,
+}
+
+/// A guide of the diagram and the block on it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SchemeGuide {
+    /// Number of the link that the guide belongs to: 0 for a fixed guide.
+    pub link: usize,
+    /// Number of the block's link.
+    pub block: usize,
+    /// Unit vector along the guide, in the world.
+    pub axis: Vec2,
+    /// World position of the joint's place on the guide (m).
+    pub origin: Vec2,
+    /// World position of the sliding point (m).
+    pub at: Vec2,
+    /// Ends of the sliding point's travel on the guide as it stands now, in the world (m).
+    pub ends: [Vec2; 2],
+    /// Names of the sliding point and of the point of a moving guide's link under it.
+    pub under: Option<[String; 2]>,
+}
+
+/// The mechanism at one instant, ready to be drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scheme {
+    /// Scale factor mu_l (m/mm).
+    pub scale: f64,
+    /// Moving links.
+    pub links: Vec<SchemeLink>,
+    /// Named points and their world positions (m); the first `fixed` of them are points of the ground.
+    pub points: Vec<(String, Vec2)>,
+    /// Number of points of the ground.
+    pub fixed: usize,
+    /// World positions of the points of the ground that are no pivots but only lie on a guide (m).
+    pub marks: Vec<Vec2>,
+    /// Guides, fixed and moving.
+    pub guides: Vec<SchemeGuide>,
+    /// Number of the driving link.
+    pub driver: usize,
+    /// Singular points of class IV groups, where they have one.
+    pub singular: Vec<SingularPoint>,
+}
+
+impl Scheme {
+    /// The diagram of a state.
+    pub(super) fn of(case: &Case, state: &State, places: &[Place], slides: &[Slide], travels: &[[f64; 2]]) -> Self {
+        let mechanism = &case.mechanism;
+        let points: Vec<(String, Vec2)> = places
+            .iter()
+            .map(|place| (place.name.clone(), state.motions[place.side.link].point(place.side.local)))
+            .collect();
+        let links = mechanism.links().iter().enumerate().skip(1).map(|(number, link)| {
+            let motion = &state.motions[number];
+            let mut locals: Vec<Vec2> = link.points.iter().map(|point| point.local).collect();
+            let joints = mechanism.joints().iter().filter_map(|joint| joint.on(number));
+            locals.extend(joints.filter(|place| !link.points.iter().any(|point| point.local == *place)));
+            SchemeLink {
+                number,
+                name: link.name.clone(),
+                places: locals.iter().map(|&local| motion.point(local)).collect(),
+                mass_centre: (link.mass > 0.0).then(|| motion.point(link.mass_centre)),
+                pivot: pivot(mechanism, number).map(|(local, _)| motion.point(local)),
+                omega: motion.omega,
+                alpha: motion.alpha,
+            }
+        });
+        let links: Vec<SchemeLink> = links.collect();
+        let guide = |(slide, travel): (&Slide, &[f64; 2])| {
+            let motion = &state.motions[slide.guide.link];
+            let axis = motion.arm(mechanism.joints()[slide.joint].axis_on(slide.guide.link)?);
+            let origin = motion.point(slide.guide.local);
+            Some(SchemeGuide {
+                link: slide.guide.link,
+                block: slide.block.link,
+                axis,
+                origin,
+                at: state.motions[slide.block.link].point(slide.block.local),
+                ends: travel.map(|way| origin + axis * way),
+                under: slide.under.as_ref().map(|under| [slide.name.clone(), under.name.clone()]),
+            })
+        };
+        let guides: Vec<SchemeGuide> = slides.iter().zip(travels).filter_map(guide).collect();
+        let all = links.iter().flat_map(|link| link.places.iter().chain(&link.mass_centre).copied());
+        let all = all.chain(guides.iter().flat_map(|guide| guide.ends));
+        let all: Vec<Vec2> = all.chain(points.iter().map(|(_, at)| *at)).collect();
+        let extent = |of: fn(&Vec2) -> f64| {
+            let (low, high) =
+                all.iter().map(of).fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.smaller(v), h.larger(v)));
+            high - low
+        };
+        let scale = factor(extent(|v| v.x), ROOM[0]).larger(factor(extent(|v| v.y), ROOM[1]));
+        let grounded = |joint: &&Joint| joint.on(GROUND).is_some();
+        let sliding = mechanism.joints().iter().filter(grounded).filter(|joint| joint.is_prismatic());
+        let pinned = |local: Vec2| {
+            let mut pins = mechanism.joints().iter().filter(grounded).filter(|joint| !joint.is_prismatic());
+            pins.any(|joint| joint.on(GROUND) == Some(local))
+        };
+        let marks = sliding.filter_map(|joint| joint.on(GROUND)).filter(|local| !pinned(*local)).collect();
+        let fixed = places.iter().filter(|place| place.fixed).count();
+        // Parallel leads have no point that could be drawn.
+        let groups = case.structure.groups.iter();
+        let singular =
+            groups.filter_map(|group| SingularPoint::of(case, group, &state.motions).ok().flatten()).collect();
+        Scheme { scale, links, points, fixed, marks, guides, driver: case.drive.link, singular }
+    }
+}

@@ -1,0 +1,143 @@
+//! Sliding pairs as plans and drawings see them: which link is the guide, which point slides on it, and what lies under that point.
+
+use super::names::Place;
+use linkage::case::{Case, Wanted};
+use linkage::math::{KeepNan, Vec2, rotated};
+use linkage::mechanism::{GROUND, Mechanism, Side};
+use linkage::solver::{Solver, State};
+use linkage::trajectory::Stage;
+
+/// A name and its letter in the plans.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Named {
+    /// Name.
+    pub name: String,
+    /// Letter.
+    pub letter: String,
+}
+
+/// A prismatic pair: a point of the block slides on a line of the guide.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Slide {
+    /// Index of the joint.
+    pub joint: usize,
+    /// Its name.
+    pub joint_name: String,
+    /// The guide's link and the joint's place on it.
+    pub guide: Side,
+    /// The block's link and the sliding point on it.
+    pub block: Side,
+    /// Name of the sliding point.
+    pub name: String,
+    /// Its letter.
+    pub letter: String,
+    /// Whether the sliding point belongs to the ground too: a rod in a block that only swings.
+    pub fixed: bool,
+    /// The point of a moving guide's link under the sliding point; a fixed guide has none.
+    pub under: Option<Named>,
+}
+
+impl Slide {
+    /// Place on the guide's link of the point under the sliding one (m, link frame).
+    pub fn place_under(&self, state: &State) -> Vec2 {
+        let (guide, block) = (&state.motions[self.guide.link], &state.motions[self.block.link]);
+        let back = Vec2::new(guide.direction.x, -guide.direction.y);
+        rotated(back, block.point(self.block.local) - guide.origin)
+    }
+
+    /// Velocity and acceleration along the guide of the sliding point relative to the guide's link, as world vectors (SI).
+    pub fn rates(&self, mechanism: &Mechanism, state: &State) -> Option<[Vec2; 2]> {
+        let joint = &mechanism.joints()[self.joint];
+        let [_, speed, growth] = state.slide(joint)?;
+        let axis = state.motions[self.guide.link].arm(joint.axis_on(self.guide.link)?);
+        // The slide counts from the first link to the second.
+        let axis = if joint.first.link == self.guide.link { axis } else { -axis };
+        Some([axis * speed, axis * growth])
+    }
+
+    /// Way along the guide's axis from the joint's place on the guide to the sliding point (m).
+    fn way(&self, mechanism: &Mechanism, state: &State) -> f64 {
+        let joint = &mechanism.joints()[self.joint];
+        let slide = state.slide(joint).map_or(0.0, |slide| slide[0]);
+        if joint.first.link == self.guide.link { slide } else { -slide }
+    }
+}
+
+/// All prismatic pairs. A sliding point without a name gets that of its joint and is added to `places`.
+pub fn slides(mechanism: &Mechanism, places: &mut Vec<Place>) -> Vec<Slide> {
+    let mut all = Vec::new();
+    // Mass centres keep their letters.
+    let mut unders: Vec<Named> = (1..mechanism.links().len())
+        .map(|number| Named { name: format!("S{number}"), letter: format!("s{number}") })
+        .collect();
+    for (index, joint) in mechanism.joints().iter().enumerate() {
+        let Some([guide, block]) = mechanism.guide_and_block(joint) else { continue };
+        let mut named = mechanism.links()[block.link].points.iter();
+        let point = named.find(|point| point.local == block.local).map(|point| point.name.clone());
+        let place = point.and_then(|name| places.iter().find(|place| place.name == name).cloned());
+        let place = place.unwrap_or_else(|| {
+            let Named { name, letter } = unused(joint.name.clone(), places, &[]);
+            let new = Place { name, letter, side: block, fixed: false };
+            places.push(new.clone());
+            new
+        });
+        let under = (guide.link != GROUND).then(|| {
+            let apart = if place.name.ends_with(|sign: char| sign.is_ascii_digit()) { "/" } else { "" };
+            unused(format!("{}{apart}{}", place.name, guide.link), places, &unders)
+        });
+        unders.extend(under.clone());
+        let Place { name, letter, fixed, .. } = place;
+        all.push(Slide { joint: index, joint_name: joint.name.clone(), guide, block, name, letter, fixed, under });
+    }
+    all
+}
+
+/// `name` and its letter, with as many primes as make both the only ones.
+fn unused(mut name: String, places: &[Place], others: &[Named]) -> Named {
+    loop {
+        let letter = name.to_lowercase();
+        let taken = places.iter().any(|place| place.name == name || place.letter == letter)
+            || others.iter().any(|other| other.name == name || other.letter == letter);
+        // The poles of both plans.
+        if !taken && letter != "p" && letter != "π" {
+            return Named { name, letter };
+        }
+        name.push('\'');
+    }
+}
+
+/// Whether a link never turns: prismatic pairs alone connect it with the ground.
+pub fn translates(mechanism: &Mechanism, link: usize) -> bool {
+    let mut reached = vec![GROUND];
+    let mut next = 0;
+    while let Some(&from) = reached.get(next) {
+        next += 1;
+        let sliding = mechanism.joints().iter().filter(|joint| joint.is_prismatic() && joint.on(from).is_some());
+        for joint in sliding {
+            let other = joint.other(from).link;
+            if !reached.contains(&other) {
+                reached.push(other);
+            }
+        }
+    }
+    reached.contains(&link)
+}
+
+/// Least and largest way of every slide from the joint's place on its guide (m): on the case's grid, as far as the solver gets, and in `state`.
+pub fn travels(case: &Case, solver: &dyn Solver, state: &State, slides: &[Slide]) -> Vec<[f64; 2]> {
+    let mut travels: Vec<[f64; 2]> = slides.iter().map(|slide| [slide.way(&case.mechanism, state); 2]).collect();
+    if slides.is_empty() {
+        return travels;
+    }
+    let mut visit = |_: usize, state: &State| {
+        for (travel, slide) in travels.iter_mut().zip(slides) {
+            let way = slide.way(&case.mechanism, state);
+            *travel = [travel[0].smaller(way), travel[1].larger(way)];
+        }
+        Ok(())
+    };
+    let case = Case { wanted: Wanted::of(&[Stage::Positions]), ..case.clone() };
+    // A grid that the crank cannot follow to its end still shows how far the sliders came.
+    let _ = solver.sweep(&case, &mut visit, &mut |_| {});
+    travels
+}

@@ -1,0 +1,181 @@
+//! What is written, as numbers: bodies, joints, loops, frictions and the first state.
+
+use super::bodies::{self, Body};
+use super::names::Names;
+use linkage::case::Case;
+use linkage::drive::Load;
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::{KeepNan, Vec2};
+use linkage::mechanism::{GROUND, Tree};
+use linkage::solver::State;
+
+/// Inertia of a drive's rotor over the largest moment of inertia that the mechanism could have about one of its points. Inertia forces are of the
+/// size of that moment times the speed squared, so that they change the speed by 1e-9 of it in a radian.
+const ROTOR: f64 = 1e9;
+/// Mass of a link that has none, over that of the whole mechanism: MuJoCo refuses zero. A smaller share would falsify reactions less, but MuJoCo softens
+/// every loop in proportion to the inverse of the masses that it holds together. docs/mjcf.md has the figures.
+const LIGHT: f64 = 1e-5;
+/// Radius of gyration of a link that has no inertia, over its size; and what its size counts for at least, over the mechanism's.
+const GYRATION: f64 = 0.3;
+const SHORTEST: f64 = 0.1;
+
+/// Dry friction on the rotation of one link.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Friction {
+    /// The link.
+    pub link: usize,
+    /// Moment (N m).
+    pub moment: f64,
+    /// Hinges from the ground to the link, as indices of branches: their angles add up to the link's.
+    pub hinges: Vec<usize>,
+    /// Whether the one hinge is the joint that carries the link.
+    pub own_hinge: bool,
+}
+
+/// A mechanism in MuJoCo's terms.
+#[derive(Debug)]
+pub struct Model<'a> {
+    pub(super) case: &'a Case,
+    pub(super) name: &'a str,
+    pub(super) step: f64,
+    pub(super) tree: Tree,
+    /// One a branch of the tree.
+    pub(super) bodies: Vec<Body>,
+    pub(super) frictions: Vec<Friction>,
+}
+
+impl<'a> Model<'a> {
+    /// The model of a case whose state at t = 0 is `start`; see [`mjcf`](super::mjcf).
+    ///
+    /// # Errors
+    /// Those of [`mjcf`](super::mjcf), without the solver's.
+    pub fn new(case: &'a Case, start: &State, name: &'a str, step: f64) -> Result<Self> {
+        if !(step > 0.0 && step.is_finite()) {
+            return Err(Error::new(ErrorKind::Input, format!("the time step is {step} s, but must be positive"))
+                .help("give a step such as 1e-3"));
+        }
+        Names::check(&case.mechanism)?;
+        if case.is_free() {
+            let message = "the motion is free, but the model for MuJoCo drives its links with prescribed speeds";
+            return Err(Error::new(ErrorKind::Unsupported, message)
+                .key("drive.motion")
+                .help("export a scenario whose drives are prescribed: take `motion = \"free\"` out"));
+        }
+        // A rotor keeps a constant speed and no other law.
+        if let Some(drive) = case.drives().find(|drive| drive.law.constant().is_none()) {
+            let message =
+                format!("a drive with the law \"{}\" cannot be written to a model for MuJoCo", drive.law.name());
+            return Err(Error::new(ErrorKind::Unsupported, message).help("give the drive a constant speed"));
+        }
+        if let Some(load) = case.loads.iter().find(|load| !matches!(load, Load::Resistance { .. })) {
+            let message = format!("a load of type \"{}\" cannot be written to a model for MuJoCo", load.sort());
+            return Err(Error::new(ErrorKind::Unsupported, message).help(
+                "leave it out of the scenario, and add it to the model by hand: only moments of resistance are written",
+            ));
+        }
+        let tree = Tree::of(&case.mechanism);
+        let bodies = tree.branches.iter().map(|branch| bodies::body(case, start, branch)).collect();
+        let mut model = Model { case, name, step, tree, bodies, frictions: Vec::new() };
+        model.frictions = model.frictions();
+        Ok(model)
+    }
+
+    /// Largest moment of inertia that the mechanism could have about one of its points (kg m^2): all its mass a size away.
+    fn bulk(&self) -> f64 {
+        let size = self.size();
+        let inertia: f64 = self.case.mechanism.links().iter().map(|link| link.inertia).sum();
+        inertia + self.mass() * size * size
+    }
+
+    /// Mass of the mechanism (kg); 1 kg if it has none, so that its motion can be simulated all the same.
+    fn mass(&self) -> f64 {
+        let mass: f64 = self.case.mechanism.links().iter().map(|link| link.mass).sum();
+        if mass > 0.0 { mass } else { 1.0 }
+    }
+
+    /// Size of the mechanism (m), for what is drawn and for inertias.
+    pub(super) fn size(&self) -> f64 {
+        let size = self.case.mechanism.size();
+        if size > 0.0 { size } else { 1.0 }
+    }
+
+    /// Inertia (kg m^2) of the rotor on a driven hinge.
+    #[must_use]
+    pub fn rotor(&self) -> f64 {
+        ROTOR * self.bulk()
+    }
+
+    /// Mass (kg) and moment of inertia (kg m^2) of a link as MuJoCo gets them: its own, or those of a light rod where it has none.
+    #[must_use]
+    pub fn inertial(&self, link: usize) -> (f64, f64) {
+        let link = &self.case.mechanism.links()[link];
+        let light = LIGHT * self.mass();
+        let radius = GYRATION * link.size().larger(SHORTEST * self.size());
+        let own_or = |own: f64, lent: f64| if own > 0.0 { own } else { lent };
+        (own_or(link.mass, light), own_or(link.inertia, light * radius * radius))
+    }
+
+    /// Whether MuJoCo gets a mass or inertia that the link does not have.
+    pub(super) fn is_lent(&self, link: usize) -> bool {
+        let link = &self.case.mechanism.links()[link];
+        !(link.mass > 0.0 && link.inertia > 0.0)
+    }
+
+    /// Index of the branch that carries `link`.
+    pub(super) fn branch_of(&self, link: usize) -> Option<usize> {
+        self.tree.branches.iter().position(|branch| branch.link == link)
+    }
+
+    /// Links that hang on `parent`, in the tree's order.
+    pub(super) fn children(&self, parent: usize) -> Vec<usize> {
+        self.tree.branches.iter().filter(|branch| branch.parent == parent).map(|branch| branch.link).collect()
+    }
+
+    /// Bodies in the order of MuJoCo's coordinates: each before those that hang on it, and those before its neighbours.
+    pub(super) fn in_order(&self) -> Vec<&Body> {
+        let mut order = Vec::new();
+        let mut waiting = self.children(GROUND);
+        waiting.reverse();
+        while let Some(link) = waiting.pop() {
+            order.extend(self.branch_of(link).map(|branch| &self.bodies[branch]));
+            waiting.extend(self.children(link).into_iter().rev());
+        }
+        order
+    }
+
+    /// Place of a joint on one of its links, in that link's frame (m).
+    pub(super) fn place(&self, joint: usize, link: usize) -> Vec2 {
+        self.case.mechanism.joints()[joint].on(link).expect("the joint is on the link")
+    }
+
+    /// Hinges from the ground to `link`, as indices of branches, innermost last.
+    fn hinges(&self, mut link: usize) -> Vec<usize> {
+        let mut hinges = Vec::new();
+        while link != GROUND {
+            let branch = self.branch_of(link).expect("every moving link is in the tree");
+            if !self.case.mechanism.joints()[self.tree.branches[branch].joint].is_prismatic() {
+                hinges.push(branch);
+            }
+            link = self.tree.branches[branch].parent;
+        }
+        hinges.reverse();
+        hinges
+    }
+
+    /// One friction for each link that is resisted; a link that cannot turn is not.
+    fn frictions(&self) -> Vec<Friction> {
+        let mut moments = vec![0.0; self.case.mechanism.links().len()];
+        for load in &self.case.loads {
+            if let Load::Resistance { link, moment } = *load {
+                moments[link] += moment;
+            }
+        }
+        let resisted = moments.into_iter().enumerate().filter(|&(_, moment)| moment > 0.0);
+        let frictions = resisted.map(|(link, moment)| {
+            let hinges = self.hinges(link);
+            let own_hinge = hinges.len() == 1 && self.branch_of(link) == hinges.first().copied();
+            Friction { link, moment, hinges, own_hinge }
+        });
+        frictions.filter(|friction| !friction.hinges.is_empty()).collect()
+    }
+}

@@ -1,0 +1,56 @@
+//! Names in the file: the scenario's own wherever MuJoCo takes them.
+
+use std::collections::BTreeSet;
+
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::mechanism::{Joint, Mechanism};
+
+/// Name of MuJoCo's own for the ground.
+const WORLD: &str = "world";
+
+/// Names of things that have none in the scenario.
+pub(super) struct Names;
+
+impl Names {
+    /// Site at the joint's place on `link`.
+    pub fn side(joint: &Joint, link: usize) -> String {
+        format!("{}.{}", joint.name, if joint.first.link == link { "first" } else { "second" })
+    }
+
+    /// Checks that MuJoCo can tell all things apart.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Unsupported`] for a link called as MuJoCo calls the ground, for two sites of one name and for names without a letter.
+    pub fn check(mechanism: &Mechanism) -> Result<()> {
+        let unsupported = |message: String, key: String| {
+            let error = Error::new(ErrorKind::Unsupported, message).key(key);
+            Err(error.help("give it another name in the scenario"))
+        };
+        for link in &mechanism.links()[1..] {
+            if link.name == WORLD {
+                let message = "MuJoCo calls the ground \"world\" and takes no other body of that name".to_string();
+                return unsupported(message, format!("links.{}", link.name));
+            }
+        }
+        let links = mechanism.links()[1..].iter().map(|link| ("links", &link.name));
+        for (table, name) in links.chain(mechanism.joints().iter().map(|joint| ("joints", &joint.name))) {
+            if name.is_empty() || name.chars().any(char::is_control) {
+                let message = "MuJoCo takes no empty names and none with control characters".to_string();
+                return unsupported(message, format!("{table}.{name}"));
+            }
+        }
+        let mut sites = BTreeSet::new();
+        let sides = mechanism
+            .joints()
+            .iter()
+            .flat_map(|joint| [joint.first.link, joint.second.link].map(|link| Names::side(joint, link)));
+        let points = mechanism.moving_points().map(|(name, _)| name.to_string());
+        for name in sides.chain(points) {
+            if !sites.insert(name.clone()) {
+                let message = format!("the file would have two sites called \"{name}\"");
+                return unsupported(message, format!("points.{name}"));
+            }
+        }
+        Ok(())
+    }
+}

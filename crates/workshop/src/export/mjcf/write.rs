@@ -1,0 +1,291 @@
+//! The XML document.
+
+use quick_xml::Writer;
+use quick_xml::events::{BytesDecl, BytesEnd, BytesStart, BytesText, Event};
+
+use super::bodies::Freedom;
+use super::model::Model;
+use super::names::Names;
+use super::shapes::{self, Shape};
+use linkage::math::{KeepNan, Vec2};
+use linkage::mechanism::GROUND;
+
+/// Stiffness of every constraint: see the module.
+const STIFF: &str = "1e-9 0.5";
+/// Impedance of every constraint: the most that MuJoCo takes, at any gap.
+const HARD: &str = "0.9999 0.9999 1";
+/// Colours of links, one after the other.
+const COLOURS: [&str; 6] = [
+    "0.20 0.42 0.70 1",
+    "0.85 0.45 0.13 1",
+    "0.25 0.60 0.30 1",
+    "0.62 0.30 0.62 1",
+    "0.75 0.62 0.15 1",
+    "0.30 0.62 0.65 1",
+];
+
+/// Shortest text that is read back as the same number.
+fn number(value: f64) -> String {
+    match value.abs() {
+        0.0 => "0".into(),
+        size if (1e-4..1e7).contains(&size) => format!("{value}"),
+        _ => format!("{value:e}"),
+    }
+}
+
+fn numbers(values: impl IntoIterator<Item = f64>) -> String {
+    values.into_iter().map(number).collect::<Vec<_>>().join(" ")
+}
+
+/// A place of the plane.
+fn flat(place: Vec2) -> String {
+    numbers([place.x, place.y, 0.0])
+}
+
+/// A turn about z.
+fn about_z(angle: f64) -> String {
+    numbers([0.0, 0.0, 1.0, angle])
+}
+
+type Attributes<'a> = &'a [(&'a str, &'a str)];
+
+/// An XML document in memory, to which writing cannot fail.
+struct Xml(Writer<Vec<u8>>);
+
+impl Xml {
+    fn put(&mut self, event: Event) {
+        self.0.write_event(event).expect("memory takes everything");
+    }
+
+    fn start<'a>(name: &'a str, attributes: Attributes<'a>) -> BytesStart<'a> {
+        BytesStart::new(name).with_attributes(attributes.iter().copied())
+    }
+
+    fn leaf(&mut self, name: &str, attributes: Attributes) {
+        self.put(Event::Empty(Self::start(name, attributes)));
+    }
+
+    fn nest(&mut self, name: &str, attributes: Attributes, inside: impl FnOnce(&mut Self)) {
+        self.put(Event::Start(Self::start(name, attributes)));
+        inside(self);
+        self.put(Event::End(BytesEnd::new(name)));
+    }
+
+    fn comment(&mut self, text: &str) {
+        self.put(Event::Comment(BytesText::from_escaped(format!(" {text} "))));
+    }
+}
+
+/// The whole document.
+pub(super) fn document(model: &Model) -> String {
+    let mut xml = Xml(Writer::new_with_indent(Vec::new(), b' ', 2));
+    xml.put(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)));
+    xml.nest("mujoco", &[("model", model.name)], |xml| {
+        xml.comment(concat!(
+            "Written by linkproof ",
+            env!("CARGO_PKG_VERSION"),
+            "; SI units, plane XOY. Load the keyframe \"start\": without it nothing moves."
+        ));
+        options(xml, model);
+        xml.nest("worldbody", &[], |xml| world(xml, model));
+        loops(xml, model);
+        tendons(xml, model);
+        sensors(xml, model);
+        keyframe(xml, model);
+    });
+    let mut text = String::from_utf8(xml.0.into_inner()).expect("what was written is text");
+    text.push('\n');
+    text
+}
+
+fn options(xml: &mut Xml, model: &Model) {
+    xml.leaf("compiler", &[("angle", "radian"), ("autolimits", "false"), ("inertiafromgeom", "false")]);
+    let gravity = flat(model.case.gravity);
+    let step = number(model.step);
+    let settings =
+        [("timestep", step.as_str()), ("gravity", &gravity), ("integrator", "implicitfast"), ("solver", "Newton")];
+    // MuJoCo measures its tolerance by the trace of the inertia matrix, in which the rotor stands: only zero is small enough. Newton's method is done
+    // in two iterations; 20 are a bound where rounding keeps it going.
+    let solver = [("iterations", "20"), ("tolerance", "0"), ("ls_tolerance", "1e-6")];
+    xml.nest("option", &[&settings[..], &solver].concat(), |xml| {
+        xml.leaf("flag", &[("contact", "disable"), ("refsafe", "enable")]);
+    });
+    let (centre, extent) = view(model);
+    xml.leaf("statistic", &[("center", &flat(centre)), ("extent", &number(extent))]);
+    xml.nest("visual", &[], |xml| {
+        // Seen from above: x right, y up.
+        xml.leaf("global", &[("azimuth", "90"), ("elevation", "-90")]);
+    });
+    xml.comment("As stiff as a step allows: the time constant is raised to twice the time step, whatever that is.");
+    xml.nest("default", &[], |xml| {
+        xml.leaf("equality", &[("solref", STIFF), ("solimp", HARD)]);
+        let friction = [("solreffriction", STIFF), ("solimpfriction", HARD)];
+        xml.leaf("joint", &[&friction[..], &[("damping", "0")]].concat());
+        xml.leaf("tendon", &friction);
+        xml.leaf("geom", &[("contype", "0"), ("conaffinity", "0")]);
+        xml.leaf("site", &[("size", &number(0.005 * model.size())), ("rgba", "0.1 0.1 0.1 1")]);
+    });
+}
+
+/// Middle and extent of the start pose (m).
+fn view(model: &Model) -> (Vec2, f64) {
+    let poses = &model.case.start.0;
+    let places = model.case.mechanism.joints().iter().map(|joint| poses[joint.second.link].point(joint.second.local));
+    let places: Vec<Vec2> = places.collect();
+    let low = places.iter().fold(Vec2::repeat(f64::INFINITY), |low, place| low.inf(place));
+    let high = places.iter().fold(Vec2::repeat(f64::NEG_INFINITY), |high, place| high.sup(place));
+    ((low + high) / 2.0, (high - low).norm().larger(model.size()))
+}
+
+fn world(xml: &mut Xml, model: &Model) {
+    xml.leaf(
+        "light",
+        &[("pos", &numbers([0.0, 0.0, 10.0 * model.size()])), ("dir", "0 0 -1"), ("type", "directional")],
+    );
+    on_link(xml, model, GROUND, "0.45 0.45 0.45 1");
+    for link in model.children(GROUND) {
+        body(xml, model, link);
+    }
+}
+
+fn body(xml: &mut Xml, model: &Model, link: usize) {
+    let index = model.branch_of(link).expect("every moving link is in the tree");
+    let own = &model.bodies[index];
+    let data = &model.case.mechanism.links()[link];
+    let place = [("pos", flat(own.offset)), ("axisangle", about_z(own.turn))];
+    xml.nest("body", &[("name", &data.name), (place[0].0, &place[0].1), (place[1].0, &place[1].1)], |xml| {
+        let (mass, inertia) = model.inertial(link);
+        if model.is_lent(link) {
+            xml.comment("It has no mass or no inertia: MuJoCo gets a small one.");
+        }
+        // Three equal moments satisfy the triangle inequality; those about x and y have no motion to act in.
+        let inertial = [flat(data.mass_centre), number(mass), numbers([inertia; 3])];
+        xml.leaf("inertial", &[("pos", &inertial[0]), ("mass", &inertial[1]), ("diaginertia", &inertial[2])]);
+        joint(xml, model, index);
+        on_link(xml, model, link, COLOURS[(link - 1) % COLOURS.len()]);
+        for child in model.children(link) {
+            body(xml, model, child);
+        }
+    });
+}
+
+fn joint(xml: &mut Xml, model: &Model, index: usize) {
+    let (own, branch) = (&model.bodies[index], &model.tree.branches[index]);
+    let name = &model.case.mechanism.joints()[branch.joint].name;
+    let reference = number(own.coordinate);
+    let (place, rotor, friction);
+    let mut attributes: Vec<(&str, &str)> = vec![("name", name)];
+    match own.freedom {
+        Freedom::Hinge(at) => {
+            place = flat(at);
+            attributes.extend([("type", "hinge"), ("axis", "0 0 1"), ("pos", &place)]);
+        }
+        Freedom::Slide(axis) => {
+            place = flat(axis);
+            attributes.extend([("type", "slide"), ("axis", place.as_str())]);
+        }
+    }
+    attributes.push(("ref", &reference));
+    if model.case.drives().any(|drive| drive.joint == branch.joint) {
+        rotor = number(model.rotor());
+        attributes.push(("armature", &rotor));
+        xml.comment("Drive: a rotor so heavy that its speed stays what it is at the start.");
+    }
+    if let Some(found) = model.frictions.iter().find(|friction| friction.link == branch.link && friction.own_hinge) {
+        friction = number(found.moment);
+        attributes.push(("frictionloss", &friction));
+    }
+    xml.leaf("joint", &attributes);
+}
+
+/// Shapes and sites of a link.
+fn on_link(xml: &mut Xml, model: &Model, link: usize, colour: &str) {
+    for shape in shapes::of_link(model, link) {
+        match shape {
+            Shape::Ball(at, radius) => {
+                xml.leaf(
+                    "geom",
+                    &[("type", "sphere"), ("pos", &flat(at)), ("size", &number(radius)), ("rgba", colour)],
+                );
+            }
+            Shape::Rod([from, to], radius) => {
+                let ends = numbers([from.x, from.y, 0.0, to.x, to.y, 0.0]);
+                xml.leaf(
+                    "geom",
+                    &[("type", "capsule"), ("fromto", &ends), ("size", &number(radius)), ("rgba", colour)],
+                );
+            }
+            Shape::Block(at, angle, [length, width]) => {
+                let (place, turn, half) = (flat(at), about_z(angle), numbers([length, width, width]));
+                let block =
+                    [("type", "box"), ("pos", place.as_str()), ("axisangle", &turn), ("size", &half), ("rgba", colour)];
+                xml.leaf("geom", &block);
+            }
+        }
+    }
+    for (index, joint) in model.case.mechanism.joints().iter().enumerate().filter(|(_, joint)| joint.on(link).is_some())
+    {
+        xml.leaf("site", &[("name", &Names::side(joint, link)), ("pos", &flat(model.place(index, link)))]);
+    }
+    for (name, side) in model.case.mechanism.moving_points().filter(|(_, side)| side.link == link) {
+        xml.leaf("site", &[("name", name), ("pos", &flat(side.local))]);
+    }
+}
+
+fn loops(xml: &mut Xml, model: &Model) {
+    if model.tree.cut.is_empty() {
+        return;
+    }
+    xml.nest("equality", &[], |xml| {
+        for &joint in &model.tree.cut {
+            let joint = &model.case.mechanism.joints()[joint];
+            let [first, second] = [joint.first.link, joint.second.link].map(|link| Names::side(joint, link));
+            xml.leaf("connect", &[("name", &joint.name), ("site1", &first), ("site2", &second)]);
+        }
+    });
+}
+
+/// Resistance to the rotation of links that no hinge of their own joins to the ground.
+fn tendons(xml: &mut Xml, model: &Model) {
+    let long: Vec<_> = model.frictions.iter().filter(|friction| !friction.own_hinge).collect();
+    if long.is_empty() {
+        return;
+    }
+    xml.nest("tendon", &[], |xml| {
+        for friction in long {
+            let name = &model.case.mechanism.links()[friction.link].name;
+            xml.comment("Its length is the link's angle.");
+            xml.nest("fixed", &[("name", name), ("frictionloss", &number(friction.moment))], |xml| {
+                for &hinge in &friction.hinges {
+                    let joint = &model.case.mechanism.joints()[model.tree.branches[hinge].joint];
+                    xml.leaf("joint", &[("joint", &joint.name), ("coef", "1")]);
+                }
+            });
+        }
+    });
+}
+
+/// Reactions in the joints of the tree, and moments where there is one.
+fn sensors(xml: &mut Xml, model: &Model) {
+    xml.comment(
+        "What acts on the body in the joint that carries it, in the body's frame; moments about the joint's place, without frictionloss.",
+    );
+    xml.nest("sensor", &[], |xml| {
+        for branch in &model.tree.branches {
+            let joint = &model.case.mechanism.joints()[branch.joint];
+            let site = Names::side(joint, branch.link);
+            xml.leaf("force", &[("name", &format!("{}.force", joint.name)), ("site", &site)]);
+            if joint.is_prismatic() || model.case.drives().any(|drive| drive.joint == branch.joint) {
+                xml.leaf("torque", &[("name", &format!("{}.moment", joint.name)), ("site", &site)]);
+            }
+        }
+    });
+}
+
+fn keyframe(xml: &mut Xml, model: &Model) {
+    let coordinates = numbers(model.in_order().iter().map(|body| body.coordinate));
+    let rates = numbers(model.in_order().iter().map(|body| body.rate));
+    xml.nest("keyframe", &[], |xml| {
+        xml.leaf("key", &[("name", "start"), ("time", "0"), ("qpos", &coordinates), ("qvel", &rates)]);
+    });
+}

@@ -1,0 +1,200 @@
+//! What a mechanism does of what its output shall do, measured finely on its scenario.
+
+use linkage::math::KeepNan;
+use std::f64::consts::TAU;
+
+use super::evaluate::Evaluator;
+use crate::task::{Sense, Task};
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::mechanism::GroupKind;
+
+/// Rows of the turn.
+const ROWS: usize = 7200;
+/// Half width of the band about a dwell (share of the stroke): where the output leaves it, the dwell ends.
+pub const BAND: f64 = 0.01;
+
+/// What was done in one phase.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PhaseDone {
+    /// Displacement from its beginning to its end, forward positive (share of the stroke).
+    pub displacement: f64,
+    /// Largest motion, greatest less least position (share of the stroke): in a dwell it should be none.
+    pub motion: f64,
+    /// Way in the wrong sense (share of the stroke); 0 in a dwell.
+    pub wrong: f64,
+    /// Share of the stroke at which the output stands at its end.
+    pub level: f64,
+    /// Crank angle (rad) at which the phase ends in truth: the extreme position between two motions, or where the output leaves the middle of a dwell, or comes to
+    /// it, by [`BAND`]. `None` between two motions in one sense, and where there is no such place nearby.
+    pub end: Option<f64>,
+}
+
+/// A motion measured against its timing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Achieved {
+    /// Stroke of the output (rad or m).
+    pub stroke: f64,
+    /// Smallest transmission angle of any dyad over the turn (rad); `None` with higher groups, which have none.
+    pub transmission: Option<f64>,
+    /// The phases, in their order.
+    pub phases: Vec<PhaseDone>,
+    /// Crank angles (rad from crank angle zero in the sense of rotation) of the curve.
+    pub turns: Vec<f64>,
+    /// The output there (share of the stroke, 0 rearmost).
+    pub shares: Vec<f64>,
+    /// Sense of the output that is forward: +1 or -1.
+    pub forward: f64,
+}
+
+impl Achieved {
+    /// What the mechanism of `task.case` does, its dimensions as they are; `forward` is the sense of the output that counts as forward (+1 or -1).
+    ///
+    /// # Errors
+    /// [`ErrorKind::Geometry`] if it cannot be assembled all around, or if its output turns fully.
+    pub fn of(task: &Task, forward: f64) -> Result<Self> {
+        let turns: Vec<f64> = (0..=ROWS).map(|row| TAU * (row as f64 / ROWS as f64)).collect();
+        let as_drawn = Task { places: Vec::new(), ..task.clone() };
+        let mut evaluator = Evaluator::new(&as_drawn);
+        evaluator.run(&[], task.case.drive.zero, &turns).map_err(|_| {
+            let message =
+                "the mechanism cannot be assembled over a whole turn of its crank, or its output does not rock";
+            Error::new(ErrorKind::Geometry, message)
+                .help("`linkproof inspect FILE --range` shows what limits the crank and which links turn fully")
+        })?;
+        let curve = &evaluator.curve;
+        let (low, high) =
+            curve.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &v| (l.smaller(v), h.larger(v)));
+        let dyads = task.case.structure.groups.iter().all(|group| group.kind != GroupKind::Higher);
+        let share =
+            |&value: &f64| if forward > 0.0 { (value - low) / (high - low) } else { (high - value) / (high - low) };
+        let mut found = Achieved {
+            stroke: high - low,
+            transmission: dyads.then(|| evaluator.sine.clamp(0.0, 1.0).asin()),
+            phases: Vec::new(),
+            shares: curve.iter().map(share).collect(),
+            turns,
+            forward,
+        };
+        found.phases = (0..task.timing.phases().len()).map(|phase| found.phase(task, phase)).collect();
+        Ok(found)
+    }
+
+    /// The same in whichever sense of the output comes nearer to the timing, where the task leaves it open.
+    ///
+    /// # Errors
+    /// Those of [`Achieved::of`].
+    pub fn of_either(task: &Task) -> Result<Self> {
+        if let Some(forward) = task.forward {
+            return Achieved::of(task, forward);
+        }
+        let [ahead, back] = [Achieved::of(task, 1.0)?, Achieved::of(task, -1.0)?];
+        let wrong = |found: &Achieved| found.phases.iter().map(|phase| phase.wrong).sum::<f64>();
+        Ok(if wrong(&ahead) <= wrong(&back) { ahead } else { back })
+    }
+
+    /// Largest motion in any dwell (share of the stroke).
+    #[must_use]
+    pub fn unrest(&self, task: &Task) -> f64 {
+        let dwells = self.phases.iter().zip(task.timing.phases()).filter(|(_, phase)| phase.sense == Sense::Dwell);
+        dwells.map(|(done, _)| done.motion).fold(0.0, f64::larger)
+    }
+
+    /// Largest way in the wrong sense in any phase (share of the stroke).
+    #[must_use]
+    pub fn wrong(&self) -> f64 {
+        self.phases.iter().map(|phase| phase.wrong).fold(0.0, f64::larger)
+    }
+
+    /// Largest distance of an extreme position from the limit of two opposite motions that it should be at (rad).
+    #[must_use]
+    pub fn late(&self, task: &Task) -> f64 {
+        let phases = task.timing.phases();
+        let apart = |(index, done): (usize, &PhaseDone)| {
+            let next = phases[(index + 1) % phases.len()].sense;
+            let turns_about = phases[index].sense.sign() * next.sign() < 0.0;
+            turns_about.then(|| done.end.map_or(TAU, |end| (end - phases[index].to).abs()))
+        };
+        self.phases.iter().enumerate().filter_map(apart).fold(0.0, f64::larger)
+    }
+
+    /// By how much the worst dwell falls short at either end (rad): where the output is beyond [`BAND`] although it should rest. A dwell that is longer than asked for does
+    /// not count.
+    #[must_use]
+    pub fn short(&self, task: &Task) -> f64 {
+        let phases = task.timing.phases();
+        let missing = |(index, done): (usize, &PhaseDone)| {
+            let (own, next) = (phases[index].sense, phases[(index + 1) % phases.len()].sense);
+            let end = done.end?;
+            match (own, next) {
+                (Sense::Dwell, Sense::Dwell) => None,
+                (Sense::Dwell, _) => Some(phases[index].to - end),
+                (_, Sense::Dwell) => Some(end - phases[index].to),
+                _ => None,
+            }
+        };
+        self.phases.iter().enumerate().filter_map(missing).fold(0.0, f64::larger)
+    }
+
+    /// The share at any row, counted on over turns.
+    fn at(&self, row: i64) -> f64 {
+        self.shares[row.rem_euclid(ROWS as i64) as usize]
+    }
+
+    fn row(&self, turn: f64) -> i64 {
+        (turn / TAU * ROWS as f64).round() as i64
+    }
+
+    fn phase(&self, task: &Task, index: usize) -> PhaseDone {
+        let phases = task.timing.phases();
+        let (phase, next) = (&phases[index], &phases[(index + 1) % phases.len()]);
+        let (from, to) = (self.row(phase.from), self.row(phase.to));
+        let values = || (from..=to).map(|row| self.at(row));
+        let sign = phase.sense.sign();
+        let end = match (phase.sense, next.sense) {
+            (Sense::Dwell, Sense::Dwell) => None,
+            (Sense::Dwell, _) => self.leaves(from, to, 1).map(|row| self.turn_near(row, phase.to)),
+            (_, Sense::Dwell) => {
+                let far = self.row(next.to) - self.row(next.from);
+                self.leaves(to + far, to, -1).map(|row| self.turn_near(row, phase.to))
+            }
+            (own, other) if own != other => self.extreme(to, sign).map(|row| self.turn_near(row, phase.to)),
+            _ => None,
+        };
+        PhaseDone {
+            displacement: self.at(to) - self.at(from),
+            motion: values().fold(f64::NEG_INFINITY, f64::larger) - values().fold(f64::INFINITY, f64::smaller),
+            wrong: (from..to).map(|row| (-sign * (self.at(row + 1) - self.at(row))).larger(0.0)).sum(),
+            level: self.at(to),
+            end,
+        }
+    }
+
+    /// Crank angle (rad) of a row, of the turn in which it lies near `to`.
+    fn turn_near(&self, row: f64, to: f64) -> f64 {
+        let turn = row * TAU / ROWS as f64;
+        turn + TAU * ((to - turn) / TAU).round()
+    }
+
+    /// Where the output, from the middle of its dwell between the rows `from` and `to` on towards `to` and beyond, leaves the band about the dwell's mean of
+    /// extremes.
+    fn leaves(&self, from: i64, to: i64, way: i64) -> Option<f64> {
+        let (low, high) = (from.min(to), from.max(to));
+        let values = || (low..=high).map(|row| self.at(row));
+        let middle = (values().fold(f64::NEG_INFINITY, f64::larger) + values().fold(f64::INFINITY, f64::smaller)) / 2.0;
+        let mut row = (low + high) / 2;
+        let outside = to + way * (ROWS as i64 / 4);
+        while row != outside && (self.at(row) - middle).abs() <= BAND {
+            row += way;
+        }
+        (row != outside).then_some(row as f64)
+    }
+
+    /// The extreme position nearest to a row, within a quarter of a turn: greatest for `sign` +1. Between rows by the parabola through three.
+    fn extreme(&self, to: i64, sign: f64) -> Option<f64> {
+        let value = |row: i64| sign * self.at(row);
+        let is_top = |row: &i64| value(*row) >= value(row - 1) && value(*row) > value(row + 1);
+        let row = (0..ROWS as i64 / 4).flat_map(|off| [to - off, to + off]).find(is_top)?;
+        let [a, b, c] = [row - 1, row, row + 1].map(value);
+        Some(row as f64 + 0.5 * (a - c) / (a - 2.0 * b + c))
+    }
+}

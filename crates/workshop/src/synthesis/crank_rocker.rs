@@ -1,0 +1,211 @@
+//! Crank-rocker from the two extreme positions of its rocker, in closed form.
+//!
+//! In the extreme positions crank and coupler are in line: stretched, `|O B1| = OA + AB`; folded, `|O B2| = AB - OA`. With both positions of B
+//! given, the two lengths are half the sum and half the difference of the two distances. Artobolevsky, "Theory of mechanisms and machines",
+//! synthesis of the four-bar from two extreme positions.
+
+use std::f64::consts::{PI, TAU};
+
+use super::time_ratio;
+use analytic::range::{FourBar, FourBarType};
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::{KeepNan, Vec2, cross, unit};
+use linkage::mechanism::AssemblyMode;
+
+/// What a crank-rocker is wanted to do.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wish {
+    /// Pivot O of the crank (m).
+    pub crank_pivot: Vec2,
+    /// Pivot C of the rocker (m).
+    pub rocker_pivot: Vec2,
+    /// Length CB of the rocker (m).
+    pub rocker: f64,
+    /// Angle of the rocker C -> B in one extreme position (rad).
+    pub extreme: f64,
+    /// Angle from there to the other extreme position (rad): positive counter-clockwise, not zero, less than half a turn either way.
+    pub swing: f64,
+}
+
+/// An extreme position.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Extreme {
+    /// Angle of the rocker C -> B (rad).
+    pub rocker: f64,
+    /// Angle of the crank O -> A (rad), from 0 to a turn.
+    pub crank: f64,
+}
+
+/// A crank-rocker that has the wanted extreme positions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CrankRocker {
+    /// What was wanted.
+    pub wish: Wish,
+    /// Length OA of the crank (m).
+    pub crank: f64,
+    /// Length AB of the coupler (m).
+    pub coupler: f64,
+    /// Extreme position in which crank and coupler are stretched.
+    pub stretched: Extreme,
+    /// Extreme position in which they are folded.
+    pub folded: Extreme,
+    /// Assembly mode of the dyad (coupler, rocker).
+    pub mode: AssemblyMode,
+    /// Smallest transmission angle of the turn (rad), between coupler and rocker at B, at most a right angle.
+    pub transmission: f64,
+    /// Crank angle (rad) at which it occurs: the crank on the line of the pivots.
+    pub transmission_at: f64,
+    /// Time of the slower swing over that of the faster one at a constant speed of the crank.
+    pub time_ratio: f64,
+}
+
+fn wrong(key: &str, message: String, help: &str) -> Error {
+    Error::new(ErrorKind::Input, message).key(key).help(help)
+}
+
+impl CrankRocker {
+    /// The crank-rocker of a wish.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Input`] for lengths and angles that make no sense, [`ErrorKind::Geometry`] where the two positions leave no crank that turns fully, with the
+    /// distances and the way out.
+    pub fn of(wish: Wish) -> Result<Self> {
+        check(&wish)?;
+        let frame = wish.rocker_pivot - wish.crank_pivot;
+        let angles = [wish.extreme, wish.extreme + wish.swing];
+        // From the crank's pivot to B in both positions.
+        let arms = angles.map(|angle| frame + unit(angle) * wish.rocker);
+        let distances = arms.map(|arm| arm.norm());
+        let (far, near) = if distances[0] >= distances[1] { (0, 1) } else { (1, 0) };
+        let (crank, coupler) = ((distances[far] - distances[near]) / 2.0, (distances[far] + distances[near]) / 2.0);
+        let told =
+            format!("O is {:.6} m from B in one extreme position and {:.6} m in the other", distances[0], distances[1]);
+        if !(crank > 1e-9 * coupler) {
+            let message = format!("{told}: a crank of no length would be needed");
+            return Err(Error::new(ErrorKind::Geometry, message)
+                .help("move a pivot, or turn the extreme positions, so that one lies farther from the crank's pivot"));
+        }
+        let sides = arms.map(|arm| cross(frame, arm));
+        if !(sides[0] * sides[1] > 0.0) {
+            let message = "the line of the two pivots goes between the two extreme positions, or through one: no crank leads from one to the other \
+                           without taking the dyad apart";
+            return Err(Error::new(ErrorKind::Geometry, message)
+                .help("choose a smaller swing, or pivots whose line leaves both positions of B on one side"));
+        }
+        let lengths = [frame.norm(), crank, coupler, wish.rocker];
+        let found = FourBar::of_lengths(lengths).of_type;
+        // The triangles O, B, C of both positions make the crank the shortest link, and let it turn fully; only rounding can put them on one line.
+        if found != FourBarType::CrankRocker {
+            let message = format!(
+                "{told}: an extreme position lies on the line of the pivots but for rounding, a {}",
+                found.name()
+            );
+            return Err(Error::new(ErrorKind::Geometry, message)
+                .help("move a pivot, or turn the extreme positions away from the line of the pivots"));
+        }
+        let direction = |k: usize| arms[k].y.atan2(arms[k].x);
+        let at = |k: usize, turn: f64| Extreme { rocker: angles[k], crank: (direction(k) + turn).rem_euclid(TAU) };
+        let (transmission, transmission_at) = transmission(lengths, frame);
+        Ok(CrankRocker {
+            wish,
+            crank,
+            coupler,
+            stretched: at(far, 0.0),
+            folded: at(near, PI),
+            mode: if sides[far] < 0.0 { AssemblyMode::Right } else { AssemblyMode::Left },
+            transmission,
+            transmission_at,
+            time_ratio: time_ratio(cross(arms[0], arms[1]).atan2(arms[0].dot(&arms[1]))),
+        })
+    }
+}
+
+fn check(wish: &Wish) -> Result<()> {
+    let finite = [wish.crank_pivot.x, wish.crank_pivot.y, wish.rocker_pivot.x, wish.rocker_pivot.y, wish.extreme];
+    if !finite.iter().all(|value| value.is_finite()) {
+        return Err(wrong("pivots", "a coordinate or an angle is not finite".into(), "give decimal numbers"));
+    }
+    if !(wish.rocker > 0.0 && wish.rocker.is_finite()) {
+        let message = format!("the rocker's length is {} m", wish.rocker);
+        return Err(wrong("rocker", message, "give a length greater than zero"));
+    }
+    if !(wish.swing != 0.0 && wish.swing.abs() < PI) {
+        let message = format!("the swing is {} deg", wish.swing.to_degrees());
+        return Err(wrong("swing", message, "give an angle between -180 and 180 deg that is not zero"));
+    }
+    if !((wish.rocker_pivot - wish.crank_pivot).norm() > 0.0) {
+        return Err(wrong("pivots", "both pivots are one point".into(), "give the rocker a pivot of its own"));
+    }
+    Ok(())
+}
+
+/// Smallest transmission angle (rad) of a four-bar (frame, crank, coupler, rocker) and the crank angle (rad) at which it occurs. It is extreme where
+/// the crank lies on the line of the pivots (Alt 1932): there A is nearest to C, or farthest from it.
+fn transmission([frame, crank, coupler, rocker]: [f64; 4], line: Vec2) -> (f64, f64) {
+    let at = |distance: f64| {
+        let cos = (coupler.powi(2) + rocker.powi(2) - distance * distance) / (2.0 * coupler * rocker);
+        cos.abs().smaller(1.0).acos()
+    };
+    let towards = line.y.atan2(line.x).rem_euclid(TAU);
+    let (near, far) = (at(frame - crank), at(frame + crank));
+    if near <= far { (near, towards) } else { (far, (towards + PI).rem_euclid(TAU)) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn published() -> Wish {
+        Wish {
+            crank_pivot: Vec2::zeros(),
+            rocker_pivot: Vec2::new(0.15, 0.015),
+            rocker: 0.25,
+            extreme: 50f64.to_radians(),
+            swing: 32f64.to_radians(),
+        }
+    }
+
+    #[test]
+    fn the_published_lengths() {
+        let found = CrankRocker::of(published()).unwrap();
+        assert!((found.crank - 0.025_995_627_740_337).abs() < 1e-12, "{}", found.crank);
+        assert!((found.coupler - 0.347_071_931_891_81).abs() < 1e-12, "{}", found.coupler);
+        assert!((found.stretched.crank.to_degrees() - 33.610_819_789_881_56).abs() < 1e-9);
+        assert!((found.folded.crank.to_degrees() - 234.862_320_107_189_4).abs() < 1e-9);
+        assert_eq!(found.mode, AssemblyMode::Left);
+    }
+
+    #[test]
+    fn the_order_of_the_extreme_positions_and_a_mirror_change_nothing_else() {
+        let wish = published();
+        let first = CrankRocker::of(wish).unwrap();
+        let other = CrankRocker::of(Wish { extreme: wish.extreme + wish.swing, swing: -wish.swing, ..wish }).unwrap();
+        assert!((first.crank - other.crank).abs() < 1e-16 && (first.time_ratio - other.time_ratio).abs() < 1e-14);
+        let mirrored =
+            Wish { rocker_pivot: Vec2::new(0.15, -0.015), extreme: -wish.extreme, swing: -wish.swing, ..wish };
+        let mirrored = CrankRocker::of(mirrored).unwrap();
+        assert!((first.crank - mirrored.crank).abs() < 1e-16 && mirrored.mode == AssemblyMode::Right);
+    }
+
+    #[test]
+    fn what_cannot_be_says_so() {
+        let wish = published();
+        for (bad, kind, words) in [
+            (Wish { swing: 0.0, ..wish }, ErrorKind::Input, "the swing is 0 deg"),
+            (Wish { rocker: -1.0, ..wish }, ErrorKind::Input, "length is -1 m"),
+            (Wish { rocker_pivot: Vec2::zeros(), ..wish }, ErrorKind::Input, "one point"),
+            (Wish { extreme: f64::NAN, ..wish }, ErrorKind::Input, "not finite"),
+            // B symmetric about the line of the pivots: equal distances.
+            (
+                Wish { rocker_pivot: Vec2::new(0.15, 0.0), extreme: -0.3, swing: 0.6, ..wish },
+                ErrorKind::Geometry,
+                "no length",
+            ),
+            (Wish { extreme: -0.3, swing: 1.0, ..wish }, ErrorKind::Geometry, "goes between"),
+        ] {
+            let error = CrankRocker::of(bad).unwrap_err();
+            assert!(error.kind() == kind && error.message().contains(words), "{bad:?}: {error}");
+            assert!(error.way_out().is_some());
+        }
+    }
+}

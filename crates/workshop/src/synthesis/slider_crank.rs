@@ -1,0 +1,191 @@
+//! Slider-crank from stroke and offset, and the rod's length or the time ratio, in closed form.
+//!
+//! With crank r, rod l and offset e (distance of the crank's pivot from the slider's line) the stroke is
+//! `s = sqrt((l + r)^2 - e^2) - sqrt((l - r)^2 - e^2)`. Squared twice it is linear in r^2: `r^2 = s^2 (4 (l^2 - e^2) - s^2) / (4 (4 l^2 - s^2))`.
+//! The crank turns fully if l > r + |e|; at equality `l = (|e| + sqrt(e^2 + s^2)) / 2`, below which no rod will do. With the time ratio K the
+//! directions of the extreme positions differ by theta = pi (K - 1) / (K + 1), and the nearer of them, n along the line, solves
+//! `n^2 + s n + e^2 - |e| s cot(theta) = 0`. Follows from the right triangles of the extreme positions.
+
+use std::f64::consts::{PI, TAU};
+
+use super::time_ratio;
+use linkage::error::{Error, ErrorKind, Result};
+
+/// What a slider-crank is wanted to do, besides its stroke and offset.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Given {
+    /// Length of the rod (m).
+    Rod(f64),
+    /// Time of the slower stroke over that of the faster one, at a constant speed of the crank; 1 or more.
+    TimeRatio(f64),
+}
+
+/// A slider-crank with its crank's pivot at the origin and the slider's line along x at y = `offset`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SliderCrank {
+    /// Stroke of the slider (m).
+    pub stroke: f64,
+    /// Offset of the slider's line (m), positive above the pivot.
+    pub offset: f64,
+    /// Length of the crank (m).
+    pub crank: f64,
+    /// Length of the rod (m).
+    pub rod: f64,
+    /// Crank angle (rad, from 0 to a turn) and place of the slider along its line (m) where it is farthest from the pivot.
+    pub far: [f64; 2],
+    /// The same where it is nearest.
+    pub near: [f64; 2],
+    /// Time of the slower stroke over that of the faster one.
+    pub time_ratio: f64,
+    /// Largest angle between the rod and the slider's line (rad): the pressure angle; the transmission angle is its complement.
+    pub pressure: f64,
+}
+
+fn wrong(key: &str, message: String, help: impl Into<String>) -> Error {
+    Error::new(ErrorKind::Input, message).key(key).help(help)
+}
+
+fn impossible(message: String, help: impl Into<String>) -> Error {
+    Error::new(ErrorKind::Geometry, message).help(help)
+}
+
+impl SliderCrank {
+    /// The slider-crank with this stroke and offset (m).
+    ///
+    /// # Errors
+    /// [`ErrorKind::Input`] for numbers that make no sense, [`ErrorKind::Geometry`] where no crank turns fully, with the limit.
+    pub fn of(stroke: f64, offset: f64, given: Given) -> Result<Self> {
+        if !(stroke > 0.0 && stroke.is_finite()) {
+            return Err(wrong("stroke", format!("the stroke is {stroke} m"), "give a length greater than zero"));
+        }
+        if !offset.is_finite() {
+            return Err(wrong(
+                "offset",
+                format!("the offset is {offset} m"),
+                "give a decimal number; 0 for a central one",
+            ));
+        }
+        let e = offset.abs();
+        let (crank, rod) = match given {
+            Given::Rod(rod) => (crank_of(stroke, e, rod)?, rod),
+            Given::TimeRatio(ratio) => of_time_ratio(stroke, e, ratio)?,
+        };
+        let place = |reach: f64| (reach * reach - e * e).sqrt();
+        // Folded, the rod points from A over O to the slider.
+        let far = [(offset / (rod + crank)).asin().rem_euclid(TAU), place(rod + crank)];
+        let near = [((offset / (rod - crank)).asin() + PI).rem_euclid(TAU), place(rod - crank)];
+        let between = (e / (rod - crank)).asin() - (e / (rod + crank)).asin();
+        Ok(SliderCrank {
+            stroke,
+            offset,
+            crank,
+            rod,
+            far,
+            near,
+            time_ratio: time_ratio(between),
+            pressure: ((crank + e) / rod).asin(),
+        })
+    }
+}
+
+/// The crank for a rod.
+fn crank_of(stroke: f64, e: f64, rod: f64) -> Result<f64> {
+    if !(rod > 0.0 && rod.is_finite()) {
+        return Err(wrong("rod", format!("the rod's length is {rod} m"), "give a length greater than zero"));
+    }
+    let shortest = (e + e.hypot(stroke)) / 2.0;
+    if !(rod > shortest) {
+        let message = format!(
+            "a rod of {rod:.6} m is too short for a stroke of {stroke:.6} m at an offset of {e:.6} m: the crank could not turn fully"
+        );
+        return Err(impossible(message, format!("give a rod longer than {shortest:.6} m")));
+    }
+    let (rod, s) = (rod * rod, stroke * stroke);
+    Ok((s * (4.0 * (rod - e * e) - s) / (4.0 * (4.0 * rod - s))).sqrt())
+}
+
+/// Crank and rod for a time ratio.
+fn of_time_ratio(stroke: f64, e: f64, ratio: f64) -> Result<(f64, f64)> {
+    if !(ratio >= 1.0 && ratio.is_finite()) {
+        let help = "give the time of the slower stroke over that of the faster one, 1 or more";
+        return Err(wrong("time_ratio", format!("the time ratio is {ratio}"), help));
+    }
+    let theta = PI * (ratio - 1.0) / (ratio + 1.0);
+    if e == 0.0 || theta == 0.0 {
+        let message = match e == 0.0 {
+            true => format!("without an offset both strokes take the same time, not {ratio} times as long"),
+            false => "with an offset the two strokes never take the same time".to_string(),
+        };
+        let message =
+            if e == 0.0 && theta == 0.0 { "without an offset any rod gives a time ratio of 1".into() } else { message };
+        return Err(impossible(message, "give the length of the rod instead of the time ratio, or change the offset"));
+    }
+    let rest = e * e - e * stroke / theta.tan();
+    if !(rest < 0.0) {
+        let most = time_ratio((stroke / e).atan());
+        let message =
+            format!("a time ratio of {ratio} is out of reach with a stroke of {stroke:.6} m at an offset of {e:.6} m");
+        return Err(impossible(message, format!("ask for less than {most:.6}, or choose a smaller offset")));
+    }
+    let near = 2.0 * -rest / (stroke + (stroke * stroke - 4.0 * rest).sqrt());
+    let (far, near) = ((near + stroke).hypot(e), near.hypot(e));
+    Ok(((far - near) / 2.0, (far + near) / 2.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_central_one_has_half_the_stroke_as_its_crank() {
+        let found = SliderCrank::of(0.1, 0.0, Given::Rod(0.2)).unwrap();
+        assert!((found.crank - 0.05).abs() < 1e-16 && (found.time_ratio - 1.0).abs() < 1e-15);
+        assert!((found.pressure - 0.25f64.asin()).abs() < 1e-15);
+    }
+
+    #[test]
+    fn rod_and_time_ratio_lead_to_the_same_linkage() {
+        for (stroke, offset, rod) in [(0.1, 0.03, 0.15), (0.1, -0.03, 0.12), (0.02, 0.05, 0.08), (1.0, 1e-3, 0.7)] {
+            let found = SliderCrank::of(stroke, offset, Given::Rod(rod)).unwrap();
+            assert!((found.far[1] - found.near[1] - stroke).abs() < 1e-14);
+            assert!(found.rod > found.crank + offset.abs());
+            let again = SliderCrank::of(stroke, offset, Given::TimeRatio(found.time_ratio)).unwrap();
+            assert!(
+                (again.rod - rod).abs() < 1e-10 && (again.crank - found.crank).abs() < 1e-10,
+                "{found:?} {again:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn the_limits_told_are_the_limits() {
+        let (stroke, offset) = (0.1, 0.03);
+        let told = |given| SliderCrank::of(stroke, offset, given).unwrap_err().way_out().unwrap().to_string();
+        let number = |text: String| {
+            text.split_whitespace().find_map(|word| word.trim_end_matches(',').parse::<f64>().ok()).unwrap()
+        };
+        let shortest = number(told(Given::Rod(0.05)));
+        assert!(SliderCrank::of(stroke, offset, Given::Rod(shortest - 1e-6)).is_err());
+        let found = SliderCrank::of(stroke, offset, Given::Rod(shortest + 1e-6)).unwrap();
+        assert!(found.rod - found.crank - offset < 1e-5);
+        let most = number(told(Given::TimeRatio(50.0)));
+        assert!(SliderCrank::of(stroke, offset, Given::TimeRatio(most + 1e-5)).is_err());
+        assert!(SliderCrank::of(stroke, offset, Given::TimeRatio(most - 1e-5)).is_ok());
+    }
+
+    #[test]
+    fn what_makes_no_sense_says_so() {
+        for (stroke, offset, given, words) in [
+            (0.0, 0.0, Given::Rod(1.0), "the stroke is 0 m"),
+            (0.1, f64::NAN, Given::Rod(1.0), "the offset is NaN"),
+            (0.1, 0.0, Given::Rod(0.0), "length is 0 m"),
+            (0.1, 0.0, Given::TimeRatio(1.2), "without an offset both"),
+            (0.1, 0.0, Given::TimeRatio(1.0), "any rod"),
+            (0.1, 0.01, Given::TimeRatio(1.0), "never take the same time"),
+            (0.1, 0.01, Given::TimeRatio(0.5), "the time ratio is 0.5"),
+        ] {
+            let error = SliderCrank::of(stroke, offset, given).unwrap_err();
+            assert!(error.message().contains(words) && error.way_out().is_some(), "{error}");
+        }
+    }
+}

@@ -1,0 +1,233 @@
+//! What an output shall do over one turn of the crank: phases of motion either way and of rest.
+
+use std::f64::consts::TAU;
+
+use linkage::error::{Error, ErrorKind, Result};
+
+/// Most phases of a turn: ten degrees each.
+const MOST_PHASES: usize = 36;
+
+/// What the output does in a phase.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sense {
+    /// It stands still.
+    Dwell,
+    /// It goes forward.
+    Forward,
+    /// It goes back.
+    Back,
+}
+
+impl Sense {
+    /// Name, as in files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Sense::Dwell => "dwell",
+            Sense::Forward => "forward",
+            Sense::Back => "back",
+        }
+    }
+
+    /// +1 forward, -1 back, 0 at rest.
+    #[inline]
+    #[must_use]
+    pub fn sign(self) -> f64 {
+        match self {
+            Sense::Dwell => 0.0,
+            Sense::Forward => 1.0,
+            Sense::Back => -1.0,
+        }
+    }
+}
+
+/// One phase of a turn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Phase {
+    /// Crank angle at which it begins (rad, from crank angle zero in the sense of rotation).
+    pub from: f64,
+    /// Crank angle at which it ends (rad).
+    pub to: f64,
+    /// What the output does.
+    pub sense: Sense,
+    /// Where it shall stand at the end, as a share of the stroke from the rearmost position: 0 to 1. `None` leaves it to the search.
+    pub level: Option<f64>,
+    /// Least displacement of a moving phase, as a share of the stroke.
+    pub least: f64,
+}
+
+/// The phases of one turn, one after the other from 0 to a whole turn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Timing {
+    phases: Vec<Phase>,
+    /// Levels at the ends of all phases, where they are all known.
+    levels: Option<Vec<f64>>,
+    /// Whether the output shall follow the smooth curve between the levels, and not only go the right way.
+    follow: bool,
+}
+
+impl Timing {
+    /// The timing of these phases.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Input`] with the number of the phase (`phases[2]`) if they do not follow each other over a whole turn, contradict themselves, or if the curve is
+    /// to be followed and a level is not known.
+    pub fn of(phases: Vec<Phase>, follow: bool) -> Result<Self> {
+        let wrong = |index: usize, message: String, help: &str| {
+            Err(Error::new(ErrorKind::Input, message).key(format!("phases[{}]", index + 1)).help(help))
+        };
+        if phases.len() < 2 {
+            let error =
+                Error::new(ErrorKind::Input, format!("found {} phases, but a motion has two at least", phases.len()));
+            return Err(error
+                .key("phases")
+                .help("write `phases = [{ to_deg = 180, sense = \"forward\" }, { to_deg = 360, sense = \"back\" }]`"));
+        }
+        if phases.len() > MOST_PHASES {
+            let error = Error::new(ErrorKind::Input, format!("found {} phases, more than {MOST_PHASES}", phases.len()));
+            return Err(error.key("phases").help("join phases of one sense"));
+        }
+        let mut from = 0.0;
+        for (index, phase) in phases.iter().enumerate() {
+            if phase.from != from || !(phase.to > phase.from) {
+                let message =
+                    format!("the phase leads from {:.6} to {:.6} deg", phase.from.to_degrees(), phase.to.to_degrees());
+                return wrong(index, message, "let crank angles ascend from phase to phase; the first begins at 0");
+            }
+            if phase.level.is_some_and(|level| !(0.0..=1.0).contains(&level)) {
+                return wrong(index, "a level is a share of the stroke".into(), "give a number from 0 to 1");
+            }
+            if !(phase.least >= 0.0 && phase.least < 1.0) {
+                return wrong(
+                    index,
+                    "the least displacement is a share of the stroke".into(),
+                    "give a number from 0 to below 1",
+                );
+            }
+            from = phase.to;
+        }
+        if (from - TAU).abs() > 1e-9 {
+            let message = format!("the last phase ends at {:.6} deg, not after a whole turn", from.to_degrees());
+            return wrong(phases.len() - 1, message, "let it end at 360 deg");
+        }
+        for sense in [Sense::Forward, Sense::Back] {
+            if !phases.iter().any(|phase| phase.sense == sense) {
+                let error = Error::new(
+                    ErrorKind::Input,
+                    format!("no phase goes {}: the output would not come round", sense.name()),
+                );
+                return Err(error.key("phases").help("an output that rocks goes forward and back in every turn"));
+            }
+        }
+        let levels = levels(&phases);
+        if follow && levels.is_none() {
+            let error = Error::new(ErrorKind::Input, "the curve is to be followed, but not all levels are known");
+            return Err(error.key("follow").help("give every moving phase its `level`, or leave `follow` out"));
+        }
+        Ok(Timing { phases, levels, follow })
+    }
+
+    /// The phases.
+    #[must_use]
+    pub fn phases(&self) -> &[Phase] {
+        &self.phases
+    }
+
+    /// Whether the output shall follow [`Timing::wanted`], and not only go the right way.
+    #[must_use]
+    pub fn follows(&self) -> bool {
+        self.follow
+    }
+
+    /// Level wanted at the end of a phase: given, implied, or `None`.
+    #[must_use]
+    pub fn level(&self, phase: usize) -> Option<f64> {
+        self.levels.as_ref().map(|levels| levels[phase]).or(self.phases[phase].level)
+    }
+
+    /// Share of the stroke (0 rearmost, 1 foremost) at the crank angle `crank` (rad, 0 to a turn) on the smooth curve through all levels: cycloidal,
+    /// without jumps of the acceleration: u - sin(2 pi u) / 2 pi. `None` if not all levels are known.
+    #[must_use]
+    pub fn wanted(&self, crank: f64) -> Option<f64> {
+        let levels = self.levels.as_ref()?;
+        let index = self.phases.iter().position(|phase| crank <= phase.to).unwrap_or(self.phases.len() - 1);
+        let phase = &self.phases[index];
+        let before = levels[(index + levels.len() - 1) % levels.len()];
+        let u = ((crank - phase.from) / (phase.to - phase.from)).clamp(0.0, 1.0);
+        Some(before + (levels[index] - before) * (u - (TAU * u).sin() / TAU))
+    }
+}
+
+/// Levels at the ends of all phases: those given, those that a dwell keeps, and 1 and 0 where there is one motion forward and one back.
+fn levels(phases: &[Phase]) -> Option<Vec<f64>> {
+    let alone = |sense: Sense| phases.iter().filter(|phase| phase.sense == sense).count() == 1;
+    let simple = alone(Sense::Forward) && alone(Sense::Back);
+    let mut found: Vec<Option<f64>> = phases
+        .iter()
+        .map(|phase| match phase.sense {
+            Sense::Forward if simple => Some(1.0),
+            Sense::Back if simple => Some(0.0),
+            _ => phase.level,
+        })
+        .collect();
+    let count = phases.len();
+    // Twice round: a dwell at the start of the turn keeps the level of the end.
+    for index in 0..2 * count {
+        let (own, before) = (index % count, (index + count - 1) % count);
+        if phases[own].sense == Sense::Dwell && found[own].is_none() {
+            found[own] = found[before];
+        }
+    }
+    found.into_iter().collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn phases(all: &[(f64, Sense, Option<f64>)]) -> Vec<Phase> {
+        let mut from = 0.0;
+        let mut phase = |&(to, sense, level): &(f64, Sense, Option<f64>)| {
+            let to = f64::to_radians(to);
+            let phase = Phase { from, to, sense, level, least: 0.05 };
+            from = to;
+            phase
+        };
+        all.iter().map(&mut phase).collect()
+    }
+
+    #[test]
+    fn levels_follow_from_one_motion_either_way() {
+        use Sense::{Back, Dwell, Forward};
+        let all = phases(&[(30.0, Dwell, None), (130.0, Forward, None), (240.0, Back, None), (360.0, Dwell, None)]);
+        let timing = Timing::of(all, true).unwrap();
+        let at = |deg: f64| timing.wanted(deg.to_radians()).unwrap();
+        assert_eq!([at(0.0), at(15.0), at(300.0), at(360.0)], [0.0; 4]);
+        assert!((at(130.0) - 1.0).abs() < 1e-15 && (at(80.0) - 0.5).abs() < 1e-12);
+        assert!((at(185.0) - 0.5).abs() < 1e-12 && at(100.0) > at(90.0));
+    }
+
+    #[test]
+    fn levels_that_are_not_known_stay_open() {
+        use Sense::{Back, Dwell, Forward};
+        let open = [(90.0, Forward, None), (180.0, Dwell, None), (270.0, Forward, Some(1.0)), (360.0, Back, Some(0.0))];
+        let timing = Timing::of(phases(&open), false).unwrap();
+        assert_eq!([timing.level(0), timing.level(2), timing.wanted(1.0)], [None, Some(1.0), None]);
+        assert!(Timing::of(phases(&open), true).unwrap_err().message().contains("not all levels"));
+    }
+
+    #[test]
+    fn phases_that_make_no_turn_say_so() {
+        use Sense::{Back, Dwell, Forward};
+        for (all, words) in [
+            (vec![(360.0, Forward, None)], "found 1 phases"),
+            (vec![(200.0, Forward, None), (100.0, Back, None)], "leads from 200"),
+            (vec![(200.0, Forward, None), (350.0, Back, None)], "ends at 350"),
+            (vec![(200.0, Forward, None), (360.0, Dwell, None)], "no phase goes back"),
+            (vec![(200.0, Forward, Some(1.5)), (360.0, Back, None)], "share of the stroke"),
+        ] {
+            let error = Timing::of(phases(&all), false).unwrap_err();
+            assert!(error.message().contains(words) && error.way_out().is_some(), "{error}");
+        }
+    }
+}

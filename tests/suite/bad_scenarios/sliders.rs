@@ -1,0 +1,84 @@
+//! What goes wrong with sliders.
+
+use linkage::ErrorKind;
+
+use super::{Bad, INPUT, TABLE, assert_refused, parse};
+
+/// A slider-crank: crank 100 mm, rod 300 mm, slider on a guide through O along x.
+const SLIDER: &str = include_str!("slider.toml");
+
+fn assert_sliders_refused(cases: &[Bad]) {
+    assert!(parse(SLIDER, TABLE).is_ok(), "{:?}", parse(SLIDER, TABLE).err());
+    cases.iter().for_each(|bad| assert_refused(SLIDER, bad));
+}
+
+/// Guides and rods that do not work: the message says what is wrong and what to do.
+#[test]
+fn sliders() {
+    const RRP: &str = "start.groups (rod, slider)";
+    const GUIDE: &str = "links = [\"ground\", \"slider\"]\npoints = [\"O\", \"B\"]";
+    const OTHER: &str =
+        "name = \"B\"\ntype = \"prismatic\"\naxis_deg = 0\nlinks = [\"rod\", \"slider\"]\npoints = [\"B\", \"C\"]";
+    // The slider's own point, where the rod has none.
+    const POINT: (&str, &str) = ("[links.slider.points]\nB =", "[links.slider.points]\nC =");
+    const PLACE: (&str, &str) = ("points = [\"O\", \"B\"]", "points = [\"O\", \"C\"]");
+    const PIN: &str = "name = \"B\"\ntype = \"revolute\"\nlinks = [\"rod\", \"slider\"]";
+    assert_sliders_refused(&[
+        Bad {
+            // The rod is shorter than the distance of the crank's pin from the guide.
+            edits: &[("crank_deg = 30", "crank_deg = 90"), ("B = { x_mm = 300", "B = { x_mm = 50")],
+            kind: ErrorKind::Geometry,
+            at: "[[start.groups]]",
+            key: RRP,
+            words: &["passes its outer pin at 0.100000 m", "its rod spans 0.050000 m", "check the lengths"],
+        },
+        bad!("B = { x_mm = 300" => "B = { x_mm = 0", ErrorKind::Geometry, at "[[start.groups]]", key RRP,
+            ["its rod spans 0.000000 m"]),
+        Bad {
+            // RPP with both axes along the guide.
+            edits: &[
+                (PIN, OTHER),
+                POINT,
+                PLACE,
+                ("[[start.groups]]\nlinks = [\"rod\", \"slider\"]\nmode = \"ahead\"\n", ""),
+                ("[[loads]]\ntype = \"resistance\"\nlink = \"rod\"\nmoment_N_m = 1\n", ""),
+            ],
+            kind: ErrorKind::Geometry,
+            at: "[start]",
+            key: RRP,
+            words: &["axes of its two prismatic joints are parallel", "check the axes"],
+        },
+        Bad {
+            // The rod slides on the ground too: a loop of three prismatic joints.
+            edits: &[
+                (PIN, OTHER),
+                POINT,
+                PLACE,
+                ("link = \"rod\"", "link = \"crank\""),
+                ("[links.rod.points]\nA =", "[links.rod.points]\nR ="),
+                (
+                    "name = \"A\"\ntype = \"revolute\"\nlinks = [\"crank\", \"rod\"]",
+                    "name = \"A\"\ntype = \"prismatic\"\naxis_deg = 70\nlinks = [\"ground\", \"rod\"]\npoints = [\"O\", \"R\"]",
+                ),
+            ],
+            kind: INPUT,
+            at: "[[joints]]\nname = \"guide\"",
+            key: "joints.guide",
+            words: &["a loop of prismatic joints alone", "must be revolute"],
+        },
+        bad!("joint = \"O\"" => "joint = \"guide\"", ErrorKind::Unsupported, at "joint = \"guide\"", key "drive.joint",
+            ["is prismatic", "by a revolute joint"]),
+        bad!("[drive]" => "[[joints]]\nname = \"B2\"\ntype = \"prismatic\"\naxis_deg = 0\nlinks = [\"rod\", \"slider\"]\npoints = [\"B\", \"S\"]\n[drive]",
+            INPUT, at "links = [\"rod\", \"slider\"]\npoints", key "joints.B2.links", ["\"B\" joins", "lock"]),
+        bad!("mode = \"ahead\"" => "mode = \"left\"", INPUT, at "mode = \"left\"", key "start.groups[1].mode",
+            ["does not belong to a group of RRP", "\"ahead\" or \"behind\""]),
+        bad!("axis_deg = 0" => "axis_deg = nan", INPUT, at "axis_deg = nan", key "joints.guide.axis_deg", ["finite number"]),
+        bad!("link = \"rod\"" => "link = \"slider\"", INPUT, at "link = \"slider\"", key "loads[1].link",
+            ["\"slider\" does not turn", "name a link that turns"]),
+    ]);
+    // The ground named second is the same guide.
+    let turned = SLIDER.replace(GUIDE, "links = [\"slider\", \"ground\"]\npoints = [\"B\", \"O\"]");
+    assert_ne!(turned, SLIDER);
+    let [one, other] = [SLIDER, &turned].map(|text| parse(text, TABLE).unwrap().case.start);
+    assert_eq!(one, other);
+}

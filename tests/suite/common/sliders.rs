@@ -1,0 +1,226 @@
+//! Mechanisms with prismatic joints, built by hand with their motion in closed form: one of every sort of dyad. No frame and no
+//! axis lies along the world's, no mass centre on a joint, so that a wrong sign or a frame left out shows.
+
+pub mod double;
+
+use double::{oldham, scotch_yoke, slotted_crank};
+use linkage::case::{Case, Grid, Wanted};
+use linkage::drive::{Drive, MotionLaw};
+use linkage::math::{Vec2, rotated, turned, unit};
+use linkage::mechanism::{
+    AssemblyMode, Group, GroupKind, Joint, JointKind, Link, LinkPose, Mechanism, Point, Pose, Side, Structure,
+};
+
+/// Crank speed (rad/s).
+pub const SPEED: f64 = 10.0;
+/// Length of the cranks (m).
+pub const CRANK: f64 = 0.1;
+
+/// Direction of the guides on the ground (rad).
+const GUIDE: f64 = 0.3;
+
+/// A mechanism, and what is known of it in closed form.
+pub struct Sample {
+    pub name: &'static str,
+    pub case: Case,
+    /// Slide of `joint` and angle of `link` as functions of the crank angle (rad), which grows with `SPEED`.
+    pub exact: fn(f64) -> Exact,
+    pub joint: &'static str,
+    pub link: &'static str,
+}
+
+/// Values with their first and second derivatives by time; m, rad, s.
+#[derive(Clone, Copy, Debug)]
+pub struct Exact {
+    pub slide: [f64; 3],
+    pub angle: [f64; 3],
+}
+
+fn link(name: &str, points: &[(&str, Vec2)], [mass, x, y, inertia]: [f64; 4]) -> Link {
+    let points = points.iter().map(|&(name, local)| Point { name: name.into(), local }).collect();
+    Link { name: name.into(), points, mass, mass_centre: Vec2::new(x, y), inertia }
+}
+
+fn joint(name: &str, kind: JointKind, first: (usize, Vec2), second: (usize, Vec2)) -> Joint {
+    let [first, second] = [first, second].map(|(link, local)| Side { link, local });
+    Joint { name: name.into(), kind, first, second }
+}
+
+fn along(first: f64, second: f64) -> JointKind {
+    JointKind::Prismatic { axes: [unit(first), unit(second)] }
+}
+
+/// The same case with its joints' links named in the other order. The mode of an RPR dyad says which of the pair's links lies
+/// ahead, so it turns about.
+pub fn swapped(case: &Case) -> Case {
+    let swap = |joint: &Joint| {
+        let kind = match joint.kind {
+            JointKind::Prismatic { axes: [first, second] } => JointKind::Prismatic { axes: [second, first] },
+            kind => kind,
+        };
+        Joint { kind, first: joint.second, second: joint.first, ..joint.clone() }
+    };
+    let joints = case.mechanism.joints().iter().map(swap).collect();
+    let mechanism = Mechanism::new(case.mechanism.links().to_vec(), joints).unwrap();
+    let mode = |(group, &mode): (&Group, &AssemblyMode)| match (group.kind, mode) {
+        (GroupKind::Rpr, AssemblyMode::Ahead) => AssemblyMode::Behind,
+        (GroupKind::Rpr, AssemblyMode::Behind) => AssemblyMode::Ahead,
+        _ => mode,
+    };
+    let modes = case.structure.groups.iter().zip(&case.modes).map(mode).collect();
+    Case { mechanism, modes, ..case.clone() }
+}
+
+/// The case with its crank as link 1, driven at joint 0.
+fn case(links: Vec<Link>, joints: Vec<Joint>, mode: AssemblyMode, start: f64, to: f64, pose: Vec<LinkPose>) -> Case {
+    let mechanism = Mechanism::new(links, joints).unwrap();
+    let structure = Structure::of(&mechanism, &[0]).unwrap();
+    let drive = Drive { joint: 0, link: 1, zero: 0.0, start, law: MotionLaw::ConstantSpeed(SPEED), free: None };
+    let cranks = (0..=72).map(|k| start + (to - start) * f64::from(k) / 72.0).collect();
+    let case = Case {
+        mechanism,
+        structure,
+        drive: drive.clone(),
+        further_drives: Vec::new(),
+        motor: None,
+        loads: Vec::new(),
+        gravity: Vec2::new(0.0, -9.81),
+        start: Pose(pose),
+        modes: vec![mode],
+        grid: Grid::of_cranks(&drive, cranks),
+        wanted: Wanted::ALL,
+    };
+    let closure = case.start.closure(&case.mechanism);
+    assert!(closure < 1e-15, "the start pose is off by {closure:e} m");
+    case
+}
+
+const TURN: f64 = std::f64::consts::TAU;
+const PIN: JointKind = JointKind::Revolute;
+
+fn crank() -> Link {
+    link("crank", &[("O", Vec2::zeros()), ("A", Vec2::new(CRANK, 0.0))], [0.8, 0.03, 0.01, 2e-3])
+}
+
+/// All of them.
+pub fn all() -> [Sample; 5] {
+    [slider_crank(), swinging_guide(), scotch_yoke(), slotted_crank(), oldham()]
+}
+
+const ROD: f64 = 0.35;
+const OFFSET: f64 = 0.02;
+/// The slider's axis in its own frame, and the joint's place there.
+const SLIDER_AXIS: f64 = -0.5;
+const SLIDER_PLACE: Vec2 = Vec2::new(0.02, 0.015);
+
+/// RRP: crank 0.1 m, rod 0.35 m, slider whose pin runs 0.02 m beside the crank's pivot.
+///
+/// With the crank at phi from the guide and sin(beta) = (e - a sin(phi)) / l: s = a cos(phi) + l cos(beta); both derived twice
+/// (the formulas of a piston compressor, here with an offset).
+pub fn slider_crank() -> Sample {
+    // The place on the slider and the one on the guide both lie off the pin's path.
+    let from_pin = rotated(unit(-SLIDER_AXIS), SLIDER_PLACE);
+    let guide = rotated(unit(GUIDE), Vec2::new(0.25, OFFSET + from_pin.y));
+    let links = vec![
+        link("ground", &[("O", Vec2::zeros()), ("G", guide)], [0.0; 4]),
+        crank(),
+        link("rod", &[("A", Vec2::zeros()), ("B", Vec2::new(ROD, 0.0))], [1.5, 0.15, 0.02, 0.02]),
+        link("slider", &[("B", Vec2::zeros()), ("S", SLIDER_PLACE)], [2.0, 0.01, -0.02, 3e-3]),
+    ];
+    let joints = vec![
+        joint("O", PIN, (0, Vec2::zeros()), (1, Vec2::zeros())),
+        joint("A", PIN, (1, Vec2::new(CRANK, 0.0)), (2, Vec2::zeros())),
+        joint("B", PIN, (2, Vec2::new(ROD, 0.0)), (3, Vec2::zeros())),
+        joint("guide", along(GUIDE, SLIDER_AXIS), (0, guide), (3, SLIDER_PLACE)),
+    ];
+    let exact = |crank: f64| {
+        let phi = crank - GUIDE;
+        let beta = ((OFFSET - CRANK * phi.sin()) / ROD).asin();
+        let (sin, cos) = beta.sin_cos();
+        let spin = -CRANK * SPEED * phi.cos() / (ROD * cos);
+        let alpha = (CRANK * SPEED * SPEED * phi.sin() + ROD * spin * spin * sin) / (ROD * cos);
+        let place = CRANK * phi.cos() + ROD * cos;
+        let speed = -CRANK * SPEED * phi.sin() - ROD * spin * sin;
+        let second = -CRANK * SPEED * SPEED * phi.cos() - ROD * spin * spin * cos - ROD * alpha * sin;
+        let ahead = rotated(unit(-SLIDER_AXIS), SLIDER_PLACE).x - 0.25;
+        Exact { slide: [place + ahead, speed, second], angle: [GUIDE + beta, spin, alpha] }
+    };
+    let start = 0.7;
+    let tip = unit(start) * CRANK;
+    let rod = LinkPose { origin: tip, angle: exact(start).angle[0] };
+    let slider = LinkPose { origin: rod.point(Vec2::new(ROD, 0.0)), angle: GUIDE - SLIDER_AXIS };
+    let pose = vec![LinkPose::GROUND, LinkPose { origin: Vec2::zeros(), angle: start }, rod, slider];
+    let case = case(links, joints, AssemblyMode::Ahead, start, start + TURN, pose);
+    Sample { name: "slider-crank", case, exact, joint: "guide", link: "rod" }
+}
+
+/// The slider-crank with a rod of 0.11 m: it does not reach its line where the crank's tip is farther from that. Turning on from
+/// the start this begins at 180 deg + asin(0.09 / 0.1) = 244.158 deg from the guide, crank angle 261.347 deg.
+pub fn short_rod() -> Case {
+    let rod = 0.11;
+    let mut case = slider_crank().case;
+    let (mut links, mut joints) = (case.mechanism.links().to_vec(), case.mechanism.joints().to_vec());
+    let end = Vec2::new(rod, 0.0);
+    (links[2].points[1].local, joints[2].first.local) = (end, end);
+    case.mechanism = Mechanism::new(links, joints).unwrap();
+    case.start.0[2].angle = GUIDE + ((OFFSET - CRANK * (case.drive.start - GUIDE).sin()) / rod).asin();
+    case.start.0[3].origin = case.start.0[2].point(end);
+    case
+}
+
+const PIVOT: Vec2 = Vec2::new(0.25, 0.05);
+const ROCKER_AXIS: f64 = 0.4;
+const BLOCK_AXIS: f64 = -0.6;
+const ROCKER_PLACE: Vec2 = Vec2::new(0.05, 0.01);
+const BLOCK_PLACE: Vec2 = Vec2::new(-0.01, 0.02);
+
+/// RPR: crank 0.1 m, block on its pin, sliding on a rocker about (0.25, 0.05).
+///
+/// With the guide at eta, A = C + t e + h n (h constant): v . n = t eta', v . e = t' - h eta', a . n = t eta'' + 2 t' eta' - h eta'^2,
+/// a . e = t'' - t eta'^2 - h eta''.
+pub fn swinging_guide() -> Sample {
+    let links = vec![
+        link("ground", &[("O", Vec2::zeros()), ("C", PIVOT)], [0.0; 4]),
+        crank(),
+        link("block", &[("A", Vec2::zeros()), ("Q", BLOCK_PLACE)], [0.5, 0.01, 0.005, 1e-3]),
+        link(
+            "rocker",
+            &[("C", Vec2::zeros()), ("D", ROCKER_PLACE), ("E", Vec2::new(0.4, 0.1))],
+            [2.5, 0.2, 0.03, 0.03],
+        ),
+    ];
+    let joints = vec![
+        joint("O", PIN, (0, Vec2::zeros()), (1, Vec2::zeros())),
+        joint("A", PIN, (1, Vec2::new(CRANK, 0.0)), (2, Vec2::zeros())),
+        joint("slot", along(BLOCK_AXIS, ROCKER_AXIS), (2, BLOCK_PLACE), (3, ROCKER_PLACE)),
+        joint("C", PIN, (0, PIVOT), (3, Vec2::zeros())),
+    ];
+    let exact = |crank: f64| {
+        let tip = unit(crank) * CRANK;
+        let rocker_place = rotated(unit(-ROCKER_AXIS), ROCKER_PLACE);
+        let block_place = rotated(unit(-BLOCK_AXIS), BLOCK_PLACE);
+        let (arm, h) = (tip - PIVOT, rocker_place.y - block_place.y);
+        let t = (arm.norm_squared() - h * h).sqrt();
+        let eta = arm.y.atan2(arm.x) - h.atan2(t);
+        let (e, n) = (unit(eta), turned(unit(eta)));
+        let (v, a) = (turned(tip) * SPEED, -tip * SPEED * SPEED);
+        let spin = v.dot(&n) / t;
+        let speed = v.dot(&e) + h * spin;
+        let alpha = (a.dot(&n) - 2.0 * speed * spin + h * spin * spin) / t;
+        let second = a.dot(&e) + t * spin * spin + h * alpha;
+        // The slide counts from the block, the joint's first link, to the rocker.
+        let slide = rocker_place.x - (t + block_place.x);
+        let turns = if eta < 0.0 { TURN } else { 0.0 };
+        Exact { slide: [slide, -speed, -second], angle: [eta - ROCKER_AXIS + turns, spin, alpha] }
+    };
+    let start = 0.7;
+    let rocker = exact(start).angle[0];
+    let pose = vec![
+        LinkPose::GROUND,
+        LinkPose { origin: Vec2::zeros(), angle: start },
+        LinkPose { origin: unit(start) * CRANK, angle: rocker + ROCKER_AXIS - BLOCK_AXIS },
+        LinkPose { origin: PIVOT, angle: rocker },
+    ];
+    let case = case(links, joints, AssemblyMode::Behind, start, start + TURN, pose);
+    Sample { name: "swinging guide", case, exact, joint: "slot", link: "rocker" }
+}

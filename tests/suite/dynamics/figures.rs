@@ -1,0 +1,199 @@
+//! The published drive of `crank_rocker`.
+
+use std::f64::consts::TAU;
+
+use crate::common::shipped;
+use analytic::reduced::means;
+use analytic::reduced::{ACCURACY, End, Model, RunUp, motion};
+use linkage::drive::{Load, MotorLaw};
+use linkage::math::{KeepNan, Vec2};
+use workshop::flywheel::Flywheel;
+
+/// Half a millisecond to half a second: the run-up of the published problem.
+fn times() -> Vec<f64> {
+    (0..=500).map(|k| f64::from(k) * 1e-3).collect()
+}
+
+#[test]
+fn val_crank_rocker_reduced_means_and_maximum() {
+    let case = shipped("crank_rocker.toml").case;
+    for solver in analytic::all() {
+        let means = means::means_over_turn(&case, solver).unwrap();
+        assert!((means.inertia - 0.164_846_013).abs() < 5.1e-10, "{}: {}", solver.name(), means.inertia);
+        // Over a turn gravity does no work and the rocker goes through its swing of 32 deg twice.
+        let closed = 100.0 * 2.0 * 32.0 / 360.0;
+        assert!((means.resistance - closed).abs() < 1e-11, "{}: {:e}", solver.name(), means.resistance - closed);
+    }
+    // The published reduced moment leaves out the crank's weight: its mass is moved to the pivot, its moment of inertia about it kept.
+    let mut weightless = case.clone();
+    let mut links = case.mechanism.links().to_vec();
+    let crank = &mut links[1];
+    crank.inertia += crank.mass * crank.mass_centre.norm_squared();
+    crank.mass_centre = Vec2::zeros();
+    weightless.mechanism = linkage::mechanism::Mechanism::new(links, case.mechanism.joints().to_vec()).unwrap();
+    let [inertia, resistance] = Model::of(&weightless).unwrap().extremes().unwrap();
+    assert!((resistance.greatest.1 - 37.016_264_0).abs() < 5.1e-8, "{resistance:?}");
+    let [own, _] = Model::of(&case).unwrap().extremes().unwrap();
+    assert!((inertia.greatest.1 - own.greatest.1).abs() < 1e-13 && (inertia.least.1 - own.least.1).abs() < 1e-13);
+}
+
+#[test]
+fn val_crank_rocker_steady_motion() {
+    let case = shipped("crank_rocker.toml").case;
+    let model = Model::of(&case).unwrap();
+    assert_eq!(model.added_inertia(), 0.0);
+    let regime = model.regime(&[], ACCURACY).unwrap();
+    assert!((regime.mean_speed - 14.263_883_878_5).abs() < 1e-9, "{}", regime.mean_speed);
+    assert!((regime.period - 0.440_496_106_159_4).abs() < 1e-12, "{}", regime.period);
+    assert!((regime.start_speed - 16.679_930_049_7).abs() < 1e-9, "{}", regime.start_speed);
+    assert!(regime.multiplier < 1e-90 && regime.turns == 1.0);
+    let motor = case.motor.as_ref().unwrap();
+    let steady = motor.steady_speed(100.0 * 64.0 / 360.0).unwrap();
+    assert!((steady - 14.33204).abs() < 5e-6 && (steady * motor.ratio - 302.6266).abs() < 5e-5);
+}
+
+/// The run-up, integrated in time with dI*/dphi, ends in the steady motion, found over the crank angle without it.
+#[test]
+fn run_up_in_time_and_steady_motion_over_the_angle_are_one() {
+    let case = shipped("crank_rocker.toml").case;
+    let model = Model::of(&case).unwrap();
+    let (found, end) = motion(&model, 0.0, &times(), ACCURACY).unwrap();
+    assert_eq!((found.len(), end), (501, End::Reached));
+    // A deviation is gone after a tenth of a turn: from 0.1 s on the motion is the steady one.
+    let late: Vec<_> = found.iter().filter(|at| at.t >= 0.1 && at.crank < TAU).collect();
+    assert!(late.len() > 300);
+    let cranks: Vec<f64> = late.iter().map(|at| at.crank).collect();
+    let regime = model.regime(&cranks, ACCURACY).unwrap();
+    for (at, steady) in late.iter().zip(&regime.samples) {
+        assert!((at.omega - steady.omega).abs() < 1e-10, "{at:?} {steady:?}");
+        assert!((at.alpha - steady.alpha).abs() < 1e-7, "{at:?} {steady:?}");
+    }
+    // A period later the crank is a turn farther.
+    let pair = [0.2, 0.2 + regime.period];
+    let (found, _) = motion(&model, 0.0, &pair, ACCURACY).unwrap();
+    assert!((found[1].crank - found[0].crank - TAU).abs() < 1e-11, "{:e}", found[1].crank - found[0].crank - TAU);
+}
+
+/// The default accuracy against one a hundred times as tight, and on a grid ten times as fine, so that all steps differ.
+#[test]
+fn run_up_is_exact_to_1e_10() {
+    let case = shipped("crank_rocker.toml").case;
+    let model = Model::of(&case).unwrap();
+    let run_up = RunUp::of(&model, 0.0, &times(), ACCURACY).unwrap();
+    let fine: Vec<f64> = (0..=5000).map(|k| f64::from(k) * 1e-4).collect();
+    let (tight, _) = motion(&model, 0.0, &fine, ACCURACY / 100.0).unwrap();
+    for (row, at) in run_up.motion.iter().enumerate() {
+        let exact = &tight[10 * row];
+        assert!((at.t - exact.t).abs() < 1e-15);
+        assert!((at.crank - exact.crank).abs() < 1e-10, "{at:?} {exact:?}");
+    }
+    assert!(run_up.power_residual().unwrap() < 1e-10, "{:?}", run_up.power_residual());
+    // All reactions are there.
+    let reactions = run_up.trajectory.channels().iter().filter(|c| c.to_string().ends_with("fx_N"));
+    assert!(reactions.count() >= 4);
+}
+
+#[test]
+fn slope_of_the_inertia_is_its_derivative() {
+    for name in ["crank_rocker", "compressor", "ov7_base", "ov7_new", "six_bar_slider", "quick_return"] {
+        let case = shipped(&format!("{name}.toml")).case;
+        let model = Model::of(&case).unwrap();
+        let step = 1e-5;
+        let start = case.drive.start;
+        for k in 0..24 {
+            let crank = start + case.drive.sense() * f64::from(k) * 0.2;
+            let rows = model.rows(&[crank - step, crank, crank + step]).unwrap();
+            let slope = (rows[2].inertia - rows[0].inertia) / (2.0 * step);
+            // Central differences err by the third derivative, some hundred times the inertia, times 1e-10 / 6, and by rounding over 2e-5.
+            assert!(
+                (slope - rows[1].slope).abs() < 1e-6 * rows[1].inertia.larger(1e-9),
+                "{name} {k}: {slope} {rows:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_flywheel_does_what_is_asked() {
+    let case = shipped("crank_rocker.toml").case;
+    let model = Model::of(&case).unwrap();
+    for wanted in [0.2, 0.02, 1e-3] {
+        let found = Flywheel::of(&model, wanted, ACCURACY).unwrap();
+        let again = model.with_flywheel(found.inertia).regime(&[], ACCURACY).unwrap();
+        assert!((again.non_uniformity() / wanted - 1.0).abs() < 1e-10, "{wanted}");
+    }
+    // Uniform enough without.
+    assert_eq!(Flywheel::of(&model, 0.5, ACCURACY).unwrap().inertia, 0.0);
+    // With a large flywheel the speed hardly changes, and J = W / (delta omega^2) with the largest surplus W of work that the mechanism's own kinetic
+    // energy does not take, as in textbooks (Merzalow): the motor's moment is then the mean resistance.
+    let count = 36_000;
+    let cranks: Vec<f64> = (0..count).map(|k| TAU * (f64::from(k) + 0.5) / f64::from(count)).collect();
+    let mean = 100.0 * 64.0 / 360.0;
+    let speed = case.motor.as_ref().unwrap().steady_speed(mean).unwrap();
+    let (mut work, mut least, mut most) = (0.0f64, f64::INFINITY, f64::NEG_INFINITY);
+    for row in model.rows(&cranks).unwrap() {
+        work += (mean - row.resistance) * TAU / f64::from(count);
+        let surplus = work - row.inertia * speed * speed / 2.0;
+        (least, most) = (least.smaller(surplus), most.larger(surplus));
+    }
+    let wanted = 1e-5;
+    let textbook = (most - least) / (wanted * speed * speed);
+    let found = Flywheel::of(&model, wanted, ACCURACY).unwrap();
+    // What the changes of I* and of the motor's moment do is of the order of I* / J.
+    assert!((found.inertia / textbook - 1.0).abs() < 1e-3, "{} {textbook}", found.inertia);
+}
+
+#[test]
+fn a_table_of_a_straight_line_is_the_line() {
+    let case = shipped("crank_rocker.toml").case;
+    let mut tabled = case.clone();
+    let motor = tabled.motor.as_mut().unwrap();
+    let speeds: Vec<f64> = (0..8).map(|k| 50.0 * f64::from(k)).collect();
+    let torques = speeds.iter().map(|&speed| motor.law.torque(speed)).collect();
+    motor.law = MotorLaw::Table { speeds, torques };
+    let both = [&case, &tabled].map(|case| motion(&Model::of(case).unwrap(), 0.0, &times(), ACCURACY).unwrap().0);
+    for (line, table) in both[0].iter().zip(&both[1]) {
+        assert!((line.crank - table.crank).abs() < 1e-11 && (line.omega - table.omega).abs() < 1e-10);
+    }
+    let regimes = [&case, &tabled].map(|case| Model::of(case).unwrap().regime(&[], ACCURACY).unwrap());
+    assert!((regimes[0].period - regimes[1].period).abs() < 1e-13);
+}
+
+#[test]
+fn losses_of_the_reducer_cost_their_share() {
+    let mut case = shipped("crank_rocker.toml").case;
+    case.motor.as_mut().unwrap().efficiency = 0.9;
+    let model = Model::of(&case).unwrap();
+    let run_up = RunUp::of(&model, 0.0, &times(), ACCURACY).unwrap();
+    // Twice in a turn the mechanism drives the motor: the moment on the crank is then 1 / 0.9 of the motor's, else 0.9.
+    let motor = case.motor.as_ref().unwrap();
+    let (mut drives, mut driven) = (0, 0);
+    for at in &run_up.motion[1..] {
+        let own = motor.ratio * motor.law.torque(motor.ratio * at.omega);
+        let expected = if own > 0.0 { own * 0.9 } else { own / 0.9 };
+        assert!((at.motor - expected).abs() < 1e-9, "{at:?}");
+        *(if own > 0.0 { &mut drives } else { &mut driven }) += 1;
+    }
+    assert!(drives > 100 && driven > 20, "{drives} {driven}");
+    assert!(run_up.power_residual().unwrap() < 1e-10);
+}
+
+#[test]
+fn what_a_motor_cannot_move_is_held() {
+    let mut case = shipped("crank_rocker.toml").case;
+    // 10 N m against a greatest resistance of 37: it gets so far and stops for good.
+    case.motor = Some(linkage::drive::Motor::ideal(MotorLaw::Constant { torque: 10.0 }, 1.0));
+    let model = Model::of(&case).unwrap();
+    let (found, end) = motion(&model, 0.0, &times(), ACCURACY).unwrap();
+    let End::Held(t, crank) = end else { panic!("{end:?}") };
+    assert!(found.iter().all(|at| at.t <= t && at.crank <= crank + 1e-12) && found.len() < 501);
+    // There the resistance alone is more than the motor gives.
+    let rows = model.rows(&[crank]).unwrap();
+    assert!(rows[0].resistance > 10.0, "{rows:?}");
+    let error = model.regime(&[], ACCURACY).unwrap_err();
+    assert!(error.message().contains("no stable speed"), "{error}");
+    // Without a load it is not held.
+    case.loads.retain(|load| !matches!(load, Load::Resistance { .. }));
+    let free = Model::of(&case).unwrap();
+    assert_eq!(motion(&free, 0.0, &times(), ACCURACY).unwrap().1, End::Reached);
+}

@@ -1,0 +1,341 @@
+//! The figures the project stands for, measured on the two published mechanisms.
+
+use std::path::Path;
+
+use analytic::{AssurSolver, NewtonSolver, witness::power};
+use approx::assert_abs_diff_eq;
+use linkage::case::{Case, Grid};
+use linkage::math::KeepNan;
+use linkage::solver::{Solver, State};
+use linkage::trajectory::{Channel, Stage, Trajectory};
+use linkproof::compare::{Verdict, difference, residuals, scales};
+use linkproof::proof::{Options, Proof, prove};
+use linkproof::scenario::Scenario;
+use linkproof::tolerance::{Basis, Origin};
+
+const ALL: [&str; 5] = ["crank_rocker", "ov7_base", "ov7_new", "ov7_new_tabulated", "fourth_class"];
+
+fn scenario(name: &str) -> Scenario {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios").join(format!("{name}.toml"));
+    Scenario::load(&path).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn solve(solver: &dyn Solver, case: &Case) -> Trajectory {
+    solver.solve(case, &mut |_| {}).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn proof(name: &str, step: Option<f64>) -> Proof {
+    prove(&scenario(name), &Options { step, ..Options::default() }, &mut |_| {}).unwrap()
+}
+
+/// A turn in steps of a tenth of a degree, in the sense of the drive.
+fn fine(case: &Case) -> Case {
+    let sense = case.drive.sense();
+    let cranks = (0..=3600).map(|k| (sense * f64::from(k) / 10.0).to_radians() + case.drive.start).collect();
+    case.on(Grid::of_cranks(&case.drive, cranks))
+}
+
+#[test]
+fn val_ov7_base_every_printed_number_by_both_sides() {
+    let scenario = scenario("ov7_base");
+    let cells: Vec<usize> =
+        scenario.oracles.iter().map(|oracle| oracle.series.iter().map(|series| series.points.len()).sum()).collect();
+    // Positions, velocities, accelerations of five points in two directions, and three tables of seven angles, at 13 angles.
+    assert_eq!(cells, [130, 130, 130, 91, 91, 91]);
+    assert!(
+        scenario.oracles.iter().all(|oracle| oracle.series.iter().all(|s| s.expected.is_empty() && s.wrong.is_none()))
+    );
+
+    let proof = proof("ov7_base", None);
+    let published: Vec<_> =
+        proof.checks.iter().filter(|c| matches!(c.basis, Basis::Digits { origin: Origin::Published, .. })).collect();
+    assert_eq!(published.len(), 2 * 51);
+    for check in published {
+        assert!(matches!(check.verdict, Verdict::Agree { .. }), "{}: {:?}", check.name(), check.verdict);
+        // Half a unit of two printed decimals (positions in mm, angles in degrees), nothing looser.
+        let half_unit: f64 = match check.unit {
+            "m" => 0.005e-3,
+            "rad" => 0.005f64.to_radians(),
+            _ => 0.005,
+        };
+        assert!(check.bound <= half_unit * (1.0 + 1e-8), "{}", check.name());
+    }
+}
+
+#[test]
+fn the_two_analytic_sides_agree_to_rounding_over_a_turn() {
+    for name in ALL {
+        let case = fine(&scenario(name).case);
+        let (assur, newton) = (solve(&AssurSolver, &case), solve(&NewtonSolver, &case));
+        for residual in residuals(&assur, &newton).unwrap() {
+            let bound = match residual.channel.kind.stage {
+                Stage::Positions => 1e-12,
+                Stage::Velocities | Stage::Accelerations => 1e-11,
+                Stage::Reactions | Stage::BalancingMoment => 1e-10,
+            };
+            assert!(residual.max <= bound * residual.scale, "{name} {}: {:e}", residual.channel, residual.share());
+        }
+    }
+}
+
+#[test]
+fn balancing_moment_from_equilibrium_and_from_powers() {
+    for name in ALL {
+        let case = fine(&scenario(name).case);
+        for solver in [&AssurSolver as &dyn Solver, &NewtonSolver] {
+            let (mut amplitude, mut worst): (f64, f64) = (0.0, 0.0);
+            let mut visit = |_: usize, state: &State| {
+                amplitude = amplitude.larger(state.torques[0].abs());
+                worst = worst.larger((state.torques[0] - power::balancing_moment(&case, state)).abs());
+                Ok(())
+            };
+            solver.sweep(&case, &mut visit, &mut |_| {}).unwrap();
+            assert!(worst <= 1e-11 * amplitude, "{name} {}: {:e}", solver.name(), worst / amplitude);
+        }
+    }
+}
+
+/// Synthesis from the two extreme positions: l_OB1 = l_OA + l_AB, l_OB2 = l_AB - l_OA.
+#[test]
+fn val_crank_rocker_lengths_follow_from_the_extreme_positions() {
+    let scenario = scenario("crank_rocker");
+    let mechanism = &scenario.case.mechanism;
+    let length = |link: &str| mechanism.links()[mechanism.link_named(link).unwrap()].size();
+    let distance = |degrees: f64| {
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        (0.15 + 0.25 * cos).hypot(0.015 + 0.25 * sin)
+    };
+    assert_abs_diff_eq!(length("crank"), (distance(50.0) - distance(82.0)) / 2.0, epsilon = 1e-14);
+    assert_abs_diff_eq!(length("coupler"), (distance(50.0) + distance(82.0)) / 2.0, epsilon = 1e-14);
+
+    let rocker = Channel::named("link.rocker.angle_rad").unwrap();
+    let turn = solve(&AssurSolver, &fine(&scenario.case));
+    let angles = turn.column(&rocker).unwrap();
+    let (low, high) = angles.iter().fold((f64::MAX, f64::MIN), |(l, h), &a| (l.smaller(a), h.larger(a)));
+    // Between two samples a tenth of a degree apart the rocker turns by less than 1e-6 rad near its extremes.
+    assert_abs_diff_eq!(low.to_degrees(), 50.0, epsilon = 1e-4);
+    assert_abs_diff_eq!(high.to_degrees(), 82.0, epsilon = 1e-4);
+}
+
+#[test]
+fn val_crank_rocker_mean_reduced_inertia_and_resistance() {
+    let case = scenario("crank_rocker").case;
+    for solver in [&AssurSolver as &dyn Solver, &NewtonSolver] {
+        let means = analytic::reduced::means::means_over_turn(&case, solver).unwrap();
+        assert_abs_diff_eq!(means.inertia, 0.164846013, epsilon = 0.5e-9);
+        // Exactly 100 N m times twice the swing over a turn; the rest is the mean's error at the two kinks.
+        assert_abs_diff_eq!(means.resistance, 100.0 * 2.0 * 32.0 / 360.0, epsilon = 5e-5);
+    }
+}
+
+/// What the crank's printed mass and inertia would make of the mean (docs/findings.md): no solver computes a mass, but this.
+#[test]
+fn val_crank_rocker_printed_mass_and_inertia_show_in_the_mean_reduced_inertia() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/crank_rocker.toml");
+    let text = std::fs::read_to_string(&path).unwrap();
+    let mean = |from: &str, to: &str, solver: &dyn Solver| {
+        let wrong = text.replacen(from, to, 1);
+        assert_ne!(text, wrong);
+        analytic::reduced::means::means_over_turn(&Scenario::parse(&wrong, &path).unwrap().case, solver)
+            .unwrap()
+            .inertia
+    };
+    let inertia = text.lines().find(|line| line.starts_with("inertia_kg_m2 = 0.000146")).unwrap();
+    for solver in analytic::all() {
+        assert_abs_diff_eq!(mean("mass_kg = 2.6", "mass_kg = 22.6", solver), 0.169351, epsilon = 0.5e-6);
+        assert_abs_diff_eq!(mean(inertia, "inertia_kg_m2 = 0.00035", solver), 0.165050, epsilon = 0.5e-6);
+    }
+}
+
+/// Largest error over half the range, of all channels of the given stages but those that stand still.
+fn worst_share(reference: &Trajectory, run: &Trajectory, wanted: &[Stage]) -> f64 {
+    let errors = difference(reference, run).unwrap();
+    let shares = errors.iter().zip(scales(reference)).filter(|((channel, _), _)| {
+        wanted.contains(&channel.kind.stage)
+            && !(channel.kind.stage == Stage::Positions && channel.kind.suffix != "angle_rad")
+    });
+    shares.map(|((_, e), scale)| e.iter().fold(0.0f64, |m, x| m.larger(x.abs())) / scale).fold(0.0, f64::larger)
+}
+
+#[test]
+fn rapier_on_the_crank_rocker_is_within_a_thousandth_and_a_hundred_times_less() {
+    let case = scenario("crank_rocker").case;
+    let reference = solve(&AssurSolver, &case);
+    let stages = [Stage::Positions, Stage::Reactions, Stage::BalancingMoment];
+    let error = |step| {
+        worst_share(&reference, &solve(linkproof::engines::named("rapier", step).unwrap().as_ref(), &case), &stages)
+    };
+    let [coarse, fine] = [1e-3, 1e-4].map(error);
+    assert!(coarse <= 1e-3, "{coarse:e}");
+    assert!(fine <= 1e-5 && fine <= coarse / 95.0, "{fine:e} against {coarse:e}");
+}
+
+#[test]
+fn rapier_shows_second_order_in_every_channel_of_both_mechanisms() {
+    for name in ALL {
+        let proof = proof(name, None);
+        assert!(matches!(proof.verdict, Verdict::Agree { .. }), "{name}: {:?}", proof.verdict);
+        let orders: Vec<(String, f64)> = proof
+            .engine()
+            .channels
+            .iter()
+            .filter(|c| !c.convergence.observed.is_nan())
+            .map(|c| (c.residual.channel.to_string(), c.convergence.observed))
+            .collect();
+        // Only the crank's own motion, and that of points on it, is exact at any step.
+        assert!(
+            orders.len() * 10 > proof.engine().channels.len() * 7,
+            "{name}: {} of {}",
+            orders.len(),
+            proof.engine().channels.len()
+        );
+        for (channel, order) in orders {
+            assert!((order - 2.0).abs() <= 0.1, "{name} {channel}: {order}");
+        }
+    }
+}
+
+/// Motor law, gear ratio and resistance of the course; the printed speeds divide the resistance by the ratio twice.
+#[test]
+fn val_crank_rocker_steady_speed() {
+    let scenario = scenario("crank_rocker");
+    let (ratio, a, b): (f64, f64, f64) = (2745.0 / 130.0, 22.51, 0.0716);
+    // i (a - b i omega) = M.
+    let speed = |resistance: f64| (a - resistance / ratio) / (b * ratio);
+    for solver in analytic::all() {
+        let mean = analytic::reduced::means::means_over_turn(&scenario.case, solver).unwrap().resistance;
+        assert!((speed(mean) - 14.33204).abs() < 0.5e-5 && (ratio * speed(mean) - 302.6266).abs() < 0.5e-4, "{mean}");
+    }
+    // As printed: the ratio rounded to 21.14 there, and the motor's speed from the rounded crank's.
+    let printed = 21.14;
+    let twice = (a - 17.76 / (printed * printed)) / (b * printed);
+    assert!((twice - 14.85).abs() < 0.005 && (14.85 * ratio - 313.6).abs() < 0.05, "{twice}");
+}
+
+/// The headings of the findings, as anchors.
+fn anchors() -> Vec<String> {
+    let text = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/findings.md")).unwrap();
+    let anchor = |heading: &str| {
+        let kept = |c: &char| c.is_alphanumeric() || " -_".contains(*c);
+        heading.to_lowercase().chars().filter(kept).collect::<String>().replace(' ', "-")
+    };
+    text.lines().filter_map(|line| line.strip_prefix("### ")).map(anchor).collect()
+}
+
+#[test]
+fn every_expected_disagreement_has_its_finding() {
+    let anchors = anchors();
+    for (name, numbers) in [("crank_rocker", 4), ("ov7_new", 2), ("ov7_new_tabulated", 12)] {
+        let proof = proof(name, None);
+        assert!(matches!(proof.verdict, Verdict::Agree { .. }), "{name}: {:?}", proof.verdict);
+        let expected: Vec<&String> = proof
+            .checks
+            .iter()
+            .filter_map(|check| match &check.verdict {
+                Verdict::Expected { finding, .. } => Some(finding),
+                _ => None,
+            })
+            .collect();
+        assert_eq!(expected.len(), 2 * numbers, "{name}, each number on both sides");
+        for finding in expected {
+            assert!(anchors.contains(finding), "{finding} is not in docs/findings.md: {anchors:?}");
+        }
+    }
+}
+
+/// The scenario with the rocker's angle of 50 deg replaced by an entry that calls the printed number wrong.
+fn with_correction(printed: f64, right: f64) -> Proof {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/crank_rocker.toml");
+    let text = std::fs::read_to_string(&path).unwrap();
+    let value = r#"{ channel = "link.rocker.angle_deg", value = 50, digits = 9 }"#;
+    let correction = format!(
+        r#"{{ channel = "link.rocker.angle_deg", value = {printed}, digits = 9, finding = "x", right = {{ value = {right}, digits = 9 }} }}"#
+    );
+    let wrong = text.replace(value, &correction);
+    assert_ne!(text, wrong);
+    let scenario = Scenario::parse(&wrong, &path).unwrap();
+    prove(&scenario, &Options::default(), &mut |_| {}).unwrap()
+}
+
+#[test]
+fn a_number_known_to_be_wrong_must_be_off_and_the_right_one_must_be_met() {
+    assert_eq!(with_correction(51.0, 50.0).verdict.word(), "agree");
+    // The printed number agrees after all; neither of the two does, by two units of the last digit.
+    for (printed, right, words) in
+        [(50.0, 51.0, "but it agrees"), (51.0, 50.000_000_002, "neither the printed number nor the one")]
+    {
+        match with_correction(printed, right).verdict {
+            Verdict::Disagree { place } => assert!(place.contains(words), "{place}"),
+            other => panic!("{other:?}"),
+        }
+    }
+}
+
+/// A length as solved, beside one that the file says: with a coupler longer by a unit of the twelfth digit the oracle of the length disagrees.
+#[test]
+fn a_length_as_solved_is_held_to_its_last_digit() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/crank_rocker.toml");
+    let text = std::fs::read_to_string(&path).unwrap();
+    let longer = text.replace("B = { x_m = 0.34707193189181,", "B = { x_m = 0.34707193189281,");
+    assert_ne!(text, longer);
+    let proof = prove(&Scenario::parse(&longer, &path).unwrap(), &Options::default(), &mut |_| {}).unwrap();
+    let wrong: Vec<String> = proof
+        .checks
+        .iter()
+        .filter(|check| check.verdict.word() == "disagree")
+        .map(linkproof::compare::Check::name)
+        .collect();
+    for side in ["assur", "newton"] {
+        let name = format!("published lengths, known to be wrong ({side}), distance_m of A B");
+        assert!(wrong.contains(&name), "{wrong:?}");
+    }
+}
+
+/// The authors' formula: on the crank acts only the component of the reaction at joint 2 that is perpendicular to link 2-3.
+#[test]
+fn val_ov7_new_printed_r1_and_moment_come_from_half_a_reaction() {
+    let case = fine(&scenario("ov7_new_tabulated").case);
+    let printed = [170.13, 220.93, 212.23, 128.99, 20.9, 142.67, 220.34, 227.77, 180.22, 101.93, 17.84, 87.63];
+    let (mut largest_force, mut largest, mut first): (f64, f64, f64) = (0.0, 0.0, 0.0);
+    let mut visit = |row: usize, state: &State| {
+        let mechanism = &case.mechanism;
+        let (crank, lead) = (mechanism.link_named("crank").unwrap(), mechanism.link_named("lead_23").unwrap());
+        // Joint 2 goes from the crank to the lead: on the crank acts the opposite force.
+        let whole = -state.forces[mechanism.joint_named("2").unwrap()];
+        let along = state.motions[lead].direction;
+        let half = whole - along * along.dot(&whole);
+        let body = &mechanism.links()[crank];
+        let motion = &state.motions[crank];
+        let inertial = (case.gravity - motion.point_acceleration(body.mass_centre)) * body.mass;
+        let r1 = half + inertial;
+        if row.is_multiple_of(300) && row < 3600 {
+            assert_abs_diff_eq!(r1.norm(), printed[row / 300], epsilon = 0.02);
+        }
+        largest_force = largest_force.larger(r1.norm());
+        let arm = motion.arm(mechanism.joints()[1].first.local);
+        let centre = motion.arm(body.mass_centre);
+        let moment = -(arm.perp(&half) + centre.perp(&inertial));
+        largest = largest.larger(moment.abs());
+        if row == 0 {
+            first = moment;
+        }
+        Ok(())
+    };
+    AssurSolver.sweep(&case, &mut visit, &mut |_| {}).unwrap();
+    // Printed -5.831: the moment that the forces have on the crank, not the one that balances it.
+    assert_abs_diff_eq!(-first, -5.831, epsilon = 0.5e-3);
+    // Printed maxima over the turn, between the twelve angles of the table.
+    assert_abs_diff_eq!(largest, 6.34, epsilon = 5e-3);
+    assert_abs_diff_eq!(largest_force, 232.74, epsilon = 0.02);
+}
+
+#[test]
+fn val_fourth_class_branch_closes_after_a_turn() {
+    let case = scenario("fourth_class").case;
+    let turn = solve(&AssurSolver, &case);
+    for (channel, values) in turn.iter().filter(|(channel, _)| channel.of != "crank") {
+        let (first, last) = (values[0], values[values.len() - 1]);
+        let size = values.iter().fold(0.0f64, |max, v| max.larger(v.abs()));
+        assert!((first - last).abs() <= 1e-11 * size, "{channel}: {first} {last}");
+    }
+}

@@ -1,0 +1,31 @@
+//! The engine under loads, by every route.
+
+use linkage::error::ErrorKind;
+use linkproof::proof::{Options, prove};
+use workshop::export;
+
+use crate::common::shipped;
+
+#[test]
+fn val_the_press_agrees_by_every_route() {
+    let mut scenario = shipped("loaded_slider.toml");
+    // Every tenth degree is enough for a test.
+    let cranks: Vec<f64> = (0..=36).map(|k| f64::from(10 * k).to_radians()).collect();
+    scenario.case.grid = linkage::case::Grid::of_cranks(&scenario.case.drive, cranks);
+    for route in ["differences", "native", "probe"] {
+        scenario.engine.route = Some(route.into());
+        let proof = prove(&scenario, &Options::default(), &mut |_| {}).unwrap();
+        let wrong = proof.engine().channels.iter().filter(|channel| channel.verdict.word() != "agree");
+        let wrong: Vec<_> = wrong.map(|c| (c.residual.channel.to_string(), c.residual.max, c.bound)).collect();
+        assert_eq!(proof.verdict.word(), "agree", "{route:?}: {:?} {wrong:?}", proof.verdict);
+    }
+}
+
+#[test]
+fn what_mujoco_does_not_get_is_refused_by_name() {
+    let case = shipped("loaded_slider.toml").case;
+    let solver = analytic::named("assur").unwrap();
+    let error = export::mjcf::mjcf(&case, solver, "press", 1e-3).unwrap_err();
+    assert_eq!(error.kind(), ErrorKind::Unsupported);
+    assert!(error.message().contains("a load of type \"force\"") && error.way_out().is_some(), "{error}");
+}

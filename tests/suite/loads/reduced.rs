@@ -1,0 +1,97 @@
+//! The reduced model under loads.
+
+use linkage::math::KeepNan;
+use std::f64::consts::TAU;
+
+use analytic::PoseSolver;
+use analytic::reduced::{CrankState, End, Model, RunUp, motion};
+use linkage::case::Case;
+use linkage::drive::Load;
+use linkage::error::ErrorKind;
+use linkage::trajectory::Stage;
+
+use crate::common::{centre, centre_velocity, shipped};
+
+/// The press with those of its loads that `keep` keeps.
+fn press(keep: impl Fn(&Load) -> bool) -> Case {
+    let mut case = shipped("loaded_slider.toml").case;
+    case.loads.retain(keep);
+    case
+}
+
+/// Kinetic energy, that of the weights and that of the linear springs (J).
+fn energy(case: &Case, poses: &mut PoseSolver, at: &CrankState) -> f64 {
+    let state = poses.solve(at.crank, at.omega, at.alpha, Stage::Velocities).unwrap();
+    let mut sum = 0.0;
+    for (index, link) in case.mechanism.links().iter().enumerate().skip(1) {
+        let velocity = centre_velocity(case, state, index);
+        sum += (link.mass * velocity.norm_squared() + link.inertia * state.motions[index].omega.powi(2)) / 2.0;
+        sum -= link.mass * case.gravity.dot(&centre(case, state, index));
+    }
+    for load in &case.loads {
+        if let &Load::Spring { ends, stiffness, free_length } = load {
+            let [first, second] = ends.map(|end| state.motions[end.link].point(end.local));
+            sum += stiffness * ((second - first).norm() - free_length).powi(2) / 2.0;
+        }
+    }
+    sum
+}
+
+#[test]
+fn a_spring_gives_back_what_it_takes() {
+    let case = press(|load| matches!(load, Load::Spring { .. }));
+    assert_eq!(case.loads.len(), 1);
+    let model = Model::of(&case).unwrap();
+    let times: Vec<f64> = (0..=2000).map(|k| f64::from(k) * 5e-3).collect();
+    let (found, end) = motion(&model, 60.0, &times, 3e-15).unwrap();
+    assert_eq!(end, End::Reached);
+    let mut poses = PoseSolver::new(&case).unwrap();
+    let first = energy(&case, &mut poses, &found[0]);
+    let worst = found.iter().map(|at| (energy(&case, &mut poses, at) - first).abs()).fold(0.0, f64::larger);
+    assert!(worst < 1e-11 * first.abs(), "{worst:e} of {first}");
+    assert!(found[2000].crank > 10.0 * TAU);
+}
+
+#[test]
+fn the_reduced_moment_of_tables_and_one_sided_moments_is_that_of_the_reactions() {
+    let mut case = press(|load| matches!(load, Load::Force { .. } | Load::Spring { .. }));
+    let rod = case.mechanism.link_named("rod").unwrap();
+    let table = linkage::drive::Course::table(&[(0.3, 2.0), (4.0, -5.0), (9.0, 8.0)], 2, false);
+    let acts = linkage::drive::Acts::Clockwise;
+    case.loads.push(Load::Moment { link: rod, moment: table, acts });
+    case.loads.push(Load::Resistance { link: rod, moment: 3.0 });
+    let model = Model::of(&case).unwrap();
+    // Two turns, for the table of two: its three points in them, the press's nine twice, and where the press's table has points the rod turns about.
+    assert_eq!((model.kinks().period, model.kinks().cranks.len()), (Some(2.0 * TAU), 3 + 18));
+    let times: Vec<f64> = (0..=400).map(|k| f64::from(k) * 1e-3).collect();
+    let found = RunUp::of(&model, 120.0, &times, 1e-12).unwrap();
+    assert!(found.motion.last().unwrap().crank > 4.0 * TAU);
+    let worst = found.power_residual().unwrap();
+    assert!(worst < 1e-12, "{worst:e}");
+}
+
+#[test]
+fn what_the_reduction_does_not_know_is_refused_by_name() {
+    for (keep, word) in [("damper", "size of speeds"), ("torsion_damper", "size of speeds")] {
+        let case = press(|load| load.sort() == keep);
+        let error = Model::of(&case).unwrap_err();
+        assert_eq!(error.kind(), ErrorKind::Unsupported);
+        assert!(
+            error.message().contains(keep) && error.message().contains(word) && error.way_out().is_some(),
+            "{error}"
+        );
+    }
+    let mut case = press(|_| false);
+    let at = case.mechanism.joint_named("guide").map(|joint| case.mechanism.joints()[joint].second).unwrap();
+    case.loads = vec![Load::ResistingForce { at, force: 1.0 }];
+    let error = Model::of(&case).unwrap_err();
+    assert!(error.message().contains("\"resisting_force\" turns with the motion of a point"), "{error}");
+    let (link, acts) = (at.link, linkage::drive::Acts::Always);
+    case.loads = [7, 11, 17]
+        .map(|turns| Load::Moment { link, moment: linkage::drive::Course::table(&[(0.0, 1.0)], turns, true), acts })
+        .into();
+    assert!(Model::of(&case).unwrap_err().message().contains("after 1309 turns"));
+    let crank = case.drive.link;
+    case.loads = vec![Load::TorsionSpring { links: [0, crank], stiffness: 1.0, free_angle: 0.0 }];
+    assert!(Model::of(&case).unwrap_err().message().contains("wound up by every turn"));
+}

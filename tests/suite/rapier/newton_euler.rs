@@ -1,0 +1,201 @@
+//! The tree's equations against those of all links at once, which share nothing with them but the pairs' components.
+
+use std::path::{Path, PathBuf};
+
+use proptest::prelude::*;
+
+use linkage::case::Case;
+use linkage::drive::Wrench;
+use linkage::math::dense::Lu;
+use linkage::math::{KeepNan, Motion, Vec2, cross, turned, unit};
+use linkage::mechanism::{EQUATIONS, Joint, Tree};
+use linkage::solver::State;
+use linkproof::scenario::Scenario;
+use rapier_twin::newton_euler::NewtonEuler;
+
+/// Cases of all shipped scenarios and study variants, by name.
+fn shipped() -> Vec<(String, Case)> {
+    let top = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios");
+    let toml = |directory: &Path| {
+        let files = std::fs::read_dir(directory).unwrap().map(|entry| entry.unwrap().path());
+        files.filter(|path| path.extension().is_some_and(|of| of == "toml")).collect::<Vec<PathBuf>>()
+    };
+    let mut files = [toml(&top), toml(&top.join("variants60"))].concat();
+    files.sort();
+    let case = |path: &PathBuf| (path.display().to_string(), Scenario::load(path).unwrap().case);
+    files.iter().map(case).collect()
+}
+
+/// The equations as they are used, and along every tree of those that cover all joints which has all links and all driven joints.
+fn along_all_trees(case: &Case) -> Vec<(Tree, NewtonEuler)> {
+    let driven: Vec<usize> = case.drives().map(|drive| drive.joint).collect();
+    let masses: Vec<[f64; 2]> = case.mechanism.links().iter().map(|link| [link.mass, link.inertia]).collect();
+    let mut trees = vec![Tree::with(&case.mechanism, &driven)];
+    for tree in Tree::covering(&case.mechanism) {
+        let whole = tree.branches.len() + 1 == case.mechanism.links().len();
+        if whole && driven.iter().all(|joint| !tree.cut.contains(joint)) {
+            trees.push(tree);
+        }
+    }
+    let along = |tree: Tree| (NewtonEuler::along(case, &tree, masses.clone(), 1.0), tree);
+    trees.into_iter().map(along).map(|(equations, tree)| (tree, equations)).collect()
+}
+
+/// The dense system of all links: its matrix and its right side.
+fn dense(case: &Case, state: &State) -> (Vec<Vec<f64>>, Vec<f64>) {
+    let links = case.mechanism.links();
+    let n = 3 * (links.len() - 1);
+    let (mut matrix, mut right) = (vec![vec![0.0; n]; n], vec![0.0; n]);
+    for (index, joint) in case.mechanism.joints().iter().enumerate() {
+        let column = 2 * index;
+        for (side, sign) in [(joint.first, -1.0), (joint.second, 1.0)] {
+            let Some(row) = (3 * side.link).checked_sub(3) else { continue };
+            let motion = &state.motions[side.link];
+            if let Some(normal) = normal(joint, state) {
+                let place = state.motions[joint.second.link].point(joint.second.local);
+                let arm = place - motion.point(links[side.link].mass_centre);
+                matrix[row][column] = normal.x * sign;
+                matrix[row + 1][column] = normal.y * sign;
+                matrix[row + 2][column] = cross(arm, normal) * sign;
+                matrix[row + 2][column + 1] = sign;
+            } else {
+                let arm = motion.arm(side.local - links[side.link].mass_centre);
+                matrix[row][column] = sign;
+                matrix[row + 1][column + 1] = sign;
+                matrix[row + 2][column] = -arm.y * sign;
+                matrix[row + 2][column + 1] = arm.x * sign;
+            }
+        }
+    }
+    let first = EQUATIONS * case.mechanism.joints().len();
+    for (index, drive) in case.drives().enumerate() {
+        matrix[3 * drive.link - 1][first + index] = 1.0;
+    }
+    let mut loads = vec![Wrench::ZERO; links.len()];
+    case.loads_on(&state.motions, &state.angles, &mut loads);
+    for (index, link) in links.iter().enumerate().skip(1) {
+        let motion = &state.motions[index];
+        let inertial = (motion.point_acceleration(link.mass_centre) - case.gravity) * link.mass - loads[index].force;
+        let moment = link.inertia * motion.alpha - loads[index].moment;
+        right[3 * index - 3..3 * index].copy_from_slice(&[inertial.x, inertial.y, moment]);
+    }
+    (matrix, right)
+}
+
+fn normal(joint: &Joint, state: &State) -> Option<Vec2> {
+    Some(turned(state.motions[joint.first.link].arm(joint.axis_on(joint.first.link)?)))
+}
+
+/// A state anywhere near the start: every link moved and turned on its own, so that all joints are open, with velocities and accelerations of its own.
+fn torn(case: &Case, numbers: &[f64]) -> State {
+    let (mut state, size) = (State::at_start(case), case.mechanism.size());
+    let mut next = numbers.iter().cycle();
+    let mut more = || *next.next().unwrap();
+    for link in 1..state.motions.len() {
+        let mut pair = || Vec2::new(more(), more());
+        let (moved, velocity, acceleration) = (pair() * (0.05 * size), pair() * size, pair() * size);
+        let angle = state.angles[link] + 0.3 * more();
+        state.angles[link] = angle;
+        state.motions[link] = Motion {
+            origin: state.motions[link].origin + moved,
+            direction: unit(angle),
+            velocity,
+            omega: more(),
+            acceleration,
+            alpha: more(),
+        };
+    }
+    state
+}
+
+/// Reactions and moments in the order of the dense system's columns.
+fn flat(case: &Case, state: &State) -> Vec<f64> {
+    let joints = case.mechanism.joints().iter().enumerate().flat_map(|(index, joint)| {
+        let force = state.forces[index];
+        match normal(joint, state) {
+            None => [force.x, force.y],
+            Some(normal) => [force.dot(&normal), state.moments[index]],
+        }
+    });
+    joints.chain(state.torques.iter().copied()).collect()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(8))]
+
+    /// Of every shipped mechanism: what is found fulfils the equations of all links to rounding, and is what the dense system gives as well as that is known.
+    #[test]
+    fn the_tree_gives_what_all_links_at_once_give(numbers in prop::collection::vec(-1.0f64..1.0, 97)) {
+        for (name, case) in shipped() {
+            let mut state = torn(&case, &numbers);
+            let (matrix, right) = dense(&case, &state);
+            let n = right.len();
+            let mut lu = Lu::new(n);
+            for (row, entries) in matrix.iter().enumerate() {
+                entries.iter().enumerate().for_each(|(column, &entry)| lu.add(row, column, entry));
+            }
+            prop_assert!(lu.factor());
+            let mut known = right.clone();
+            lu.solve(&mut known);
+            let most = |of: &[f64]| of.iter().fold(0.0, |most: f64, value| most.larger(value.abs()));
+            // How far rounding is carried: the largest entry of the inverse.
+            let inverse = (0..n).map(|k| {
+                let mut column = vec![0.0; n];
+                column[k] = 1.0;
+                lu.solve(&mut column);
+                most(&column)
+            });
+            let inverse = inverse.fold(1.0, f64::larger);
+            for (_, mut equations) in along_all_trees(&case) {
+                equations.solve(&case, &mut state, 0.0).unwrap();
+                let found = flat(&case, &state);
+                let largest = most(&known).larger(most(&found));
+                let rest = |row: &[f64], right: &f64| row.iter().zip(&found).map(|(a, x)| a * x).sum::<f64>() - right;
+                let rest: Vec<f64> = matrix.iter().zip(&right).map(|(row, right)| rest(row, right)).collect();
+                prop_assert!(most(&rest) <= 1e-12 * largest, "{name}: {:e} of {largest:e}", most(&rest));
+                for (found, known) in found.iter().zip(&known) {
+                    let bound = 1e-14 * inverse * largest;
+                    prop_assert!((found - known).abs() <= bound, "{name}: {found} {known}, bound {bound:e}");
+                }
+            }
+        }
+    }
+}
+
+/// Several drives, slides as cut joints and as joints of the tree, open chains, loads, and equations that come in pairs or all at once are among
+/// what is tested.
+#[test]
+fn every_kind_of_joint_is_tested() {
+    let mut seen = [0; 7];
+    for (_, case) in shipped() {
+        for (tree, equations) in along_all_trees(&case) {
+            let slide = |joint: usize| case.mechanism.joints()[joint].is_prismatic();
+            let [pairs, larger] = equations.stages();
+            let kinds = [
+                tree.cut.iter().any(|&joint| slide(joint)),
+                tree.branches.iter().any(|branch| slide(branch.joint)),
+                case.drives().count() > 1,
+                tree.cut.is_empty(),
+                !case.loads.is_empty(),
+                pairs > 0,
+                larger > 0,
+            ];
+            seen.iter_mut().zip(kinds).for_each(|(seen, kind)| *seen += usize::from(kind));
+        }
+    }
+    assert!(seen.iter().all(|&count| count > 0), "{seen:?}");
+}
+
+/// A four-bar whose links all lie along one line: nothing determines the force along it.
+#[test]
+fn a_dead_point_is_said() {
+    let mechanism = linkage::fixtures::four_bar();
+    let (_, mut case) = shipped().into_iter().find(|(name, _)| name.ends_with("crank_rocker.toml")).unwrap();
+    case.mechanism = mechanism;
+    let mut state = State::at_rest(&case);
+    for motion in &mut state.motions {
+        motion.alpha = 1.0;
+    }
+    let error = NewtonEuler::new(&case).solve(&case, &mut state, 0.25).unwrap_err();
+    assert!(error.message().contains("the reactions are not determined at t = 0.250000 s (dead point)"), "{error}");
+}

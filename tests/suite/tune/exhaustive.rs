@@ -1,0 +1,117 @@
+//! All settings of all Rapier engines on a dense grid: what `tune` is measured against, by a price model in the tests and by the clock in
+//! `benches/tune.rs`.
+
+use analytic::NewtonSolver;
+use linkage::case::Grid;
+use linkage::engine::{Engine, Settings};
+use linkage::math::KeepNan;
+use linkage::solver::Solver;
+use linkage::trajectory::Trajectory;
+use linkproof::compare::{Residual, residuals};
+use linkproof::scenario::Scenario;
+
+/// Mechanisms with published figures, of every class, with and without sliders.
+pub const REFERENCES: [&str; 8] = [
+    "crank_rocker",
+    "ov7_base",
+    "ov7_new",
+    "ov7_new_tabulated",
+    "fourth_class",
+    "six_bar_slider",
+    "compressor",
+    "class3_group",
+];
+
+/// Largest step that is looked at, in degrees of the crank: with it a turn has twelve steps, and six-point interpolation spans half a turn.
+const COARSEST_DEG: f64 = 30.0;
+/// Steps coarser than one whose error is this many times the wanted one are not run. Errors rise with the step; where they do not, parts
+/// of opposite sign cancel at one instant, and never in all instants of all channels by such a factor.
+const HOPELESS: f64 = 30.0;
+
+/// Which settings are looked at.
+pub struct Space {
+    /// Numbers of sweeps.
+    pub sweeps: &'static [usize],
+    /// Factor from one step to the next.
+    pub factor: f64,
+}
+
+/// Settings that meet a wish.
+pub struct Met {
+    pub engine: Box<dyn Engine>,
+    pub price: f64,
+    pub error: f64,
+}
+
+/// The scenario at every `every`-th instant of its grid.
+pub fn thinned(mut scenario: Scenario, every: usize) -> Scenario {
+    let grid = &scenario.case.grid;
+    let times = grid.times.iter().step_by(every).copied().collect();
+    scenario.case.grid = Grid::of_times(&scenario.case.drive, times);
+    scenario
+}
+
+/// Largest error over the scale in all channels that the case wants, infinite if the engine fails. The reference is not the
+/// analytic side that `tune` uses.
+pub fn error_of(scenario: &Scenario, truth: &Trajectory, engine: &dyn Engine) -> f64 {
+    let Ok(found) = engine.solve(&scenario.case, &mut |_| {}) else { return f64::INFINITY };
+    let residuals = residuals(truth, &found).expect("both stand on one grid");
+    residuals.iter().map(Residual::share).fold(0.0, f64::larger)
+}
+
+/// What [`error_of`] compares with.
+pub fn truth(scenario: &Scenario) -> Trajectory {
+    NewtonSolver.solve(&scenario.case, &mut |_| {}).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// All ways of setting the Rapier engines but for the step: engine, route, extrapolation, substeps, sweeps.
+fn rows(space: &Space) -> Vec<Box<dyn Engine>> {
+    let mut rows = Vec::new();
+    for engine in linkproof::engines::all(1e-3).into_iter().filter(|engine| !engine.controls_error()) {
+        for &route in engine.routes() {
+            for extrapolated in [false, true] {
+                for substeps in [1, 2] {
+                    for &sweeps in space.sweeps {
+                        let own = engine.settings();
+                        rows.push(engine.with(Settings { route, extrapolated, substeps, sweeps, ..own }));
+                    }
+                }
+            }
+        }
+    }
+    rows
+}
+
+/// The cheapest settings of each row of the space that cost less than `below` and meet the error `within`, the cheapest of all last, and
+/// the number of runs. Every row is walked from the finest step that it can afford to coarser ones.
+pub fn cheaper(
+    scenario: &Scenario,
+    within: f64,
+    below: f64,
+    space: &Space,
+    price: &mut dyn FnMut(&dyn Engine) -> f64,
+) -> (Vec<Met>, usize) {
+    let truth = truth(scenario);
+    let coarsest = COARSEST_DEG.to_radians() / scenario.case.drive.at(0.0).omega.abs();
+    let (mut met, mut runs): (Vec<Met>, usize) = (Vec::new(), 0);
+    for row in rows(space) {
+        let mut limit = met.last().map_or(below, |best| best.price);
+        let at = |k: i32| row.at(coarsest * space.factor.powi(-k));
+        let Some(finest) = (0..200).take_while(|&k| price(at(k).as_ref()) < limit).last() else { continue };
+        let mut best = None;
+        for k in (0..=finest).rev() {
+            let engine = at(k);
+            runs += 1;
+            let error = error_of(scenario, &truth, engine.as_ref());
+            let price = price(engine.as_ref());
+            if error <= within && price < limit {
+                limit = price;
+                best = Some(Met { engine, price, error });
+            } else if !(error <= HOPELESS * within) {
+                break;
+            }
+        }
+        met.extend(best);
+    }
+    (met, runs)
+}

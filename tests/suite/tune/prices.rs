@@ -1,0 +1,66 @@
+//! What a run costs, as a model, so that no clock decides a test.
+
+use linkage::case::Case;
+use linkage::engine::{Engine, Route};
+use linkage::math::KeepNan;
+use rapier_twin::tree::Tree;
+
+/// Steps that a run does besides those between the first and the last instant: a few backwards, the same forwards, and some beyond the end.
+const EXTRA_STEPS: f64 = 16.0;
+/// Tiny steps of a probe in every world.
+const TINY_STEPS: f64 = 5.0;
+
+/// Costs of an engine in units of a step of `rapier` without sweeps on the same mechanism (4.9 us there and then).
+struct Costs {
+    /// A step, without its substeps.
+    step: f64,
+    /// A substep, without its sweeps.
+    substep: f64,
+    sweep: f64,
+    /// Reading all channels at an instant.
+    instant: f64,
+    /// A step in a world whose reactions are read, as a ratio to any other step.
+    native: f64,
+    /// A tiny step of a probe, as a ratio to any other step.
+    tiny: f64,
+}
+
+/// Measured once on `crank_rocker` by `cargo bench --bench tune -- prices`. The step is divided into what happens once and what happens in every substep
+/// by the costs of one and of two substeps.
+fn costs(engine: &str) -> Costs {
+    match engine {
+        "rapier" => Costs { step: 0.47, substep: 0.53, sweep: 0.028, instant: 0.26, native: 1.03, tiny: 1.1 },
+        "rapier-f32" => Costs { step: 0.33, substep: 0.65, sweep: 0.029, instant: 0.40, native: 1.1, tiny: 1.25 },
+        "impulse" => Costs { step: 0.25, substep: 0.36, sweep: 0.076, instant: 0.53, native: 1.26, tiny: 1.7 },
+        "impulse-f32" => Costs { step: 0.55, substep: 0.20, sweep: 0.074, instant: 0.29, native: 1.16, tiny: 1.45 },
+        other => panic!("{other} has no price"),
+    }
+}
+
+/// Price of a run.
+pub fn price_of(case: &Case, engine: &dyn Engine) -> f64 {
+    let settings = engine.settings();
+    let costs = costs(engine.name());
+    let worlds = match engine.name().starts_with("rapier") {
+        true => Tree::covering(&case.mechanism).len() as f64,
+        false => 1.0,
+    };
+    let end = |of: fn(f64, f64) -> f64| case.grid.times.iter().copied().fold(0.0, of);
+    let (span, instants) = (end(f64::larger) - end(f64::smaller), case.grid.len() as f64);
+    let substep = costs.substep + costs.sweep * settings.sweeps as f64;
+    let step = costs.step + settings.substeps as f64 * substep;
+    let tiny = (costs.step + substep) * costs.tiny;
+    let run = |resolution: f64| {
+        let steps = (span / resolution + EXTRA_STEPS) * step;
+        let steps = match settings.route {
+            Route::Differences => steps,
+            Route::Native => steps * worlds * costs.native,
+            Route::Probe => steps + instants * TINY_STEPS * worlds * tiny,
+        };
+        steps + instants * costs.instant
+    };
+    match settings.extrapolated {
+        true => run(settings.resolution) + run(0.5 * settings.resolution),
+        false => run(settings.resolution),
+    }
+}
