@@ -6,7 +6,7 @@ use linkage::engine::{Engine, Route, Settings};
 use linkage::math::Vec2;
 use linkage::mechanism::Mechanism;
 use linkage::solver::Solver;
-use linkage::trajectory::{Channel, Stage, Trajectory};
+use linkage::trajectory::{Channel, Stage, Trajectory, Unit};
 use linkproof::compare::{Verdict, residuals};
 use linkproof::proof::{Options, prove};
 use linkproof::scenario::Scenario;
@@ -137,7 +137,7 @@ fn the_twin_runs_up_with_order_one_and_extrapolated_exactly() {
     let scenario = shipped("crank_rocker_runup.toml");
     let begun = (0..=100).map(|k| f64::from(k) * 1e-3).collect();
     let begun = scenario.case.on(Grid::of_times(&scenario.case.drive, begun));
-    let angle = |channel: &Channel| channel.kind.unit == "rad";
+    let angle = |channel: &Channel| channel.kind.unit == Unit::Radian;
     let force = |channel: &Channel| channel.kind.stage >= Stage::Reactions;
     // The impulse build needs its thousands of sweeps: a fifth of the time will do for it.
     for (name, route, case) in [

@@ -4,7 +4,7 @@ use analytic::AssurSolver;
 use linkage::case::{Case, Wanted};
 use linkage::engine::{Engine, Route, Settings};
 use linkage::solver::{Solver, State};
-use linkage::trajectory::Stage;
+use linkage::trajectory::{Stage, Unit};
 use linkproof::compare::convergence::observed_order;
 use linkproof::compare::{Residual, residuals};
 
@@ -28,7 +28,7 @@ fn fine(name: &str, case: &Case, route: Route, extrapolated: bool) -> Box<dyn En
 fn worst(found: &[Residual]) -> [f64; 2] {
     let most =
         |wanted: &dyn Fn(&Residual) -> bool| found.iter().filter(|r| wanted(r)).map(|r| r.share()).fold(0.0, f64::max);
-    [most(&|r| r.channel.kind.unit == "rad"), most(&|r| r.channel.kind.stage >= Stage::Reactions)]
+    [most(&|r| r.channel.kind.unit == Unit::Radian), most(&|r| r.channel.kind.stage >= Stage::Reactions)]
 }
 
 /// Story 61. Angles, and reactions and moments by every route, over half the range; bounds a tenth above what was measured.
@@ -170,7 +170,7 @@ fn regress_62_orders_and_extrapolation_of_all_classes() {
         for residual in residuals(&truth, &runs[1]).unwrap() {
             let kind = residual.channel.kind;
             let wide = match kind.stage {
-                Stage::Positions if kind.unit == "rad" => 0.05,
+                Stage::Positions if kind.unit == Unit::Radian => 0.05,
                 Stage::Reactions => 0.1,
                 _ => continue,
             };

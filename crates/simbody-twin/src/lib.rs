@@ -185,7 +185,7 @@ fn other_loads(case: &Case) -> Vec<Load> {
     match case.is_free() {
         // Then all of them act all the time.
         true => Vec::new(),
-        false => case.loads.iter().filter(|load| !matches!(load, Load::Resistance { .. })).cloned().collect(),
+        false => case.loads.iter().filter(|load| load.resistance().is_none()).cloned().collect(),
     }
 }
 

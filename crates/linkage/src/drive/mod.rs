@@ -8,6 +8,6 @@ pub mod motor;
 
 pub use branch::Branch;
 pub use course::Course;
-pub use load::{Action, Acts, Load, Setting, Wrench};
+pub use load::{Action, Acts, Load, Nature, Senses, Setting, Wrench};
 pub use motion::{Drive, DriveState, MotionLaw};
 pub use motor::{Motor, MotorLaw, ShaftInertia};
