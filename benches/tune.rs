@@ -1,5 +1,5 @@
 //! `tune` by the clock: its choice against the cheapest settings of an exhaustive search over engines, routes, extrapolation, substeps, sweeps and
-//! steps, both timed in turns. `cargo bench --bench tune [-- SCENARIO...]`; with `-- prices` what the price model of `tests/tune/prices.rs`
+//! steps, both timed in turns. `cargo bench --bench tune [-- SCENARIO...]`; with `-- prices` what the price model of `tests/suite/tune/prices.rs`
 //! needs.
 
 use std::hint::black_box;
@@ -13,7 +13,7 @@ use linkproof::proof::Options;
 use linkproof::scenario::Scenario;
 use linkproof::tune::{Wish, tune};
 
-#[path = "../tests/tune/exhaustive.rs"]
+#[path = "../tests/suite/tune/exhaustive.rs"]
 mod exhaustive;
 
 use exhaustive::{Met, REFERENCES, Space, cheaper, error_of, thinned, truth};

@@ -1,0 +1,76 @@
+//! Side 1: group by group, forwards for the motion and backwards for the forces; dyads in closed form.
+
+use crate::assur::PoseSolver;
+use crate::assur::transfer::TransferSide;
+use crate::motion::free;
+use crate::reduced::{self, ACCURACY, End, Model, run_up};
+use linkage::case::Case;
+use linkage::drive::Load;
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::solver::{Progress, Provision, Solver, Visit};
+use linkage::trajectory::Channel;
+
+/// Group by group.
+#[derive(Clone, Copy, Debug)]
+pub struct AssurSolver;
+
+impl Solver for AssurSolver {
+    fn name(&self) -> &'static str {
+        "assur"
+    }
+
+    fn provides(&self, _: &Channel) -> Provision {
+        Provision::Computed
+    }
+
+    fn sweep(&self, case: &Case, visit: Visit, progress: Progress) -> Result<()> {
+        if case.is_free() {
+            return free_motion(case, visit, progress);
+        }
+        let mut poses = PoseSolver::counting_turns(case)?;
+        let deepest = case.wanted.deepest();
+        for (done, row) in case.grid.ascending().into_iter().enumerate() {
+            let drive = case.drive.at(case.grid.times[row]);
+            poses.solve(case.grid.cranks[row], drive.omega, drive.alpha, deepest)?;
+            visit(row, poses.with_angles())?;
+            progress((done + 1) as f64 / case.grid.len() as f64);
+        }
+        Ok(())
+    }
+}
+
+/// Motion under forces: of one freedom by its reduced equation of motion, of several by their transfer functions.
+fn free_motion(case: &Case, visit: Visit, progress: Progress) -> Result<()> {
+    if !case.further_drives.is_empty() || case.loads.iter().any(Load::is_viscous) {
+        return free::sweep(case, &mut TransferSide::new(case)?, visit, progress);
+    }
+    free::check(case)?;
+    let rows = case.grid.ascending();
+    let mut times: Vec<f64> = rows.iter().map(|&row| case.grid.times[row]).collect();
+    times.dedup();
+    let model = Model::of(case)?;
+    let (motion, end) = reduced::motion(&model, case.drive.initial_speed(), &times, ACCURACY)?;
+    if motion.len() < times.len() {
+        return Err(ended(end));
+    }
+    let mut next = 0;
+    run_up::states(case, &motion, &mut |index, state| {
+        while let Some(&row) = rows.get(next).filter(|&&row| case.grid.times[row] == times[index]) {
+            visit(row, state)?;
+            next += 1;
+        }
+        progress(next as f64 / rows.len() as f64);
+        Ok(())
+    })
+}
+
+/// The motion does not last as long as the grid.
+fn ended(end: End) -> Error {
+    let (what, t, crank) = match end {
+        End::Held(t, crank) => ("loads hold the mechanism", t, crank),
+        End::Limit(t, crank) => ("the crank comes to a limit of its rotation", t, crank),
+        End::Reached => ("the motion ends", 0.0, 0.0),
+    };
+    let message = format!("{what} at t = {t:.6} s, crank angle {:.4} deg", crank.to_degrees());
+    Error::new(ErrorKind::Numeric, message).help("let the grid end before, or give the motor more torque")
+}

@@ -1,0 +1,90 @@
+//! Reduced quantities over the turn: their course and their extremes.
+
+use crate::PoseSolver;
+use crate::reduced::means::no_turn;
+use crate::reduced::model::Model;
+use linkage::error::Result;
+use linkage::math::golden;
+use std::f64::consts::PI;
+
+/// Crank angle between two samples, at most (rad): a reduced quantity has a few extremes in a turn, not hundreds.
+const SAMPLE_STEP: f64 = PI / 360.0;
+
+/// The reduced quantities at one crank angle, motor, reducer and flywheel left out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Row {
+    /// Crank angle (rad, as the scenario states it).
+    pub crank: f64,
+    /// Reduced moment of inertia I* (kg m^2).
+    pub inertia: f64,
+    /// dI*/dphi (kg m^2).
+    pub slope: f64,
+    /// Reduced moment of resistance (N m): of gravity and loads, positive where the drive must work against them; in the sense of the scenario's speed.
+    pub resistance: f64,
+}
+
+/// Least and greatest value of a quantity.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Extremes {
+    /// Crank angle (rad) and value of the least.
+    pub least: (f64, f64),
+    /// Crank angle (rad) and value of the greatest.
+    pub greatest: (f64, f64),
+}
+
+impl Model<'_> {
+    /// The reduced quantities at crank angles (rad).
+    ///
+    /// # Errors
+    /// [`ErrorKind::Geometry`](linkage::error::ErrorKind::Geometry) for crank angles that cannot be reached.
+    pub fn rows(&self, cranks: &[f64]) -> Result<Vec<Row>> {
+        let mut poses = PoseSolver::new(self.case)?;
+        cranks.iter().map(|&crank| self.row(&mut poses, crank)).collect()
+    }
+
+    fn row(&self, poses: &mut PoseSolver, crank: f64) -> Result<Row> {
+        let found = self.at(poses, crank, self.sense)?;
+        // Against the motion counts as positive, whichever way the crank turns.
+        let resistance = -self.sense * found.applied;
+        Ok(Row { crank, inertia: found.inertia, slope: found.slope, resistance })
+    }
+
+    /// Extremes over one period of the reduced moment of inertia and of the reduced moment of resistance, refined between samples.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Geometry`](linkage::error::ErrorKind::Geometry) for a crank that does not turn fully.
+    pub fn extremes(&self) -> Result<[Extremes; 2]> {
+        self.extremes_of([|row| row.inertia, |row| row.resistance])
+    }
+
+    /// Extremes over one period of dI*/dphi, refined between samples.
+    ///
+    /// # Errors
+    /// As [`Model::extremes`].
+    pub fn slope_extremes(&self) -> Result<Extremes> {
+        Ok(self.extremes_of([|row| row.slope])?[0])
+    }
+
+    fn extremes_of<const N: usize>(&self, quantities: [fn(&Row) -> f64; N]) -> Result<[Extremes; N]> {
+        let Some(period) = self.kinks().period else { return Err(no_turn(self.kinks())) };
+        let count = (period / SAMPLE_STEP).ceil();
+        let start = self.case.drive.start;
+        let mut cranks: Vec<f64> = (0..=count as usize).map(|k| start + period * (k as f64 / count)).collect();
+        // A kink may be an extreme, and has no flat top.
+        cranks.extend(&self.kinks().cranks);
+        cranks.sort_by(f64::total_cmp);
+        let mut poses = PoseSolver::new(self.case)?;
+        let rows = cranks.iter().map(|&crank| self.row(&mut poses, crank)).collect::<Result<Vec<Row>>>()?;
+        let mut found = [Extremes { least: (start, 0.0), greatest: (start, 0.0) }; N];
+        for (extremes, of) in found.iter_mut().zip(quantities) {
+            let mut end = |sign: f64| -> Result<(f64, f64)> {
+                let values: Vec<f64> = rows.iter().map(|row| sign * of(row)).collect();
+                let mut value = |crank: f64| -> Result<f64> { Ok(sign * of(&self.row(&mut poses, crank)?)) };
+                let (crank, value) = golden::greatest(&cranks, &values, &mut value)?;
+                Ok((crank, sign * value))
+            };
+            *extremes = Extremes { least: end(-1.0)?, greatest: end(1.0)? };
+        }
+        Ok(found)
+    }
+}

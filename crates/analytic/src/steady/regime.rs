@@ -1,0 +1,243 @@
+//! Steady periodic motion: the crank has the same speed after every period.
+
+use std::f64::consts::TAU;
+
+use crate::AssurSolver;
+use crate::motion::march::{MOST_EMPTY, Place, Step, Stop, march, one_step};
+use crate::reduced::flow::{Forces, OverAngle};
+use crate::reduced::means::{self, no_turn};
+use crate::reduced::model::{Model, Piece};
+use linkage::error::{Error, ErrorKind, Result};
+
+/// Newton steps of the shooting; it takes three to six.
+const MOST_SHOTS: usize = 60;
+/// Relative change of the energy over a period at which it counts as none.
+const CLOSED: f64 = 2e-14;
+
+/// Speed of the crank at a crank angle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct At {
+    /// Crank angle (rad, as the scenario states it).
+    pub crank: f64,
+    /// Angular velocity of the crank (rad/s).
+    pub omega: f64,
+    /// Its angular acceleration (rad/s^2).
+    pub alpha: f64,
+}
+
+/// A steady periodic motion.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Regime {
+    /// Time of one period (s).
+    pub period: f64,
+    /// Turns of the crank in a period: 1, but for some higher groups.
+    pub turns: f64,
+    /// Mean angular velocity over the time (rad/s): the turns over the period.
+    pub mean_speed: f64,
+    /// Angular velocity at the start of the case (rad/s).
+    pub start_speed: f64,
+    /// Where the crank is fastest.
+    pub fastest: At,
+    /// Where it is slowest.
+    pub slowest: At,
+    /// Share of a small deviation of the energy that is left after a period: below 1, or the motion would not be stable.
+    pub multiplier: f64,
+    /// The crank at the crank angles asked for.
+    pub samples: Vec<At>,
+    /// Energy of the reduced motion at the start of the period (J).
+    energy: f64,
+}
+
+impl Regime {
+    /// Coefficient of non-uniformity: (fastest - slowest) / mean over the time, of the speeds' sizes.
+    #[must_use]
+    pub fn non_uniformity(&self) -> f64 {
+        (self.fastest.omega.abs() - self.slowest.omega.abs()) / self.mean_speed.abs()
+    }
+}
+
+impl Model<'_> {
+    /// The steady periodic motion in the motor's sense, found by Newton's method on the energy at the start of a period, whose derivative is integrated
+    /// along. `cranks`: crank angles (rad) of one period from the start of the case, in the order of the motion, at which the crank's speed is wanted.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Input`] without a motor, [`ErrorKind::Geometry`] if the crank does not turn fully, [`ErrorKind::Numeric`] if the motor has no stable
+    /// speed or does not carry the crank over a period.
+    pub fn regime(&self, cranks: &[f64], accuracy: f64) -> Result<Regime> {
+        let Some(motor) = &self.motor else {
+            let message = "a steady motion is asked for, but there is no motor";
+            return Err(Error::new(ErrorKind::Input, message)
+                .help("add a `[motor]` section: its law, and the ratio of the reducer"));
+        };
+        let Some(period) = self.kinks().period else { return Err(no_turn(self.kinks())) };
+        let turn = Turn::of(self, period)?;
+        let means = means::means_over_turn(self.case, &AssurSolver)?;
+        let resistance = self.sense * means.resistance;
+        let guess = motor.steady_speed(resistance).filter(|&speed| speed > 0.0);
+        let Some(speed) = guess else { return Err(means::no_steady_speed(resistance)) };
+        // At the mean energy, not at the mean speed: where the mechanism is light, it is fast.
+        let mut energy = (means.inertia + self.added) * speed * speed / 2.0;
+        let mut share = 0.0;
+        for _ in 0..MOST_SHOTS {
+            let [after, _, multiplier] = turn.run(energy, &[], accuracy, &mut |_, _| Ok(()))?;
+            let change = after - energy;
+            share = multiplier;
+            if change.abs() <= CLOSED * energy {
+                return turn.described(after, share, cranks, accuracy);
+            }
+            let next = energy + change / (1.0 - multiplier);
+            energy = if next > 0.0 && next.is_finite() { next } else { after };
+        }
+        let message =
+            format!("no steady motion was found in {MOST_SHOTS} turns: a deviation is left by {share:.3} after a turn");
+        Err(Error::new(ErrorKind::Numeric, message)
+            .help("follow the run-up instead, and look what the crank's speed does"))
+    }
+
+    /// A steady motion of this model at other crank angles, followed over one more period and not looked for again: as [`Model::regime`] gives it.
+    ///
+    /// # Errors
+    /// Those of [`Model::regime`].
+    pub fn regime_at(&self, found: &Regime, cranks: &[f64], accuracy: f64) -> Result<Regime> {
+        let Some(period) = self.kinks().period else { return Err(no_turn(self.kinks())) };
+        Turn::of(self, period)?.described(found.energy, found.multiplier, cranks, accuracy)
+    }
+}
+
+/// One period over the crank angle.
+struct Turn<'m, 'a> {
+    flow: OverAngle<'m, 'a>,
+    start: f64,
+    period: f64,
+}
+
+impl<'m, 'a> Turn<'m, 'a> {
+    fn of(model: &'m Model<'a>, period: f64) -> Result<Self> {
+        let flow = OverAngle(Forces::of(model, Piece::unbounded(), model.sense)?);
+        Ok(Turn { flow, start: model.sense * model.case.drive.start, period })
+    }
+
+    /// Energy, time and share at the end of a period that begins with `energy` (J). Targets end steps.
+    fn run(
+        &self,
+        energy: f64,
+        targets: &[f64],
+        accuracy: f64,
+        visit: &mut dyn FnMut(&OverAngle, &Step<3>) -> Result<()>,
+    ) -> Result<[f64; 3]> {
+        let forces = &self.flow.0;
+        let (way, last) = (forces.way.get(), self.start + self.period);
+        forces.begin_at(way * self.start);
+        let mut place = Place { x: self.start, y: [energy, 0.0, 1.0], h: 0.0 };
+        // A speed at which a branch has just ended: from the energy it would come back with a rounding, on one side or the other.
+        let mut reached: Option<f64> = None;
+        let mut empty = 0;
+        while place.x < last {
+            let piece = forces.model.piece_at(way * place.x, way).ok_or_else(|| stalled(way * place.x))?;
+            forces.piece.set(piece);
+            let end = if way > 0.0 { piece.ends[1] } else { -piece.ends[0] };
+            // The branch as the speed goes on from here.
+            let omega = reached.take().unwrap_or_else(|| self.flow.speed(place.x, place.y[0]));
+            forces.branch.set(forces.model.branch(omega, way));
+            let alpha = forces.acceleration(way * place.x, omega);
+            forces.branch.set(forces.model.branch(omega, alpha));
+            let from = place.x;
+            let end = end.min(last);
+            let inner = targets.iter().copied().filter(|&target| target > from && target < end);
+            let targets: Vec<f64> = inner.chain([end]).collect();
+            let stop = march(&self.flow, &mut place, &targets, accuracy, visit)
+                .map_err(|error| if error.kind() == ErrorKind::Numeric { stalled(way * from) } else { error })?;
+            if let Stop::Bound(bound) = stop {
+                // Exactly onto the speed at which the next branch begins.
+                let speeds = forces.branch.get().map_or([0.0; 2], |branch| branch.speeds);
+                let speed = speeds[1 - bound];
+                place.y[0] = forces.reduced(way * place.x).inertia * speed * speed / 2.0;
+                reached = Some(forces.model.sense * speed);
+            }
+            empty = if place.x > from { 0 } else { empty + 1 };
+            if empty > MOST_EMPTY {
+                return Err(stalled(way * from));
+            }
+        }
+        Ok(place.y)
+    }
+
+    /// Everything about the period that begins with `energy`.
+    fn described(&self, energy: f64, multiplier: f64, cranks: &[f64], accuracy: f64) -> Result<Regime> {
+        let forces = &self.flow.0;
+        let way = forces.way.get();
+        let here = |flow: &OverAngle, x: f64, energy: f64| {
+            let omega = flow.speed(x, energy);
+            At { crank: way * x, omega, alpha: flow.0.acceleration(way * x, omega) }
+        };
+        let mut extremes: Vec<At> = Vec::new();
+        let mut samples: Vec<At> = Vec::with_capacity(cranks.len());
+        let last = self.start + self.period;
+        let targets: Vec<f64> = cranks.iter().map(|crank| way * crank).collect();
+        forces.begin_at(way * self.start);
+        let first = here(&self.flow, self.start, energy);
+        let mut low = first;
+        let mut visit = |flow: &OverAngle, step: &Step<3>| {
+            let high = here(flow, step[1].0, step[1].1[0]);
+            if low.alpha * high.alpha <= 0.0 {
+                extremes.push(extreme(flow, step, low, &here)?);
+            }
+            extremes.push(high);
+            low = high;
+            Ok(())
+        };
+        let [_, period, _] = self.run(energy, &targets, accuracy, &mut visit)?;
+        // Targets end steps; the ends of the period are one and the same state.
+        for &crank in cranks {
+            let at = extremes.iter().find(|at| at.crank == crank);
+            let ends = [self.start, last].map(|end| (way * crank - end).abs() < 1e-9);
+            samples.push(match at {
+                Some(at) => *at,
+                None if ends.contains(&true) => At { crank, ..first },
+                None => return Err(outside(crank)),
+            });
+        }
+        let by_speed = |a: &&At, b: &&At| a.omega.abs().total_cmp(&b.omega.abs());
+        let fastest = *extremes.iter().max_by(by_speed).unwrap_or(&first);
+        let slowest = *extremes.iter().min_by(by_speed).unwrap_or(&first);
+        let turns = (self.period / TAU).round();
+        let mean_speed = way * self.period / period;
+        let start_speed = first.omega;
+        Ok(Regime { period, turns, mean_speed, start_speed, fastest, slowest, multiplier, samples, energy })
+    }
+}
+
+/// The place in a step at which the acceleration changes its sign, by bisection.
+fn extreme(
+    flow: &OverAngle,
+    &[(x, y), (end, _)]: &Step<3>,
+    low: At,
+    here: &dyn Fn(&OverAngle, f64, f64) -> At,
+) -> Result<At> {
+    let (mut shortest, mut longest, mut found) = (0.0, end - x, low);
+    // At an extreme the speed is flat: half the digits of the angle are enough.
+    for _ in 0..30 {
+        let h = (shortest + longest) / 2.0;
+        found = here(flow, x + h, one_step(flow, x, &y, h)?[0]);
+        if found.alpha * low.alpha > 0.0 {
+            shortest = h;
+        } else {
+            longest = h;
+        }
+    }
+    Ok(found)
+}
+
+fn outside(crank: f64) -> Error {
+    let message =
+        format!("the steady speed is asked for at {:.6} deg, which is not in the first period", crank.to_degrees());
+    Error::new(ErrorKind::Input, message).help("give crank angles from the start on, in the sense of motion")
+}
+
+fn stalled(crank: f64) -> Error {
+    let message = format!(
+        "the motor does not carry the crank over a turn: it comes to a standstill beyond {:.3} deg",
+        crank.to_degrees()
+    );
+    Error::new(ErrorKind::Numeric, message).help("choose a stronger motor or a larger ratio, or add a flywheel")
+}

@@ -1,0 +1,382 @@
+//! What goes wrong in a scenario file, and what the message says: each case is one edit of a good scenario, and asserts
+//! the sort of error, the line it points at, the key it names, and the words that help.
+
+use std::path::Path;
+
+use linkage::{Error, ErrorKind};
+use linkproof::scenario::Scenario;
+
+const GOOD: &str = include_str!("bad_scenarios/good.toml");
+
+const TABLE: &str = "crank_deg,Bx_mm\n0,301.12\n90,298.5\n";
+
+/// One bad scenario.
+struct Bad<'a> {
+    /// Replacements in the good scenario, each of which must apply.
+    edits: &'a [(&'static str, &'static str)],
+    kind: ErrorKind,
+    /// Text of the edited scenario on whose line the error must point; its first occurrence.
+    at: &'static str,
+    /// Key the error names.
+    key: &'static str,
+    /// Words of the message or the help.
+    words: &'a [&'static str],
+}
+
+fn parse(text: &str, table: &str) -> Result<Scenario, Error> {
+    let directory = tempfile::tempdir().unwrap();
+    std::fs::write(directory.path().join("table.csv"), table).unwrap();
+    Scenario::parse(text, &directory.path().join("scenario.toml"))
+}
+
+fn line_of(text: &str, marker: &str) -> usize {
+    let start = text.find(marker).unwrap_or_else(|| panic!("`{marker}` is not in the edited scenario"));
+    text[..start].matches('\n').count() + 1
+}
+
+/// Applies the edits, parses, and asserts everything that is expected of the error.
+fn assert_refused(good: &str, bad: &Bad) {
+    let mut text = good.to_string();
+    for (from, to) in bad.edits {
+        assert!(text.contains(from), "the edit `{from}` does not apply");
+        text = text.replacen(from, to, 1);
+    }
+    let what = bad.edits.iter().map(|(_, to)| *to).collect::<Vec<_>>().join(" | ");
+    let Err(error) = parse(&text, TABLE) else { panic!("accepted: {what}") };
+    assert_eq!(error.kind(), bad.kind, "{what}: {error}");
+    assert_eq!(error.scenario_key(), Some(bad.key), "{what}: {error}");
+    let place = error.place().unwrap_or_else(|| panic!("no place: {error}"));
+    assert_eq!(place.line(), line_of(&text, bad.at), "{what}: {error}");
+    let says = format!("{}; {}", error.message(), error.way_out().unwrap_or_default());
+    for word in bad.words {
+        assert!(says.contains(word), "{what}: `{word}` is not in: {says}");
+    }
+}
+
+fn assert_all_refused(cases: &[Bad]) {
+    cases.iter().for_each(|bad| assert_refused(GOOD, bad));
+}
+
+const INPUT: ErrorKind = ErrorKind::Input;
+
+/// A case of one edit.
+macro_rules! bad {
+    ($from:expr => $to:expr, $kind:expr, at $at:expr, key $key:expr, [$($word:expr),+ $(,)?]) => {
+        Bad { edits: &[($from, $to)], kind: $kind, at: $at, key: $key, words: &[$($word),+] }
+    };
+}
+
+mod laws;
+mod loads;
+mod motors;
+mod sliders;
+
+#[test]
+fn the_good_scenario_is_good() {
+    let scenario = parse(GOOD, TABLE).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(scenario.case.grid.len(), 37);
+    assert_eq!(scenario.oracles[0].series[0].points[1].digits, 1);
+}
+
+#[test]
+fn keys_and_sections() {
+    assert_all_refused(&[
+        bad!("format = 1\n" => "", INPUT, at "name = ", key "format", ["`format` is missing"]),
+        bad!("format = 1" => "format = 2", ErrorKind::Unsupported, at "format = 2", key "format",
+            ["format 2", "this version reads `format = 1`"]),
+        bad!("format = 1" => "format = \"1\"", INPUT, at "format", key "format", ["found \"1\"", "whole number"]),
+        bad!("name = \"good\"" => "name = \"Good one\"", INPUT, at "Good one", key "name",
+            ["\"Good one\"", "lower-case letters"]),
+        bad!("title = \"A four-bar\"" => "titel = \"A four-bar\"", INPUT, at "titel", key "title",
+            ["`title` is missing", "did you mean `title`"]),
+        bad!("[gravity]" => "[gravty]", INPUT, at "[gravty]", key "gravty", ["not known", "did you mean `gravity`?"]),
+        bad!("mass_kg = 2.6" => "mass_kg = 2.6\ncolour = \"red\"", INPUT, at "colour", key "links.crank.colour",
+            ["not known", "known here: `points`, `mass_kg`, `mass_g`"]),
+        bad!("mass_kg = 2.6" => "mas_kg = 2.6", INPUT, at "mas_kg", key "links.crank.mas_kg", ["did you mean `mass_kg`?"]),
+        bad!("name = \"A\"\n" => "name = \"A\"\npiont = \"A\"\n", INPUT, at "piont", key "joints.A.piont",
+            ["did you mean `point`?"]),
+        bad!("[drive]" => "[drives]", INPUT, at "[drives]", key "drive", ["`drive` is missing", "there is `drives`"]),
+        bad!("[gravity]" => "[[gravity]]", INPUT, at "[[gravity]]", key "gravity", ["an array", "a table is needed", "[gravity]"]),
+        bad!("[drive]" => "[[drive]]\njoint = \"O\"\nspeed_rpm = 10\n[[drive]]", INPUT, at "[[drive]]\njoint = \"O\"\nspeed_rpm = 130",
+            key "drive[2]", ["`start_rad` or `start_deg`"]),
+        bad!("[drive]" => "[[drive]]\njoint = \"O\"\nspeed_rpm = 10\n[[drive]]\nstart_deg = 0", INPUT,
+            at "joint = \"O\"\nspeed_rpm = 130", key "drive[2].joint", ["driven already"]),
+        bad!("[drive]" => "[[drive]]\njoint = \"C\"\nspeed_rpm = 10\n[[drive]]\nstart_deg = 0", INPUT,
+            at "[[joints]]", key "joints", ["number of drives is 2"]),
+        bad!("[[loads]]" => "[loads]", INPUT, at "[loads]", key "loads", ["a table", "write [[loads]]"]),
+        bad!("links = [\"crank\", \"coupler\"]" => "links = \"crank\"", INPUT, at "links = \"crank\"",
+            key "joints.A.links", ["found \"crank\"", "an array"]),
+        bad!("links = [\"crank\", \"coupler\"]" => "links = [\"crank\", 2]", INPUT, at "links = [\"crank\", 2]",
+            key "joints.A.links", ["found 2", "quotes"]),
+    ]);
+}
+
+#[test]
+fn numbers_and_units() {
+    assert_all_refused(&[
+        bad!("mass_kg = 2.6" => "mass = 2.6", INPUT, at "mass = 2.6", key "links.crank.mass",
+            ["carries no unit", "`mass_kg` or `mass_g`"]),
+        bad!("length_mm = 26" => "length = 26", INPUT, at "length = 26", key "links.crank.points.A.length",
+            ["carries no unit", "`length_m` or `length_mm`"]),
+        bad!("length_mm = 26" => "length_cm = 2.6", INPUT, at "length_cm", key "links.crank.points.A.length_cm",
+            ["does not end in a unit that a length has", "`length_m` or `length_mm`"]),
+        bad!("length_mm = 26" => "length_mm = 26, length_m = 0.026", INPUT, at "length_mm = 26",
+            key "links.crank.points.A.length_m", ["both given", "keep one"]),
+        bad!("speed_rpm = 130" => "speed_rps = 2", INPUT, at "speed_rps", key "drive.speed_rps",
+            ["an angular velocity", "`speed_rad_s` or `speed_rpm`"]),
+        bad!("mass_kg = 2.6" => "mass_kg = nan", INPUT, at "mass_kg = nan", key "links.crank.mass_kg",
+            ["found nan", "finite number"]),
+        bad!("x_mm = 347" => "x_mm = -inf", INPUT, at "x_mm = -inf", key "links.coupler.points.B.x_mm",
+            ["found -inf", "finite number"]),
+        bad!("speed_rpm = 130" => "speed_rpm = 1e308", INPUT, at "1e308", key "drive.speed_rpm", ["finite number"]),
+        bad!("mass_kg = 2.6" => "mass_kg = -2.6", INPUT, at "mass_kg = -2.6", key "links.crank.mass_kg",
+            ["found -2.6", "a mass must not be negative"]),
+        bad!("mass_kg = 2.6" => "mass_kg = \"2,6\"", INPUT, at "\"2,6\"", key "links.crank.mass_kg",
+            ["found \"2,6\"", "a number is needed", "decimal point"]),
+        bad!("mass_kg = 2.6\n" => "", INPUT, at "inertia_kg_m2", key "links.crank.inertia_kg_m2", ["no mass", "mass_kg"]),
+        bad!("mass_centre = { x_mm = 13, y_mm = 0 }\n" => "", INPUT, at "mass_kg", key "links.crank.mass_kg",
+            ["no mass centre", "mass_centre ="]),
+        bad!("mass_kg = 2.6\ninertia_kg_m2 = 0.0002" => "", INPUT, at "mass_centre", key "links.crank.mass_centre",
+            ["mass centre but no mass"]),
+        bad!("moment_N_m = 100" => "moment_N_m = -100", INPUT, at "-100", key "loads[1].moment_N_m",
+            ["a moment must not be negative"]),
+        bad!("engine_rel = 1e-2" => "engine_rel = 1.5", INPUT, at "engine_rel", key "tolerances.engine_rel",
+            ["found 1.5", "between 0 and 1"]),
+    ]);
+}
+
+#[test]
+fn toml_itself() {
+    for (text, line, word) in [
+        (GOOD.replace("title = \"A four-bar\"", "title = \"A four-bar"), 3, "not valid TOML"),
+        (GOOD.replace("[drive]", "[drive"), line_of(GOOD, "[drive]"), "not valid TOML"),
+        (GOOD.replace("mass_kg = 2.6", "mass_kg = 2,6"), line_of(GOOD, "mass_kg"), "not valid TOML"),
+        (GOOD.replace("name = \"good\"", "name = \"good\"\nname = \"twice\""), 3, "duplicate key"),
+        (String::new(), 1, "holds no scenario"),
+    ] {
+        let error = parse(&text, TABLE).unwrap_err();
+        assert_eq!((error.kind(), error.place().unwrap().line()), (INPUT, line), "{error}");
+        assert!(error.message().contains(word) && error.way_out().is_some(), "{error}");
+    }
+}
+
+#[test]
+fn links_and_joints() {
+    assert_all_refused(&[
+        bad!("B = { x_mm = 250, y_mm = 0 }" => "E = { x_mm = 250, y_mm = 0 }", INPUT, at "name = \"B\"",
+            key "joints.B.name", ["link \"rocker\" has no point \"B\"", "\"C\" or \"E\""]),
+        bad!("name = \"B\"\n" => "name = \"B\"\npoint = \"F\"\n", INPUT, at "point = \"F\"", key "joints.B.point",
+            ["link \"coupler\" has no point \"F\""]),
+        bad!("A = { from = \"O\"" => "A = { from = \"Q\"", INPUT, at "from = \"Q\"", key "links.crank.points.A.from",
+            ["no point \"Q\" stands before", "\"O\""]),
+        bad!("O = { x_mm = 0, y_mm = 0 }\nA =" => "O = { from = \"A\", length_mm = 26, angle_deg = 0 }\nA =", INPUT,
+            at "from = \"A\"", key "links.crank.points.O.from", ["no point \"A\" stands before"]),
+        bad!("B = { x_mm = 347, y_mm = 0 }" => "B = { x_mm = 347 }", INPUT, at "x_mm = 347",
+            key "links.coupler.points.B", ["`y_m` or `y_mm` is missing"]),
+        bad!("[links.rocker.points]" => "[links.ground.points]\nE = { x_mm = 1, y_mm = 0 }\n[links.rocker.points]", INPUT,
+            at "[links.ground.points]", key "links.ground", ["\"ground\""]),
+        bad!("[[joints]]\nname = \"A\"" => "[links.loose.points]\nE = { x_mm = 1, y_mm = 0 }\n[[joints]]\nname = \"A\"",
+            INPUT, at "[links.loose.points]", key "links.loose", ["not connected to the ground"]),
+        bad!("links = [\"crank\", \"coupler\"]" => "links = [\"crank\", \"coupler\", \"rocker\"]", INPUT,
+            at "\"coupler\", \"rocker\"]", key "joints.A.links", ["found 3 links", "two"]),
+        bad!("links = [\"crank\", \"coupler\"]" => "links = [\"crank\", \"cuopler\"]", INPUT, at "cuopler",
+            key "joints.A.links", ["no link \"cuopler\"", "did you mean \"coupler\""]),
+        bad!("[links.rocker.points]" => "[links.rocker.points]\nA = { x_mm = 1, y_mm = 0 }", INPUT,
+            at "A = { x_mm = 1,", key "links.rocker.points.A", ["no joint holds the two together", "rename"]),
+        bad!("[links.coupler.points]" => "[links.coupler.points]\n\"A B\" = { x_mm = 1, y_mm = 0 }", INPUT,
+            at "\"A B\"", key "links.coupler.points.A B", ["cannot be the name of a point", "letters"]),
+        bad!("links = [\"crank\", \"coupler\"]" => "links = [\"crank\", \"crank\"]", INPUT, at "\"crank\", \"crank\"",
+            key "joints.A.links", ["with itself"]),
+        bad!("name = \"B\"" => "name = \"A\"", INPUT, at "name = \"A\"\ntype = \"revolute\"\nlinks = [\"coupler\"",
+            key "joints.A.name", ["two joints are called \"A\"", "point ="]),
+        bad!("name = \"B\"" => "name = \"B.1\"", INPUT, at "B.1", key "joints.B.1.name", ["letters, digits"]),
+        bad!("type = \"revolute\"" => "type = \"prismatic\"", INPUT, at "[[joints]]", key "joints.O", ["`axis_rad` or `axis_deg`"]),
+        bad!("type = \"revolute\"" => "type = \"prismatic\"\naxis_deg = 0", INPUT, at "[[joints]]", key "joints.O",
+            ["`points`"]),
+        bad!("type = \"revolute\"" => "type = \"prismatic\"\naxis_deg = 0\npoints = [\"O\"]", INPUT, at "[\"O\"]", key "joints.O.points",
+            ["found 1 points", "slides along it"]),
+        bad!("type = \"revolute\"" => "type = \"prismatic\"\naxis_deg = 0\npoints = [\"O\", \"Z\"]", INPUT, at "[\"O\", \"Z\"]",
+            key "joints.O.points", ["no point \"Z\""]),
+        bad!("type = \"revolute\"" => "type = \"prismatic\"\naxis_deg = 0\npoints = [\"O\", \"O\"]", INPUT,
+            at "O = { x_mm = 0, y_mm = 0 }\nA", key "links.crank.points.O", ["no joint holds the two together"]),
+        bad!("type = \"revolute\"" => "type = \"hinge\"", INPUT, at "hinge", key "joints.O.type",
+            ["no type of joint", "\"revolute\""]),
+        bad!("[drive]" => "[[joints]]\nname = \"B2\"\npoint = \"B\"\ntype = \"revolute\"\nlinks = [\"coupler\", \"rocker\"]\n[drive]",
+            INPUT, at "links = [\"coupler\", \"rocker\"]\n[drive]", key "joints.B2.links", ["\"B\" joins", "lock"]),
+    ]);
+}
+
+#[test]
+fn structure_and_drive() {
+    assert_all_refused(&[
+        // A fourth bar between crank and rocker: one joint pair too many.
+        Bad {
+            edits: &[
+                (
+                    "\n[links.rocker.points]",
+                    "[links.brace.points]\nA = { x_mm = 0, y_mm = 0 }\nB = { x_mm = 347, y_mm = 0 }\n\n[links.rocker.points]",
+                ),
+                (
+                    "[drive]",
+                    "[[joints]]\nname = \"A2\"\npoint = \"A\"\ntype = \"revolute\"\nlinks = [\"crank\", \"brace\"]\n[[joints]]\nname = \"B2\"\npoint = \"B\"\ntype = \"revolute\"\nlinks = [\"rocker\", \"brace\"]\n[drive]",
+                ),
+            ],
+            kind: INPUT,
+            at: "[[joints]]",
+            key: "joints",
+            words: &["W = 3*4 - 2*6 = 0", "over-constrained"],
+        },
+        // A pendulum on the rocker: mobility 2.
+        Bad {
+            edits: &[
+                ("\n[links.rocker.points]", "[links.bob.points]\nB = { x_mm = 0, y_mm = 0 }\n\n[links.rocker.points]"),
+                (
+                    "[drive]",
+                    "[[joints]]\nname = \"B2\"\npoint = \"B\"\ntype = \"revolute\"\nlinks = [\"rocker\", \"bob\"]\n[drive]",
+                ),
+            ],
+            kind: INPUT,
+            at: "[[joints]]",
+            key: "joints",
+            words: &["W = 3*4 - 2*5 = 2", "missing joints"],
+        },
+        bad!("joint = \"O\"" => "joint = \"B\"", ErrorKind::Unsupported, at "joint = \"B\"", key "drive.joint",
+            ["\"coupler\" and \"rocker\"", "\"O\" or \"C\""]),
+        bad!("joint = \"O\"" => "joint = \"P\"", INPUT, at "joint = \"P\"", key "drive.joint", ["no joint \"P\""]),
+        bad!("speed_rpm = 130" => "speed_rpm = 0", INPUT, at "speed_rpm = 0", key "drive.speed_rpm",
+            ["found 0", "an angular velocity must not be zero"]),
+        bad!("speed_rpm = 130\n" => "", INPUT, at "[drive]", key "drive", ["`speed_rad_s` or `speed_rpm` is missing"]),
+        bad!("link = \"rocker\"" => "link = \"ground\"", INPUT, at "link = \"ground\"", key "loads[1].link",
+            ["does not turn"]),
+        bad!("type = \"resistance\"" => "type = \"sprong\"", INPUT, at "sprong", key "loads[1].type",
+            ["no type of load", "did you mean \"spring\""]),
+    ]);
+}
+
+#[test]
+fn first_pose() {
+    const GROUP: &str = "start.groups (coupler, rocker)";
+    assert_all_refused(&[
+        bad!("x_mm = 347" => "x_mm = 47", ErrorKind::Geometry, at "[[start.groups]]", key GROUP,
+            ["cannot be assembled", "check the lengths"]),
+        bad!("mode = \"left\"" => "near = { point = \"B\", x_mm = 90, y_mm = 10 }", ErrorKind::Geometry,
+            at "[[start.groups]]", key GROUP, ["does not tell them apart"]),
+        bad!("mode = \"left\"" => "mode = \"right\"\nnear = { point = \"B\", x_mm = 200, y_mm = 260 }", ErrorKind::Geometry,
+            at "[[start.groups]]", key GROUP, ["nearer to another configuration"]),
+        bad!("mode = \"left\"\n" => "", INPUT, at "[[start.groups]]", key GROUP, ["neither an assembly mode"]),
+        bad!("mode = \"left\"" => "mode = \"up\"", INPUT, at "mode = \"up\"", key "start.groups[1].mode",
+            ["\"up\"", "\"left\", \"right\", \"ahead\" or \"behind\""]),
+        bad!("mode = \"left\"" => "near = { point = \"O\", x_mm = 0, y_mm = 0 }", INPUT, at "near", key "start.groups[1].near.point",
+            ["no link of the group has a point \"O\""]),
+        bad!("[[start.groups]]\nlinks = [\"coupler\", \"rocker\"]\nmode = \"left\"\n" => "", INPUT, at "[start]", key "start",
+            ["(coupler, rocker)", "[[start.groups]]\nlinks = [\"coupler\", \"rocker\"]\nmode = \"left\""]),
+        bad!("links = [\"coupler\", \"rocker\"]\nmode" => "links = [\"crank\", \"rocker\"]\nmode", INPUT,
+            at "links = [\"crank\", \"rocker\"]", key "start.groups[1].links",
+            ["no Assur group (crank, rocker)", "links = [\"coupler\", \"rocker\"]"]),
+        bad!("mode = \"left\"" => "mode = \"left\"\n[[start.groups]]\nlinks = [\"rocker\", \"coupler\"]", INPUT,
+            at "links = [\"rocker\", \"coupler\"]", key "start.groups[2].links", ["given twice"]),
+    ]);
+}
+
+#[test]
+fn grid_channels_and_engine() {
+    assert_all_refused(&[
+        bad!("step_deg = 10" => "step_deg = 0", INPUT, at "step_deg = 0", key "grid.step_deg", ["must not be zero"]),
+        bad!("step_deg = 10" => "step_deg = -10", INPUT, at "step_deg = -10", key "grid.step_deg",
+            ["leads away from the end"]),
+        bad!("step_deg = 10" => "step_deg = 1e-4", INPUT, at "step_deg = 1e-4", key "grid.step_deg",
+            ["more than 1000000 points"]),
+        bad!("to_deg = 360" => "to_s = 1", INPUT, at "to_s = 1", key "grid.to_s", ["`to_rad` or `to_deg`"]),
+        bad!("from_deg = 0\n" => "", INPUT, at "[grid]", key "grid", ["is missing", "by crank angle"]),
+        bad!("from_deg = 0" => "from_deg = 0\nfrom_s = 0", INPUT, at "from_s = 0", key "grid.from_s", ["both given"]),
+        bad!("\"velocities\"" => "\"velocity\"", INPUT, at "want", key "channels.want",
+            ["no channels \"velocity\"", "did you mean \"velocities\""]),
+        bad!("\"positions\", \"velocities\"" => "", INPUT, at "want", key "channels.want", ["nothing is wanted"]),
+        bad!("dt_s = 1e-3" => "dt_s = 0", INPUT, at "dt_s = 0", key "engine.dt_s", ["a time must be positive"]),
+        bad!("dt_s = 1e-3" => "dt_s = 1e-3\nstep_deg = 1", INPUT, at "step_deg = 1\n\n[tol", key "engine.step_deg",
+            ["given twice"]),
+        bad!("dt_s = 1e-3\n" => "", INPUT, at "[engine]", key "engine", ["step is missing", "`dt_s`"]),
+    ]);
+}
+
+#[test]
+fn motors() {
+    let motor = |text: &'static str| [("[start]", text)];
+    let law = motor("[motor]\nlaw = \"kubic\"\ntorque_at_rest_N_m = 1\nslope_N_m_s = -1\nratio = 1\n[start]");
+    let slope = motor("[motor]\nlaw = \"linear\"\ntorque_at_rest_N_m = 1\nslope_N_m_s = 1\nratio = 1\n[start]");
+    let ratio = motor("[motor]\nlaw = \"linear\"\ntorque_at_rest_N_m = 1\nslope_N_m_s = -1\nratio = 0\n[start]");
+    for (edits, at, key, words) in [
+        (law, "law =", "motor.law", ["no law of a motor", "\"linear\""]),
+        (slope, "slope_N", "motor.slope_N_m_s", ["must be negative", "less than zero"]),
+        (ratio, "ratio =", "motor.ratio", ["found 0", "without a reducer"]),
+    ] {
+        assert_refused(GOOD, &Bad { edits: &edits, kind: INPUT, at, key, words: &words });
+    }
+}
+
+#[test]
+fn oracles() {
+    assert_all_refused(&[
+        bad!("source = \"a table\"\n" => "", INPUT, at "[[oracle]]", key "oracle[1]", ["`source` is missing"]),
+        bad!("file = \"table.csv\"" => "file = \"tables.csv\"", ErrorKind::Io, at "tables.csv", key "oracle[1].file",
+            ["cannot be read", "relative to the scenario's directory"]),
+        bad!("crank = \"crank_deg\"" => "crank = \"crank\"", INPUT, at "crank = \"crank\"", key "oracle[1].crank",
+            ["does not say its unit"]),
+        bad!("channel = \"point.B.x_mm\"" => "channel = \"point.E.x_mm\"", INPUT, at "point.E", key
+            "oracle[1].columns.Bx_mm.channel", ["no channel \"point.E.x_mm\"", "\"A\" or \"B\""]),
+        bad!("channel = \"point.B.x_mm\"" => "channel = \"point.C.x_cm\"", INPUT, at "point.C", key
+            "oracle[1].columns.Bx_mm.channel", ["no channel \"point.C.x_cm\"", "did you mean `x_m`"]),
+        bad!("channel = \"point.B.x_mm\"" => "channel = \"link.crank.alpha_rad_s2\"", INPUT, at "alpha_rad_s2", key
+            "oracle[1].columns.Bx_mm.channel", ["accelerations", "channels.want"]),
+        bad!("channel = \"point.B.x_mm\"" => "channel = \"point.B.x_mm\", offset_deg = 3", INPUT, at "offset_deg", key
+            "oracle[1].columns.Bx_mm.offset_deg", ["`offset_m` or `offset_mm`"]),
+        bad!("channel = \"point.B.x_mm\"" => "channel = \"point.B.x_mm\", expect = [{ crank_deg = 45, finding = \"misprint\" }]",
+            INPUT, at "expect", key "oracle[1].columns.Bx_mm.expect[1].crank_deg", ["no row with this crank angle"]),
+        bad!("channel = \"point.B.x_mm\"" => "channel = \"point.B.x_mm\", expect = [{ crank_deg = 90 }]",
+            INPUT, at "expect", key "oracle[1].columns.Bx_mm.expect[1]", ["`finding` is missing"]),
+        bad!(", digits = 1 }" => " }", INPUT, at "values =", key "oracle[2].values[1]", ["`digits` is missing"]),
+        bad!("digits = 1 }" => "digits = 1.5 }", INPUT, at "values =", key "oracle[2].values[1].digits",
+            ["found 1.5", "a whole number"]),
+        bad!("digits = 1 }" => "digits = 99 }", INPUT, at "values =", key "oracle[2].values[1].digits",
+            ["found 99", "from -20 to 20"]),
+        bad!("reduced_inertia_mean_kg_m2" => "reduced_inertia_kg_m2", INPUT, at "figures =", key
+            "oracle[3].figures[1].figure", ["no figure", "reduced_inertia_mean_kg_m2"]),
+        bad!("\"reduced_inertia_mean_kg_m2\"" => "\"steady_motor_speed_rad_s\"", INPUT, at "figures =", key
+            "oracle[3].figures[1].figure", ["needs a motor", "[motor]"]),
+        bad!("\"reduced_inertia_mean_kg_m2\"" => "\"distance_mm\", points = [\"A\"]", INPUT, at "figures =", key
+            "oracle[3].figures[1].points", ["between two points, found 1"]),
+        bad!("\"reduced_inertia_mean_kg_m2\"" => "\"distance_mm\", points = [\"A\", \"X\"]", INPUT, at "figures =", key
+            "oracle[3].figures[1].points", ["no point \"X\""]),
+        bad!("\"reduced_inertia_mean_kg_m2\"" => "\"mass_kg\", link = \"ground\"", INPUT, at "figures =", key
+            "oracle[3].figures[1].link", ["ground has no mass"]),
+        bad!("figures = [" => "file = \"table.csv\"\nfigures = [", INPUT, at "[[oracle]]\nsource = \"a figure\"",
+            key "oracle[3]", ["exactly one of"]),
+    ]);
+}
+
+#[test]
+fn tables_name_their_own_file_and_line() {
+    for (table, line, key, words) in [
+        ("crank_deg,Cx_mm\n0,1\n", 1, "oracle[1].columns.Bx_mm", ["no column \"Bx_mm\"", "did you mean \"Cx_mm\""]),
+        ("angle_deg,Bx_mm\n0,1\n", 1, "oracle[1].crank", ["no column \"crank_deg\"", "\"angle_deg\""]),
+        ("crank_deg,Bx_mm\n0,301.12\n90,many\n", 3, "oracle[1].columns.Bx_mm", ["found \"many\"", "decimal number"]),
+        ("crank_deg,Bx_mm\n0,301.12\n\n90,\n", 4, "oracle[1].columns.Bx_mm", ["found \"\"", "expect"]),
+        ("crank_deg,Bx_mm\n0,301.12\nx,1\n", 3, "oracle[1].crank", ["found \"x\"", "decimal number"]),
+        ("crank_deg,Bx_mm\n0,301,12\n", 2, "oracle[1].file", ["3 cells", "as many cells"]),
+        ("crank_deg,Bx_mm\n", 1, "oracle[1].file", ["no rows", "at least one row"]),
+    ] {
+        let error = parse(GOOD, table).unwrap_err();
+        let place = error.place().unwrap();
+        assert_eq!(place.file.file_name(), Some(Path::new("table.csv").as_os_str()), "{error}");
+        assert_eq!((error.kind(), place.line(), error.scenario_key()), (INPUT, line, Some(key)), "{error}");
+        let says = format!("{}; {}", error.message(), error.way_out().unwrap_or_default());
+        assert!(words.iter().all(|word| says.contains(word)), "{says}");
+    }
+}
+
+#[test]
+fn a_missing_scenario_says_so() {
+    let error = Scenario::load(Path::new("no/such/scenario.toml")).unwrap_err();
+    assert_eq!(error.kind(), ErrorKind::Io);
+    assert!(error.message().contains("no/such/scenario.toml") && error.way_out().is_some(), "{error}");
+}

@@ -1,0 +1,183 @@
+//! Many poses in one call: the same numbers as pose by pose, the same errors, and the same bits wherever a row stands.
+
+use std::cell::Cell;
+use std::f64::consts::TAU;
+
+use crate::common::random::{for_each, within};
+use crate::common::shipped;
+use analytic::PoseSolver;
+use analytic::assur::batch::{Batch, Poses};
+use linkage::Result;
+use linkage::case::Case;
+use linkage::solver::State;
+use linkage::trajectory::Stage;
+
+/// Share of the largest value of its sort: a few hundred roundings of 1.1e-16 on the way from the crank to the last
+/// dyad and back.
+const ROUNDING: f64 = 1e-13;
+/// Acceleration of the crank (rad/s^2), so that its terms count.
+const ALPHA: f64 = 3.7;
+
+/// All numbers of a state, sort by sort: positions, directions, velocities, angular velocities, accelerations, angular
+/// accelerations, forces, moments, balancing moments.
+fn sorts(state: &State) -> [Vec<f64>; 9] {
+    let motions = || state.motions.iter();
+    [
+        motions().flat_map(|motion| [motion.origin.x, motion.origin.y]).collect(),
+        motions().flat_map(|motion| [motion.direction.x, motion.direction.y]).collect(),
+        motions().flat_map(|motion| [motion.velocity.x, motion.velocity.y]).collect(),
+        motions().map(|motion| motion.omega).collect(),
+        motions().flat_map(|motion| [motion.acceleration.x, motion.acceleration.y]).collect(),
+        motions().map(|motion| motion.alpha).collect(),
+        state.forces.iter().flat_map(|force| [force.x, force.y]).collect(),
+        state.moments.clone(),
+        state.torques.clone(),
+    ]
+}
+
+/// One pose after the other, up to the first that fails.
+fn one_by_one(case: &Case, cranks: &[f64], deepest: Stage) -> (Vec<State>, Result<()>) {
+    let (mut solver, omega) = (PoseSolver::new(case).unwrap(), case.drive.at(0.0).omega);
+    let mut states = Vec::new();
+    for &crank in cranks {
+        match solver.solve(crank, omega, ALPHA, deepest) {
+            Ok(state) => states.push(state.clone()),
+            Err(error) => return (states, Err(error)),
+        }
+    }
+    (states, Ok(()))
+}
+
+fn at_once(case: &Case, cranks: &[f64], deepest: Stage) -> (Poses, Result<()>) {
+    let mut poses = Poses::new();
+    let omega = case.drive.at(0.0).omega;
+    let outcome = Batch::of(case).unwrap().solve(cranks, omega, ALPHA, deepest, &mut poses);
+    (poses, outcome)
+}
+
+fn rows(case: &Case, poses: &Poses) -> Vec<State> {
+    let copied = |row| {
+        let mut state = State::at_rest(case);
+        poses.copy_to(row, &mut state);
+        state
+    };
+    (0..poses.len()).map(copied).collect()
+}
+
+/// Largest difference in each sort, as a share of the largest value of the sort.
+fn differences(ours: &[State], theirs: &[State]) -> [f64; 9] {
+    let (mut difference, mut scale) = ([0.0f64; 9], [f64::MIN_POSITIVE; 9]);
+    for (ours, theirs) in ours.iter().zip(theirs) {
+        for (sort, (ours, theirs)) in sorts(ours).iter().zip(sorts(theirs)).enumerate() {
+            for (a, b) in ours.iter().zip(theirs) {
+                let apart = (a - b).abs();
+                // NaN counts as endless.
+                difference[sort] = difference[sort].max(if apart.is_nan() { f64::INFINITY } else { apart });
+                scale[sort] = scale[sort].max(b.abs());
+            }
+        }
+    }
+    std::array::from_fn(|sort| difference[sort] / scale[sort])
+}
+
+fn turn(case: &Case, count: usize) -> Vec<f64> {
+    (0..count).map(|k| case.drive.start + TAU * k as f64 / count as f64).collect()
+}
+
+#[test]
+fn poses_are_those_of_the_pose_solver() {
+    let kinds = [("crank_rocker", true), ("ov7_base", true), ("five_bar", true), ("compressor", false)];
+    for (name, is_vectorised) in kinds {
+        let case = &shipped(&format!("{name}.toml")).case;
+        assert_eq!(Batch::of(case).unwrap().is_vectorised(), is_vectorised, "{name}");
+        let cranks = turn(case, 500);
+        let (states, outcome) = one_by_one(case, &cranks, Stage::BalancingMoment);
+        outcome.unwrap();
+        let (poses, outcome) = at_once(case, &cranks, Stage::BalancingMoment);
+        outcome.unwrap();
+        assert_eq!(poses.len(), 500);
+        let found = differences(&rows(case, &poses), &states);
+        assert!(found.iter().all(|&found| found <= ROUNDING), "{name}: {found:?}");
+    }
+}
+
+#[test]
+fn a_stage_needs_nothing_beyond_it() {
+    let case = &shipped("ov7_base.toml").case;
+    let cranks = turn(case, 11);
+    let whole = rows(case, &at_once(case, &cranks, Stage::BalancingMoment).0);
+    for (stage, sorts_of) in [(Stage::Positions, 2), (Stage::Velocities, 4), (Stage::Accelerations, 6)] {
+        let part = rows(case, &at_once(case, &cranks, stage).0);
+        for (part, whole) in part.iter().zip(&whole) {
+            assert_eq!(sorts(part)[..sorts_of], sorts(whole)[..sorts_of], "{stage:?}");
+        }
+    }
+}
+
+#[test]
+fn random_chains_agree_and_fail_alike() {
+    let failed = Cell::new(0);
+    for_each(60, |sample| {
+        let case = &sample.scenario.case;
+        // On the grid, away from dead points; errors of one dyad grow in the next.
+        let (states, _) = one_by_one(case, &case.grid.cranks, Stage::BalancingMoment);
+        let (poses, outcome) = at_once(case, &case.grid.cranks, Stage::BalancingMoment);
+        within("poses lost", f64::from(outcome.is_err()), 0.0)?;
+        for found in differences(&rows(case, &poses), &states) {
+            within("difference", found, ROUNDING * sample.condition)?;
+        }
+        // A whole turn, which most chains cannot make, in small steps and in wide ones.
+        for count in [200, 5] {
+            let cranks = turn(case, count);
+            let (states, expected) = one_by_one(case, &cranks, Stage::Positions);
+            let (poses, outcome) = at_once(case, &cranks, Stage::Positions);
+            let text = |outcome: Result<()>| outcome.err().map(|error| error.to_string());
+            let (ours, theirs) = (text(outcome), text(expected));
+            failed.set(failed.get() + usize::from(ours.is_some()));
+            assert_eq!(ours, theirs);
+            assert_eq!(poses.len(), states.len());
+        }
+        Ok(())
+    });
+    assert!(failed.get() >= 20, "only {} grids led out of reach", failed.get());
+}
+
+#[test]
+fn a_batch_goes_on_after_an_error() {
+    let case = &shipped("crank_rocker.toml").case;
+    let (start, omega) = (case.drive.start, case.drive.at(0.0).omega);
+    let (mut batch, mut poses) = (Batch::of(case).unwrap(), Poses::new());
+    let error = batch.solve(&[start, f64::NAN, start], omega, ALPHA, Stage::Positions, &mut poses).unwrap_err();
+    assert_eq!(error.kind(), linkage::ErrorKind::Geometry);
+    assert_eq!(poses.len(), 1);
+    batch.solve(&[start], omega, ALPHA, Stage::BalancingMoment, &mut poses).unwrap();
+    let (again, _) = at_once(case, &[start], Stage::BalancingMoment);
+    assert_eq!(sorts(&rows(case, &poses)[0]), sorts(&rows(case, &again)[0]));
+}
+
+#[test]
+fn a_row_has_the_same_bits_wherever_it_stands() {
+    for name in ["crank_rocker", "ov7_base", "five_bar"] {
+        let case = &shipped(&format!("{name}.toml")).case;
+        let omega = case.drive.at(0.0).omega;
+        let cranks = turn(case, 1000);
+        let bits = |state: &State| sorts(state).concat().iter().map(|value| value.to_bits()).collect::<Vec<_>>();
+        let whole: Vec<_> = rows(case, &at_once(case, &cranks, Stage::BalancingMoment).0).iter().map(bits).collect();
+        assert_eq!(whole.len(), 1000);
+        let (mut batch, mut poses) = (Batch::of(case).unwrap(), Poses::new());
+        for length in [1, 7, 8, 9] {
+            for (cranks, whole) in cranks.chunks(length).zip(whole.chunks(length)) {
+                batch.solve(cranks, omega, ALPHA, Stage::BalancingMoment, &mut poses).unwrap();
+                assert_eq!(rows(case, &poses).iter().map(bits).collect::<Vec<_>>(), whole, "{name}, {length}");
+            }
+        }
+    }
+}
+
+#[test]
+fn no_rows_are_no_poses() {
+    let case = &shipped("crank_rocker.toml").case;
+    let (poses, outcome) = at_once(case, &[], Stage::BalancingMoment);
+    outcome.unwrap();
+    assert!(poses.is_empty());
+}

@@ -1,0 +1,13 @@
+//! The contract of the command line: exit codes, streams, JSON, CSV and messages, on the built command.
+
+mod drive;
+mod engines;
+mod export;
+mod messages;
+mod modes;
+mod plan;
+mod range;
+mod run;
+mod solve;
+mod synthesize;
+mod tools;

@@ -1,0 +1,135 @@
+//! `linkproof drive`.
+
+use serde_json::Value;
+
+use super::tools::Place;
+
+fn near(value: &Value, expected: f64, within: f64) {
+    let found = value.as_f64().unwrap_or_else(|| panic!("no number: {value}"));
+    assert!((found - expected).abs() <= within, "{found} {expected}");
+}
+
+#[test]
+fn the_published_drive_as_json() {
+    let place = Place::new();
+    let json = place.ok("drive scenarios/crank_rocker.toml --non-uniformity 0.02 --step-deg 45 --json -");
+    let value: Value = serde_json::from_str(&json).unwrap();
+    near(&value["inertia_kg_m2"]["mean"], 0.164_846_013, 5.1e-10);
+    near(&value["resistance_N_m"]["mean"], 160.0 / 9.0, 1e-10);
+    near(&value["averaged"]["crank_rad_s"], 14.33204, 5e-6);
+    near(&value["averaged"]["motor_rad_s"], 302.6266, 5e-5);
+    // I* / (ratio^2 slope), by hand.
+    let constant = 0.164_846_013 / ((2745.0f64 / 130.0).powi(2) * 0.0716);
+    near(&value["averaged"]["time_constant_s"], constant, 2e-11);
+    near(&value["steady"]["mean_rad_s"], 14.263_883_878_5, 1e-9);
+    near(&value["steady"]["period_s"], 0.440_496_106_159_4, 1e-9);
+    near(&value["steady"]["at_start_rad_s"], 16.679_930_049_7, 1e-9);
+    near(&value["flywheel"]["steady"]["non_uniformity"], 0.02, 1e-9);
+    let rows = value["by_angle"]["omega_rad_s"].as_array().unwrap();
+    assert_eq!(rows.len(), 9);
+    near(&rows[8], 16.679_930_049_7, 1e-9);
+}
+
+#[test]
+fn a_run_up_as_csv() {
+    let place = Place::new();
+    let text = place.ok("drive scenarios/crank_rocker.toml --run-up - --seconds 0.1 --points 10");
+    let mut lines = text.lines();
+    let header: Vec<&str> = lines.next().unwrap().split(',').collect();
+    assert_eq!(header[..3], ["t_s", "crank_rad", "crank_omega_rad_s"]);
+    assert!(header.contains(&"joint.B.fx_N") && header.contains(&"drive.torque_N_m"));
+    let rows: Vec<Vec<f64>> = lines.map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect()).collect();
+    assert_eq!(rows.len(), 11);
+    let (shaft, torque) =
+        ["shaft_N_m", "drive.torque_N_m"].map(|name| header.iter().position(|h| *h == name).unwrap()).into();
+    for row in &rows {
+        assert!((row[shaft] - row[torque]).abs() < 1e-9, "{row:?}");
+    }
+    assert!(rows[0][2] == 0.0 && rows[10][2] > 10.0);
+}
+
+/// All words of a drawing, and how many curves it has: open paths.
+fn drawn(text: &str) -> (String, usize) {
+    let document = roxmltree::Document::parse(text).unwrap_or_else(|error| panic!("{error}: {text}"));
+    let words = document.descendants().filter_map(|node| if node.is_text() { node.text() } else { None }).collect();
+    let paths = document.descendants().filter_map(|node| node.attribute("d"));
+    (words, paths.filter(|path| !path.ends_with('Z')).count())
+}
+
+#[test]
+fn graphs_as_svg() {
+    let place = Place::new();
+    let (words, curves) = drawn(&place.ok("drive scenarios/crank_rocker.toml --svg -"));
+    assert_eq!(curves, 4);
+    for label in [
+        "moment of inertia I*, kg m2",
+        "dI*/dφ",
+        "moment of resistance Mr, N m",
+        "steady motion ω, rad/s",
+        "crank angle φ, deg",
+        "mean 0.1648",
+        "least 0.01111 at 234.2°",
+        "greatest 0.4641 at 329.4°",
+        "mean 17.78",
+        "greatest 36.99 at 94.2°",
+        "slowest 13.04 at 305.6°",
+        "fastest 17.33 at 9.5°",
+        "mean over time 14.26",
+        "non-uniformity 0.300370",
+    ] {
+        assert!(words.contains(label), "{label}: {words}");
+    }
+    // Beside the text; without a motor there is no steady motion, a resistance of gravity alone has no mean.
+    let text = place.ok("drive scenarios/ov7_base.toml --svg ov7.svg");
+    assert!(text.contains("no motor"), "{text}");
+    let (words, curves) = drawn(&std::fs::read_to_string(place.path("ov7.svg")).unwrap());
+    assert!(curves == 3 && words.contains("-330°") && words.contains("mean 0") && !words.contains("e-18"), "{words}");
+    // Clockwise the steady speed is negative: the slowest lies above.
+    place.edited("crank_rocker.toml", "back.toml", &[("speed_rpm = 130", "speed_rpm = -130")]);
+    let (words, curves) = drawn(&place.ok("drive scenarios/back.toml --svg -"));
+    let there = ["slowest -12.11 at -10.1°", "greatest 0.4641 at -30.6°", "mean 17.78", "mean over time -14.26"];
+    assert!(curves == 4 && there.iter().all(|label| words.contains(label)), "{words}");
+}
+
+#[test]
+fn text_and_what_is_missing() {
+    let place = Place::new();
+    let text = place.ok("drive scenarios/crank_rocker.toml --table");
+    for words in [
+        "mean      0.164846013 kg m^2",
+        "mean      17.777777778 N m",
+        "period 0.4404961061594 s",
+        "dI*/dphi",
+        "time constant 0.0051",
+    ] {
+        assert!(text.contains(words), "{words}: {text}");
+    }
+    assert!(place.ok("drive scenarios/ov7_base.toml").contains("no motor: add a `[motor]` section"));
+}
+
+#[test]
+fn mistakes_are_answered() {
+    let place = Place::new();
+    for (arguments, words) in [
+        ("--non-uniformity 0", ["asked for", "above zero"]),
+        ("--step-deg -1", ["--step-deg is -1", "above zero"]),
+        ("--run-up - --seconds 0", ["--seconds is 0", "above zero"]),
+        ("--run-up - --points 0", ["--points is 0", "from 1"]),
+        ("--run-up - --from-rpm nan", ["--from-rpm is NaN", "finite"]),
+        ("--run-up same --json same", ["the same file", "two files"]),
+        ("--run-up same --svg same", ["--run-up and --svg name the same file", "two files"]),
+        ("--svg - --json -", ["--svg and --json name the same file", "two files"]),
+    ] {
+        let outcome = place.run(&format!("drive scenarios/crank_rocker.toml {arguments}"));
+        assert_eq!(outcome.code, 2, "{arguments}");
+        assert!(words.iter().all(|word| outcome.stderr.contains(word)), "{arguments}: {}", outcome.stderr);
+    }
+    for (file, words) in [
+        ("ov7_base.toml --non-uniformity 0.1", "no motor"),
+        ("five_bar.toml", "2 freedoms"),
+        ("tangent.toml", "does not turn fully"),
+    ] {
+        let outcome = place.run(&format!("drive scenarios/{file}"));
+        assert!(outcome.code == 2 && outcome.stderr.contains(words), "{file}: {}", outcome.stderr);
+    }
+}

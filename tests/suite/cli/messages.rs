@@ -1,0 +1,211 @@
+//! `inspect`, `list`, help, and what is said when things go wrong.
+
+use std::fs;
+
+use serde_json::{Value, json};
+
+use super::tools::Place;
+
+#[test]
+fn inspect_shows_the_structure() {
+    let place = Place::new();
+    let text = place.ok("inspect scenarios/ov7_base.toml");
+    let formula =
+        "I(ground, crank) -> II.2 RRR(rod_23, rocker_43) -> II.2 RRR(rod_35, rocker_65) -> II.2 RRR(rod_57, rocker_87)";
+    for part in [
+        "mobility   W = 3*7 - 2*10 = 1",
+        formula,
+        "points 8 7 9",
+        "m = 0.5076 kg",
+        "1              revolute, ground - crank, driven",
+        "class 2, order 2, RRR, mode right",
+    ] {
+        assert!(text.contains(part), "`{part}` is not in:\n{text}");
+    }
+    let ground = text.lines().find(|line| line.trim_start().starts_with("ground ")).unwrap();
+    assert!(ground.ends_with("fixed"), "{ground}");
+}
+
+#[test]
+fn inspect_lists_all_configurations() {
+    let place = Place::new();
+    let shown = place.ok("inspect scenarios/fourth_class.toml --modes --at-crank-deg 70 --json -");
+    let found: Value = serde_json::from_str(&shown).unwrap();
+    let modes = found["modes"]["groups"][0]["modes"].as_array().unwrap();
+    assert_eq!(modes.iter().map(|mode| mode["followed"] == json!(true)).collect::<Vec<_>>(), [true, false]);
+    for (link, (degrees, speed)) in modes[0]["links"].as_array().unwrap().iter().zip([
+        (-53.70258, 2.03890),
+        (2.58635, -8.39961),
+        (20.59796, -31.87948),
+        (151.55247, 30.91372),
+    ]) {
+        assert!((link["angle_rad"].as_f64().unwrap().to_degrees() - degrees).abs() < 0.5e-5, "{link}");
+        assert!((link["omega_rad_s"].as_f64().unwrap() - speed).abs() < 0.5e-5, "{link}");
+    }
+    let text = place.ok("inspect scenarios/ov7_base.toml --modes");
+    assert_eq!(text.matches("2 real configurations").count(), 3, "{text}");
+    assert_eq!(text.matches("right, followed by the scenario").count(), 3, "{text}");
+    assert_eq!(place.run("inspect scenarios/ov7_base.toml --at-crank-deg 70").code, 2);
+}
+
+#[test]
+fn inspect_as_json() {
+    let place = Place::new();
+    let shown = place.ok("inspect scenarios/ov7_base.toml --json -");
+    assert_eq!(place.ok("inspect scenarios/ov7_base.toml --json out.json"), "");
+    assert_eq!(fs::read_to_string(place.path("out.json")).unwrap(), shown);
+    let found: Value = serde_json::from_str(&shown).unwrap();
+    let count = |key: &str| found[key].as_array().unwrap().len();
+    assert_eq!((&found["schema"], &found["mobility"]), (&json!(1), &json!(1)));
+    assert_eq!((count("links"), count("joints"), count("groups")), (8, 10, 3));
+    assert_eq!(found["drivers"], json!([{"link": "crank", "joint": "1"}]));
+    let group = &found["groups"][1];
+    assert_eq!(group["links"], json!(["rod_35", "rocker_65"]));
+    assert_eq!(
+        (&group["inner_joints"], &group["kind"], &group["mode"]),
+        (&json!(["5a"]), &json!("RRR"), &json!("right"))
+    );
+    assert_eq!((&group["class"], &group["order"]), (&json!(2), &json!(2)));
+    assert_eq!(found["joints"][0], json!({"name": "1", "type": "revolute", "links": ["ground", "crank"]}));
+    assert_eq!(found["links"][7]["points"][0], json!({"name": "8", "x_m": 0.0, "y_m": 0.0}));
+}
+
+#[test]
+fn list_shows_scenarios_and_what_is_wrong_with_bad_ones() {
+    let place = Place::new();
+    let text = place.ok("list");
+    assert!(text.contains("scenarios/crank_rocker.toml\n    Crank-rocker of a design course"), "{text}");
+    assert!(text.contains("scenarios/ov7_base.toml\n") && text.contains("II.2 RRR(rod_57, rocker_87)"), "{text}");
+
+    place.edited("crank_rocker.toml", "aaa.toml", &[("mass_kg = 2.6", "mass_kg = -2.6")]);
+    let text = place.ok("list scenarios");
+    assert!(text.starts_with("scenarios/aaa.toml\n    cannot be read: "), "{text}");
+    assert!(text.contains("must not be negative") && text.contains("scenarios/crank_rocker.toml\n    Crank"), "{text}");
+
+    fs::create_dir(place.path("empty")).unwrap();
+    assert_eq!(place.ok("list empty"), "no scenario files (*.toml) in empty\n");
+}
+
+#[test]
+fn list_shows_channels_and_solvers() {
+    let place = Place::new();
+    let channels = place.ok("list --channels");
+    assert_eq!(channels.lines().count(), 26);
+    for part in [
+        "link.NAME.angle_rad ",
+        "point.NAME.ay_m_s2 ",
+        "joint.NAME.fx_N ",
+        "frame.moment_N_m ",
+        "drive.torque_N_m ",
+        "\"balancing_moment\"",
+    ] {
+        assert!(channels.contains(part), "{part}");
+    }
+    let solvers = place.ok("list --solvers");
+    let names: Vec<&str> = solvers.lines().filter_map(|line| line.split_whitespace().next()).collect();
+    assert_eq!(names, ["assur", "newton", "rapier", "rapier-f32", "impulse", "impulse-f32"]);
+    assert!(solvers.contains("rapier2d-f64 0."));
+    place.refused("list --solvers --channels", &["cannot be used with"]);
+}
+
+#[test]
+fn every_help_shows_examples_that_the_command_understands() {
+    let place = Place::new();
+    for command in ["", "run", "solve", "inspect", "list"] {
+        let help = place.ok(&format!("{command} --help"));
+        let examples = help.split("Examples:\n").nth(1).unwrap_or_else(|| panic!("{command}: no examples in\n{help}"));
+        let lines = examples.lines().take_while(|line| line.starts_with("  linkproof "));
+        let mut count = 0;
+        for line in lines {
+            // What follows two blanks explains.
+            let words = line.trim().trim_start_matches("linkproof ").split("  ").next().unwrap();
+            let words = words.replace("scenarios/*.toml", "scenarios/crank_rocker.toml scenarios/ov7_base.toml");
+            fs::create_dir_all(place.path("my_scenarios")).unwrap();
+            place.ok(&words);
+            count += 1;
+        }
+        assert!(count >= 2, "{command}: {count} examples");
+    }
+    assert!(place.ok("--version").starts_with("linkproof 0."));
+    assert!(place.ok("--help").contains("Exit codes: 0 all agree, 1 something disagrees, 2 bad input or usage, 3"));
+}
+
+#[test]
+fn what_cannot_be_read_is_named_with_a_way_out() {
+    let place = Place::new();
+    fs::write(place.path("junk.toml"), (0..4096u32).map(|k| (k * 151 % 256) as u8).collect::<Vec<_>>()).unwrap();
+    fs::write(place.path("zeros.toml"), [0u8; 512]).unwrap();
+    fs::write(place.path("empty.toml"), "").unwrap();
+    fs::write(place.path("text.toml"), "Dear reader,\n").unwrap();
+    for file in ["gone.toml", "scenarios", "junk.toml", "zeros.toml", "empty.toml", "text.toml", "-"] {
+        for command in ["run FILE --no-record", "solve FILE --with assur", "inspect FILE"] {
+            let outcome = place.refused(&command.replace("FILE", file), &[file, "help: "]);
+            assert_eq!(outcome.stdout, "", "{command} {file}");
+        }
+    }
+    let gone = place.run("inspect gone.toml").stderr;
+    let lines: Vec<&str> = gone.lines().collect();
+    assert!(lines.len() == 2 && lines[0].starts_with("error: ") && lines[1].starts_with("  = help: "), "{gone}");
+    for directory in ["gone", "empty.toml"] {
+        place.refused(&format!("list {directory}"), &[directory, "linkproof list DIR"]);
+    }
+    // Every command asks for what it needs.
+    for command in ["", "run", "solve", "inspect", "prove"] {
+        let outcome = place.run(command);
+        assert_eq!(outcome.code, 2, "{command}");
+        assert!(outcome.stderr.contains("Usage: linkproof"), "{command}: {}", outcome.stderr);
+    }
+}
+
+#[test]
+fn what_cannot_be_written_is_named_with_a_way_out() {
+    let place = Place::new();
+    fs::write(place.path("plain"), "a file, not a directory").unwrap();
+    let scenario = "scenarios/crank_rocker.toml";
+    for (command, path) in [
+        (format!("run {scenario} --record plain"), "plain"),
+        (format!("run {scenario} --record plain/below"), "plain/below"),
+        (format!("run {scenario} --no-record --json plain/out.json"), "plain/out.json"),
+        (format!("run {scenario} --no-record --json scenarios"), "scenarios"),
+        (format!("solve {scenario} --with assur --csv plain/out.csv"), "plain/out.csv"),
+        (format!("inspect {scenario} --json plain/out.json"), "plain/out.json"),
+    ] {
+        place.refused(&command, &[path, "help: "]);
+    }
+    assert_eq!(fs::read_to_string(place.path("plain")).unwrap(), "a file, not a directory");
+    place.refused(&format!("run {scenario} --no-record --record there"), &["cannot be used with"]);
+    place.refused(&format!("run {scenario} --engine magic"), &["magic", "rapier"]);
+    place.refused(&format!("run {scenario} --reference rapier"), &["rapier", "assur, newton"]);
+}
+
+#[test]
+fn a_scenario_is_never_taken_for_a_target() {
+    let place = Place::new();
+    let (scenario, other) = ("scenarios/crank_rocker.toml", "scenarios/ov7_base.toml");
+    let before = fs::read(place.path(other)).unwrap();
+    for command in [
+        // What a shell makes of `--json scenarios/*.toml`.
+        format!("run --no-record --json {other} {scenario}"),
+        format!("solve {scenario} --with assur --csv {other}"),
+        format!("inspect {scenario} --json {other}"),
+    ] {
+        place.refused(&command, &[other, "would be overwritten"]);
+    }
+    assert!(fs::read(place.path(other)).unwrap() == before);
+}
+
+#[test]
+fn a_reader_that_goes_away_is_no_error() {
+    use std::process::{Command, Stdio};
+    let place = Place::new();
+    let mut child = Command::new(env!("CARGO_BIN_EXE_linkproof"))
+        .current_dir(place.path(""))
+        .args(["solve", "scenarios/ov7_base.toml", "--with", "assur"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!((output.status.code(), output.stderr.len()), (Some(0), 0));
+}

@@ -1,0 +1,49 @@
+//! `linkproof plan` and `linkproof diagram`.
+
+use std::fs;
+
+use super::tools::Place;
+
+#[test]
+fn plans_as_text_json_and_drawing() {
+    let place = Place::new();
+    let text = place.ok("plan scenarios/fourth_class.toml --crank-deg 70");
+    for word in ["mu_v = 0.02 (m/s)/mm", "v_EC", "a_EC^n", "a_EC^t", "S = BD x CE", "perpendicular to CE"] {
+        assert!(text.contains(word), "`{word}` is not in: {text}");
+    }
+    assert_eq!(text, place.ok("plan scenarios/fourth_class.toml"), "the start is at 70 deg");
+    let json = place.run("plan scenarios/fourth_class.toml --crank-deg 70 --with newton --json -").json();
+    assert_eq!(json["velocity"]["scale_per_mm"], 0.02);
+    let omega = json["singular_points"][0]["links"][0]["omega_rad_s"].as_f64().unwrap();
+    assert!((omega - 2.03890).abs() < 0.5e-5, "{omega}");
+    assert_eq!(place.ok("plan scenarios/ov7_base.toml --crank-deg -30 --svg plans.svg"), "");
+    let drawing = fs::read_to_string(place.path("plans.svg")).unwrap();
+    assert!(roxmltree::Document::parse(&drawing).is_ok());
+}
+
+#[test]
+fn diagrams_as_text_json_csv_and_drawing() {
+    let place = Place::new();
+    let of = "diagram scenarios/crank_rocker.toml --channel point.B.x_m";
+    let text = place.ok(of);
+    assert!(text.contains("acceleration by chords of chords") && text.contains("in 12 divisions"), "{text}");
+    let json = place.run(&format!("{of} --divisions 24 --json -")).json();
+    assert_eq!(json["methods"][0]["points"].as_array().unwrap().len(), 24);
+    let csv = place.ok(&format!("{of} --csv -"));
+    // Twelve middles and twelve ends of chords, thirteen ends of either integration, and the header.
+    assert_eq!(csv.lines().count(), 1 + 12 + 12 + 13 + 13);
+    assert!(roxmltree::Document::parse(&place.ok(&format!("{of} --svg -"))).is_ok());
+}
+
+#[test]
+fn wrong_questions_are_refused() {
+    let place = Place::new();
+    place.refused("plan scenarios/crank_rocker.toml --crank-deg 1e30", &["turns away"]);
+    place.refused("plan scenarios/crank_rocker.toml --crank-deg nan", &["turns away"]);
+    place.refused("plan scenarios/crank_rocker.toml --with rapier", &["rapier"]);
+    place.refused("plan scenarios/crank_rocker.toml --svg scenarios/crank_rocker.toml", &["scenario file"]);
+    let of = "diagram scenarios/crank_rocker.toml --channel";
+    place.refused(&format!("{of} point.B.q_m"), &["point.B.q_m", "point.B.x_m"]);
+    place.refused(&format!("{of} point.B.vx_m_s"), &["derivative", "point.B.x_m"]);
+    place.refused(&format!("{of} point.B.x_m --divisions 2"), &["2 parts", "4 to 1000"]);
+}

@@ -1,0 +1,67 @@
+//! `linkproof inspect --range`, and what commands say about crank angles out of reach.
+
+use super::tools::Place;
+
+#[test]
+fn a_crank_rocker_is_told_with_its_extreme_positions() {
+    let place = Place::new();
+    let text = place.ok("inspect scenarios/crank_rocker.toml --range");
+    for words in
+        ["turns fully", "crank-rocker", "No singular pose", "over 32.000000 deg", "33.610820", "234.862320", "15.2871"]
+    {
+        assert!(text.contains(words), "`{words}` is not in:\n{text}");
+    }
+    let outcome = place.run("inspect scenarios/crank_rocker.toml --range --json -");
+    let range = &outcome.json()["range"];
+    assert_eq!(range["extent"]["full_turn"], true);
+    assert_eq!(range["links"][2]["extremes"].as_array().unwrap().len(), 2);
+    let samples = range["samples"]["crank_rad"].as_array().unwrap();
+    assert!(samples.len() >= 180);
+    for column in ["determinant", "condition"] {
+        let column = range["samples"]["groups"][0][column].as_array().unwrap();
+        assert!(column.len() == samples.len() && column.iter().all(|value| value.as_f64().is_some()));
+    }
+}
+
+/// A longer crank: 0.15 m with a frame of 0.150748 m, coupler 0.347072 m and rocker 0.25 m, which does not turn fully.
+#[test]
+fn a_crank_that_does_not_turn_fully_is_told_with_its_limits() {
+    let place = Place::new();
+    place.edited(
+        "crank_rocker.toml",
+        "limited.toml",
+        &[
+            ("A = { x_m = 0.025995627740337, y_m = 0 }", "A = { x_m = 0.15, y_m = 0 }"),
+            ("crank_deg = 0\n", "crank_deg = 90\n"),
+        ],
+    );
+    let text = place.ok("inspect scenarios/limited.toml --range");
+    for words in ["from ", "triple-rocker", "limit of rotation (dead point)", "without bound", "coupler, rocker"] {
+        assert!(text.contains(words), "`{words}` is not in:\n{text}");
+    }
+    let range = place.run("inspect scenarios/limited.toml --range --json -").json()["range"].clone();
+    let [from, to] = ["from_rad", "to_rad"].map(|key| range["extent"][key].as_f64().unwrap());
+    // Folded at both ends: |AC| = AB - CB.
+    let (a, d, reach) = (0.15f64, 0.15f64.hypot(0.015), 0.347_071_931_891_81 - 0.25);
+    let half = ((a * a + d * d - reach * reach) / (2.0 * a * d)).acos();
+    let base = 0.015f64.atan2(0.15);
+    assert!(
+        (from - (base + half)).abs() < 1e-9 && (to - (base - half + std::f64::consts::TAU)).abs() < 1e-9,
+        "{from} {to}"
+    );
+    // Rounded inwards at the sixth decimal: the third is the same.
+    let interval = format!("from {:.3}", from.to_degrees());
+    for command in [
+        "solve scenarios/limited.toml --with assur",
+        "solve scenarios/limited.toml --with newton",
+        "run scenarios/limited.toml --no-record",
+        "inspect scenarios/limited.toml --modes --at-crank-deg 0",
+    ] {
+        place.refused(command, &["can be reached ", &interval, "deg on this branch"]);
+    }
+}
+
+#[test]
+fn range_and_modes_are_two_questions() {
+    Place::new().refused("inspect scenarios/crank_rocker.toml --range --modes", &["cannot be used with"]);
+}

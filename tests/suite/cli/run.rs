@@ -1,0 +1,306 @@
+//! `linkproof run`.
+
+use std::collections::BTreeSet;
+use std::fs;
+
+use serde_json::Value;
+
+use super::tools::{Place, texts};
+
+const BOTH: &str = "scenarios/crank_rocker.toml scenarios/ov7_base.toml";
+
+/// The keys of an object, each with the type of its value, in the order of the alphabet.
+fn keys(object: &Value) -> String {
+    let sort = |value: &Value| match value {
+        Value::Null => "null",
+        Value::Bool(_) => "bool",
+        Value::Number(_) => "number",
+        Value::String(_) => "text",
+        Value::Array(_) => "array",
+        Value::Object(_) => "object",
+    };
+    let mut all: Vec<String> =
+        object.as_object().unwrap().iter().map(|(key, value)| format!("{key}:{}", sort(value))).collect();
+    all.sort();
+    all.join(" ")
+}
+
+/// Names of the checks on the analytic sides and on the first engine.
+fn all_checks(run: &Value) -> Vec<&str> {
+    [texts(&run["checks"], "name"), texts(&run["engines"][0]["checks"], "name")].concat()
+}
+
+#[test]
+fn both_scenarios_agree_and_the_json_is_as_promised() {
+    let place = Place::new();
+    let outcome = place.run(&format!("run {BOTH} --no-record --json -"));
+    assert_eq!((outcome.code, outcome.stderr.as_str()), (0, ""), "{}", outcome.stdout);
+    let document = outcome.json();
+    assert_eq!(keys(&document), "runs:array schema:number");
+    assert_eq!(document["schema"], 2);
+    assert_eq!(texts(&document["runs"], "scenario"), ["crank_rocker", "ov7_base"]);
+    for run in document["runs"].as_array().unwrap() {
+        assert_eq!(
+            keys(run),
+            "checks:array engines:array reason:null reference:object scenario:text structure:text title:text verdict:text"
+        );
+        assert_eq!(run["verdict"], "agree");
+        assert_eq!(keys(&run["reference"]), "from_s:number name:text samples:number to_s:number");
+        let engine = &run["engines"][0];
+        assert_eq!(
+            keys(engine),
+            "channels:array checks:array dt_s:number name:text provides:object reason:null settings:object verdict:text version:text"
+        );
+        let provides = "accelerations:text balancing_moment:text positions:text reactions:text velocities:text";
+        assert_eq!(keys(&engine["provides"]), provides);
+        for channel in engine["channels"].as_array().unwrap() {
+            let promised = "basis:text bound:number channel:text discretisation:number iteration:number";
+            let limit = if channel["limit"].is_null() { "null" } else { "number" };
+            let rest = "q75:number q99:number reason:null rms:number rounding:number scale:number unit:text verdict:text worst_crank_rad:number worst_t_s:number";
+            // An order that rounding hides is null.
+            let order = if channel["observed_order"].is_null() { "null" } else { "number" };
+            assert_eq!(keys(channel), format!("{promised} limit:{limit} max:number observed_order:{order} {rest}"));
+            assert_eq!(channel["verdict"], "agree", "{channel}");
+            let [q75, q99, max, bound] = ["q75", "q99", "max", "bound"].map(|key| channel[key].as_f64().unwrap());
+            assert!(q75 <= q99 && q99 <= max && max <= bound, "{channel}");
+        }
+        for check in run["checks"].as_array().unwrap().iter().chain(engine["checks"].as_array().unwrap()) {
+            let (finding, reason) =
+                if check["verdict"] == "expected" { (" finding:text", "text") } else { ("", "null") };
+            let rest = format!("name:text reason:{reason} unit:text value:number verdict:text");
+            assert_eq!(keys(check), format!("basis:text bound:number{finding} {rest}"));
+            let within = check["value"].as_f64() <= check["bound"].as_f64();
+            let known_wrong = check["name"].as_str().unwrap().contains("known to be wrong");
+            assert_eq!(within, !known_wrong, "{check}");
+            assert_eq!(check["verdict"], if known_wrong { "expected" } else { "agree" }, "{check}");
+            assert_eq!(check["finding"].is_string(), known_wrong, "{check}");
+        }
+        for list in [texts(&engine["channels"], "channel"), texts(&run["checks"], "name")] {
+            assert_eq!(list.iter().collect::<BTreeSet<_>>().len(), list.len(), "every name once: {list:?}");
+        }
+    }
+    let [crank_rocker, ov7] = [0, 1].map(|k| &document["runs"][k]);
+    assert_eq!(
+        (crank_rocker["engines"][0]["channels"].as_array().unwrap().len(), crank_rocker["engines"][0]["dt_s"].as_f64()),
+        (57, Some(1e-3))
+    );
+    assert_eq!(ov7["engines"][0]["channels"].as_array().unwrap().len(), 117);
+}
+
+#[test]
+fn every_check_is_there() {
+    let place = Place::new();
+    let document = place.run(&format!("run {BOTH} --no-record --json -")).json();
+    let stages = ["positions", "velocities", "accelerations", "reactions", "balancing_moment"];
+    let common = |names: &BTreeSet<&str>| {
+        for side in ["assur", "newton", "rapier"] {
+            assert!(names.contains(format!("closure of all joints ({side})").as_str()), "{side}");
+        }
+        for stage in stages {
+            assert!(names.contains(format!("assur against newton, {stage}").as_str()), "{stage}");
+        }
+        for side in ["assur", "newton"] {
+            let name = format!("balancing moment from equilibrium and from powers ({side})");
+            assert!(names.contains(name.as_str()), "{side}");
+        }
+        assert!(names.contains("driving moment from reactions and from powers (rapier)"));
+    };
+    let names = [0, 1].map(|k| all_checks(&document["runs"][k]));
+    let [crank_rocker, ov7] = [0, 1].map(|k| names[k].iter().copied().collect::<BTreeSet<&str>>());
+    common(&crank_rocker);
+    common(&ov7);
+    // Columns of the published tables besides the crank angle, each checked against both sides.
+    let tables = ["positions", "velocities", "accelerations", "angles", "angular_velocities", "angular_accelerations"];
+    for table in tables {
+        let text = fs::read_to_string(place.path(&format!("scenarios/ov7_base/{table}.csv"))).unwrap();
+        for column in text.lines().next().unwrap().split(',').skip(1) {
+            for side in ["assur", "newton"] {
+                let name = format!("published {table}.csv ({side}), {column}");
+                assert!(ov7.contains(name.as_str()), "{name}");
+            }
+        }
+    }
+    let figures = [
+        "link.rocker.angle_deg",
+        "reduced_inertia_mean_kg_m2",
+        "reduced_resistance_mean_N_m",
+        "steady_motor_speed_rad_s",
+    ];
+    for figure in figures {
+        assert!(crank_rocker.iter().any(|name| name.starts_with("published") && name.ends_with(figure)), "{figure}");
+    }
+    // What was printed wrong: both lengths, the crank's mass and inertia, and both steady speeds.
+    for side in ["assur", "newton"] {
+        for (oracle, wrong) in [
+            (
+                "lengths and masses",
+                ["distance_m of O A", "distance_m of A B", "mass_kg of crank", "inertia_kg_m2 of crank"].as_slice(),
+            ),
+            ("steady speed as printed", ["steady_crank_speed_rad_s", "steady_motor_speed_rad_s"].as_slice()),
+        ] {
+            for figure in wrong {
+                let name = format!("published {oracle}, known to be wrong ({side}), {figure}");
+                assert!(crank_rocker.contains(name.as_str()), "{name}");
+            }
+        }
+    }
+}
+
+#[test]
+fn recordings_go_where_they_are_asked_and_have_the_same_bytes_again() {
+    let place = Place::new();
+    let report = place.ok("run scenarios/crank_rocker.toml");
+    assert!(report.contains("AGREE: ") && report.contains("recordings/crank_rocker.mcap"), "{report}");
+    place.ok("run scenarios/crank_rocker.toml --record deep/er");
+    let [first, second] =
+        ["recordings", "deep/er"].map(|dir| fs::read(place.path(dir).join("crank_rocker.mcap")).unwrap());
+    assert!(first.starts_with(b"\x89MCAP") && first == second, "two runs, two recordings");
+    assert_eq!(fs::read_dir(place.path("deep/er")).unwrap().count(), 1, "nothing else is left there");
+
+    let quiet = place.run("run scenarios/crank_rocker.toml --record third --json -");
+    assert_eq!(quiet.json()["runs"][0]["recording"], "third/crank_rocker.mcap");
+}
+
+#[test]
+fn without_recording_nothing_is_written() {
+    let place = Place::new();
+    place.ok("run scenarios/crank_rocker.toml --no-record");
+    let left: Vec<_> = fs::read_dir(place.path("")).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    assert_eq!(left, ["scenarios"]);
+}
+
+#[test]
+fn json_in_a_file_leaves_the_report_on_the_terminal() {
+    let place = Place::new();
+    let report = place.ok("run scenarios/crank_rocker.toml --no-record --json out.json --reference newton");
+    assert!(report.contains("reference  newton") && report.contains("AGREE: "));
+    let document: Value = serde_json::from_str(&fs::read_to_string(place.path("out.json")).unwrap()).unwrap();
+    assert_eq!(document["runs"][0]["reference"]["name"], "newton");
+}
+
+#[test]
+fn a_bad_file_does_not_keep_the_good_ones_from_being_proven() {
+    let place = Place::new();
+    place.edited("crank_rocker.toml", "bad.toml", &[("speed_rpm = 130", "speed = 130")]);
+    let outcome = place.run("run scenarios/bad.toml scenarios/crank_rocker.toml gone.toml --no-record --json -");
+    let document = outcome.json();
+    assert_eq!(outcome.code, 2);
+    assert_eq!(
+        (texts(&document["runs"], "scenario"), document["runs"][0]["verdict"].as_str()),
+        (vec!["crank_rocker"], Some("agree"))
+    );
+    assert_eq!(texts(&document["errors"], "scenario"), ["scenarios/bad.toml", "gone.toml"]);
+    let [bad, gone] = [0, 1].map(|k| &document["errors"][k]);
+    assert_eq!(keys(bad), "help:text key:text line:number message:text scenario:text");
+    assert_eq!(keys(gone), "help:text key:null line:null message:text scenario:text");
+    assert!(
+        outcome.stderr.contains("scenarios/bad.toml:") && outcome.stderr.contains("speed_rpm"),
+        "{}",
+        outcome.stderr
+    );
+}
+
+#[test]
+fn a_wrong_published_number_disagrees_by_name() {
+    let place = Place::new();
+    place.edited("crank_rocker.toml", "wrong.toml", &[("value = 17.7778", "value = 17.7781")]);
+    let outcome = place.run("run scenarios/wrong.toml --no-record");
+    assert_eq!(outcome.code, 1, "{}", outcome.stderr);
+    assert!(outcome.stdout.contains("DISAGREE: 2 of "), "one for each side: {}", outcome.stdout);
+    assert!(outcome.stdout.contains("(newton), reduced_resistance_mean_N_m: 3.2"), "{}", outcome.stdout);
+
+    // A cell of a table: three units of its last digit.
+    place.edited("ov7_base.toml", "wrong.toml", &[]);
+    let table = place.path("scenarios/ov7_base/positions.csv");
+    let text = fs::read_to_string(&table).unwrap();
+    fs::write(&table, text.replacen("87.13", "87.16", 1)).unwrap();
+    let outcome = place.run("run scenarios/wrong.toml scenarios/crank_rocker.toml --no-record --json -");
+    let document = outcome.json();
+    assert_eq!(outcome.code, 1, "the graver of two outcomes decides");
+    assert_eq!(texts(&document["runs"], "verdict"), ["disagree", "agree"]);
+    let checks = document["runs"][0]["checks"].as_array().unwrap();
+    let wrong: Vec<&Value> = checks.iter().filter(|check| check["verdict"] != "agree").collect();
+    assert_eq!(wrong.len(), 2, "one for each side");
+    assert_eq!(wrong[0]["name"], "published positions.csv (assur), P3y_mm");
+    assert!(wrong[0]["reason"].as_str().unwrap().contains("at crank angle -30.000 deg"), "{}", wrong[0]);
+}
+
+#[test]
+fn too_coarse_a_step_proves_nothing_and_a_hopeless_one_is_refused() {
+    let place = Place::new();
+    let outcome = place.run("run scenarios/crank_rocker.toml --no-record --dt 2e-2");
+    assert_eq!(outcome.code, 3, "{}", outcome.stderr);
+    assert!(outcome.stdout.contains("INCONCLUSIVE: ") && outcome.stdout.contains("choose a smaller step (--dt)"));
+    place.refused("run scenarios/crank_rocker.toml --no-record --dt 3e-2", &["the run at 6e-2 s", "smaller time step"]);
+    place.refused(
+        "run scenarios/crank_rocker.toml --no-record --dt 2e-1",
+        &["in one step", "crank angle", "smaller time step"],
+    );
+}
+
+#[test]
+fn a_finer_step_agrees_within_finer_bounds() {
+    let place = Place::new();
+    let bound = |step: &str| {
+        let run = place.run(&format!("run scenarios/crank_rocker.toml --no-record --json - --dt {step}")).json();
+        let channels = run["runs"][0]["engines"][0]["channels"].as_array().unwrap().clone();
+        let torque = channels.iter().find(|channel| channel["channel"] == "drive.torque_N_m").unwrap();
+        assert_eq!(torque["verdict"], "agree");
+        torque["bound"].as_f64().unwrap()
+    };
+    let quotient = bound("2e-3") / bound("5e-4");
+    assert!((quotient - 16.0).abs() < 0.8, "second order: a quarter of the step, a sixteenth of the bound: {quotient}");
+}
+
+#[test]
+fn senseless_steps_are_refused_at_once() {
+    let place = Place::new();
+    for (step, word) in [("0", "is 0 s"), ("-1", "is -1 s"), ("nan", "NaN"), ("inf", "inf"), ("1e-15", "the limit is")]
+    {
+        let start = std::time::Instant::now();
+        place.refused(&format!("run {BOTH} --no-record --dt {step}"), &[word, "time step"]);
+        place.refused(&format!("solve scenarios/ov7_base.toml --with rapier --dt {step}"), &[word, "time step"]);
+        assert!(start.elapsed().as_secs() < 5, "--dt {step} took {:?}", start.elapsed());
+    }
+    place.refused("run scenarios/crank_rocker.toml --dt soon", &["soon", "--dt"]);
+}
+
+#[test]
+fn a_proof_stands_when_its_recording_fails() {
+    let place = Place::new();
+    fs::write(place.path("plain"), "a file, not a directory").unwrap();
+    let outcome =
+        place.refused("run scenarios/crank_rocker.toml --record plain/below --json -", &["plain/below", "--no-record"]);
+    let document = outcome.json();
+    assert_eq!(texts(&document["runs"], "verdict"), ["agree"]);
+    assert!(document["runs"][0]["recording"].is_null());
+    assert_eq!(texts(&document["errors"], "scenario"), ["scenarios/crank_rocker.toml"]);
+}
+
+#[test]
+fn scenarios_of_one_name_do_not_overwrite_each_other() {
+    let place = Place::new();
+    place.edited("crank_rocker.toml", "other.toml", &[("speed_rpm = 130", "speed_rpm = 90")]);
+    place.ok("run scenarios/crank_rocker.toml --record alone");
+    let both = "run scenarios/crank_rocker.toml scenarios/other.toml --record both";
+    place.refused(both, &["both/crank_rocker.mcap", "another scenario", "`name`"]);
+    let [alone, both] = ["alone", "both"].map(|dir| fs::read(place.path(dir).join("crank_rocker.mcap")).unwrap());
+    assert!(alone == both, "the first one's recording is kept");
+    place.ok("run scenarios/crank_rocker.toml scenarios/crank_rocker.toml");
+}
+
+#[test]
+fn channels_that_are_not_wanted_are_neither_compared_nor_checked() {
+    let place = Place::new();
+    let only = "[channels]\nwant = [\"positions\", \"velocities\"]\n\n[engine]";
+    place.edited("crank_rocker.toml", "few.toml", &[("[engine]", only)]);
+    let document = place.run("run scenarios/few.toml --no-record --json -").json();
+    let run = &document["runs"][0];
+    assert_eq!((run["verdict"].as_str(), run["engines"][0]["channels"].as_array().unwrap().len()), (Some("agree"), 30));
+    assert!(
+        ![texts(&run["checks"], "name"), texts(&run["engines"][0]["checks"], "name")]
+            .concat()
+            .iter()
+            .any(|name| name.contains("moment from"))
+    );
+}

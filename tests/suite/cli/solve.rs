@@ -1,0 +1,184 @@
+//! `linkproof solve`.
+
+use std::fs;
+
+use super::tools::{Place, Table};
+
+const SOLVERS: [&str; 3] = ["assur", "newton", "rapier"];
+const ON_LINKS: &str = "angle_rad omega_rad_s alpha_rad_s2 x_m y_m vx_m_s vy_m_s ax_m_s2 ay_m_s2";
+const AT_POINTS: &str = "x_m y_m vx_m_s vy_m_s ax_m_s2 ay_m_s2";
+
+/// The promised header: links, points, joints, drive, each in the order of the file.
+/// Channels of the mechanism as a whole.
+const WHOLE: [&str; 4] = ["frame.fx_N", "frame.fy_N", "frame.moment_N_m", "drive.torque_N_m"];
+
+fn header(links: &[&str], points: &[&str], joints: &[&str]) -> Vec<String> {
+    let mut names = vec!["t_s".to_string(), "crank_rad".to_string()];
+    for (subject, all, quantities) in
+        [("link", links, ON_LINKS), ("point", points, AT_POINTS), ("joint", joints, "fx_N fy_N")]
+    {
+        for name in all {
+            names.extend(quantities.split(' ').map(|quantity| format!("{subject}.{name}.{quantity}")));
+        }
+    }
+    names.extend(WHOLE.map(String::from));
+    names
+}
+
+#[test]
+fn columns_are_named_and_ordered_as_promised_for_every_solver() {
+    let place = Place::new();
+    let crank_rocker = header(&["crank", "coupler", "rocker"], &["A", "B", "D"], &["O", "A", "B", "C"]);
+    let links = ["crank", "rod_23", "rocker_43", "rod_35", "rocker_65", "rod_57", "rocker_87"];
+    let joints = ["1", "2", "3a", "4", "3b", "5a", "6", "5b", "7", "8"];
+    let ov7 = header(&links, &["2", "3", "5", "7", "9"], &joints);
+    for solver in SOLVERS {
+        let table = Table::of(&place.ok(&format!("solve scenarios/crank_rocker.toml --with {solver}")));
+        assert_eq!(table.header, crank_rocker, "{solver}");
+        assert_eq!(table.rows.len(), 361, "one row a grid point");
+        let few = format!("solve scenarios/ov7_base.toml --with {solver} --crank-deg 0:-10:-5");
+        assert_eq!(Table::of(&place.ok(&few)).header, ov7, "{solver}");
+    }
+}
+
+#[test]
+fn every_number_has_17_digits_and_reads_back_the_same() {
+    let place = Place::new();
+    for solver in SOLVERS {
+        let table = Table::of(&place.ok(&format!("solve scenarios/crank_rocker.toml --with {solver}")));
+        for cell in table.rows.iter().flatten() {
+            let value: f64 = cell.parse().unwrap();
+            assert!(value.is_finite() && format!("{value:.16e}") == *cell, "{cell}");
+        }
+    }
+}
+
+#[test]
+fn a_file_gets_what_standard_output_gets() {
+    let place = Place::new();
+    let solve = "solve scenarios/crank_rocker.toml --with assur";
+    let shown = place.ok(solve);
+    assert_eq!(place.ok(&format!("{solve} --csv table.csv")), "");
+    assert_eq!(fs::read_to_string(place.path("table.csv")).unwrap(), shown);
+    assert_eq!(place.ok(&format!("{solve} --csv -")), shown);
+}
+
+#[test]
+fn ranges_may_be_negative_and_reversed() {
+    let place = Place::new();
+    for solver in SOLVERS {
+        let cranks = |range: &str| {
+            let table = Table::of(&place.ok(&format!("solve scenarios/crank_rocker.toml --with {solver} {range}")));
+            let rocker = table.column("link.rocker.angle_rad");
+            (table.column("crank_rad"), table.column("t_s"), rocker)
+        };
+        let degrees = |all: &[f64]| all.iter().map(|angle| angle.to_degrees().round()).collect::<Vec<_>>();
+        let (back, times, rocker_back) = cranks("--crank-deg 30:-30:-15");
+        assert_eq!(degrees(&back), [30.0, 15.0, 0.0, -15.0, -30.0], "{solver}");
+        // 130 turns a minute are 780 degrees a second.
+        let late = times.iter().zip(&back).all(|(t, crank)| (t - crank.to_degrees() / 780.0).abs() < 1e-15);
+        assert!(late, "{solver}: {times:?}");
+        let (forth, _, mut rocker_forth) = cranks("--crank-deg=-30:30:15");
+        assert_eq!(degrees(&forth), [-30.0, -15.0, 0.0, 15.0, 30.0]);
+        rocker_forth.reverse();
+        assert_eq!(rocker_back, rocker_forth, "{solver}: the way through the grid does not matter");
+        let (cranks, times, _) = cranks("--times 0.1:-0.1:-0.05");
+        assert_eq!((times.len(), degrees(&cranks)), (5, vec![78.0, 39.0, 0.0, -39.0, -78.0]), "{solver}");
+        assert!((times[4] + 0.1).abs() < 1e-15);
+    }
+}
+
+#[test]
+fn the_crank_angle_is_that_of_the_scenario() {
+    let place = Place::new();
+    // ov7_base measures it from 181.84 degrees; crank_rocker from the x axis.
+    let solve =
+        |name: &str| Table::of(&place.ok(&format!("solve scenarios/{name}.toml --with assur --crank-deg 0:0:1")));
+    let angle = |name: &str| solve(name).column("link.crank.angle_rad")[0].to_degrees().rem_euclid(360.0);
+    assert!((angle("ov7_base") - 181.84).abs() < 1e-12 && angle("crank_rocker") == 0.0);
+}
+
+#[test]
+fn val_ov7_base_positions_row_by_row() {
+    let place = Place::new();
+    let printed = Table::of(&fs::read_to_string(place.path("scenarios/ov7_base/positions.csv")).unwrap());
+    for solver in ["assur", "newton"] {
+        let command = format!("solve scenarios/ov7_base.toml --with {solver} --crank-deg 0:-360:-30");
+        let table = Table::of(&place.ok(&command));
+        let cranks = table.column("crank_rad");
+        let mut compared = 0;
+        for (k, crank) in printed.column("crank_deg").into_iter().enumerate() {
+            let row =
+                cranks.iter().position(|own| (own.to_degrees() - crank).abs() < 1e-9).expect("the angle is solved");
+            for (at, name) in printed.header.iter().enumerate().skip(1) {
+                // P2x_mm is the x of point 2 in millimetres, with two decimals.
+                let (point, axis) = (&name[1..2], &name[2..3]);
+                let own = table.column(&format!("point.{point}.{axis}_m"))[row] * 1e3;
+                let cell: f64 = printed.rows[k][at].parse().unwrap();
+                assert!((own - cell).abs() <= 0.005 + 1e-12, "{solver}, {crank} deg, {name}: {own} for {cell}");
+                compared += 1;
+            }
+        }
+        assert!(compared >= 120, "only {compared} numbers were compared");
+    }
+}
+
+#[test]
+fn channels_that_are_not_wanted_have_no_column() {
+    let place = Place::new();
+    for (want, quantities) in [
+        ("\"positions\"", "angle_rad x_m y_m"),
+        ("\"positions\", \"velocities\"", "angle_rad omega_rad_s x_m y_m vx_m_s vy_m_s"),
+        ("\"positions\", \"velocities\", \"reactions\"", "angle_rad omega_rad_s x_m y_m vx_m_s vy_m_s fx_N fy_N"),
+    ] {
+        let wanted = format!("[channels]\nwant = [{want}]\n[engine]");
+        // Its own published numbers want more than positions: the whole of them goes.
+        place.edited("crank_rocker.toml", "few.toml", &[("[engine]", &wanted)]);
+        let text = fs::read_to_string(place.path("scenarios/few.toml")).unwrap();
+        let text = text.split("[[oracle]]").next().unwrap();
+        fs::write(place.path("scenarios/few.toml"), text).unwrap();
+        for solver in SOLVERS {
+            let table = Table::of(&place.ok(&format!("solve scenarios/few.toml --with {solver}")));
+            let expected =
+                |name: &&String| quantities.split(' ').any(|quantity| name.ends_with(&format!(".{quantity}")));
+            let all = header(&["crank", "coupler", "rocker"], &["A", "B", "D"], &["O", "A", "B", "C"]);
+            let named = all.iter().filter(|name| !WHOLE.contains(&name.as_str()));
+            let expected: Vec<&String> = all.iter().take(2).chain(named.filter(expected)).collect();
+            assert_eq!(table.header.iter().collect::<Vec<_>>(), expected, "{solver}, {want}");
+        }
+    }
+}
+
+#[test]
+fn a_step_belongs_to_an_engine() {
+    let place = Place::new();
+    let solve = |step: &str| {
+        let command = format!("solve scenarios/crank_rocker.toml --with rapier --dt {step} --crank-deg 0:90:30");
+        Table::of(&place.ok(&command)).column("link.rocker.angle_rad")
+    };
+    assert_ne!(solve("1e-3"), solve("5e-4"));
+    place.refused("solve scenarios/crank_rocker.toml --with assur --dt 1e-3", &["--dt", "assur is analytic", "rapier"]);
+}
+
+#[test]
+fn bad_grids_are_refused() {
+    let place = Place::new();
+    let scenario = "solve scenarios/crank_rocker.toml --with";
+    for (grid, word) in [
+        ("--crank-deg 0:360", "expected FROM:TO:STEP"),
+        ("--crank-deg a:b:c", "not a number"),
+        ("--crank-deg 0:360:-1", "leads away"),
+        ("--crank-deg 0:360:0", "must not be zero"),
+        ("--crank-deg 0:nan:1", "not finite"),
+        ("--times 0:1:1e-9", "more than 1000000 points"),
+        ("--times 0:1:1 --crank-deg 0:1:1", "cannot be used with"),
+    ] {
+        place.refused(&format!("{scenario} assur {grid}"), &[word]);
+    }
+    for solver in SOLVERS {
+        place.refused(&format!("{scenario} {solver} --times 0:1e300:1e300"), &["turns away, the limit is"]);
+    }
+    place.refused(&format!("{scenario} rapier --times 0:1e4:1e4 --dt 1e-4"), &["the limit is", "larger time step"]);
+    place.refused(&format!("{scenario} magic"), &["magic", "assur, newton, rapier"]);
+    place.refused("solve scenarios/crank_rocker.toml", &["--with"]);
+}

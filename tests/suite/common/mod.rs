@@ -1,0 +1,46 @@
+//! Mechanisms for the integration tests: written as scenario text, so that tests enter where a user does.
+
+pub mod four_link;
+pub mod higher;
+pub mod random;
+pub mod sketch;
+pub mod sliders;
+pub mod spec;
+
+use linkage::case::{Case, Grid};
+use linkage::math::Vec2;
+use linkage::solver::{Solver, State};
+use linkproof::scenario::Scenario;
+
+/// A scenario of the repository.
+pub fn shipped(name: &str) -> Scenario {
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios").join(name);
+    Scenario::load(&path).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The states that a solver finds at the given times (s), in their order.
+pub fn states(solver: &dyn Solver, case: &Case, times: &[f64]) -> linkage::Result<Vec<State>> {
+    let case = case.on(Grid::of_times(&case.drive, times.to_vec()));
+    let mut found: Vec<Option<State>> = vec![None; times.len()];
+    let mut keep = |row: usize, state: &State| {
+        found[row] = Some(state.clone());
+        Ok(())
+    };
+    solver.sweep(&case, &mut keep, &mut |_| {})?;
+    Ok(found.into_iter().map(|state| state.expect("every row is visited")).collect())
+}
+
+/// Position of a link's mass centre.
+pub fn centre(case: &Case, state: &State, link: usize) -> Vec2 {
+    state.motions[link].point(case.mechanism.links()[link].mass_centre)
+}
+
+/// Velocity of a link's mass centre.
+pub fn centre_velocity(case: &Case, state: &State, link: usize) -> Vec2 {
+    state.motions[link].point_velocity(case.mechanism.links()[link].mass_centre)
+}
+
+/// Acceleration of a link's mass centre.
+pub fn centre_acceleration(case: &Case, state: &State, link: usize) -> Vec2 {
+    state.motions[link].point_acceleration(case.mechanism.links()[link].mass_centre)
+}

@@ -1,0 +1,6 @@
+//! Motion under forces, from outside: closed forms, conservation laws, published figures.
+
+mod crank;
+mod energy;
+mod figures;
+mod free;

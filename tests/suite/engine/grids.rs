@@ -1,0 +1,94 @@
+//! The same run, asked at other instants.
+
+use linkage::case::{Case, Grid};
+use linkage::engine::Settings;
+use linkage::trajectory::Trajectory;
+use linkproof::compare::residuals;
+
+use super::{double, solve, stepping};
+use crate::common::spec::four_bar;
+
+const DT: f64 = 1e-3;
+
+fn case() -> Case {
+    four_bar([0.4, 0.1, 0.35, 0.3], true).scenario().unwrap().case
+}
+
+fn at(case: &Case, times: Vec<f64>) -> Case {
+    case.on(Grid::of_times(&case.drive, times))
+}
+
+/// Largest difference in any channel, relative to its scale, at rows of `other` that `rows` finds in `dense`.
+fn differ(dense: &Trajectory, other: &Trajectory, row: impl Fn(usize) -> usize) -> (f64, String) {
+    let picked: Vec<Vec<f64>> =
+        dense.iter().map(|(_, values)| (0..other.times().len()).map(|k| values[row(k)]).collect()).collect();
+    let channels = dense.channels().to_vec();
+    let picked = Trajectory::new(other.times().to_vec(), other.cranks().to_vec(), channels, picked).unwrap();
+    let scales = linkproof::compare::scales(dense);
+    let worst = residuals(&picked, other).unwrap().into_iter().zip(scales).map(|(r, scale)| (r.max / scale, r.channel));
+    let (worst, channel) = worst.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
+    (worst, channel.to_string())
+}
+
+/// Story 20. Symptom: values between steps are those of a neighbouring step, or a node's values change with the grid.
+/// On a step nothing is interpolated, so that the values are the same bits however many instants are asked for.
+#[test]
+fn regress_20_samples_on_steps_do_not_depend_on_the_grid() {
+    let case = case();
+    for engine in stepping(DT) {
+        // Whether bits are the same does not depend on how many sweeps made them.
+        let engine = engine.with(Settings { sweeps: 64, ..engine.settings() });
+        let dense = solve(engine.as_ref(), &at(&case, (0..=600).map(|k| f64::from(k) * DT).collect()));
+        let sparse = solve(engine.as_ref(), &at(&case, (0..=20).map(|k| f64::from(k) * 30.0 * DT).collect()));
+        assert_eq!(differ(&dense, &sparse, |k| 30 * k).0, 0.0);
+        let late = solve(engine.as_ref(), &at(&case, (0..=20).map(|k| 0.1 + f64::from(k) * DT).collect()));
+        assert_eq!(differ(&dense, &late, |k| 100 + k).0, 0.0);
+        let back = solve(engine.as_ref(), &at(&case, (0..=20).rev().map(|k| f64::from(k) * 30.0 * DT).collect()));
+        assert_eq!(differ(&dense, &back, |k| 600 - 30 * k).0, 0.0);
+    }
+}
+
+/// Story 21. Symptom: a sample between two steps is worse than its neighbours. Interpolation of order six adds far
+/// less than the engine's own error of order two. (In single precision rounding is larger than that.)
+#[test]
+fn regress_21_samples_between_steps_are_as_good_as_samples_on_steps() {
+    let case = case();
+    for engine in double(DT) {
+        // Enough for this four-bar, thanks to the flywheel.
+        let engine = engine.with(Settings { sweeps: engine.settings().sweeps / 4, ..engine.settings() });
+        for shift in [0.1, 0.5, 0.777, 0.999_999] {
+            let on = at(&case, (0..600).map(|k| f64::from(k) * DT).collect());
+            let between = at(&case, (0..600).map(|k| (f64::from(k) + shift) * DT).collect());
+            let worst = [on, between].map(|case| {
+                let truth = solve(&analytic::AssurSolver, &case);
+                let found = residuals(&truth, &solve(engine.as_ref(), &case)).unwrap();
+                found.iter().map(|r| r.share()).fold(0.0, f64::max)
+            });
+            assert!(worst[1] <= 1.01 * worst[0], "{shift}: {worst:?}");
+        }
+    }
+}
+
+/// Story 22. Symptom: instants before the start are refused, or differ where the run turns about. A run to and fro over
+/// t = 0 must meet the run that starts there, to the engine's own error.
+#[test]
+fn regress_22_instants_before_the_start_are_as_good_as_others() {
+    let case = case();
+    for engine in linkproof::engines::all(DT) {
+        let whole = at(&case, (-300..=300).map(|k| f64::from(k) * DT).collect());
+        let truth = solve(&analytic::AssurSolver, &whole);
+        let run = solve(engine.as_ref(), &whole);
+        let half = solve(engine.as_ref(), &at(&case, (0..=300).map(|k| f64::from(k) * DT).collect()));
+        // The two runs turn about at different poses; what is left of it must be less than their rounding.
+        for (channel, values) in half.iter() {
+            let (noise, whole_values) = (engine.noise(&whole, channel.kind), run.column(channel).unwrap());
+            for (a, b) in values.iter().zip(&whole_values[300..]) {
+                assert!((a - b).abs() <= 2.0 * noise, "{} {channel}: {a} {b}, noise {noise:e}", engine.name());
+            }
+        }
+        for residual in residuals(&truth, &run).unwrap() {
+            let limit = 1e-3 * residual.scale + engine.noise(&whole, residual.channel.kind);
+            assert!(residual.max <= limit, "{} {}: {:e}", engine.name(), residual.channel, residual.max);
+        }
+    }
+}

@@ -1,0 +1,273 @@
+//! Models for other programs, read back: what stands in the file is the mechanism, its start pose and its speeds.
+
+mod model;
+
+use analytic::AssurSolver;
+use linkage::ErrorKind;
+use linkage::case::Case;
+use linkage::drive::Load;
+use linkage::math::{Vec2, cross, rotated, unit};
+use linkage::mechanism::{GROUND, JointKind, Mechanism, Side, Tree};
+use linkage::solver::State;
+use linkproof::scenario::Scenario;
+use model::{Document, Kind};
+use workshop::export::mjcf::{Model, mjcf};
+
+/// Step (s) of the files here.
+const STEP: f64 = 1e-3;
+
+fn start(case: &Case) -> State {
+    crate::common::states(&AssurSolver, case, &[0.0]).unwrap().remove(0)
+}
+
+fn exported(case: &Case, name: &str) -> String {
+    mjcf(case, &AssurSolver, name, STEP).unwrap_or_else(|error| panic!("{name}: {error}"))
+}
+
+/// Every scenario of the repository.
+fn all() -> Vec<Scenario> {
+    let top = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios");
+    let files = |directory: &std::path::Path| {
+        let paths = std::fs::read_dir(directory).unwrap().map(|entry| entry.unwrap().path());
+        let mut paths: Vec<_> = paths.filter(|path| path.extension().is_some_and(|end| end == "toml")).collect();
+        paths.sort();
+        paths
+    };
+    let paths = [files(&top), files(&top.join("variants60"))].concat();
+    let mut scenarios: Vec<Scenario> =
+        paths.iter().map(|path| Scenario::load(path).unwrap_or_else(|error| panic!("{error}"))).collect();
+    // What is not exported is refused: tests/suite/loads.rs and tests/suite/laws.rs.
+    let known = |load: &Load| matches!(load, Load::Resistance { .. });
+    scenarios.retain(|scenario| scenario.case.is_steady() && scenario.case.loads.iter().all(known));
+    assert!(scenarios.len() >= 72, "{}", scenarios.len());
+    scenarios
+}
+
+#[test]
+fn bodies_are_the_links_on_the_spanning_tree() {
+    for scenario in all() {
+        let case = &scenario.case;
+        let (links, joints) = (case.mechanism.links(), case.mechanism.joints());
+        let document = Document::read(&exported(case, &scenario.name));
+        let tree = Tree::of(&case.mechanism);
+        assert_eq!(document.name, scenario.name);
+        assert_eq!(document.bodies.len(), links.len() - 1, "{}", scenario.name);
+        for branch in &tree.branches {
+            let (link, joint) = (&links[branch.link], &joints[branch.joint]);
+            let body = document.body(&link.name);
+            let parent = (branch.parent != GROUND).then(|| links[branch.parent].name.clone());
+            assert_eq!((body.parent.as_ref(), &body.joint), (parent.as_ref(), &joint.name), "{}", scenario.name);
+            assert_eq!(body.kind == Kind::Slide, joint.is_prismatic());
+            assert_eq!((body.mass, body.centre), (link.mass, link.mass_centre), "{}: {}", scenario.name, link.name);
+            // MuJoCo's condition on moments of inertia, and the one that counts in a plane.
+            let [x, y, z] = body.inertia;
+            assert!(x + y >= z && y + z >= x && z + x >= y && x > 0.0);
+            assert!(z == link.inertia || link.inertia == 0.0 && z > 0.0, "{}: {}", scenario.name, link.name);
+            let driven = case.drives().any(|drive| drive.joint == branch.joint);
+            assert_eq!(body.armature > 0.0, driven, "{}: {}", scenario.name, joint.name);
+        }
+        let cut: Vec<&str> = tree.cut.iter().map(|&joint| joints[joint].name.as_str()).collect();
+        assert_eq!(document.loops.iter().map(|found| found.0.as_str()).collect::<Vec<_>>(), cut, "{}", scenario.name);
+        assert_eq!(document.gravity, case.gravity);
+        assert_eq!(document.step, STEP);
+        let freedoms = tree.branches.len();
+        assert_eq!((document.coordinates.len(), document.rates.len()), (freedoms, freedoms));
+        assert_eq!(document.coordinates, document.bodies.iter().map(|body| body.reference).collect::<Vec<_>>());
+        document.names_are_unique();
+    }
+}
+
+/// Positions and speeds are laid out here from the file alone, along the bodies; all joints must close, loops too, and the pose must be the case's.
+#[test]
+fn the_file_holds_the_start_pose_and_its_speeds() {
+    for scenario in all() {
+        let case = &scenario.case;
+        let mechanism = &case.mechanism;
+        let document = Document::read(&exported(case, &scenario.name));
+        let motions = document.motions();
+        let size = mechanism.size();
+        let speed = case.drive.at(0.0).omega.abs();
+        let fastest = motions.iter().map(|motion| motion.omega.abs()).fold(speed, f64::max);
+        for joint in mechanism.joints() {
+            let [first, second] = [("first", joint.first), ("second", joint.second)].map(|(word, side)| {
+                let (owner, local) = document.site(&format!("{}.{word}", joint.name));
+                let motion = document.motion_of(&motions, owner);
+                let there = case.start.0[side.link].point(side.local);
+                assert_eq!(local, side.local);
+                assert!((motion.place(local) - there).norm() <= 1e-14 * (size + there.norm()), "{}", scenario.name);
+                (motion, local)
+            });
+            let gap = second.0.speed(second.1) - first.0.speed(first.1);
+            let (off, turning) = match joint.axis_on(joint.first.link) {
+                None => (gap.norm(), 0.0),
+                // The guide turns under the block.
+                Some(axis) => {
+                    let axis = rotated(unit(first.0.angle), axis);
+                    let way = second.0.place(second.1) - first.0.place(first.1);
+                    let carried = first.0.omega * way.dot(&axis);
+                    (cross(axis, gap) - carried, second.0.omega - first.0.omega)
+                }
+            };
+            let bound = 1e-12 * fastest * size;
+            assert!(off.abs() <= bound, "{}: {} {off:e}", scenario.name, joint.name);
+            assert!(turning.abs() <= 1e-12 * fastest, "{}: {} {turning:e}", scenario.name, joint.name);
+        }
+        for drive in case.drives() {
+            let link = &mechanism.links()[drive.link].name;
+            let omega = document.motion_of(&motions, Some(link)).omega;
+            assert!((omega - drive.at(0.0).omega).abs() <= 1e-14 * speed, "{}: {omega}", scenario.name);
+        }
+    }
+}
+
+#[test]
+fn a_slide_counts_as_its_channel_whichever_link_hangs_on_the_other() {
+    let case = crate::common::shipped("compressor.toml").case;
+    let slider = case.mechanism.joint_named("cylinder_1").unwrap();
+    let piston = case.mechanism.links()[case.mechanism.joints()[slider].second.link].name.clone();
+    let forward = Document::read(&exported(&case, "forward"));
+    let slide = start(&case).slide(&case.mechanism.joints()[slider]).unwrap();
+    let mut joints = case.mechanism.joints().to_vec();
+    let joint = &mut joints[slider];
+    std::mem::swap(&mut joint.first, &mut joint.second);
+    if let JointKind::Prismatic { axes } = &mut joint.kind {
+        axes.swap(0, 1);
+    }
+    let mechanism = Mechanism::new(case.mechanism.links().to_vec(), joints).unwrap();
+    let swapped = Case { mechanism, ..case };
+    let backward = Document::read(&exported(&swapped, "backward"));
+    let [a, b] = [&forward, &backward].map(|document| document.body(&piston).reference);
+    assert!((a - slide[0]).abs() <= 1e-15 && (a + b).abs() <= 1e-15, "{a} {b}");
+    let axes = [&forward, &backward].map(|document| document.body(&piston).axis);
+    assert_eq!(axes[0], -axes[1]);
+    let rates = [&forward, &backward].map(|document| document.rate_of(&piston));
+    assert!((rates[0] + rates[1]).abs() <= 1e-12, "{rates:?}");
+}
+
+#[test]
+fn resistance_is_dry_friction_on_the_angle_of_the_link() {
+    let mut case = crate::common::shipped("crank_rocker.toml").case;
+    let [coupler, rocker] = ["coupler", "rocker"].map(|name| case.mechanism.link_named(name).unwrap());
+    // Two loads on one link add up.
+    case.loads.push(Load::Resistance { link: rocker, moment: 20.0 });
+    case.loads.push(Load::Resistance { link: coupler, moment: 7.0 });
+    let document = Document::read(&exported(&case, "loads"));
+    assert_eq!(document.body("rocker").friction, 120.0);
+    assert_eq!(document.body("coupler").friction, 0.0);
+    // The coupler hangs on the crank: its angle is the sum of both hinges'.
+    let path = vec![("O".to_string(), 1.0), ("A".to_string(), 1.0)];
+    assert_eq!(document.tendons, [("coupler".to_string(), 7.0, path)]);
+
+    let mut case = crate::common::shipped("compressor.toml").case;
+    let piston = case.mechanism.link_named("piston_3").unwrap();
+    case.loads = vec![Load::Resistance { link: piston, moment: 5.0 }];
+    let document = Document::read(&exported(&case, "piston"));
+    assert!(document.tendons.is_empty() && document.bodies.iter().all(|body| body.friction == 0.0));
+}
+
+#[test]
+fn links_without_mass_are_lent_a_small_one() {
+    let case = crate::common::shipped("crank_rocker.toml").case;
+    let mut links = case.mechanism.links().to_vec();
+    (links[2].mass, links[2].inertia) = (0.0, 0.0);
+    let light =
+        Case { mechanism: Mechanism::new(links.clone(), case.mechanism.joints().to_vec()).unwrap(), ..case.clone() };
+    let document = Document::read(&exported(&light, "light"));
+    let total: f64 = links.iter().map(|link| link.mass).sum();
+    let coupler = document.body("coupler");
+    assert!(coupler.mass > 0.0 && coupler.mass <= 1e-5 * total && coupler.inertia[2] > 0.0, "{}", coupler.mass);
+    assert_eq!(document.body("rocker").mass, links[3].mass);
+    // Without any mass there is still a motion to show.
+    links.iter_mut().for_each(|link| (link.mass, link.inertia) = (0.0, 0.0));
+    let none = Case { mechanism: Mechanism::new(links, case.mechanism.joints().to_vec()).unwrap(), ..case };
+    assert!(
+        Document::read(&exported(&none, "none")).bodies.iter().all(|body| body.mass > 0.0 && body.inertia[2] > 0.0)
+    );
+}
+
+#[test]
+fn the_rotor_outweighs_the_mechanism() {
+    for scenario in all() {
+        let case = &scenario.case;
+        let state = start(case);
+        let model = Model::new(case, &state, &scenario.name, STEP).unwrap();
+        // Inertia reduced to the crank: twice the kinetic energy over the square of its speed.
+        let energy = |link: usize| {
+            let (body, motion) = (&case.mechanism.links()[link], &state.motions[link]);
+            body.mass * motion.point_velocity(body.mass_centre).norm_squared() + body.inertia * motion.omega.powi(2)
+        };
+        let total: f64 = (1..case.mechanism.links().len()).map(energy).sum();
+        let reduced = total / case.drive.at(0.0).omega.powi(2);
+        assert!(model.rotor() >= 1e7 * reduced, "{}: {:e} and {reduced:e}", scenario.name, model.rotor());
+    }
+}
+
+/// The crank-rocker with other names; its points are named only by their joints' places.
+fn renamed(names: [&str; 4], joint: &str) -> Case {
+    let case = crate::common::shipped("crank_rocker.toml").case;
+    let mut links = case.mechanism.links().to_vec();
+    for (link, name) in links.iter_mut().zip(names) {
+        link.name = name.into();
+    }
+    let mut joints = case.mechanism.joints().to_vec();
+    joints[1].name = joint.into();
+    Case { mechanism: Mechanism::new(links, joints).unwrap(), ..case }
+}
+
+#[test]
+fn names_are_the_scenarios_own_whatever_letters_they_have() {
+    let names = ["ground", "кривошип", "<a href=\"x\">&amp;", "rocker's -- end"];
+    let document = Document::read(&exported(&renamed(names, "]]>'\""), "a & b"));
+    assert_eq!(document.name, "a & b");
+    for name in &names[1..] {
+        assert_eq!(document.body(name).name, *name);
+    }
+    assert_eq!(document.body(names[2]).joint, "]]>'\"");
+    document.names_are_unique();
+}
+
+#[test]
+fn names_that_mujoco_does_not_take_are_refused() {
+    let refused = |case: &Case, words: &[&str]| {
+        let error = mjcf(case, &AssurSolver, "refused", STEP).unwrap_err();
+        assert_eq!(error.kind(), ErrorKind::Unsupported, "{error}");
+        assert!(error.way_out().is_some() && words.iter().all(|word| error.to_string().contains(word)), "{error}");
+    };
+    refused(&renamed(["ground", "crank", "world", "rocker"], "A"), &["world", "links.world"]);
+    refused(&renamed(["ground", "crank", "", "rocker"], "A"), &["empty"]);
+    refused(&renamed(["ground", "crank", "coupler", "rocker"], "a\nb"), &["control"]);
+    // A point called as the file calls a side of a joint.
+    let case = crate::common::shipped("crank_rocker.toml").case;
+    let mut links = case.mechanism.links().to_vec();
+    links[2].points.push(linkage::mechanism::Point { name: "B.first".into(), local: Vec2::new(0.1, 0.0) });
+    let mechanism = Mechanism::new(links, case.mechanism.joints().to_vec()).unwrap();
+    refused(&Case { mechanism, ..case }, &["two sites", "B.first"]);
+}
+
+#[test]
+fn a_step_must_be_positive() {
+    let case = crate::common::shipped("crank_rocker.toml").case;
+    for step in [0.0, -1e-3, f64::NAN, f64::INFINITY] {
+        let error = mjcf(&case, &AssurSolver, "step", step).unwrap_err();
+        assert_eq!(error.kind(), ErrorKind::Input, "{error}");
+    }
+}
+
+#[test]
+fn rods_lie_between_joints_and_nothing_touches() {
+    let case = crate::common::shipped("ov7_base.toml").case;
+    let document = Document::read(&exported(&case, "shapes"));
+    for (link, body) in case.mechanism.links().iter().enumerate().skip(1) {
+        let places: Vec<Vec2> = case.mechanism.joints().iter().filter_map(|joint| joint.on(link)).collect();
+        let rods = document.rods(&body.name);
+        assert!(!rods.is_empty(), "{} is not drawn", body.name);
+        assert!(rods.iter().flatten().all(|end| places.contains(end)), "{}: {rods:?}", body.name);
+        assert!(places.iter().all(|place| rods.iter().flatten().any(|end| end == place)), "{}", body.name);
+    }
+    assert!(document.nothing_touches);
+    let sides: Vec<Side> = case.mechanism.moving_points().map(|(_, side)| side).collect();
+    for ((name, _), side) in case.mechanism.moving_points().zip(sides) {
+        let (owner, local) = document.site(name);
+        assert_eq!((owner, local), (Some(case.mechanism.links()[side.link].name.as_str()), side.local));
+    }
+}

@@ -1,0 +1,101 @@
+//! Random higher groups, with sliders and without, alone and among dyads: both analytic sides, by contours, angles and slides here, by
+//! absolute coordinates there, must agree.
+
+use crate::common::higher::{Among, FAMILIES, Family, mechanism};
+use crate::common::sketch::Random;
+use analytic::{AssurSolver, NewtonSolver};
+use linkage::ErrorKind;
+use linkage::solver::Solver;
+use linkage::trajectory::{Stage, Trajectory};
+use linkproof::compare::{magnitudes, residuals};
+
+/// Mechanisms of each family.
+const TRIES: usize = 60;
+
+/// The largest of speed and root of acceleration, over the crank's speed: how near the pose is to a singular one. Rounding grows with its
+/// square. Accelerations are of the order of that square and tell where a speed happens to pass through zero. Lengths are about a metre.
+fn nearness(trajectory: &Trajectory, crank: f64) -> f64 {
+    let of = |(channel, values): (&linkage::trajectory::Channel, &[f64])| {
+        let most = values.iter().fold(0.0f64, |max, v| max.max(v.abs()));
+        match channel.kind.stage {
+            Stage::Velocities => most / crank,
+            Stage::Accelerations => most.sqrt() / crank,
+            _ => 0.0,
+        }
+    };
+    trajectory.iter().map(of).fold(1.0, f64::max)
+}
+
+/// Largest share of the mechanism's size, for each stage, that both sides differ by; and how many were solved and began as drawn.
+fn worst(family: &Family, among: Among, tries: usize) -> ([f64; 5], usize, usize) {
+    let mut random = Random::from_seed(7);
+    let (mut worst, mut solved, mut as_drawn) = ([0.0f64; 5], 0, 0);
+    for _ in 0..tries {
+        let (spec, drawn) = mechanism(&mut random, family, among);
+        let scenario = match spec.scenario() {
+            Ok(scenario) => scenario,
+            // Rough places that fit two configurations, or lead to none, are refused; nothing else is.
+            Err(error) => {
+                assert_eq!(error.kind(), ErrorKind::Geometry, "{error}\n{}", spec.toml());
+                assert!(error.message().contains("rough place"), "{error}\n{}", spec.toml());
+                continue;
+            }
+        };
+        let case = &scenario.case;
+        let group = case.structure.groups.iter().find(|group| group.links.len() > 2).expect("a higher group");
+        assert_eq!((group.links.len(), group.class), (family.topology.links, family.topology.class));
+        assert!(case.start.closure(&case.mechanism) < 1e-12, "{}", spec.toml());
+        let off = |(a, b): (&linkage::mechanism::LinkPose, &linkage::mechanism::LinkPose)| {
+            (a.origin - b.origin).norm() < 1e-6
+        };
+        as_drawn += usize::from(case.start.0.iter().zip(&drawn).all(off));
+        let (assur, newton) = (AssurSolver.solve(case, &mut |_| {}), NewtonSolver.solve(case, &mut |_| {}));
+        // Beyond a dead point there is nothing to compare; the two sides must both say so.
+        let (Ok(assur), Ok(newton)) = (&assur, &newton) else {
+            assert!(assur.is_err() && newton.is_err(), "{:?} {:?}\n{}", assur.err(), newton.err(), spec.toml());
+            continue;
+        };
+        solved += 1;
+        let near = nearness(assur, case.drive.at(0.0).omega.abs());
+        for (residual, size) in residuals(assur, newton).unwrap().iter().zip(magnitudes(assur)) {
+            let share = residual.max / (size * near * near);
+            let stage = residual.channel.kind.stage as usize;
+            worst[stage] = worst[stage].max(share);
+        }
+    }
+    (worst, solved, as_drawn)
+}
+
+fn agree(among: Among, tries: usize) {
+    for family in &FAMILIES {
+        let (worst, solved, as_drawn) = worst(family, among, tries);
+        let what = format!("{}, sliding {:?}, {among:?}", family.topology.name, family.slides);
+        println!("{what}: {solved} solved, {as_drawn} as drawn, {}", worst.map(|w| format!("{w:.1e}")).join(" "));
+        // Where many die at dead points, a tenth must be left to compare.
+        assert!(solved * 10 > tries && as_drawn * 2 > tries, "{what}: only {solved}, {as_drawn} of {tries}");
+        for stage in Stage::ALL {
+            // The bounds of the published mechanisms, times the square of the nearness.
+            let bound = match stage {
+                Stage::Positions => 1e-12,
+                Stage::Velocities | Stage::Accelerations => 1e-11,
+                Stage::Reactions | Stage::BalancingMoment => 1e-10,
+            };
+            assert!(worst[stage as usize] <= bound, "{what}: {} {worst:?} of {solved}", stage.name());
+        }
+    }
+}
+
+#[test]
+fn both_sides_agree_on_random_higher_groups() {
+    agree(Among::Alone, TRIES);
+}
+
+#[test]
+fn both_sides_agree_on_higher_groups_behind_a_dyad() {
+    agree(Among::BehindADyad, TRIES / 2);
+}
+
+#[test]
+fn both_sides_agree_on_higher_groups_that_carry_a_dyad() {
+    agree(Among::CarryingADyad, TRIES / 2);
+}

@@ -1,0 +1,255 @@
+//! What happens to a solution when the whole problem is moved, turned, mirrored, reversed or made heavier.
+
+use std::f64::consts::PI;
+
+use linkage::case::Case;
+use linkage::math::{Vec2, cross, rotated, unit};
+use linkage::mechanism::GroupKind;
+use linkage::solver::{Solver, State};
+use proptest::test_runner::TestCaseError;
+
+use super::COUNT;
+use crate::common::random::{Sample, for_each, within};
+use crate::common::spec::{Spec, Start};
+use crate::common::states;
+
+/// Rounding of two solutions of one problem in different clothes, relative to the size of what is compared, times the
+/// square of the condition: measured, the largest uses a tenth of it.
+const ROUNDING: f64 = 1e-12;
+
+/// States of both problems over the grid of the first at equal crank angles times `sense`.
+fn pairs(solver: &dyn Solver, sample: &Sample, two: &Case, sense: f64) -> Vec<(State, State)> {
+    let one = &sample.scenario.case;
+    let times = one.grid.cranks.iter().map(|crank| two.drive.time_of(crank * sense));
+    let ours = states(solver, one, &one.grid.times).expect("solvable");
+    let theirs = states(solver, two, &times.collect::<Vec<_>>()).expect("solvable");
+    ours.into_iter().zip(theirs).collect()
+}
+
+/// What is expected of the second problem's state, given the first's.
+struct Expected {
+    place: Box<dyn Fn(Vec2) -> Vec2>,
+    angle: Box<dyn Fn(f64) -> f64>,
+    /// Factors of angular velocity, acceleration and drive torque.
+    omega: f64,
+    alpha: f64,
+    torque: f64,
+    velocity: Box<dyn Fn(Vec2) -> Vec2>,
+    /// Accelerations and forces turn alike.
+    vector: Box<dyn Fn(Vec2) -> Vec2>,
+}
+
+fn case_of(spec: &Spec) -> Case {
+    spec.scenario().unwrap_or_else(|error| panic!("{error}")).case
+}
+
+fn check(sample: &Sample, other: &Spec, sense: f64, expected: &Expected) -> Result<(), TestCaseError> {
+    let other = case_of(other);
+    for solver in analytic::all() {
+        for (ours, theirs) in pairs(solver, sample, &other, sense) {
+            compare(sample, &other, [&ours, &theirs], expected)?;
+        }
+    }
+    Ok(())
+}
+
+fn compare(
+    sample: &Sample,
+    other: &Case,
+    [ours, theirs]: [&State; 2],
+    expected: &Expected,
+) -> Result<(), TestCaseError> {
+    let case = &sample.scenario.case;
+    let bound = ROUNDING * sample.condition.powi(2);
+    let spin = ours.motions.iter().map(|m| m.omega.abs()).fold(0.0, f64::max);
+    let force = ours.forces.iter().map(|f| f.norm()).fold(0.0, f64::max);
+    for (link, body) in case.mechanism.links().iter().enumerate().skip(1) {
+        let (a, b, c) = (&ours.motions[link], &theirs.motions[link], body.mass_centre);
+        let d = other.mechanism.links()[link].mass_centre;
+        let turn = theirs.angles[link] - (expected.angle)(ours.angles[link]);
+        within("angle", linkage::math::angle::wrapped(turn).abs(), bound)?;
+        within("omega", (b.omega - expected.omega * a.omega).abs(), bound * spin)?;
+        within("alpha", (b.alpha - expected.alpha * a.alpha).abs(), bound * spin * spin)?;
+        within("place", (b.point(d) - (expected.place)(a.point(c))).norm(), bound * 10.0)?;
+        let velocity = b.point_velocity(d) - (expected.velocity)(a.point_velocity(c));
+        within("velocity", velocity.norm(), bound * spin)?;
+        let acceleration = b.point_acceleration(d) - (expected.vector)(a.point_acceleration(c));
+        within("acceleration", acceleration.norm(), bound * spin * spin)?;
+    }
+    for (a, b) in ours.forces.iter().zip(&theirs.forces) {
+        within("force", (b - (expected.vector)(*a)).norm(), bound * force)?;
+    }
+    // Moments change their sense as the driving one does.
+    for (a, b) in ours.moments.iter().zip(&theirs.moments) {
+        within("moment", (b - expected.torque * a).abs(), bound * force.max(ours.torques[0].abs()))?;
+    }
+    within(
+        "torque",
+        (theirs.torques[0] - expected.torque * ours.torques[0]).abs(),
+        bound * force.max(ours.torques[0].abs()),
+    )
+}
+
+#[test]
+fn a_mechanism_moved_and_turned_as_a_whole_works_alike() {
+    for_each(COUNT, |sample| {
+        let (by, turn) = (Vec2::new(3.0, -2.0), 2.2);
+        let expected = Expected {
+            place: Box::new(move |v| by + rotated(unit(turn), v)),
+            angle: Box::new(move |a| a + turn),
+            omega: 1.0,
+            alpha: 1.0,
+            torque: 1.0,
+            velocity: Box::new(move |v| rotated(unit(turn), v)),
+            vector: Box::new(move |v| rotated(unit(turn), v)),
+        };
+        check(sample, &sample.spec.moved(by, turn), 1.0, &expected)
+    });
+}
+
+#[test]
+fn a_reversed_drive_flips_the_velocities_and_nothing_else() {
+    for_each(COUNT, |sample| {
+        let mut free = sample.spec.clone();
+        free.loads.clear();
+        let sample = crate::common::random::sample(free).expect("loads do not matter to the motion");
+        let mut back = sample.spec.clone();
+        back.speed = -back.speed;
+        let expected = Expected {
+            place: Box::new(|v| v),
+            angle: Box::new(|a| a),
+            omega: -1.0,
+            alpha: 1.0,
+            torque: 1.0,
+            velocity: Box::new(|v| -v),
+            vector: Box::new(|v| v),
+        };
+        check(&sample, &back, 1.0, &expected)
+    });
+}
+
+#[test]
+fn a_mirror_image_has_mirrored_motion_and_forces() {
+    for_each(COUNT, |sample| {
+        let flip = |v: Vec2| Vec2::new(v.x, -v.y);
+        let expected = Expected {
+            place: Box::new(flip),
+            angle: Box::new(|a| -a),
+            omega: -1.0,
+            alpha: -1.0,
+            torque: -1.0,
+            velocity: Box::new(flip),
+            vector: Box::new(flip),
+        };
+        check(sample, &sample.spec.mirrored(), -1.0, &expected)
+    });
+}
+
+fn same() -> Expected {
+    Expected {
+        place: Box::new(|v| v),
+        angle: Box::new(|a| a),
+        omega: 1.0,
+        alpha: 1.0,
+        torque: 1.0,
+        velocity: Box::new(|v| v),
+        vector: Box::new(|v| v),
+    }
+}
+
+#[test]
+fn joints_read_the_other_way_round_flip_their_own_force_only() {
+    for_each(COUNT, |sample| {
+        let case = &sample.scenario.case;
+        for (index, joint) in case.mechanism.joints().iter().enumerate() {
+            let mut other = sample.spec.clone();
+            other.pins.iter_mut().filter(|pin| pin.name == joint.name).for_each(|pin| pin.links.reverse());
+            other.guides.iter_mut().filter(|guide| guide.name == joint.name).for_each(|guide| guide.reverse());
+            turn_modes(case, &mut other, index, |kind| kind == GroupKind::Rpr);
+            let other = case_of(&other);
+            for solver in analytic::all() {
+                for (ours, mut theirs) in pairs(solver, sample, &other, 1.0) {
+                    theirs.forces[index] = -theirs.forces[index];
+                    // About the place on the link that was second before.
+                    let [first, second] =
+                        [joint.first, joint.second].map(|side| ours.motions[side.link].point(side.local));
+                    if joint.is_prismatic() {
+                        theirs.moments[index] = cross(first - second, theirs.forces[index]) - theirs.moments[index];
+                    }
+                    compare(sample, &other, [&ours, &theirs], &same())?;
+                }
+            }
+        }
+        Ok(())
+    });
+}
+
+/// Turns about the mode of the group whose inner or outer joint `joint` is, if it is of a sort for which that matters.
+fn turn_modes(case: &Case, spec: &mut Spec, joint: usize, matters: impl Fn(GroupKind) -> bool) {
+    for group in case.structure.groups.iter().filter(|group| matters(group.kind)) {
+        let has = |start: &Start| {
+            start.links.iter().all(|name| group.links.contains(&case.mechanism.link_named(name).expect("a link")))
+        };
+        if group.inner.contains(&joint) || group.outer.contains(&joint) && group.kind == GroupKind::Rrp {
+            spec.starts.iter_mut().filter(|start| has(start)).for_each(|start| start.ask.reverse());
+        }
+    }
+}
+
+/// A guide is a line: neither the sense in which its axis is read nor the place on the line that names it matters.
+#[test]
+fn guides_read_against_their_axes_and_named_elsewhere_work_alike() {
+    for_each(COUNT, |sample| {
+        let case = &sample.scenario.case;
+        for (index, joint) in case.mechanism.joints().iter().enumerate().filter(|(_, joint)| joint.is_prismatic()) {
+            let mut turned = sample.spec.clone();
+            let guide = turned.guides.iter_mut().find(|guide| guide.name == joint.name).expect("a guide");
+            guide.axes.iter_mut().for_each(|axis| *axis += PI);
+            turn_modes(case, &mut turned, index, |kind| matches!(kind, GroupKind::Rpr | GroupKind::Rrp));
+            check(sample, &turned, 1.0, &same())?;
+            let mut moved = sample.spec.clone();
+            let guide = moved.guides.iter().find(|guide| guide.name == joint.name).expect("a guide").clone();
+            for (k, by) in [(0, 0.3), (1, -0.2)] {
+                let points = match guide.links[k].as_str() {
+                    "ground" => &mut moved.ground,
+                    link => &mut moved.links.iter_mut().find(|body| body.name == link).expect("a link").points,
+                };
+                let (_, at) = points.iter_mut().find(|(name, _)| *name == guide.points[k]).expect("a point");
+                *at += unit(guide.axes[k]) * by;
+            }
+            let moved = case_of(&moved);
+            for solver in analytic::all() {
+                for (ours, mut theirs) in pairs(solver, sample, &moved, 1.0) {
+                    let place = |state: &State| state.motions[joint.second.link].point(joint.second.local);
+                    let second = moved.mechanism.joints()[index].second;
+                    let shift = place(&ours) - ours.motions[second.link].point(second.local);
+                    theirs.moments[index] -= cross(shift, theirs.forces[index]);
+                    compare(sample, &moved, [&ours, &theirs], &same())?;
+                }
+            }
+        }
+        Ok(())
+    });
+}
+
+#[test]
+fn twice_the_masses_make_exactly_twice_the_forces() {
+    for_each(COUNT, |sample| {
+        let mut free = sample.spec.clone();
+        free.loads.clear();
+        let sample = crate::common::random::sample(free).expect("loads do not matter to the motion");
+        let heavier = case_of(&sample.spec.heavier(2.0));
+        for solver in analytic::all() {
+            for (ours, theirs) in pairs(solver, &sample, &heavier, 1.0) {
+                // A factor of two changes no rounding, so that the equality is exact.
+                let doubled: Vec<Vec2> = ours.forces.iter().map(|force| force * 2.0).collect();
+                proptest::prop_assert_eq!(&theirs.forces, &doubled);
+                let doubled: Vec<f64> = ours.moments.iter().map(|moment| moment * 2.0).collect();
+                proptest::prop_assert_eq!(&theirs.moments, &doubled);
+                proptest::prop_assert_eq!(theirs.torques[0], 2.0 * ours.torques[0]);
+                proptest::prop_assert_eq!(&theirs.motions, &ours.motions);
+            }
+        }
+        Ok(())
+    });
+}

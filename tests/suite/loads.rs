@@ -1,0 +1,6 @@
+//! Loads: against closed forms, the balance of powers, the energy of springs, and the engine by every route.
+
+mod closed_form;
+mod engines;
+mod random;
+mod reduced;

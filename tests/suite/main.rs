@@ -1,0 +1,37 @@
+//! All integration tests, in one binary: what they share is compiled and linked once.
+//!
+//! `cargo test --release --test suite` runs them all, `... --test suite figures::` one module of them.
+
+mod architecture;
+mod bad_scenarios;
+mod batch;
+mod cli;
+mod common;
+mod degenerate;
+mod dynamics;
+mod engine;
+mod export;
+mod faults;
+mod figures;
+mod higher_groups;
+mod invariants;
+mod laws;
+mod loads;
+mod peaks;
+mod plans;
+mod prismatic;
+mod random_proofs;
+mod range;
+mod rapier;
+mod record;
+mod scenario_docs;
+#[cfg(feature = "simbody")]
+mod simbody;
+mod slider_limits;
+mod sliders_closed_form;
+mod start;
+mod stories;
+mod synthesis;
+mod triad_methods;
+mod tune;
+mod variants60;

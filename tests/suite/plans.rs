@@ -1,0 +1,262 @@
+//! Graphical methods: plans close and are images of the links, drawings hold what they say, the chord method has its known error, and the
+//! published graphical figures are what they are.
+
+mod drawings;
+mod graphs;
+mod motion;
+mod sliders;
+
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+use std::path::Path;
+
+use analytic::{AssurSolver, NewtonSolver};
+use linkage::math::{Vec2, rotated, unit};
+use linkage::solver::Solver;
+use linkproof::scenario::Scenario;
+use workshop::diagram::{Part, Plan, Plans, SingularPoint, TipKind};
+
+const REVOLUTE: [&str; 5] = ["crank_rocker", "ov7_base", "ov7_new", "ov7_new_tabulated", "fourth_class"];
+const SLIDERS: [&str; 5] = ["compressor", "six_bar_slider", "quick_return", "scotch_yoke", "tangent"];
+
+/// All scenarios with crank angles that they reach.
+fn all() -> impl Iterator<Item = (&'static str, f64)> {
+    let names = REVOLUTE.into_iter().chain(SLIDERS);
+    names.flat_map(|name| angles().map(move |degrees| (name, degrees_of(name, degrees))))
+}
+
+/// The crank of the tangent mechanism only swings, by 60 deg to either side.
+fn degrees_of(name: &str, degrees: f64) -> f64 {
+    if name == "tangent" { (degrees - 180.0) / 3.0 } else { degrees }
+}
+
+fn scenario(name: &str) -> Scenario {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios").join(format!("{name}.toml"));
+    Scenario::load(&path).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn plans_with(name: &str, solver: &dyn Solver, degrees: f64) -> Plans {
+    Plans::at(&scenario(name).case, solver, degrees.to_radians()).unwrap_or_else(|error| panic!("{name}: {error}"))
+}
+
+fn plans(name: &str, degrees: f64) -> Plans {
+    plans_with(name, &AssurSolver, degrees)
+}
+
+/// Crank angles all over the turn.
+fn angles() -> impl Iterator<Item = f64> {
+    (0..12).map(|k| 7.0 + 30.0 * f64::from(k))
+}
+
+fn longest(plan: &Plan) -> f64 {
+    plan.vectors.iter().map(|vector| vector.value.norm()).fold(0.0, f64::max)
+}
+
+/// Walks from the pole along vectors to every letter; each vector not needed for that closes a contour. Returns the number of contours
+/// and the largest gap.
+fn contours(plan: &Plan) -> (usize, f64) {
+    let pole = |letter: &str| {
+        let fixed = plan.tips.iter().any(|tip| tip.letter == letter && tip.kind == TipKind::Fixed);
+        if fixed { plan.quantity.pole().to_string() } else { letter.to_string() }
+    };
+    let mut reached: BTreeMap<String, Vec2> = BTreeMap::from([(plan.quantity.pole().to_string(), Vec2::zeros())]);
+    let (mut used, mut closed, mut gap) = (vec![false; plan.vectors.len()], 0, 0.0f64);
+    while let Some(next) = (0..used.len()).find(|&k| {
+        !used[k]
+            && (reached.contains_key(&pole(&plan.vectors[k].from)) || reached.contains_key(&pole(&plan.vectors[k].to)))
+    }) {
+        used[next] = true;
+        let vector = &plan.vectors[next];
+        let (from, to) = (pole(&vector.from), pole(&vector.to));
+        match (reached.get(&from).copied(), reached.get(&to).copied()) {
+            (Some(start), Some(end)) => {
+                closed += 1;
+                gap = gap.max((start + vector.value - end).norm());
+            }
+            (Some(start), None) => drop(reached.insert(to, start + vector.value)),
+            (None, end) => drop(reached.insert(from, end.unwrap() - vector.value)),
+        }
+    }
+    assert!(used.iter().all(|&used| used), "a vector hangs in the air");
+    (closed, gap)
+}
+
+#[test]
+fn every_contour_of_every_plan_closes() {
+    for (name, degrees) in all() {
+        for solver in [&AssurSolver as &dyn Solver, &NewtonSolver] {
+            let plans = plans_with(name, solver, degrees);
+            for plan in [&plans.velocity, &plans.acceleration] {
+                let (count, gap) = contours(plan);
+                // Each moving loop of links gives one at least: crank, coupler and rocker at the very least.
+                assert!(count >= 1, "{name}: nothing closes");
+                // Eleven digits of velocities and accelerations are what the solvers promise.
+                assert!(gap <= 1e-11 * longest(plan), "{name} at {degrees}: {:e}", gap / longest(plan));
+            }
+        }
+    }
+}
+
+/// Burmester and Mehmke: the image of a link is the link, turned and enlarged. Compares sides of drawn mechanism and plans, and omega and alpha
+/// as listed; the vectors themselves are not asked.
+#[test]
+fn the_image_of_a_link_is_similar_to_it() {
+    for (name, degrees) in all() {
+        let mechanism = scenario(name).case.mechanism;
+        let plans = plans(name, degrees);
+        // Points of the ground lie in the pole, and have no vector.
+        let end = |plan: &Plan, name: &str| {
+            let vector = plan.vector(&format!("{}_{name}", plan.quantity.symbol()));
+            vector.map_or_else(Vec2::zeros, |vector| plan.tip(&vector.to).unwrap())
+        };
+        let place = |name: &str| plans.scheme.points.iter().find(|(own, _)| own == name).unwrap().1;
+        let mut compared = 0;
+        for link in &plans.scheme.links {
+            let names: Vec<&str> =
+                mechanism.links()[link.number].points.iter().map(|point| point.name.as_str()).collect();
+            for (k, a) in names.iter().enumerate() {
+                for b in &names[k + 1..] {
+                    let side = place(b) - place(a);
+                    let (omega, alpha) = (link.omega, link.alpha);
+                    let image = |plan: &Plan| end(plan, b) - end(plan, a);
+                    let turned = rotated(unit(PI / 2.0 * omega.signum()), side) * omega.abs();
+                    let size = (alpha * alpha + omega.powi(4)).sqrt();
+                    let spun = rotated(unit(PI - alpha.atan2(omega * omega)), side) * size;
+                    assert!(
+                        (image(&plans.velocity) - turned).norm() <= 1e-11 * longest(&plans.velocity),
+                        "{name} {a}{b}"
+                    );
+                    assert!(
+                        (image(&plans.acceleration) - spun).norm() <= 1e-11 * longest(&plans.acceleration),
+                        "{name} {a}{b}"
+                    );
+                    compared += 1;
+                }
+            }
+        }
+        let pairs = |points: usize| points * points.saturating_sub(1) / 2;
+        let expected: usize = mechanism.links()[1..].iter().map(|link| pairs(link.points.len())).sum();
+        assert!(compared > 0 && compared == expected);
+    }
+}
+
+#[test]
+fn parts_stand_as_their_names_say() {
+    let plans = plans("fourth_class", 70.0);
+    let place = |name: char| plans.scheme.points.iter().find(|(own, _)| own.starts_with(name)).unwrap().1;
+    let plan = &plans.acceleration;
+    let mut seen = 0;
+    for vector in plan.vectors.iter().filter(|v| matches!(v.part, Part::Normal | Part::Tangential)) {
+        let letters: Vec<char> = vector.name.trim_start_matches("a_").chars().collect();
+        let line = place(letters[0]) - place(letters[1]);
+        let share = vector.value.dot(&line) / (vector.value.norm() * line.norm());
+        // Rounding of a product of unit vectors.
+        let want = if vector.part == Part::Normal { -1.0 } else { 0.0 };
+        assert!((share - want).abs() < 1e-12, "{}: {share}", vector.name);
+        seen += 1;
+    }
+    assert_eq!(seen, 17);
+    // a_EC = a_EC^n + a_EC^t, omega^2 l and alpha l with the published magnitudes to their printed digits.
+    let size = |name: &str| plan.vector(name).unwrap().value.norm();
+    assert!((size("a_EC^n") - 31.87948f64.powi(2) * 0.04).abs() < 2.0 * 31.88 * 0.04 * 0.5e-5);
+    assert!((size("a_EC^t") - 48.4440 * 0.04).abs() < 0.5e-4 * 0.04);
+    let sum = plan.vector("a_EC^n").unwrap().value + plan.vector("a_EC^t").unwrap().value;
+    assert!((sum - plan.vector("a_EC").unwrap().value).norm() < 1e-12);
+    // The crank turns uniformly: its normal part is the whole.
+    assert_eq!(plan.vector("a_AO^n").unwrap().to, "a");
+    assert!(plan.vector("a_AO^t").is_none());
+}
+
+#[test]
+fn scale_factors_are_round_and_fill_the_paper() {
+    for (name, degrees) in all() {
+        let plans = plans(name, degrees);
+        for plan in [&plans.velocity, &plans.acceleration] {
+            let text = format!("{:e}", plan.scale);
+            assert!(["1", "2", "2.5", "5"].contains(&text.split('e').next().unwrap()), "{text}");
+            let most = plan.vectors.iter().map(|vector| plan.paper(vector)).fold(0.0, f64::max);
+            assert!(most > 50.0 && most <= 100.0 + 1e-9, "{name}: {most} mm");
+        }
+    }
+}
+
+#[test]
+fn both_solvers_draw_the_same_plans() {
+    for name in REVOLUTE.into_iter().chain(SLIDERS) {
+        let degrees = degrees_of(name, 70.0);
+        let [a, b] = [&AssurSolver as &dyn Solver, &NewtonSolver].map(|solver| plans_with(name, solver, degrees));
+        for (a, b) in [(&a.velocity, &b.velocity), (&a.acceleration, &b.acceleration)] {
+            assert_eq!(a.scale, b.scale);
+            assert_eq!(a.vectors.len(), b.vectors.len());
+            for (x, y) in a.vectors.iter().zip(&b.vectors) {
+                assert_eq!(x.name, y.name);
+                assert!((x.value - y.value).norm() <= 1e-11 * longest(a), "{name} {}", x.name);
+            }
+        }
+    }
+}
+
+/// The method through the singular point has no error of its own: it gives what both solvers give.
+#[test]
+fn the_singular_point_gives_the_solvers_velocities_and_accelerations() {
+    let case = scenario("fourth_class").case;
+    let group = &case.structure.groups[0];
+    for solver in [&AssurSolver as &dyn Solver, &NewtonSolver] {
+        for degrees in 0..72 {
+            let state =
+                workshop::diagram::plan::state_at(&case, solver, (5.0 * f64::from(degrees)).to_radians()).unwrap();
+            let point = SingularPoint::of(&case, group, &state.motions).unwrap().unwrap();
+            assert_eq!(point.lines(), "BD x CE");
+            // The farther S is from the group, the more digits cancel; its distance over the size of the group measures that.
+            let far = 1.0 + point.at.norm() / 0.1;
+            for (link, omega, alpha) in point.links {
+                let motion = &state.motions[link];
+                assert!((omega - motion.omega).abs() <= 1e-12 * 100.0 * far, "{degrees}: {omega} {}", motion.omega);
+                assert!((alpha - motion.alpha).abs() <= 1e-12 * 1e4 * far, "{degrees}: {alpha} {}", motion.alpha);
+            }
+            for (side, link) in [point.links[0].0, point.links[1].0].into_iter().enumerate() {
+                let motion = &state.motions[link];
+                let local = rotated(Vec2::new(motion.direction.x, -motion.direction.y), point.at - motion.origin);
+                let speed = point.velocity.norm().max(1.0);
+                assert!((motion.point_velocity(local) - point.velocity).norm() <= 1e-12 * speed * far);
+                let strong = point.accelerations[side].norm().max(100.0);
+                assert!((motion.point_acceleration(local) - point.accelerations[side]).norm() <= 1e-12 * strong * far);
+            }
+        }
+    }
+    for name in ["crank_rocker", "ov7_new"] {
+        let case = scenario(name).case;
+        let state = workshop::diagram::plan::state_at(&case, &AssurSolver, 0.3).unwrap();
+        for group in &case.structure.groups {
+            assert_eq!(SingularPoint::of(&case, group, &state.motions).unwrap(), None, "{name}");
+        }
+    }
+}
+
+/// Magnitudes at 70 deg by the authors' analytic and graphical methods, and their percentages, beside the exact ones.
+#[test]
+fn val_fourth_class_published_graphical_figures() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/fourth_class/published.csv");
+    let mut reader = csv::Reader::from_path(path).unwrap();
+    let rows: Vec<Vec<String>> = reader.records().map(|row| row.unwrap().iter().map(Into::into).collect()).collect();
+    assert_eq!(rows.len(), 4);
+    let plans = plans("fourth_class", 70.0);
+    let mut wrong = Vec::new();
+    for row in &rows {
+        let link = &plans.scheme.links[row[0].parse::<usize>().unwrap() - 1];
+        for (what, exact, cells) in [("omega", link.omega.abs(), &row[1..4]), ("eps", link.alpha.abs(), &row[4..7])] {
+            let decimals = |cell: &String| cell.split_once('.').map_or(0, |(_, decimals)| decimals.len());
+            let shown = |value: f64, cell: &String| format!("{value:.*}", decimals(cell));
+            assert_eq!(shown(exact, &cells[0]), cells[0], "analytic {what} of link {}", row[0]);
+            let graphical: f64 = cells[1].parse().unwrap();
+            let error = (graphical / exact - 1.0).abs() * 100.0;
+            // The authors' own criterion: agreement of 95 %.
+            assert!(error < 5.0);
+            if shown(error, &cells[2]) != cells[2] {
+                wrong.push(format!("{what}{} printed {} is {error:.2}", row[0], cells[2]));
+            }
+        }
+    }
+    // docs/findings.md, fourth_class-percentages.
+    assert_eq!(wrong, ["eps2 printed 0.0 is 0.13", "eps4 printed 2.3 is 2.18", "omega5 printed 1.0 is 1.06"]);
+}

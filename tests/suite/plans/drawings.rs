@@ -1,0 +1,111 @@
+//! Drawings of plans: well formed, complete, true to scale, legible.
+
+use linkage::math::Vec2;
+use workshop::diagram::draw;
+
+use super::{REVOLUTE, SLIDERS, all, degrees_of, plans};
+
+#[test]
+fn drawings_are_well_formed_and_hold_every_vector() {
+    let names = REVOLUTE.into_iter().chain(SLIDERS);
+    for (name, degrees) in names.flat_map(|name| [0.0, 70.0, 210.0].map(|degrees| (name, degrees))) {
+        let plans = plans(name, degrees_of(name, degrees));
+        let text = draw::plans(&plans, name, "a < b & \"c\"");
+        let document = roxmltree::Document::parse(&text).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let root = document.root_element();
+        let size = |key: &str| root.attribute(key).unwrap().trim_end_matches("mm").parse::<f64>().unwrap();
+        assert_eq!(root.attribute("viewBox").unwrap(), format!("0 0 {} {}", size("width"), size("height")));
+        let titles: Vec<&str> =
+            document.descendants().filter(|n| n.has_tag_name("title")).filter_map(|n| n.text()).collect();
+        let words: Vec<String> = document
+            .descendants()
+            .filter(|node| node.has_tag_name("text"))
+            .map(|node| node.descendants().filter(|n| n.is_text()).filter_map(|n| n.text()).collect::<String>())
+            .map(|text| text.trim().to_string())
+            .collect();
+        for plan in [&plans.velocity, &plans.acceleration] {
+            for vector in &plan.vectors {
+                let plain = vector.name.replace(['_', '^'], "");
+                assert!(words.contains(&plain), "{name}: {} is not in the table", vector.name);
+                let arrow = titles.iter().find(|title| title.trim().starts_with(&format!("{} = ", vector.name)));
+                assert!(arrow.is_some() || plan.paper(vector) <= 0.15, "{name}: {} is not drawn", vector.name);
+            }
+        }
+        // Nothing is clipped: every coordinate lies on the sheet.
+        for (key, most) in
+            [("x", "width"), ("x1", "width"), ("x2", "width"), ("y", "height"), ("y1", "height"), ("y2", "height")]
+        {
+            for value in document.descendants().filter_map(|node| node.attribute(key)) {
+                let value: f64 = value.parse().unwrap();
+                assert!(value >= 0.0 && value <= size(most), "{name}: {key} = {value}");
+            }
+        }
+        assert_eq!(text, draw::plans(&plans, name, "a < b & \"c\""), "same input, same bytes");
+    }
+}
+
+/// Letters stand apart from each other, and none on a line: boxes as large as the letters themselves, a little less than what was kept free.
+#[test]
+fn letters_can_be_read() {
+    let (mut letters, mut crossed) = (0, 0);
+    for (name, degrees) in all().step_by(2) {
+        let text = draw::plans(&plans(name, degrees), name, "");
+        let document = roxmltree::Document::parse(&text).unwrap();
+        let number = |node: &roxmltree::Node, key: &str| node.attribute(key).unwrap().parse::<f64>().unwrap();
+        let italic = document.descendants().filter(|node| node.attribute("font-style") == Some("italic"));
+        let boxes: Vec<(Vec2, Vec2)> = italic
+            .map(|node| {
+                let signs = node.descendants().filter(|n| n.is_text()).filter_map(|n| n.text()).collect::<String>();
+                let wide =
+                    0.5 * 4.2 * signs.trim().chars().count() as f64 * if signs.trim().len() > 1 { 0.85 } else { 1.0 };
+                let middle = node.attribute("text-anchor") == Some("middle");
+                let left = number(&node, "x") - if middle { wide / 2.0 } else { 0.0 };
+                (Vec2::new(left + wide / 2.0, number(&node, "y") - 1.2), Vec2::new(wide / 2.0, 1.3))
+            })
+            .collect();
+        let arrows: Vec<[Vec2; 2]> = document
+            .descendants()
+            .filter(|node| node.has_tag_name("line") && node.parent().is_some_and(|parent| parent.has_tag_name("g")))
+            .map(|node| [["x1", "y1"], ["x2", "y2"]].map(|[x, y]| Vec2::new(number(&node, x), number(&node, y))))
+            .collect();
+        for (index, (centre, half)) in boxes.iter().enumerate() {
+            letters += 1;
+            for (other, size) in &boxes[index + 1..] {
+                let gap = (centre - other).abs() - half - size;
+                assert!(gap.x > 0.0 || gap.y > 0.0, "{name} at {degrees}: letters at {centre:?} and {other:?}");
+            }
+            let inside = |[a, b]: &[Vec2; 2]| {
+                (0..=400)
+                    .map(|k| a + (b - a) * (f64::from(k) / 400.0) - centre)
+                    .any(|d| d.x.abs() < half.x && d.y.abs() < half.y)
+            };
+            crossed += usize::from(arrows.iter().any(inside));
+        }
+    }
+    assert!(letters > 1000);
+    assert_eq!(crossed, 0, "of {letters} letters");
+}
+
+/// The arrow of a vector is as long as its size over the scale factor says, to the hundredths of a millimetre that are written.
+#[test]
+fn drawings_are_true_to_scale() {
+    let plans = plans("crank_rocker", 70.0);
+    let text = draw::plans(&plans, "crank_rocker", "");
+    let document = roxmltree::Document::parse(&text).unwrap();
+    let mut checked = 0;
+    for group in document.descendants().filter(|node| node.has_tag_name("g")) {
+        let title =
+            group.children().find(|n| n.has_tag_name("title")).and_then(|n| n.text()).unwrap_or_default().trim();
+        let name = title.split(" = ").next().unwrap();
+        let plan = if name.starts_with('v') { &plans.velocity } else { &plans.acceleration };
+        let number = |node: roxmltree::Node, key: &str| node.attribute(key).unwrap().parse::<f64>().unwrap();
+        let line = group.children().find(|n| n.has_tag_name("line")).unwrap();
+        let head = group.children().find(|n| n.has_tag_name("path")).unwrap().attribute("d").unwrap().to_string();
+        let tip: Vec<f64> = head[1..].split('L').next().unwrap().split(' ').map(|part| part.parse().unwrap()).collect();
+        let drawn = Vec2::new(tip[0] - number(line, "x1"), number(line, "y1") - tip[1]);
+        let vector = plan.vector(name).unwrap();
+        assert!((drawn - vector.value / plan.scale).norm() < 0.015, "{name}: {drawn:?}");
+        checked += 1;
+    }
+    assert!(checked > 20);
+}

@@ -1,0 +1,180 @@
+//! Prismatic pairs on the analytic side: against closed forms, differences, and the laws of momentum and power.
+
+use crate::common::sliders::{self, SPEED, Sample};
+use crate::common::{centre, centre_acceleration, states};
+use analytic::{self, witness::power};
+use linkage::case::Case;
+use linkage::math::{Vec2, cross};
+use linkage::solver::{Solver, State};
+
+/// The states of a solver on the sample's grid, with their times and crank angles.
+fn solved(solver: &dyn Solver, case: &Case) -> Vec<(f64, f64, State)> {
+    let found = states(solver, case, &case.grid.times).unwrap();
+    let rows = case.grid.times.iter().zip(&case.grid.cranks).zip(found);
+    rows.map(|((&time, &crank), state)| (time, crank, state)).collect()
+}
+
+/// Every mechanism with every solver.
+fn each(check: impl Fn(&Sample, &dyn Solver)) {
+    for sample in sliders::all() {
+        for solver in analytic::all() {
+            check(&sample, solver);
+        }
+    }
+}
+
+fn joint_of(sample: &Sample) -> usize {
+    sample.case.mechanism.joint_named(sample.joint).unwrap()
+}
+
+#[test]
+fn motion_is_that_of_the_closed_forms() {
+    each(|sample, solver| {
+        let joint = &sample.case.mechanism.joints()[joint_of(sample)];
+        let link = sample.case.mechanism.link_named(sample.link).unwrap();
+        for (_, crank, state) in solved(solver, &sample.case) {
+            let exact = (sample.exact)(crank);
+            let slide = state.slide(joint).unwrap();
+            let angle = [state.angles[link], state.motions[link].omega, state.motions[link].alpha];
+            for order in 0..3 {
+                // Rounding of the closed form and of Newton's last step, through a transmission angle of 30 degrees at least.
+                let bound = 1e-14 * SPEED.powi(order as i32) * 10.0;
+                let errors = [slide[order] - exact.slide[order], angle[order] - exact.angle[order]];
+                let what = format!("{} at {crank}: {errors:?}, order {order}", sample.name);
+                assert!(errors.iter().all(|error| error.abs() <= bound), "{what}");
+            }
+        }
+    });
+}
+
+/// Fourth-order differences with steps h and 2h: errors (h w)^4 / 30 of a motion that has harmonics up to a few w, and rounding
+/// 1e-16 / h of a unit length.
+#[test]
+fn velocities_and_accelerations_are_derivatives() {
+    let h = 1e-4;
+    each(|sample, solver| {
+        let case = &sample.case;
+        for &time in case.grid.times.iter().step_by(9) {
+            let times: Vec<f64> = [-2.0, -1.0, 0.0, 1.0, 2.0].map(|k| time + k * h).into();
+            let around = states(solver, case, &times).unwrap();
+            let slope = |of: &dyn Fn(&State) -> f64| {
+                let [a, b, _, d, e] = [0, 1, 2, 3, 4].map(|k| of(&around[k]));
+                (8.0 * (d - b) - (e - a)) / (12.0 * h)
+            };
+            let here = &around[2];
+            for link in 1..case.mechanism.links().len() {
+                let motion = &here.motions[link];
+                let pairs = [
+                    (slope(&|s| s.angles[link]), motion.omega),
+                    (slope(&|s| s.motions[link].origin.x), motion.velocity.x),
+                    (slope(&|s| s.motions[link].origin.y), motion.velocity.y),
+                    (slope(&|s| s.motions[link].omega) / SPEED, motion.alpha / SPEED),
+                    (slope(&|s| s.motions[link].velocity.x) / SPEED, motion.acceleration.x / SPEED),
+                    (slope(&|s| s.motions[link].velocity.y) / SPEED, motion.acceleration.y / SPEED),
+                ];
+                for (by_differences, value) in pairs {
+                    let error = (by_differences - value).abs();
+                    assert!(error <= 1e-9 * SPEED, "{} link {link} at {time}: {error:e}", sample.name);
+                }
+            }
+        }
+    });
+}
+
+/// Every link with the forces of its joints at the places on their second links, and their moments there.
+#[test]
+fn every_link_is_in_equilibrium() {
+    each(|sample, solver| {
+        let case = &sample.case;
+        for (time, _, state) in solved(solver, case) {
+            let largest = state.forces.iter().fold(0.0, |max: f64, force| max.max(force.norm()));
+            for (index, link) in case.mechanism.links().iter().enumerate().skip(1) {
+                let middle = centre(case, &state, index);
+                let mut force = (case.gravity - centre_acceleration(case, &state, index)) * link.mass;
+                let mut moment = -link.inertia * state.motions[index].alpha;
+                if index == case.drive.link {
+                    moment += state.torques[0];
+                }
+                for (joint, (reaction, own)) in
+                    case.mechanism.joints().iter().zip(state.forces.iter().zip(&state.moments))
+                {
+                    if joint.on(index).is_none() {
+                        continue;
+                    }
+                    let sign = if joint.second.link == index { 1.0 } else { -1.0 };
+                    let place = state.motions[joint.second.link].point(joint.second.local);
+                    force += reaction * sign;
+                    moment += (cross(place - middle, *reaction) + own) * sign;
+                }
+                // Rounding of a linear system of nine equations in units of the largest force; lengths are below a metre.
+                let bound = 1e-13 * largest;
+                assert!(
+                    force.norm() <= bound && moment.abs() <= bound,
+                    "{} {index} {time}: {force} {moment}",
+                    sample.name
+                );
+            }
+        }
+    });
+}
+
+/// The force of a prismatic pair is across its axis, to the rounding of the forces that it comes from.
+#[test]
+fn sliders_are_not_pushed_along_their_guides() {
+    each(|sample, solver| {
+        for (_, _, state) in solved(solver, &sample.case) {
+            let largest = state.forces.iter().fold(0.0, |max: f64, force| max.max(force.norm()));
+            for (joint, force) in sample.case.mechanism.joints().iter().zip(&state.forces) {
+                let Some(axis) = joint.axis_on(joint.first.link) else { continue };
+                let along = state.motions[joint.first.link].arm(axis).dot(force);
+                assert!(along.abs() <= 1e-14 * largest, "{} {}: {along:e} of {largest}", solver.name(), sample.name);
+            }
+        }
+    });
+}
+
+/// Neither knows a joint's reaction: the balance of powers gives the drive, the momentum of all links the frame.
+#[test]
+fn drive_and_frame_agree_with_power_and_momentum() {
+    each(|sample, solver| {
+        let case = &sample.case;
+        let states = solved(solver, case);
+        let size = states.iter().fold(0.0, |max: f64, (_, _, state)| max.max(state.torques[0].abs()));
+        for (time, _, state) in &states {
+            let error = (state.torques[0] - power::balancing_moment(case, state)).abs();
+            assert!(error <= 1e-11 * size, "{} at {time}: {error:e} of {size}", sample.name);
+            let (mut force, mut moment, mut weight) = (Vec2::zeros(), 0.0, 0.0);
+            for (index, link) in case.mechanism.links().iter().enumerate().skip(1) {
+                let inertial = (case.gravity - centre_acceleration(case, state, index)) * link.mass;
+                force += inertial;
+                moment += cross(centre(case, state, index), inertial) - link.inertia * state.motions[index].alpha;
+                weight += inertial.norm();
+            }
+            let shaking = state.shaking(case);
+            let errors = [(shaking.0 - force).norm(), (shaking.1 - moment).abs()];
+            assert!(errors.iter().all(|error| *error <= 1e-12 * weight), "{} {time}: {errors:?}", sample.name);
+        }
+    });
+}
+
+/// With its links named the other way round a joint is the same joint: the force turns about, and so does the moment, now taken
+/// about the place on the other link.
+#[test]
+fn order_of_a_joints_links_does_not_matter() {
+    each(|sample, solver| {
+        let other = sliders::swapped(&sample.case);
+        for ((time, _, one), (_, _, two)) in solved(solver, &sample.case).into_iter().zip(solved(solver, &other)) {
+            let size = one.forces.iter().fold(0.0, |max: f64, force| max.max(force.norm()));
+            for (index, joint) in sample.case.mechanism.joints().iter().enumerate() {
+                let [first, second] = [joint.first, joint.second].map(|side| one.motions[side.link].point(side.local));
+                let moment = if joint.is_prismatic() {
+                    one.moments[index] + cross(second - first, one.forces[index])
+                } else {
+                    0.0
+                };
+                let errors = [(two.forces[index] + one.forces[index]).norm(), (two.moments[index] + moment).abs()];
+                assert!(errors.iter().all(|error| *error <= 1e-12 * size), "{} {time}: {errors:?}", sample.name);
+            }
+        }
+    });
+}

@@ -1,0 +1,3 @@
+//! Parts of the Rapier twin that are tested on shipped scenarios.
+
+mod newton_euler;

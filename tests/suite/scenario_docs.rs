@@ -1,0 +1,34 @@
+//! The worked example of docs/scenario.md is a scenario, and the repository's scenarios can be read.
+
+use std::path::Path;
+
+use linkproof::scenario::Scenario;
+
+#[test]
+fn the_worked_example_is_a_scenario() {
+    let page = include_str!("../../docs/scenario.md");
+    let section = page.split("\n## ").find(|section| section.starts_with("Worked example")).unwrap();
+    let blocks = section.split("```toml\n").skip(1).map(|rest| rest.split("```").next().unwrap());
+    let scenario = Scenario::parse(&blocks.collect::<String>(), Path::new("four_bar.toml"));
+    let scenario = scenario.unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!((scenario.name.as_str(), scenario.case.grid.len(), scenario.dt), ("four_bar", 73, 1e-3));
+    // The rocker of the example's oracle, by the law of cosines.
+    let value = scenario.oracles[0].series[0].points[0].value;
+    assert!((value - (std::f64::consts::PI - 0.6f64.acos())).abs() <= scenario.oracles[0].series[0].points[0].bound);
+}
+
+#[test]
+fn every_scenario_of_the_repository_can_be_read() {
+    let directory = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios");
+    let mut count = 0;
+    for entry in std::fs::read_dir(directory).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_some_and(|extension| extension == "toml") {
+            let scenario = Scenario::load(&path).unwrap_or_else(|error| panic!("{error}"));
+            assert_eq!(Some(scenario.name.as_str()), path.file_stem().and_then(|stem| stem.to_str()));
+            assert!(!scenario.case.grid.is_empty());
+            count += 1;
+        }
+    }
+    assert!(count >= 2);
+}

@@ -1,0 +1,347 @@
+//! Simbody against the analytic reference: all mechanisms of the repository, random ones, other instants, and what must be an error.
+
+use crate::common::higher::{Among, FAMILIES, mechanism};
+use crate::common::random::for_each;
+use crate::common::sketch::Random;
+use crate::common::sliders;
+use crate::common::spec::{Spec, four_bar};
+use crate::common::{shipped, states};
+use analytic::{AssurSolver, NewtonSolver};
+use linkage::ErrorKind;
+use linkage::case::{Case, Grid};
+use linkage::engine::{self, Engine};
+use linkage::math::Vec2;
+use linkage::solver::Solver;
+use linkage::trajectory::{Channel, Stage, Trajectory, Unit};
+use linkproof::compare::{Verdict, residuals};
+use linkproof::proof::{Options, prove};
+use simbody_twin::Simbody;
+
+/// Every scenario of the repository's top level.
+fn scenarios() -> Vec<String> {
+    let directory = concat!(env!("CARGO_MANIFEST_DIR"), "/scenarios");
+    let names = std::fs::read_dir(directory).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    let mut names: Vec<String> = names.filter(|name| name.ends_with(".toml")).collect();
+    // Drives whose speed changes are refused.
+    names.retain(|name| shipped(name).case.is_steady());
+    names.sort();
+    assert!(names.len() >= 12, "{names:?}");
+    names
+}
+
+fn solve(solver: &dyn Solver, case: &Case) -> Trajectory {
+    solver.solve(case, &mut |_| {}).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn default() -> Simbody {
+    Simbody::new(Simbody::ACCURACY)
+}
+
+/// That Simbody and the reference agree within the engine's own bound on its error, times `condition`, in every channel. Returns the largest
+/// errors of angles and of reactions with moments, relative to their scales.
+fn agree(case: &Case, engine: &Simbody, reference: &dyn Solver, condition: f64) -> [f64; 2] {
+    let (truth, run) = (solve(reference, case), solve(engine, case));
+    let mut worst = [0.0_f64; 2];
+    let found = residuals(&truth, &run).unwrap();
+    assert_eq!(found.len(), truth.channels().len(), "a channel is missing");
+    for residual in found {
+        let kind = residual.channel.kind;
+        let bound = condition * engine.noise(case, kind);
+        assert!(residual.max <= bound, "{}: {:e} is beyond {bound:e}", residual.channel, residual.max);
+        let share = residual.share();
+        match kind.stage {
+            Stage::Positions if kind.unit == Unit::Radian => worst[0] = worst[0].max(share),
+            Stage::Reactions | Stage::BalancingMoment => worst[1] = worst[1].max(share),
+            _ => {}
+        }
+    }
+    worst
+}
+
+/// The figures asked for, 1e-8 and 1e-7 of the half range, at the loosest accuracy that makes sense, the default and the tightest that does
+/// not take minutes. Under prescribed motion they do not differ: see the engine's `noise`.
+#[test]
+fn all_scenarios_agree_with_the_reference() {
+    for name in scenarios() {
+        let case = shipped(&name).case;
+        for accuracy in [1e-2, Simbody::ACCURACY, 1e-12] {
+            let [angles, reactions] = agree(&case, &Simbody::new(accuracy), &AssurSolver, 1.0);
+            println!("{name:24} {accuracy:e}: angles {angles:.1e}, reactions and moments {reactions:.1e}");
+            assert!(angles <= 1e-8 && reactions <= 1e-7, "{name}: {angles:e} {reactions:e}");
+        }
+    }
+}
+
+#[test]
+fn the_other_analytic_side_agrees_too() {
+    for name in ["ov7_base.toml", "fourth_class.toml", "quick_return.toml"] {
+        agree(&shipped(name).case, &default(), &NewtonSolver, 1.0);
+    }
+}
+
+/// Between instants far apart the integrator chooses its steps alone, and the projection has more to do.
+#[test]
+fn instants_far_apart_are_as_good() {
+    for name in ["crank_rocker.toml", "ov7_base.toml", "fourth_class.toml", "compressor.toml", "five_bar.toml"] {
+        let case = shipped(name).case;
+        let sense = case.drive.sense();
+        let cranks = (0..=5).map(|k| case.drive.start + sense * 1.9 * f64::from(k)).collect();
+        let case = case.on(Grid::of_cranks(&case.drive, cranks));
+        for accuracy in [1e-2, 1e-4, 1e-6, Simbody::ACCURACY] {
+            agree(&case, &Simbody::new(accuracy), &AssurSolver, 1.0);
+        }
+    }
+}
+
+/// Before the start, after it, in any order, twice, and without the start itself.
+#[test]
+fn instants_may_come_in_any_order_on_both_sides_of_the_start() {
+    for name in ["crank_rocker.toml", "quick_return.toml", "five_bar.toml"] {
+        let case = shipped(name).case;
+        let times: Vec<f64> = [3.0, -1.0, 0.5, -2.5, 3.0, 0.0, -0.001].iter().map(|turns| turns * 0.1).collect();
+        for times in [times, vec![-0.3, -0.2], vec![0.25, 0.3], vec![0.0]] {
+            let case = case.on(Grid::of_times(&case.drive, times));
+            agree(&case, &default(), &AssurSolver, 1.0);
+        }
+    }
+    assert_eq!(solve(&default(), &shipped("crank_rocker.toml").case.on(Grid::default())).times().len(), 0);
+}
+
+/// Names in the other order, the other place, the other sense, heavier and without masses: all of them loaded.
+#[test]
+fn variants_of_a_four_bar_agree() {
+    let mut base = four_bar([0.4, 0.1, 0.35, 0.3], true);
+    base.loads = vec![("rocker".into(), 12.0), ("coupler".into(), 3.0)];
+    let mut reversed = base.clone();
+    reversed.pins.iter_mut().for_each(|pin| pin.links.reverse());
+    let mut light = base.clone();
+    light.links[1].mass = None;
+    let mut empty = base.clone();
+    empty.links.iter_mut().for_each(|link| link.mass = None);
+    let mut points = base.clone();
+    points.links.iter_mut().for_each(|link| link.mass = Some((2.0, Vec2::zeros(), 0.0)));
+    let far = base.moved(Vec2::new(300.0, -200.0), 2.0);
+    let variants: [(&str, Spec); 8] = [
+        ("mirrored", base.mirrored()),
+        ("heavier", base.heavier(1e3)),
+        ("base", base),
+        ("reversed", reversed),
+        ("light", light),
+        ("empty", empty),
+        ("points", points),
+        ("far", far),
+    ];
+    for (name, spec) in variants {
+        let case = spec.scenario().unwrap().case;
+        println!("{name}: {:?}", agree(&case, &default(), &AssurSolver, 1.0));
+    }
+}
+
+#[test]
+fn laws_other_than_constant_speeds_are_refused_by_name() {
+    let case = shipped("cycloidal_start.toml").case;
+    let error = default().solve(&case, &mut |_| {}).unwrap_err();
+    assert_eq!(error.kind(), linkage::ErrorKind::Unsupported);
+    assert!(error.message().contains("law \"cycloidal\"") && error.way_out().is_some(), "{error}");
+}
+
+/// Before the start and after it, with all loads of the press, and with a force against the motion of its ram.
+#[test]
+fn loads_of_all_sorts_agree() {
+    let mut case = shipped("loaded_slider.toml").case;
+    let ram = case.mechanism.link_named("ram").unwrap();
+    let local = case.mechanism.links()[ram].points[2].local;
+    let at = linkage::mechanism::Side { link: ram, local };
+    case.loads.push(linkage::drive::Load::ResistingForce { at, force: 200.0 });
+    let rod = case.mechanism.link_named("rod").unwrap();
+    case.loads.push(linkage::drive::Load::TorsionSpring { links: [0, rod], stiffness: 30.0, free_angle: 0.4 });
+    case.loads.push(linkage::drive::Load::Resistance { link: rod, moment: 7.0 });
+    let cranks = (-7..20).map(|k| 0.05 + 0.31 * f64::from(k)).collect();
+    let case = case.on(Grid::of_cranks(&case.drive, cranks));
+    println!("{:?}", agree(&case, &default(), &AssurSolver, 1.0));
+}
+
+/// All sorts of sliders, written in either order; in the Oldham coupling the crank could be reached by sliding alone.
+#[test]
+fn sliders_agree_however_their_joints_are_written() {
+    for sample in sliders::all() {
+        for case in [sample.case.clone(), sliders::swapped(&sample.case), crank_last(&sample.case)] {
+            agree(&case, &default(), &AssurSolver, 1.0);
+        }
+    }
+}
+
+/// The same case with its joints in the other order, so that the driven one stands last.
+fn crank_last(case: &Case) -> Case {
+    use linkage::mechanism::{AssemblyMode, Mechanism, Structure};
+    let joints: Vec<_> = case.mechanism.joints().iter().rev().cloned().collect();
+    let driven = joints.len() - 1 - case.drive.joint;
+    let mechanism = Mechanism::new(case.mechanism.links().to_vec(), joints).unwrap();
+    let structure = Structure::of(&mechanism, &[driven]).unwrap();
+    let mut drive = case.drive.clone();
+    drive.joint = driven;
+    // One group a sample: its links may have changed places.
+    let turned = structure.groups[0].links != case.structure.groups[0].links;
+    let mode = |&mode: &AssemblyMode| match mode {
+        AssemblyMode::Ahead if turned => AssemblyMode::Behind,
+        AssemblyMode::Behind if turned => AssemblyMode::Ahead,
+        mode => mode,
+    };
+    let modes = case.modes.iter().map(mode).collect();
+    Case { mechanism, structure, drive, modes, ..case.clone() }
+}
+
+/// Chains of dyads magnify errors from dyad to dyad, in forces on the way back too.
+#[test]
+fn random_mechanisms_agree() {
+    for_each(40, |sample| {
+        agree(&sample.scenario.case, &default(), &AssurSolver, sample.condition.powi(2));
+        Ok(())
+    });
+}
+
+/// How near to a singular pose a run comes: its largest speed or root of an acceleration, over the crank's (lengths are about a metre). What a
+/// small error becomes grows with its square.
+fn nearness(case: &Case, truth: &Trajectory) -> f64 {
+    let crank = case.drive.at(0.0).omega.abs();
+    let of = |(channel, values): (&Channel, &[f64])| {
+        let most = values.iter().fold(0.0f64, |max, value| max.max(value.abs()));
+        match channel.kind.stage {
+            Stage::Velocities => most / crank,
+            Stage::Accelerations => most.sqrt() / crank,
+            _ => 0.0,
+        }
+    };
+    truth.iter().map(of).fold(1.0, f64::max)
+}
+
+#[test]
+fn random_higher_groups_agree() {
+    let mut solved = 0;
+    for (index, family) in FAMILIES.iter().enumerate() {
+        let mut random = Random::from_seed(60 + index as u8);
+        for among in [Among::Alone, Among::BehindADyad, Among::CarryingADyad] {
+            let (spec, _) = mechanism(&mut random, family, among);
+            let Ok(scenario) = spec.scenario() else { continue };
+            // Beyond a dead point there is nothing to compare.
+            if let Ok(truth) = AssurSolver.solve(&scenario.case, &mut |_| {}) {
+                agree(&scenario.case, &default(), &AssurSolver, nearness(&scenario.case, &truth).powi(2));
+                solved += 1;
+            }
+        }
+    }
+    println!("{solved} groups of {} families", FAMILIES.len());
+    assert!(solved >= FAMILIES.len(), "{solved}");
+}
+
+#[test]
+fn the_same_run_gives_the_same_bits() {
+    for name in ["ov7_base.toml", "compressor.toml"] {
+        let case = shipped(name).case;
+        let [one, two] = [(), ()].map(|()| solve(&default(), &case));
+        for ((channel, a), (_, b)) in one.iter().zip(two.iter()) {
+            assert!(a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits()), "{channel}");
+        }
+    }
+}
+
+/// What is not asked for changes nothing in what is.
+#[test]
+fn positions_alone_are_the_same_positions() {
+    let case = shipped("six_bar_slider.toml").case;
+    let times = [0.0, 0.01, 0.02];
+    let whole = states(&default(), &case, &times).unwrap();
+    let mut bare = case.clone();
+    bare.wanted = linkage::case::Wanted::of(&[Stage::Positions]);
+    for (a, b) in whole.iter().zip(states(&default(), &bare, &times).unwrap()) {
+        assert!(a.motions == b.motions && a.angles == b.angles);
+    }
+}
+
+#[test]
+fn a_proof_with_simbody_agrees() {
+    for name in ["crank_rocker.toml", "quick_return.toml"] {
+        let proof = prove(&shipped(name), &Options::of_engine("simbody"), &mut |_| {});
+        let proof = proof.unwrap();
+        assert_eq!(proof.verdict.word(), "agree", "{name}: {:?}", proof.verdict);
+        assert!(proof.engine().info.version.starts_with("Simbody 3."), "{}", proof.engine().info.version);
+    }
+}
+
+#[test]
+fn it_is_listed_with_an_accuracy_instead_of_a_step() {
+    let engine = linkproof::engines::named("simbody", 1e-3).unwrap();
+    assert!(engine.controls_error());
+    assert_eq!(engine.settings().resolution, Simbody::ACCURACY);
+    assert_eq!(engine.at(1e-5).settings().resolution, 1e-5);
+    assert!(engine.told().iter().any(|(name, value)| *name == "accuracy" && value == "1e-8"));
+}
+
+/// The links reach 0.45 m, which the outer joints of the dyad pass at acos(0.0475 / 0.24) = 78.5843 deg.
+#[test]
+fn a_dead_point_is_an_error_with_time_crank_angle_and_joint() {
+    let mut spec = four_bar([0.4, 0.3, 0.25, 0.2], true);
+    spec.start = 0.5;
+    for (speed, step) in [(10.0, 0.05), (-10.0, 0.05)] {
+        spec.speed = speed;
+        spec.grid = (0.5, step, 60);
+        let case = spec.scenario().unwrap().case;
+        for accuracy in [1e-2, Simbody::ACCURACY, 1e-11] {
+            let error = Simbody::new(accuracy).solve(&case, &mut |_| {}).unwrap_err();
+            assert_eq!(error.kind(), ErrorKind::Numeric, "{error}");
+            let (_, rest) = error.message().split_once("crank angle ").expect("the crank angle is told");
+            let crank: f64 = rest.split_once(" deg").unwrap().0.parse().unwrap();
+            let dead = (0.0475_f64 / 0.24).acos().to_degrees();
+            assert!((crank - dead).abs() <= 0.01, "{crank} instead of {dead}: {error}");
+            assert!(error.message().contains("t = ") && error.message().contains("joint \"B\""), "{error}");
+            assert!(error.way_out().is_some_and(|way| way.contains("assembled")), "{error}");
+            assert!(!error.message().contains(".cpp"), "{error}");
+        }
+    }
+}
+
+/// A slider that its rod does not reach beyond 261.347 deg.
+#[test]
+fn a_slider_out_of_reach_is_an_error() {
+    let error = default().solve(&sliders::short_rod(), &mut |_| {}).unwrap_err();
+    assert!(error.kind() == ErrorKind::Numeric && error.message().contains("crank angle 261.34"), "{error}");
+}
+
+/// Simbody would quietly assemble another pose nearby.
+#[test]
+fn a_start_pose_that_is_open_is_refused() {
+    let mut case = shipped("crank_rocker.toml").case;
+    let link = case.start.0.len() - 1;
+    case.start.0[link].angle += 1e-3;
+    let error = default().solve(&case, &mut |_| {}).unwrap_err();
+    assert!(error.kind() == ErrorKind::Geometry && error.message().contains("at joint \""), "{error}");
+}
+
+#[test]
+fn an_accuracy_that_is_none_is_refused() {
+    let case = shipped("crank_rocker.toml").case;
+    for accuracy in [0.0, -1e-3, 1.0, f64::NAN, f64::INFINITY] {
+        let error = Simbody::new(accuracy).solve(&case, &mut |_| {}).unwrap_err();
+        assert!(error.kind() == ErrorKind::Input && error.message().contains("accuracy"), "{error}");
+    }
+}
+
+/// Free motion, by a third solver that shares nothing with the two sides: motor and loads are forces that Simbody asks for, and it integrates by itself.
+#[test]
+fn run_ups_and_pendulums_are_those_of_the_reference() {
+    let mut agreed = 0;
+    for name in ["crank_rocker_runup", "ov7_new_runup", "compressor_runup", "pendulum", "double_pendulum"] {
+        let case = shipped(&format!("{name}.toml")).case;
+        let reference = NewtonSolver.solve(&case, &mut |_| {}).unwrap();
+        let found = Simbody::new(1e-9).solve(&case, &mut |_| {}).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let all = residuals(&reference, &found).unwrap();
+        let worst = all.iter().map(|r| r.share()).fold(0.0, f64::max);
+        println!("{name}: {worst:.1e} of the scale");
+        assert!(worst < 1e-6, "{name}: {worst:e}");
+        let proof = prove(&shipped(&format!("{name}.toml")), &Options::of_engine("simbody"), &mut |_| {}).unwrap();
+        // The compressor's pistons have channels of a thousandth of what is natural, of which its accuracy proves nothing.
+        assert!(!matches!(proof.verdict, Verdict::Disagree { .. }), "{name}: {:?}", proof.verdict);
+        agreed += usize::from(matches!(proof.verdict, Verdict::Agree { .. }));
+    }
+    assert!(agreed >= 4, "{agreed} of 5 agree");
+}

@@ -1,0 +1,75 @@
+//! Which crank angles of a variant are looked at, and in which steps.
+
+use super::geometry::{Linkage, OURS, Variant};
+
+/// Transmission angle (deg) that the grid keeps where the crank cannot turn fully.
+const LEAST: f64 = 15.0;
+/// The same where the given pose has less than that.
+const SMALL: f64 = 10.0;
+/// Engine steps from the grid's ends to the limits. Near a limit the motion goes as the root of the distance, so that it alone decides what a step
+/// is worth. With forty, one channel each of variants 15 and 35 stays inconclusive; with sixty none does.
+const STEPS_TO_LIMIT: f64 = 60.0;
+/// Engine step (deg) far from limits, and what steps are multiples of.
+const ENGINE: [f64; 2] = [0.25, 0.01];
+/// Fewest instants of a grid.
+const FEWEST: f64 = 12.0;
+/// Slack of grid ends (deg): an end at a whole degree may be missed by rounding.
+const SLACK: f64 = 1e-6;
+
+const NESTED: &str = "limits are limits of larger angles too";
+
+/// What a variant's file is written from.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    pub linkage: Linkage,
+    /// Crank angles that can be reached (deg); `None` if all can.
+    pub limits: Option<[f64; 2]>,
+    /// Smaller transmission angle of the given pose (deg).
+    pub given: f64,
+    /// Transmission angle that the grid keeps (deg); 0 where the crank turns fully.
+    pub kept: f64,
+    /// Crank angle of the start (deg): alpha, unless the grid leaves the given pose out.
+    pub start: f64,
+    /// Crank angles (deg).
+    pub grid: [f64; 2],
+    pub grid_step: f64,
+    /// Smallest transmission angles on the grid (deg), a dyad each.
+    pub least: [f64; 2],
+    /// Step of the engine (deg).
+    pub engine_step: f64,
+}
+
+impl Plan {
+    pub fn of(variant: &Variant) -> Self {
+        let linkage = Linkage::of(variant, OURS);
+        let alpha = variant.alpha;
+        let limits = linkage.interval(alpha, 0.0);
+        let given = linkage.transmission(alpha);
+        let (kept, start, [low, high]) = match limits {
+            None => (0.0, alpha, [alpha, alpha + 360.0]),
+            Some(_) if given >= LEAST - SLACK => (LEAST, alpha, linkage.interval(alpha, LEAST).expect(NESTED)),
+            Some([from, to]) => {
+                let inside = (1..360).flat_map(|k| [alpha + f64::from(k), alpha - f64::from(k)]);
+                let start = inside.filter(|at| (from..to).contains(at)).find(|&at| linkage.transmission(at) >= SMALL);
+                let start = start.expect("the mechanism leaves its bad pose");
+                (SMALL, start, linkage.interval(start, SMALL).expect(NESTED))
+            }
+        };
+        let ends = |step: f64| {
+            [((low - start - SLACK) / step).ceil() * step, ((high - start + SLACK) / step).floor() * step]
+                .map(|offset| start + offset)
+        };
+        let steps = (0..).map(|k| 0.5f64.powi(k));
+        let grid_step = steps.into_iter().find(|&step| high - low >= FEWEST * step).unwrap();
+        let grid = ends(grid_step);
+        let least = linkage.least(grid);
+        let room = limits.map_or(f64::INFINITY, |[from, to]| (grid[0] - from).min(to - grid[1]));
+        let engine_step = ((room / STEPS_TO_LIMIT / ENGINE[1]).floor() * ENGINE[1]).clamp(ENGINE[1], ENGINE[0]);
+        Plan { limits, given, kept, start, grid, grid_step, least, engine_step, linkage }
+    }
+
+    /// Smallest transmission angle on the grid (deg).
+    pub fn smallest(&self) -> f64 {
+        self.least[0].min(self.least[1])
+    }
+}
