@@ -82,7 +82,10 @@ impl Verdict {
                     way_out(parts)
                 ),
             },
-            verdict => verdict,
+            verdict @ (Verdict::Agree { .. }
+            | Verdict::Disagree { .. }
+            | Verdict::Expected { .. }
+            | Verdict::Inconclusive { .. }) => verdict,
         }
     }
 }
@@ -156,7 +159,9 @@ impl Check {
                     "the finding \"{finding}\" says that the published number is wrong, but it agrees: correct one of the two"
                 ),
             },
-            _ => Verdict::Expected { finding: finding.to_string() },
+            Verdict::Disagree { .. } | Verdict::Expected { .. } | Verdict::Inconclusive { .. } => {
+                Verdict::Expected { finding: finding.to_string() }
+            }
         };
         self
     }
@@ -225,7 +230,9 @@ mod tests {
     fn what_is_open_says_what_would_close_it() {
         let reason = |parts: Parts| match Verdict::of_engine(&residual(1e-4), &converging(2.0), parts, 1e-2) {
             Verdict::Inconclusive { reason } => reason,
-            other => panic!("{other:?}"),
+            other @ (Verdict::Agree { .. } | Verdict::Disagree { .. } | Verdict::Expected { .. }) => {
+                panic!("{other:?}")
+            }
         };
         assert!(reason(Parts { discretisation: 0.5, iteration: 0.1, rounding: 0.1 }).contains("--dt"));
         assert!(reason(Parts { discretisation: 0.1, iteration: 0.5, rounding: 0.1 }).contains("--sweeps"));

@@ -55,8 +55,13 @@ fn of_one(oracle: &Oracle, series: &OracleSeries, solved: &Trajectory, side: &st
         let difference = values[row] - point.value;
         let deviation = if series.channel.kind.periodic { wrapped(difference) } else { difference }.abs();
         let basis = Basis::Published { digits: point.digits, source: oracle.source.clone() };
-        Check::new(family, deviation, Tolerance { abs: point.bound, rel: 0.0, basis }, series.channel.kind.unit.symbol())
-            .located(|| format!("at crank angle {:.3} deg", point.crank.to_degrees()))
+        Check::new(
+            family,
+            deviation,
+            Tolerance { abs: point.bound, rel: 0.0, basis },
+            series.channel.kind.unit.symbol(),
+        )
+        .located(|| format!("at crank angle {:.3} deg", point.crank.to_degrees()))
     };
     let [family, wrong] = [false, true].map(|wrong| family(oracle, wrong, side));
     // Each cell has its own bound: the worst is the one that uses most of it.

@@ -226,7 +226,7 @@ fn check(check: &Check) -> CheckRow {
         reason: reason(&check.verdict),
         finding: match &check.verdict {
             Verdict::Expected { finding } => Some(finding.clone()),
-            _ => None,
+            Verdict::Agree { .. } | Verdict::Disagree { .. } | Verdict::Inconclusive { .. } => None,
         },
     }
 }

@@ -66,7 +66,10 @@ const ROOMS: &[(&str, &str)] = &[
 /// What rooms of the harness must not name of other crates, whatever Cargo would let them.
 const NEVER: &[(&str, &str)] = &[
     // Only trajectories are compared.
-    ("linkproof::compare", "analytic rapier_twin simbody_twin workshop linkage::case linkage::mechanism linkage::solver"),
+    (
+        "linkproof::compare",
+        "analytic rapier_twin simbody_twin workshop linkage::case linkage::mechanism linkage::solver",
+    ),
     // A recording is a serialised trajectory.
     ("linkproof::record", "analytic rapier_twin simbody_twin workshop linkage::case linkage::solver"),
     ("linkproof::report", "analytic rapier_twin simbody_twin workshop linkage::mechanism"),
@@ -209,7 +212,8 @@ fn the_map_has_the_edges_of_the_table() {
         let row = map.lines().find(|line| line.starts_with(&format!("| `{name}` |")));
         let row = row.unwrap_or_else(|| panic!("ARCHITECTURE.md has no row for `{name}`"));
         let sees = row.trim_end_matches('|').rsplit('|').next().unwrap();
-        let told: BTreeSet<&str> = sees.split(['`', ',', ' ']).filter(|word| !word.is_empty() && *word != "-").collect();
+        let told: BTreeSet<&str> =
+            sees.split(['`', ',', ' ']).filter(|word| !word.is_empty() && *word != "-").collect();
         assert_eq!(told, own.split_whitespace().collect(), "ARCHITECTURE.md, `{name}`");
     }
 }
@@ -238,7 +242,8 @@ fn every_room_of_a_ruled_crate_has_a_row() {
         let found: BTreeSet<String> = files.iter().map(|file| room(file)).collect();
         let roots = ["lib", "main", "fixtures"].map(|root| format!("{name}::{root}"));
         let found: BTreeSet<&str> = found.iter().filter(|own| !roots.contains(*own)).map(String::as_str).collect();
-        let rows: BTreeSet<&str> = ruled.iter().copied().filter(|room| room.split("::").next() == Some(*name)).collect();
+        let rows: BTreeSet<&str> =
+            ruled.iter().copied().filter(|room| room.split("::").next() == Some(*name)).collect();
         assert_eq!(found, rows, "{name}: one row a room");
     }
 }

@@ -196,7 +196,8 @@ impl Sampler {
         if case.is_free() {
             self.cranks[row] = state.angles[case.drive.link] - case.drive.zero;
         }
-        let wanted = Stage::ALL.into_iter().filter(|&stage| self.wanted.has(stage)).fold(0, |all, stage| all | bit(stage));
+        let wanted =
+            Stage::ALL.into_iter().filter(|&stage| self.wanted.has(stage)).fold(0, |all, stage| all | bit(stage));
         let mut out = Row { values: &mut self.block[at * width..][..width], wanted };
         for (index, link) in case.mechanism.links().iter().enumerate().skip(1) {
             let motion = &state.motions[index];

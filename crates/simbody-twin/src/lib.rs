@@ -91,7 +91,9 @@ impl Engine for Simbody {
     }
 
     fn with(&self, settings: Settings) -> Box<dyn Engine> {
-        Box::new(Simbody { accuracy: settings.resolution })
+        // It has no sweeps and no substeps, one route, and nothing to extrapolate.
+        let Settings { resolution: accuracy, sweeps: _, substeps: _, route: _, extrapolated: _ } = settings;
+        Box::new(Simbody { accuracy })
     }
 
     fn controls_error(&self) -> bool {

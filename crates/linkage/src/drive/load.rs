@@ -236,8 +236,7 @@ impl Load {
     #[inline]
     #[must_use]
     pub fn nature(&self) -> Nature<'_> {
-        let plain =
-            |sort| Nature { sort, senses: Senses::Nothing, is_viscous: false, twist: None, courses: &[] };
+        let plain = |sort| Nature { sort, senses: Senses::Nothing, is_viscous: false, twist: None, courses: &[] };
         match self {
             &Load::Resistance { link, moment: _ } => Nature { senses: Senses::Link(link), ..plain("resistance") },
             Load::Moment { link, moment, acts } => {

@@ -57,7 +57,7 @@ impl MotionLaw {
     pub fn constant(&self) -> Option<f64> {
         match *self {
             MotionLaw::ConstantSpeed(omega) => Some(omega),
-            _ => None,
+            MotionLaw::Ramp { .. } | MotionLaw::Cycloidal { .. } | MotionLaw::Table(_) => None,
         }
     }
 
@@ -66,7 +66,7 @@ impl MotionLaw {
     pub fn jump(&self) -> Option<f64> {
         match *self {
             MotionLaw::Ramp { time, .. } => Some(time),
-            _ => None,
+            MotionLaw::ConstantSpeed(_) | MotionLaw::Cycloidal { .. } | MotionLaw::Table(_) => None,
         }
     }
 
@@ -161,7 +161,9 @@ impl Drive {
     pub fn step_speed(&self, from: f64, to: f64) -> f64 {
         match self.law {
             MotionLaw::ConstantSpeed(omega) => omega.copysign(omega * (to - from)),
-            _ => (self.at(to).angle - self.at(from).angle) / (to - from).abs(),
+            MotionLaw::Ramp { .. } | MotionLaw::Cycloidal { .. } | MotionLaw::Table(_) => {
+                (self.at(to).angle - self.at(from).angle) / (to - from).abs()
+            }
         }
     }
 

@@ -99,13 +99,7 @@ pub struct ChannelKind {
     pub stage: Stage,
 }
 
-const fn row(
-    reading: Reading,
-    suffix: &'static str,
-    quantity: &'static str,
-    unit: Unit,
-    stage: Stage,
-) -> ChannelKind {
+const fn row(reading: Reading, suffix: &'static str, quantity: &'static str, unit: Unit, stage: Stage) -> ChannelKind {
     ChannelKind { subject: reading.subject(), reading, suffix, quantity, unit, periodic: false, stage }
 }
 
