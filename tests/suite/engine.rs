@@ -176,7 +176,7 @@ fn regress_03_massless_links_move_alike_and_carry_no_force() {
         let (with, without) = (solve(engine.as_ref(), &with), solve(engine.as_ref(), &without));
         for (channel, values) in without.iter() {
             // The mass centre of a massless link is its frame's origin, another point.
-            let centre = channel.kind.subject == Subject::Link && channel.kind.unit.starts_with('m');
+            let centre = channel.kind.subject == Subject::Link && channel.kind.unit.symbol().starts_with('m');
             if channel.kind.stage >= Stage::Reactions {
                 // Where stand-ins are carried by applied forces, what is left is rounding.
                 let left = if engine.controls_error() { engine.noise(case, channel.kind) } else { 0.0 };

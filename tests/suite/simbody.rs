@@ -12,7 +12,7 @@ use linkage::case::{Case, Grid};
 use linkage::engine::{self, Engine};
 use linkage::math::{KeepNan, Vec2};
 use linkage::solver::Solver;
-use linkage::trajectory::{Channel, Stage, Trajectory};
+use linkage::trajectory::{Channel, Stage, Trajectory, Unit};
 use linkproof::compare::{Verdict, residuals};
 use linkproof::proof::{Options, prove};
 use simbody_twin::Simbody;
@@ -50,7 +50,7 @@ fn agree(case: &Case, engine: &Simbody, reference: &dyn Solver, condition: f64) 
         assert!(residual.max <= bound, "{}: {:e} is beyond {bound:e}", residual.channel, residual.max);
         let share = residual.share();
         match kind.stage {
-            Stage::Positions if kind.unit == "rad" => worst[0] = worst[0].larger(share),
+            Stage::Positions if kind.unit == Unit::Radian => worst[0] = worst[0].larger(share),
             Stage::Reactions | Stage::BalancingMoment => worst[1] = worst[1].larger(share),
             _ => {}
         }

@@ -8,7 +8,7 @@ use linkage::error::Advice;
 use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::Mechanism;
 use linkage::solver::Solver;
-use linkage::trajectory::{Channel, Stage, Trajectory};
+use linkage::trajectory::{Channel, Stage, Trajectory, Unit};
 use linkproof::compare::{Verdict, residuals};
 use linkproof::proof::{Options, prove};
 use linkproof::scenario::Scenario;
@@ -139,7 +139,7 @@ fn the_twin_runs_up_with_order_one_and_extrapolated_exactly() {
     let scenario = shipped("crank_rocker_runup.toml");
     let begun = (0..=100).map(|k| f64::from(k) * 1e-3).collect();
     let begun = scenario.case.on(Grid::of_times(scenario.case.crank(), begun)).unwrap();
-    let angle = |channel: &Channel| channel.kind.unit == "rad";
+    let angle = |channel: &Channel| channel.kind.unit == Unit::Radian;
     let force = |channel: &Channel| channel.kind.stage >= Stage::Reactions;
     // The impulse build needs its thousands of sweeps: a fifth of the time will do for it.
     for (name, route, case) in [

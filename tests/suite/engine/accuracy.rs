@@ -5,7 +5,7 @@ use linkage::case::{Case, Wanted};
 use linkage::engine::{Engine, Route, Settings};
 use linkage::math::KeepNan;
 use linkage::solver::{Solver, State};
-use linkage::trajectory::Stage;
+use linkage::trajectory::{Stage, Unit};
 use linkproof::compare::convergence::observed_order;
 use linkproof::compare::{Residual, residuals};
 
@@ -30,7 +30,7 @@ fn worst(found: &[Residual]) -> [f64; 2] {
     let most = |wanted: &dyn Fn(&Residual) -> bool| {
         found.iter().filter(|r| wanted(r)).map(|r| r.share()).fold(0.0, f64::larger)
     };
-    [most(&|r| r.channel.kind.unit == "rad"), most(&|r| r.channel.kind.stage >= Stage::Reactions)]
+    [most(&|r| r.channel.kind.unit == Unit::Radian), most(&|r| r.channel.kind.stage >= Stage::Reactions)]
 }
 
 /// Story 61. Angles, and reactions and moments by every route, over half the range; bounds a tenth above what was measured.
@@ -172,7 +172,7 @@ fn regress_62_orders_and_extrapolation_of_all_classes() {
         for residual in residuals(&truth, &runs[1]).unwrap() {
             let kind = residual.channel.kind;
             let wide = match kind.stage {
-                Stage::Positions if kind.unit == "rad" => 0.05,
+                Stage::Positions if kind.unit == Unit::Radian => 0.05,
                 Stage::Reactions => 0.1,
                 _ => continue,
             };
@@ -250,7 +250,7 @@ fn regress_60_single_precision_is_within_its_rounding_bound() {
                 for residual in residuals(&wide, &narrow).unwrap() {
                     let kind = residual.channel.kind;
                     let noise = engines[1].noise(&case, kind);
-                    let most = used.entry((kind.stage, kind.unit)).or_insert(0.0);
+                    let most = used.entry((kind.stage, kind.unit.symbol())).or_insert(0.0);
                     *most = most.larger(residual.max / noise);
                     assert!(
                         residual.max <= noise,

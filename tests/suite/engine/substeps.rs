@@ -4,7 +4,7 @@ use analytic::AssurSolver;
 use linkage::case::{Case, Grid};
 use linkage::engine::{Engine, Route, Settings};
 use linkage::math::KeepNan;
-use linkage::trajectory::{Channel, Stage};
+use linkage::trajectory::{Channel, Stage, Unit};
 use linkproof::compare::residuals;
 
 use super::{epsilon, has_formal_order, solve};
@@ -70,7 +70,7 @@ fn regress_67_two_substeps_are_nearly_as_good_as_half_the_step() {
         let most = |wanted: &dyn Fn(&linkproof::compare::Residual) -> bool| {
             found.iter().filter(|r| wanted(r)).map(|r| r.share()).fold(0.0, f64::larger)
         };
-        [most(&|r| r.channel.kind.unit == "rad"), most(&|r| r.channel.kind.stage >= Stage::Reactions)]
+        [most(&|r| r.channel.kind.unit == Unit::Radian), most(&|r| r.channel.kind.stage >= Stage::Reactions)]
     };
     for name in ["rapier", "impulse"] {
         for (route, shares) in [(Route::Native, [0.3, 0.7]), (Route::Probe, [0.3, 1.1])] {
