@@ -12,6 +12,7 @@ use super::{drive_graphs, drive_run_up};
 use crate::report::table;
 use crate::scenario::Scenario;
 use analytic::AssurSolver;
+use analytic::range::explained;
 use analytic::reduced::means::{self as reduced, Means};
 use analytic::reduced::{ACCURACY, Model, RunUp};
 use analytic::steady::course::{Extremes, Row};
@@ -95,8 +96,12 @@ struct Found {
 pub(super) fn drive(args: &Args) -> Result<()> {
     check(args)?;
     let scenario = load(&args.file, &args.mode)?.nominal();
+    driven(args, &scenario).map_err(|error| explained(&scenario.case, error))
+}
+
+fn driven(args: &Args, scenario: &Scenario) -> Result<()> {
     if let Some(file) = &args.choice.catalogue {
-        return motor_choice::choose(&args.choice, file, &scenario, args.json.as_deref());
+        return motor_choice::choose(&args.choice, file, scenario, args.json.as_deref());
     }
     let model = Model::of(&scenario.case)?;
     let targets = [&args.run_up, &args.json, &args.svg];
@@ -111,15 +116,15 @@ pub(super) fn drive(args: &Args) -> Result<()> {
             output::print(&drive_run_up::told(&run_up))?;
         }
     }
-    let found = find(args, &scenario, &model)?;
+    let found = find(args, scenario, &model)?;
     if let Some(to) = &args.svg {
         let steady = found.steady.as_ref().map(|(_, regime)| regime);
-        output::write(&drive_graphs::draw(&scenario, &model, &found.means, &found.extremes, steady)?, to)?;
+        output::write(&drive_graphs::draw(scenario, &model, &found.means, &found.extremes, steady)?, to)?;
     }
     match &args.json {
-        Some(to) => output::write(&format!("{}\n", as_json(args, &scenario, &found)), to),
+        Some(to) => output::write(&format!("{}\n", as_json(args, scenario, &found)), to),
         None if told_there => Ok(()),
-        None => output::print(&as_text(args, &scenario, &found)),
+        None => output::print(&as_text(args, scenario, &found)),
     }
 }
 
@@ -165,7 +170,7 @@ fn find(args: &Args, scenario: &Scenario, model: &Model) -> Result<Found> {
             Some(([sense * speed, sense * speed * motor.ratio], model.regime(&cranks, ACCURACY)?))
         }
     };
-    let flywheel = args.non_uniformity.map(|wanted| Flywheel::of(&model, wanted, ACCURACY)).transpose()?;
+    let flywheel = args.non_uniformity.map(|wanted| Flywheel::of(model, wanted, ACCURACY)).transpose()?;
     let (extremes, rows) = (model.extremes()?, model.rows(&cranks)?);
     Ok(Found { means, extremes, added: model.added_inertia(), rows, steady, averaged, flywheel })
 }

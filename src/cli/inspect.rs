@@ -7,6 +7,7 @@ use serde_json::{Value, json};
 
 use super::{modes, output, range};
 use crate::scenario::Scenario;
+use analytic::range::explained;
 use linkage::case::Grid;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::mechanism::assembly::{Choice, transmission_sine};
@@ -48,7 +49,7 @@ pub(super) fn inspect(args: &Args) -> Result<()> {
             Grid::of_cranks(case.crank(), vec![crank])
                 .check(case.crank())
                 .map_err(|message| Error::new(ErrorKind::Input, message).help("check --at-crank-deg"))?;
-            Some((crank, analytic::modes::all(case, crank)?))
+            Some((crank, analytic::modes::all(case, crank).map_err(|error| explained(case, error))?))
         }
         false => None,
     };

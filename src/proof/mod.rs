@@ -15,6 +15,7 @@ pub use parties::Dispute;
 
 use crate::compare::{Check, Verdict, overall};
 use crate::scenario::Scenario;
+use analytic::range::explained;
 use linkage::case::Case;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::solver::Solver;
@@ -78,6 +79,11 @@ pub fn prove_against(
     options: &Options,
     progress: &mut dyn FnMut(f64),
 ) -> Result<Proof> {
+    joined(scenario, engine_case, options, progress).map_err(|error| explained(&scenario.case, error))
+}
+
+/// The same with the errors of solvers as they come.
+fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: &mut dyn FnMut(f64)) -> Result<Proof> {
     let case = &scenario.case;
     let main = options.reference()?;
     let engines = options.engines(scenario)?;
@@ -130,7 +136,7 @@ fn of_engines(proofs: &[EngineProof]) -> Verdict {
         .or_else(|| verdicts().find(agrees))
         .or_else(|| verdicts().next())
         .cloned()
-        .unwrap_or_else(|| Verdict::Inconclusive { reason: "no engine was asked for".into() })
+        .unwrap_or_else(|| Verdict::open("no engine was asked for"))
 }
 
 fn unknown<'a>(what: &str, asked: &str, known: impl Iterator<Item = &'a str>) -> Error {

@@ -89,11 +89,11 @@ pub(super) fn observe(
         Ok(())
     };
     if let Err(error) = solver.sweep(case, &mut visit, progress) {
-        let kept = sampler.so_far(case, |channel| solver.provides(channel)).map(Box::new);
+        let kept = sampler.so_far(case).map(Box::new);
         return Err(Stopped { error, kept });
     }
     Ok(Observed {
-        trajectory: sampler.finish(case, |channel| solver.provides(channel))?,
+        trajectory: sampler.finish(case)?,
         closure,
         reach,
         power,

@@ -58,7 +58,7 @@ fn drive(table: &mut Table, mechanism: &Mechanism, before: &[Drive], start: f64)
         let names = [joint.first, joint.second].map(|side| &mechanism.links()[side.link].name);
         let message =
             format!("joint \"{name}\" joins \"{}\" and \"{}\", not a link and the ground", names[0], names[1]);
-        let hinges = mechanism.joints().iter().filter(|joint| joint.on(GROUND).is_some() && !joint.is_prismatic());
+        let hinges = mechanism.joints().iter().filter(|joint| joint.on(GROUND).is_some() && joint.is_pin());
         let hinges: Vec<&str> = hinges.map(|joint| joint.name.as_str()).collect();
         return Err(table
             .wrong(ErrorKind::Unsupported, "joint", message)
@@ -70,8 +70,8 @@ fn drive(table: &mut Table, mechanism: &Mechanism, before: &[Drive], start: f64)
         let help = "only a free link may hang on a moving one: write `motion = \"free\"`, or drive a link that is hinged to the ground";
         return Err(table.wrong(ErrorKind::Unsupported, "joint", message).help(help));
     }
-    if joint.is_prismatic() {
-        let message = format!("joint \"{name}\" is prismatic, but the crank turns");
+    if !joint.is_pin() {
+        let message = format!("joint \"{name}\" is {}, but the crank turns", joint.kind.name());
         let help = "drive a link that is hinged to the ground by a revolute joint";
         return Err(table.wrong(ErrorKind::Unsupported, "joint", message).help(help));
     }

@@ -57,7 +57,7 @@ fn bodies_are_the_links_on_the_spanning_tree() {
             let body = document.body(&link.name);
             let parent = (branch.parent != GROUND).then(|| links[branch.parent].name.clone());
             assert_eq!((body.parent.as_ref(), &body.joint), (parent.as_ref(), &joint.name), "{}", scenario.name);
-            assert_eq!(body.kind == Kind::Slide, joint.is_prismatic());
+            assert_eq!(body.kind == Kind::Slide, joint.slides());
             assert_eq!((body.mass, body.centre), (link.mass, link.mass_centre), "{}: {}", scenario.name, link.name);
             // MuJoCo's condition on moments of inertia, and the one that counts in a plane.
             let [x, y, z] = body.inertia;

@@ -12,7 +12,7 @@ use analytic::witness::triad::{Triad, assur_point, linear_system};
 use analytic::{AssurSolver, NewtonSolver};
 use linkage::ErrorKind;
 use linkage::case::Case;
-use linkage::math::{Vec2, cross, rotated, unit};
+use linkage::math::{Matrix, Vec2, cross, rotated, turned, unit};
 use linkage::mechanism::GROUND;
 use linkage::solver::{Solver, State};
 use linkproof::proof::{Options, prove};
@@ -55,6 +55,20 @@ fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
     values.into_iter().fold(0.0, |max, value| if max.is_nan() || value <= max { max } else { value })
 }
 
+/// Product of the lengths of the four columns of a group's equations over the size of their determinant, at least 1: by so much the rounding of
+/// the coefficients can grow in the unknowns.
+fn condition(contours: &Contours) -> f64 {
+    let mut matrix = Matrix::zeros(4, 4);
+    for (k, side) in contours.sides.into_iter().enumerate() {
+        let columns = [(0, turned(contours.leads[0])), (k + 1, -turned(contours.leads[k + 1])), (3, turned(side))];
+        for (column, vector) in columns {
+            matrix[(2 * k, column)] = vector.x;
+            matrix[(2 * k + 1, column)] = vector.y;
+        }
+    }
+    matrix.column_iter().map(|column| column.norm()).product::<f64>() / matrix.determinant().abs()
+}
+
 /// The methods at the given states of a solver.
 fn differences(case: &Case, triad: &Triad, states: &[State], times: &[f64]) -> Differences {
     let links = triad.links();
@@ -77,7 +91,7 @@ fn differences(case: &Case, triad: &Triad, states: &[State], times: &[f64]) -> D
             }
         };
         compare(&mut found.cramer, cramer::rates(triad, motions).unwrap());
-        keep(&mut found.condition, Contours::of(triad, motions).condition());
+        keep(&mut found.condition, condition(&Contours::of(triad, motions)));
         if let Ok(change) = &mut change {
             let drive = case.crank().at(time);
             let transfer = change.solve(drive.angle).unwrap_or_else(|error| panic!("{error}"));

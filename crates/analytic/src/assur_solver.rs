@@ -72,5 +72,6 @@ fn ended(end: End) -> Error {
         End::Reached => ("the motion ends", 0.0, 0.0),
     };
     let message = format!("{what} at t = {t:.6} s, crank angle {:.4} deg", crank.to_degrees());
-    Error::new(ErrorKind::Numeric, message).help("let the grid end before, or give the motor more torque")
+    let error = Error::new(ErrorKind::Numeric, message).at_time(t).at_crank(crank);
+    error.help("let the grid end before, or give the motor more torque")
 }

@@ -114,7 +114,7 @@ impl Case {
         let links = self.mechanism.links()[1..].iter().map(|link| (Subject::Link, link.name.as_str()));
         let points = self.mechanism.moving_points().map(|(name, _)| (Subject::Point, name));
         let joints = self.mechanism.joints().iter().map(|joint| (Subject::Joint, joint.name.as_str()));
-        let sliders = self.mechanism.joints().iter().filter(|joint| joint.is_prismatic());
+        let sliders = self.mechanism.joints().iter().filter(|joint| joint.slides());
         let sliders = sliders.map(|joint| (Subject::Slider, joint.name.as_str()));
         let frame = std::iter::once((Subject::Frame, ""));
         let moved = self.drives.with_moment().map(|(index, drive)| match index {

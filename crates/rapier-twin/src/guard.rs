@@ -1,11 +1,13 @@
 //! A world that is watched: a loop that opens, a link that turns wildly, a number that is none, a panic inside the engine. All become an
 //! error that says when, at which crank angle and where.
 
-use super::quiet::quietly;
+use std::fmt;
+
+use super::quiet::guarded;
 use super::world::{LinkFrame, World, masses, opening};
 use linkage::case::Case;
 use linkage::drive::{Drive, DriveMotion, Wrench};
-use linkage::error::{Error, ErrorKind, Result};
+use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::Vec2;
 use linkage::mechanism::{LinkPose, Side};
 use linkage::solver::State;
@@ -154,18 +156,19 @@ impl<'a> Guard<'a> {
         let Guard { case, world, frames: before, centres, masses, size, .. } = self;
         let (links, joints) = (case.mechanism.links(), case.mechanism.joints());
         // Said in the words of the frames before the step.
-        let crank = |before: &[LinkFrame]| at(case.crank(), before[case.crank().link].angle() - case.crank().zero, t);
-        quietly(|| world.step()).map_err(|cause| panicked(&crank(before), cause.as_ref()))?;
+        let place =
+            |before: &[LinkFrame]| Instant::of(case.crank(), before[case.crank().link].angle() - case.crank().zero, t);
+        guarded(|| world.step()).map_err(|cause| panicked(place(before), cause.as_ref()))?;
         let frames = world.frames();
         let mut twice_energy = 0.0;
         for (link, (frame, before_it)) in frames.iter().zip(before.iter()).enumerate().skip(1) {
             let turn = frame.turn_since(before_it);
             // Written so that NaN stops the run too.
             if !(turn <= LARGEST_TURN) {
-                let (name, turn) = (&links[link].name, turn.to_degrees());
+                let (name, degrees, place) = (&links[link].name, turn.to_degrees(), place(before));
                 let message =
-                    format!("the engine's link \"{name}\" has turned by {turn:.1} deg in one step, {}", crank(before));
-                return Err(failed(message));
+                    format!("the engine's link \"{name}\" has turned by {degrees:.1} deg in one step, {place}");
+                return Err(place.failed(message).of_link(name).beyond(turn, LARGEST_TURN, "rad"));
             }
             let [mass, inertia] = masses[link];
             let centre = frame.point(links[link].mass_centre);
@@ -175,19 +178,17 @@ impl<'a> Guard<'a> {
         }
         let energy = 0.5 * twice_energy / (self.step * self.step);
         if !(energy <= LARGEST_GROWTH * self.energy) {
-            let growth = energy / self.energy;
-            let message =
-                format!("the engine's kinetic energy has grown {growth:.1e} times in one step, {}", crank(before));
-            return Err(failed(message));
+            let (growth, place) = (energy / self.energy, place(before));
+            let message = format!("the engine's kinetic energy has grown {growth:.1e} times in one step, {place}");
+            return Err(place.failed(message).beyond(growth, LARGEST_GROWTH, ""));
         }
         self.energy = self.energy.max(energy);
         for &joint in &world.tree().cut {
             let gap = opening(frames, &joints[joint], *size);
             if !(gap <= self.largest_gap) {
-                let name = &joints[joint].name;
-                let message =
-                    format!("the engine's loop has opened by {gap:.3e} m at joint \"{name}\", {}", crank(before));
-                return Err(failed(message));
+                let (name, place) = (&joints[joint].name, place(before));
+                let message = format!("the engine's loop has opened by {gap:.3e} m at joint \"{name}\", {place}");
+                return Err(place.failed(message).of_joint(name).beyond(gap, self.largest_gap, "m"));
             }
         }
         before.copy_from_slice(frames);
@@ -212,29 +213,53 @@ impl<'a> Guard<'a> {
                     link.name
                 );
                 return Err(Error::new(ErrorKind::Numeric, message)
-                    .help("choose a smaller time step (--dt), or begin the grid farther from the dead point"));
+                    .at_time(0.0)
+                    .at_crank(case.crank().start)
+                    .of_link(&link.name)
+                    .beyond(far, self.largest_gap, "m")
+                    .help(Advice::SmallerStep { to: None })
+                    .or_help("begin the grid farther from the dead point"));
             }
         }
         Ok(())
     }
 }
 
-/// When and where, for messages: a free crank is where it was `before` the step.
-fn at(drive: &Drive, before: f64, t: f64) -> String {
-    let crank = if drive.is_free() { before } else { drive.at(t).angle };
-    format!("t = {t:.6} s, crank angle {:.4} deg", crank.to_degrees())
+/// When and where a step went wrong.
+#[derive(Clone, Copy)]
+struct Instant {
+    /// Time (s).
+    t: f64,
+    /// Crank angle (rad, as the scenario states it).
+    crank: f64,
 }
 
-fn failed(message: String) -> Error {
-    Error::new(ErrorKind::Numeric, message)
-        .help("choose a smaller time step (--dt), or check that the pose can be assembled there")
+impl Instant {
+    /// A free crank is where it was `before` the step.
+    fn of(drive: &Drive, before: f64, t: f64) -> Self {
+        Instant { t, crank: if drive.is_free() { before } else { drive.at(t).angle } }
+    }
+
+    fn error(self, message: String) -> Error {
+        let error = Error::new(ErrorKind::Numeric, message).at_time(self.t).at_crank(self.crank);
+        error.help(Advice::SmallerStep { to: None })
+    }
+
+    fn failed(self, message: String) -> Error {
+        self.error(message).or_help("check that the pose can be assembled there")
+    }
 }
 
-fn panicked(place: &str, cause: &(dyn std::any::Any + Send)) -> Error {
+impl fmt::Display for Instant {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "t = {:.6} s, crank angle {:.4} deg", self.t, self.crank.to_degrees())
+    }
+}
+
+fn panicked(place: Instant, cause: &(dyn std::any::Any + Send)) -> Error {
     let words = cause.downcast_ref::<&str>().copied().or_else(|| cause.downcast_ref::<String>().map(String::as_str));
     let words = words.unwrap_or("no message");
-    Error::new(ErrorKind::Numeric, format!("the engine has panicked (\"{words}\"), {place}"))
-        .help("choose a smaller time step (--dt), or another engine")
+    place.error(format!("the engine has panicked (\"{words}\"), {place}")).or_help(Advice::OtherEngine)
 }
 
 #[cfg(test)]

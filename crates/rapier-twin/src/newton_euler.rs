@@ -117,6 +117,7 @@ impl NewtonEuler {
                 ErrorKind::Numeric,
                 format!("the reactions are not determined at t = {t:.6} s (dead point)"),
             )
+            .at_time(t)
             .help("shorten the grid to the crank angles before the dead point"));
         }
         self.read(state);

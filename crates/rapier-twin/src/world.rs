@@ -7,7 +7,7 @@ use linkage::case::Case;
 use linkage::drive::Wrench;
 use linkage::engine::bodies::stand_in;
 use linkage::math::{Vec2, cross, rotated};
-use linkage::mechanism::{GROUND, Joint, Link, LinkPose, Side};
+use linkage::mechanism::{GROUND, Joint, JointKind, Link, LinkPose, Side};
 
 /// What is known of a link's angle (rad, counter-clockwise positive).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -200,11 +200,13 @@ pub(super) fn masses_with_flywheels(case: &Case) -> Vec<[f64; 2]> {
 pub(super) fn opening(frames: &[LinkFrame], joint: &Joint, size: f64) -> f64 {
     let sides = [joint.first, joint.second];
     let places = sides.map(|side| frames[side.link].point(side.local));
-    if !joint.is_prismatic() {
-        return (places[1] - places[0]).norm();
+    match joint.kind {
+        JointKind::Revolute => (places[1] - places[0]).norm(),
+        JointKind::Prismatic { .. } => {
+            let (distance, turn) = joint.opening(places, sides.map(|side| frames[side.link].direction));
+            distance.max(turn * size)
+        }
     }
-    let (distance, turn) = joint.opening(places, sides.map(|side| frames[side.link].direction));
-    distance.max(turn * size)
 }
 
 #[cfg(test)]

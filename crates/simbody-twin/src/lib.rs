@@ -14,7 +14,7 @@ use linkproof_simbody::{Failure, Run};
 use linkage::case::Case;
 use linkage::drive::{Load, Wrench};
 use linkage::engine::{Engine, Route, Settings};
-use linkage::error::{Error, ErrorKind, Result};
+use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::unit;
 use linkage::solver::{Progress, Provision, Solver, State, Visit, check_instants};
 use linkage::trajectory::{Channel, ChannelKind, Stage};
@@ -55,8 +55,7 @@ impl Simbody {
         if let Some(drive) = case.drives.iter().find(|drive| drive.constant_speed().is_none()) {
             let message =
                 format!("a drive with the law \"{}\" is not handed to Simbody by this version", drive.law_name());
-            return Err(Error::new(ErrorKind::Unsupported, message)
-                .help("take another engine: `linkproof list --solvers` names them"));
+            return Err(Error::new(ErrorKind::Unsupported, message).help(Advice::OtherEngine));
         }
         check_start(case)?;
         let settings = self.settings_for(case);
@@ -162,9 +161,16 @@ impl Solver for Simbody {
                 let found = run.read(reactions).map_err(|failure| stopped(case, &linkage, sense, &failure))?;
                 // Written so that NaN stops the run too.
                 if !found.loops.iter().all(|closed| closed.gap <= 2.0 * tolerance(case)) {
-                    let gaps = found.loops.iter().map(|closed| closed.gap).collect();
+                    let gaps: Vec<f64> = found.loops.iter().map(|closed| closed.gap).collect();
+                    // Written so that NaN is the largest.
+                    let widest = gaps
+                        .iter()
+                        .copied()
+                        .fold(0.0, |most: f64, gap| if most.is_nan() || gap <= most { most } else { gap });
                     let message = "a loop is open by more than its tolerance".into();
-                    return Err(stopped(case, &linkage, sense, &Failure { message, time: Some(t.abs()), gaps }));
+                    let failure = Failure { message, time: Some(t.abs()), gaps };
+                    let error = stopped(case, &linkage, sense, &failure);
+                    return Err(error.beyond(widest, 2.0 * tolerance(case), "m"));
                 }
                 linkage.motion(&found.bodies, &mut state);
                 if reactions {
@@ -209,8 +215,11 @@ fn check_start(case: &Case) -> Result<()> {
     };
     let widest = case.mechanism.joints().iter().reduce(|a, b| if gap(a) >= gap(b) { a } else { b });
     let name = widest.map_or("", |joint| joint.name.as_str());
-    let crank = case.crank().start.to_degrees();
-    let message =
-        format!("the pose at t = 0, crank angle {crank:.4} deg, is open by {closure:.3e} m, most at joint \"{name}\"");
-    Err(Error::new(ErrorKind::Geometry, message).help("give a start pose in which all joints are closed"))
+    let (crank, bound) = (case.crank().start, LARGEST_GAP * case.mechanism.size());
+    let degrees = crank.to_degrees();
+    let message = format!(
+        "the pose at t = 0, crank angle {degrees:.4} deg, is open by {closure:.3e} m, most at joint \"{name}\""
+    );
+    let error = Error::new(ErrorKind::Geometry, message).at_time(0.0).at_crank(crank).of_joint(name);
+    Err(error.beyond(closure, bound, "m").help("give a start pose in which all joints are closed"))
 }

@@ -57,7 +57,7 @@ impl Linkage {
                     .map(|rate| Law { rate: sense * rate }),
             };
             numbers[branch.link] = model.add(body).map_err(|failure| failure.message)?;
-            twists.push(found.is_prismatic().then_some(child - parent));
+            twists.push(found.keeps_angle().then_some(child - parent));
         }
         for &cut in &tree.cut {
             let mechanism::Joint { first, second, .. } = &mechanism.joints()[cut];
@@ -104,7 +104,7 @@ impl Linkage {
                 (-force, -body.moment - cross(places[0] - places[1], force))
             };
             state.forces[branch.joint] = force;
-            state.moments[branch.joint] = if joint.is_prismatic() { moment } else { 0.0 };
+            state.moments[branch.joint] = if joint.keeps_angle() { moment } else { 0.0 };
             if let Some(index) = case.drives.iter().position(|drive| drive.joint == branch.joint) {
                 state.torques[index] = body.drive;
             }
@@ -133,14 +133,17 @@ fn law(case: &Case, branch: &Branch, drive: &Drive, moving: bool) -> Option<f64>
 fn joint(found: &mechanism::Joint, branch: &Branch) -> Joint {
     let [parent, child] = [branch.parent, branch.link];
     let on = |link: usize| found.on(link).expect("the joint is on the link").into();
-    match (found.axis_on(parent), found.axis_on(child)) {
-        (Some(axis_parent), Some(axis_child)) => Joint::Slider {
-            on_parent: on(parent),
-            on_child: on(child),
-            axis_parent: axis_parent.into(),
-            axis_child: axis_child.into(),
-        },
-        _ => Joint::Pin { on_parent: on(parent), on_child: on(child) },
+    match found.kind {
+        mechanism::JointKind::Revolute => Joint::Pin { on_parent: on(parent), on_child: on(child) },
+        mechanism::JointKind::Prismatic { .. } => {
+            let axis = |link: usize| found.axis_on(link).expect("the joint is on the link").into();
+            Joint::Slider {
+                on_parent: on(parent),
+                on_child: on(child),
+                axis_parent: axis(parent),
+                axis_child: axis(child),
+            }
+        }
     }
 }
 

@@ -4,6 +4,7 @@ use analytic::{AssurSolver, NewtonSolver};
 use linkage::case::{Case, Grid, Wanted};
 use linkage::drive::{DriveMotion, Motor};
 use linkage::engine::{Engine, Route, Settings};
+use linkage::error::Advice;
 use linkage::math::Vec2;
 use linkage::mechanism::Mechanism;
 use linkage::solver::Solver;
@@ -176,7 +177,7 @@ fn an_ill_conditioned_run_up_is_inconclusive_with_its_sensitivity() {
     let unclear: Vec<_> = proof.engine().channels.iter().filter(|c| c.verdict.word() == "inconclusive").collect();
     assert!(!unclear.is_empty());
     for channel in unclear {
-        let Verdict::Inconclusive { reason } = &channel.verdict else { unreachable!() };
+        let Verdict::Inconclusive { reason, .. } = &channel.verdict else { unreachable!() };
         assert!(reason.contains("a millionth more of gravity and motor torque"), "{reason}");
         assert!(channel.sensitivity.unwrap() > 1e-3);
     }
@@ -235,5 +236,5 @@ fn what_a_free_motion_cannot_be_asked_says_so() {
     }
     let probe = twin("rapier", &scenario, |settings| Settings { route: Route::Probe, ..settings });
     let error = probe.solve(&scenario.case, &mut |_| {}).unwrap_err();
-    assert!(error.way_out().unwrap().contains("--route differences"), "{error}");
+    assert_eq!(error.advice(), [Advice::OtherRoute { routes: &["differences", "native"] }], "{error}");
 }

@@ -169,7 +169,7 @@ fn every_kind_of_joint_is_tested() {
     let mut seen = [0; 7];
     for (_, case) in shipped() {
         for (tree, equations) in along_all_trees(&case) {
-            let slide = |joint: usize| case.mechanism.joints()[joint].is_prismatic();
+            let slide = |joint: usize| case.mechanism.joints()[joint].slides();
             let [pairs, larger] = equations.stages();
             let kinds = [
                 tree.cut.iter().any(|&joint| slide(joint)),

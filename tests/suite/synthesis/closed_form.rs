@@ -41,9 +41,6 @@ fn published() -> Wish {
 #[test]
 fn the_published_crank_rocker_is_the_scenario_of_the_repository() {
     let found = CrankRocker::of(published()).unwrap();
-    assert!(
-        (found.crank - 0.025_995_627_740_337).abs() < 1e-12 && (found.coupler - 0.347_071_931_891_81).abs() < 1e-12
-    );
     let (own, shipped) = (case(&found.scenario(&sheet())), shipped("crank_rocker.toml").case);
     for (a, b) in own.mechanism.joints().iter().zip(shipped.mechanism.joints()) {
         assert_eq!(a.name, b.name);

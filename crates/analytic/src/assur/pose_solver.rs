@@ -3,10 +3,9 @@
 use super::forces::Kinetostatics;
 use super::turns::Turns;
 use crate::assur::groups::{Misfit, OutOfReach, Plan};
-use crate::range;
 use linkage::case::Case;
 use linkage::drive::Load;
-use linkage::error::{Error, ErrorKind, Result};
+use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 
@@ -175,8 +174,8 @@ impl<'a> PoseSolver<'a> {
 
     fn unreachable(&self, crank: f64, reach: OutOfReach) -> Error {
         let group = self.case.structure.groups[reach.group].names(&self.case.mechanism);
-        let crank = crank.to_degrees();
-        let assembled = format!("the group ({group}) cannot be assembled at crank angle {crank:.4} deg");
+        let degrees = crank.to_degrees();
+        let assembled = format!("the group ({group}) cannot be assembled at crank angle {degrees:.4} deg");
         let message = match reach.why {
             Misfit::Span { distance, reach: [shortest, longest] } => format!(
                 "{assembled}: its outer joints are {distance:.6} m apart, its links span {shortest:.6} to {longest:.6} m"
@@ -189,11 +188,14 @@ impl<'a> PoseSolver<'a> {
             ),
             Misfit::Parallel => format!("{assembled}: its two axes are parallel there"),
             Misfit::Lost => format!(
-                "the group ({group}) cannot be followed beyond crank angle {crank:.4} deg: it has a dead point there"
+                "the group ({group}) cannot be followed beyond crank angle {degrees:.4} deg: it has a dead point there"
             ),
         };
-        let error = Error::new(ErrorKind::Geometry, message)
-            .help("shorten the grid to the crank angles that can be reached, or check the lengths");
-        range::explained(self.case, &error)
+        Error::new(ErrorKind::Geometry, message)
+            .at_crank(crank)
+            .of_group(group)
+            .out_of_reach()
+            .help(Advice::ShortenGrid)
+            .or_help("check the lengths")
     }
 }

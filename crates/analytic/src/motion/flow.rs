@@ -166,6 +166,8 @@ impl<'a, const N: usize> Pieces<'a, N> {
         let name = &self.case.mechanism.links()[link].name;
         let message = format!("the resistance of link \"{name}\" holds it at t = {:.6} s", place.x);
         Error::new(ErrorKind::Numeric, message)
+            .at_time(place.x)
+            .of_link(name)
             .help("give the motor more torque or the mechanism more speed, or let the grid end before")
     }
 

@@ -87,6 +87,7 @@ fn run<const N: usize>(case: &Case, side: &mut dyn Side, visit: Visit, progress:
         if empty > MOST_EMPTY {
             let message = format!("the motion does not get away from t = {from:.9} s, where a sense of motion changes");
             return Err(Error::new(ErrorKind::Numeric, message)
+                .at_time(from)
                 .help("a load that turns about just there holds and lets go in turn: start a little aside"));
         }
         pieces.enter(&mut place, Some(bound))?;

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::system::System;
 use linkage::case::Case;
 use linkage::drive::{Drive, Wrench};
-use linkage::error::{Error, ErrorKind, Result};
+use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::Motion;
 use linkage::mechanism::EQUATIONS;
 use linkage::solver::State;
@@ -180,8 +180,8 @@ impl System<'_> {
     }
 
     pub(super) fn lost(&self, why: &str) -> Error {
-        let crank = (self.inputs[0].angle - self.case.crank().zero).to_degrees();
-        Error::new(ErrorKind::Numeric, format!("crank angle {crank:.4} deg, t = {:.6} s: {why}", self.time))
-            .help("shorten the grid to the crank angles that can be reached on this branch")
+        let (crank, t) = (self.inputs[0].angle - self.case.crank().zero, self.time);
+        let message = format!("crank angle {:.4} deg, t = {t:.6} s: {why}", crank.to_degrees());
+        Error::new(ErrorKind::Numeric, message).at_time(t).at_crank(crank).help(Advice::ShortenGrid)
     }
 }

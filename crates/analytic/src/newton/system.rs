@@ -6,7 +6,7 @@ use linkage::case::Case;
 use linkage::drive::{Drive, DriveState, Wrench};
 use linkage::math::dense::Lu;
 use linkage::math::{Motion, Vec2, rotated, turned, unit};
-use linkage::mechanism::{EQUATIONS, Joint, JointKind, Side};
+use linkage::mechanism::{EQUATIONS, Joint, Side};
 use linkage::trajectory::Stage;
 
 /// The equations of one case and the state they are solved for.
@@ -141,7 +141,7 @@ fn by_law(drive: &Drive, t: f64) -> DriveState {
 /// Angle of a joint's second link less that of its first (rad) while the axes of a prismatic pair are parallel; its whole turns
 /// are those of the start pose. 0 for a revolute joint, which does not use it.
 fn twist(case: &Case, joint: &Joint) -> f64 {
-    let JointKind::Prismatic { axes } = joint.kind else { return 0.0 };
+    let Some(axes) = joint.kind.axes() else { return 0.0 };
     let [first, second] = axes.map(|axis| axis.y.atan2(axis.x));
     let start = case.start.0[joint.second.link].angle - case.start.0[joint.first.link].angle;
     let parallel = first - second;

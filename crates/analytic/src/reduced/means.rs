@@ -2,12 +2,14 @@
 
 use std::f64::consts::{PI, TAU};
 
+use num_integer::Integer;
+
 use crate::PoseSolver;
 use crate::range::{Extent, Range};
 use linkage::case::{Case, Grid, Wanted};
 use linkage::drive::{Course, Load};
-use linkage::error::{Error, ErrorKind, Result};
-use linkage::math::{Motion, quadrature};
+use linkage::error::{Advice, Error, ErrorKind, Result};
+use linkage::math::{Motion, quadrature, root};
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
 
@@ -84,20 +86,18 @@ pub fn kinks(case: &Case) -> Result<Kinks> {
     let mut cranks = Vec::new();
     for link in range.links.iter().filter(|link| case.loads.iter().any(|load| load.sensed_link() == Some(link.link))) {
         for extreme in &link.extremes {
-            let mut crank = extreme.crank;
-            for _ in 0..POLISHING {
+            // A flat extreme stays where it was found.
+            let crank = root::polished(extreme.crank, POLISHING, 1e-6, |crank| -> Result<(f64, f64)> {
                 let motion = &poses.solve(crank, 1.0, 0.0, Stage::Accelerations)?.motions[link.link];
-                let step = motion.omega / motion.alpha;
-                // A flat extreme stays where it was found.
-                crank -= if step.abs() < 1e-6 { step } else { 0.0 };
-            }
+                Ok((motion.omega, motion.alpha))
+            })?;
             cranks.push(turns.map_or(crank, |turns| within(crank, TAU * f64::from(turns))));
         }
     }
     let tables = || case.loads.iter().flat_map(Load::courses).filter_map(Course::knots);
     let mut all = turns;
     for (_, own) in tables() {
-        all = all.map(|all| least_common_multiple(all, own));
+        all = all.map(|all| all.lcm(&own));
         if let Some(turns) = all.filter(|&turns| turns > MOST_TURNS) {
             let message = format!(
                 "mechanism and tables of loads repeat together after {turns} turns only, the limit is {MOST_TURNS}"
@@ -128,14 +128,6 @@ pub fn kinks(case: &Case) -> Result<Kinks> {
     cranks.sort_by(f64::total_cmp);
     cranks.dedup_by(|a, b| (*a - *b).abs() < 1e-12);
     Ok(Kinks { period, cranks, limits })
-}
-
-fn least_common_multiple(a: u32, b: u32) -> u32 {
-    let (mut larger, mut smaller) = (a, b);
-    while smaller > 0 {
-        (larger, smaller) = (smaller, larger % smaller);
-    }
-    a / larger * b
 }
 
 /// Means of the reduced quantities over one turn of the crank, or as many as bring the mechanism back to its first pose.
@@ -185,7 +177,7 @@ pub(crate) fn no_turn(kinks: &Kinks) -> Error {
         ErrorKind::Geometry,
         format!("means over a turn are asked for, but the crank does not turn fully{reached}"),
     )
-    .help("`linkproof inspect FILE --range` shows what limits the crank")
+    .help(Advice::LookAtRange)
 }
 
 /// The error for a resistance that no speed of the motor balances.

@@ -112,13 +112,6 @@ impl<'a> Model<'a> {
         Ok(model)
     }
 
-    /// The same without a motor, its rotor and its reducer: the crank is free.
-    #[must_use]
-    pub fn without_motor(&self) -> Self {
-        let own = self.motor.as_ref().map_or(0.0, Motor::inertia_on_crank);
-        Model { motor: None, added: self.added - own, ..self.clone() }
-    }
-
     /// The same with a flywheel on the crank's shaft (kg m^2, may be negative to take inertia away, as long as all in all it stays positive).
     #[must_use]
     pub fn with_flywheel(&self, inertia: f64) -> Self {

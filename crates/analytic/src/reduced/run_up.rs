@@ -6,7 +6,7 @@ use crate::PoseSolver;
 use crate::motion::march::{MOST_EMPTY, Place, SETTING_OFF, Step, Stop, march};
 use linkage::case::{Case, Grid};
 use linkage::error::{Error, ErrorKind, Result};
-use linkage::solver::{Provision, Sampler, State, Visit};
+use linkage::solver::{Sampler, State, Visit};
 use linkage::trajectory::{Channel, Stage, Trajectory};
 
 /// The crank at one instant.
@@ -239,7 +239,7 @@ impl RunUp {
             sampler.put(&case, row, state);
             Ok(())
         })?;
-        let trajectory = sampler.finish(&case, |_| Provision::Computed)?;
+        let trajectory = sampler.finish(&case)?;
         Ok(RunUp { motion, trajectory, end, natural })
     }
 

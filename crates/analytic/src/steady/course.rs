@@ -4,7 +4,7 @@ use crate::PoseSolver;
 use crate::reduced::means::no_turn;
 use crate::reduced::model::Model;
 use linkage::error::Result;
-use linkage::math::golden;
+use linkage::math::extremum;
 use std::f64::consts::PI;
 
 /// Crank angle between two samples, at most (rad): a reduced quantity has a few extremes in a turn, not hundreds.
@@ -80,7 +80,7 @@ impl Model<'_> {
             let mut end = |sign: f64| -> Result<(f64, f64)> {
                 let values: Vec<f64> = rows.iter().map(|row| sign * of(row)).collect();
                 let mut value = |crank: f64| -> Result<f64> { Ok(sign * of(&self.row(&mut poses, crank)?)) };
-                let (crank, value) = golden::greatest(&cranks, &values, &mut value)?;
+                let (crank, value) = extremum::greatest(&cranks, &values, &mut value)?;
                 Ok((crank, sign * value))
             };
             *extremes = Extremes { least: end(-1.0)?, greatest: end(1.0)? };

@@ -1,9 +1,10 @@
 //! Laws of motion: the crank angle as a function of time.
 
+use std::convert::Infallible;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use crate::math::Piecewise;
+use crate::math::{Piecewise, root};
 
 /// Angle, angular velocity and angular acceleration of a driving link; rad, rad/s, rad/s^2.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -145,24 +146,19 @@ impl MotionLaw {
     }
 }
 
+/// Halvings of the whole time: to rounding.
+const HALVINGS: usize = 60;
+
 /// The share s of time at which s - sin(2 pi s) / 2 pi is `gone`: by halving, since the function is flat at both ends.
 fn cycloid(gone: f64) -> f64 {
     // The rounding of the last angle belongs to it.
     if !(-1e-15..=1.0 + 1e-15).contains(&gone) {
         return f64::NAN;
     }
-    let (mut low, mut high) = (0.0f64, 1.0f64);
-    for _ in 0..60 {
-        let middle = (low + high) / 2.0;
-        if middle - (TAU * middle).sin() / TAU < gone {
-            low = middle;
-        } else {
-            high = middle;
-        }
+    if gone <= 0.0 || gone >= 1.0 {
+        return gone.clamp(0.0, 1.0);
     }
-    match gone {
-        _ if gone <= 0.0 => 0.0,
-        _ if gone >= 1.0 => 1.0,
-        _ => (low + high) / 2.0,
-    }
+    let before = |share: f64| Ok::<_, Infallible>(share - (TAU * share).sin() / TAU < gone);
+    let Ok([low, high]) = root::halved([0.0, 1.0], HALVINGS, before);
+    f64::midpoint(low, high)
 }

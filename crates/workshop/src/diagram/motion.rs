@@ -212,12 +212,6 @@ impl MotionDiagram {
     pub fn half_range(&self, which: usize) -> f64 {
         half_range(&self.exact[which])
     }
-
-    /// What `method` found.
-    #[must_use]
-    pub fn by(&self, method: Method) -> Option<&Found> {
-        self.found.iter().find(|found| found.method == method)
-    }
 }
 
 /// Scales that errors are judged by.

@@ -153,7 +153,7 @@ impl<'a> Model<'a> {
         let mut hinges = Vec::new();
         while link != GROUND {
             let branch = self.branch_of(link).expect("every moving link is in the tree");
-            if !self.case.mechanism.joints()[self.tree.branches[branch].joint].is_prismatic() {
+            if !self.case.mechanism.joints()[self.tree.branches[branch].joint].keeps_angle() {
                 hinges.push(branch);
             }
             link = self.tree.branches[branch].parent;
