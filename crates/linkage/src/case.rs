@@ -8,7 +8,7 @@ use std::ops::Deref;
 
 use crate::Result;
 use crate::drive::{Action, Drive, Load, Motor, Setting, Wrench};
-use crate::math::{Motion, Vec2};
+use crate::math::Motion;
 use crate::trajectory::{CHANNELS, Channel, Subject};
 
 pub use grid::Grid;
