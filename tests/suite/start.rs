@@ -178,3 +178,22 @@ axis_deg = 90
     let scenario = parse("G = { x_mm = 300, y_mm = 0 }", tangent, 30.0, "").unwrap();
     assert_at(place(&scenario, "P"), 300.0, 300.0 / 3f64.sqrt());
 }
+
+/// What is left of closure in a start pose is rounding, far below what [`linkage::case::Case::new`] lets pass.
+#[test]
+fn start_poses_of_all_scenarios_close_to_rounding() {
+    let (mut worst, mut count) = (0.0f64, 0);
+    for folder in ["scenarios", "scenarios/variants60"] {
+        let files = std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join(folder)).unwrap();
+        for path in files.map(|file| file.unwrap().path()).filter(|path| path.extension().is_some_and(|e| e == "toml"))
+        {
+            let case = Scenario::load(&path).unwrap().case;
+            let reach = case.start.0.iter().fold(case.mechanism.size(), |most, pose| most.max(pose.origin.norm()));
+            let open = case.start.closure(&case.mechanism) / reach;
+            assert!(open <= 1e-12, "{}: {open:e}", path.display());
+            (worst, count) = (worst.max(open), count + 1);
+        }
+    }
+    println!("largest opening over reach in {count} scenarios: {worst:.1e}");
+    assert!(count > 70, "{count}");
+}
