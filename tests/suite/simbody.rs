@@ -9,7 +9,7 @@ use crate::common::{shipped, states};
 use analytic::{AssurSolver, NewtonSolver};
 use linkage::ErrorKind;
 use linkage::case::{Case, Grid};
-use linkage::engine::{self, Engine};
+use linkage::engine::Engine;
 use linkage::math::Vec2;
 use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Stage, Trajectory};

@@ -3,6 +3,7 @@
 use std::fs;
 
 use super::tools::{Place, texts};
+use crate::common::rapiers;
 
 #[test]
 fn all_engines_stand_side_by_side() {
@@ -11,7 +12,7 @@ fn all_engines_stand_side_by_side() {
     let document = outcome.json();
     let run = &document["runs"][0];
     let names = texts(&run["engines"], "name");
-    assert!(names.starts_with(&["rapier", "rapier-f32", "impulse", "impulse-f32"]), "{names:?}");
+    assert!(names.starts_with(&rapiers()), "{names:?}");
     // Single precision proves less, but nothing may be contradicted.
     assert_eq!((outcome.code, run["verdict"].as_str()), (0, Some("agree")), "{run}");
     for engine in run["engines"].as_array().unwrap() {

@@ -18,6 +18,12 @@ pub fn shipped(name: &str) -> Scenario {
     Scenario::load(&path).unwrap_or_else(|error| panic!("{error}"))
 }
 
+/// Names of the Rapier engines, the ones in single precision only where the feature `f32` has them built.
+pub fn rapiers() -> Vec<&'static str> {
+    let single = |name: &&str| cfg!(feature = "f32") || !name.ends_with("-f32");
+    ["rapier", "rapier-f32", "impulse", "impulse-f32"].into_iter().filter(single).collect()
+}
+
 /// The states that a solver finds at the given times (s), in their order.
 pub fn states(solver: &dyn Solver, case: &Case, times: &[f64]) -> linkage::Result<Vec<State>> {
     let case = case.on(Grid::of_times(&case.drive, times.to_vec()));

@@ -8,7 +8,7 @@ use linkage::trajectory::Stage;
 use linkproof::compare::convergence::observed_order;
 use linkproof::compare::{Residual, residuals};
 
-use super::{epsilon, solve};
+use super::solve;
 use crate::common::shipped;
 
 /// Enough for all shipped mechanisms, thanks to the flywheel (story 14).
@@ -225,6 +225,7 @@ fn regress_14_thirty_two_sweeps_are_as_good_as_a_thousand() {
 /// Story 60. Symptom: halving the step makes an f32 run worse. Cause: rounding, whose bound must hold by every route, on long and on short grids: the
 /// difference from the f64 run is nothing else.
 #[test]
+#[cfg(feature = "f32")]
 fn regress_60_single_precision_is_within_its_rounding_bound() {
     // Parts of a turn, looked at in few places: rounding is asked for, not convergence.
     let parts =
@@ -242,7 +243,7 @@ fn regress_60_single_precision_is_within_its_rounding_bound() {
                     let engine = linkproof::engines::named(name, step).unwrap();
                     engine.with(Settings { route, ..engine.settings() })
                 });
-                assert!(epsilon(engines[1].as_ref()) > 1e-8);
+                assert!(super::epsilon(engines[1].as_ref()) > 1e-8);
                 let [wide, narrow] = [0, 1].map(|k| solve(engines[k].as_ref(), &case));
                 for residual in residuals(&wide, &narrow).unwrap() {
                     let noise = engines[1].noise(&case, residual.channel.kind);
