@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use serde_json::json;
 
 use super::output;
-use crate::report::text::table;
+use crate::report::table;
 use crate::scenario::Scenario;
 use linkage::error::{Error, ErrorKind, Result};
 use workshop::bearings::{self, Peak, Peaks, journal_diameter};

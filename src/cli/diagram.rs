@@ -6,8 +6,8 @@ use std::path::PathBuf;
 use clap::builder::PossibleValuesParser;
 use serde_json::{Value, json};
 
+use super::load::reference_names;
 use super::output;
-use super::run::reference_names;
 use crate::scenario::Scenario;
 use linkage::error::Result;
 use workshop::diagram::draw::{self, significant};

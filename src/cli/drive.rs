@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 
+use super::load::load;
 use super::motor_choice;
 use super::output;
-use super::run::load;
 use super::{drive_graphs, drive_run_up};
-use crate::report::text::table;
+use crate::report::table;
 use crate::scenario::Scenario;
 use analytic::AssurSolver;
 use analytic::reduced::course::{Extremes, Row};

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use super::load::load;
 use super::output;
-use super::run::load;
 use analytic::AssurSolver;
 use linkage::error::Result;
 use workshop::export::mjcf;

@@ -6,10 +6,12 @@ mod drive;
 mod drive_graphs;
 mod drive_run_up;
 mod engine_args;
+mod exit_code;
 mod export;
 mod grid;
 mod inspect;
 mod list;
+mod load;
 mod modes;
 mod motor_choice;
 mod output;
@@ -24,15 +26,6 @@ mod tune;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-
-/// Exit code when everything agrees.
-pub const AGREE: u8 = 0;
-/// Exit code when something disagrees.
-pub const DISAGREE: u8 = 1;
-/// Exit code for bad input or usage.
-pub const BAD_INPUT: u8 = 2;
-/// Exit code when nothing is proven either way.
-pub const INCONCLUSIVE: u8 = 3;
 
 const EXAMPLES: &str = "\
 Examples:

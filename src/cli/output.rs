@@ -43,10 +43,10 @@ pub(super) fn print(text: &str) -> Result<()> {
 /// Exit code of a command, its error shown.
 pub(super) fn exit(result: Result<()>) -> u8 {
     match result {
-        Ok(()) => super::AGREE,
+        Ok(()) => super::exit_code::AGREE,
         Err(error) => {
             show(&error);
-            super::BAD_INPUT
+            super::exit_code::BAD_INPUT
         }
     }
 }

@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use serde_json::{Value, json};
 
-use crate::report::text::table;
+use crate::report::table;
 use crate::scenario::Scenario;
 use analytic::range::{At, Extent, Extreme, LinkRange, Measure, Range, Singularity};
 

@@ -7,8 +7,9 @@ use std::path::{Path, PathBuf};
 use clap::builder::PossibleValuesParser;
 
 use super::engine_args::EngineArgs;
-use super::output;
+use super::load::{load, reference_names};
 use super::progress::Bar;
+use super::{exit_code, output};
 use crate::compare::Verdict;
 use crate::proof::{EngineProof, Proof, prove};
 use crate::record::{self as recorder, Level, LogEntry, Recording, Side};
@@ -54,27 +55,17 @@ pub(super) struct Args {
     json: Option<PathBuf>,
 }
 
-/// Reads a scenario and starts its groups as `modes` say.
-pub(super) fn load(file: &Path, modes: &[String]) -> Result<Scenario> {
-    let scenario = Scenario::load(file)?;
-    if modes.is_empty() { Ok(scenario) } else { scenario.with_modes(modes).map_err(|error| error.key("--mode")) }
-}
-
-pub(super) fn reference_names() -> Vec<&'static str> {
-    analytic::all().iter().map(|solver| solver.name()).collect()
-}
-
 /// Proves every file; one that is bad does not keep the others from being proven.
 pub(super) fn run(args: &Args) -> u8 {
     let mut document = json::Document::new();
-    let mut worst = super::AGREE;
+    let mut worst = exit_code::AGREE;
     let quiet = args.json.as_deref() == Some(Path::new("-"));
     let mut written = BTreeMap::new();
     for file in &args.files {
         let mut failed = |error: &Error| {
             output::show(error);
             document.add_failure(&file.display().to_string(), error);
-            worst = super::BAD_INPUT;
+            worst = exit_code::BAD_INPUT;
         };
         let (scenario, proof) = match prove_file(args, file, quiet) {
             Ok(proven) => proven,
@@ -92,7 +83,7 @@ pub(super) fn run(args: &Args) -> u8 {
         // One engine's failure beside others is told in the report; alone, it is the outcome.
         if let [EngineProof { failure: Some(error), .. }] = proof.engines.as_slice() {
             output::show(error);
-            worst = super::BAD_INPUT;
+            worst = exit_code::BAD_INPUT;
         }
         document.add(&proof, recording.map(|path| path.display().to_string()));
     }
@@ -100,7 +91,7 @@ pub(super) fn run(args: &Args) -> u8 {
         && let Err(error) = output::write(&document.text(), to)
     {
         output::show(&error);
-        worst = super::BAD_INPUT;
+        worst = exit_code::BAD_INPUT;
     }
     worst
 }
@@ -226,18 +217,18 @@ fn log(proof: &Proof) -> Vec<LogEntry> {
 
 fn exit_code(verdict: &Verdict) -> u8 {
     match verdict {
-        Verdict::Agree { .. } | Verdict::Expected { .. } => super::AGREE,
-        Verdict::Disagree { .. } => super::DISAGREE,
-        Verdict::Inconclusive { .. } => super::INCONCLUSIVE,
+        Verdict::Agree { .. } | Verdict::Expected { .. } => exit_code::AGREE,
+        Verdict::Disagree { .. } => exit_code::DISAGREE,
+        Verdict::Inconclusive { .. } => exit_code::INCONCLUSIVE,
     }
 }
 
 /// The graver of two exit codes: bad input before disagreement before no proof.
 fn graver(a: u8, b: u8) -> u8 {
     let rank = |code: u8| match code {
-        super::BAD_INPUT => 3,
-        super::DISAGREE => 2,
-        super::INCONCLUSIVE => 1,
+        exit_code::BAD_INPUT => 3,
+        exit_code::DISAGREE => 2,
+        exit_code::INCONCLUSIVE => 1,
         _ => 0,
     };
     if rank(b) > rank(a) { b } else { a }

@@ -6,9 +6,9 @@ use clap::builder::PossibleValuesParser;
 
 use super::engine_args::engine_names;
 use super::grid::Range;
+use super::load::{load, reference_names};
 use super::output;
 use super::progress::Bar;
-use super::run::{load, reference_names};
 use linkage::case::{Case, Grid};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::trajectory::Trajectory;

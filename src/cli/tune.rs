@@ -10,7 +10,7 @@ use serde_json::json;
 use super::engine_args::EngineArgs;
 use super::output;
 use super::progress::Bar;
-use crate::report::text::table;
+use crate::report::table;
 use crate::scenario::{EngineKeys, Scenario, edit};
 use crate::tune::{Candidate, Tuning, Wish, tune};
 use linkage::engine::Engine;

@@ -1,6 +1,7 @@
 //! Reactions as arrows: the force of each joint's first link on its second, at the joint.
 
-use super::scene::{Placed, Scene, column};
+use super::placed::{Placed, column};
+use super::scene::Scene;
 use super::shapes::{pose, short, stamp};
 use foxglove::messages::{ArrowPrimitive, SceneEntity, SceneUpdate};
 use linkage::math::Vec2;

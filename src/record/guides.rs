@@ -1,6 +1,6 @@
 //! Guides and the blocks that slide on them, as lines: rails of the ground, lines of moving links, rectangles.
 
-use super::scene::Placed;
+use super::placed::Placed;
 use linkage::math::{Vec2, turned};
 use linkage::mechanism::{GROUND, Mechanism, Side};
 

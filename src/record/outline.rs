@@ -1,7 +1,7 @@
 //! The links as clouds of points, for viewers that draw no scenes.
 
-use super::scene::{Scene, outline};
-use super::shapes::{GREY, pose, stamp};
+use super::scene::Scene;
+use super::shapes::{GREY, outline, pose, stamp};
 use foxglove::messages::packed_element_field::NumericType;
 use foxglove::messages::{PackedElementField, PointCloud};
 use linkage::math::Vec2;

@@ -1,6 +1,7 @@
 //! The MCAP file itself: options, topics, messages.
 
-use super::{Recording, schema};
+use super::recording::Recording;
+use super::schema;
 use foxglove::{Encode, Schema};
 use mcap::records::{MessageHeader, Metadata};
 use mcap::write::NoSeek;

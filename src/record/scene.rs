@@ -1,8 +1,9 @@
 //! The moving mechanism: where each side's links are, their frames, and what they look like.
 
-use super::Side;
 use super::guides::{Guide, Strip};
-use super::shapes::{Paint, extent, grey, point, pose, stamp, turn, vector};
+use super::placed::{Placed, column};
+use super::recording::Side;
+use super::shapes::{Paint, extent, grey, outline, point, pose, stamp, turn, vector};
 use foxglove::messages::line_primitive::Type as LineType;
 use foxglove::messages::{
     CylinderPrimitive, FrameTransform, FrameTransforms, LinePrimitive, Point3, SceneEntity, SceneUpdate,
@@ -10,8 +11,7 @@ use foxglove::messages::{
 };
 use linkage::math::Vec2;
 use linkage::math::statistics::ascending;
-use linkage::mechanism::{GROUND, Link, LinkPose, Mechanism};
-use linkage::trajectory::{Channel, Trajectory};
+use linkage::mechanism::{GROUND, Link, Mechanism};
 
 /// Frames of a recording, at most, unless it is so long that they would be fewer than [`FRAMES_PER_SECOND`].
 const FRAMES: f64 = 400.0;
@@ -28,20 +28,6 @@ pub struct Scene<'a> {
     pub size: f64,
     /// Guides and blocks.
     guides: Vec<Guide>,
-}
-
-/// A side with the positions of its links.
-pub struct Placed<'a> {
-    /// Name of the side.
-    pub name: &'a str,
-    /// Its values.
-    pub trajectory: &'a Trajectory,
-    /// How it is drawn.
-    pub paint: Paint,
-    /// Rows in ascending order of time.
-    rows: Vec<usize>,
-    /// Angle and mass centre of each moving link.
-    links: Vec<[&'a [f64]; 3]>,
 }
 
 impl<'a> Scene<'a> {
@@ -244,46 +230,6 @@ impl<'a> Scene<'a> {
             ..Default::default()
         }
     }
-}
-
-impl Placed<'_> {
-    /// Row of the last sample that is not after `time`, or of the first sample.
-    pub fn row_at(&self, time: f64) -> usize {
-        let times = self.trajectory.times();
-        let after = self.rows.partition_point(|&row| times[row] <= time);
-        self.rows[after.max(1) - 1]
-    }
-
-    /// Pose of a link's frame; the trajectory tells where its mass centre is.
-    pub fn pose(&self, mechanism: &Mechanism, link: usize, row: usize) -> LinkPose {
-        if link == GROUND {
-            return LinkPose::GROUND;
-        }
-        let [angle, x, y] = self.links[link - 1].map(|column| column[row]);
-        LinkPose::through(mechanism.links()[link].mass_centre, Vec2::new(x, y), angle)
-    }
-}
-
-/// Column of the channel called `name`, if the trajectory has it.
-pub fn column<'a>(trajectory: &'a Trajectory, name: &str) -> Option<&'a [f64]> {
-    trajectory.column(&Channel::named(name)?)
-}
-
-/// The line through all places, and whether it is closed: a polygon without crossings, or a bar if all lie on one line.
-pub fn outline(places: &[Vec2]) -> (Vec<Vec2>, bool) {
-    let mut sorted = places.to_vec();
-    let centre = places.iter().sum::<Vec2>() / places.len().max(1) as f64;
-    let axis = places.iter().map(|place| place - centre).max_by(|a, b| a.norm().total_cmp(&b.norm()));
-    let axis = axis.unwrap_or_else(Vec2::zeros);
-    let off = |place: &Vec2| linkage::math::cross(axis, place - centre).abs();
-    let closed = places.len() > 2 && places.iter().any(|place| off(place) > 1e-6 * axis.norm_squared());
-    if closed {
-        let bearing = |place: &Vec2| (place.y - centre.y).atan2(place.x - centre.x);
-        sorted.sort_by(|a, b| bearing(a).total_cmp(&bearing(b)));
-    } else {
-        sorted.sort_by(|a, b| axis.dot(a).total_cmp(&axis.dot(b)));
-    }
-    (sorted, closed)
 }
 
 #[cfg(test)]

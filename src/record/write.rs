@@ -3,9 +3,10 @@
 use super::forces::Forces;
 use super::outline::Outline;
 use super::output::{Output, SECOND};
+use super::recording::{Level, LogEntry, Recording};
 use super::scene::Scene;
+use super::schema;
 use super::shapes::stamp;
-use super::{Level, LogEntry, Recording, schema};
 use foxglove::messages::{FrameTransforms, Log, PointCloud, SceneUpdate, log::Level as LogLevel};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::statistics::ascending;

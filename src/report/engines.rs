@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use comfy_table::Table;
 
-use super::text::{self, share, used};
+use super::cells::{self, share, used};
 use crate::compare::overall;
 use crate::proof::{EngineProof, Proof};
 use linkage::trajectory::Stage;
@@ -13,7 +13,7 @@ use linkage::trajectory::Stage;
 pub(super) fn table(engines: &[EngineProof]) -> Table {
     let stages = Stage::ALL.map(Stage::name);
     let header = ["engine", stages[0], stages[1], stages[2], stages[3], stages[4], "verdict"];
-    let mut table = text::table(header, &[1, 2, 3, 4, 5]);
+    let mut table = cells::table(header, &[1, 2, 3, 4, 5]);
     for engine in engines {
         let mut row = vec![engine.info.name.to_string()];
         row.extend(Stage::ALL.map(|stage| worst(engine, stage)));

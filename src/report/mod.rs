@@ -1,5 +1,8 @@
 //! What a proof looks like: pure functions of a [`crate::proof::Proof`].
 
+mod cells;
 mod engines;
 pub mod json;
 pub mod text;
+
+pub(crate) use cells::table;

@@ -2,8 +2,9 @@
 
 use std::fmt::Write;
 
-use comfy_table::{CellAlignment, Table, presets};
+use comfy_table::Table;
 
+use super::cells::{share, table, used};
 use super::engines;
 use crate::compare::{Check, Verdict};
 use crate::proof::{ChannelProof, EngineInfo, EngineProof, Proof};
@@ -142,18 +143,6 @@ fn expected(proof: &Proof, text: &mut String) {
     }
 }
 
-/// An empty table without lines; the columns of `numbers` are set flush right.
-pub(crate) fn table<const N: usize>(header: [&str; N], numbers: &[usize]) -> Table {
-    let mut table = Table::new();
-    table.load_style(presets::NOTHING).set_header(header);
-    for &index in numbers {
-        if let Some(column) = table.column_mut(index) {
-            column.set_cell_alignment(CellAlignment::Right);
-        }
-    }
-    table
-}
-
 fn channels(proof: &EngineProof) -> Table {
     let header = ["quantity", "worst channel", "crank deg", "error", "of scale", "bound", "order", "verdict"];
     let mut table = table(header, &[2, 3, 4, 5, 6]);
@@ -179,20 +168,6 @@ fn channels(proof: &EngineProof) -> Table {
         ]);
     }
     table
-}
-
-/// Share of its bound that a channel uses; a verdict that is not agreement counts more than any share.
-pub(super) fn used(channel: &ChannelProof) -> f64 {
-    let share = if channel.residual.max == 0.0 { 0.0 } else { channel.residual.max / channel.bound };
-    match channel.verdict {
-        Verdict::Agree { .. } | Verdict::Expected { .. } => share,
-        Verdict::Inconclusive { .. } => 1e3 + share,
-        Verdict::Disagree { .. } => 1e6 + share,
-    }
-}
-
-pub(super) fn share(value: f64, scale: f64) -> String {
-    if value == 0.0 { "0".into() } else { format!("{:.1e}", value / scale) }
 }
 
 fn order(observed: f64) -> String {

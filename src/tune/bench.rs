@@ -2,9 +2,9 @@
 
 use std::f64::consts::PI;
 
+use super::candidate::{Candidate, Measured, Price};
 use super::search::{Found, largest_step};
 use super::ways::{sweeps, ways};
-use super::{Candidate, Price};
 use crate::compare::{Convergence, Ladder, residuals};
 use crate::proof::Options;
 use linkage::case::Case;
@@ -44,17 +44,6 @@ pub(super) struct Bench<'a> {
     pub(super) runs: usize,
     /// Whether the engine has refused the last way of setting it: no step and no sweeps change that.
     pub(super) refused: bool,
-}
-
-/// Error and price of one run.
-#[derive(Clone, Debug)]
-pub(super) struct Measured {
-    /// Largest error over the channel's scale; infinite if the run failed.
-    pub(super) error: f64,
-    /// Channel with that error.
-    pub(super) worst: String,
-    /// Infinite if the run failed.
-    pub(super) price: f64,
 }
 
 /// What a run costs at least, however coarse its step: instants are read, some routes work at each of them with all sweeps. Known for some numbers of

@@ -6,15 +6,17 @@
 //! runs at three steps, stands beside what was measured.
 
 mod bench;
+mod candidate;
 mod search;
 mod ways;
+
+pub use candidate::{Candidate, Price};
 
 use crate::proof::Options;
 use crate::scenario::Scenario;
 use analytic::AssurSolver;
 use bench::{Bench, Outcome};
 use linkage::case::{Case, Wanted};
-use linkage::engine::{Engine, Settings};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Stage};
@@ -26,23 +28,6 @@ pub struct Wish {
     pub within: f64,
     /// Channels by name, or stages (`positions`, `reactions`, ...); all that the scenario wants, if there is none.
     pub channels: Vec<String>,
-}
-
-/// One way of setting an engine, at the largest step with which it meets the wish.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Candidate {
-    /// Name of the engine.
-    pub engine: &'static str,
-    /// Its settings.
-    pub settings: Settings,
-    /// Whether the resolution among them is an accuracy, not a step.
-    pub controls_error: bool,
-    /// Largest error against the reference, over the channel's scale.
-    pub verified: f64,
-    /// Channel with that error.
-    pub worst: String,
-    /// Price of the run, in the unit of the price given to [`tune`].
-    pub price: f64,
 }
 
 /// What tuning found.
@@ -62,9 +47,6 @@ pub struct Tuning {
     /// Number of runs that it took.
     pub runs: usize,
 }
-
-/// What a run costs: it is given the engine and the run, which it must call at least once.
-pub type Price<'a> = &'a mut dyn FnMut(&dyn Engine, &mut dyn FnMut() -> Result<()>) -> Result<f64>;
 
 /// Finds the cheapest settings of the engines in `options` that meet the wish. Settings that the options fix stay as they are.
 ///

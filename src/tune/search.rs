@@ -1,6 +1,6 @@
 //! The largest step that meets an error.
 
-use super::bench::Measured;
+use super::candidate::Measured;
 
 /// Runs that one search may take.
 const MOST_RUNS: usize = 9;

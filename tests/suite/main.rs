@@ -30,6 +30,7 @@ mod simbody;
 mod slider_limits;
 mod sliders_closed_form;
 mod start;
+mod stories;
 mod synthesis;
 mod triad_methods;
 mod tune;

@@ -1,8 +1,9 @@
 //! How much rounding there is in what the engine answers.
 
-use super::run::probe_turn;
+use super::build::Build;
+use super::probe::probe_turn;
+use super::rapier::Rapier;
 use super::window::first_steps;
-use super::{Build, Rapier};
 use linkage::case::Case;
 use linkage::engine::Route;
 use linkage::math::interpolate::lagrange_weights;

@@ -5,6 +5,7 @@
 //! reactions at t but for an error in proportion to h; the same with h / 2 gives 2 y(h / 2) - y(h). Only poses come from the trajectory: no
 //! velocity, no acceleration.
 
+use super::build::Precision;
 use super::ghost::Ghost;
 use super::guard::Guard;
 use super::native::reporters;
@@ -90,5 +91,15 @@ impl<'a> Probe<'a> {
                 *torque += world.torque(drive) * share;
             }
         }
+    }
+}
+
+/// Turn of the fastest driving link in a tiny step (rad). After 2 y(h / 2) - y(h) the error is in proportion to its square, rounding to its
+/// inverse; the optimum is flat.
+pub(super) fn probe_turn(precision: Precision) -> f64 {
+    match precision {
+        Precision::Double => 1e-4,
+        #[cfg(feature = "f32")]
+        Precision::Single => 5e-3,
     }
 }

@@ -1,13 +1,15 @@
 //! One run: worlds side by side in time, and what is read of them.
 
+use super::build::Build;
 use super::free::{self, Acting};
 use super::guard::Guard;
 use super::native::Native;
 use super::newton_euler::NewtonEuler;
 use super::probe::Probe;
+use super::probe::probe_turn;
+use super::rapier::Rapier;
 use super::tree::Tree;
 use super::window::Window;
-use super::{Build, Precision, Rapier};
 use linkage::case::Case;
 use linkage::engine::{Route, Settings};
 use linkage::error::{Error, ErrorKind, Result};
@@ -235,16 +237,6 @@ impl<'a> Run<'a> {
             Reader::Native(native) => native.solve(self.case, state, t),
             Reader::Probe(probe) => probe.solve(self.case, &self.window, state, t),
         }
-    }
-}
-
-/// Turn of the fastest driving link in a tiny step (rad). After 2 y(h / 2) - y(h) the error is in proportion to its square, rounding to its
-/// inverse; the optimum is flat.
-pub(super) fn probe_turn(precision: Precision) -> f64 {
-    match precision {
-        Precision::Double => 1e-4,
-        #[cfg(feature = "f32")]
-        Precision::Single => 5e-3,
     }
 }
 

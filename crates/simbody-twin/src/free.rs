@@ -6,7 +6,7 @@ use std::rc::Rc;
 use linkproof_simbody::{Act, Run, Settings};
 
 use super::model::Linkage;
-use super::stopped;
+use super::stopped::stopped;
 use linkage::case::Case;
 use linkage::drive::Wrench;
 use linkage::engine::bodies::check_inertias;

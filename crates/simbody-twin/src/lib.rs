@@ -7,6 +7,7 @@
 mod free;
 mod model;
 mod noise;
+mod stopped;
 
 use linkproof_simbody::{Failure, Run};
 
@@ -18,6 +19,7 @@ use linkage::math::unit;
 use linkage::solver::{Progress, Provision, Solver, State, Visit, check_instants};
 use linkage::trajectory::{Channel, ChannelKind, Stage};
 use model::Linkage;
+use stopped::stopped;
 
 /// Constraint tolerance as a share of how far the mechanism reaches from the origin. Under prescribed motion the pose follows from the
 /// constraints alone, so nothing is won by a looser one. Projections aim at a tenth of it, and rounding keeps them from less: on
@@ -211,19 +213,4 @@ fn check_start(case: &Case) -> Result<()> {
     let message =
         format!("the pose at t = 0, crank angle {crank:.4} deg, is open by {closure:.3e} m, most at joint \"{name}\"");
     Err(Error::new(ErrorKind::Geometry, message).help("give a start pose in which all joints are closed"))
-}
-
-/// What stopped a run, in the case's terms.
-fn stopped(case: &Case, linkage: &Linkage, sense: f64, failure: &Failure) -> Error {
-    let t = failure.time.unwrap_or(0.0) * sense;
-    let crank = case.drive.at(t).angle.to_degrees();
-    // Written so that NaN is the largest.
-    let widest = failure.gaps.iter().zip(&linkage.tree.cut).reduce(|a, b| if a.0 >= b.0 { a } else { b });
-    let gap = widest.map_or(String::new(), |(gap, &joint)| {
-        format!(", joint \"{}\" open by {gap:.3e} m", case.mechanism.joints()[joint].name)
-    });
-    let message = format!("Simbody stopped at t = {t:.6} s, crank angle {crank:.4} deg{gap}: {}", failure.message);
-    Error::new(ErrorKind::Numeric, message).help(
-        "check that the pose can be assembled there, or shorten the grid to the crank angles before the dead point",
-    )
 }

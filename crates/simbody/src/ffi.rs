@@ -4,7 +4,8 @@ use std::ffi::{c_char, c_int, c_void};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::ptr::{self, NonNull};
 
-use crate::model::{Body, Closing, Failure, Joint, Settings, State};
+use crate::parts::{Body, Closing, Failure, Joint, Settings};
+use crate::state::{BodyState, LoopState, State};
 
 /// `linkproof_body`.
 #[repr(C)]
@@ -79,44 +80,6 @@ impl RawLoop {
         let ([first, second], [on_first, on_second]) = (closing.bodies, closing.places);
         RawLoop { first, second, on_first, on_second }
     }
-}
-
-/// State of a body at one instant, world axes. Force, moment and drive are 0 where reactions were not asked for.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Default)]
-pub struct BodyState {
-    /// Coordinate of its joint (rad, turns kept, or m).
-    pub coordinate: f64,
-    /// Its rate (rad/s or m/s).
-    pub rate: f64,
-    /// Position of the origin of its frame (m).
-    pub origin: [f64; 2],
-    /// Unit vector of its x axis.
-    pub direction: [f64; 2],
-    /// Velocity of the origin (m/s).
-    pub velocity: [f64; 2],
-    /// Angular velocity (rad/s).
-    pub omega: f64,
-    /// Acceleration of the origin (m/s^2).
-    pub acceleration: [f64; 2],
-    /// Angular acceleration (rad/s^2).
-    pub alpha: f64,
-    /// Force of its joint with the parent on it (N).
-    pub force: [f64; 2],
-    /// Moment of that joint on it, about the joint's place on it (N m); the drive's moment is part of it.
-    pub moment: f64,
-    /// Generalised force of the prescribed motion (N m in a pin, N in a slider).
-    pub drive: f64,
-}
-
-/// State of a loop at one instant.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Default)]
-pub struct LoopState {
-    /// Force of the first body on the second (N, world axes).
-    pub force: [f64; 2],
-    /// Distance of the two places (m).
-    pub gap: f64,
 }
 
 /// `linkproof_run`, which only C++ looks into.
@@ -364,20 +327,6 @@ impl Drop for Run {
     fn drop(&mut self) {
         // SAFETY: the run came from `linkproof_simbody_new` and is freed only here.
         unsafe { linkproof_simbody_free(self.raw.as_ptr()) }
-    }
-}
-
-impl BodyState {
-    fn is_finite(&self) -> bool {
-        let pairs = [self.origin, self.direction, self.velocity, self.acceleration, self.force];
-        let others = [self.coordinate, self.rate, self.omega, self.alpha, self.moment, self.drive];
-        pairs.as_flattened().iter().chain(&others).all(|number| number.is_finite())
-    }
-}
-
-impl LoopState {
-    fn is_finite(&self) -> bool {
-        self.force.iter().chain([&self.gap]).all(|number| number.is_finite())
     }
 }
 

@@ -22,6 +22,10 @@
 
 mod ffi;
 mod model;
+mod parts;
+mod state;
 
-pub use ffi::{Act, BodyState, LoopState, Run, version};
-pub use model::{Body, Closing, Failure, GROUND, Inertia, Joint, Law, Model, Settings, State};
+pub use ffi::{Act, Run, version};
+pub use model::Model;
+pub use parts::{Body, Closing, Failure, GROUND, Inertia, Joint, Law, Settings};
+pub use state::{BodyState, LoopState, State};

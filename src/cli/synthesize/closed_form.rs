@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 
 use serde_json::json;
 
-use super::{output, scenario_target, write_scenario};
+use super::target::{scenario_target, write_scenario};
+use crate::cli::output;
 use crate::scenario::Scenario;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::Vec2;

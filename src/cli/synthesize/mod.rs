@@ -2,13 +2,10 @@
 
 mod closed_form;
 mod search;
+mod target;
 mod told;
 
-use std::fs;
-use std::path::{Path, PathBuf};
-
-use super::{output, progress};
-use linkage::error::{Error, ErrorKind, Result};
+use linkage::error::Result;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -45,26 +42,4 @@ pub(super) fn synthesize(args: &Args) -> Result<()> {
         Command::Search(args) => search::search(args),
         Command::Check(args) => search::check(args),
     }
-}
-
-/// Path of a scenario to be written: `-` or a name that ends in `.toml`.
-fn scenario_target(text: &str) -> std::result::Result<PathBuf, String> {
-    let path = PathBuf::from(text);
-    if text != "-" && path.extension().is_none_or(|extension| extension != "toml") {
-        return Err("a scenario is written to a file that ends in .toml, or to standard output with `-`".into());
-    }
-    Ok(path)
-}
-
-/// Writes a scenario, but never over one of the files that it comes from.
-fn write_scenario(text: &str, to: &Path, sources: &[&Path]) -> Result<()> {
-    let same = |source: &&Path| match (fs::canonicalize(source), fs::canonicalize(to)) {
-        (Ok(a), Ok(b)) => a == b,
-        _ => false,
-    };
-    if let Some(source) = sources.iter().find(|source| same(source)) {
-        let message = format!("the scenario found would overwrite {}, which it comes from", source.display());
-        return Err(Error::new(ErrorKind::Input, message).key("--output").help("name another file"));
-    }
-    output::write(text, to)
 }

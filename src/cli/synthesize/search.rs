@@ -2,8 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
+use super::target::{scenario_target, write_scenario};
 use super::told::{self, Story};
-use super::{output, progress, scenario_target, write_scenario};
+use crate::cli::{output, progress};
 use crate::scenario::task_file::TaskFile;
 use crate::scenario::{Scenario, redraw};
 use linkage::error::{Error, ErrorKind, Result};

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use serde_json::{Value, json};
 
-use crate::report::text::table;
+use crate::report::table;
 use workshop::diagram::timing::{Stretch, TimingDiagram};
 use workshop::synthesis::achieved::BAND;
 use workshop::synthesis::{Achieved, Found};

@@ -49,7 +49,7 @@ fn senses(plans: &[Plan]) -> String {
 
 fn table(plans: &[Plan], scenarios: &[Scenario]) -> String {
     let mut text = String::from(
-        "\n## All of them\n\nAngles in degrees. *Smallest transmission angle*: over the grid, of the dyad with the slider (scheme 4: of the only dyad), and of \
+        "\n## All of them\n\nAngles in degrees.\n*Smallest transmission angle*: over the grid, of the dyad with the slider (scheme 4: of the only dyad), and of \
 link 3 and rocker 4.\n\n",
     );
     for (letter, formula) in formulas(scenarios) {

@@ -5,8 +5,8 @@
 use std::f64::consts::TAU;
 
 use super::constraints::Constraints;
+use super::singularity::{At, Kind, Singularity};
 use super::tracking::{Point, Tracker};
-use super::{At, Kind, Singularity};
 
 /// Part of the tangent that is rounding and no motion, times the square of the smallest singular value: a pose is known to rounding over that
 /// value, and its tangent to the error of the pose over it once more.

@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 
 use super::constraints::{Constraints, Gearing};
 use super::measure::{self, Measure};
-use super::{Kind, Singularity};
+use super::singularity::{Kind, Singularity};
 use linkage::case::Case;
 use linkage::drive::Drive;
 use linkage::error::{Error, ErrorKind, Result};

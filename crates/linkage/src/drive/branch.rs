@@ -1,7 +1,5 @@
 //! One smooth piece of a motor's moment on the crank. Equations of motion are integrated piece by piece.
 
-use super::Motor;
-
 /// A smooth curve of torque over speed, of the motor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Curve {
@@ -70,8 +68,9 @@ pub struct Branch {
 }
 
 impl Branch {
-    /// The piece of a curve between two speeds of the motor, on which torque and speed keep their senses.
-    pub(super) fn of(motor: &Motor, curve: Curve, ends: [f64; 2]) -> Self {
+    /// The piece of a curve between two speeds of the motor, on which torque and speed keep their senses, behind a reducer of this ratio and
+    /// efficiency.
+    pub(super) fn of(ratio: f64, efficiency: f64, curve: Curve, ends: [f64; 2]) -> Self {
         let inside = match ends {
             [from, to] if from.is_finite() && to.is_finite() => (from + to) / 2.0,
             [from, _] if from.is_finite() => from + 1.0,
@@ -79,8 +78,8 @@ impl Branch {
             _ => 1.0,
         };
         let drives = curve.torque(inside) * inside >= 0.0;
-        let factor = if drives { motor.efficiency } else { 1.0 / motor.efficiency };
-        Branch { curve, ratio: motor.ratio, factor, speeds: ends.map(|speed| speed / motor.ratio) }
+        let factor = if drives { efficiency } else { 1.0 / efficiency };
+        Branch { curve, ratio, factor, speeds: ends.map(|speed| speed / ratio) }
     }
 
     /// Moment on the crank (N m) at the crank's speed `omega` (rad/s).
@@ -108,8 +107,7 @@ impl Branch {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
-    use crate::drive::MotorLaw;
+    use crate::drive::{Motor, MotorLaw};
 
     #[test]
     fn the_slope_is_the_derivative_of_the_moment() {

@@ -161,7 +161,8 @@ impl Motor {
                 ends.sort_by(f64::total_cmp);
                 ends.dedup();
             }
-            found.extend(ends.windows(2).map(|pair| Branch::of(self, curve, [pair[0], pair[1]])));
+            found
+                .extend(ends.windows(2).map(|pair| Branch::of(self.ratio, self.efficiency, curve, [pair[0], pair[1]])));
         }
         found
     }

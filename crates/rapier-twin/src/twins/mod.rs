@@ -1,6 +1,7 @@
 //! Rapier's worlds, written once for both precisions: this file and its like are compiled against `rapier2d-f64` and against
 //! `rapier2d`.
 
+mod frame;
 mod joints;
 mod motion;
 mod reading;
@@ -32,7 +33,7 @@ struct Cut {
     /// Whether neither body is a link of the multibody: then Rapier makes the joint's rows orthogonal to each other.
     plain: bool,
     /// Where the joint was at the start of the last substep.
-    start: reading::Frame,
+    start: frame::Frame,
 }
 
 /// The motor of a drive.
@@ -111,7 +112,7 @@ impl Twin {
             let (first, second) = (hold(links[0], links[1]), hold(links[1], links[0]));
             let handle = world.impulse_joints.insert(first, second, joints::between(&joint, links), true);
             let plain = links.into_iter().filter(|&link| link != GROUND).all(plain);
-            Cut { joint, index, handle, plain, start: reading::Frame::default() }
+            Cut { joint, index, handle, plain, start: frame::Frame::default() }
         });
         let cuts = cuts.collect();
         let motors = case.drives().map(|drive| {

@@ -1,23 +1,9 @@
 //! Impulses as forces.
 
+use super::frame::Frame;
 use super::{Twin, wide};
 use crate::world::World;
 use linkage::math::{Vec2, cross, rotated, turned};
-
-/// Where a joint's rows stood at the start of a step: direction of the first joint frame's x axis, and arms of the rows from the mass
-/// centres of both bodies.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Frame {
-    axis: Vec2,
-    arms: [Vec2; 2],
-}
-
-impl Frame {
-    fn towards(self, end: Frame, share: f64) -> Frame {
-        let mix = |from: Vec2, to: Vec2| from + (to - from) * share;
-        Frame { axis: mix(self.axis, end.axis).normalize(), arms: [0, 1].map(|k| mix(self.arms[k], end.arms[k])) }
-    }
-}
 
 impl Twin {
     /// Remembers where the joints to be read stand, as far as `share` says on the way from what was remembered before: Rapier gives impulses in

@@ -1,9 +1,9 @@
 //! How the vectors of a plan are found: from the motions of the links, pair of points by pair of points.
 
 use super::names::{Place, fixed_guide, pair, pivot};
-use super::plan::{Part, Plan, Quantity, Tip, TipKind, Vector};
 use super::scale::factor;
 use super::sliding::{Slide, translates};
+use super::vectors::{Part, Plan, Quantity, Tip, TipKind, Vector};
 use linkage::math::{Motion, Vec2, turned};
 use linkage::mechanism::Mechanism;
 use linkage::solver::State;

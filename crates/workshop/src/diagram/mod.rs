@@ -13,10 +13,12 @@ pub mod scheme;
 pub mod singular;
 mod sliding;
 pub mod timing;
+mod vectors;
 
 pub use graphs::{Graph, Graphs, Mark};
 pub use motion::{Course, MotionDiagram};
-pub use plan::{Part, Plan, Plans, Quantity, Tip, TipKind, Vector};
+pub use plan::Plans;
 pub use scheme::Scheme;
 pub use singular::SingularPoint;
 pub use timing::TimingDiagram;
+pub use vectors::{Part, Plan, Quantity, Tip, TipKind, Vector};

@@ -4,19 +4,18 @@
 //! and not on the number of threads. The best are refined by an evolution strategy with one parent and one child and the rule of one fifth (Rechenberg 1973), which
 //! finds its way over kinks and edges, and from there by linear approximation within a trust region (COBYLA, Powell 1994).
 
+mod candidate;
 mod refine;
 
-use std::f64::consts::TAU;
-
 use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
+use rand_chacha::rand_core::SeedableRng;
 use rayon::prelude::*;
 
 use super::evaluate::Evaluator;
 use super::rating::Rater;
-use crate::task::{Entry, Task, Variable};
+use crate::task::Task;
+use candidate::{Candidate, free_zero, of_share, uniform, values};
 use linkage::error::{Error, ErrorKind, Result};
-use linkage::mechanism::GroupKind;
 
 /// Equal parts of the turn on which random candidates are rated.
 const COARSE: usize = 72;
@@ -33,18 +32,6 @@ const STRIDE: usize = 3;
 
 /// Random candidates whose stroke or transmission sine is off its limits by more than this factor are dropped: refinement would hardly bring them back.
 const NEAR: f64 = 1.5;
-
-/// A candidate and what it costs.
-#[derive(Clone, Debug, PartialEq)]
-struct Candidate {
-    /// Its variables as shares of their bounds, 0 to 1.
-    shares: Vec<f64>,
-    /// Sense of the output that is forward: +1 or -1.
-    forward: f64,
-    cost: f64,
-    /// Its number: of equal ones the first is kept.
-    number: usize,
-}
 
 /// What a search found.
 #[derive(Clone, Debug, PartialEq)]
@@ -122,31 +109,6 @@ fn none(task: &Task) -> Error {
 fn keep(candidates: &mut Vec<Candidate>, count: usize) {
     candidates.sort_by(|a, b| a.cost.total_cmp(&b.cost).then(a.number.cmp(&b.number)));
     candidates.truncate(count);
-}
-
-/// Values (SI) of shares of the bounds.
-fn values(task: &Task, shares: &[f64]) -> Vec<f64> {
-    let value = |(share, variable): (&f64, &Variable)| of_share(*share, variable);
-    shares.iter().zip(&task.variables).map(value).collect()
-}
-
-#[inline]
-fn of_share(share: f64, variable: &Variable) -> f64 {
-    let [low, high] = variable.bounds;
-    low + share * (high - low)
-}
-
-/// The variable that is the crank's zero, if it may lie anywhere: then it repeats, and turns the motion about.
-fn free_zero(task: &Task) -> Option<usize> {
-    let Entry::Free(index) = task.zero else { return None };
-    let [low, high] = task.variables[index].bounds;
-    let closed_form = task.case.structure.groups.iter().all(|group| group.kind != GroupKind::Higher);
-    (closed_form && (high - low - TAU).abs() < 1e-9).then_some(index)
-}
-
-/// A random number from 0 to below 1: the upper 53 bits.
-fn uniform(rng: &mut ChaCha8Rng) -> f64 {
-    (rng.next_u64() >> 11) as f64 / (1u64 << 53) as f64
 }
 
 /// Draws and rates candidates.

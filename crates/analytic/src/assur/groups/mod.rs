@@ -3,6 +3,8 @@
 
 mod chain;
 mod guide;
+mod half;
+mod misfit;
 mod pin;
 mod prp;
 mod rpp;
@@ -11,6 +13,7 @@ mod rrp;
 mod rrr;
 
 pub use chain::{Chain, Closing, Node};
+pub use misfit::Misfit;
 pub use prp::Prp;
 pub use rpp::Rpp;
 pub use rpr::Rpr;
@@ -18,7 +21,7 @@ pub use rrp::Rrp;
 pub use rrr::Rrr;
 
 use linkage::math::{Motion, Vec2, rotated, turned, unit};
-use linkage::mechanism::{AssemblyMode, GROUND, Group, GroupKind, Joint, Mechanism, Structure};
+use linkage::mechanism::{AssemblyMode, GROUND, GroupKind, Mechanism, Structure};
 
 /// Driving link that turns about a joint with the ground, or with a driving link before it.
 #[derive(Clone, Copy, Debug)]
@@ -47,22 +50,6 @@ pub enum Step {
     Chain(Chain),
 }
 
-/// One link of a dyad and its outer joint.
-struct Half<'a> {
-    link: usize,
-    outer: &'a Joint,
-}
-
-/// Sine of the angle between two axes below which it is rounding.
-const PARALLEL: f64 = 1e-14;
-
-/// The two halves of a dyad, the one that `is_first` holds for at the front.
-fn of_dyad<'a>(mechanism: &'a Mechanism, group: &Group, is_first: impl Fn(&Joint, usize) -> bool) -> [Half<'a>; 2] {
-    let half = |k: usize| Half { link: group.links[k], outer: &mechanism.joints()[group.outer[k]] };
-    let [a, b] = [half(0), half(1)];
-    if is_first(a.outer, a.link) { [a, b] } else { [b, a] }
-}
-
 /// A mechanism made ready for solving pose after pose without allocation.
 #[derive(Clone, Debug)]
 pub struct Plan {
@@ -79,43 +66,6 @@ pub struct OutOfReach {
     pub group: usize,
     /// Why.
     pub why: Misfit,
-}
-
-/// Why a group cannot be placed.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Misfit {
-    /// RRR: distance of the outer joints, and the shortest and longest distance that the links can span (m).
-    Span {
-        /// Distance of the outer joints (m).
-        distance: f64,
-        /// Shortest and longest distance that the two links can span (m).
-        reach: [f64; 2],
-    },
-    /// RRP: the outer pin is farther from the line of the inner joint than the rod is long (m).
-    Guide {
-        /// Distance of the pin from the line (m).
-        distance: f64,
-        /// Length of the rod (m).
-        length: f64,
-    },
-    /// RPR: the outer pins are closer together than their distances from the axis allow (m).
-    Swing {
-        /// Distance of the pins (m).
-        distance: f64,
-        /// Smallest distance possible (m).
-        shortest: f64,
-    },
-    /// RPP, PRP: the two axes are parallel.
-    Parallel,
-    /// A higher group, whose branch could not be followed.
-    Lost,
-}
-
-/// Side on which two axes lie to each other, from the sine of their angle, once `side` is known: a dyad that went through infinity is on
-/// another branch, and one whose axes are parallel to rounding is nowhere.
-fn kept_side(side: f64, sine: f64) -> Result<f64, Misfit> {
-    let now = sine.signum();
-    if !(sine.abs() > PARALLEL) || side * now < 0.0 { Err(Misfit::Parallel) } else { Ok(now) }
 }
 
 impl Plan {

@@ -6,7 +6,7 @@
 //! machines", kinematics of class II groups of the fourth kind.
 
 use super::guide::Guide;
-use super::{Misfit, kept_side};
+use super::misfit::{Misfit, kept_side};
 use linkage::math::{Motion, Vec2, cross, turned};
 use linkage::mechanism::{Group, Mechanism};
 

@@ -7,8 +7,9 @@
 //! and machines", kinematics of class II groups of the fifth kind.
 
 use super::guide::{Guide, turn_between};
+use super::half::of_dyad;
+use super::misfit::{Misfit, kept_side};
 use super::pin::Pin;
-use super::{Misfit, kept_side, of_dyad};
 use linkage::math::{Motion, Vec2, cross, turned};
 use linkage::mechanism::{Group, Mechanism};
 

@@ -5,8 +5,8 @@
 //! omega = n . d' / s, s' = e . d' + omega h, and once more alpha = (n . d'' - 2 s' omega + omega^2 h) / s.
 //! Artobolevsky, "Theory of mechanisms and machines", kinematics of class II groups of the third kind.
 
-use super::Misfit;
 use super::guide::turn_between;
+use super::misfit::Misfit;
 use super::pin::Pin;
 use linkage::math::{Motion, Vec2, cross, rotated, turned};
 use linkage::mechanism::{AssemblyMode, Group, Mechanism};

@@ -7,8 +7,9 @@
 //! kinematics of class II groups of the second kind.
 
 use super::guide::{Guide, turn_between};
+use super::half::of_dyad;
+use super::misfit::Misfit;
 use super::pin::Pin;
-use super::{Misfit, of_dyad};
 use linkage::math::{Motion, Vec2, turned};
 use linkage::mechanism::{AssemblyMode, Group, Mechanism};
 

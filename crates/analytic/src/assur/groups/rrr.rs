@@ -6,7 +6,7 @@
 //! the accelerations less their centripetal parts. Follows from the vector contour of the group, for example Artobolevsky,
 //! "Theory of mechanisms and machines", chapter on the kinematics of class II groups.
 
-use super::Misfit;
+use super::misfit::Misfit;
 use linkage::math::{Motion, Vec2, cross, turned};
 use linkage::mechanism::{AssemblyMode, Group, Mechanism, Side};
 

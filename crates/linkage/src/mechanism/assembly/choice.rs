@@ -1,6 +1,8 @@
 //! Which configuration a group takes at the start: that of the mode, rank or rough places asked for.
 
-use super::{AssemblyMode, Choice, Configuration, StartGroup, configurations, four_link, rough};
+use super::configurations::configurations;
+use super::mode::{AssemblyMode, Choice, Configuration, StartGroup};
+use super::{four_link, rough};
 use crate::error::{Error, ErrorKind, Result};
 use crate::mechanism::{Group, GroupKind, Mechanism, Pose};
 

@@ -7,7 +7,7 @@
 #[cfg(test)]
 mod tests;
 
-use super::{AssemblyMode, Configuration};
+use super::mode::{AssemblyMode, Configuration};
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::{Vec2, cross, rotated, turned, unit};
 use crate::mechanism::{Group, GroupKind, Joint, LinkPose, Mechanism, Pose};

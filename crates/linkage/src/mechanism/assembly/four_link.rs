@@ -5,8 +5,8 @@
 //! ternary links: that link is the frame, the other the base, and the leads are the two binary links and what the group
 //! hangs on, taken as one body.
 
+use super::mode::{AssemblyMode, Configuration};
 use super::three_leads::{Conditions, End, Lead, Pair};
-use super::{AssemblyMode, Configuration};
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::angle::wrapped;
 use crate::math::{Vec2, rotated, unit};

@@ -5,8 +5,10 @@
 //! analytic solvers neither provide nor use them, so that a slip in one of the three shows.
 
 mod choice;
+mod configurations;
 mod dyads;
 mod four_link;
+mod mode;
 #[cfg(test)]
 mod random;
 mod rough;
@@ -14,84 +16,11 @@ mod rough;
 mod scan;
 mod three_leads;
 
-use super::pose::SidePoint;
-use super::{Group, GroupKind, LinkPose, Mechanism, Pose, Structure};
+pub use configurations::{configurations, transmission_sine};
+pub use mode::{AssemblyMode, Choice, Configuration, StartGroup};
+
+use super::{LinkPose, Mechanism, Pose, Structure};
 use crate::error::Result;
-use crate::math::Vec2;
-
-/// Which of its real configurations a group takes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum AssemblyMode {
-    /// Of a dyad: the inner joint lies to the left of the line from the first link's outer joint to the second link's.
-    Left,
-    /// Of a dyad: the inner joint lies to the right of that line.
-    Right,
-    /// Of an RRP or RPR dyad: measured along the axis of its prismatic pair, the inner joint lies ahead of the outer pin (RRP), or
-    /// the outer pin of the pair's second link ahead of that of its first (RPR).
-    Ahead,
-    /// Of an RRP or RPR dyad: it lies behind.
-    Behind,
-    /// Of an RPP or PRP dyad, which has one configuration.
-    Only,
-    /// Of a higher group: the configuration of the start pose, followed from there.
-    Followed,
-}
-
-impl AssemblyMode {
-    /// The same configuration seen with a dyad's links in the other order.
-    #[must_use]
-    pub fn swapped(self) -> Self {
-        match self {
-            AssemblyMode::Left => AssemblyMode::Right,
-            AssemblyMode::Right => AssemblyMode::Left,
-            other => other,
-        }
-    }
-
-    /// Name, as in scenario files.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            AssemblyMode::Left => "left",
-            AssemblyMode::Right => "right",
-            AssemblyMode::Ahead => "ahead",
-            AssemblyMode::Behind => "behind",
-            AssemblyMode::Only => "only",
-            AssemblyMode::Followed => "followed",
-        }
-    }
-}
-
-/// One real configuration of a group at a given pose of the links it hangs on.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Configuration {
-    /// Its mode.
-    pub mode: AssemblyMode,
-    /// Pose of each of the group's links, in the order of [`Group::links`].
-    pub links: Vec<LinkPose>,
-}
-
-/// What is asked of one group's first pose. The links stand in the order of [`Group::links`].
-#[derive(Clone, Debug, PartialEq, Default)]
-pub struct StartGroup {
-    /// Assembly mode asked for.
-    pub mode: Option<AssemblyMode>,
-    /// Place of the configuration asked for in the list of [`configurations`], counted from 1.
-    pub rank: Option<usize>,
-    /// Points of the group's links and where each roughly is (m).
-    pub near: Vec<(SidePoint, Vec2)>,
-}
-
-/// Which configuration a group has taken at the start, and how clear that was.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Choice {
-    /// Its assembly mode.
-    pub mode: AssemblyMode,
-    /// Largest distance of its points from their rough places (m), if such were given.
-    pub nearest_m: Option<f64>,
-    /// The same of the next configuration (m), if there is one and all are known.
-    pub next_m: Option<f64>,
-}
 
 /// Pose at the start, with the driving links at the world angles `drive_angles` (rad, in the order of
 /// [`Structure::drivers`]) and each group as asked in `wanted` (in the order of [`Structure::groups`]); and the
@@ -139,39 +68,13 @@ pub fn first_choices(
     Ok((pose, choices))
 }
 
-/// Sine of a dyad's transmission angle in the given pose; higher groups have none. At zero the dyad is at a dead point.
-///
-/// - RRR: signed area of its triangle (first outer, second outer, inner joint) over the product of its two link lengths,
-///   positive in the mode [`AssemblyMode::Left`].
-/// - RRP: share of the rod along the guide, e . r / |r| with r from the outer pin to the inner joint: the sine of the angle between the
-///   rod and the normal to the guide, positive in the mode [`AssemblyMode::Ahead`].
-/// - RPR: share of the outer pins' distance along the guide, e . d / |d| with d from the outer pin of the pair's first link
-///   to that of its second, positive in the mode [`AssemblyMode::Ahead`].
-/// - RPP: e1 x e2 of the inner and the outer axis; PRP: of the outer axes, in the order of the group's links.
-#[must_use]
-pub fn transmission_sine(mechanism: &Mechanism, group: &Group, pose: &Pose) -> Option<f64> {
-    (group.kind != GroupKind::Higher).then(|| dyads::transmission_sine(mechanism, group, pose))
-}
-
-/// All real configurations of a group, once the links it hangs on are posed in `pose`: up to two of a dyad, up to six
-/// of a group of four links.
-///
-/// # Errors
-/// [`ErrorKind::Geometry`](crate::ErrorKind::Geometry) if there is none; [`ErrorKind::Unsupported`](crate::ErrorKind::Unsupported) for
-/// groups whose configurations are not all known: those of more than four links.
-pub fn configurations(mechanism: &Mechanism, group: &Group, pose: &Pose) -> Result<Vec<Configuration>> {
-    match group.kind {
-        GroupKind::Higher => four_link::configurations(mechanism, group, pose),
-        _ => dyads::configurations(mechanism, group, pose),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::error::ErrorKind;
     use crate::fixtures::four_bar;
-    use crate::math::cross;
+    use crate::math::{Vec2, cross};
+    use crate::mechanism::pose::SidePoint;
     use approx::assert_relative_eq;
 
     fn start(wanted: StartGroup) -> Result<(Pose, Vec<AssemblyMode>)> {

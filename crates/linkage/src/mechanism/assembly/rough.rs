@@ -5,7 +5,7 @@
 //! (J^T J + lambda) dx = -J^T f with the gaps f of all joints, as many as unknowns.
 
 use super::dyads::turn;
-use super::{AssemblyMode, Choice};
+use super::mode::{AssemblyMode, Choice};
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::angle::wrapped;
 use crate::math::dense::Lu;

@@ -1,6 +1,6 @@
 //! Class of an Assur group by its closed contours.
 
-use super::Group;
+use super::group::Group;
 use crate::mechanism::Mechanism;
 
 /// Number of sides of the highest closed contour of a group: a link with three or more pairs is a contour of as many

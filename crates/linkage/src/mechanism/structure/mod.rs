@@ -6,93 +6,17 @@
 //! they can be solved. The parts do not depend on which matching was found (Dulmage and Mendelsohn 1958).
 
 mod contour;
+mod group;
 mod owners;
 #[cfg(test)]
 mod tests;
+
+pub use group::{Group, GroupKind};
 
 use super::{EQUATIONS, GROUND, Mechanism};
 use crate::error::{Error, ErrorKind, Result};
 use contour::highest_contour;
 use owners::{Owners, check_sparse};
-
-/// Sort of an Assur group.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum GroupKind {
-    /// Dyad with an outer, the inner and an outer revolute pair: class II, order 2, as all dyads.
-    Rrr,
-    /// Dyad with an outer and the inner revolute pair and an outer prismatic one: connecting rod and slider.
-    Rrp,
-    /// Dyad of two outer revolute pairs and an inner prismatic one: swinging guide and block.
-    Rpr,
-    /// Dyad with an outer revolute pair, the inner and the other outer prismatic.
-    Rpp,
-    /// Dyad of two outer prismatic pairs and an inner revolute one.
-    Prp,
-    /// Any group of more than two links.
-    Higher,
-}
-
-impl GroupKind {
-    /// Letters of a dyad's pairs from outer over inner to outer; none for higher groups.
-    #[must_use]
-    pub fn letters(self) -> Option<&'static str> {
-        match self {
-            GroupKind::Rrr => Some("RRR"),
-            GroupKind::Rrp => Some("RRP"),
-            GroupKind::Rpr => Some("RPR"),
-            GroupKind::Rpp => Some("RPP"),
-            GroupKind::Prp => Some("PRP"),
-            GroupKind::Higher => None,
-        }
-    }
-}
-
-/// Assur group: a set of links that has no mobility once its outer joints are held.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Group {
-    /// Its links, in the mechanism's order.
-    pub links: Vec<usize>,
-    /// Joints between two of its links.
-    pub inner: Vec<usize>,
-    /// Joints with links that are known before it is solved.
-    pub outer: Vec<usize>,
-    /// Class: 2 for dyads, else the number of sides of its highest closed contour (Artobolevsky).
-    pub class: usize,
-    /// Sort of the group.
-    pub kind: GroupKind,
-}
-
-impl Group {
-    /// Order: the number of outer joints.
-    #[must_use]
-    pub fn order(&self) -> usize {
-        self.outer.len()
-    }
-
-    /// The group's outer joint on `link`, for a link that has exactly one.
-    #[must_use]
-    pub fn outer_on(&self, mechanism: &Mechanism, link: usize) -> Option<usize> {
-        let mut found = self.outer.iter().copied().filter(|&joint| mechanism.joints()[joint].on(link).is_some());
-        let first = found.next()?;
-        found.next().is_none().then_some(first)
-    }
-
-    /// Letters of a dyad's pairs ("RRP"); for higher groups the count of pairs.
-    #[must_use]
-    pub fn pairs(&self) -> String {
-        self.kind.letters().map_or_else(
-            || format!("{} inner and {} outer pairs", self.inner.len(), self.outer.len()),
-            ToString::to_string,
-        )
-    }
-
-    /// The group's links by name, for messages: `coupler, rocker`.
-    #[must_use]
-    pub fn names(&self, mechanism: &Mechanism) -> String {
-        let names: Vec<&str> = self.links.iter().map(|&link| mechanism.links()[link].name.as_str()).collect();
-        names.join(", ")
-    }
-}
 
 /// Result of the structural analysis of a mechanism.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! Axes with round numbers.
 
 use super::figure::{Figure, Style, Type, solid, words};
-use super::{BLACK, GREY};
+use super::style::{BLACK, GREY};
 use crate::diagram::scale::{factor, round_up};
 use linkage::math::Vec2;
 

@@ -87,7 +87,7 @@ pub struct Type {
 
 /// Upright text that starts at its place.
 pub const fn words(size: f64) -> Type {
-    Type { size, colour: super::BLACK, anchor: "start", italic: false, bold: false }
+    Type { size, colour: super::style::BLACK, anchor: "start", italic: false, bold: false }
 }
 
 #[derive(Clone, Debug)]

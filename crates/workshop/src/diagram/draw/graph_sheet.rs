@@ -1,8 +1,9 @@
 //! The sheet of graphs over the crank angle, one below the other.
 
 use super::axes::{Axis, GRID, frame};
+use super::document::document;
 use super::figure::{Figure, Style, Type, scripted, solid, words};
-use super::{COLOURS, document, significant};
+use super::style::{COLOURS, significant};
 use crate::diagram::graphs::{Graph, Graphs};
 use linkage::math::Vec2;
 

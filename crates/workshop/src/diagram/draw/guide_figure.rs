@@ -2,7 +2,7 @@
 
 use super::figure::{Figure, Style, solid};
 use super::labels::{Obstacles, inside};
-use super::{BLACK, GREY, colour};
+use super::style::{BLACK, GREY, colour};
 use crate::diagram::scheme::{Scheme, SchemeGuide};
 use linkage::math::{Vec2, turned};
 

@@ -1,6 +1,7 @@
 //! Drawings as SVG, one unit a millimetre: printed at full size they are true to the scale factors written on them.
 
 mod axes;
+mod document;
 mod figure;
 mod graph_sheet;
 mod guide_figure;
@@ -9,65 +10,12 @@ mod motion_sheet;
 mod plan_figure;
 mod plan_sheet;
 mod scheme_figure;
+mod style;
 mod table;
 mod timing_sheet;
 
 pub use graph_sheet::graphs;
 pub use motion_sheet::motion;
 pub use plan_sheet::plans;
+pub use style::significant;
 pub use timing_sheet::timing;
-
-use figure::Figure;
-use svg::Document;
-
-/// Colours of links, dark enough to stand on white paper and of different greys (after Okabe and Ito 2008).
-const COLOURS: [&str; 7] = ["#0072b2", "#d55e00", "#009e73", "#b0578d", "#b8860b", "#4b2e83", "#3b8ea5"];
-/// Colour of what belongs to no link.
-const BLACK: &str = "#1a1a1a";
-/// Colour of what stays in the background.
-const GREY: &str = "#8a8a8a";
-
-/// Colour of the link with this number.
-fn colour(link: usize) -> &'static str {
-    COLOURS[(link + COLOURS.len() - 1) % COLOURS.len()]
-}
-
-/// A number with four significant digits, as drawings and tables carry it.
-#[must_use]
-pub fn significant(value: f64) -> String {
-    let rounded = format!("{value:.3e}");
-    let power = rounded.rsplit_once('e').and_then(|(_, power)| power.parse::<i32>().ok());
-    match power {
-        _ if value == 0.0 => "0".into(),
-        Some(power @ -3..=4) => format!("{value:.*}", usize::try_from(3 - power).unwrap_or(0)),
-        _ => rounded,
-    }
-}
-
-/// The document of a figure on white paper.
-fn document(figure: &Figure, [width, height]: [f64; 2], title: &str) -> String {
-    let mut document = Document::new()
-        .set("width", format!("{width:.0}mm"))
-        .set("height", format!("{height:.0}mm"))
-        .set("viewBox", format!("0 0 {width:.0} {height:.0}"))
-        .set("font-family", "Liberation Sans, Arial, Helvetica, sans-serif")
-        .set("stroke-linecap", "round")
-        .set("stroke-linejoin", "round")
-        .add(svg::node::element::Title::new(figure::clean(title)))
-        .add(svg::node::element::Rectangle::new().set("width", "100%").set("height", "100%").set("fill", "white"));
-    for node in figure.nodes() {
-        document = document.add(node);
-    }
-    format!("{document}\n")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::significant;
-
-    #[test]
-    fn four_digits_count() {
-        let shown = [0.0, 12.3456, 1234.56, 0.0123456, -9.99999, 1e-5, 123_456.0, f64::NAN].map(significant);
-        assert_eq!(shown, ["0", "12.35", "1235", "0.01235", "-10.00", "1.000e-5", "1.235e5", "NaN"]);
-    }
-}

@@ -1,8 +1,9 @@
 //! The sheet of motion diagrams: displacement, velocity and acceleration over the crank angle, one below the other.
 
 use super::axes::{Axis, GRID, frame};
+use super::document::document;
 use super::figure::{Figure, Style, Type, solid, sub, words};
-use super::{BLACK, COLOURS, document, significant};
+use super::style::{BLACK, COLOURS, significant};
 use crate::diagram::motion::{Found, Method, MotionDiagram};
 use linkage::math::Vec2;
 

@@ -2,10 +2,10 @@
 
 use super::figure::{Figure, Style, Type, scripted, solid, sub, width, words};
 use super::labels::{Label, Obstacles, place};
+use super::style::{BLACK, GREY, colour, significant};
 use super::table::Table;
-use super::{BLACK, GREY, colour, significant};
 use crate::diagram::builder::NOTHING;
-use crate::diagram::plan::{Part, Plan, Tip, TipKind, Vector};
+use crate::diagram::vectors::{Part, Plan, Tip, TipKind, Vector};
 use linkage::math::Vec2;
 
 /// Size of letters (mm).

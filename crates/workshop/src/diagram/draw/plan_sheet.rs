@@ -1,8 +1,10 @@
 //! The sheet of a mechanism's plans: kinematic diagram, velocity plan and acceleration plan side by side, each above its table.
 
+use super::document::document;
 use super::figure::{Figure, Type, scripted, sub, words};
-use super::{document, plan_figure, scheme_figure};
-use crate::diagram::plan::{Plan, Plans};
+use super::{plan_figure, scheme_figure};
+use crate::diagram::plan::Plans;
+use crate::diagram::vectors::Plan;
 use linkage::math::Vec2;
 
 /// Margin of the sheet, room between columns, and between a figure and its table (mm).

@@ -1,7 +1,7 @@
 //! Tables of a drawing.
 
 use super::figure::{Figure, Style, Type, solid, width, words};
-use super::{BLACK, GREY};
+use super::style::{BLACK, GREY};
 use linkage::math::Vec2;
 
 /// Size of the type (mm) and distance of lines.

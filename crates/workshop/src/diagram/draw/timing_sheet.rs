@@ -2,8 +2,9 @@
 
 use std::f64::consts::TAU;
 
+use super::document::document;
 use super::figure::{Figure, Style, Type, solid, words};
-use super::{BLACK, COLOURS, GREY, document};
+use super::style::{BLACK, COLOURS, GREY};
 use crate::diagram::timing::TimingDiagram;
 use linkage::math::Vec2;
 

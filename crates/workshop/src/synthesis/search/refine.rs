@@ -6,7 +6,7 @@ use cobyla::{RhoBeg, minimize};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
-use super::{Candidate, free_zero, uniform, values};
+use super::candidate::{Candidate, free_zero, uniform, values};
 use crate::synthesis::evaluate::Evaluator;
 use crate::synthesis::rating::Rater;
 use crate::task::Task;

@@ -1,0 +1,20 @@
+//! The two links of a dyad, in the order that its equations want.
+
+use linkage::mechanism::{Group, Joint, Mechanism};
+
+/// One link of a dyad and its outer joint.
+pub(super) struct Half<'a> {
+    pub(super) link: usize,
+    pub(super) outer: &'a Joint,
+}
+
+/// The two halves of a dyad, the one that `is_first` holds for at the front.
+pub(super) fn of_dyad<'a>(
+    mechanism: &'a Mechanism,
+    group: &Group,
+    is_first: impl Fn(&Joint, usize) -> bool,
+) -> [Half<'a>; 2] {
+    let half = |k: usize| Half { link: group.links[k], outer: &mechanism.joints()[group.outer[k]] };
+    let [a, b] = [half(0), half(1)];
+    if is_first(a.outer, a.link) { [a, b] } else { [b, a] }
+}

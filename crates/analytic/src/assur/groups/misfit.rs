@@ -1,0 +1,41 @@
+//! Why a group cannot be placed.
+
+/// Why a group cannot be placed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Misfit {
+    /// RRR: distance of the outer joints, and the shortest and longest distance that the links can span (m).
+    Span {
+        /// Distance of the outer joints (m).
+        distance: f64,
+        /// Shortest and longest distance that the two links can span (m).
+        reach: [f64; 2],
+    },
+    /// RRP: the outer pin is farther from the line of the inner joint than the rod is long (m).
+    Guide {
+        /// Distance of the pin from the line (m).
+        distance: f64,
+        /// Length of the rod (m).
+        length: f64,
+    },
+    /// RPR: the outer pins are closer together than their distances from the axis allow (m).
+    Swing {
+        /// Distance of the pins (m).
+        distance: f64,
+        /// Smallest distance possible (m).
+        shortest: f64,
+    },
+    /// RPP, PRP: the two axes are parallel.
+    Parallel,
+    /// A higher group, whose branch could not be followed.
+    Lost,
+}
+
+/// Sine of the angle between two axes below which it is rounding.
+const PARALLEL: f64 = 1e-14;
+
+/// Side on which two axes lie to each other, from the sine of their angle, once `side` is known: a dyad that went through infinity is on
+/// another branch, and one whose axes are parallel to rounding is nowhere.
+pub(super) fn kept_side(side: f64, sine: f64) -> Result<f64, Misfit> {
+    let now = sine.signum();
+    if !(sine.abs() > PARALLEL) || side * now < 0.0 { Err(Misfit::Parallel) } else { Ok(now) }
+}

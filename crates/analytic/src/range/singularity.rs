@@ -1,0 +1,50 @@
+//! Singular poses, and values at a crank angle.
+
+/// Sort of a singular pose.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Limit of rotation of the crank: two configurations of a group meet and there is none beyond. The determinant vanishes as
+    /// the square root of the crank angle that is left.
+    DeadPoint,
+    /// Branches cross: the determinant changes its sign, linear in the crank angle, and the crank can go on.
+    ChangePoint,
+    /// The two axes of an RPP or PRP dyad are parallel: towards there its slides grow without bound.
+    ParallelAxes,
+    /// Another branch comes so near that the determinant is below 1e-3, without changing its sign.
+    BranchContact,
+}
+
+impl Kind {
+    /// Name, as in reports.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Kind::DeadPoint => "limit of rotation (dead point)",
+            Kind::ChangePoint => "change point",
+            Kind::ParallelAxes => "parallel axes",
+            Kind::BranchContact => "branch contact",
+        }
+    }
+}
+
+/// A singular pose, or one that is nearly so.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Singularity {
+    /// Its sort.
+    pub kind: Kind,
+    /// Crank angle (rad, as the scenario states it), to 1e-9 rad; of a contact, where the determinant is smallest.
+    pub crank: f64,
+    /// The group whose determinant vanishes: index in [`Structure::groups`](linkage::mechanism::Structure::groups).
+    pub group: usize,
+    /// Normalised determinant of the group there: 0, but not of a contact. The transmission angle of a dyad is its arc sine.
+    pub determinant: f64,
+}
+
+/// A crank angle (rad) and the value there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct At {
+    /// Crank angle (rad, as the scenario states it).
+    pub crank: f64,
+    /// The value.
+    pub value: f64,
+}

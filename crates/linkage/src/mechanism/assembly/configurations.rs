@@ -1,0 +1,33 @@
+//! All real configurations of a group, whatever its kind.
+
+use super::mode::Configuration;
+use super::{dyads, four_link};
+use crate::error::Result;
+use crate::mechanism::{Group, GroupKind, Mechanism, Pose};
+
+/// All real configurations of a group, once the links it hangs on are posed in `pose`: up to two of a dyad, up to six
+/// of a group of four links.
+///
+/// # Errors
+/// [`ErrorKind::Geometry`](crate::ErrorKind::Geometry) if there is none; [`ErrorKind::Unsupported`](crate::ErrorKind::Unsupported) for
+/// groups whose configurations are not all known: those of more than four links.
+pub fn configurations(mechanism: &Mechanism, group: &Group, pose: &Pose) -> Result<Vec<Configuration>> {
+    match group.kind {
+        GroupKind::Higher => four_link::configurations(mechanism, group, pose),
+        _ => dyads::configurations(mechanism, group, pose),
+    }
+}
+
+/// Sine of a dyad's transmission angle in the given pose; higher groups have none. At zero the dyad is at a dead point.
+///
+/// - RRR: signed area of its triangle (first outer, second outer, inner joint) over the product of its two link lengths,
+///   positive in the mode [`AssemblyMode::Left`](super::AssemblyMode::Left).
+/// - RRP: share of the rod along the guide, e . r / |r| with r from the outer pin to the inner joint: the sine of the angle between the
+///   rod and the normal to the guide, positive in the mode [`AssemblyMode::Ahead`](super::AssemblyMode::Ahead).
+/// - RPR: share of the outer pins' distance along the guide, e . d / |d| with d from the outer pin of the pair's first link
+///   to that of its second, positive in the mode [`AssemblyMode::Ahead`](super::AssemblyMode::Ahead).
+/// - RPP: e1 x e2 of the inner and the outer axis; PRP: of the outer axes, in the order of the group's links.
+#[must_use]
+pub fn transmission_sine(mechanism: &Mechanism, group: &Group, pose: &Pose) -> Option<f64> {
+    (group.kind != GroupKind::Higher).then(|| dyads::transmission_sine(mechanism, group, pose))
+}

@@ -1,0 +1,108 @@
+//! What Rapier answers as an engine and as a solver.
+
+use super::build::{Build, Precision};
+use super::rapier::Rapier;
+use super::{noise, run};
+use linkage::case::Case;
+use linkage::engine::{Engine, Extrapolated, Route, Settings};
+use linkage::error::Result;
+use linkage::solver::{Progress, Provision, Solver, Visit};
+use linkage::trajectory::{Channel, ChannelKind, Stage};
+
+impl Engine for Rapier {
+    fn version(&self) -> String {
+        match self.precision {
+            Precision::Double => "rapier2d-f64 0.36.1".into(),
+            #[cfg(feature = "f32")]
+            Precision::Single => "rapier2d 0.36.1".into(),
+        }
+    }
+
+    fn settings(&self) -> Settings {
+        self.settings
+    }
+
+    fn with(&self, settings: Settings) -> Box<dyn Engine> {
+        let plain = self.set(settings);
+        if settings.extrapolated { Box::new(Extrapolated::new(Box::new(plain))) } else { Box::new(plain) }
+    }
+
+    fn routes(&self) -> &'static [Route] {
+        &Route::ALL
+    }
+
+    fn formal_order(&self, case: &Case, channel: &ChannelKind) -> f64 {
+        let native = self.settings.route == Route::Native && channel.stage >= Stage::Reactions;
+        // Under forces each step takes what acts at its beginning for the whole of it.
+        if native || case.is_free() { 1.0 } else { 2.0 }
+    }
+
+    fn noise(&self, case: &Case, channel: &ChannelKind) -> f64 {
+        noise::bound(case, self, channel)
+    }
+
+    fn told(&self) -> Vec<(&'static str, String)> {
+        let build = match self.build {
+            Build::Multibody => "spanning tree as multibody, loops closed by impulse joints",
+            Build::Impulse => "bodies of their own, every joint an impulse joint",
+        };
+        let drive = match self.build {
+            Build::Multibody => "ground-crank motor, force-based, damping 1e30",
+            Build::Impulse => "ground-crank motor, force-based, damping 1e30, speed tan(omega dt) / dt",
+        };
+        vec![
+            ("build", build.into()),
+            ("drive", drive.into()),
+            ("flywheel", "on driving links: all masses times the square of the largest length".into()),
+            ("sweeps", self.settings.sweeps.to_string()),
+            ("substeps", self.settings.substeps.to_string()),
+            ("reactions", self.how().into()),
+        ]
+    }
+}
+
+impl Rapier {
+    /// How reactions and moments come about.
+    fn how(&self) -> &'static str {
+        match (self.settings.route, self.build) {
+            (Route::Differences, _) => "Newton-Euler on centred second differences of the engine's positions",
+            (Route::Native, Build::Multibody) => "the engine's impulses, each joint in a world whose tree is cut there",
+            (Route::Native, Build::Impulse) => "the engine's impulses",
+            (Route::Probe, Build::Multibody) => {
+                "the engine's impulses in tiny steps from its own poses, each joint in a world whose tree is cut there"
+            }
+            (Route::Probe, Build::Impulse) => "the engine's impulses in tiny steps from its own poses",
+        }
+    }
+}
+
+impl Solver for Rapier {
+    fn name(&self) -> &'static str {
+        match (self.build, self.precision) {
+            (Build::Multibody, Precision::Double) => "rapier",
+            #[cfg(feature = "f32")]
+            (Build::Multibody, Precision::Single) => "rapier-f32",
+            (Build::Impulse, Precision::Double) => "impulse",
+            #[cfg(feature = "f32")]
+            (Build::Impulse, Precision::Single) => "impulse-f32",
+        }
+    }
+
+    fn provides(&self, channel: &Channel) -> Provision {
+        match (channel.kind.stage, self.build) {
+            (Stage::Positions, _) => Provision::Computed,
+            (Stage::Velocities, Build::Multibody) => Provision::Derived(
+                "read as generalised velocities, one step old, and carried along the tree; where a drive's speed changes, centred differences of positions",
+            ),
+            (Stage::Velocities, Build::Impulse) => Provision::Derived(
+                "read as the bodies' velocities, one step old; of omega what a step turns by; where a drive's speed changes, centred differences of positions",
+            ),
+            (Stage::Accelerations, _) => Provision::Derived("centred second differences of the engine's positions"),
+            (Stage::Reactions | Stage::BalancingMoment, _) => Provision::Derived(self.how()),
+        }
+    }
+
+    fn sweep(&self, case: &Case, visit: Visit, progress: Progress) -> Result<()> {
+        run::sweep(self, case, visit, progress)
+    }
+}

@@ -1,0 +1,21 @@
+//! A drawing as an SVG document.
+
+use super::figure::Figure;
+use svg::Document;
+
+/// The document of a figure on white paper.
+pub(super) fn document(figure: &Figure, [width, height]: [f64; 2], title: &str) -> String {
+    let mut document = Document::new()
+        .set("width", format!("{width:.0}mm"))
+        .set("height", format!("{height:.0}mm"))
+        .set("viewBox", format!("0 0 {width:.0} {height:.0}"))
+        .set("font-family", "Liberation Sans, Arial, Helvetica, sans-serif")
+        .set("stroke-linecap", "round")
+        .set("stroke-linejoin", "round")
+        .add(svg::node::element::Title::new(super::figure::clean(title)))
+        .add(svg::node::element::Rectangle::new().set("width", "100%").set("height", "100%").set("fill", "white"));
+    for node in figure.nodes() {
+        document = document.add(node);
+    }
+    format!("{document}\n")
+}

@@ -1,0 +1,151 @@
+//! A velocity or acceleration plan: its vectors, and where they end.
+
+use linkage::math::Vec2;
+
+/// What a plan shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// Velocities (m/s).
+    Velocity,
+    /// Accelerations (m/s^2).
+    Acceleration,
+}
+
+impl Quantity {
+    /// SI unit.
+    #[must_use]
+    pub fn unit(self) -> &'static str {
+        match self {
+            Quantity::Velocity => "m/s",
+            Quantity::Acceleration => "m/s^2",
+        }
+    }
+
+    /// Symbol of its vectors: v or a.
+    #[must_use]
+    pub fn symbol(self) -> &'static str {
+        match self {
+            Quantity::Velocity => "v",
+            Quantity::Acceleration => "a",
+        }
+    }
+
+    /// Letter of its pole: p or π.
+    #[must_use]
+    pub fn pole(self) -> &'static str {
+        match self {
+            Quantity::Velocity => "p",
+            Quantity::Acceleration => "π",
+        }
+    }
+
+    /// The word for it.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Quantity::Velocity => "velocity",
+            Quantity::Acceleration => "acceleration",
+        }
+    }
+}
+
+/// Sort of the end of a vector.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TipKind {
+    /// The pole itself, or a point of the ground, which lies in it.
+    Fixed,
+    /// A named point of the mechanism.
+    Point,
+    /// A mass centre: s and the number of its link.
+    MassCentre,
+    /// The end of a normal part: n and a running number.
+    Normal,
+    /// A point of a moving guide's link under a sliding point: letter of that point and number of the link, a3.
+    Coincident,
+    /// The end of a Coriolis part: k and a running number.
+    Coriolis,
+}
+
+/// A point of a plan.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tip {
+    /// Its letter.
+    pub letter: String,
+    /// Its sort.
+    pub kind: TipKind,
+    /// Vector from the pole (SI).
+    pub at: Vec2,
+}
+
+/// Sort of a vector.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// Absolute, of a named point.
+    Absolute,
+    /// Absolute, of a mass centre.
+    MassCentre,
+    /// Relative, of two points of one link.
+    Relative,
+    /// Normal part of an acceleration: omega^2 l, from the point towards the other.
+    Normal,
+    /// Tangential part of an acceleration: alpha l, perpendicular to the line of both points.
+    Tangential,
+    /// Along a moving guide: velocity or acceleration of a sliding point relative to the guide's link.
+    Sliding,
+    /// Coriolis part of the acceleration of a point that slides on a turning guide: 2 omega x v, across the guide.
+    Coriolis,
+}
+
+/// One vector of a plan.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Vector {
+    /// Name as the field writes it: `v_B`, `v_BA`, `a_BA^n`, `a_BA^t`, `v_S2`; `v_A3`, `v_A,A3`, `a_A,A3^cor`, `a_A,A3^r` where A slides on link 3.
+    pub name: String,
+    /// Sort.
+    pub part: Part,
+    /// Letter where it starts.
+    pub from: String,
+    /// Letter where it ends.
+    pub to: String,
+    /// Where it starts, from the pole (SI).
+    pub start: Vec2,
+    /// Components in world axes (SI).
+    pub value: Vec2,
+    /// Number of the link whose motion it comes from.
+    pub link: usize,
+    /// What it is, in words.
+    pub meaning: String,
+}
+
+/// A velocity or acceleration plan.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    /// What it shows.
+    pub quantity: Quantity,
+    /// Scale factor mu_v ((m/s)/mm) or mu_a ((m/s^2)/mm).
+    pub scale: f64,
+    /// Ends of vectors; the pole first.
+    pub tips: Vec<Tip>,
+    /// All vectors.
+    pub vectors: Vec<Vector>,
+}
+
+impl Plan {
+    /// Length of a vector on paper (mm).
+    #[must_use]
+    pub fn paper(&self, vector: &Vector) -> f64 {
+        vector.value.norm() / self.scale
+    }
+
+    /// The vector called `name`.
+    #[must_use]
+    pub fn vector(&self, name: &str) -> Option<&Vector> {
+        self.vectors.iter().find(|vector| vector.name == name)
+    }
+
+    /// The point of the plan called `letter`, from the pole (SI).
+    #[must_use]
+    pub fn tip(&self, letter: &str) -> Option<Vec2> {
+        self.tips.iter().find(|tip| tip.letter == letter).map(|tip| tip.at)
+    }
+}

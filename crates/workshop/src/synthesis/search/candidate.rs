@@ -1,0 +1,46 @@
+//! A candidate of the search, and how shares of the search space become dimensions.
+
+use std::f64::consts::TAU;
+
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::Rng;
+
+use crate::task::{Entry, Task, Variable};
+use linkage::mechanism::GroupKind;
+
+/// A candidate and what it costs.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Candidate {
+    /// Its variables as shares of their bounds, 0 to 1.
+    pub(super) shares: Vec<f64>,
+    /// Sense of the output that is forward: +1 or -1.
+    pub(super) forward: f64,
+    pub(super) cost: f64,
+    /// Its number: of equal ones the first is kept.
+    pub(super) number: usize,
+}
+
+/// Values (SI) of shares of the bounds.
+pub(super) fn values(task: &Task, shares: &[f64]) -> Vec<f64> {
+    let value = |(share, variable): (&f64, &Variable)| of_share(*share, variable);
+    shares.iter().zip(&task.variables).map(value).collect()
+}
+
+#[inline]
+pub(super) fn of_share(share: f64, variable: &Variable) -> f64 {
+    let [low, high] = variable.bounds;
+    low + share * (high - low)
+}
+
+/// The variable that is the crank's zero, if it may lie anywhere: then it repeats, and turns the motion about.
+pub(super) fn free_zero(task: &Task) -> Option<usize> {
+    let Entry::Free(index) = task.zero else { return None };
+    let [low, high] = task.variables[index].bounds;
+    let closed_form = task.case.structure.groups.iter().all(|group| group.kind != GroupKind::Higher);
+    (closed_form && (high - low - TAU).abs() < 1e-9).then_some(index)
+}
+
+/// A random number from 0 to below 1: the upper 53 bits.
+pub(super) fn uniform(rng: &mut ChaCha8Rng) -> f64 {
+    (rng.next_u64() >> 11) as f64 / (1u64 << 53) as f64
+}

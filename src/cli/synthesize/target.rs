@@ -1,0 +1,29 @@
+//! Where a scenario that was found is written to.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::cli::output;
+use linkage::error::{Error, ErrorKind, Result};
+
+/// Path of a scenario to be written: `-` or a name that ends in `.toml`.
+pub(super) fn scenario_target(text: &str) -> std::result::Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    if text != "-" && path.extension().is_none_or(|extension| extension != "toml") {
+        return Err("a scenario is written to a file that ends in .toml, or to standard output with `-`".into());
+    }
+    Ok(path)
+}
+
+/// Writes a scenario, but never over one of the files that it comes from.
+pub(super) fn write_scenario(text: &str, to: &Path, sources: &[&Path]) -> Result<()> {
+    let same = |source: &&Path| match (fs::canonicalize(source), fs::canonicalize(to)) {
+        (Ok(a), Ok(b)) => a == b,
+        _ => false,
+    };
+    if let Some(source) = sources.iter().find(|source| same(source)) {
+        let message = format!("the scenario found would overwrite {}, which it comes from", source.display());
+        return Err(Error::new(ErrorKind::Input, message).key("--output").help("name another file"));
+    }
+    output::write(text, to)
+}

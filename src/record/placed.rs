@@ -1,0 +1,43 @@
+//! A side with the positions of its links, row by row.
+
+use super::shapes::Paint;
+use linkage::math::Vec2;
+use linkage::mechanism::{GROUND, LinkPose, Mechanism};
+use linkage::trajectory::{Channel, Trajectory};
+
+/// A side with the positions of its links.
+pub struct Placed<'a> {
+    /// Name of the side.
+    pub name: &'a str,
+    /// Its values.
+    pub trajectory: &'a Trajectory,
+    /// How it is drawn.
+    pub paint: Paint,
+    /// Rows in ascending order of time.
+    pub(super) rows: Vec<usize>,
+    /// Angle and mass centre of each moving link.
+    pub(super) links: Vec<[&'a [f64]; 3]>,
+}
+
+impl Placed<'_> {
+    /// Row of the last sample that is not after `time`, or of the first sample.
+    pub fn row_at(&self, time: f64) -> usize {
+        let times = self.trajectory.times();
+        let after = self.rows.partition_point(|&row| times[row] <= time);
+        self.rows[after.max(1) - 1]
+    }
+
+    /// Pose of a link's frame; the trajectory tells where its mass centre is.
+    pub fn pose(&self, mechanism: &Mechanism, link: usize, row: usize) -> LinkPose {
+        if link == GROUND {
+            return LinkPose::GROUND;
+        }
+        let [angle, x, y] = self.links[link - 1].map(|column| column[row]);
+        LinkPose::through(mechanism.links()[link].mass_centre, Vec2::new(x, y), angle)
+    }
+}
+
+/// Column of the channel called `name`, if the trajectory has it.
+pub fn column<'a>(trajectory: &'a Trajectory, name: &str) -> Option<&'a [f64]> {
+    trajectory.column(&Channel::named(name)?)
+}

@@ -1,0 +1,56 @@
+//! What a recording holds.
+
+use std::collections::BTreeMap;
+
+use linkage::mechanism::Mechanism;
+use linkage::trajectory::Trajectory;
+
+/// Everything that goes into one recording.
+#[derive(Clone, Copy, Debug)]
+pub struct Recording<'a> {
+    /// Name of the scenario.
+    pub name: &'a str,
+    /// Text of the scenario file, attached as `scenario.toml`.
+    pub scenario_text: &'a str,
+    /// Versions, settings, verdict: whatever tells where the numbers come from.
+    pub metadata: &'a BTreeMap<String, String>,
+    /// The mechanism that is drawn.
+    pub mechanism: &'a Mechanism,
+    /// The trajectories, the reference first, then the engines. A side without samples leaves no trace.
+    pub sides: &'a [Side<'a>],
+    /// Engine minus reference, channel by channel, in SI units. Written for people, not read back.
+    pub errors: Option<&'a Trajectory>,
+    /// Verdicts and warnings.
+    pub log: &'a [LogEntry],
+}
+
+/// One trajectory of a recording.
+#[derive(Clone, Copy, Debug)]
+pub struct Side<'a> {
+    /// First part of its topics and frames: "reference", "engine". Not empty, without `/`, unique.
+    pub name: &'a str,
+    /// Its values.
+    pub trajectory: &'a Trajectory,
+}
+
+/// One line of the recording's log.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LogEntry {
+    /// Time on the trajectories' clock (s).
+    pub time: f64,
+    /// How much it matters.
+    pub level: Level,
+    /// The message.
+    pub text: String,
+}
+
+/// How much a log entry matters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Level {
+    /// Worth knowing.
+    Info,
+    /// To be looked at.
+    Warning,
+    /// Something failed.
+    Error,
+}

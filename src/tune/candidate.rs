@@ -1,0 +1,35 @@
+//! Settings that were tried, and what they cost.
+
+use linkage::engine::{Engine, Settings};
+use linkage::error::Result;
+
+/// One way of setting an engine, at the largest step with which it meets the wish.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Candidate {
+    /// Name of the engine.
+    pub engine: &'static str,
+    /// Its settings.
+    pub settings: Settings,
+    /// Whether the resolution among them is an accuracy, not a step.
+    pub controls_error: bool,
+    /// Largest error against the reference, over the channel's scale.
+    pub verified: f64,
+    /// Channel with that error.
+    pub worst: String,
+    /// Price of the run, in the unit of the price given to [`tune`](super::tune).
+    pub price: f64,
+}
+
+/// What a run costs: it is given the engine and the run, which it must call at least once.
+pub type Price<'a> = &'a mut dyn FnMut(&dyn Engine, &mut dyn FnMut() -> Result<()>) -> Result<f64>;
+
+/// Error and price of one run.
+#[derive(Clone, Debug)]
+pub(super) struct Measured {
+    /// Largest error over the channel's scale; infinite if the run failed.
+    pub(super) error: f64,
+    /// Channel with that error.
+    pub(super) worst: String,
+    /// Infinite if the run failed.
+    pub(super) price: f64,
+}
