@@ -6,6 +6,7 @@ use std::fs;
 use serde_json::Value;
 
 use super::tools::{Place, texts};
+use crate::common::assert_within;
 
 const BOTH: &str = "scenarios/crank_rocker.toml scenarios/ov7_base.toml";
 
@@ -249,7 +250,11 @@ fn a_finer_step_agrees_within_finer_bounds() {
         torque["bound"].as_f64().unwrap()
     };
     let quotient = bound("2e-3") / bound("5e-4");
-    assert!((quotient - 16.0).abs() < 0.8, "second order: a quarter of the step, a sixteenth of the bound: {quotient}");
+    assert_within!(
+        (quotient - 16.0).abs(),
+        0.8,
+        "second order: a quarter of the step, a sixteenth of the bound: {quotient}"
+    );
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! Mechanisms for the integration tests: written as scenario text, so that tests enter where a user does.
 
+pub mod dial;
 pub mod four_link;
 pub mod higher;
 pub mod random;
@@ -7,6 +8,7 @@ pub mod sketch;
 pub mod sliders;
 pub mod spec;
 
+pub(crate) use dial::assert_within;
 use linkage::case::{Case, Grid};
 use linkage::math::Vec2;
 use linkage::solver::{Solver, State};

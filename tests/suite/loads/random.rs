@@ -10,7 +10,7 @@ use linkproof::scenario::Scenario;
 
 use crate::common::random::{for_each, within};
 use crate::common::sketch::Random;
-use crate::common::{shipped, states};
+use crate::common::{assert_within, shipped, states};
 
 /// Six loads of random sorts, as text.
 pub fn loads(random: &mut Random, case: &Case) -> String {
@@ -147,7 +147,12 @@ fn higher_groups_bear_loads_too() {
                     let drives = case.drives().zip(&state.torques);
                     let driving: f64 = drives.map(|(drive, torque)| torque * state.motions[drive.link].omega).sum();
                     let power = driving + power::of_known_forces(case, &state);
-                    assert!(power.abs() < 1e-11 * scale * case.fastest_drive(), "{name} {}: {power:e}", solver.name());
+                    assert_within!(
+                        power.abs(),
+                        1e-11 * scale * case.fastest_drive(),
+                        "{name} {}: {power:e}",
+                        solver.name()
+                    );
                 }
             }
         }
