@@ -11,8 +11,7 @@ impl Proof {
     pub fn with_bounds_scaled(mut self, dial: f64) -> Self {
         for engine in &mut self.engines {
             for channel in &mut engine.channels {
-                channel.bound *= dial;
-                judge(&mut channel.verdict, channel.residual.max, channel.bound);
+                judge(&mut channel.verdict, channel.residual.max, &mut channel.bound, dial);
             }
             engine.checks.iter_mut().for_each(|check| scale(check, dial));
             let channels = engine.channels.iter().map(|channel| &channel.verdict);
@@ -31,13 +30,43 @@ impl Proof {
 }
 
 fn scale(check: &mut Check, dial: f64) {
-    check.bound *= dial;
-    judge(&mut check.verdict, check.value, check.bound);
+    judge(&mut check.verdict, check.value, &mut check.bound, dial);
 }
 
-/// Judges again what was judged by its bound.
-fn judge(verdict: &mut Verdict, value: f64, bound: f64) {
-    if let Verdict::Agree { .. } | Verdict::Disagree { .. } = verdict {
-        *verdict = Verdict::of(value, bound, || format!("{value:.3e} beyond the scaled bound {bound:.3e}"));
+/// Judges again what was judged by its bound. What disagrees although it is within its bound does so for another reason: a finding calls it
+/// wrong.
+fn judge(verdict: &mut Verdict, value: f64, bound: &mut f64, dial: f64) {
+    let by_bound = match verdict {
+        Verdict::Agree { .. } => true,
+        Verdict::Disagree { .. } => !(value <= *bound),
+        Verdict::Expected { .. } | Verdict::Inconclusive { .. } => false,
+    };
+    *bound *= dial;
+    if by_bound {
+        *verdict = Verdict::of(value, *bound, || format!("{value:.3e} beyond the scaled bound {bound:.3e}"));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn judged(verdict: Verdict, value: f64, dial: f64) -> (&'static str, f64) {
+        let (mut verdict, mut bound) = (verdict, 2.0);
+        judge(&mut verdict, value, &mut bound, dial);
+        (verdict.word(), bound)
+    }
+
+    #[test]
+    fn bounds_follow_the_dial_and_what_was_not_judged_by_them_stays() {
+        let agree = || Verdict::Agree { margin: 2.0 };
+        let disagree = || Verdict::Disagree { place: String::new() };
+        assert_eq!(judged(agree(), 1.0, 0.5), ("agree", 1.0));
+        assert_eq!(judged(agree(), 1.0, 0.4), ("disagree", 0.8));
+        assert_eq!(judged(disagree(), 3.0, 2.0), ("agree", 4.0));
+        assert_eq!(judged(disagree(), f64::NAN, 2.0).0, "disagree");
+        assert_eq!(judged(disagree(), 1.0, 2.0).0, "disagree");
+        assert_eq!(judged(Verdict::Expected { finding: String::new() }, 3.0, 2.0).0, "expected");
+        assert_eq!(judged(Verdict::Inconclusive { reason: String::new() }, 1.0, 2.0).0, "inconclusive");
     }
 }

@@ -3,6 +3,7 @@
 mod cells;
 mod engines;
 pub mod json;
+pub mod residuals;
 pub mod text;
 
 pub(crate) use cells::table;

@@ -309,3 +309,26 @@ fn channels_that_are_not_wanted_are_neither_compared_nor_checked() {
             .any(|name| name.contains("moment from"))
     );
 }
+
+/// The dial on all bounds: stricter bounds disagree, and at zero every channel and check is printed beside its bound, judged as ever.
+#[test]
+fn one_dial_scales_every_bound() {
+    let place = Place::new();
+    let command = "run scenarios/crank_rocker.toml --dt 2e-3 --no-record --tolerance-scale";
+    let document = place.run(&format!("{command} 1e-9 --json -")).json();
+    let run = &document["runs"][0];
+    assert_eq!(run["verdict"], "disagree");
+    let (bound, plain) = (
+        |run: &Value| run["engines"][0]["channels"][3]["bound"].as_f64().unwrap(),
+        place.run(&command.replace("--tolerance-scale", "--json -")).json(),
+    );
+    assert_within!((bound(run) / bound(&plain["runs"][0]) - 1e-9).abs(), 1e-20);
+    let listed = place.ok(&format!("{command} 0"));
+    let names = [texts(&run["engines"][0]["channels"], "channel"), all_checks(run)].concat();
+    for name in names {
+        assert!(listed.contains(name), "{name}: {listed}");
+    }
+    assert!(listed.contains("AGREE: "), "{listed}");
+    place.refused(&format!("{command} -1"), &["unexpected"]);
+    place.refused(&format!("{command} x"), &["invalid"]);
+}
