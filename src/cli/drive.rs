@@ -12,10 +12,11 @@ use super::{drive_graphs, drive_run_up};
 use crate::report::table;
 use crate::scenario::Scenario;
 use analytic::AssurSolver;
-use analytic::reduced::course::{Extremes, Row};
 use analytic::reduced::means::{self as reduced, Means};
-use analytic::reduced::regime::At;
-use analytic::reduced::{ACCURACY, Averaged, Model, Regime, RunUp};
+use analytic::reduced::{ACCURACY, Model, RunUp};
+use analytic::steady::course::{Extremes, Row};
+use analytic::steady::regime::At;
+use analytic::steady::{Averaged, Regime};
 use linkage::error::{Error, ErrorKind, Result};
 use workshop::flywheel::Flywheel;
 

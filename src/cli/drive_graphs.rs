@@ -1,9 +1,10 @@
 //! `linkproof drive --svg`: the reduced quantities and the steady motion as graphs.
 
 use crate::scenario::Scenario;
-use analytic::reduced::course::{Extremes, Row};
 use analytic::reduced::means::Means;
-use analytic::reduced::{ACCURACY, Model, Regime};
+use analytic::reduced::{ACCURACY, Model};
+use analytic::steady::Regime;
+use analytic::steady::course::{Extremes, Row};
 use linkage::error::Result;
 use workshop::diagram::{Graph, Graphs, Mark, draw};
 

@@ -3,14 +3,17 @@
 //! Side 1 ([`assur`]) goes group by group, side 2 ([`newton`]) takes the whole mechanism at once.
 
 pub mod assur;
+mod assur_solver;
 pub mod modes;
 pub mod motion;
 pub mod newton;
 pub mod range;
 pub mod reduced;
+pub mod steady;
 pub mod witness;
 
-pub use assur::{AssurSolver, PoseSolver};
+pub use assur::PoseSolver;
+pub use assur_solver::AssurSolver;
 pub use newton::NewtonSolver;
 
 use linkage::solver::Solver;

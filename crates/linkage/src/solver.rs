@@ -24,7 +24,7 @@ pub type Progress<'a> = &'a mut dyn FnMut(f64);
 pub type Visit<'a> = &'a mut dyn FnMut(usize, &State) -> Result<()>;
 
 /// Anything that turns a case into a trajectory.
-pub trait Solver {
+pub trait Solver: Send + Sync {
     /// Short name, as on the command line.
     fn name(&self) -> &'static str;
 

@@ -1,6 +1,7 @@
 //! Flywheel for a wanted coefficient of non-uniformity.
 
-use analytic::reduced::{Model, Regime};
+use analytic::reduced::Model;
+use analytic::steady::Regime;
 use linkage::error::{Error, ErrorKind, Result};
 
 /// A flywheel on the crank's shaft, and the motion with it.

@@ -6,7 +6,8 @@ use std::path::Path;
 
 use analytic::AssurSolver;
 use analytic::reduced::means;
-use analytic::reduced::{ACCURACY, Averaged, End, Model, RunUp, motion};
+use analytic::reduced::{ACCURACY, End, Model, RunUp, motion};
+use analytic::steady::Averaged;
 use linkage::case::Case;
 use linkage::drive::{Load, MotionLaw, Motor, MotorLaw, ShaftInertia};
 use linkproof::scenario::Scenario;

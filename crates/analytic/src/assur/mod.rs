@@ -5,9 +5,7 @@ pub mod batch;
 mod forces;
 pub mod groups;
 mod pose_solver;
-mod solver;
-mod transfer;
+pub(crate) mod transfer;
 mod turns;
 
 pub use pose_solver::PoseSolver;
-pub use solver::AssurSolver;

@@ -19,20 +19,20 @@ const FARTHEST: f64 = std::f64::consts::TAU;
 
 /// What both forms evaluate.
 #[derive(Debug)]
-pub(super) struct Forces<'m, 'a> {
-    pub(super) model: &'m Model<'a>,
+pub(crate) struct Forces<'m, 'a> {
+    pub(crate) model: &'m Model<'a>,
     poses: RefCell<PoseSolver<'a>>,
     fault: RefCell<Option<Error>>,
     /// Crank angle at which the present step began.
     origin: Cell<f64>,
-    pub(super) piece: Cell<Piece>,
+    pub(crate) piece: Cell<Piece>,
     /// Sense of the crank's speed: +1 or -1.
-    pub(super) way: Cell<f64>,
-    pub(super) branch: Cell<Option<Branch>>,
+    pub(crate) way: Cell<f64>,
+    pub(crate) branch: Cell<Option<Branch>>,
 }
 
 impl<'m, 'a> Forces<'m, 'a> {
-    pub(super) fn of(model: &'m Model<'a>, piece: Piece, way: f64) -> Result<Self> {
+    pub(crate) fn of(model: &'m Model<'a>, piece: Piece, way: f64) -> Result<Self> {
         Ok(Forces {
             model,
             poses: RefCell::new(PoseSolver::new(model.case)?),
@@ -45,13 +45,13 @@ impl<'m, 'a> Forces<'m, 'a> {
     }
 
     /// A step begins at this crank angle, however far it is.
-    pub(super) fn begin_at(&self, crank: f64) {
+    pub(crate) fn begin_at(&self, crank: f64) {
         self.origin.set(crank);
     }
 
     /// Reduced quantities on the present piece, with what turns with the crank. Not a number too far away, so that the step is taken again, and after
     /// a fault, which is kept.
-    pub(super) fn reduced(&self, crank: f64) -> Reduced {
+    pub(crate) fn reduced(&self, crank: f64) -> Reduced {
         if !((crank - self.origin.get()).abs() <= FARTHEST) {
             return Reduced { inertia: f64::NAN, slope: f64::NAN, applied: f64::NAN };
         }
@@ -66,7 +66,7 @@ impl<'m, 'a> Forces<'m, 'a> {
     }
 
     /// Moment of the motor on the crank (N m), counter-clockwise positive.
-    pub(super) fn motor_moment(&self, omega: f64) -> f64 {
+    pub(crate) fn motor_moment(&self, omega: f64) -> f64 {
         let sense = self.model.sense;
         self.branch.get().map_or(0.0, |branch| sense * branch.moment(sense * omega))
     }
@@ -76,7 +76,7 @@ impl<'m, 'a> Forces<'m, 'a> {
         self.branch.get().map_or(0.0, |branch| branch.slope(self.model.sense * omega))
     }
 
-    pub(super) fn acceleration(&self, crank: f64, omega: f64) -> f64 {
+    pub(crate) fn acceleration(&self, crank: f64, omega: f64) -> f64 {
         let reduced = self.reduced(crank);
         (reduced.applied + self.motor_moment(omega) - omega * omega / 2.0 * reduced.slope) / reduced.inertia
     }
@@ -94,13 +94,13 @@ impl<'m, 'a> Forces<'m, 'a> {
 
 /// Crank angle and speed over time.
 #[derive(Debug)]
-pub(super) struct InTime<'m, 'a>(pub(super) Forces<'m, 'a>);
+pub(crate) struct InTime<'m, 'a>(pub(crate) Forces<'m, 'a>);
 
 impl InTime<'_, '_> {
-    pub(super) const UPPER: usize = 0;
-    pub(super) const LOWER: usize = 1;
-    pub(super) const STANDSTILL: usize = 2;
-    pub(super) const FAST: usize = 3;
+    pub(crate) const UPPER: usize = 0;
+    pub(crate) const LOWER: usize = 1;
+    pub(crate) const STANDSTILL: usize = 2;
+    pub(crate) const FAST: usize = 3;
 }
 
 impl ODE<f64, [f64; 2]> for InTime<'_, '_> {
@@ -135,11 +135,11 @@ impl Flow<2> for InTime<'_, '_> {
 
 /// Kinetic energy, time, and the derivative of the energy by that at the beginning, over the crank angle counted in the sense of motion.
 #[derive(Debug)]
-pub(super) struct OverAngle<'m, 'a>(pub(super) Forces<'m, 'a>);
+pub(crate) struct OverAngle<'m, 'a>(pub(crate) Forces<'m, 'a>);
 
 impl OverAngle<'_, '_> {
     /// Speed of the crank (rad/s) at the place `x` of the way with the energy `energy` (J).
-    pub(super) fn speed(&self, x: f64, energy: f64) -> f64 {
+    pub(crate) fn speed(&self, x: f64, energy: f64) -> f64 {
         let way = self.0.way.get();
         way * (2.0 * energy / self.0.reduced(way * x).inertia).sqrt()
     }

@@ -177,7 +177,7 @@ pub fn means_over_turn(case: &Case, solver: &dyn Solver) -> Result<Means> {
 }
 
 /// The error for a question about whole turns, where there are none.
-pub(super) fn no_turn(kinks: &Kinks) -> Error {
+pub(crate) fn no_turn(kinks: &Kinks) -> Error {
     let reached = kinks.limits.map_or(String::new(), |[from, to]| {
         format!(": it can be turned from {:.6} to {:.6} deg only", from.to_degrees(), to.to_degrees())
     });

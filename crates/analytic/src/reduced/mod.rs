@@ -3,16 +3,11 @@
 //! `omega^2 / 2 dI*/dphi + I* domega/dt = M`, with I* and dI*/dphi from first and second transfer functions and M from the powers of motor, gravity and
 //! loads. Artobolevsky, "Theory of mechanisms and machines", motion of a machine under given forces.
 
-pub mod averaged;
-pub mod course;
-mod flow;
+pub(crate) mod flow;
 pub mod means;
-mod model;
-pub mod regime;
+pub(crate) mod model;
 pub mod run_up;
 
 pub use crate::motion::march::ACCURACY;
-pub use averaged::Averaged;
 pub use model::{Model, Reduced};
-pub use regime::Regime;
 pub use run_up::{CrankState, End, RunUp, motion};

@@ -35,15 +35,15 @@ struct Mass {
 
 /// A stretch of crank angles without a kink.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Piece {
+pub(crate) struct Piece {
     index: i64,
     /// Crank angles (rad) between which it lies.
-    pub(super) ends: [f64; 2],
+    pub(crate) ends: [f64; 2],
 }
 
 impl Piece {
     /// All crank angles: for what has not been placed yet.
-    pub(super) fn unbounded() -> Self {
+    pub(crate) fn unbounded() -> Self {
         Piece { index: 0, ends: [f64::NEG_INFINITY, f64::INFINITY] }
     }
 }
@@ -52,7 +52,7 @@ impl Piece {
 /// `omega^2 / 2 dI*/dphi + I* domega/dt = M`, and the crank angles at which they have kinks.
 #[derive(Clone, Debug)]
 pub struct Model<'a> {
-    pub(super) case: &'a Case,
+    pub(crate) case: &'a Case,
     masses: Vec<Mass>,
     /// Loads that turn with the sense of a link's rotation, and these links.
     sensed: Vec<(usize, Load)>,
@@ -63,11 +63,11 @@ pub struct Model<'a> {
     boundaries: Vec<f64>,
     /// Sense of each such link's transfer function on each piece of one period: +1 or -1, pieces one after the other.
     senses: Vec<f64>,
-    pub(super) motor: Option<Motor>,
+    pub(crate) motor: Option<Motor>,
     /// Sense in which the motor drives the crank: that of the scenario's prescribed speed.
-    pub(super) sense: f64,
+    pub(crate) sense: f64,
     /// Moment of inertia that turns with the crank: motor and reducer reduced to it, and a flywheel (kg m^2).
-    pub(super) added: f64,
+    pub(crate) added: f64,
 }
 
 impl<'a> Model<'a> {
@@ -151,7 +151,7 @@ impl<'a> Model<'a> {
 
     /// How far to go back (rad) so that the crank angle stays small: the period, where `crank` is the end of the last piece going up; minus the
     /// period, where it is the beginning of the first one going down; else nothing. Small angles keep their last digits.
-    pub(super) fn wrap(&self, crank: f64, way: f64) -> f64 {
+    pub(crate) fn wrap(&self, crank: f64, way: f64) -> f64 {
         let first = self.boundaries[0];
         match self.kinks.period {
             Some(period) if way > 0.0 && crank >= first + period => period,
@@ -176,7 +176,7 @@ impl<'a> Model<'a> {
     }
 
     /// The piece at `crank`; at a boundary, the one to which `way` (+1 or -1) leads. `None` beyond a limit.
-    pub(super) fn piece_at(&self, crank: f64, way: f64) -> Option<Piece> {
+    pub(crate) fn piece_at(&self, crank: f64, way: f64) -> Option<Piece> {
         let all = &self.boundaries;
         let (turns, inside) = match self.kinks.period {
             Some(period) => {
@@ -199,7 +199,7 @@ impl<'a> Model<'a> {
 
     /// Reduced quantities at `crank` (rad) while the crank turns in the sense of `way` (+1, -1, or 0 for standstill, where no load acts that asks
     /// for a sense). Beyond its ends the piece goes on smoothly.
-    pub(super) fn on_piece(&self, poses: &mut PoseSolver, crank: f64, way: f64, piece: Piece) -> Result<Reduced> {
+    pub(crate) fn on_piece(&self, poses: &mut PoseSolver, crank: f64, way: f64, piece: Piece) -> Result<Reduced> {
         let state = self.at_unit_speed(poses, crank)?;
         let count = self.sensed.len();
         let row = piece.index.rem_euclid((self.senses.len() / count.max(1)).max(1) as i64) as usize;
@@ -266,7 +266,7 @@ impl<'a> Model<'a> {
     }
 
     /// Smooth piece of the motor's moment that holds while the crank turns with `omega` (rad/s) and goes on towards `towards` (rad/s^2).
-    pub(super) fn branch(&self, omega: f64, towards: f64) -> Option<Branch> {
+    pub(crate) fn branch(&self, omega: f64, towards: f64) -> Option<Branch> {
         let motor = self.motor.as_ref()?;
         Some(motor.branch(self.sense * omega, self.sense * towards))
     }

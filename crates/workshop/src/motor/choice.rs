@@ -6,7 +6,8 @@
 use super::catalogue::{CatalogueMotor, weakest_sufficient};
 use analytic::AssurSolver;
 use analytic::reduced::means::{self, means_over_turn};
-use analytic::reduced::{ACCURACY, Model, Regime};
+use analytic::reduced::{ACCURACY, Model};
+use analytic::steady::Regime;
 use linkage::case::Case;
 use linkage::drive::Motor;
 use linkage::error::{Error, ErrorKind, Result};

@@ -2,11 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use super::flow::{Forces, OverAngle};
-use super::means::{self, no_turn};
-use super::model::{Model, Piece};
 use crate::AssurSolver;
 use crate::motion::march::{MOST_EMPTY, Place, Step, Stop, march, one_step};
+use crate::reduced::flow::{Forces, OverAngle};
+use crate::reduced::means::{self, no_turn};
+use crate::reduced::model::{Model, Piece};
 use linkage::error::{Error, ErrorKind, Result};
 
 /// Newton steps of the shooting; it takes three to six.

@@ -1,8 +1,8 @@
 //! Reduced quantities over the turn: their course and their extremes.
 
-use super::means::no_turn;
-use super::model::Model;
 use crate::PoseSolver;
+use crate::reduced::means::no_turn;
+use crate::reduced::model::Model;
 use linkage::error::Result;
 use linkage::math::golden;
 use std::f64::consts::PI;

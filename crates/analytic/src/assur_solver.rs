@@ -1,7 +1,7 @@
 //! Side 1: group by group, forwards for the motion and backwards for the forces; dyads in closed form.
 
-use super::pose_solver::PoseSolver;
-use super::transfer::TransferSide;
+use crate::assur::PoseSolver;
+use crate::assur::transfer::TransferSide;
 use crate::motion::free;
 use crate::reduced::{self, ACCURACY, End, Model, run_up};
 use linkage::case::Case;
