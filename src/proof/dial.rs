@@ -67,6 +67,9 @@ mod tests {
         assert_eq!(judged(disagree(), f64::NAN, 2.0).0, "disagree");
         assert_eq!(judged(disagree(), 1.0, 2.0).0, "disagree");
         assert_eq!(judged(Verdict::Expected { finding: String::new() }, 3.0, 2.0).0, "expected");
-        assert_eq!(judged(Verdict::Inconclusive { reason: String::new() }, 1.0, 2.0).0, "inconclusive");
+        assert_eq!(
+            judged(Verdict::Inconclusive { reason: String::new(), advice: Vec::new() }, 1.0, 2.0).0,
+            "inconclusive"
+        );
     }
 }

@@ -16,6 +16,7 @@ pub use parties::Dispute;
 
 use crate::compare::{Check, Verdict, overall};
 use crate::scenario::Scenario;
+use analytic::range::explained;
 use linkage::case::Case;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::solver::Solver;
@@ -79,6 +80,11 @@ pub fn prove_against(
     options: &Options,
     progress: &mut dyn FnMut(f64),
 ) -> Result<Proof> {
+    joined(scenario, engine_case, options, progress).map_err(|error| explained(&scenario.case, error))
+}
+
+/// The same with the errors of solvers as they come.
+fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: &mut dyn FnMut(f64)) -> Result<Proof> {
     let case = &scenario.case;
     let main = options.reference()?;
     let engines = options.engines(scenario)?;
@@ -91,7 +97,7 @@ pub fn prove_against(
     checks.extend(oracle::checks(scenario)?);
 
     let sensitivity = sensitivity::of(case, main, &own.trajectory)?;
-    let engine_case = engine_case.on(case.grid.clone());
+    let engine_case = engine_case.on(case.grid.clone())?;
     let mut proofs = Vec::with_capacity(engines.len());
     for (index, engine) in engines.iter().enumerate() {
         let mut part = |part: f64| progress((index as f64 + part) / engines.len() as f64);
@@ -131,7 +137,7 @@ fn of_engines(proofs: &[EngineProof]) -> Verdict {
         .or_else(|| verdicts().find(agrees))
         .or_else(|| verdicts().next())
         .cloned()
-        .unwrap_or_else(|| Verdict::Inconclusive { reason: "no engine was asked for".into() })
+        .unwrap_or_else(|| Verdict::open("no engine was asked for"))
 }
 
 fn unknown<'a>(what: &str, asked: &str, known: impl Iterator<Item = &'a str>) -> Error {

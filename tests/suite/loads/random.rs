@@ -144,12 +144,12 @@ fn higher_groups_bear_loads_too() {
             }
             for solver in analytic::all() {
                 for state in states(solver, case, &case.grid.times).expect("solvable") {
-                    let drives = case.drives().zip(&state.torques);
+                    let drives = case.drives.iter().zip(&state.torques);
                     let driving: f64 = drives.map(|(drive, torque)| torque * state.motions[drive.link].omega).sum();
                     let power = driving + power::of_known_forces(case, &state);
                     assert_within!(
                         power.abs(),
-                        1e-11 * scale * case.fastest_drive(),
+                        1e-11 * scale * case.drives.top_speed(),
                         "{name} {}: {power:e}",
                         solver.name()
                     );

@@ -255,7 +255,7 @@ mod tests {
 
     fn case() -> Case {
         let case = fixtures::turning(fixtures::four_bar());
-        case.on(Grid::of_times(&case.drive, vec![0.2, 0.0, 0.1]))
+        case.on(Grid::of_times(case.crank(), vec![0.2, 0.0, 0.1])).unwrap()
     }
 
     /// Rows and angles that an engine hands over, in its order, and how the run ended; progress must rise from 0 to 1.
@@ -292,7 +292,7 @@ mod tests {
     #[test]
     fn what_is_kept_of_one_case_is_not_given_for_another() {
         let (engine, one) = (counted(None), case());
-        let other = one.on(Grid::of_times(&one.drive, vec![0.4, 0.3, 0.5]));
+        let other = one.on(Grid::of_times(one.crank(), vec![0.4, 0.3, 0.5])).unwrap();
         let ladder = engine.with(ASKED).ladder(&rungs());
         for (rung, case) in ladder.iter().zip([&one, &other, &one, &one]) {
             assert_eq!(run(rung.as_ref(), case).0, run(engine.with(rung.settings()).as_ref(), case).0);
