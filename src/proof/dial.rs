@@ -1,6 +1,6 @@
 //! One dial on every bound, for looking at a proof from outside.
 
-use super::{Proof, of_engines, parties};
+use super::{Proof, parties};
 use crate::compare::{Check, Verdict, overall};
 
 impl Proof {
@@ -24,7 +24,7 @@ impl Proof {
             self.disputes = parties::disputes(self.reference, &self.reference_trajectory, &self.engines);
         }
         let analytic = overall(self.checks.iter().map(|check| &check.verdict));
-        self.verdict = overall([&analytic, &of_engines(&self.engines)]);
+        self.verdict = overall([&analytic].into_iter().chain(self.engines.iter().map(|engine| &engine.verdict)));
         self
     }
 }
@@ -36,14 +36,15 @@ fn scale(check: &mut Check, dial: f64) {
 /// Judges again what was judged by its bound. What disagrees although it is within its bound does so for another reason: a finding calls it
 /// wrong.
 fn judge(verdict: &mut Verdict, value: f64, bound: &mut f64, dial: f64) {
-    let by_bound = match verdict {
-        Verdict::Agree { .. } => true,
-        Verdict::Disagree { .. } => !(value <= *bound),
-        Verdict::Expected { .. } | Verdict::Inconclusive { .. } => false,
-    };
+    let beyond = !(value <= *bound);
     *bound *= dial;
-    if by_bound {
-        *verdict = Verdict::of(value, *bound, || format!("{value:.3e} beyond the scaled bound {bound:.3e}"));
+    let again = Verdict::of(value, *bound, || format!("{value:.3e} beyond the scaled bound {bound:.3e}"));
+    match (&*verdict, &again) {
+        (Verdict::Agree { .. }, _) => *verdict = again,
+        (Verdict::Disagree { .. }, _) if beyond => *verdict = again,
+        // What is right instead of a printed number is no longer met.
+        (Verdict::Expected { .. }, Verdict::Disagree { .. }) => *verdict = again,
+        (Verdict::Disagree { .. } | Verdict::Expected { .. } | Verdict::Inconclusive { .. }, _) => {}
     }
 }
 
@@ -66,10 +67,9 @@ mod tests {
         assert_eq!(judged(disagree(), 3.0, 2.0), ("agree", 4.0));
         assert_eq!(judged(disagree(), f64::NAN, 2.0).0, "disagree");
         assert_eq!(judged(disagree(), 1.0, 2.0).0, "disagree");
-        assert_eq!(judged(Verdict::Expected { finding: String::new() }, 3.0, 2.0).0, "expected");
-        assert_eq!(
-            judged(Verdict::Inconclusive { reason: String::new(), advice: Vec::new() }, 1.0, 2.0).0,
-            "inconclusive"
-        );
+        let expected = || Verdict::Expected { finding: String::new(), off: 5.0 };
+        assert_eq!(judged(expected(), 1.0, 0.5).0, "expected");
+        assert_eq!(judged(expected(), 1.0, 0.4).0, "disagree");
+        assert_eq!(judged(Verdict::open("why"), 1.0, 2.0).0, "inconclusive");
     }
 }

@@ -8,7 +8,7 @@ use std::ops::Deref;
 use crate::Result;
 use crate::drive::{Action, Drive, Drives, Load, Motor, Setting, Wrench};
 use crate::math::statistics::ascending;
-use crate::math::{Motion, Vec2};
+use crate::math::{KeepNan, Motion, Vec2};
 use crate::mechanism::{AssemblyMode, Mechanism, Pose, Structure};
 use crate::trajectory::{CHANNELS, Channel, Stage, Subject};
 
@@ -72,7 +72,7 @@ impl Grid {
                 ));
             }
         }
-        let most = self.cranks.iter().fold(0.0, |most: f64, crank| most.max(crank.abs())) / TAU;
+        let most = self.cranks.iter().fold(0.0, |most: f64, crank| most.larger(crank.abs())) / TAU;
         if most <= Self::MOST_TURNS && self.times.iter().chain(&self.cranks).all(|value| value.is_finite()) {
             return Ok(());
         }
