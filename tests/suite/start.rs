@@ -1,5 +1,6 @@
 //! First poses of mechanisms with prismatic joints, from their files, against hand computation.
 
+use crate::common::assert_within;
 use std::path::Path;
 
 use linkage::math::Vec2;
@@ -21,13 +22,13 @@ fn parse(ground: &str, body: &str, crank: f64, start: &str) -> linkage::Result<S
 /// Place of a point (mm) in the first pose, which must hold together.
 fn place(scenario: &Scenario, name: &str) -> Vec2 {
     let case = &scenario.case;
-    assert!(case.start.closure(&case.mechanism) < 1e-15);
+    assert_within!(case.start.closure(&case.mechanism), 1e-15);
     let (_, side) = case.mechanism.moving_points().find(|&(point, _)| point == name).unwrap();
     case.start.0[side.link].point(side.local) * 1e3
 }
 
 fn assert_at(found: Vec2, x: f64, y: f64) {
-    assert!((found - Vec2::new(x, y)).norm() < 1e-10, "{found:?} for {x}, {y}");
+    assert_within!((found - Vec2::new(x, y)).norm(), 1e-10, "{found:?} for {x}, {y}");
 }
 
 const SLIDER: &str = r#"
@@ -73,7 +74,8 @@ fn a_slider_lies_ahead_of_the_crank_pin_or_behind_it() {
     let near = slider_crank(FORWARD, &start("near = { point = \"B\", x_mm = -200, y_mm = 30 }")).unwrap();
     assert_at(place(&near, "B"), -240.0, 0.0);
     let [nearest, next] = [near.choices[0].nearest_m, near.choices[0].next_m].map(Option::unwrap);
-    assert!((nearest - 0.05).abs() < 1e-15 && (next - 0.44f64.hypot(0.03)).abs() < 1e-15, "{nearest} {next}");
+    assert_within!((nearest - 0.05).abs(), 1e-15, "{nearest} {next}");
+    assert_within!((next - 0.44f64.hypot(0.03)).abs(), 1e-15, "{nearest} {next}");
 }
 
 #[test]

@@ -8,6 +8,7 @@ use linkage::trajectory::{Channel, Stage, Unit};
 use linkproof::compare::residuals;
 
 use super::{epsilon, has_formal_order, solve};
+use crate::common::assert_within;
 use crate::common::spec::four_bar;
 
 /// Enough for this four-bar in either build.
@@ -51,10 +52,10 @@ fn regress_66_the_motor_holds_its_speed_with_substeps() {
         let steps = case.grid.times.last().unwrap() / engine.settings().resolution;
         for (angle, crank) in angles.iter().zip(run.cranks()) {
             let off = (angle - crank).abs();
-            assert!(off <= 2.0 * epsilon(engine.as_ref()) * steps, "{name}: {off:e} at {crank}");
+            assert_within!(off, 2.0 * epsilon(engine.as_ref()) * steps, "{name}: {off:e} at {crank}");
         }
         let speeds = run.column(&Channel::named("link.crank.omega_rad_s").unwrap()).unwrap();
-        assert!(speeds.iter().all(|omega| (omega - 10.0).abs() <= 1e-11), "{name}: {speeds:?}");
+        speeds.iter().for_each(|omega| assert_within!((omega - 10.0).abs(), 1e-11, "{name}: {speeds:?}"));
     }
 }
 
@@ -77,7 +78,7 @@ fn regress_67_two_substeps_are_nearly_as_good_as_half_the_step() {
             let [one, two] = [1, 2].map(|substeps| worst(name, route, substeps));
             eprintln!("{name} {route:?}: one substep {one:?}, two {two:?}");
             for k in 0..2 {
-                assert!(two[k] <= shares[k] * one[k], "{name} {route:?}: {one:?}, two substeps {two:?}");
+                assert_within!(two[k], shares[k] * one[k], "{name} {route:?}: {one:?}, two substeps {two:?}");
             }
         }
     }
