@@ -30,7 +30,7 @@ pub(super) fn told(advice: &Advice) -> String {
             "ask for a larger error, other channels (--channel) or further engines (--engine all)".into()
         }
         Advice::AllResults => "all of them with --json".into(),
-        _ => advice.to_string(),
+        Advice::Text(_) | Advice::DoublePrecision | Advice::ShortenGrid => advice.to_string(),
     }
 }
 

@@ -235,7 +235,7 @@ fn channel(proof: &ChannelProof, tell: Tell) -> Channel {
 fn check(check: &Check, tell: Tell) -> CheckRow {
     let (finding, printed_off) = match &check.verdict {
         Verdict::Expected { finding, off } => (Some(finding.clone()), Some(*off)),
-        _ => (None, None),
+        Verdict::Agree { .. } | Verdict::Disagree { .. } | Verdict::Inconclusive { .. } => (None, None),
     };
     CheckRow {
         name: check.name(),

@@ -16,7 +16,7 @@ pub fn all(proof: &Proof) -> String {
         for channel in &engine.channels {
             let (residual, verdict) = (&channel.residual, channel.verdict.word());
             let numbers = [residual.max, channel.bound];
-            add(residual.channel.to_string(), engine.info.name, numbers, residual.channel.kind.unit, verdict);
+            add(residual.channel.to_string(), engine.info.name, numbers, residual.channel.kind.unit.symbol(), verdict);
         }
     }
     for check in proof.all_checks() {
