@@ -170,7 +170,7 @@ fn find(args: &Args, scenario: &Scenario, model: &Model) -> Result<Found> {
             Some(([sense * speed, sense * speed * motor.ratio], model.regime(&cranks, ACCURACY)?))
         }
     };
-    let flywheel = args.non_uniformity.map(|wanted| Flywheel::of(&model, wanted, ACCURACY)).transpose()?;
+    let flywheel = args.non_uniformity.map(|wanted| Flywheel::of(model, wanted, ACCURACY)).transpose()?;
     let (extremes, rows) = (model.extremes()?, model.rows(&cranks)?);
     Ok(Found { means, extremes, added: model.added_inertia(), rows, steady, averaged, flywheel })
 }
