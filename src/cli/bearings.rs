@@ -82,11 +82,10 @@ fn as_text(args: &Args, scenario: &Scenario, peaks: &Peaks) -> String {
 fn as_json(args: &Args, scenario: &Scenario, peaks: &Peaks) -> String {
     let whole = |peak: Peak, unit: &str| json!({unit: peak.value, "crank_rad": peak.crank});
     let joints = scenario.case.mechanism.joints().iter().enumerate().map(|(index, joint)| {
-        let slides = joint.is_prismatic();
         json!({
             "joint": joint.name, "reaction": whole(peaks.reactions[index], "N"),
             "moment": peaks.moments[index].map(|moment| whole(moment, "N_m")),
-            "smallest_journal_m": (!slides).then(|| diameter(args, peaks.reactions[index])),
+            "smallest_journal_m": joint.is_pin().then(|| diameter(args, peaks.reactions[index])),
         })
     });
     let value = json!({

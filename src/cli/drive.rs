@@ -155,15 +155,15 @@ fn check(args: &Args) -> Result<()> {
 fn find(args: &Args, scenario: &Scenario, model: &Model) -> Result<Found> {
     let case = &scenario.case;
     let means = reduced::means_over_turn(case, &AssurSolver)?;
-    let sense = case.drive.sense();
+    let sense = case.crank().sense();
     let period = model.kinks().period.unwrap_or(std::f64::consts::TAU).to_degrees();
     let count = (period / args.step_deg + 1e-9).floor() as usize;
     let cranks: Vec<f64> =
-        (0..=count).map(|k| case.drive.start + sense * (args.step_deg * k as f64).to_radians()).collect();
+        (0..=count).map(|k| case.crank().start + sense * (args.step_deg * k as f64).to_radians()).collect();
     let resistance = sense * means.resistance;
     let inertia = means.inertia + model.added_inertia();
-    let averaged = case.motor.as_ref().and_then(|motor| Averaged::of(motor, inertia, resistance));
-    let steady = match &case.motor {
+    let averaged = case.crank().motor().and_then(|motor| Averaged::of(motor, inertia, resistance));
+    let steady = match case.crank().motor() {
         None => None,
         Some(motor) => {
             let Some(speed) = motor.steady_speed(resistance) else { return Err(reduced::no_steady_speed(resistance)) };
@@ -179,7 +179,7 @@ fn as_text(args: &Args, scenario: &Scenario, found: &Found) -> String {
     let mut text = String::new();
     let _ = writeln!(text, "{}: {}\n", scenario.name, scenario.title);
     let names = [("reduced moment of inertia", "kg m^2"), ("reduced moment of resistance", "N m")];
-    let means = [found.means.inertia, found.means.resistance * scenario.case.drive.sense()];
+    let means = [found.means.inertia, found.means.resistance * scenario.case.crank().sense()];
     for (((name, unit), mean), extremes) in names.into_iter().zip(means).zip(&found.extremes) {
         let end = |(crank, value): (f64, f64)| format!("{value:.9} {unit} at {:.4} deg", crank.to_degrees());
         let _ = writeln!(text, "{name}\n  mean      {mean:.9} {unit}");
@@ -240,7 +240,7 @@ fn by_angle(found: &Found) -> String {
 }
 
 fn as_json(args: &Args, scenario: &Scenario, found: &Found) -> String {
-    let sense = scenario.case.drive.sense();
+    let sense = scenario.case.crank().sense();
     let extremes = |extremes: &Extremes, mean: f64| {
         let end = |(crank, value): (f64, f64)| json!({"crank_rad": crank, "value": value});
         json!({"mean": mean, "least": end(extremes.least), "greatest": end(extremes.greatest)})

@@ -48,7 +48,7 @@ pub(super) struct Args {
 pub(super) fn plan(args: &Args) -> Result<()> {
     let scenario = Scenario::load(&args.file)?.nominal();
     let case = &scenario.case;
-    let crank = args.crank_deg.map_or(case.drive.start, f64::to_radians);
+    let crank = args.crank_deg.map_or(case.crank().start, f64::to_radians);
     let solver = analytic::named(&args.with).expect("the argument parser knows all names");
     let state = state_at(case, solver, crank).map_err(|error| explained(case, error))?;
     let plans = Plans::of(case, solver, &state, crank);

@@ -8,7 +8,7 @@ use linkage::case::Case;
 use linkage::drive::DriveState;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::statistics::share;
-use linkage::math::{Vec2, cross};
+use linkage::math::{KeepNan, Vec2, cross};
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
 
@@ -90,7 +90,7 @@ impl Watch {
 
     fn grow(&mut self, quantity: Quantity, value: f64) {
         let scale = &mut self.scales[quantity as usize];
-        *scale = scale.max(value.abs());
+        *scale = scale.larger(value.abs());
     }
 
     fn see(&mut self, case: &Case, row: usize, state: &State) {
@@ -196,7 +196,7 @@ pub(super) fn checks(case: &Case, reference: &dyn Solver) -> Result<Vec<Check>> 
 
 /// The crank at an instant: by its law, or as the state has it where forces decide the motion.
 fn crank_of(case: &Case, row: usize, state: &State) -> DriveState {
-    let drive = &case.drive;
+    let drive = case.crank();
     if !case.is_free() {
         return DriveState { angle: case.grid.cranks[row], ..drive.at(case.grid.times[row]) };
     }

@@ -17,8 +17,9 @@ use crate::scenario::Scenario;
 use analytic::AssurSolver;
 use analytic::range::explained;
 use bench::{Bench, Outcome};
-use linkage::case::{Case, Wanted};
+use linkage::case::Wanted;
 use linkage::error::{Advice, Error, ErrorKind, Result};
+use linkage::math::KeepNan;
 use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Stage};
 
@@ -67,14 +68,14 @@ pub fn tune(
     }
     let wanted = wanted_channels(scenario, wish)?;
     let stages: Vec<Stage> = wanted.iter().map(|channel| channel.kind.stage).collect();
-    let case = Case { wanted: Wanted::of(&stages), ..scenario.case.clone() };
+    let case = scenario.case.wanting(Wanted::of(&stages));
     let reference = AssurSolver.solve(&case, &mut |_| {}).map_err(|error| explained(&case, error))?;
     let engines = options.engines(scenario)?;
     let mut bench = Bench { case: &case, reference: &reference, wanted: &wanted, price, runs: 0, refused: false };
     let (mut by_engine, mut too_coarse, mut too_dear): (Vec<Candidate>, _, _) = (Vec::new(), Vec::new(), Vec::new());
     for (index, engine) in engines.iter().enumerate() {
         let mut part = |part: f64| progress((index as f64 + part) / engines.len() as f64);
-        let cheapest = by_engine.iter().map(|candidate| candidate.price).fold(f64::INFINITY, f64::min);
+        let cheapest = by_engine.iter().map(|candidate| candidate.price).fold(f64::INFINITY, f64::smaller);
         match bench.best_of(engine.as_ref(), wish.within, options, cheapest, &mut part) {
             Outcome::Met(candidate) => by_engine.push(candidate),
             Outcome::TooCoarse(error) => too_coarse.push((engine.name(), error)),

@@ -6,9 +6,9 @@ use std::fmt;
 use super::quiet::guarded;
 use super::world::{LinkFrame, World, masses, opening};
 use linkage::case::Case;
-use linkage::drive::{Drive, Wrench};
+use linkage::drive::{Drive, DriveMotion, Wrench};
 use linkage::error::{Advice, Error, ErrorKind, Result};
-use linkage::math::Vec2;
+use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{LinkPose, Side};
 use linkage::solver::State;
 
@@ -55,7 +55,7 @@ impl<'a> Guard<'a> {
             masses,
             step,
             loads: vec![Wrench::ZERO; case.mechanism.links().len()],
-            energy: energy * case.fastest_drive().powi(2),
+            energy: energy * case.drives.top_speed().powi(2),
         };
         guard.stand();
         guard
@@ -86,21 +86,21 @@ impl<'a> Guard<'a> {
 
     /// Sets all drives to their speeds at `t`.
     pub(super) fn drive(&mut self, t: f64) {
-        for (index, drive) in self.case.drives().enumerate() {
+        for (index, drive) in self.case.drives.iter().enumerate() {
             self.world.set_drive(index, drive.at(t).omega);
         }
     }
 
     /// Sets all drives to the speeds that take them from where they are at the time `from` (s) to where they are at `to`, a step later or earlier.
     pub(super) fn drive_on(&mut self, from: f64, to: f64) {
-        for (index, drive) in self.case.drives().enumerate() {
+        for (index, drive) in self.case.drives.iter().enumerate() {
             self.world.set_drive(index, drive.step_speed(from, to));
         }
     }
 
     /// Sets all drives to their speeds at t = 0: those from which free links start, those of the laws for the others.
     pub(super) fn drive_from_start(&mut self) {
-        for (index, drive) in self.case.drives().enumerate() {
+        for (index, drive) in self.case.drives.iter().enumerate() {
             self.world.set_drive(index, drive.initial_speed());
         }
     }
@@ -108,11 +108,11 @@ impl<'a> Guard<'a> {
     /// Sets the speed, over a step between two instants, of the links whose motion is prescribed, and for free ones what `motor` says: speed aimed at
     /// (rad/s) and damping (N m s/rad).
     pub(super) fn drive_freely(&mut self, [from, to]: [f64; 2], motor: [f64; 2]) {
-        for (index, drive) in self.case.drives().enumerate() {
-            match (drive.free, index) {
-                (None, _) => self.world.set_drive(index, drive.step_speed(from, to)),
-                (Some(_), 0) => self.world.set_motor(index, motor[0], motor[1]),
-                (Some(_), _) => self.world.set_motor(index, 0.0, 0.0),
+        for (index, drive) in self.case.drives.iter().enumerate() {
+            match (&drive.motion, index) {
+                (DriveMotion::Prescribed { .. }, _) => self.world.set_drive(index, drive.step_speed(from, to)),
+                (DriveMotion::Free { .. }, 0) => self.world.set_motor(index, motor[0], motor[1]),
+                (DriveMotion::Free { .. }, _) => self.world.set_motor(index, 0.0, 0.0),
             }
         }
     }
@@ -157,7 +157,7 @@ impl<'a> Guard<'a> {
         let (links, joints) = (case.mechanism.links(), case.mechanism.joints());
         // Said in the words of the frames before the step.
         let place =
-            |before: &[LinkFrame]| Moment::of(&case.drive, before[case.drive.link].angle() - case.drive.zero, t);
+            |before: &[LinkFrame]| Moment::of(case.crank(), before[case.crank().link].angle() - case.crank().zero, t);
         guarded(|| world.step()).map_err(|cause| panicked(place(before), cause.as_ref()))?;
         let frames = world.frames();
         let mut twice_energy = 0.0;
@@ -182,7 +182,7 @@ impl<'a> Guard<'a> {
             let message = format!("the engine's kinetic energy has grown {growth:.1e} times in one step, {place}");
             return Err(place.failed(message).beyond(growth, LARGEST_GROWTH, ""));
         }
-        self.energy = self.energy.max(energy);
+        self.energy = self.energy.larger(energy);
         for &joint in &world.tree().cut {
             let gap = opening(frames, &joints[joint], *size);
             if !(gap <= self.largest_gap) {
@@ -204,17 +204,17 @@ impl<'a> Guard<'a> {
         let case = self.case;
         for (index, (link, pose)) in case.mechanism.links().iter().zip(&case.start.0).enumerate().skip(1) {
             let off = |local| (self.world.point(Side { link: index, local }) - pose.point(local)).norm();
-            let far = link.points.iter().map(|point| off(point.local)).fold(off(link.mass_centre), f64::max);
+            let far = link.points.iter().map(|point| off(point.local)).fold(off(link.mass_centre), f64::larger);
             // Written so that NaN stops the run too.
             if !(far <= self.largest_gap) {
-                let crank = case.drive.start.to_degrees();
+                let crank = case.crank().start.to_degrees();
                 let message = format!(
                     "the engine ran up from a few steps before the grid and came back to the start at crank angle {crank:.4} deg with link \"{}\" {far:.3e} m off: it has passed a dead point on the way",
                     link.name
                 );
                 return Err(Error::new(ErrorKind::Numeric, message)
                     .at_time(0.0)
-                    .at_crank(case.drive.start)
+                    .at_crank(case.crank().start)
                     .of_link(&link.name)
                     .beyond(far, self.largest_gap, "m")
                     .help(Advice::SmallerStep { to: None })
@@ -237,7 +237,7 @@ struct Moment {
 impl Moment {
     /// A free crank is where it was `before` the step.
     fn of(drive: &Drive, before: f64, t: f64) -> Self {
-        Moment { t, crank: if drive.free.is_some() { before } else { drive.at(t).angle } }
+        Moment { t, crank: if drive.is_free() { before } else { drive.at(t).angle } }
     }
 
     fn error(self, message: String) -> Error {
@@ -270,7 +270,6 @@ mod tests {
     use crate::{Build, Precision, Rapier};
     use linkage::fixtures::{four_bar, turning};
     use linkage::math::{rotated, unit};
-    use linkage::mechanism::Pose;
 
     /// A world whose steps go wrong, after which it tells of places and angles that are off.
     struct Broken {
@@ -333,9 +332,7 @@ mod tests {
 
     /// What a guard says of a step that goes wrong, after which all places and angles are off by `off`.
     fn step(build: Build, wrong: fn(&mut dyn World), off: (Vec2, f64)) -> Result<()> {
-        let start = [(0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (1.0, 0.0, 0.8410686705679303), (4.0, 0.0, 1.6821373411358607)];
-        let pose = |(x, y, angle)| LinkPose { origin: Vec2::new(x, y), angle };
-        let case = Case { start: Pose(start.map(pose).to_vec()), ..turning(four_bar()) };
+        let case = turning(four_bar());
         let engine = Rapier::new(build, Precision::Double, 1e-3);
         let tree = if build == Build::Impulse { Tree::none(&case.mechanism) } else { Tree::of(&case.mechanism) };
         let world = engine.world(&case, tree, false).unwrap();

@@ -9,7 +9,7 @@ use linkage::error::{Error, ErrorKind};
 /// What stopped a run, in the case's terms.
 pub(super) fn stopped(case: &Case, linkage: &Linkage, sense: f64, failure: &Failure) -> Error {
     let t = failure.time.unwrap_or(0.0) * sense;
-    let crank = case.drive.at(t).angle;
+    let crank = case.crank().at(t).angle;
     let degrees = crank.to_degrees();
     // Written so that NaN is the largest.
     let widest = failure.gaps.iter().zip(&linkage.tree.cut).reduce(|a, b| if a.0 >= b.0 { a } else { b });

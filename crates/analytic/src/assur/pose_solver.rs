@@ -40,9 +40,10 @@ impl<'a> PoseSolver<'a> {
         let plan = Plan::of(&case.mechanism, &case.structure, &case.modes);
         let step = if plan.is_closed_form() { CLOSED_FORM_STEP } else { FOLLOWED_STEP };
         let (statics, state) = (Kinetostatics::of(case, &plan), State::at_start(case));
-        let inputs = vec![0.0; case.drives().count()];
-        let mut solver = PoseSolver { case, plan, statics, state, turns: None, inputs, crank: case.drive.start, step };
-        solver.step_to(case.drive.start, 0)?;
+        let inputs = vec![0.0; case.drives.len()];
+        let mut solver =
+            PoseSolver { case, plan, statics, state, turns: None, inputs, crank: case.crank().start, step };
+        solver.step_to(case.crank().start, 0)?;
         if case.loads.iter().any(Load::needs_angles) {
             solver.turns = Some(Turns::from(&case.start, &solver.state.motions));
         }
@@ -109,10 +110,10 @@ impl<'a> PoseSolver<'a> {
     #[inline]
     fn turn(&mut self, crank: f64) {
         let (first, further) = self.inputs.split_first_mut().expect("there is a drive");
-        *first = self.case.drive.world_angle(crank);
+        *first = self.case.crank().world_angle(crank);
         if !further.is_empty() {
-            let t = self.case.drive.time_of(crank);
-            for (angle, drive) in further.iter_mut().zip(&self.case.further_drives) {
+            let t = self.case.crank().time_of(crank);
+            for (angle, drive) in further.iter_mut().zip(self.case.drives.further()) {
                 *angle = drive.world_angle(drive.at(t).angle);
             }
         }
@@ -124,7 +125,7 @@ impl<'a> PoseSolver<'a> {
         let (first, further) = self.inputs.split_first_mut().expect("there is a drive");
         *first = rate;
         if !further.is_empty() {
-            let ratios = self.case.ratios(self.case.drive.time_of(self.crank));
+            let ratios = self.case.drives.ratios(self.case.crank().time_of(self.crank));
             further.iter_mut().zip(ratios.skip(1)).for_each(|(own, ratio)| *own = rate * ratio);
         }
     }
@@ -160,7 +161,7 @@ impl<'a> PoseSolver<'a> {
             self.state.angles.iter_mut().zip(turns.angles()).for_each(|(angle, found)| *angle = found);
         }
         self.turn(self.crank);
-        for (drive, &angle) in self.case.drives().zip(&self.inputs) {
+        for (drive, &angle) in self.case.drives.iter().zip(&self.inputs) {
             self.state.angles[drive.link] = angle;
         }
         &self.state

@@ -12,8 +12,6 @@ mod mode;
 #[cfg(test)]
 mod random;
 mod rough;
-#[cfg(test)]
-mod scan;
 mod three_leads;
 
 pub use configurations::{configurations, transmission_sine};
