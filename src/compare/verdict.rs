@@ -133,7 +133,10 @@ impl Verdict {
                 );
                 Verdict::Inconclusive { reason, advice }
             }
-            verdict => verdict,
+            verdict @ (Verdict::Agree { .. }
+            | Verdict::Disagree { .. }
+            | Verdict::Expected { .. }
+            | Verdict::Inconclusive { .. }) => verdict,
         }
     }
 }
@@ -224,7 +227,7 @@ impl Check {
             (Verdict::Disagree { place }, _) => Verdict::Disagree {
                 place: format!("neither the printed number nor the one that \"{finding}\" says is right: {place}"),
             },
-            (verdict, _) => verdict,
+            (verdict @ (Verdict::Agree { .. } | Verdict::Expected { .. } | Verdict::Inconclusive { .. }), _) => verdict,
         };
         self
     }
@@ -299,7 +302,9 @@ mod tests {
     fn what_is_open_says_what_would_close_it() {
         let told = |parts: Parts| match Verdict::of_engine(&residual(1e-4), &converging(2.0), parts, 1e-2) {
             Verdict::Inconclusive { reason, advice } => (reason, advice),
-            other => panic!("{other:?}"),
+            other @ (Verdict::Agree { .. } | Verdict::Disagree { .. } | Verdict::Expected { .. }) => {
+                panic!("{other:?}")
+            }
         };
         let (_, advice) = told(Parts { discretisation: 0.5, iteration: 0.1, rounding: 0.1 });
         assert_eq!(advice, [Advice::SmallerStep { to: None }]);

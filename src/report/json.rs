@@ -211,7 +211,7 @@ fn channel(proof: &ChannelProof, tell: Tell) -> Channel {
     let residual = &proof.residual;
     Channel {
         channel: residual.channel.to_string(),
-        unit: residual.channel.kind.unit,
+        unit: residual.channel.kind.unit.symbol(),
         scale: residual.scale,
         max: residual.max,
         rms: residual.rms,
