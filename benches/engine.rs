@@ -1,6 +1,7 @@
 //! Cost of the harness: a run of an engine as a ratio to a bare loop of the same Rapier world with the same settings, timed in turns in the
 //! same run. `cargo bench --bench engine [-- SCENARIO|BUILD|SWEEPS...]`.
 
+use linkage::math::KeepNan;
 use std::hint::black_box;
 use std::path::Path;
 use std::time::Instant;
@@ -79,7 +80,7 @@ fn main() {
                         seconds(|| drop(black_box(engine.solve(&tenth, &mut |_| {}).expect("it runs")))),
                         seconds(|| drop(black_box(engine.solve(&each, &mut |_| {}).expect("it runs")))),
                     ];
-                    (0..4).for_each(|k| best[k] = best[k].min(times[k]));
+                    (0..4).for_each(|k| best[k] = best[k].smaller(times[k]));
                 }
                 let cost = best[0] * 1e6 / (STEPS + 16) as f64;
                 println!(

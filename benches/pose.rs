@@ -3,6 +3,7 @@
 
 mod four_bar;
 
+use linkage::math::KeepNan;
 use std::hint::black_box;
 use std::path::Path;
 use std::time::Instant;
@@ -30,7 +31,7 @@ fn shortest(mut turn: impl FnMut()) -> f64 {
         turn();
         since.elapsed().as_secs_f64()
     };
-    (0..REPEATS).map(time).fold(f64::INFINITY, f64::min) * 1e9 / POSES as f64
+    (0..REPEATS).map(time).fold(f64::INFINITY, f64::smaller) * 1e9 / POSES as f64
 }
 
 fn angle(k: usize) -> f64 {

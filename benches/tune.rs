@@ -2,6 +2,7 @@
 //! steps, both timed in turns. `cargo bench --bench tune [-- SCENARIO...]`; with `-- prices` what the price model of `tests/suite/tune/prices.rs`
 //! needs.
 
+use linkage::math::KeepNan;
 use std::hint::black_box;
 use std::path::Path;
 use std::time::Instant;
@@ -40,7 +41,7 @@ fn seconds(engine: &dyn Engine, case: &Case, repeats: usize) -> f64 {
         if black_box(engine.solve(case, &mut |_| {})).is_err() {
             return f64::INFINITY;
         }
-        shortest = shortest.min(since.elapsed().as_secs_f64());
+        shortest = shortest.smaller(since.elapsed().as_secs_f64());
     }
     shortest
 }
@@ -94,7 +95,7 @@ fn compare(name: &str) {
         for _ in 0..2 {
             let since = Instant::now();
             run()?;
-            shortest = shortest.min(since.elapsed().as_secs_f64());
+            shortest = shortest.smaller(since.elapsed().as_secs_f64());
         }
         Ok(shortest)
     };
@@ -111,9 +112,9 @@ fn compare(name: &str) {
     let mut shortest = vec![f64::INFINITY; met.len()];
     let mut own = f64::INFINITY;
     for _ in 0..REPEATS {
-        own = own.min(seconds(best.as_ref(), case, 1));
+        own = own.smaller(seconds(best.as_ref(), case, 1));
         for (Met { engine, .. }, shortest) in met.iter().zip(&mut shortest) {
-            *shortest = shortest.min(seconds(engine.as_ref(), case, 1));
+            *shortest = shortest.smaller(seconds(engine.as_ref(), case, 1));
         }
     }
     let verified = error_of(&scenario, &truth(&scenario), best.as_ref());
@@ -124,7 +125,7 @@ fn compare(name: &str) {
         let Met { engine, error, .. } = &met[k];
         println!("  cheapest  {:.2} ms, error {error:.2e}: {}", shortest[k] * 1e3, told(engine.as_ref(), case));
     }
-    let least = cheapest.map_or(own, |k| shortest[k].min(own));
+    let least = cheapest.map_or(own, |k| shortest[k].smaller(own));
     println!(
         "  ratio {:.2}; tune {} runs in {tuning:.1} s, exhaustive {runs} runs in {searching:.1} s",
         own / least,

@@ -1,5 +1,6 @@
 //! `linkproof run`.
 
+use linkage::math::KeepNan;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -187,7 +188,7 @@ fn metadata(proof: &Proof) -> BTreeMap<String, String> {
 
 /// The verdict at the start, and every disagreement where it is worst.
 fn log(proof: &Proof) -> Vec<LogEntry> {
-    let start = proof.reference_trajectory.times().iter().copied().fold(f64::INFINITY, f64::min);
+    let start = proof.reference_trajectory.times().iter().copied().fold(f64::INFINITY, f64::smaller);
     let level = |verdict: &Verdict| match verdict {
         Verdict::Agree { .. } | Verdict::Expected { .. } => Level::Info,
         Verdict::Inconclusive { .. } => Level::Warning,

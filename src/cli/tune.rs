@@ -1,5 +1,6 @@
 //! `linkproof tune`.
 
+use linkage::math::KeepNan;
 use std::fmt::Write;
 use std::fs;
 use std::path::PathBuf;
@@ -67,7 +68,7 @@ pub(super) fn run(args: &Args) -> Result<()> {
         for _ in 0..REPEATS {
             let since = Instant::now();
             run()?;
-            shortest = shortest.min(since.elapsed().as_secs_f64());
+            shortest = shortest.smaller(since.elapsed().as_secs_f64());
             if shortest > LONG {
                 break;
             }

@@ -187,8 +187,8 @@ fn judge(scenario: &Scenario, engine: &dyn Engine, reference: &Trajectory, runs:
         let convergence =
             Convergence::of_channel(ladder, &channel, engine.formal_order(case, kind), finest.noise(case, kind))
                 .expect("all runs of an engine have the same channels");
-        let tolerance = convergence.tolerance(resolution, engine.noise(case, kind));
-        let Basis::Truncation { parts, .. } = tolerance.basis else { unreachable!("that is what it rests on") };
+        let parts = convergence.parts(engine.noise(case, kind));
+        let basis = convergence.tolerance(resolution, parts, checks::noise_origin(engine)).basis;
         let verdict = Verdict::of_engine(&residual, &convergence, parts, scenario.engine_rel);
         let verdict = verdict.from_settings(resolution, engine.controls_error(), sweeps);
         let verdict = unless_turning_about(case, [reference, single], &residual, resolution, verdict);
@@ -196,16 +196,7 @@ fn judge(scenario: &Scenario, engine: &dyn Engine, reference: &Trajectory, runs:
             [single, half, reference].map(|side| side.column(&channel).expect("all sides have the channel"));
         let limit = convergence.limit(single, half, kind.periodic);
         let limit = limit.map(|limit| largest_difference(reference, &limit, kind.periodic));
-        ChannelProof {
-            residual,
-            bound: parts.sum(),
-            parts,
-            convergence,
-            limit,
-            sensitivity: None,
-            basis: tolerance.basis,
-            verdict,
-        }
+        ChannelProof { residual, bound: parts.sum(), parts, convergence, limit, sensitivity: None, basis, verdict }
     });
     Ok(judged.collect())
 }

@@ -8,7 +8,7 @@ use linkage::case::Case;
 use linkage::drive::DriveState;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::statistics::share;
-use linkage::math::{Vec2, cross};
+use linkage::math::{KeepNan, Vec2, cross};
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
 
@@ -90,7 +90,7 @@ impl Watch {
 
     fn grow(&mut self, quantity: Quantity, value: f64) {
         let scale = &mut self.scales[quantity as usize];
-        *scale = scale.max(value.abs());
+        *scale = scale.larger(value.abs());
     }
 
     fn see(&mut self, case: &Case, row: usize, state: &State) {

@@ -7,6 +7,8 @@ mod observe;
 mod options;
 mod oracle;
 mod parties;
+#[cfg(test)]
+mod planted;
 mod sensitivity;
 
 pub use engines::{ChannelProof, EngineInfo, EngineProof};
@@ -112,7 +114,7 @@ fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: 
         _ => parties::disputes(main.name(), &own.trajectory, &proofs),
     };
     let analytic = overall(checks.iter().map(|check| &check.verdict));
-    let verdict = overall([&analytic, &of_engines(&proofs)]);
+    let verdict = overall([&analytic].into_iter().chain(proofs.iter().map(|proof| &proof.verdict)));
     Ok(Proof {
         scenario: scenario.name.clone(),
         title: scenario.title.clone(),
@@ -124,19 +126,6 @@ fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: 
         verdict,
         reference_trajectory: own.trajectory.clone(),
     })
-}
-
-/// Verdict on all engines: a disagreement of one is one, else one engine that proves everything is enough.
-fn of_engines(proofs: &[EngineProof]) -> Verdict {
-    let verdicts = || proofs.iter().map(|proof| &proof.verdict);
-    let disagrees = |verdict: &&Verdict| matches!(verdict, Verdict::Disagree { .. });
-    let agrees = |verdict: &&Verdict| matches!(verdict, Verdict::Agree { .. });
-    verdicts()
-        .find(disagrees)
-        .or_else(|| verdicts().find(agrees))
-        .or_else(|| verdicts().next())
-        .cloned()
-        .unwrap_or_else(|| Verdict::open("no engine was asked for"))
 }
 
 fn unknown<'a>(what: &str, asked: &str, known: impl Iterator<Item = &'a str>) -> Error {

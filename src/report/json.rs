@@ -82,6 +82,8 @@ struct Channel {
     discretisation: f64,
     iteration: f64,
     rounding: f64,
+    /// How the bound is known, in one word, and on what it rests.
+    origin: &'static str,
     basis: String,
     verdict: &'static str,
     reason: Option<String>,
@@ -97,11 +99,16 @@ struct CheckRow {
     value: f64,
     bound: f64,
     unit: &'static str,
+    /// How the bound is known, in one word, and on what it rests.
+    origin: &'static str,
     basis: String,
     verdict: &'static str,
     reason: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     finding: Option<String>,
+    /// How far the printed number is off that the finding calls wrong; `value` is how far the right one is off.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    printed_off: Option<f64>,
 }
 
 #[derive(Debug, Serialize)]
@@ -214,6 +221,7 @@ fn channel(proof: &ChannelProof, tell: Tell) -> Channel {
         discretisation: proof.parts.discretisation,
         iteration: proof.parts.iteration,
         rounding: proof.parts.rounding,
+        origin: proof.basis.origin().word(),
         basis: proof.basis.to_string(),
         verdict: proof.verdict.word(),
         reason: proof.verdict.reason(tell),
@@ -225,18 +233,21 @@ fn channel(proof: &ChannelProof, tell: Tell) -> Channel {
 }
 
 fn check(check: &Check, tell: Tell) -> CheckRow {
+    let (finding, printed_off) = match &check.verdict {
+        Verdict::Expected { finding, off } => (Some(finding.clone()), Some(*off)),
+        _ => (None, None),
+    };
     CheckRow {
         name: check.name(),
         value: check.value,
         bound: check.bound,
         unit: check.unit,
+        origin: check.basis.origin().word(),
         basis: check.basis.to_string(),
         verdict: check.verdict.word(),
         reason: check.verdict.reason(tell),
-        finding: match &check.verdict {
-            Verdict::Expected { finding } => Some(finding.clone()),
-            _ => None,
-        },
+        finding,
+        printed_off,
     }
 }
 

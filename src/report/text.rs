@@ -71,16 +71,14 @@ fn sentence(verdict: &Verdict, proof: &Proof) -> String {
     match verdict {
         Verdict::Agree { .. } | Verdict::Expected { .. } => {
             let known = count(|verdict| matches!(verdict, Verdict::Expected { .. }));
-            let open = count(|verdict| matches!(verdict, Verdict::Inconclusive { .. }));
             let expected = if known == 0 { String::new() } else { format!(", {known} disagree as expected") };
-            let open = if open == 0 { String::new() } else { format!(", {open} of engines beside it prove nothing") };
             let within = verdicts(proof).filter(|(_, verdict)| matches!(verdict, Verdict::Agree { .. })).count();
             match proof.engines.len() {
                 1 => format!(
                     "AGREE: {channels} channels and {} checks are within their bounds{expected}.",
                     checks - known
                 ),
-                _ => format!("AGREE: {within} channels and checks are within their bounds{expected}{open}."),
+                _ => format!("AGREE: {within} channels and checks are within their bounds{expected}."),
             }
         }
         Verdict::Disagree { .. } => {
@@ -128,7 +126,7 @@ fn family_word<'a>(family: impl Iterator<Item = &'a Check> + Clone) -> &'static 
 fn expected(proof: &Proof, text: &mut String) {
     let mut findings: Vec<(&str, usize)> = Vec::new();
     for check in proof.all_checks() {
-        if let Verdict::Expected { finding } = &check.verdict {
+        if let Verdict::Expected { finding, .. } = &check.verdict {
             match findings.iter_mut().find(|(known, _)| known == finding) {
                 Some((_, count)) => *count += 1,
                 None => findings.push((finding, 1)),
@@ -172,7 +170,7 @@ fn order(observed: f64) -> String {
 }
 
 fn checks(checks: &[&Check]) -> Table {
-    let mut table = table(["check", "numbers", "worst", "bound", "verdict"], &[1, 2, 3]);
+    let mut table = table(["check", "numbers", "worst", "bound", "basis", "verdict"], &[1, 2, 3]);
     let mut seen: Vec<&str> = Vec::new();
     for first in checks {
         if seen.contains(&first.family.as_str()) {
@@ -188,6 +186,7 @@ fn checks(checks: &[&Check]) -> Table {
             family().count().to_string(),
             unit(worst.value),
             unit(worst.bound),
+            worst.basis.origin().word().to_string(),
             family_word(family()).to_string(),
         ]);
     }

@@ -24,8 +24,8 @@ mod tests;
 pub mod unit;
 mod words;
 
-pub use figure::{Figure, OracleFigure};
-pub use oracle::{ExpectedCell, Oracle, OraclePoint, OracleSeries};
+pub use figure::{Figure, FigureValue, OracleFigure};
+pub use oracle::{ExpectedCell, Oracle, OracleBasis, OraclePoint, OracleSeries};
 pub use settings::EngineKeys;
 
 use std::path::{Path, PathBuf};

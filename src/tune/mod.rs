@@ -19,6 +19,7 @@ use analytic::range::explained;
 use bench::{Bench, Outcome};
 use linkage::case::Wanted;
 use linkage::error::{Advice, Error, ErrorKind, Result};
+use linkage::math::KeepNan;
 use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Stage};
 
@@ -74,7 +75,7 @@ pub fn tune(
     let (mut by_engine, mut too_coarse, mut too_dear): (Vec<Candidate>, _, _) = (Vec::new(), Vec::new(), Vec::new());
     for (index, engine) in engines.iter().enumerate() {
         let mut part = |part: f64| progress((index as f64 + part) / engines.len() as f64);
-        let cheapest = by_engine.iter().map(|candidate| candidate.price).fold(f64::INFINITY, f64::min);
+        let cheapest = by_engine.iter().map(|candidate| candidate.price).fold(f64::INFINITY, f64::smaller);
         match bench.best_of(engine.as_ref(), wish.within, options, cheapest, &mut part) {
             Outcome::Met(candidate) => by_engine.push(candidate),
             Outcome::TooCoarse(error) => too_coarse.push((engine.name(), error)),

@@ -1,5 +1,6 @@
 //! Many poses in one call: the same numbers as pose by pose, the same errors, and the same bits wherever a row stands.
 
+use linkage::math::KeepNan;
 use std::cell::Cell;
 use std::f64::consts::TAU;
 
@@ -72,8 +73,8 @@ fn differences(ours: &[State], theirs: &[State]) -> [f64; 9] {
             for (a, b) in ours.iter().zip(theirs) {
                 let apart = (a - b).abs();
                 // NaN counts as endless.
-                difference[sort] = difference[sort].max(if apart.is_nan() { f64::INFINITY } else { apart });
-                scale[sort] = scale[sort].max(b.abs());
+                difference[sort] = difference[sort].larger(if apart.is_nan() { f64::INFINITY } else { apart });
+                scale[sort] = scale[sort].larger(b.abs());
             }
         }
     }

@@ -6,7 +6,7 @@ use analytic::AssurSolver;
 use linkage::ErrorKind;
 use linkage::case::Case;
 use linkage::drive::Load;
-use linkage::math::{Vec2, cross, rotated, unit};
+use linkage::math::{KeepNan, Vec2, cross, rotated, unit};
 use linkage::mechanism::{GROUND, JointKind, Mechanism, Side, Tree};
 use linkage::solver::State;
 use linkproof::scenario::Scenario;
@@ -87,7 +87,7 @@ fn the_file_holds_the_start_pose_and_its_speeds() {
         let motions = document.motions();
         let size = mechanism.size();
         let speed = case.crank().at(0.0).omega.abs();
-        let fastest = motions.iter().map(|motion| motion.omega.abs()).fold(speed, f64::max);
+        let fastest = motions.iter().map(|motion| motion.omega.abs()).fold(speed, f64::larger);
         for joint in mechanism.joints() {
             let [first, second] = [("first", joint.first), ("second", joint.second)].map(|(word, side)| {
                 let (owner, local) = document.site(&format!("{}.{word}", joint.name));

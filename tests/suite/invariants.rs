@@ -7,7 +7,7 @@ mod turns;
 
 use crate::common::random::{REACH, Sample, for_each, within};
 use crate::common::{centre, centre_acceleration, centre_velocity, states};
-use linkage::math::Vec2;
+use linkage::math::{KeepNan, Vec2};
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
 use linkproof::compare::residuals;
@@ -68,7 +68,7 @@ fn velocities_and_accelerations_are_derivatives() {
             for k in [0, case.grid.len() / 2, case.grid.len() - 1] {
                 let around = Around::of(solver, sample, case.grid.times[k]);
                 let here = around.here();
-                let fastest = here.motions.iter().map(|m| m.omega.abs()).fold(speed, f64::max);
+                let fastest = here.motions.iter().map(|m| m.omega.abs()).fold(speed, f64::larger);
                 for link in 1..case.mechanism.links().len() {
                     let motion = &here.motions[link];
                     let (velocity, acceleration) =
@@ -93,16 +93,16 @@ fn both_solvers_agree_to_rounding() {
         let speed = case.crank().at(0.0).omega.abs();
         let largest = |stage: Stage| {
             let own = a.iter().filter(|(channel, _)| channel.kind.stage == stage);
-            own.flat_map(|(_, values)| values).fold(0.0, |max: f64, v| max.max(v.abs()))
+            own.flat_map(|(_, values)| values).fold(0.0, |max: f64, v| max.larger(v.abs()))
         };
         for residual in residuals(&a, &b).expect("one grid") {
             let stage = residual.channel.kind.stage;
             let scale = match stage {
                 Stage::Positions => REACH,
-                Stage::Velocities => largest(stage).max(REACH * speed),
-                Stage::Accelerations => largest(stage).max(REACH * speed * speed),
+                Stage::Velocities => largest(stage).larger(REACH * speed),
+                Stage::Accelerations => largest(stage).larger(REACH * speed * speed),
                 Stage::Reactions | Stage::BalancingMoment => {
-                    largest(Stage::Reactions).max(largest(Stage::BalancingMoment))
+                    largest(Stage::Reactions).larger(largest(Stage::BalancingMoment))
                 }
             };
             // Units in the last place, times the condition: each derivative and each solve for forces adds its own sums.

@@ -1,5 +1,6 @@
 //! Laws of motion other than constant speed: both analytic sides, the balance of powers, and the engine by every route.
 
+use linkage::math::KeepNan;
 use std::path::Path;
 
 use analytic::{self, witness::momentum, witness::power};
@@ -40,7 +41,7 @@ fn both_sides_agree_and_balance_powers_and_momentum() {
         let [a, b] = analytic::all().map(|solver| solver.solve(case, &mut |_| {}).unwrap());
         let largest = |stage: Stage| {
             let own = a.iter().filter(move |(channel, _)| channel.kind.stage == stage);
-            own.flat_map(|(_, values)| values).fold(0.0, |max: f64, v| max.max(v.abs()))
+            own.flat_map(|(_, values)| values).fold(0.0, |max: f64, v| max.larger(v.abs()))
         };
         for residual in residuals(&a, &b).unwrap() {
             let share = residual.max / largest(residual.channel.kind.stage);

@@ -12,7 +12,7 @@ use std::path::Path;
 
 use analytic::{AssurSolver, NewtonSolver};
 use linkage::case::Case;
-use linkage::math::{Vec2, rotated, unit};
+use linkage::math::{KeepNan, Vec2, rotated, unit};
 use linkage::solver::Solver;
 use linkproof::scenario::Scenario;
 use workshop::diagram::plan::state_at;
@@ -76,7 +76,7 @@ fn angles() -> impl Iterator<Item = f64> {
 }
 
 fn longest(plan: &Plan) -> f64 {
-    plan.vectors.iter().map(|vector| vector.value.norm()).fold(0.0, f64::max)
+    plan.vectors.iter().map(|vector| vector.value.norm()).fold(0.0, f64::larger)
 }
 
 /// Walks from the pole along vectors to every letter; each vector not needed for that closes a contour. Returns the number of contours
@@ -98,7 +98,7 @@ fn contours(plan: &Plan) -> (usize, f64) {
         match (reached.get(&from).copied(), reached.get(&to).copied()) {
             (Some(start), Some(end)) => {
                 closed += 1;
-                gap = gap.max((start + vector.value - end).norm());
+                gap = gap.larger((start + vector.value - end).norm());
             }
             (Some(start), None) => drop(reached.insert(to, start + vector.value)),
             (None, end) => drop(reached.insert(from, end.unwrap() - vector.value)),
@@ -201,7 +201,7 @@ fn scale_factors_are_round_and_fill_the_paper() {
         for plan in [&plans.velocity, &plans.acceleration] {
             let text = format!("{:e}", plan.scale);
             assert!(["1", "2", "2.5", "5"].contains(&text.split('e').next().unwrap()), "{text}");
-            let most = plan.vectors.iter().map(|vector| plan.paper(vector)).fold(0.0, f64::max);
+            let most = plan.vectors.iter().map(|vector| plan.paper(vector)).fold(0.0, f64::larger);
             assert!(most > 50.0 && most <= 100.0 + 1e-9, "{name}: {most} mm");
         }
     }
@@ -244,9 +244,9 @@ fn the_singular_point_gives_the_solvers_velocities_and_accelerations() {
             for (side, link) in [point.links[0].0, point.links[1].0].into_iter().enumerate() {
                 let motion = &state.motions[link];
                 let local = rotated(Vec2::new(motion.direction.x, -motion.direction.y), point.at - motion.origin);
-                let speed = point.velocity.norm().max(1.0);
+                let speed = point.velocity.norm().larger(1.0);
                 assert!((motion.point_velocity(local) - point.velocity).norm() <= 1e-12 * speed * far);
-                let strong = point.accelerations[side].norm().max(100.0);
+                let strong = point.accelerations[side].norm().larger(100.0);
                 assert!((motion.point_acceleration(local) - point.accelerations[side]).norm() <= 1e-12 * strong * far);
             }
         }

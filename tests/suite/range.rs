@@ -1,5 +1,6 @@
 //! Over which crank angles mechanisms can be followed, and where they are singular: against closed forms, against solving and against counting.
 
+use linkage::math::KeepNan;
 use std::f64::consts::{PI, TAU};
 
 use crate::common::four_link;
@@ -78,7 +79,7 @@ fn limits_of_random_four_bars_are_those_of_the_law_of_cosines() {
                 limited += 1;
                 for (limit, expected) in found.iter().zip(expected) {
                     assert_eq!((limit.kind, limit.group), (Kind::DeadPoint, 0), "{lengths:?}");
-                    worst = worst.max((limit.crank - expected).abs());
+                    worst = worst.larger((limit.crank - expected).abs());
                 }
             }
             (found, expected) => panic!("{lengths:?}: {found:?} for {expected:?}"),
@@ -226,7 +227,7 @@ fn near_a_parallelogram_branches_touch_or_end() {
         let sine = |reach: f64| {
             let (b, c) = (0.4, 0.1 + off);
             let sixteen = (b + c + reach) * (b + c - reach) * (reach + b - c) * (reach - b + c);
-            sixteen.max(0.0).sqrt() / (2.0 * b * c)
+            sixteen.larger(0.0).sqrt() / (2.0 * b * c)
         };
         let expected: Vec<f64> = [0.3, 0.5].map(sine).into_iter().filter(|sine| *sine < 1e-3).collect();
         assert_eq!(contacts.len(), expected.len(), "{off:e}: {:?} for {expected:?}", touching.singularities);
@@ -235,7 +236,7 @@ fn near_a_parallelogram_branches_touch_or_end() {
         let expected = closed_form([0.4, 0.1, 0.4, 0.1 - off], 0.5).unwrap();
         for (limit, expected) in ended.iter().zip(expected) {
             // The closed form itself: rounding of the lengths over the sine of the crank angle.
-            let bound = EXACT.max(4.0 * f64::EPSILON / expected.sin().abs());
+            let bound = EXACT.larger(4.0 * f64::EPSILON / expected.sin().abs());
             assert!((limit.crank - expected).abs() <= bound, "{off:e}: {} for {expected}", limit.crank);
         }
     }
@@ -395,10 +396,10 @@ fn loss_of_digits_near_a_dead_point_is_that_of_the_condition_number() {
                 let (x, y) = (values(&ours), values(&theirs));
                 let size = if stage == 0 { 1.0 } else { y.abs() };
                 let power = if stage == 0 { 1 } else { 2 };
-                of_angle[stage] = of_angle[stage].max((x - y).abs() / size / (f64::EPSILON * condition.powi(power)));
+                of_angle[stage] = of_angle[stage].larger((x - y).abs() / size / (f64::EPSILON * condition.powi(power)));
             }
         }
-        worst = [0, 1, 2].map(|stage| worst[stage].max(of_angle[stage]));
+        worst = [0, 1, 2].map(|stage| worst[stage].larger(of_angle[stage]));
     }
     assert!(worst.iter().all(|&factor| factor <= 13.0), "{worst:?}");
 }

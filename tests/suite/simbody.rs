@@ -10,7 +10,7 @@ use analytic::{AssurSolver, NewtonSolver};
 use linkage::ErrorKind;
 use linkage::case::{Case, Grid};
 use linkage::engine::Engine;
-use linkage::math::Vec2;
+use linkage::math::{KeepNan, Vec2};
 use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Stage, Trajectory};
 use linkproof::compare::{Verdict, residuals};
@@ -50,8 +50,8 @@ fn agree(case: &Case, engine: &Simbody, reference: &dyn Solver, condition: f64) 
         assert!(residual.max <= bound, "{}: {:e} is beyond {bound:e}", residual.channel, residual.max);
         let share = residual.share();
         match kind.stage {
-            Stage::Positions if kind.unit == "rad" => worst[0] = worst[0].max(share),
-            Stage::Reactions | Stage::BalancingMoment => worst[1] = worst[1].max(share),
+            Stage::Positions if kind.unit == "rad" => worst[0] = worst[0].larger(share),
+            Stage::Reactions | Stage::BalancingMoment => worst[1] = worst[1].larger(share),
             _ => {}
         }
     }
@@ -210,14 +210,14 @@ fn random_mechanisms_agree() {
 fn nearness(case: &Case, truth: &Trajectory) -> f64 {
     let crank = case.crank().at(0.0).omega.abs();
     let of = |(channel, values): (&Channel, &[f64])| {
-        let most = values.iter().fold(0.0f64, |max, value| max.max(value.abs()));
+        let most = values.iter().fold(0.0f64, |max, value| max.larger(value.abs()));
         match channel.kind.stage {
             Stage::Velocities => most / crank,
             Stage::Accelerations => most.sqrt() / crank,
             _ => 0.0,
         }
     };
-    truth.iter().map(of).fold(1.0, f64::max)
+    truth.iter().map(of).fold(1.0, f64::larger)
 }
 
 #[test]
@@ -340,7 +340,7 @@ fn run_ups_and_pendulums_are_those_of_the_reference() {
         let reference = NewtonSolver.solve(&case, &mut |_| {}).unwrap();
         let found = Simbody::new(1e-9).solve(&case, &mut |_| {}).unwrap_or_else(|error| panic!("{name}: {error}"));
         let all = residuals(&reference, &found).unwrap();
-        let worst = all.iter().map(|r| r.share()).fold(0.0, f64::max);
+        let worst = all.iter().map(|r| r.share()).fold(0.0, f64::larger);
         println!("{name}: {worst:.1e} of the scale");
         assert!(worst < 1e-6, "{name}: {worst:e}");
         let proof = prove(&shipped(&format!("{name}.toml")), &Options::of_engine("simbody"), &mut |_| {}).unwrap();

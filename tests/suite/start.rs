@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use linkage::math::Vec2;
+use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::AssemblyMode;
 use linkproof::scenario::Scenario;
 
@@ -188,10 +188,10 @@ fn start_poses_of_all_scenarios_close_to_rounding() {
         for path in files.map(|file| file.unwrap().path()).filter(|path| path.extension().is_some_and(|e| e == "toml"))
         {
             let case = Scenario::load(&path).unwrap().case;
-            let reach = case.start.0.iter().fold(case.mechanism.size(), |most, pose| most.max(pose.origin.norm()));
+            let reach = case.start.0.iter().fold(case.mechanism.size(), |most, pose| most.larger(pose.origin.norm()));
             let open = case.start.closure(&case.mechanism) / reach;
             assert!(open <= 1e-12, "{}: {open:e}", path.display());
-            (worst, count) = (worst.max(open), count + 1);
+            (worst, count) = (worst.larger(open), count + 1);
         }
     }
     println!("largest opening over reach in {count} scenarios: {worst:.1e}");

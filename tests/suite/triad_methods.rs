@@ -12,7 +12,7 @@ use analytic::witness::triad::{Triad, assur_point, linear_system};
 use analytic::{AssurSolver, NewtonSolver};
 use linkage::ErrorKind;
 use linkage::case::Case;
-use linkage::math::{Matrix, Vec2, cross, rotated, turned, unit};
+use linkage::math::{KeepNan, Matrix, Vec2, cross, rotated, turned, unit};
 use linkage::mechanism::GROUND;
 use linkage::solver::{Solver, State};
 use linkproof::proof::{Options, prove};
@@ -42,7 +42,7 @@ impl Differences {
     /// Whether everything is within `rounding` times what the condition makes of it: it enters once into the solution of each linear system
     /// and into the angles, and once more with every derivative that is taken of them.
     fn are_within(&self, rounding: f64) -> bool {
-        let (own, chain) = (self.condition, self.condition.max(self.chain));
+        let (own, chain) = (self.condition, self.condition.larger(self.chain));
         self.cramer[0] <= rounding * own
             && self.cramer[1] <= rounding * own.powi(2)
             && (0..3).all(|k| self.change[k] <= rounding * chain.powi(k as i32 + 1))
@@ -75,8 +75,8 @@ fn differences(case: &Case, triad: &Triad, states: &[State], times: &[f64]) -> D
     let speed = case.crank().at(0.0).omega;
     let all =
         |of: &dyn Fn(&State, usize) -> f64| largest(states.iter().flat_map(|s| links.map(|link| of(s, link).abs())));
-    let omega = all(&|state, link| state.motions[link].omega).max(speed.abs());
-    let alpha = all(&|state, link| state.motions[link].alpha).max(speed * speed);
+    let omega = all(&|state, link| state.motions[link].omega).larger(speed.abs());
+    let alpha = all(&|state, link| state.motions[link].alpha).larger(speed * speed);
     let mut change = ClassChange::new(case, triad);
     let mut found = Differences::default();
     let (mut force, mut last): (f64, Option<(usize, f64)>) = (0.0, None);
@@ -110,7 +110,7 @@ fn differences(case: &Case, triad: &Triad, states: &[State], times: &[f64]) -> D
         for (way, worst) in ways.into_iter().zip([&mut found.assur_point, &mut found.linear]) {
             for (joint, own) in triad.joint_forces(&case.mechanism, &way.unwrap()) {
                 keep(worst, (own - state.forces[joint]).norm());
-                force = force.max(state.forces[joint].norm());
+                force = force.larger(state.forces[joint].norm());
             }
         }
     }

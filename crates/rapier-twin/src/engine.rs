@@ -41,6 +41,10 @@ impl Engine for Rapier {
         noise::bound(case, self, channel)
     }
 
+    fn is_noise_measured(&self) -> bool {
+        true
+    }
+
     fn told(&self) -> Vec<(&'static str, String)> {
         let build = match self.build {
             Build::Multibody => "spanning tree as multibody, loops closed by impulse joints",

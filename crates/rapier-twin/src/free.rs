@@ -7,6 +7,7 @@ use linkage::drive::{Branch, Wrench};
 use linkage::engine::Settings;
 use linkage::engine::bodies::check_inertias;
 use linkage::error::Result;
+use linkage::math::KeepNan;
 use linkage::mechanism::GROUND;
 use linkage::solver::State;
 
@@ -120,7 +121,7 @@ pub(super) fn begin(case: &Case, acting: &mut Acting, worlds: &mut [Guard], sett
 
 /// Places worlds at the start with the velocities of the driving links there: a tiny step with rigid drives brings all others in line.
 fn settle(case: &Case, worlds: &mut [Guard], step: f64) -> Result<()> {
-    let fastest = case.drives.iter().fold(0.0f64, |most, drive| most.max(drive.initial_speed().abs()));
+    let fastest = case.drives.iter().fold(0.0f64, |most, drive| most.larger(drive.initial_speed().abs()));
     for guard in worlds {
         guard.set_step(if fastest > 0.0 { SETTLING_TURN / fastest } else { SETTLING_TURN * step });
         guard.drive_from_start();

@@ -8,7 +8,7 @@ use super::world::{LinkFrame, World, masses, opening};
 use linkage::case::Case;
 use linkage::drive::{Drive, DriveMotion, Wrench};
 use linkage::error::{Advice, Error, ErrorKind, Result};
-use linkage::math::Vec2;
+use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{LinkPose, Side};
 use linkage::solver::State;
 
@@ -182,7 +182,7 @@ impl<'a> Guard<'a> {
             let message = format!("the engine's kinetic energy has grown {growth:.1e} times in one step, {place}");
             return Err(place.failed(message).beyond(growth, LARGEST_GROWTH, ""));
         }
-        self.energy = self.energy.max(energy);
+        self.energy = self.energy.larger(energy);
         for &joint in &world.tree().cut {
             let gap = opening(frames, &joints[joint], *size);
             if !(gap <= self.largest_gap) {
@@ -204,7 +204,7 @@ impl<'a> Guard<'a> {
         let case = self.case;
         for (index, (link, pose)) in case.mechanism.links().iter().zip(&case.start.0).enumerate().skip(1) {
             let off = |local| (self.world.point(Side { link: index, local }) - pose.point(local)).norm();
-            let far = link.points.iter().map(|point| off(point.local)).fold(off(link.mass_centre), f64::max);
+            let far = link.points.iter().map(|point| off(point.local)).fold(off(link.mass_centre), f64::larger);
             // Written so that NaN stops the run too.
             if !(far <= self.largest_gap) {
                 let crank = case.crank().start.to_degrees();

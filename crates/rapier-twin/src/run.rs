@@ -13,6 +13,7 @@ use super::window::Window;
 use linkage::case::Case;
 use linkage::engine::{Route, Settings};
 use linkage::error::{Advice, Error, ErrorKind, Reached, Result};
+use linkage::math::KeepNan;
 use linkage::solver::{Progress, State, Visit, check_instants};
 use linkage::trajectory::Stage;
 
@@ -35,7 +36,7 @@ pub(super) fn sweep(engine: &Rapier, case: &Case, visit: Visit, progress: Progre
     let rows = case.grid.ascending();
     let (Some(&first), Some(&last)) = (rows.first(), rows.last()) else { return Ok(()) };
     let step = engine.settings.resolution;
-    let begin = (case.grid.times[first].min(0.0) / step).floor();
+    let begin = (case.grid.times[first].smaller(0.0) / step).floor();
     let end = (case.grid.times[last] / step).floor();
     check(&engine.settings, end - begin)?;
     let start = match case.is_free() {

@@ -6,7 +6,7 @@ use super::tree::Tree;
 use linkage::case::Case;
 use linkage::drive::Wrench;
 use linkage::engine::bodies::stand_in;
-use linkage::math::{Vec2, cross, rotated};
+use linkage::math::{KeepNan, Vec2, cross, rotated};
 use linkage::mechanism::{GROUND, Joint, JointKind, Link, LinkPose, Side};
 
 /// What is known of a link's angle (rad, counter-clockwise positive).
@@ -204,7 +204,7 @@ pub(super) fn opening(frames: &[LinkFrame], joint: &Joint, size: f64) -> f64 {
         JointKind::Revolute => (places[1] - places[0]).norm(),
         JointKind::Prismatic { .. } => {
             let (distance, turn) = joint.opening(places, sides.map(|side| frames[side.link].direction));
-            distance.max(turn * size)
+            distance.larger(turn * size)
         }
     }
 }

@@ -15,7 +15,7 @@ use linkage::case::Case;
 use linkage::drive::{Load, Wrench};
 use linkage::engine::{Engine, Route, Settings};
 use linkage::error::{Advice, Error, ErrorKind, Result};
-use linkage::math::unit;
+use linkage::math::{KeepNan, unit};
 use linkage::solver::{Progress, Provision, Solver, State, Visit, check_instants};
 use linkage::trajectory::{Channel, ChannelKind, Stage};
 use model::Linkage;
@@ -74,7 +74,7 @@ impl Simbody {
             tolerance: tolerance(case),
             time_scale: 1.0 / case.drives.top_speed(),
             // An error of fourth order a step.
-            steps: (MAX_STEPS * (Simbody::ACCURACY / self.accuracy).max(1.0).powf(0.25)) as usize,
+            steps: (MAX_STEPS * (Simbody::ACCURACY / self.accuracy).larger(1.0).powf(0.25)) as usize,
         }
     }
 }
@@ -108,6 +108,10 @@ impl Engine for Simbody {
 
     fn noise(&self, case: &Case, channel: &ChannelKind) -> f64 {
         noise::bound(case, [tolerance(case), self.accuracy], channel)
+    }
+
+    fn is_noise_measured(&self) -> bool {
+        false
     }
 
     fn told(&self) -> Vec<(&'static str, String)> {
@@ -200,7 +204,7 @@ fn other_loads(case: &Case) -> Vec<Load> {
 /// Largest error of a constraint (m).
 fn tolerance(case: &Case) -> f64 {
     let size = case.mechanism.size();
-    TOLERANCE * case.start.0.iter().fold(size, |most: f64, pose| most.max(pose.origin.norm()))
+    TOLERANCE * case.start.0.iter().fold(size, |most: f64, pose| most.larger(pose.origin.norm()))
 }
 
 /// That the start pose is closed. Simbody would assemble another one nearby without a word.

@@ -1,5 +1,6 @@
 //! Largest reactions and moments over the grid's range, refined between samples, and what journals they ask for.
 
+use linkage::math::KeepNan;
 use std::f64::consts::PI;
 
 use analytic::PoseSolver;
@@ -52,8 +53,9 @@ pub fn over_range(case: &Case) -> Result<Peaks> {
         return Err(Error::new(ErrorKind::Unsupported, message).help(Advice::SolutionTable));
     }
     let mut poses = PoseSolver::new(case)?;
-    let (from, to) = case.grid.cranks.iter().fold((f64::MAX, f64::MIN), |(low, high), &c| (low.min(c), high.max(c)));
-    let parts = ((to - from) / SAMPLE_STEP).ceil().max(1.0) as usize;
+    let (from, to) =
+        case.grid.cranks.iter().fold((f64::MAX, f64::MIN), |(low, high), &c| (low.smaller(c), high.larger(c)));
+    let parts = ((to - from) / SAMPLE_STEP).ceil().larger(1.0) as usize;
     let cranks: Vec<f64> = (0..=parts).map(|k| from + (to - from) * (k as f64 / parts as f64)).collect();
     let joints = case.mechanism.joints();
     let mut quantities: Vec<Quantity> = (0..joints.len()).map(Quantity::Reaction).collect();

@@ -3,6 +3,7 @@
 use analytic::reduced::Model;
 use analytic::steady::Regime;
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::KeepNan;
 use linkage::math::root::{self, Close};
 
 /// A flywheel on the crank's shaft, and the motion with it.
@@ -44,7 +45,7 @@ impl Flywheel {
             last = Flywheel { inertia, regime: model.with_flywheel(inertia).regime(&[], accuracy)? };
             Ok(excess(&last.regime))
         };
-        let guess = model.inertia_at_start()?.max(f64::MIN_POSITIVE);
+        let guess = model.inertia_at_start()?.larger(f64::MIN_POSITIVE);
         let Some(ends) = root::widened(none, guess, guess * LARGEST, &mut with)? else {
             let message = format!("no flywheel makes the coefficient of non-uniformity {wanted}");
             return Err(Error::new(ErrorKind::Numeric, message).help("ask for a larger coefficient"));

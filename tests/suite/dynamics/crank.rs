@@ -1,5 +1,6 @@
 //! A crank alone: everything has a closed form.
 
+use linkage::math::KeepNan;
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
@@ -87,7 +88,7 @@ fn the_averaged_model_is_exact_for_constant_coefficients() {
             let Averaged { time_constant, steady_speed } = averaged;
             let gone = (-at.t / time_constant).exp_m1();
             let off = [omega + steady_speed * gone, angle - steady_speed * (at.t + time_constant * gone)];
-            most = [0, 1].map(|k| most[k].max(off[k].abs()));
+            most = [0, 1].map(|k| most[k].larger(off[k].abs()));
         }
         assert!(most.iter().all(|off| *off < 1e-12), "{most:?}");
     }

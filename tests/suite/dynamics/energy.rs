@@ -1,5 +1,6 @@
 //! Energy of whole mechanisms, summed up link by link.
 
+use linkage::math::KeepNan;
 use std::f64::consts::TAU;
 
 use crate::common::{centre, centre_velocity, shipped};
@@ -42,8 +43,8 @@ fn conservative_mechanisms_keep_their_energy() {
         let mut scale = 0.0f64;
         for at in &found {
             let [kinetic, potential] = energy(&case, &mut poses, at);
-            worst = worst.max((kinetic + potential - first).abs());
-            scale = scale.max(kinetic);
+            worst = worst.larger((kinetic + potential - first).abs());
+            scale = scale.larger(kinetic);
         }
         assert!(worst / scale < 1e-12, "{name}: {:e}", worst / scale);
         println!("{name}: energy kept to {:.1e} over 100 turns", worst / scale);

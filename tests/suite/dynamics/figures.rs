@@ -6,7 +6,7 @@ use crate::common::shipped;
 use analytic::reduced::means;
 use analytic::reduced::{ACCURACY, End, Model, RunUp, motion};
 use linkage::drive::{Load, Motor, MotorLaw};
-use linkage::math::Vec2;
+use linkage::math::{KeepNan, Vec2};
 use workshop::flywheel::Flywheel;
 
 /// Half a millisecond to half a second: the run-up of the published problem.
@@ -105,7 +105,10 @@ fn slope_of_the_inertia_is_its_derivative() {
             let rows = model.rows(&[crank - step, crank, crank + step]).unwrap();
             let slope = (rows[2].inertia - rows[0].inertia) / (2.0 * step);
             // Central differences err by the third derivative, some hundred times the inertia, times 1e-10 / 6, and by rounding over 2e-5.
-            assert!((slope - rows[1].slope).abs() < 1e-6 * rows[1].inertia.max(1e-9), "{name} {k}: {slope} {rows:?}");
+            assert!(
+                (slope - rows[1].slope).abs() < 1e-6 * rows[1].inertia.larger(1e-9),
+                "{name} {k}: {slope} {rows:?}"
+            );
         }
     }
 }
@@ -131,7 +134,7 @@ fn a_flywheel_does_what_is_asked() {
     for row in model.rows(&cranks).unwrap() {
         work += (mean - row.resistance) * TAU / f64::from(count);
         let surplus = work - row.inertia * speed * speed / 2.0;
-        (least, most) = (least.min(surplus), most.max(surplus));
+        (least, most) = (least.smaller(surplus), most.larger(surplus));
     }
     let wanted = 1e-5;
     let textbook = (most - least) / (wanted * speed * speed);

@@ -5,7 +5,7 @@ use linkage::case::{Case, Grid, Wanted};
 use linkage::drive::{DriveMotion, Motor};
 use linkage::engine::{Engine, Route, Settings};
 use linkage::error::Advice;
-use linkage::math::Vec2;
+use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::Mechanism;
 use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Stage, Trajectory};
@@ -23,7 +23,7 @@ fn solve(solver: &dyn Solver, case: &Case) -> Trajectory {
 fn worst(reference: &Trajectory, other: &Trajectory, of: impl Fn(&Channel) -> bool) -> f64 {
     let all = residuals(reference, other).unwrap();
     let picked = all.iter().filter(|residual| of(&residual.channel));
-    picked.map(|residual| residual.share()).fold(0.0, f64::max)
+    picked.map(|residual| residual.share()).fold(0.0, f64::larger)
 }
 
 fn column<'a>(trajectory: &'a Trajectory, name: &str) -> &'a [f64] {
@@ -82,7 +82,7 @@ fn the_double_pendulum_moves_as_lagrange_has_it() {
     let (parts, h) = (100, 0.005 / 100.0);
     let mut farthest = 0.0f64;
     for row in 0..found.times().len() {
-        farthest = farthest.max((upper[row] + quarter - y[0]).abs()).max((lower[row] + quarter - y[1]).abs());
+        farthest = farthest.larger((upper[row] + quarter - y[0]).abs()).larger((lower[row] + quarter - y[1]).abs());
         for _ in 0..parts {
             let step = |y: [f64; 4], k: [f64; 4], h: f64| std::array::from_fn(|i| y[i] + h * k[i]);
             let k1 = rates(y);
@@ -121,7 +121,7 @@ fn several_freedoms_keep_their_energy() {
     let case = case.on(grid).unwrap().wanting(Wanted::of(&[Stage::Positions, Stage::Velocities]));
     for solver in [&AssurSolver as &dyn Solver, &NewtonSolver] {
         let energies = energies(&case, &solve(solver, &case));
-        let drift = energies.iter().map(|energy| (energy - energies[0]).abs()).fold(0.0, f64::max);
+        let drift = energies.iter().map(|energy| (energy - energies[0]).abs()).fold(0.0, f64::larger);
         let drift = drift / (1.5 * 9.80665);
         println!("{}: energy kept to {drift:.1e}", solver.name());
         assert!(drift < 1e-9, "{}: {drift:e}", solver.name());
@@ -159,7 +159,7 @@ fn the_twin_runs_up_with_order_one_and_extrapolated_exactly() {
         }
         let best = at(1e-4, true);
         let crank = residuals(&reference, &best).unwrap();
-        let most = crank.iter().filter(|r| angle(&r.channel)).map(|r| r.max).fold(0.0, f64::max);
+        let most = crank.iter().filter(|r| angle(&r.channel)).map(|r| r.max).fold(0.0, f64::larger);
         let forces = worst(&reference, &best, force);
         println!("{name} {}: {most:.1e} rad, {forces:.1e} of the range of forces", route.name());
         assert!(most < 1e-6 && forces < 1e-5, "{name} {}: {most:e} rad, {forces:e}", route.name());

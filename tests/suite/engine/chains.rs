@@ -3,7 +3,7 @@
 use analytic::AssurSolver;
 use linkage::case::{Case, Grid};
 use linkage::engine::{Route, Settings};
-use linkage::math::Vec2;
+use linkage::math::{KeepNan, Vec2};
 use linkage::trajectory::{Stage, Trajectory};
 use linkproof::compare::residuals;
 
@@ -46,7 +46,7 @@ fn quarter(case: &Case) -> Case {
 /// Largest error over the scale in the channels of some stages.
 fn worst(truth: &Trajectory, run: &Trajectory, stages: impl Fn(Stage) -> bool) -> f64 {
     let found = residuals(truth, run).unwrap();
-    found.iter().filter(|r| stages(r.channel.kind.stage)).map(|r| r.share()).fold(0.0, f64::max)
+    found.iter().filter(|r| stages(r.channel.kind.stage)).map(|r| r.share()).fold(0.0, f64::larger)
 }
 
 /// Story 68. Errors of the impulse build go along a chain joint by joint, and need sweeps for it: over twelve links its default is enough for the

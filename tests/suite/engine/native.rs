@@ -2,7 +2,7 @@
 
 use analytic::AssurSolver;
 use linkage::case::Case;
-use linkage::math::Vec2;
+use linkage::math::{KeepNan, Vec2};
 use rapier_twin::tree::Tree;
 use rapier_twin::world::World;
 use rapier_twin::{Build, Precision, Rapier};
@@ -60,11 +60,11 @@ fn errors(case: &Case, (build, tree): &(Build, Tree), dt: f64, end: f64, from: f
     let (mut worst, mut size) = ([0.0f64; 2], [0.0f64; 2]);
     for (reading, state) in readings.iter().zip(&truth) {
         for (force, &joint) in reading.forces.iter().zip(&tree.cut) {
-            worst[0] = worst[0].max((force - state.forces[joint]).norm());
-            size[0] = size[0].max(state.forces[joint].norm());
+            worst[0] = worst[0].larger((force - state.forces[joint]).norm());
+            size[0] = size[0].larger(state.forces[joint].norm());
         }
-        worst[1] = worst[1].max((reading.torque - state.torques[0]).abs());
-        size[1] = size[1].max(state.torques[0].abs());
+        worst[1] = worst[1].larger((reading.torque - state.torques[0]).abs());
+        size[1] = size[1].larger(state.torques[0].abs());
     }
     [0, 1].map(|k| worst[k] / size[k])
 }
@@ -136,7 +136,7 @@ fn regress_12_velocities_are_one_step_late() {
         for (reading, state) in readings.iter().zip(&truth) {
             for (branch, speed) in tree.branches.iter().zip(&reading.speeds) {
                 let omega = |link: usize| state.motions[link].omega;
-                worst = worst.max((speed - (omega(branch.link) - omega(branch.parent))).abs());
+                worst = worst.larger((speed - (omega(branch.link) - omega(branch.parent))).abs());
             }
         }
         worst / case.crank().at(0.0).omega

@@ -2,6 +2,7 @@
 
 use analytic::NewtonSolver;
 use linkage::case::{Case, Grid};
+use linkage::math::KeepNan;
 use linkage::mechanism::{Link, Mechanism, Side};
 use linkage::solver::Solver;
 use rapier_twin::tree::Tree;
@@ -57,7 +58,7 @@ fn regress_51_slide_speeds_are_one_step_late() {
                     // The first steps have a transient.
                     if n > 20 {
                         (now, late, size) =
-                            (now.max((speed - is).abs()), late.max((speed - was).abs()), size.max(is.abs()));
+                            (now.larger((speed - is).abs()), late.larger((speed - was).abs()), size.larger(is.abs()));
                     }
                 }
             }

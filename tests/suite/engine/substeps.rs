@@ -3,6 +3,7 @@
 use analytic::AssurSolver;
 use linkage::case::{Case, Grid};
 use linkage::engine::{Engine, Route, Settings};
+use linkage::math::KeepNan;
 use linkage::trajectory::{Channel, Stage};
 use linkproof::compare::residuals;
 
@@ -67,7 +68,7 @@ fn regress_67_two_substeps_are_nearly_as_good_as_half_the_step() {
         let run = solve(engine(name, route, substeps).as_ref(), &case);
         let found = residuals(&truth, &run).unwrap();
         let most = |wanted: &dyn Fn(&linkproof::compare::Residual) -> bool| {
-            found.iter().filter(|r| wanted(r)).map(|r| r.share()).fold(0.0, f64::max)
+            found.iter().filter(|r| wanted(r)).map(|r| r.share()).fold(0.0, f64::larger)
         };
         [most(&|r| r.channel.kind.unit == "rad"), most(&|r| r.channel.kind.stage >= Stage::Reactions)]
     };

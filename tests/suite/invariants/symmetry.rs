@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use linkage::case::Case;
-use linkage::math::{Vec2, cross, rotated, unit};
+use linkage::math::{KeepNan, Vec2, cross, rotated, unit};
 use linkage::mechanism::GroupKind;
 use linkage::solver::{Solver, State};
 use proptest::test_runner::TestCaseError;
@@ -61,8 +61,8 @@ fn compare(
 ) -> Result<(), TestCaseError> {
     let case = &sample.scenario.case;
     let bound = ROUNDING * sample.condition.powi(2);
-    let spin = ours.motions.iter().map(|m| m.omega.abs()).fold(0.0, f64::max);
-    let force = ours.forces.iter().map(|f| f.norm()).fold(0.0, f64::max);
+    let spin = ours.motions.iter().map(|m| m.omega.abs()).fold(0.0, f64::larger);
+    let force = ours.forces.iter().map(|f| f.norm()).fold(0.0, f64::larger);
     for (link, body) in case.mechanism.links().iter().enumerate().skip(1) {
         let (a, b, c) = (&ours.motions[link], &theirs.motions[link], body.mass_centre);
         let d = other.mechanism.links()[link].mass_centre;
@@ -81,12 +81,12 @@ fn compare(
     }
     // Moments change their sense as the driving one does.
     for (a, b) in ours.moments.iter().zip(&theirs.moments) {
-        within("moment", (b - expected.torque * a).abs(), bound * force.max(ours.torques[0].abs()))?;
+        within("moment", (b - expected.torque * a).abs(), bound * force.larger(ours.torques[0].abs()))?;
     }
     within(
         "torque",
         (theirs.torques[0] - expected.torque * ours.torques[0]).abs(),
-        bound * force.max(ours.torques[0].abs()),
+        bound * force.larger(ours.torques[0].abs()),
     )
 }
 

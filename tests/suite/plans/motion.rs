@@ -1,5 +1,6 @@
 //! Motion diagrams by chords and by graphical integration.
 
+use linkage::math::KeepNan;
 use std::f64::consts::{PI, TAU};
 
 use analytic::AssurSolver;
@@ -76,7 +77,7 @@ fn a_piston_by_chords_errs_as_its_closed_form_says() {
         let scale = |which: usize| diagram.half_range(which);
         for which in 0..3 {
             let gap = |row: usize| (diagram.exact[which][row] - at(angle(row))[which]).abs();
-            let worst = (0..diagram.cranks.len()).map(gap).fold(0.0, f64::max);
+            let worst = (0..diagram.cranks.len()).map(gap).fold(0.0, f64::larger);
             // Rounding of lengths of 0.3 m and of what follows from them.
             assert!(worst <= 1e-12 * scale(which), "{worst:e}");
         }

@@ -2,7 +2,7 @@
 
 use analytic::{AssurSolver, NewtonSolver};
 use linkage::case::Case;
-use linkage::math::{Vec2, cross, rotated, turned};
+use linkage::math::{KeepNan, Vec2, cross, rotated, turned};
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
 use linkproof::scenario::Scenario;
@@ -72,11 +72,11 @@ fn parts_along_and_across_a_moving_guide_are_those_of_numerical_differentiation(
             let (velocity, acceleration) = (&plans.velocity, &plans.acceleration);
             let gap = (velocity.vector(&v).unwrap().value - first).norm() / longest(velocity);
             worst = worst
-                .max(gap)
-                .max((acceleration.vector(&growth).unwrap().value - second).norm() / longest(acceleration));
+                .larger(gap)
+                .larger((acceleration.vector(&growth).unwrap().value - second).norm() / longest(acceleration));
             let coriolis = turned(first) * (2.0 * here.omega);
             match acceleration.vector(&format!("a_{point},{under}^cor")) {
-                Some(found) => worst = worst.max((found.value - coriolis).norm() / longest(acceleration)),
+                Some(found) => worst = worst.larger((found.value - coriolis).norm() / longest(acceleration)),
                 None => assert_eq!((name, here.omega), ("scotch_yoke", 0.0)),
             }
         }
@@ -208,7 +208,7 @@ fn guides_in_the_diagram_span_the_travel() {
         for (guide, joint) in plans.scheme.guides.iter().zip(sliding) {
             let channel = format!("joint.{}.slide_m", joint.name);
             let (_, slide) = trajectory.iter().find(|(own, _)| own.to_string() == channel).unwrap();
-            let (low, high) = slide.iter().fold((f64::MAX, f64::MIN), |(l, h), s| (l.min(*s), h.max(*s)));
+            let (low, high) = slide.iter().fold((f64::MAX, f64::MIN), |(l, h), s| (l.smaller(*s), h.larger(*s)));
             // The angle asked for may lie between two of the grid, a degree of the crank apart: a ten-thousandth of the travel at its end.
             let near = |end: Vec2, way: f64| ((end - guide.origin).dot(&guide.axis) - way).abs() <= 1e-4 * (high - low);
             assert!(near(guide.ends[0], low) && near(guide.ends[1], high), "{name} {}", joint.name);

@@ -7,7 +7,7 @@ use proptest::prelude::*;
 use linkage::case::Case;
 use linkage::drive::Wrench;
 use linkage::math::dense::Lu;
-use linkage::math::{Motion, Vec2, cross, turned, unit};
+use linkage::math::{KeepNan, Motion, Vec2, cross, turned, unit};
 use linkage::mechanism::{EQUATIONS, Joint, Tree};
 use linkage::solver::State;
 use linkproof::scenario::Scenario;
@@ -137,7 +137,7 @@ proptest! {
             prop_assert!(lu.factor());
             let mut known = right.clone();
             lu.solve(&mut known);
-            let most = |of: &[f64]| of.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+            let most = |of: &[f64]| of.iter().fold(0.0, |most: f64, value| most.larger(value.abs()));
             // How far rounding is carried: the largest entry of the inverse.
             let inverse = (0..n).map(|k| {
                 let mut column = vec![0.0; n];
@@ -145,11 +145,11 @@ proptest! {
                 lu.solve(&mut column);
                 most(&column)
             });
-            let inverse = inverse.fold(1.0, f64::max);
+            let inverse = inverse.fold(1.0, f64::larger);
             for (_, mut equations) in along_all_trees(&case) {
                 equations.solve(&case, &mut state, 0.0).unwrap();
                 let found = flat(&case, &state);
-                let largest = most(&known).max(most(&found));
+                let largest = most(&known).larger(most(&found));
                 let rest = |row: &[f64], right: &f64| row.iter().zip(&found).map(|(a, x)| a * x).sum::<f64>() - right;
                 let rest: Vec<f64> = matrix.iter().zip(&right).map(|(row, right)| rest(row, right)).collect();
                 prop_assert!(most(&rest) <= 1e-12 * largest, "{name}: {:e} of {largest:e}", most(&rest));

@@ -6,7 +6,7 @@ use std::path::Path;
 use analytic::range::{Extent, FourBarType, Range};
 use analytic::{AssurSolver, NewtonSolver};
 use linkage::case::Case;
-use linkage::math::Vec2;
+use linkage::math::{KeepNan, Vec2};
 use linkproof::scenario::Scenario;
 use workshop::synthesis::Sheet;
 use workshop::synthesis::crank_rocker::{CrankRocker, Wish};
@@ -25,7 +25,7 @@ fn case(text: &str) -> Case {
 /// Angles (rad) are the same, whole turns aside.
 fn same_angle(a: f64, b: f64, within: f64) -> bool {
     let apart = (a - b).rem_euclid(TAU);
-    apart.min(TAU - apart) <= within
+    apart.smaller(TAU - apart) <= within
 }
 
 fn published() -> Wish {
@@ -85,7 +85,7 @@ fn crank_rockers_have_their_extreme_positions() {
         assert!(same_angle(least.crank, found.transmission_at, 1e-6));
         // From extreme to extreme the crank turns through pi + theta one way, pi - theta the other.
         let way = (rocker.extremes[0].crank - rocker.extremes[1].crank).abs();
-        let slower = way.max(TAU - way);
+        let slower = way.larger(TAU - way);
         assert!((slower / (TAU - slower) - found.time_ratio).abs() < 1e-7);
         proven += 1;
     }
@@ -122,9 +122,9 @@ fn slider_cranks_have_their_stroke() {
             x <= found.far[1] + 1e-13 && x >= found.near[1] - 1e-13
         }));
         let way = (found.far[0] - found.near[0]).abs();
-        let slower = way.max(TAU - way);
+        let slower = way.larger(TAU - way);
         assert!((slower / (TAU - slower) - found.time_ratio).abs() < 1e-12, "{found:?}");
-        let steepest = newton.iter().map(|state| state.motions[2].direction.y.abs()).fold(0.0, f64::max);
+        let steepest = newton.iter().map(|state| state.motions[2].direction.y.abs()).fold(0.0, f64::larger);
         assert!((steepest.asin() - found.pressure).abs() < 1e-5 && found.pressure < PI / 2.0);
     }
 }

@@ -4,6 +4,7 @@
 use analytic::NewtonSolver;
 use linkage::case::Grid;
 use linkage::engine::{Engine, Settings};
+use linkage::math::KeepNan;
 use linkage::solver::Solver;
 use linkage::trajectory::Trajectory;
 use linkproof::compare::{Residual, residuals};
@@ -55,7 +56,7 @@ pub fn thinned(mut scenario: Scenario, every: usize) -> Scenario {
 pub fn error_of(scenario: &Scenario, truth: &Trajectory, engine: &dyn Engine) -> f64 {
     let Ok(found) = engine.solve(&scenario.case, &mut |_| {}) else { return f64::INFINITY };
     let residuals = residuals(truth, &found).expect("both stand on one grid");
-    residuals.iter().map(Residual::share).fold(0.0, f64::max)
+    residuals.iter().map(Residual::share).fold(0.0, f64::larger)
 }
 
 /// What [`error_of`] compares with.

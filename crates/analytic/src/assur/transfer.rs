@@ -11,8 +11,8 @@ use crate::motion::side::{Held, Inputs, Side, embed, loads_held};
 use linkage::case::Case;
 use linkage::drive::Wrench;
 use linkage::error::{Advice, Error, ErrorKind, Result};
-use linkage::math::Vec2;
 use linkage::math::dense::Lu;
+use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::GROUND;
 use linkage::solver::State;
 use linkage::trajectory::Stage;
@@ -92,8 +92,8 @@ impl<'a> TransferSide<'a> {
     }
 
     fn go_to(&mut self, angles: &[f64]) -> Result<()> {
-        let farthest = self.at.iter().zip(angles).fold(0.0f64, |most, (a, b)| most.max((b - a).abs()));
-        let parts = (farthest / STEP).ceil().max(1.0);
+        let farthest = self.at.iter().zip(angles).fold(0.0f64, |most, (a, b)| most.larger((b - a).abs()));
+        let parts = (farthest / STEP).ceil().larger(1.0);
         for part in 1..=parts as usize {
             let share = part as f64 / parts;
             for ((target, &from), &to) in self.target.iter_mut().zip(&self.at).zip(angles) {

@@ -8,6 +8,7 @@ use differential_equations::interpolate::Interpolation;
 use differential_equations::methods::{DormandPrince, ExplicitRungeKutta, Ordinary};
 use differential_equations::ode::{ODE, OrdinaryNumericalMethod};
 use differential_equations::status::Status;
+use linkage::math::KeepNan;
 
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::root;
@@ -82,7 +83,7 @@ pub(crate) fn march<const N: usize, F: Flow<N>>(
     let mut targets = targets.iter().copied().skip_while(|&target| target <= begun_at);
     let Some(mut target) = targets.next() else { return Ok(Stop::End) };
     flow.begin(place.x, &place.y);
-    let h0 = if place.h > 0.0 { place.h.min(last - place.x) } else { 0.0 };
+    let h0 = if place.h > 0.0 { place.h.smaller(last - place.x) } else { 0.0 };
     let mut method: Method<N> = ExplicitRungeKutta::dop853().rtol(accuracy).atol(accuracy).max_steps(MOST_STEPS).h0(h0);
     let begun = method.init(flow, place.x, last, &place.y);
     checked(flow, begun, place.x)?;
@@ -101,7 +102,7 @@ pub(crate) fn march<const N: usize, F: Flow<N>>(
             return end_on_bound(flow, place, &mut method, visit);
         }
         // Of a step that had to be short, nothing is learnt about the length of the next.
-        place.h = if cut { wished.max(method.h()) } else { method.h() };
+        place.h = if cut { wished.larger(method.h()) } else { method.h() };
         method.set_h(place.h);
         let before = (place.x, place.y);
         (place.x, place.y) = (if cut { target } else { method.t() }, *method.y());

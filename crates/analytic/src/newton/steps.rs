@@ -6,7 +6,7 @@ use super::system::System;
 use linkage::case::Case;
 use linkage::drive::{Drive, Wrench};
 use linkage::error::{Advice, Error, ErrorKind, Result};
-use linkage::math::Motion;
+use linkage::math::{KeepNan, Motion};
 use linkage::mechanism::EQUATIONS;
 use linkage::solver::State;
 use linkage::trajectory::Stage;
@@ -34,8 +34,8 @@ impl System<'_> {
             // It may go there and back in between.
             None => drive.top_speed().abs() * (t - self.time).abs(),
         };
-        let turn = self.case.drives.iter().map(turned).fold(0.0, f64::max);
-        let parts = (turn / TRACKING_STEP).ceil().max(1.0);
+        let turn = self.case.drives.iter().map(turned).fold(0.0, f64::larger);
+        let parts = (turn / TRACKING_STEP).ceil().larger(1.0);
         let from = self.time;
         for part in 1..parts as usize {
             self.step_to(from + (t - from) * (part as f64 / parts), HALVINGS)?;
@@ -76,7 +76,7 @@ impl System<'_> {
     /// Newton to rounding, from the pose that stands in `q`. The Jacobian is left factored at the last pose but one
     /// (which differs from the last by rounding).
     pub(super) fn correct(&mut self) -> Result<()> {
-        let size = self.case.mechanism.size().max(f64::MIN_POSITIVE);
+        let size = self.case.mechanism.size().larger(f64::MIN_POSITIVE);
         let mut last = f64::INFINITY;
         for _ in 0..MAX_ITERATIONS {
             self.assemble();
@@ -87,7 +87,7 @@ impl System<'_> {
             let mut change: f64 = 0.0;
             for (i, step) in self.residual.iter().enumerate() {
                 self.q[i] -= step;
-                change = change.max(step.abs() / if i % 3 == 2 { 1.0 } else { size });
+                change = change.larger(step.abs() / if i % 3 == 2 { 1.0 } else { size });
             }
             // Quadratic convergence: once below 1e-9 the next change is rounding, and one more step makes sure of it.
             if change < 1e-14 || (last < 1e-9 && change < 1e-9) {

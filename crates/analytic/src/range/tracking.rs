@@ -14,7 +14,7 @@ use linkage::case::Case;
 use linkage::drive::Drive;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::root::{self, Close};
-use linkage::math::{Column, Matrix, unit};
+use linkage::math::{Column, KeepNan, Matrix, unit};
 
 /// Longest step: two degrees, where the crank alone turns.
 const LONGEST: f64 = std::f64::consts::PI / 90.0;
@@ -225,7 +225,7 @@ impl<'a> Tracker<'a> {
         while points.len() < MOST_POINTS {
             let here = &points[points.len() - 1];
             let Some((next, step)) = self.step(here, longest) else { return self.met(points) };
-            longest = (2.0 * step).min(LONGEST);
+            longest = (2.0 * step).smaller(LONGEST);
             if self.crank_rate(&next) * sense <= 0.0 {
                 let limit = self.zero(here, &next, |point| self.crank_rate(point));
                 let singularity = self.singularity(Kind::DeadPoint, &limit);
@@ -260,7 +260,7 @@ impl<'a> Tracker<'a> {
 
     /// One step of at most `longest`, over no singular pose but a single limit of rotation; `None` where branches meet.
     fn step(&self, here: &Point, longest: f64) -> Option<(Point, f64)> {
-        let mut step = longest.min(SAFE * here.sigma);
+        let mut step = longest.smaller(SAFE * here.sigma);
         while step >= SHORTEST {
             if let Some(next) = self.advance(here, step) {
                 let changed = |a: f64, b: f64| a * b <= 0.0;

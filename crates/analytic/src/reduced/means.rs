@@ -9,7 +9,7 @@ use crate::range::{Extent, Range};
 use linkage::case::{Case, Grid, Wanted};
 use linkage::drive::{Course, Load};
 use linkage::error::{Advice, Error, ErrorKind, Result};
-use linkage::math::{Motion, quadrature, root};
+use linkage::math::{KeepNan, Motion, quadrature, root};
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
 
@@ -118,7 +118,7 @@ pub fn kinks(case: &Case) -> Result<Kinks> {
         let Some([from, to]) = period.map(|period| [start, start + period]).or(limits) else { continue };
         for &knot in &knots[1..] {
             let first = knot + ((from - knot) / own).ceil() * own;
-            let copies = ((to - first) / own).floor().max(-1.0) as i64;
+            let copies = ((to - first) / own).floor().larger(-1.0) as i64;
             cranks.extend((0..=copies).map(|copy| first + own * copy as f64));
         }
     }

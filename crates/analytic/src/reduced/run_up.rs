@@ -6,6 +6,7 @@ use crate::PoseSolver;
 use crate::motion::march::{MOST_EMPTY, Place, SETTING_OFF, Step, Stop, march};
 use linkage::case::{Case, Grid};
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::KeepNan;
 use linkage::solver::{Sampler, State, Visit};
 use linkage::trajectory::{Channel, Stage, Trajectory};
 
@@ -235,7 +236,7 @@ impl RunUp {
         let mut sampler = Sampler::new(&case);
         let (mut natural, size) = (0.0f64, case.mechanism.size());
         states(&case, &motion, &mut |row, state| {
-            natural = state.forces.iter().fold(natural, |most, force| most.max(force.norm() * size));
+            natural = state.forces.iter().fold(natural, |most, force| most.larger(force.norm() * size));
             sampler.put(&case, row, state);
             Ok(())
         })?;
@@ -249,8 +250,9 @@ impl RunUp {
     pub fn power_residual(&self) -> Option<f64> {
         let asked = self.trajectory.column(&Channel::named("drive.torque_N_m")?)?;
         let scale =
-            asked.iter().chain(self.motion.iter().map(|i| &i.motor)).fold(self.natural, |most, m| most.max(m.abs()));
-        let worst = self.motion.iter().zip(asked).fold(0.0f64, |most, (i, &asked)| most.max((i.shaft - asked).abs()));
+            asked.iter().chain(self.motion.iter().map(|i| &i.motor)).fold(self.natural, |most, m| most.larger(m.abs()));
+        let worst =
+            self.motion.iter().zip(asked).fold(0.0f64, |most, (i, &asked)| most.larger((i.shaft - asked).abs()));
         Some(if scale > 0.0 { worst / scale } else { worst })
     }
 }

@@ -1,5 +1,6 @@
 //! Steady periodic motion: the crank has the same speed after every period.
 
+use linkage::math::KeepNan;
 use std::f64::consts::TAU;
 
 use crate::AssurSolver;
@@ -143,7 +144,7 @@ impl<'m, 'a> Turn<'m, 'a> {
             let alpha = forces.acceleration(way * place.x, omega);
             forces.branch.set(forces.model.branch(omega, alpha));
             let from = place.x;
-            let end = end.min(last);
+            let end = end.smaller(last);
             let inner = targets.iter().copied().filter(|&target| target > from && target < end);
             let targets: Vec<f64> = inner.chain([end]).collect();
             let stop = march(&self.flow, &mut place, &targets, accuracy, visit)

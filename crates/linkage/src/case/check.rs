@@ -4,7 +4,7 @@ use super::grid::Grid;
 use super::parts::CaseParts;
 use crate::drive::{Course, Drive, DriveMotion, Load, MotionLaw, Motor, MotorLaw};
 use crate::error::{Error, ErrorKind, Result};
-use crate::math::unit;
+use crate::math::{KeepNan, unit};
 use crate::mechanism::{AssemblyMode, GROUND, GroupKind, JointKind, LinkPose, Side, Structure};
 
 /// Largest opening of a joint in a start pose, as a share of the farthest place in it: what closed forms and Newton's
@@ -201,7 +201,7 @@ fn start(parts: &CaseParts) -> Result<()> {
         return Err(wrong("start", format!("link \"{}\" has no place in the start pose: {pose:?}", link.name)));
     }
     let crank = parts.drives.crank().start.to_degrees();
-    let reach = poses.iter().fold(mechanism.size(), |most, pose| most.max(pose.origin.norm()));
+    let reach = poses.iter().fold(mechanism.size(), |most, pose| most.larger(pose.origin.norm()));
     for joint in mechanism.joints() {
         let sides = [joint.first, joint.second];
         let places = sides.map(|side| poses[side.link].point(side.local));

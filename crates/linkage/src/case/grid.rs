@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use crate::drive::Drive;
+use crate::math::KeepNan;
 use crate::math::statistics::ascending;
 
 /// Instants at which a solution is wanted.
@@ -65,7 +66,7 @@ impl Grid {
                 ));
             }
         }
-        let most = self.cranks.iter().fold(0.0, |most: f64, crank| most.max(crank.abs())) / TAU;
+        let most = self.cranks.iter().fold(0.0, |most: f64, crank| most.larger(crank.abs())) / TAU;
         if most <= Self::MOST_TURNS && self.times.iter().chain(&self.cranks).all(|value| value.is_finite()) {
             return Ok(());
         }

@@ -3,6 +3,7 @@
 use std::ops::Deref;
 
 use super::Drive;
+use crate::math::KeepNan;
 
 /// The driving links of a mechanism, the crank first: the one by whose angle instants are told. At least one; in the
 /// order of
@@ -78,7 +79,7 @@ impl Drives {
     /// Largest speed of a driving link (rad/s), without sign.
     #[must_use]
     pub fn top_speed(&self) -> f64 {
-        self.0.iter().fold(0.0, |most: f64, drive| most.max(drive.top_speed().abs()))
+        self.0.iter().fold(0.0, |most: f64, drive| most.larger(drive.top_speed().abs()))
     }
 }
 

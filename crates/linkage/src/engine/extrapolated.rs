@@ -161,6 +161,10 @@ impl Engine for Extrapolated {
         share * self.half.noise(case, channel) + (share - 1.0) * self.inner.noise(case, channel)
     }
 
+    fn is_noise_measured(&self) -> bool {
+        self.inner.is_noise_measured()
+    }
+
     fn told(&self) -> Vec<(&'static str, String)> {
         let mut told = self.inner.told();
         told.push(("extrapolated", "from runs at the step and at half of it".into()));
@@ -234,6 +238,9 @@ mod tests {
         }
         fn noise(&self, _: &Case, _: &ChannelKind) -> f64 {
             0.0
+        }
+        fn is_noise_measured(&self) -> bool {
+            true
         }
         fn told(&self) -> Vec<(&'static str, String)> {
             Vec::new()

@@ -4,6 +4,7 @@
 //! derivative, and these come from eigenvalues. Where two zeros meet, the zeros themselves move by the square root of the
 //! rounding, but the extremum between them stays simple: its sign tells a close pair from a near miss.
 
+use crate::math::KeepNan;
 use nalgebra::{Complex, DMatrix, linalg::Schur};
 use std::convert::Infallible;
 use std::f64::consts::TAU;
@@ -27,7 +28,7 @@ const APART: f64 = 1e-7;
 /// Returns `None` if `f` is zero everywhere to rounding, or not finite.
 pub fn zeros(degree: usize, scale: f64, f: impl Fn(f64) -> f64) -> Option<Vec<f64>> {
     let coefficients = coefficients(degree, f);
-    let largest = coefficients.iter().map(|c| c.norm()).fold(0.0, f64::max);
+    let largest = coefficients.iter().map(|c| c.norm()).fold(0.0, f64::larger);
     // A value that is no number has left its mark in every coefficient, but `max` overlooks it.
     if !(coefficients.iter().all(|c| c.norm().is_finite()) && largest > ZERO * scale) {
         return None;

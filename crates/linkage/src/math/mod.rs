@@ -5,12 +5,14 @@ pub mod dense;
 pub mod extremum;
 pub mod harmonic;
 pub mod interpolate;
+pub mod keep_nan;
 pub mod motion;
 pub mod piecewise;
 pub mod quadrature;
 pub mod root;
 pub mod statistics;
 
+pub use keep_nan::{KeepNan, largest_size};
 pub use motion::Motion;
 pub use piecewise::Piecewise;
 

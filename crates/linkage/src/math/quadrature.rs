@@ -1,5 +1,6 @@
 //! Integrals of smooth functions.
 
+use crate::math::KeepNan;
 use std::convert::Infallible;
 use std::f64::consts::PI;
 
@@ -38,7 +39,7 @@ pub fn composite(breaks: &[f64], panel: f64) -> Vec<(f64, f64)> {
     let rule = gauss_legendre();
     let mut nodes = Vec::new();
     for pair in breaks.windows(2) {
-        let panels = ((pair[1] - pair[0]) / panel).ceil().max(1.0);
+        let panels = ((pair[1] - pair[0]) / panel).ceil().larger(1.0);
         let half = (pair[1] - pair[0]) / panels / 2.0;
         for index in 0..panels as usize {
             let middle = pair[0] + half * (2 * index + 1) as f64;

@@ -13,7 +13,7 @@ pub use spanning_tree::{Branch, Tree};
 pub use structure::{Group, GroupKind, Structure};
 
 use crate::error::{Error, ErrorKind, Result};
-use crate::math::{Vec2, cross, rotated};
+use crate::math::{KeepNan, Vec2, cross, rotated};
 
 /// Index of the ground (frame) in [`Mechanism::links`].
 pub const GROUND: usize = 0;
@@ -38,7 +38,7 @@ impl Link {
     #[must_use]
     pub fn size(&self) -> f64 {
         let pairs = self.points.iter().enumerate().flat_map(|(i, a)| self.points[i + 1..].iter().map(move |b| (a, b)));
-        pairs.map(|(a, b)| (a.local - b.local).norm()).fold(0.0, f64::max)
+        pairs.map(|(a, b)| (a.local - b.local).norm()).fold(0.0, f64::larger)
     }
 }
 
@@ -286,7 +286,7 @@ impl Mechanism {
     /// Largest distance between two points of one link (m): the size that closure gaps are judged by.
     #[must_use]
     pub fn size(&self) -> f64 {
-        self.links.iter().map(Link::size).fold(0.0, f64::max)
+        self.links.iter().map(Link::size).fold(0.0, f64::larger)
     }
 
     /// Whether a link can turn: it cannot if joints that keep the angle connect it with the ground.

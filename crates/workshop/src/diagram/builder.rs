@@ -4,7 +4,7 @@ use super::names::{Place, fixed_guide, pair, pivot, primed};
 use super::scale::factor;
 use super::sliding::Slide;
 use super::vectors::{Part, Plan, Quantity, Tip, TipKind, Vector};
-use linkage::math::{Motion, Vec2, turned};
+use linkage::math::{KeepNan, Motion, Vec2, turned};
 use linkage::mechanism::Mechanism;
 use linkage::solver::State;
 
@@ -51,7 +51,7 @@ impl<'a> Builder<'a> {
             self.relative(link);
         }
         self.sliding();
-        let longest = self.vectors.iter().map(|vector| vector.value.norm()).fold(0.0, f64::max);
+        let longest = self.vectors.iter().map(|vector| vector.value.norm()).fold(0.0, f64::larger);
         let scale = factor(longest, ROOM);
         if self.quantity == Quantity::Acceleration {
             self.split(scale);

@@ -6,6 +6,7 @@
 use super::chord::{closed_slopes, integral, slopes};
 use linkage::case::{Case, Grid, Wanted};
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::KeepNan;
 use linkage::math::statistics::{half_range, rms, share};
 use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Stage, Subject};
@@ -196,7 +197,7 @@ impl MotionDiagram {
             let size = errors.each_ref().map(|errors| rms(errors.iter().copied()));
             let scale = scales[method.gives()];
             let order = |coarse: f64, fine: f64| (fine > ROUNDING * scale).then(|| (coarse / fine).log2());
-            let largest = errors[0].iter().fold(0.0f64, |most, error| most.max(error.abs()));
+            let largest = errors[0].iter().fold(0.0f64, |most, error| most.larger(error.abs()));
             let orders = [order(size[0], size[1]), order(size[1], size[2])];
             let [(rows, values), ..] = runs;
             // What stands perfectly still has no scale, and no error either.
@@ -217,7 +218,7 @@ impl MotionDiagram {
 /// Scales that errors are judged by.
 fn scales(exact: &[Vec<f64>; 3], period: f64) -> [f64; 3] {
     let natural = |order: i32| SMALLEST * half_range(&exact[0]) * (TAU / period).powi(order);
-    [0, 1, 2].map(|order| half_range(&exact[order as usize]).max(natural(order)))
+    [0, 1, 2].map(|order| half_range(&exact[order as usize]).larger(natural(order)))
 }
 
 /// Rows and values that a method gives with divisions of `stride` rows.

@@ -2,7 +2,7 @@
 
 use super::names::{Place, primed};
 use linkage::case::{Case, Wanted};
-use linkage::math::{Vec2, rotated};
+use linkage::math::{KeepNan, Vec2, rotated};
 use linkage::mechanism::{GROUND, Mechanism, Side};
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
@@ -113,7 +113,7 @@ pub fn travels(case: &Case, solver: &dyn Solver, state: &State, slides: &[Slide]
     let mut visit = |_: usize, state: &State| {
         for (travel, slide) in travels.iter_mut().zip(slides) {
             let way = slide.way(&case.mechanism, state);
-            *travel = [travel[0].min(way), travel[1].max(way)];
+            *travel = [travel[0].smaller(way), travel[1].larger(way)];
         }
         Ok(())
     };

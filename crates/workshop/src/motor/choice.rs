@@ -11,6 +11,7 @@ use analytic::steady::Regime;
 use linkage::case::Case;
 use linkage::drive::Motor;
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::KeepNan;
 
 /// A motor chosen for a mechanism, and how it does.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,7 +61,7 @@ impl Choice {
         }
         let asked = power / efficiency;
         let Some(motor) = weakest_sufficient(catalogue, asked) else {
-            let strongest = catalogue.iter().map(|motor| motor.power).fold(0.0, f64::max);
+            let strongest = catalogue.iter().map(|motor| motor.power).fold(0.0, f64::larger);
             let message =
                 format!("the drive asks for {:.4} kW, the strongest motor has {:.4} kW", asked / 1e3, strongest / 1e3);
             return Err(Error::new(ErrorKind::Input, message).help(

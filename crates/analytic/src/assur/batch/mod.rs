@@ -190,7 +190,7 @@ impl WithSimd for Tiles<'_> {
 mod tests {
     use super::*;
     use linkage::fixtures::{four_bar, turning};
-    use linkage::math::Vec2;
+    use linkage::math::{KeepNan, Vec2};
     use linkage::mechanism::Mechanism;
 
     /// Every width that this machine has.
@@ -211,7 +211,7 @@ mod tests {
             let angles = [1.0, 1e-5, 3.0, 15.0, -1.0, -0.1, 7.3, 0.5].map(|share| quarters * share * PI / 2.0);
             let [cos, sin] = units(angles);
             for (row, angle) in angles.into_iter().enumerate() {
-                let apart = (cos.0[row] - angle.cos()).abs().max((sin.0[row] - angle.sin()).abs());
+                let apart = (cos.0[row] - angle.cos()).abs().larger((sin.0[row] - angle.sin()).abs());
                 assert!(apart <= f64::EPSILON, "{apart:e} at {angle}");
             }
         }

@@ -5,7 +5,7 @@ use super::names::Names;
 use linkage::case::Case;
 use linkage::drive::Load;
 use linkage::error::{Error, ErrorKind, Result};
-use linkage::math::Vec2;
+use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{GROUND, Tree};
 use linkage::solver::State;
 
@@ -110,7 +110,7 @@ impl<'a> Model<'a> {
     pub fn inertial(&self, link: usize) -> (f64, f64) {
         let link = &self.case.mechanism.links()[link];
         let light = LIGHT * self.mass();
-        let radius = GYRATION * link.size().max(SHORTEST * self.size());
+        let radius = GYRATION * link.size().larger(SHORTEST * self.size());
         let own_or = |own: f64, lent: f64| if own > 0.0 { own } else { lent };
         (own_or(link.mass, light), own_or(link.inertia, light * radius * radius))
     }

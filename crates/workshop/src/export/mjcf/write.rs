@@ -7,7 +7,7 @@ use super::bodies::Freedom;
 use super::model::Model;
 use super::names::Names;
 use super::shapes::{self, Shape};
-use linkage::math::Vec2;
+use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::GROUND;
 
 /// Stiffness of every constraint: see the module.
@@ -134,7 +134,7 @@ fn view(model: &Model) -> (Vec2, f64) {
     let places: Vec<Vec2> = places.collect();
     let low = places.iter().fold(Vec2::repeat(f64::INFINITY), |low, place| low.inf(place));
     let high = places.iter().fold(Vec2::repeat(f64::NEG_INFINITY), |high, place| high.sup(place));
-    ((low + high) / 2.0, (high - low).norm().max(model.size()))
+    ((low + high) / 2.0, (high - low).norm().larger(model.size()))
 }
 
 fn world(xml: &mut Xml, model: &Model) {

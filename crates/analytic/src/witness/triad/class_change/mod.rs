@@ -24,7 +24,7 @@ use super::Triad;
 use chain::{Chain, Grounded, Place, along};
 use linkage::case::Case;
 use linkage::error::{Advice, Error, ErrorKind, Result};
-use linkage::math::{Vec2, cross, root, rotated, turned, unit};
+use linkage::math::{KeepNan, Vec2, cross, root, rotated, turned, unit};
 use linkage::mechanism::GROUND;
 
 /// Largest turn of the crank between two poses (rad): one degree.
@@ -140,7 +140,7 @@ impl ClassChange {
     /// [`ErrorKind::Geometry`] if the branch has a dead point on the way there.
     pub fn solve(&mut self, crank: f64) -> Result<&Transfer> {
         let from = self.crank;
-        let parts = ((crank - from).abs() / TRACKING_STEP).ceil().max(1.0);
+        let parts = ((crank - from).abs() / TRACKING_STEP).ceil().larger(1.0);
         for part in 1..parts as usize {
             self.step_to(from + (crank - from) * (part as f64 / parts), HALVINGS)?;
         }

@@ -1,6 +1,7 @@
 use super::super::random::{Random, group, mechanism, size};
 use super::super::transmission_sine;
 use super::*;
+use crate::math::KeepNan;
 use crate::mechanism::{Joint, JointKind};
 
 const CASES: usize = 100_000;
@@ -68,7 +69,7 @@ impl Case {
                 };
                 let (a, b) = (span(3, 0), span(4, 2));
                 let c = (outer_pin(0, 3) - outer_pin(2, 4)).norm();
-                (a + b - c).min(a + c - b).min(b + c - a)
+                (a + b - c).smaller(a + c - b).smaller(b + c - a)
             }
             GroupKind::Rrp => {
                 // Squared distance of the inner joint from the outer pin as a function of the slide, a parabola by three values.
@@ -87,7 +88,7 @@ impl Case {
                 let (a, b) = ((before + after) / 2.0 - here, (after - before) / 2.0);
                 let least = here - b * b / (4.0 * a);
                 let rod = self.joint(1).on(rod).unwrap() - self.joint(pin).on(rod).unwrap();
-                rod.norm() - least.max(0.0).sqrt()
+                rod.norm() - least.larger(0.0).sqrt()
             }
             GroupKind::Rpr => {
                 // Distance from the line as a function of the common angle: a harmonic plus a constant, by three values.
@@ -165,7 +166,7 @@ fn random_dyads_of_every_kind() {
                 // Two axes that are nearly parallel cross far away: the size is that of the assembled dyad.
                 let size = size(&case.mechanism, pose);
                 let sine = transmission_sine(&case.mechanism, &case.group, pose).unwrap();
-                worst = worst.max(pose.closure(&case.mechanism) / size);
+                worst = worst.larger(pose.closure(&case.mechanism) / size);
                 // On the dead point the two modes are one.
                 if sine.abs() > 1e-12 {
                     assert_eq!(case.mode(pose), one.mode, "{kind:?} {sine}");

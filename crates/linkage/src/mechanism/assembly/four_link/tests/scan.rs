@@ -5,6 +5,7 @@
 //! that the function is smooth and periodic. Samples lie closer where the place moves fast; between samples of one sign
 //! the extremum is sought, so that pairs of zeros are told from near misses.
 
+use crate::math::KeepNan;
 use std::convert::Infallible;
 use std::f64::consts::{PI, TAU};
 
@@ -68,14 +69,14 @@ fn meet(centre: Vec2, radius: f64, other: Locus, sign: f64) -> (f64, Vec2) {
         Locus::Line(point, direction) => {
             let height = cross(direction, point - centre);
             let room = (radius - height) * (radius + height);
-            (room, centre + turned(direction) * height + direction * (sign * room.max(0.0).sqrt()))
+            (room, centre + turned(direction) * height + direction * (sign * room.larger(0.0).sqrt()))
         }
         Locus::Circle(second, length) => {
             let base = second - centre;
             let distance = base.norm();
             let twice = base.norm_squared() + (radius - length) * (radius + length);
             let room = 4.0 * base.norm_squared() * radius * radius - twice * twice;
-            let across = turned(base) * (sign * room.max(0.0).sqrt());
+            let across = turned(base) * (sign * room.larger(0.0).sqrt());
             (room, centre + (base * twice + across) / (2.0 * distance * distance))
         }
     }
@@ -98,7 +99,7 @@ fn zeros(f: &dyn Fn(f64) -> f64, place: &dyn Fn(f64) -> Vec2, period: f64, step:
         }
     }
     let values: Vec<f64> = at.iter().map(|&x| f(x)).collect();
-    let largest = values.iter().fold(0.0f64, |most, v| most.max(v.abs()));
+    let largest = values.iter().fold(0.0f64, |most, v| most.larger(v.abs()));
     let n = at.len() - 1;
     let (mut found, mut double) = (Vec::new(), false);
     for k in 0..n {
