@@ -1,6 +1,7 @@
 //! Cost of the harness: a run of an engine as a ratio to a bare loop of the same Rapier world with the same settings, timed in turns in the
 //! same run. `cargo bench --bench engine [-- SCENARIO|BUILD|SWEEPS...]`.
 
+use linkage::math::KeepNan;
 use std::hint::black_box;
 use std::path::Path;
 use std::time::Instant;
@@ -32,7 +33,7 @@ fn seconds(run: impl FnOnce()) -> f64 {
 fn bare(engine: &Rapier, build: Build, case: &Case, steps: usize) {
     let tree = if build == Build::Impulse { Tree::none(&case.mechanism) } else { Tree::of(&case.mechanism) };
     let mut world = engine.world(case, tree, false).expect("Rapier takes the mechanism");
-    for (index, drive) in case.drives().enumerate() {
+    for (index, drive) in case.drives.iter().enumerate() {
         world.set_drive(index, drive.at(0.0).omega);
     }
     for _ in 0..steps {
@@ -65,11 +66,10 @@ fn main() {
                 let engine = engine.set(Settings { sweeps, ..engine.settings() });
                 let last = STEPS as f64 * step;
                 // Ten steps come before the start and after the end: the same work for both.
-                let none = base.on(Grid::of_times(&base.drive, vec![last]));
-                let none = Case { wanted: Wanted::of(&[]), ..none };
+                let none = base.on(Grid::of_times(base.crank(), vec![last])).unwrap().wanting(Wanted::of(&[]));
                 let all = |every: usize| {
                     let times = (0..=STEPS / every).map(|k| every as f64 * step * k as f64).collect();
-                    Case { wanted: Wanted::ALL, ..base.on(Grid::of_times(&base.drive, times)) }
+                    base.on(Grid::of_times(base.crank(), times)).unwrap().wanting(Wanted::ALL)
                 };
                 let (tenth, each) = (all(10), all(1));
                 let mut best = [f64::INFINITY; 4];
@@ -80,7 +80,7 @@ fn main() {
                         seconds(|| drop(black_box(engine.solve(&tenth, &mut |_| {}).expect("it runs")))),
                         seconds(|| drop(black_box(engine.solve(&each, &mut |_| {}).expect("it runs")))),
                     ];
-                    (0..4).for_each(|k| best[k] = best[k].min(times[k]));
+                    (0..4).for_each(|k| best[k] = best[k].smaller(times[k]));
                 }
                 let cost = best[0] * 1e6 / (STEPS + 16) as f64;
                 println!(

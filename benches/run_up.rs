@@ -1,6 +1,7 @@
 //! Cost of a run-up: half a second of `crank_rocker`, 500 output points with all channels, against the accuracy of the crank angle; and of the steady
 //! motion. `cargo bench --bench run_up`.
 
+use linkage::math::KeepNan;
 use std::hint::black_box;
 use std::path::Path;
 use std::time::Instant;
@@ -17,7 +18,7 @@ fn shortest(mut run: impl FnMut()) -> f64 {
         run();
         since.elapsed().as_secs_f64()
     };
-    (0..REPEATS).map(time).fold(f64::INFINITY, f64::min) * 1e3
+    (0..REPEATS).map(time).fold(f64::INFINITY, f64::smaller) * 1e3
 }
 
 fn main() {
@@ -35,7 +36,7 @@ fn main() {
         let alone = shortest(|| drop(black_box(motion(&model, 0.0, &times, accuracy).unwrap())));
         let whole = shortest(|| drop(black_box(RunUp::of(&model, 0.0, &times, accuracy).unwrap())));
         let (found, _) = motion(&model, 0.0, &times, accuracy).unwrap();
-        let worst = found.iter().zip(&exact).fold(0.0f64, |most, (a, b)| most.max((a.crank - b.crank).abs()));
+        let worst = found.iter().zip(&exact).fold(0.0f64, |most, (a, b)| most.larger((a.crank - b.crank).abs()));
         println!("{accuracy:10.0e} {alone:14.3} {whole:22.3} {worst:16.1e}");
     }
 }

@@ -2,6 +2,7 @@
 //! steps, both timed in turns. `cargo bench --bench tune [-- SCENARIO...]`; with `-- prices` what the price model of `tests/suite/tune/prices.rs`
 //! needs.
 
+use linkage::math::KeepNan;
 use std::hint::black_box;
 use std::path::Path;
 use std::time::Instant;
@@ -40,7 +41,7 @@ fn seconds(engine: &dyn Engine, case: &Case, repeats: usize) -> f64 {
         if black_box(engine.solve(case, &mut |_| {})).is_err() {
             return f64::INFINITY;
         }
-        shortest = shortest.min(since.elapsed().as_secs_f64());
+        shortest = shortest.smaller(since.elapsed().as_secs_f64());
     }
     shortest
 }
@@ -58,7 +59,7 @@ impl Clock<'_> {
         let row = (Settings { resolution: 0.0, ..own }, engine.name());
         if self.row != Some(row) {
             self.row = Some(row);
-            let degree = 1f64.to_radians() / self.case.drive.at(0.0).omega.abs();
+            let degree = 1f64.to_radians() / self.case.crank().at(0.0).omega.abs();
             let [coarse, fine] = [2.0 * degree, degree];
             let [a, b] = [coarse, fine].map(|step| seconds(engine.at(step).as_ref(), self.case, 2));
             let slope = (b - a) / (1.0 / fine - 1.0 / coarse);
@@ -72,7 +73,7 @@ impl Clock<'_> {
 
 fn told(engine: &dyn Engine, case: &Case) -> String {
     let settings = engine.settings();
-    let degrees = (settings.resolution * case.drive.at(0.0).omega.abs()).to_degrees();
+    let degrees = (settings.resolution * case.crank().at(0.0).omega.abs()).to_degrees();
     format!(
         "{} {} {degrees:.3} deg, {} sweeps, {} substeps{}",
         engine.name(),
@@ -94,7 +95,7 @@ fn compare(name: &str) {
         for _ in 0..2 {
             let since = Instant::now();
             run()?;
-            shortest = shortest.min(since.elapsed().as_secs_f64());
+            shortest = shortest.smaller(since.elapsed().as_secs_f64());
         }
         Ok(shortest)
     };
@@ -111,9 +112,9 @@ fn compare(name: &str) {
     let mut shortest = vec![f64::INFINITY; met.len()];
     let mut own = f64::INFINITY;
     for _ in 0..REPEATS {
-        own = own.min(seconds(best.as_ref(), case, 1));
+        own = own.smaller(seconds(best.as_ref(), case, 1));
         for (Met { engine, .. }, shortest) in met.iter().zip(&mut shortest) {
-            *shortest = shortest.min(seconds(engine.as_ref(), case, 1));
+            *shortest = shortest.smaller(seconds(engine.as_ref(), case, 1));
         }
     }
     let verified = error_of(&scenario, &truth(&scenario), best.as_ref());
@@ -124,7 +125,7 @@ fn compare(name: &str) {
         let Met { engine, error, .. } = &met[k];
         println!("  cheapest  {:.2} ms, error {error:.2e}: {}", shortest[k] * 1e3, told(engine.as_ref(), case));
     }
-    let least = cheapest.map_or(own, |k| shortest[k].min(own));
+    let least = cheapest.map_or(own, |k| shortest[k].smaller(own));
     println!(
         "  ratio {:.2}; tune {} runs in {tuning:.1} s, exhaustive {runs} runs in {searching:.1} s",
         own / least,
@@ -137,10 +138,10 @@ fn prices() {
     let base = scenario("crank_rocker").case;
     let (steps, step) = (1000, 1e-3);
     let last = steps as f64 * step;
-    let quiet = Case { wanted: Wanted::of(&[Stage::Positions]), ..base.on(Grid::of_times(&base.drive, vec![last])) };
-    let one = Case { wanted: Wanted::ALL, ..quiet.clone() };
+    let quiet = base.on(Grid::of_times(base.crank(), vec![last])).unwrap().wanting(Wanted::of(&[Stage::Positions]));
+    let one = quiet.wanting(Wanted::ALL);
     let times = (1..=steps).map(|k| k as f64 * step).collect();
-    let all = Case { wanted: Wanted::ALL, ..base.on(Grid::of_times(&base.drive, times)) };
+    let all = base.on(Grid::of_times(base.crank(), times)).unwrap().wanting(Wanted::ALL);
     let mut unit = f64::NAN;
     for engine in linkproof::engines::all(step).into_iter().filter(|engine| !engine.controls_error()) {
         let set = |sweeps, substeps, route| engine.with(Settings { sweeps, substeps, route, ..engine.settings() });

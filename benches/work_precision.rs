@@ -1,6 +1,7 @@
 //! Error against time of every engine, by every route, raw and extrapolated: a table in Markdown for docs/engines.md.
 //! `cargo bench --bench work_precision [-- SCENARIO]`, with `--features simbody` for that engine too.
 
+use linkage::math::KeepNan;
 use std::path::Path;
 use std::time::Instant;
 
@@ -33,7 +34,7 @@ struct Row {
 fn error(reference: &Trajectory, found: &Trajectory, stages: &[Stage]) -> f64 {
     let residuals = residuals(reference, found).expect("both stand on one grid");
     let own = residuals.iter().filter(|r| stages.contains(&r.channel.kind.stage));
-    own.map(|r| r.share()).fold(0.0, f64::max)
+    own.map(|r| r.share()).fold(0.0, f64::larger)
 }
 
 fn measure(engine: &dyn Engine, scenario: &Scenario, reference: &Trajectory, resolution: String) -> Option<Row> {
@@ -42,7 +43,7 @@ fn measure(engine: &dyn Engine, scenario: &Scenario, reference: &Trajectory, res
     for _ in 0..REPEATS {
         let since = Instant::now();
         found = Some(engine.solve(&scenario.case, &mut |_| {}).ok()?);
-        shortest = shortest.min(since.elapsed().as_secs_f64());
+        shortest = shortest.smaller(since.elapsed().as_secs_f64());
         if shortest > 1.0 {
             break;
         }
@@ -63,7 +64,7 @@ fn main() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios").join(format!("{name}.toml"));
     let scenario = Scenario::load(&path).unwrap_or_else(|error| panic!("{error}"));
     let reference = AssurSolver.solve(&scenario.case, &mut |_| {}).unwrap_or_else(|error| panic!("{error}"));
-    let omega = scenario.case.drive.at(0.0).omega.abs();
+    let omega = scenario.case.crank().at(0.0).omega.abs();
     let mut rows = Vec::new();
     for engine in linkproof::engines::all(scenario.dt) {
         let resolutions: Vec<(f64, String)> = match engine.controls_error() {
@@ -83,7 +84,7 @@ fn main() {
             }
         }
     }
-    let least = rows.iter().map(|row| row.seconds).fold(f64::INFINITY, f64::min);
+    let least = rows.iter().map(|row| row.seconds).fold(f64::INFINITY, f64::smaller);
     println!("`{name}`, {} instants; time as a ratio to the fastest run of the table\n", scenario.case.grid.len());
     println!(
         "| engine | route | sweeps | step or accuracy | extrapolated | positions | velocities | accelerations | reactions, moment | time |"

@@ -2,11 +2,44 @@
 
 use std::fmt;
 
+/// How a bound, or the number that is compared with, is known.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Origin {
+    /// Follows from given data by a formula.
+    Derived,
+    /// Estimated from an engine's own runs at several resolutions.
+    Estimated,
+    /// Measured on cases like this one, and written down with some room to spare.
+    Measured,
+    /// Chosen: what is wanted of the number.
+    Wanted,
+    /// Computed anew with this project's own solvers, from data that somebody else has published.
+    Recomputed,
+    /// Printed in a source.
+    Published,
+}
+
+impl Origin {
+    /// Word for reports and scenario files, such as `measured`.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Origin::Derived => "derived",
+            Origin::Estimated => "estimated",
+            Origin::Measured => "measured",
+            Origin::Wanted => "wanted",
+            Origin::Recomputed => "recomputed",
+            Origin::Published => "published",
+        }
+    }
+}
+
 /// Why a bound is what it is.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Basis {
-    /// Rounding of double precision only; the text says how it grows.
-    RoundOff(&'static str),
+    /// Chosen: what is wanted of a number that only rounding should keep from zero. The text says why rounding allows it.
+    Wanted(&'static str),
     /// Error of the engine, estimated from its own runs at three resolutions and with half the sweeps.
     Truncation {
         /// Order of convergence observed between the runs; NaN where the differences are rounding.
@@ -19,14 +52,36 @@ pub enum Basis {
         safety: f64,
         /// What the bound is made of, safety factors included, in the channel's unit.
         parts: Parts,
+        /// How the rounding part is known: the other two are estimated.
+        noise: Origin,
     },
-    /// Half a unit of the last printed digit of a published figure.
-    Published {
-        /// Number of printed decimals.
+    /// Half a unit of the last digit of a number, and the error that the number is known to have.
+    Digits {
+        /// How the number is known: published, recomputed or derived.
+        origin: Origin,
+        /// Number of decimals.
         digits: i32,
-        /// Where it is published.
+        /// Where it stands.
         source: String,
     },
+    /// A basis with something to be said of the check that rests on it.
+    Noted(Box<Basis>, &'static str),
+}
+
+impl Basis {
+    /// How the bound, or the number that is compared with, is known.
+    #[must_use]
+    pub fn origin(&self) -> Origin {
+        match self {
+            Basis::Wanted(_) => Origin::Wanted,
+            Basis::Truncation { parts, noise, .. } => match parts.largest() {
+                Part::Rounding => *noise,
+                Part::Discretisation | Part::Iteration => Origin::Estimated,
+            },
+            Basis::Digits { origin, .. } => *origin,
+            Basis::Noted(basis, _) => basis.origin(),
+        }
+    }
 }
 
 /// The parts of a bound on an engine's error, safety factors included.
@@ -40,19 +95,42 @@ pub struct Parts {
     pub rounding: f64,
 }
 
+/// One of the [`Parts`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// See [`Parts::discretisation`].
+    Discretisation,
+    /// See [`Parts::iteration`].
+    Iteration,
+    /// See [`Parts::rounding`].
+    Rounding,
+}
+
 impl Parts {
     /// The bound.
     #[must_use]
     pub fn sum(&self) -> f64 {
         self.discretisation + self.iteration + self.rounding
     }
+
+    /// The largest part.
+    #[must_use]
+    pub fn largest(&self) -> Part {
+        if self.rounding >= self.discretisation && self.rounding >= self.iteration {
+            Part::Rounding
+        } else if self.iteration >= self.discretisation {
+            Part::Iteration
+        } else {
+            Part::Discretisation
+        }
+    }
 }
 
 impl fmt::Display for Basis {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Basis::RoundOff(why) => write!(f, "round-off: {why}"),
-            Basis::Truncation { observed, formal, resolution, safety, parts } => {
+            Basis::Wanted(why) => write!(f, "wanted: {why}"),
+            Basis::Truncation { observed, formal, resolution, safety, parts, noise } => {
                 let Parts { discretisation, iteration, rounding } = parts;
                 let order = match observed.is_nan() {
                     true => format!("below round-off, order {formal} assumed"),
@@ -60,42 +138,55 @@ impl fmt::Display for Basis {
                 };
                 write!(
                     f,
-                    "truncation: {order} at resolutions {:e}, {resolution:e} and {:e}, safety factor {safety}; discretisation {discretisation:.1e}, iteration {iteration:.1e}, rounding {rounding:.1e}",
+                    "{}: truncation, {order} at resolutions {:e}, {resolution:e} and {:e}, safety factor {safety}; \
+                     discretisation {discretisation:.1e}, iteration {iteration:.1e}, rounding {rounding:.1e} ({})",
+                    self.origin().word(),
                     2.0 * resolution,
-                    resolution / 2.0
+                    resolution / 2.0,
+                    noise.word()
                 )
             }
-            Basis::Published { digits, source } => write!(f, "published with {digits} decimals: {source}"),
+            Basis::Digits { origin, digits, source } => {
+                write!(f, "{} with {digits} decimals: {source}", origin.word())
+            }
+            Basis::Noted(basis, note) => write!(f, "{basis}; {note}"),
         }
     }
 }
 
-/// Bound `abs + rel * scale` with its basis; never relative to a single sample, whose channel may cross zero.
+/// A bound with its basis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tolerance {
-    /// Absolute part, in the channel's unit.
-    pub abs: f64,
-    /// Part relative to the channel's scale over the run.
-    pub rel: f64,
+    /// The bound, in the unit of the number that it holds.
+    pub bound: f64,
     /// What the bound rests on.
     pub basis: Basis,
-}
-
-impl Tolerance {
-    /// The bound for a channel of the given scale, in the channel's unit.
-    #[must_use]
-    pub fn bound(&self, scale: f64) -> f64 {
-        self.abs + self.rel * scale
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    fn truncation(parts: Parts) -> Basis {
+        let noise = Origin::Measured;
+        Basis::Truncation { observed: 2.0, formal: 2.0, resolution: 1e-3, safety: 1.25, parts, noise }
+    }
+
     #[test]
-    fn bound_adds_both_parts() {
-        let tolerance = Tolerance { abs: 0.5, rel: 0.1, basis: Basis::RoundOff("test") };
-        assert_eq!(tolerance.bound(10.0), 1.5);
+    fn a_bound_that_is_rounding_in_the_main_says_how_its_rounding_is_known() {
+        let estimated = truncation(Parts { discretisation: 1.0, iteration: 0.0, rounding: 0.5 });
+        let measured = truncation(Parts { discretisation: 0.5, iteration: 0.0, rounding: 1.0 });
+        assert_eq!([estimated.origin(), measured.origin()], [Origin::Estimated, Origin::Measured]);
+        assert!(estimated.to_string().starts_with("estimated: truncation, observed order 2.00"));
+        assert!(measured.to_string().starts_with("measured: "));
+        assert!(measured.to_string().ends_with("rounding 1.0e0 (measured)"));
+    }
+
+    #[test]
+    fn every_basis_begins_with_its_origin() {
+        let digits = Basis::Digits { origin: Origin::Recomputed, digits: 3, source: "a table".into() };
+        let noted = Basis::Noted(Box::new(Basis::Wanted("so much")), "a note");
+        assert_eq!(digits.to_string(), "recomputed with 3 decimals: a table");
+        assert_eq!((noted.to_string().as_str(), noted.origin()), ("wanted: so much; a note", Origin::Wanted));
     }
 }

@@ -6,6 +6,7 @@ use analytic::reduced::{ACCURACY, Model};
 use analytic::steady::Regime;
 use analytic::steady::course::{Extremes, Row};
 use linkage::error::Result;
+use linkage::math::KeepNan;
 use workshop::diagram::{Graph, Graphs, Mark, draw};
 
 /// Equal parts of the period, at whose ends graphs have points: half a degree over one turn.
@@ -20,7 +21,7 @@ pub(super) fn draw(
     steady: Option<&Regime>,
 ) -> Result<String> {
     let case = &scenario.case;
-    let (start, sense) = (case.drive.start, case.drive.sense());
+    let (start, sense) = (case.crank().start, case.crank().sense());
     let period = model.kinks().period.unwrap_or(std::f64::consts::TAU);
     let even: Vec<f64> = (0..=PARTS).map(|k| start + sense * period * (f64::from(k) / f64::from(PARTS))).collect();
     let kinks = model.kinks().cranks.iter().map(|kink| start + sense * (sense * (kink - start)).rem_euclid(period));
@@ -31,7 +32,7 @@ pub(super) fn draw(
     let reduced = |[name, symbol, unit]: [&'static str; 3], of: fn(&Row) -> f64, mean, found: &Extremes| {
         let marks = [("least", found.least), ("greatest", found.greatest)];
         let marks = marks.map(|(word, (crank, value))| Mark { at: [crank, value], word });
-        let size = found.least.1.abs().max(found.greatest.1.abs());
+        let size = found.least.1.abs().larger(found.greatest.1.abs());
         Graph { name, symbol, unit, points: points(of), mean, mean_word: "mean", marks, size }
     };
     let slope = model.slope_extremes()?;
@@ -39,7 +40,7 @@ pub(super) fn draw(
         reduced(["reduced moment of inertia", "I*", "kg m^2"], |row| row.inertia, means.inertia, &extremes[0]),
         Graph {
             // A constant inertia has a derivative of roundings.
-            size: extremes[0].greatest.1.max(slope.greatest.1),
+            size: extremes[0].greatest.1.larger(slope.greatest.1),
             // After a period the inertia is what it was.
             ..reduced(["derivative of the reduced moment of inertia", "dI*/dφ", "kg m^2"], |row| row.slope, 0.0, &slope)
         },

@@ -1,5 +1,6 @@
 //! `linkproof tune`.
 
+use linkage::math::KeepNan;
 use std::fmt::Write;
 use std::fs;
 use std::path::PathBuf;
@@ -14,7 +15,7 @@ use crate::report::table;
 use crate::scenario::{EngineKeys, Scenario, edit};
 use crate::tune::{Candidate, Tuning, Wish, tune};
 use linkage::engine::{Engine, Settings};
-use linkage::error::{Error, ErrorKind, Result};
+use linkage::error::{Advice, Error, ErrorKind, Result};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -67,14 +68,14 @@ pub(super) fn run(args: &Args) -> Result<()> {
         for _ in 0..REPEATS {
             let since = Instant::now();
             run()?;
-            shortest = shortest.min(since.elapsed().as_secs_f64());
+            shortest = shortest.smaller(since.elapsed().as_secs_f64());
             if shortest > LONG {
                 break;
             }
         }
         Ok(shortest)
     };
-    let found = tune(&scenario, &wish, &options, &mut price, &mut |part| bar.at(part))?;
+    let found = tune(&scenario, &wish, &options, &mut price, &mut |part| bar.at(part)).map_err(of_argument)?;
     drop(bar);
     if args.write {
         let text = edit::with_engine(&scenario.text, keys(&scenario, &found.best))?;
@@ -86,6 +87,14 @@ pub(super) fn run(args: &Args) -> Result<()> {
     match &args.json {
         Some(to) => output::write(&format!("{}\n", as_json(args, &scenario, &found)), to),
         None => output::print(&as_text(args, &scenario, &found)),
+    }
+}
+
+/// Names the argument that asked for a channel which there is not.
+fn of_argument(error: Error) -> Error {
+    match error.advice() {
+        [Advice::OtherChannel { .. }] => error.key("--channel"),
+        _ => error,
     }
 }
 

@@ -1,5 +1,6 @@
 //! What is left when one trajectory is taken from another, channel by channel.
 
+use linkage::math::{KeepNan, largest_size};
 use std::f64::consts::TAU;
 
 use linkage::error::{Error, ErrorKind, Result};
@@ -46,15 +47,14 @@ impl Residual {
 pub fn scales(trajectory: &Trajectory) -> Vec<f64> {
     let halves: Vec<f64> = trajectory.iter().map(|(_, values)| half_range(values)).collect();
     let natural = natural(trajectory, &halves, half_range(trajectory.cranks()));
-    halves.iter().zip(natural).map(|(half, natural)| half.max(SMALLEST_SHARE * natural)).collect()
+    halves.iter().zip(natural).map(|(half, natural)| half.larger(SMALLEST_SHARE * natural)).collect()
 }
 
 /// Size of the numbers in every channel, which its rounding is proportional to: the largest absolute value among the
 /// channels of its quantity, or what a turn of one radian, the largest coordinates and forces make of it.
 #[must_use]
 pub fn magnitudes(trajectory: &Trajectory) -> Vec<f64> {
-    let largest = |values: &[f64]| values.iter().fold(0.0, |max: f64, value| max.max(value.abs()));
-    let largest: Vec<f64> = trajectory.iter().map(|(_, values)| largest(values)).collect();
+    let largest: Vec<f64> = trajectory.iter().map(|(_, values)| largest_size(values.iter().copied())).collect();
     natural(trajectory, &largest, 1.0)
 }
 
@@ -62,9 +62,10 @@ pub fn magnitudes(trajectory: &Trajectory) -> Vec<f64> {
 /// speed, its `turn` (rad) and the sizes of places and forces.
 fn natural(trajectory: &Trajectory, sizes: &[f64], turn: f64) -> Vec<f64> {
     let all = || trajectory.channels().iter().zip(sizes);
-    let of_unit = |unit: Unit| all().filter(|(c, _)| c.kind.unit == unit).fold(0.0, |max: f64, (_, &s)| max.max(s));
-    let of_quantity =
-        |quantity: &str| all().filter(|(c, _)| c.kind.quantity == quantity).fold(0.0, |max: f64, (_, &s)| max.max(s));
+    let of_unit = |unit: Unit| all().filter(|(c, _)| c.kind.unit == unit).fold(0.0, |max: f64, (_, &s)| max.larger(s));
+    let of_quantity = |quantity: &str| {
+        all().filter(|(c, _)| c.kind.quantity == quantity).fold(0.0, |max: f64, (_, &s)| max.larger(s))
+    };
     let span = half_range(trajectory.times());
     let speed = if span > 0.0 { half_range(trajectory.cranks()) / span } else { 0.0 };
     let (length, force) = (of_unit(Unit::Metre), of_unit(Unit::Newton));
@@ -80,7 +81,7 @@ fn natural(trajectory: &Trajectory, sizes: &[f64], turn: f64) -> Vec<f64> {
             Unit::Newton => 0.0,
             Unit::NewtonMetre => force * length,
         };
-        of_quantity(channel.kind.quantity).max(derived)
+        of_quantity(channel.kind.quantity).larger(derived)
     };
     trajectory.channels().iter().map(natural).collect()
 }
@@ -116,9 +117,7 @@ pub(super) fn differences(ours: &[f64], theirs: &[f64], periodic: bool) -> Vec<f
 /// Largest absolute difference between two columns of one channel; of angles, but for whole turns between the first samples.
 #[must_use]
 pub fn largest_difference(ours: &[f64], theirs: &[f64], periodic: bool) -> f64 {
-    differences(ours, theirs, periodic)
-        .into_iter()
-        .fold(0.0, |most: f64, e| if e.is_nan() { e } else { most.max(e.abs()) })
+    largest_size(differences(ours, theirs, periodic))
 }
 
 /// Residuals of all channels that both trajectories have, on the reference's scales.
@@ -205,6 +204,18 @@ mod tests {
         let still = trajectory(&[("joint.A.fx_N", vec![1.0, 1.0])]);
         let found = residuals(&still, &still).unwrap();
         assert_eq!((found[0].scale, found[0].share()), (0.0, 0.0));
+    }
+
+    #[test]
+    fn a_difference_is_the_other_less_the_reference_and_keeps_nan() {
+        let a = trajectory(&[("joint.A.fx_N", vec![1.0, 2.0])]);
+        let b = trajectory(&[("joint.A.fx_N", vec![1.5, 1.0])]);
+        assert_eq!(difference(&a, &b).unwrap().iter().next().unwrap().1, [0.5, -1.0]);
+        for place in 0..3 {
+            let mut values = [3.0, 2.0, 1.0];
+            values[place] = f64::NAN;
+            assert!(largest_difference(&[0.0; 3], &values, false).is_nan(), "{place}");
+        }
     }
 
     #[test]

@@ -1,7 +1,9 @@
 //! Agree, disagree, or not decided.
 
 use super::{Convergence, Residual};
-use crate::tolerance::{Basis, Parts, Tolerance};
+use crate::tolerance::{Basis, Part, Parts, Tolerance};
+use linkage::error::Advice;
+use linkage::math::KeepNan;
 use linkage::math::statistics::share;
 
 /// Outcome of one comparison.
@@ -17,15 +19,19 @@ pub enum Verdict {
         /// Where it is worst, in words.
         place: String,
     },
-    /// A published number disagrees, as a finding says it must.
+    /// A printed number disagrees as a finding says it must, and the number that is right instead agrees.
     Expected {
         /// Anchor of the finding in `docs/findings.md`.
         finding: String,
+        /// How far the printed number is off, in the unit of the check.
+        off: f64,
     },
     /// Nothing is proven either way.
     Inconclusive {
-        /// Why not, and what to do.
+        /// Why not.
         reason: String,
+        /// What would decide it, as alternatives; empty where nothing is known to.
+        advice: Vec<Advice>,
     },
 }
 
@@ -39,6 +45,37 @@ impl Verdict {
             Verdict::Expected { .. } => "expected",
             Verdict::Inconclusive { .. } => "inconclusive",
         }
+    }
+
+    /// Nothing is proven, and no way out is known.
+    #[must_use]
+    pub fn open(reason: impl Into<String>) -> Self {
+        Verdict::Inconclusive { reason: reason.into(), advice: Vec::new() }
+    }
+
+    /// Reason of a verdict that is not agreement, with what would decide it, told by `tell`.
+    #[must_use]
+    pub fn reason(&self, tell: impl Fn(&Advice) -> String) -> Option<String> {
+        match self {
+            Verdict::Agree { .. } => None,
+            Verdict::Expected { finding, .. } => Some(format!("expected, see docs/findings.md#{finding}")),
+            Verdict::Disagree { place } => Some(place.clone()),
+            Verdict::Inconclusive { reason, advice } => Some(match Advice::sentence(advice, tell) {
+                Some(way_out) => format!("{reason}; {way_out}"),
+                None => reason.clone(),
+            }),
+        }
+    }
+
+    /// The same, with numbers to try in its advice, from the settings of the engine: see [`Advice::from_settings`].
+    #[must_use]
+    pub fn from_settings(mut self, resolution: f64, controls_error: bool, sweeps: usize) -> Self {
+        if let Verdict::Inconclusive { advice, .. } = &mut self {
+            for one in advice {
+                *one = one.clone().from_settings(resolution, controls_error, sweeps);
+            }
+        }
+        self
     }
 
     /// A residual against its bound, written so that NaN disagrees.
@@ -55,33 +92,47 @@ impl Verdict {
     /// `wanted` of the channel's scale, a small residual proves nothing.
     #[must_use]
     pub fn of_engine(residual: &Residual, convergence: &Convergence, parts: Parts, wanted: f64) -> Self {
-        let bound = parts.sum();
-        if residual.scale == 0.0 && residual.max > 0.0 {
-            let reason = "the grid has no extent that an error could be measured by; give it more than one instant";
-            return Verdict::Inconclusive { reason: reason.into() };
-        }
-        if !convergence.is_trusted() {
-            return Verdict::Inconclusive {
-                reason: format!(
-                    "the engine converges with order {:.2} instead of {:.0} here: its error cannot be estimated; {}",
-                    convergence.observed,
-                    convergence.formal,
-                    way_out(parts)
-                ),
-            };
-        }
         let place = || {
             let (t, crank) = (residual.worst_time, residual.worst_crank.to_degrees());
+            let bound = parts.sum();
             format!("{:.3e} beyond the bound {bound:.3e} at t = {t:.6} s, crank angle {crank:.3} deg", residual.max)
         };
-        match Verdict::of(residual.max, bound, place) {
-            Verdict::Agree { .. } if bound > wanted * residual.scale => Verdict::Inconclusive {
-                reason: format!(
-                    "the engine's error may reach {:.1e} of the channel's scale, more than the {wanted:.0e} that still proves something; {}",
-                    bound / residual.scale,
-                    way_out(parts)
-                ),
-            },
+        Verdict::of_estimate(residual.max, residual.scale, convergence, parts, wanted, place)
+    }
+
+    /// Verdict on a number that an engine's own runs bound by `parts`, on the channel's `scale`. A bound that the runs do not bear out, or
+    /// that is larger than the share `wanted` of the scale, proves nothing.
+    #[must_use]
+    pub fn of_estimate(
+        value: f64,
+        scale: f64,
+        convergence: &Convergence,
+        parts: Parts,
+        wanted: f64,
+        place: impl FnOnce() -> String,
+    ) -> Self {
+        let bound = parts.sum();
+        if scale == 0.0 && value > 0.0 {
+            let reason = "the grid has no extent that an error could be measured by; give it more than one instant";
+            return Verdict::open(reason);
+        }
+        if !convergence.is_trusted() {
+            let (why, advice) = way_out(parts);
+            let reason = format!(
+                "the engine converges with order {:.2} instead of {:.0} here: its error cannot be estimated{why}",
+                convergence.observed, convergence.formal,
+            );
+            return Verdict::Inconclusive { reason, advice };
+        }
+        match Verdict::of(value, bound, place) {
+            Verdict::Agree { .. } if bound > wanted * scale => {
+                let (why, advice) = way_out(parts);
+                let reason = format!(
+                    "the engine's error may reach {:.1e} of the channel's scale, more than the {wanted:.0e} that still proves something{why}",
+                    bound / scale,
+                );
+                Verdict::Inconclusive { reason, advice }
+            }
             verdict @ (Verdict::Agree { .. }
             | Verdict::Disagree { .. }
             | Verdict::Expected { .. }
@@ -90,15 +141,12 @@ impl Verdict {
     }
 }
 
-/// How to make the largest part of an engine's error smaller.
-fn way_out(parts: Parts) -> &'static str {
-    let Parts { discretisation, iteration, rounding } = parts;
-    if rounding >= discretisation && rounding >= iteration {
-        "most of it is rounding: choose a larger step (--dt), or an engine in double precision"
-    } else if iteration >= discretisation {
-        "most of it is left by the sweeps: raise their number (--sweeps)"
-    } else {
-        "choose a smaller step (--dt)"
+/// Where the largest part of an engine's error comes from, to be added to a reason, and how to make it smaller.
+fn way_out(parts: Parts) -> (&'static str, Vec<Advice>) {
+    match parts.largest() {
+        Part::Rounding => ("; most of it is rounding", vec![Advice::LargerStep { to: None }, Advice::DoublePrecision]),
+        Part::Iteration => ("; most of it is left by the sweeps", vec![Advice::MoreSweeps { to: None }]),
+        Part::Discretisation => ("", vec![Advice::SmallerStep { to: None }]),
     }
 }
 
@@ -125,13 +173,26 @@ impl Check {
     /// A check of a number against a bound.
     #[must_use]
     pub fn new(family: impl Into<String>, value: f64, tolerance: Tolerance, unit: &'static str) -> Self {
-        let bound = tolerance.bound(0.0);
-        let verdict = Verdict::of(value, bound, || {
-            let space = if unit.is_empty() { "" } else { " " };
-            format!("{value:.3e}{space}{unit} is beyond the bound {bound:.3e}")
-        });
-        let (family, detail) = (family.into(), String::new());
-        Check { family, detail, value, bound, unit, basis: tolerance.basis, verdict }
+        let Tolerance { bound, basis } = tolerance;
+        let verdict = Verdict::of(value, bound, || beyond(value, bound, unit));
+        Check { family: family.into(), detail: String::new(), value, bound, unit, basis, verdict }
+    }
+
+    /// A check of a relative number that an engine's own runs bound: where they do not bear the bound out, or where it is larger than the
+    /// share `wanted`, it proves nothing, as with channels.
+    #[must_use]
+    pub fn estimated(
+        family: impl Into<String>,
+        value: f64,
+        convergence: &Convergence,
+        parts: Parts,
+        basis: Basis,
+        wanted: f64,
+    ) -> Self {
+        let bound = parts.sum();
+        let place = || beyond(value, bound, "");
+        let verdict = Verdict::of_estimate(value, 1.0, convergence, parts, wanted, place);
+        Check { family: family.into(), detail: String::new(), value, bound, unit: "", basis, verdict }
     }
 
     /// Says which of its family the check is.
@@ -150,18 +211,23 @@ impl Check {
         self
     }
 
-    /// Turns the check of a number that a finding calls wrong: it must disagree.
+    /// Makes of the check against the number that is right, and of that against the printed one, `printed`, which a finding calls wrong, the
+    /// check of both: the printed one must disagree, and the right one agree. NaN and any third number disagree.
     #[must_use]
-    pub fn expected(mut self, finding: &str) -> Self {
-        self.verdict = match self.verdict {
-            Verdict::Agree { .. } => Verdict::Disagree {
+    pub fn expected(mut self, finding: &str, printed: &Check) -> Self {
+        self.verdict = match (self.verdict, &printed.verdict) {
+            (_, Verdict::Agree { .. }) => Verdict::Disagree {
                 place: format!(
-                    "the finding \"{finding}\" says that the published number is wrong, but it agrees: correct one of the two"
+                    "the finding \"{finding}\" says that the printed number is wrong, but it agrees: correct one of the two"
                 ),
             },
-            Verdict::Disagree { .. } | Verdict::Expected { .. } | Verdict::Inconclusive { .. } => {
-                Verdict::Expected { finding: finding.to_string() }
+            (Verdict::Agree { .. }, Verdict::Disagree { .. }) => {
+                Verdict::Expected { finding: finding.to_string(), off: printed.value }
             }
+            (Verdict::Disagree { place }, _) => Verdict::Disagree {
+                place: format!("neither the printed number nor the one that \"{finding}\" says is right: {place}"),
+            },
+            (verdict, _) => verdict,
         };
         self
     }
@@ -180,6 +246,12 @@ impl Check {
     }
 }
 
+/// What a disagreement says of the number and its bound.
+fn beyond(value: f64, bound: f64, unit: &str) -> String {
+    let space = if unit.is_empty() { "" } else { " " };
+    format!("{value:.3e}{space}{unit} is beyond the bound {bound:.3e}")
+}
+
 /// Verdict on the whole: one disagreement is one, otherwise one open question leaves it open.
 #[must_use]
 pub fn overall<'a>(verdicts: impl IntoIterator<Item = &'a Verdict>) -> Verdict {
@@ -189,7 +261,7 @@ pub fn overall<'a>(verdicts: impl IntoIterator<Item = &'a Verdict>) -> Verdict {
         match verdict {
             Verdict::Disagree { .. } => return verdict.clone(),
             Verdict::Inconclusive { .. } => open = open.or(Some(verdict)),
-            Verdict::Agree { margin: own } => margin = margin.min(*own),
+            Verdict::Agree { margin: own } => margin = margin.smaller(*own),
             Verdict::Expected { .. } => {}
         }
     }
@@ -228,15 +300,29 @@ mod tests {
 
     #[test]
     fn what_is_open_says_what_would_close_it() {
-        let reason = |parts: Parts| match Verdict::of_engine(&residual(1e-4), &converging(2.0), parts, 1e-2) {
-            Verdict::Inconclusive { reason } => reason,
+        let told = |parts: Parts| match Verdict::of_engine(&residual(1e-4), &converging(2.0), parts, 1e-2) {
+            Verdict::Inconclusive { reason, advice } => (reason, advice),
             other @ (Verdict::Agree { .. } | Verdict::Disagree { .. } | Verdict::Expected { .. }) => {
                 panic!("{other:?}")
             }
         };
-        assert!(reason(Parts { discretisation: 0.5, iteration: 0.1, rounding: 0.1 }).contains("--dt"));
-        assert!(reason(Parts { discretisation: 0.1, iteration: 0.5, rounding: 0.1 }).contains("--sweeps"));
-        assert!(reason(Parts { discretisation: 0.1, iteration: 0.1, rounding: 0.5 }).contains("rounding"));
+        let (_, advice) = told(Parts { discretisation: 0.5, iteration: 0.1, rounding: 0.1 });
+        assert_eq!(advice, [Advice::SmallerStep { to: None }]);
+        let (reason, advice) = told(Parts { discretisation: 0.1, iteration: 0.5, rounding: 0.1 });
+        assert!(reason.ends_with("left by the sweeps") && advice == [Advice::MoreSweeps { to: None }], "{reason}");
+        let (reason, advice) = told(Parts { discretisation: 0.1, iteration: 0.1, rounding: 0.5 });
+        assert!(reason.ends_with("most of it is rounding"), "{reason}");
+        assert_eq!(advice, [Advice::LargerStep { to: None }, Advice::DoublePrecision]);
+    }
+
+    #[test]
+    fn a_reason_ends_with_its_way_out() {
+        let parts = Parts { discretisation: 0.5, ..Parts::default() };
+        let open = Verdict::of_engine(&residual(1e-4), &converging(2.0), parts, 1e-2).from_settings(1e-3, false, 0);
+        let told = open.reason(Advice::to_string).unwrap();
+        assert!(told.ends_with("proves something; choose a smaller time step, such as 5e-4 s"), "{told}");
+        assert_eq!(Verdict::open("nothing was run").reason(Advice::to_string).unwrap(), "nothing was run");
+        assert_eq!(Verdict::Agree { margin: 1.0 }.reason(Advice::to_string), None);
     }
 
     #[test]
@@ -249,9 +335,46 @@ mod tests {
     }
 
     #[test]
+    fn a_bound_on_a_check_must_be_borne_out_and_small_like_one_on_a_channel() {
+        let check = |value: f64, observed: f64, discretisation: f64| {
+            let parts = Parts { discretisation, ..Parts::default() };
+            Check::estimated("f", value, &converging(observed), parts, Basis::Wanted("test"), 1e-2).verdict
+        };
+        assert_eq!(check(1e-4, 2.0, 1e-3).word(), "agree");
+        assert_eq!(check(2e-3, 2.0, 1e-3).word(), "disagree");
+        assert_eq!(check(f64::NAN, 2.0, 1e-3).word(), "disagree");
+        assert_eq!(check(1e-4, 2.0, f64::NAN).word(), "disagree");
+        assert_eq!(check(1e-4, 0.3, 1e-3).word(), "inconclusive");
+        assert_eq!(check(1e-4, 2.0, 5e-2).word(), "inconclusive");
+    }
+
+    /// A number of which 5 is printed and 7 is right, each to half a unit.
+    fn known_wrong(found: f64) -> Verdict {
+        let against = |number: f64| {
+            Check::new("f", (found - number).abs(), Tolerance { bound: 0.5, basis: Basis::Wanted("test") }, "N")
+        };
+        against(7.0).expected("why", &against(5.0)).verdict
+    }
+
+    #[test]
+    fn a_number_known_to_be_wrong_must_be_the_one_that_is_right_instead() {
+        assert_eq!(known_wrong(7.2), Verdict::Expected { finding: "why".into(), off: 7.2 - 5.0 });
+        let reason = |found: f64| match known_wrong(found) {
+            Verdict::Disagree { place } => place,
+            other @ (Verdict::Agree { .. } | Verdict::Expected { .. } | Verdict::Inconclusive { .. }) => {
+                panic!("{found}: {other:?}")
+            }
+        };
+        assert!(reason(5.2).contains("but it agrees"));
+        for third in [f64::NAN, f64::INFINITY, 9.0, 6.0, -7.0] {
+            assert!(reason(third).contains("neither the printed number"), "{third}");
+        }
+    }
+
+    #[test]
     fn the_whole_is_as_good_as_its_worst_part() {
         let agree = Verdict::Agree { margin: 2.0 };
-        let open = Verdict::Inconclusive { reason: "why".into() };
+        let open = Verdict::open("why");
         let no = Verdict::Disagree { place: "there".into() };
         assert_eq!(overall([&agree, &agree]).word(), "agree");
         assert_eq!(overall([&agree, &open]).word(), "inconclusive");

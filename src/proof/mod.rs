@@ -7,6 +7,8 @@ mod observe;
 mod options;
 mod oracle;
 mod parties;
+#[cfg(test)]
+mod planted;
 mod sensitivity;
 
 pub use engines::{ChannelProof, EngineInfo, EngineProof};
@@ -15,6 +17,7 @@ pub use parties::Dispute;
 
 use crate::compare::{Check, Verdict, overall};
 use crate::scenario::Scenario;
+use analytic::range::explained;
 use linkage::case::Case;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::solver::Solver;
@@ -78,6 +81,11 @@ pub fn prove_against(
     options: &Options,
     progress: &mut dyn FnMut(f64),
 ) -> Result<Proof> {
+    joined(scenario, engine_case, options, progress).map_err(|error| explained(&scenario.case, error))
+}
+
+/// The same with the errors of solvers as they come.
+fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: &mut dyn FnMut(f64)) -> Result<Proof> {
     let case = &scenario.case;
     let main = options.reference()?;
     let engines = options.engines(scenario)?;
@@ -90,7 +98,7 @@ pub fn prove_against(
     checks.extend(oracle::checks(scenario)?);
 
     let sensitivity = sensitivity::of(case, main, &own.trajectory)?;
-    let engine_case = engine_case.on(case.grid.clone());
+    let engine_case = engine_case.on(case.grid.clone())?;
     let mut proofs = Vec::with_capacity(engines.len());
     for (index, engine) in engines.iter().enumerate() {
         let mut part = |part: f64| progress((index as f64 + part) / engines.len() as f64);
@@ -106,7 +114,7 @@ pub fn prove_against(
         _ => parties::disputes(main.name(), &own.trajectory, &proofs),
     };
     let analytic = overall(checks.iter().map(|check| &check.verdict));
-    let verdict = overall([&analytic, &of_engines(&proofs)]);
+    let verdict = overall([&analytic].into_iter().chain(proofs.iter().map(|proof| &proof.verdict)));
     Ok(Proof {
         scenario: scenario.name.clone(),
         title: scenario.title.clone(),
@@ -118,19 +126,6 @@ pub fn prove_against(
         verdict,
         reference_trajectory: own.trajectory.clone(),
     })
-}
-
-/// Verdict on all engines: a disagreement of one is one, else one engine that proves everything is enough.
-fn of_engines(proofs: &[EngineProof]) -> Verdict {
-    let verdicts = || proofs.iter().map(|proof| &proof.verdict);
-    let disagrees = |verdict: &&Verdict| matches!(verdict, Verdict::Disagree { .. });
-    let agrees = |verdict: &&Verdict| matches!(verdict, Verdict::Agree { .. });
-    verdicts()
-        .find(disagrees)
-        .or_else(|| verdicts().find(agrees))
-        .or_else(|| verdicts().next())
-        .cloned()
-        .unwrap_or_else(|| Verdict::Inconclusive { reason: "no engine was asked for".into() })
 }
 
 fn unknown<'a>(what: &str, asked: &str, known: impl Iterator<Item = &'a str>) -> Error {

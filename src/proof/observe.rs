@@ -4,6 +4,7 @@ use analytic::witness::{momentum, power};
 use linkage::case::Case;
 use linkage::error::Error;
 use linkage::math::statistics::share;
+use linkage::math::{KeepNan, largest_size};
 use linkage::solver::{Sampler, Solver, State};
 use linkage::trajectory::{Stage, Trajectory};
 
@@ -11,8 +12,8 @@ use linkage::trajectory::{Stage, Trajectory};
 #[derive(Clone, Debug)]
 pub(super) struct Observed {
     pub(super) trajectory: Trajectory,
-    /// Largest distance between the two sides of a joint at any instant (m).
-    pub(super) closure: f64,
+    /// Largest distance between the two sides of a joint (m) at every instant.
+    pub(super) opening: Vec<f64>,
     /// Largest distance of a joint from the origin (m).
     pub(super) reach: f64,
     /// Balancing moment from the balance of powers (N m) at every instant; empty if no balancing moment is wanted. Of a crank whose speed changes,
@@ -25,6 +26,24 @@ pub(super) struct Observed {
     pub(super) unbalance: Option<f64>,
     /// Largest moment on the driving link (N m): the balancing one, or that of a joint's force at the link's length.
     pub(super) moment: f64,
+}
+
+impl Observed {
+    /// Largest distance between the two sides of a joint at any instant (m).
+    pub(super) fn closure(&self) -> f64 {
+        largest_size(self.opening.iter().copied())
+    }
+
+    /// Largest difference between the balancing moment of the trajectory and that of the powers, over the moments that make it up: where it vanishes they balance,
+    /// and their rounding is left.
+    pub(super) fn two_ways(&self) -> f64 {
+        share(largest_size(self.moment_gap()), self.moment)
+    }
+
+    /// Balancing moment of the trajectory less that of the powers (N m) at every instant.
+    pub(super) fn moment_gap(&self) -> impl Iterator<Item = f64> {
+        self.torque.iter().zip(&self.power).map(|(torque, power)| torque - power)
+    }
 }
 
 /// A run that failed, and what it had computed until then.
@@ -56,31 +75,33 @@ pub(super) fn observe(
     let with_power = case.wanted.has(Stage::BalancingMoment);
     let mut power = if with_power { vec![0.0; case.grid.len()] } else { Vec::new() };
     let mut torque = power.clone();
-    let arm = case.drives().fold(0.0, |most: f64, drive| most.max(case.mechanism.links()[drive.link].size()));
+    let arm = case.drives.iter().fold(0.0, |most: f64, drive| most.larger(case.mechanism.links()[drive.link].size()));
     let (size, steady) = (case.mechanism.size(), case.is_steady());
-    let (mut closure, mut reach, mut moment): (f64, f64, f64) = (0.0, 0.0, 0.0);
+    let mut opening = vec![0.0f64; case.grid.len()];
+    let (mut reach, mut moment): (f64, f64) = (0.0, 0.0);
     let mut unbalance = Unbalance::default();
     let mut visit = |row: usize, state: &State| {
         for joint in case.mechanism.joints() {
             let sides = [joint.first, joint.second];
             let places = sides.map(|side| state.motions[side.link].point(side.local));
             let (distance, turn) = joint.opening(places, sides.map(|side| state.motions[side.link].direction));
-            closure = closure.max(distance).max(turn * size);
-            reach = reach.max(places[0].norm());
+            opening[row] = opening[row].larger(distance).larger(turn * size);
+            reach = reach.larger(places[0].norm());
         }
         if with_power {
             // A crank at rest has no power: where its speed changes, powers are compared, over the top speed.
             (power[row], torque[row]) = match steady {
                 true => (power::balancing_moment(case, state), reduced_torque(case, state)),
                 false => {
-                    let top = case.drive.top_speed();
+                    let top = case.crank().top_speed();
                     (-power::of_known_forces(case, state) / top, power_of_drives(case, state) / top)
                 }
             };
             let forces = state.forces.iter().map(|force| force.norm() * arm);
-            moment = forces.fold(state.torques.iter().fold(moment, |most, torque| most.max(torque.abs())), f64::max);
+            moment =
+                forces.fold(state.torques.iter().fold(moment, |most, torque| most.larger(torque.abs())), f64::larger);
             // At the very instant of setting off loads act already against a motion that the state does not show yet.
-            let setting_off = case.is_free() && case.drives().all(|drive| state.motions[drive.link].omega == 0.0);
+            let setting_off = case.is_free() && case.drives.iter().all(|drive| state.motions[drive.link].omega == 0.0);
             if !setting_off {
                 unbalance.add(case, state);
             }
@@ -89,12 +110,12 @@ pub(super) fn observe(
         Ok(())
     };
     if let Err(error) = solver.sweep(case, &mut visit, progress) {
-        let kept = sampler.so_far(case, |channel| solver.provides(channel)).map(Box::new);
+        let kept = sampler.so_far(case).map(Box::new);
         return Err(Stopped { error, kept });
     }
     Ok(Observed {
-        trajectory: sampler.finish(case, |channel| solver.provides(channel))?,
-        closure,
+        trajectory: sampler.finish(case)?,
+        opening,
         reach,
         power,
         torque,
@@ -105,14 +126,14 @@ pub(super) fn observe(
 
 /// Power of all drives on their links (W).
 fn power_of_drives(case: &Case, state: &State) -> f64 {
-    case.drives().zip(&state.torques).map(|(drive, torque)| torque * state.motions[drive.link].omega).sum()
+    case.drives.iter().zip(&state.torques).map(|(drive, torque)| torque * state.motions[drive.link].omega).sum()
 }
 
 /// Balancing moments of all drives (N m), reduced to the crank by their powers.
 fn reduced_torque(case: &Case, state: &State) -> f64 {
     let omega = |link: usize| state.motions[link].omega;
-    let further = case.further_drives.iter().zip(&state.torques[1..]);
-    let further = further.map(|(drive, torque)| torque * (omega(drive.link) / omega(case.drive.link)));
+    let further = case.drives.further().iter().zip(&state.torques[1..]);
+    let further = further.map(|(drive, torque)| torque * (omega(drive.link) / omega(case.crank().link)));
     state.torques[0] + further.sum::<f64>()
 }
 
@@ -128,19 +149,19 @@ struct Unbalance {
 impl Unbalance {
     fn add(&mut self, case: &Case, state: &State) {
         let ((force, moment), (other_force, other_moment)) = (state.shaking(case), momentum::shaking(case, state));
-        self.force = self.force.max((force - other_force).norm());
-        self.moment = self.moment.max((moment - other_moment).abs());
+        self.force = self.force.larger((force - other_force).norm());
+        self.moment = self.moment.larger((moment - other_moment).abs());
         for (index, joint) in case.mechanism.joints().iter().enumerate() {
             let place = state.motions[joint.second.link].point(joint.second.local);
             let own = state.forces[index].norm();
-            self.largest_force = self.largest_force.max(own);
+            self.largest_force = self.largest_force.larger(own);
             // Of a joint in the origin, its force at the mechanism's size.
-            let lever = place.norm().max(case.mechanism.size());
-            self.largest_moment = self.largest_moment.max(own * lever).max(state.moments[index].abs());
+            let lever = place.norm().larger(case.mechanism.size());
+            self.largest_moment = self.largest_moment.larger(own * lever).larger(state.moments[index].abs());
         }
     }
 
     fn share(&self) -> f64 {
-        share(self.force, self.largest_force).max(share(self.moment, self.largest_moment))
+        share(self.force, self.largest_force).larger(share(self.moment, self.largest_moment))
     }
 }

@@ -1,17 +1,17 @@
-//! Published numbers against both analytic sides.
+//! Numbers from elsewhere against both analytic sides.
 
-use crate::compare::Check;
-use crate::scenario::{Figure, Oracle, OraclePoint, OracleSeries, Scenario};
-use crate::tolerance::{Basis, Tolerance};
+use crate::compare::{Check, Verdict};
+use crate::scenario::{ExpectedCell, Figure, FigureValue, Oracle, OracleBasis, OraclePoint, OracleSeries, Scenario};
+use crate::tolerance::{Basis, Origin, Tolerance};
 use analytic::reduced::means::{self as reduced, Means};
-use linkage::case::{Case, Grid, Wanted};
+use linkage::case::{Grid, Wanted};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::angle::wrapped;
 use linkage::mechanism::Side;
 use linkage::solver::{Solver, State};
 use linkage::trajectory::{Channel, Stage, Trajectory};
 
-/// One check for every published series and figure and each analytic side.
+/// One check for every series and figure of an oracle and each analytic side.
 pub(super) fn checks(scenario: &Scenario) -> Result<Vec<Check>> {
     // Numbers at crank angles are of the nominal motion, where forces decide the true one.
     let scenario = &scenario.clone().nominal();
@@ -26,8 +26,9 @@ pub(super) fn checks(scenario: &Scenario) -> Result<Vec<Check>> {
 fn of_series(scenario: &Scenario, solver: &dyn Solver) -> Result<Vec<Check>> {
     let all = || scenario.oracles.iter().flat_map(|oracle| oracle.series.iter().map(move |series| (oracle, series)));
     let points = |series: &OracleSeries| {
-        let expected = series.expected.iter().map(|cell| cell.point.crank);
-        series.points.iter().map(|point| point.crank).chain(expected).collect::<Vec<f64>>()
+        let wrong = series.wrong.iter().flat_map(|(_, cells)| cells);
+        let cells = series.expected.iter().chain(wrong).map(|cell| cell.point.crank);
+        series.points.iter().map(|point| point.crank).chain(cells).collect::<Vec<f64>>()
     };
     let mut cranks: Vec<f64> = all().flat_map(|(_, series)| points(series)).collect();
     if cranks.is_empty() {
@@ -37,7 +38,7 @@ fn of_series(scenario: &Scenario, solver: &dyn Solver) -> Result<Vec<Check>> {
     cranks.dedup();
     let stages: Vec<Stage> = all().map(|(_, series)| series.channel.kind.stage).collect();
     let base = &scenario.case;
-    let case = Case { wanted: Wanted::of(&stages), ..base.on(Grid::of_cranks(&base.drive, cranks)) };
+    let case = base.on(Grid::of_cranks(base.crank(), cranks))?.wanting(Wanted::of(&stages));
     let solved = solver.solve(&case, &mut |_| {})?;
     let mut checks = Vec::new();
     for (oracle, series) in all() {
@@ -46,36 +47,56 @@ fn of_series(scenario: &Scenario, solver: &dyn Solver) -> Result<Vec<Check>> {
     Ok(checks)
 }
 
-/// The checks of one series: one of all its values, and one of each value that is known to be wrong.
+/// The checks of one series: one of all its values, and one of each value that is known to be wrong; one of all where all are.
 fn of_one(oracle: &Oracle, series: &OracleSeries, solved: &Trajectory, side: &str) -> Result<Vec<Check>> {
     let values = column(oracle, series, solved)?;
-    let check = |family: String, point: &OraclePoint| {
+    let against = |family: &str, point: &OraclePoint, origin: Origin| {
         let row =
             solved.cranks().binary_search_by(|crank| crank.total_cmp(&point.crank)).expect("solved at this angle");
         let difference = values[row] - point.value;
         let deviation = if series.channel.kind.periodic { wrapped(difference) } else { difference }.abs();
-        let basis = Basis::Published { digits: point.digits, source: oracle.source.clone() };
-        Check::new(
-            family,
-            deviation,
-            Tolerance { abs: point.bound, rel: 0.0, basis },
-            series.channel.kind.unit.symbol(),
-        )
-        .located(|| format!("at crank angle {:.3} deg", point.crank.to_degrees()))
+        let tolerance = tolerance(oracle, origin, point.bound, point.digits);
+        Check::new(family, deviation, tolerance, series.channel.kind.unit.symbol())
+            .located(|| format!("at crank angle {:.3} deg", point.crank.to_degrees()))
     };
     let [family, wrong] = [false, true].map(|wrong| family(oracle, wrong, side));
+    let corrected = |cell: &ExpectedCell| {
+        let printed = against(&wrong, &cell.point, origin(oracle));
+        against(&wrong, &cell.right, Origin::Recomputed).expected(&cell.finding, &printed)
+    };
     // Each cell has its own bound: the worst is the one that uses most of it.
-    let all = series.points.iter().map(|point| check(family.clone(), point).of(&series.name));
+    let all = series.points.iter().map(|point| against(&family, point, origin(oracle)).of(&series.name));
     let worst = all.max_by(|a, b| a.used().total_cmp(&b.used()));
-    let worst = worst.map(|worst| match &series.finding {
-        Some(finding) => Check { family: wrong.clone(), ..worst }.expected(finding),
-        None => worst,
-    });
     let expected = series.expected.iter().map(|cell| {
         let detail = format!("{} at {:.1} deg", series.name, cell.point.crank.to_degrees());
-        check(wrong.clone(), &cell.point).of(detail).expected(&cell.finding)
+        corrected(cell).of(detail)
     });
-    Ok(worst.into_iter().chain(expected).collect())
+    let column = series.wrong.iter().filter_map(|(_, cells)| worst_of(cells.iter().map(corrected)));
+    let column = column.map(|check| check.of(&series.name));
+    Ok(worst.into_iter().chain(expected).chain(column).collect())
+}
+
+/// Of checks of printed numbers that are all known to be wrong, the first that is not as expected, else the one that uses most of its bound.
+fn worst_of(checks: impl Iterator<Item = Check>) -> Option<Check> {
+    let rank = |check: &Check| (!matches!(check.verdict, Verdict::Expected { .. }), check.used());
+    checks.reduce(|worst, check| {
+        let ((wrong, used), (other_wrong, other_used)) = (rank(&worst), rank(&check));
+        if (other_wrong && !wrong) || (other_wrong == wrong && other_used > used) { check } else { worst }
+    })
+}
+
+/// Bound of a number: half a unit of its last digit, and the error it is known to have.
+fn tolerance(oracle: &Oracle, origin: Origin, bound: f64, digits: i32) -> Tolerance {
+    Tolerance { bound, basis: Basis::Digits { origin, digits, source: oracle.source.clone() } }
+}
+
+/// How the numbers of an oracle are known.
+fn origin(oracle: &Oracle) -> Origin {
+    match oracle.basis {
+        OracleBasis::Published => Origin::Published,
+        OracleBasis::Recomputed => Origin::Recomputed,
+        OracleBasis::Derived => Origin::Derived,
+    }
 }
 
 /// Values of a series' channel, or sizes of its vector.
@@ -98,16 +119,19 @@ fn of_figures(scenario: &Scenario, solver: &dyn Solver) -> Result<Vec<Check>> {
     let all = || scenario.oracles.iter().flat_map(|oracle| oracle.figures.iter().map(move |figure| (oracle, figure)));
     let mut measured = Measured { scenario, solver, means: None };
     let mut checks = Vec::new();
-    for (oracle, printed) in all() {
-        let value = measured.value(printed.figure)?;
-        let basis = Basis::Published { digits: printed.digits, source: oracle.source.clone() };
-        let tolerance = Tolerance { abs: printed.bound, rel: 0.0, basis };
-        let (family, unit) = (family(oracle, printed.finding.is_some(), solver.name()), printed.figure.unit());
-        let check = Check::new(family, (value - printed.value).abs(), tolerance, unit).of(&printed.name);
-        let found = format!("printed {} {unit}, found {value:.10}", printed.value);
-        checks.push(match &printed.finding {
-            Some(finding) => check.expected(finding),
-            None => check.located(|| found),
+    for (oracle, figure) in all() {
+        let value = measured.value(figure.figure)?;
+        let (family, unit) = (family(oracle, figure.wrong.is_some(), solver.name()), figure.figure.unit());
+        let against = |number: &FigureValue, origin: Origin| {
+            let tolerance = tolerance(oracle, origin, number.bound, number.digits);
+            Check::new(family.as_str(), (value - number.value).abs(), tolerance, unit)
+                .of(&figure.name)
+                .located(|| format!("given {} {unit}, found {value:.10}", number.value))
+        };
+        let printed = against(&figure.printed, origin(oracle));
+        checks.push(match &figure.wrong {
+            Some((finding, right)) => against(right, Origin::Recomputed).expected(finding, &printed),
+            None => printed,
         });
     }
     Ok(checks)
@@ -122,15 +146,12 @@ struct Measured<'a> {
 
 impl Measured<'_> {
     fn value(&mut self, figure: Figure) -> Result<f64> {
-        let case = &self.scenario.case;
         Ok(match figure {
             Figure::ReducedInertiaMean => self.means()?.inertia,
             Figure::ReducedResistanceMean => self.means()?.resistance,
             Figure::SteadyCrankSpeed => self.steady()?[0],
             Figure::SteadyMotorSpeed => self.steady()?[1],
             Figure::Distance(ends) => self.distance(ends)?,
-            Figure::Mass(link) => case.mechanism.links()[link].mass,
-            Figure::Inertia(link) => case.mechanism.links()[link].inertia,
         })
     }
 
@@ -146,9 +167,9 @@ impl Measured<'_> {
     /// Steady speeds of the crank and of the motor (rad/s).
     fn steady(&mut self) -> Result<[f64; 2]> {
         let case = &self.scenario.case;
-        let motor = case.motor.as_ref().expect("a scenario with this figure has a motor");
+        let motor = case.crank().motor().expect("a scenario with this figure has a motor");
         // The motor works in the sense in which the crank is driven.
-        let sense = case.drive.sense();
+        let sense = case.crank().sense();
         let resistance = sense * self.means()?.resistance;
         let Some(speed) = motor.steady_speed(resistance) else {
             return Err(reduced::no_steady_speed(resistance));
@@ -160,8 +181,8 @@ impl Measured<'_> {
     /// Distance of two points as the side places them at t = 0 (m).
     fn distance(&self, ends: [Side; 2]) -> Result<f64> {
         let base = &self.scenario.case;
-        let grid = Grid::of_times(&base.drive, vec![0.0]);
-        let case = Case { wanted: Wanted::of(&[Stage::Positions]), ..base.on(grid) };
+        let grid = Grid::of_times(base.crank(), vec![0.0]);
+        let case = base.on(grid)?.wanting(Wanted::of(&[Stage::Positions]));
         let mut distance = f64::NAN;
         let mut visit = |_: usize, state: &State| {
             let [first, second] = ends.map(|end| state.motions[end.link].point(end.local));
@@ -176,5 +197,5 @@ impl Measured<'_> {
 /// Heading of the checks of an oracle.
 fn family(oracle: &Oracle, wrong: bool, side: &str) -> String {
     let known = if wrong { ", known to be wrong" } else { "" };
-    format!("published {}{known} ({side})", oracle.name)
+    format!("{} {}{known} ({side})", origin(oracle).word(), oracle.name)
 }

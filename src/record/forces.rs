@@ -4,7 +4,7 @@ use super::placed::{Placed, column};
 use super::scene::Scene;
 use super::shapes::{pose, short, stamp};
 use foxglove::messages::{ArrowPrimitive, SceneEntity, SceneUpdate};
-use linkage::math::Vec2;
+use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::Joint;
 
 /// Length of the largest arrow against the size of the mechanism.
@@ -32,7 +32,7 @@ impl<'a> Forces<'a> {
         let sides: Vec<_> = scene.sides.iter().filter_map(of_side).collect();
         let forces = sides.iter().flat_map(|(_, joints)| joints);
         let sizes = forces.flat_map(|[x, y]| x.iter().zip(*y).map(|(x, y)| x.hypot(*y)));
-        let largest = sizes.filter(|size| size.is_finite()).fold(0.0, f64::max);
+        let largest = sizes.filter(|size| size.is_finite()).fold(0.0, f64::larger);
         let scale = if largest > 0.0 { LONGEST * scene.size / largest } else { 0.0 };
         let scale = if scale.is_finite() { scale } else { 0.0 };
         (!sides.is_empty()).then_some(Forces { scene, sides, scale })
@@ -60,8 +60,8 @@ impl<'a> Forces<'a> {
 
     fn arrow(&self, side: &Placed, at: Vec2, force: Vec2) -> ArrowPrimitive {
         let size = self.scene.size;
-        let length = (self.scale * force.norm()).max(SHORTEST * size);
-        let head = (0.3 * length).min(0.06 * size);
+        let length = (self.scale * force.norm()).larger(SHORTEST * size);
+        let head = (0.3 * length).smaller(0.06 * size);
         // Arrows are round: a thinner one must be lifted out of the broader one.
         let (broad, z) = (side.paint.broad.sqrt(), (8.0 + 4.0 * side.paint.layer) * self.scene.layer());
         let mut color = side.paint.colour();

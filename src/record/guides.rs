@@ -1,7 +1,7 @@
 //! Guides and the blocks that slide on them, as lines: rails of the ground, lines of moving links, rectangles.
 
 use super::placed::Placed;
-use linkage::math::{Vec2, turned};
+use linkage::math::{KeepNan, Vec2, turned};
 use linkage::mechanism::{GROUND, Mechanism, Side};
 
 /// Half length and half width of a block in a fixed guide against the size of the mechanism, and of one on a moving guide: where both sit
@@ -44,7 +44,8 @@ impl Guide {
                 (on - at).dot(&axis)
             };
             let rows = sides.iter().flat_map(|side| (0..side.trajectory.times().len()).map(move |row| (side, row)));
-            let ways = rows.map(way).fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], way| [l.min(way), h.max(way)]);
+            let ways =
+                rows.map(way).fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], way| [l.smaller(way), h.larger(way)]);
             let half = if guide.link == GROUND { FIXED } else { MOVING }.map(|part| part * size);
             Some(Guide { guide, block, axes, ways, half, play: PLAY * size })
         };
@@ -58,7 +59,7 @@ impl Guide {
         if link == self.guide.link {
             let (from, to) = (self.ways[0] - long, self.ways[1] + long);
             // The line of a moving guide begins at its place on the link, wherever the block is.
-            let (from, to) = if link == GROUND { (from, to) } else { (from.min(0.0), to.max(0.0)) };
+            let (from, to) = if link == GROUND { (from, to) } else { (from.smaller(0.0), to.larger(0.0)) };
             let ends = [from, to].map(|way| self.guide.local + self.axes[0] * way);
             let aside = turned(self.axes[0]) * (wide + self.play);
             let rails = if link == GROUND { vec![aside, -aside] } else { vec![Vec2::zeros()] };

@@ -4,7 +4,7 @@ use super::scene::Scene;
 use super::shapes::{GREY, outline, pose, stamp};
 use foxglove::messages::packed_element_field::NumericType;
 use foxglove::messages::{PackedElementField, PointCloud};
-use linkage::math::Vec2;
+use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::GROUND;
 
 /// Points in one mechanism size along a segment of the first side; closer ones would only fill the disk.
@@ -97,7 +97,7 @@ fn along(corners: &[Vec2], closed: bool, size: f64) -> Vec<Vec2> {
     let mut points = Vec::new();
     for start in 0..segments {
         let (a, b) = (corners[start], corners[(start + 1) % corners.len()]);
-        let count = (POINTS * (b - a).norm() / size).ceil().max(2.0);
+        let count = (POINTS * (b - a).norm() / size).ceil().larger(2.0);
         points.extend((0..count as usize).map(|k| a + (b - a) * (k as f64 / count)));
     }
     points.extend(if closed { None } else { corners.last().copied() });

@@ -9,8 +9,8 @@ use foxglove::messages::{
     CylinderPrimitive, FrameTransform, FrameTransforms, LinePrimitive, Point3, SceneEntity, SceneUpdate,
     SpherePrimitive, TextPrimitive, TriangleListPrimitive,
 };
-use linkage::math::Vec2;
 use linkage::math::statistics::ascending;
+use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{GROUND, Link, Mechanism};
 
 /// Frames of a recording, at most, unless it is so long that they would be fewer than [`FRAMES_PER_SECOND`].
@@ -51,8 +51,8 @@ impl<'a> Scene<'a> {
             .filter_map(placed)
             .collect();
         let ground = &mechanism.links()[GROUND].points;
-        let reach = ground.iter().map(|point| point.local.norm()).fold(0.0, f64::max);
-        let size = if mechanism.size() > 0.0 { mechanism.size() } else { reach.max(f64::MIN_POSITIVE) };
+        let reach = ground.iter().map(|point| point.local.norm()).fold(0.0, f64::larger);
+        let size = if mechanism.size() > 0.0 { mechanism.size() } else { reach.larger(f64::MIN_POSITIVE) };
         let guides = Guide::all(mechanism, &sides, size);
         (!sides.is_empty()).then_some(Scene { mechanism, sides, size, guides })
     }
@@ -70,8 +70,8 @@ impl<'a> Scene<'a> {
         let (Some(first), Some(last)) = (side.rows.first().map(time), side.rows.last().map(time)) else {
             return Vec::new();
         };
-        let enough = FRAMES.max(FRAMES_PER_SECOND * (last - first));
-        let stride = (side.rows.len() as f64 / enough).ceil().max(1.0) as usize;
+        let enough = FRAMES.larger(FRAMES_PER_SECOND * (last - first));
+        let stride = (side.rows.len() as f64 / enough).ceil().larger(1.0) as usize;
         let mut times: Vec<f64> = side.rows.iter().step_by(stride).map(time).collect();
         if !(side.rows.len() - 1).is_multiple_of(stride) {
             times.push(last);
@@ -122,7 +122,7 @@ impl<'a> Scene<'a> {
     /// Places of the ground that are drawn as pivots: all but those that only lie on a guide.
     pub fn pivots(&self) -> Vec<Vec2> {
         let joints = |at: Vec2| self.mechanism.joints().iter().filter(move |joint| joint.on(GROUND) == Some(at));
-        let pivot = |at: &Vec2| joints(*at).count() == 0 || joints(*at).any(|joint| !joint.is_prismatic());
+        let pivot = |at: &Vec2| joints(*at).count() == 0 || joints(*at).any(|joint| joint.is_pin());
         self.places(GROUND).into_iter().filter(pivot).collect()
     }
 
@@ -152,7 +152,7 @@ impl<'a> Scene<'a> {
             ..line.clone()
         };
         let strips: Vec<LinePrimitive> = self.strips(index).map(strip).collect();
-        let pins = self.mechanism.joints().iter().filter(|joint| !joint.is_prismatic());
+        let pins = self.mechanism.joints().iter().filter(|joint| joint.is_pin());
         let is_joint = |local: &Vec2| pins.clone().any(|joint| joint.on(index) == Some(*local));
         let (joints, others): (Vec<Vec2>, Vec<Vec2>) = places.iter().partition(|local| is_joint(local));
         let pin = |&local: &Vec2| CylinderPrimitive {

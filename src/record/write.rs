@@ -9,6 +9,7 @@ use super::schema;
 use super::shapes::stamp;
 use foxglove::messages::{FrameTransforms, Log, PointCloud, SceneUpdate, log::Level as LogLevel};
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::KeepNan;
 use linkage::math::statistics::ascending;
 use linkage::trajectory::{ChannelKind, Subject, Trajectory};
 use mcap::McapResult;
@@ -72,7 +73,7 @@ fn fill(recording: &Recording, file: File) -> McapResult<()> {
     let forces = scene.as_ref().and_then(Forces::new);
     let outline = scene.as_ref().map(Outline::new);
     let start = start(recording);
-    let nanoseconds = |time: f64| ((time - start) * SECOND as f64).round().max(0.0) as u64;
+    let nanoseconds = |time: f64| ((time - start) * SECOND as f64).round().larger(0.0) as u64;
 
     let mut output = Output::create(file)?;
     output.describe(recording, start, forces.as_ref().map(|forces| forces.scale))?;
@@ -138,7 +139,7 @@ fn fill(recording: &Recording, file: File) -> McapResult<()> {
 /// Smallest time of the recording (s), from which log times count.
 fn start(recording: &Recording) -> f64 {
     let trajectories = recording.sides.iter().map(|side| side.trajectory).chain(recording.errors);
-    let first = trajectories.flat_map(Trajectory::times).copied().fold(f64::INFINITY, f64::min);
+    let first = trajectories.flat_map(Trajectory::times).copied().fold(f64::INFINITY, f64::smaller);
     if first.is_finite() { first } else { 0.0 }
 }
 

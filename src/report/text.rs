@@ -6,15 +6,17 @@ use comfy_table::Table;
 
 use super::cells::{share, table, used};
 use super::engines;
+use super::tell::Tell;
 use crate::compare::{Check, Verdict};
 use crate::proof::{ChannelProof, EngineInfo, EngineProof, Proof};
+use linkage::error::Advice;
 
 /// Reasons shown in full before the rest is only counted.
 const REASONS: usize = 5;
 
-/// The whole report of one proof.
+/// The whole report of one proof, with its advice told by `tell`.
 #[must_use]
-pub fn proof(proof: &Proof) -> String {
+pub fn proof(proof: &Proof, tell: Tell) -> String {
     let mut text = String::new();
     let _ = writeln!(text, "{}: {}", proof.scenario, proof.title);
     let _ = writeln!(text, "structure  {}", proof.formula);
@@ -40,7 +42,7 @@ pub fn proof(proof: &Proof) -> String {
     let all: Vec<&Check> = proof.all_checks().collect();
     let _ = writeln!(text, "\nChecks:\n{}", checks(&all));
     expected(proof, &mut text);
-    reasons(proof, &mut text);
+    reasons(proof, tell, &mut text);
     let _ = writeln!(text, "\n{}", sentence(&proof.verdict, proof));
     text
 }
@@ -69,16 +71,14 @@ fn sentence(verdict: &Verdict, proof: &Proof) -> String {
     match verdict {
         Verdict::Agree { .. } | Verdict::Expected { .. } => {
             let known = count(|verdict| matches!(verdict, Verdict::Expected { .. }));
-            let open = count(|verdict| matches!(verdict, Verdict::Inconclusive { .. }));
             let expected = if known == 0 { String::new() } else { format!(", {known} disagree as expected") };
-            let open = if open == 0 { String::new() } else { format!(", {open} of engines beside it prove nothing") };
             let within = verdicts(proof).filter(|(_, verdict)| matches!(verdict, Verdict::Agree { .. })).count();
             match proof.engines.len() {
                 1 => format!(
                     "AGREE: {channels} channels and {} checks are within their bounds{expected}.",
                     checks - known
                 ),
-                _ => format!("AGREE: {within} channels and checks are within their bounds{expected}{open}."),
+                _ => format!("AGREE: {within} channels and checks are within their bounds{expected}."),
             }
         }
         Verdict::Disagree { .. } => {
@@ -104,19 +104,14 @@ fn verdicts(proof: &Proof) -> impl Iterator<Item = (String, &Verdict)> {
     channels.chain(proof.all_checks().map(|c| (c.name(), &c.verdict)))
 }
 
-fn reasons(proof: &Proof, text: &mut String) {
-    let open: Vec<(String, &str)> = verdicts(proof)
-        .filter_map(|(name, verdict)| match verdict {
-            Verdict::Agree { .. } | Verdict::Expected { .. } => None,
-            Verdict::Disagree { place } => Some((name, place.as_str())),
-            Verdict::Inconclusive { reason } => Some((name, reason.as_str())),
-        })
-        .collect();
-    for (name, reason) in open.iter().take(REASONS) {
-        let _ = writeln!(text, "\n{name}: {reason}");
+fn reasons(proof: &Proof, tell: Tell, text: &mut String) {
+    let of_report = |verdict: &Verdict| matches!(verdict, Verdict::Disagree { .. } | Verdict::Inconclusive { .. });
+    let open: Vec<(String, &Verdict)> = verdicts(proof).filter(|(_, verdict)| of_report(verdict)).collect();
+    for (name, verdict) in open.iter().take(REASONS) {
+        let _ = writeln!(text, "\n{name}: {}", verdict.reason(tell).unwrap_or_default());
     }
     if open.len() > REASONS {
-        let _ = writeln!(text, "\n... and {} more (all of them with --json)", open.len() - REASONS);
+        let _ = writeln!(text, "\n... and {} more ({})", open.len() - REASONS, tell(&Advice::AllResults));
     }
 }
 
@@ -131,7 +126,7 @@ fn family_word<'a>(family: impl Iterator<Item = &'a Check> + Clone) -> &'static 
 fn expected(proof: &Proof, text: &mut String) {
     let mut findings: Vec<(&str, usize)> = Vec::new();
     for check in proof.all_checks() {
-        if let Verdict::Expected { finding } = &check.verdict {
+        if let Verdict::Expected { finding, .. } = &check.verdict {
             match findings.iter_mut().find(|(known, _)| known == finding) {
                 Some((_, count)) => *count += 1,
                 None => findings.push((finding, 1)),
@@ -175,7 +170,7 @@ fn order(observed: f64) -> String {
 }
 
 fn checks(checks: &[&Check]) -> Table {
-    let mut table = table(["check", "numbers", "worst", "bound", "verdict"], &[1, 2, 3]);
+    let mut table = table(["check", "numbers", "worst", "bound", "basis", "verdict"], &[1, 2, 3]);
     let mut seen: Vec<&str> = Vec::new();
     for first in checks {
         if seen.contains(&first.family.as_str()) {
@@ -191,6 +186,7 @@ fn checks(checks: &[&Check]) -> Table {
             family().count().to_string(),
             unit(worst.value),
             unit(worst.bound),
+            worst.basis.origin().word().to_string(),
             family_word(family()).to_string(),
         ]);
     }

@@ -1,29 +1,36 @@
-//! Published figures of a mechanism: what it is made of, and what it comes to over a turn.
+//! Figures of a mechanism: lengths as solved, and what it comes to over a turn.
 
-use super::joints::link;
-use super::oracle::number;
+use super::oracle::{Correction, number};
+use super::printed::Printed;
 use super::reader::Table;
 use super::unit::{LENGTH, Unit};
 use super::words::suggestion;
 use linkage::case::Case;
 use linkage::error::{ErrorKind, Result};
-use linkage::mechanism::{GROUND, Side};
+use linkage::mechanism::Side;
 
-/// One published figure.
+/// One figure with the number it must have.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OracleFigure {
     /// Which figure.
     pub figure: Figure,
     /// Its name in reports: that in scenario files, and of what.
     pub name: String,
+    /// The number as printed.
+    pub printed: FigureValue,
+    /// Of a number known to be wrong: the finding that says so, and the number that is right instead.
+    pub wrong: Option<(String, FigureValue)>,
+}
+
+/// A number that a figure is compared with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FigureValue {
     /// Value in the figure's SI unit.
     pub value: f64,
-    /// Half a unit of the last printed digit, in the figure's SI unit.
+    /// Half a unit of the last digit, in the figure's SI unit.
     pub bound: f64,
-    /// Number of printed decimals.
+    /// Number of decimals.
     pub digits: i32,
-    /// Finding that says why the figure is wrong; it must not be reproduced.
-    pub finding: Option<String>,
 }
 
 /// A figure of a mechanism.
@@ -40,10 +47,6 @@ pub enum Figure {
     SteadyMotorSpeed,
     /// Distance between two points at t = 0 (m).
     Distance([Side; 2]),
-    /// Mass of a link (kg).
-    Mass(usize),
-    /// Moment of inertia of a link about its mass centre (kg m^2).
-    Inertia(usize),
 }
 
 impl Figure {
@@ -51,11 +54,10 @@ impl Figure {
     #[must_use]
     pub fn unit(self) -> &'static str {
         match self {
-            Figure::ReducedInertiaMean | Figure::Inertia(_) => "kg m^2",
+            Figure::ReducedInertiaMean => "kg m^2",
             Figure::ReducedResistanceMean => "N m",
             Figure::SteadyCrankSpeed | Figure::SteadyMotorSpeed => "rad/s",
             Figure::Distance(_) => "m",
-            Figure::Mass(_) => "kg",
         }
     }
 }
@@ -64,15 +66,13 @@ impl Figure {
 type Reader = fn(&mut Table, &Case) -> Result<(Figure, String)>;
 
 /// Every figure: its name in scenario files, unit included, and its reader.
-const FIGURES: [(&str, Reader); 8] = [
+const FIGURES: [(&str, Reader); 6] = [
     ("reduced_inertia_mean_kg_m2", |_, _| Ok((Figure::ReducedInertiaMean, String::new()))),
     ("reduced_resistance_mean_N_m", |_, _| Ok((Figure::ReducedResistanceMean, String::new()))),
     ("steady_crank_speed_rad_s", |entry, case| with_motor(entry, case, Figure::SteadyCrankSpeed)),
     ("steady_motor_speed_rad_s", |entry, case| with_motor(entry, case, Figure::SteadyMotorSpeed)),
     ("distance_m", distance),
     ("distance_mm", distance),
-    ("mass_kg", |entry, case| of_link(entry, case, Figure::Mass)),
-    ("inertia_kg_m2", |entry, case| of_link(entry, case, Figure::Inertia)),
 ];
 
 /// The figures of an oracle.
@@ -86,13 +86,18 @@ pub(super) fn read(table: &mut Table, case: &Case) -> Result<Vec<OracleFigure>> 
         };
         let (figure, of) = reader(&mut entry, case)?;
         let printed = number(&mut entry)?;
-        let finding = entry.optional_string("finding")?;
+        let correction = Correction::read(&mut entry, &printed)?;
         entry.finish()?;
         let unit = LENGTH.unit_of("distance", &name);
         let si = |value: f64| unit.map_or(value, |unit: &Unit| unit.to_si(value));
-        let (value, bound) = (si(printed.value), si(printed.half_unit()));
+        let of_number = |number: &Printed| FigureValue {
+            value: si(number.value),
+            bound: si(number.half_unit()),
+            digits: number.digits,
+        };
         let name = if of.is_empty() { name } else { format!("{name} of {of}") };
-        figures.push(OracleFigure { figure, name, value, bound, digits: printed.digits, finding });
+        let wrong = correction.map(|Correction { finding, right }| (finding, of_number(&right)));
+        figures.push(OracleFigure { figure, name, printed: of_number(&printed), wrong });
     }
     if figures.is_empty() {
         let names = suggestion("", FIGURES.map(|(known, _)| known), "\"");
@@ -102,7 +107,7 @@ pub(super) fn read(table: &mut Table, case: &Case) -> Result<Vec<OracleFigure>> 
 }
 
 fn with_motor(entry: &mut Table, case: &Case, figure: Figure) -> Result<(Figure, String)> {
-    match case.motor {
+    match case.crank().motor() {
         Some(_) => Ok((figure, String::new())),
         None => Err(entry
             .wrong(ErrorKind::Input, "figure", "a steady speed needs a motor, and the scenario has none")
@@ -116,29 +121,31 @@ fn distance(entry: &mut Table, case: &Case) -> Result<(Figure, String)> {
         let message = format!("a distance lies between two points, found {}", names.len());
         return Err(entry.wrong(ErrorKind::Input, "points", message).help("write `points = [\"A\", \"B\"]`"));
     };
-    let ends = [place(entry, case, first)?, place(entry, case, second)?];
-    Ok((Figure::Distance(ends), names.join(" ")))
+    let places = [places(entry, case, first)?, places(entry, case, second)?];
+    // On one link a distance is what the file says. It is measured where the solver has to bring the two points together.
+    let has = |link: usize, of: &[Side]| of.iter().any(|side| side.link == link);
+    let measured = |this: usize| places[this].iter().find(|side| !has(side.link, &places[1 - this])).copied();
+    let (Some(first), Some(second)) = (measured(0), measured(1)) else {
+        let message =
+            format!("the distance of {} stands in the file: only one link has both points", names.join(" and "));
+        let help = "name points whose distance follows from how the links stand together";
+        return Err(entry.wrong(ErrorKind::Input, "points", message).help(help));
+    };
+    Ok((Figure::Distance([first, second]), names.join(" ")))
 }
 
-/// The point called `name` on the first link that has it.
-fn place(entry: &Table, case: &Case, name: &str) -> Result<Side> {
+/// The point called `name` on every link that has it.
+fn places(entry: &Table, case: &Case, name: &str) -> Result<Vec<Side>> {
     let links = || case.mechanism.links().iter().enumerate();
     let on = |(link, body): (usize, &linkage::mechanism::Link)| {
         let point = body.points.iter().find(|point| point.name == name)?;
         Some(Side { link, local: point.local })
     };
-    links().find_map(on).ok_or_else(|| {
+    let places: Vec<Side> = links().filter_map(on).collect();
+    if places.is_empty() {
         let names = links().flat_map(|(_, body)| body.points.iter().map(|point| point.name.as_str()));
         let error = entry.wrong(ErrorKind::Input, "points", format!("the mechanism has no point \"{name}\""));
-        error.help(suggestion(name, names, "\""))
-    })
-}
-
-fn of_link(entry: &mut Table, case: &Case, figure: fn(usize) -> Figure) -> Result<(Figure, String)> {
-    let name = entry.string("link")?;
-    let found = link(entry, &name, case.mechanism.links())?;
-    if found == GROUND {
-        return Err(entry.wrong(ErrorKind::Input, "link", "the ground has no mass").help("name a moving link"));
+        return Err(error.help(suggestion(name, names, "\"")));
     }
-    Ok((figure(found), name))
+    Ok(places)
 }

@@ -1,4 +1,4 @@
-//! `[[oracle]]`: published numbers that the mechanism must reproduce, each with the bound its printed digits give.
+//! `[[oracle]]`: numbers that the mechanism must reproduce, each with the bound its digits give.
 
 use super::figure::{self, OracleFigure};
 use super::printed::{self, MOST_DIGITS, Printed, PrintedChannel};
@@ -10,21 +10,55 @@ use linkage::case::{Case, Wanted};
 use linkage::error::{ErrorKind, Result};
 use linkage::trajectory::{CHANNELS, Channel};
 
-/// Published numbers of one source.
+/// Numbers of one source.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Oracle {
     /// The scenario's own name for it, else the file name of the table (`positions.csv`), or `inline 1`, `inline 2`, ... for
     /// numbers in the scenario itself.
     pub name: String,
-    /// Where the numbers are published, and why they have an error of their own if they have.
+    /// Where the numbers stand, and why they have an error of their own if they have.
     pub source: String,
+    /// How they are known.
+    pub basis: OracleBasis,
     /// Values of channels at crank angles.
     pub series: Vec<OracleSeries>,
     /// Figures of the mechanism.
     pub figures: Vec<OracleFigure>,
 }
 
-/// Published values of one channel.
+/// How the numbers of an oracle are known.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OracleBasis {
+    /// Printed in the source.
+    Published,
+    /// Computed anew by this project from what the source gives.
+    Recomputed,
+    /// Follow from given data by a formula.
+    Derived,
+}
+
+impl OracleBasis {
+    const ALL: [OracleBasis; 3] = [OracleBasis::Published, OracleBasis::Recomputed, OracleBasis::Derived];
+
+    fn word(self) -> &'static str {
+        match self {
+            OracleBasis::Published => "published",
+            OracleBasis::Recomputed => "recomputed",
+            OracleBasis::Derived => "derived",
+        }
+    }
+
+    /// Under the key `basis`; published where it is missing.
+    fn read(table: &mut Table) -> Result<Self> {
+        let Some(word) = table.optional_string("basis")? else { return Ok(OracleBasis::Published) };
+        Self::ALL.into_iter().find(|basis| basis.word() == word).ok_or_else(|| {
+            let error = table.wrong(ErrorKind::Input, "basis", format!("numbers cannot be \"{word}\""));
+            error.help(suggestion(&word, Self::ALL.map(Self::word), "\""))
+        })
+    }
+}
+
+/// Values of one channel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OracleSeries {
     /// Column of the table, or the channel as the scenario names it.
@@ -35,10 +69,10 @@ pub struct OracleSeries {
     pub magnitude: bool,
     /// Values that must be reproduced, in the order of the table.
     pub points: Vec<OraclePoint>,
-    /// Values known to be wrong: they must not be reproduced.
+    /// Values known to be wrong, each by a finding of its own.
     pub expected: Vec<ExpectedCell>,
-    /// Finding that says why the whole series is wrong; its values must not all be reproduced.
-    pub finding: Option<String>,
+    /// Finding that says why all values are wrong, which then stand here and not in the two lists above.
+    pub wrong: Option<(String, Vec<ExpectedCell>)>,
 }
 
 /// One published value.
@@ -54,18 +88,20 @@ pub struct OraclePoint {
     pub digits: i32,
 }
 
-/// A published value that is known to be wrong.
+/// A printed value that is known to be wrong: it must not be reproduced, and the right one must.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ExpectedCell {
-    /// The value as published.
+    /// The value as printed.
     pub point: OraclePoint,
+    /// The value that is right instead.
+    pub right: OraclePoint,
     /// Anchor of the finding that says so, in `docs/findings.md`.
     pub finding: String,
 }
 
 /// All oracles of a case.
 pub(super) fn read(tables: Vec<Table>, case: &Case) -> Result<Vec<Oracle>> {
-    let (wanted, all) = (case.wanted, Case { wanted: Wanted::ALL, ..case.clone() }.channels());
+    let (wanted, all) = (case.wanted, case.wanting(Wanted::ALL).channels());
     let channels = all.as_slice();
     let mut inline = 0;
     let mut oracles = Vec::with_capacity(tables.len());
@@ -73,7 +109,8 @@ pub(super) fn read(tables: Vec<Table>, case: &Case) -> Result<Vec<Oracle>> {
         let source = table.string("source")?;
         let own_name = table.optional_string("name")?;
         let forms = ["file", "values", "figures"].map(|key| table.has(key));
-        let mut oracle = Oracle { name: String::new(), source, series: Vec::new(), figures: Vec::new() };
+        let basis = OracleBasis::read(&mut table)?;
+        let mut oracle = Oracle { name: String::new(), source, basis, series: Vec::new(), figures: Vec::new() };
         match forms {
             [true, false, false] => {
                 (oracle.name, oracle.series) =
@@ -164,13 +201,23 @@ fn values(table: &mut Table, known: &Known) -> Result<Vec<OracleSeries>> {
     let mut series = Vec::new();
     for mut entry in table.tables("values")? {
         let (name, channel) = known.channel(&mut entry)?;
+        let si = |number: Printed| OraclePoint {
+            crank,
+            value: channel.to_si(number.value),
+            bound: channel.to_si(number.half_unit()),
+            digits: number.digits,
+        };
         let printed = number(&mut entry)?;
-        let finding = entry.optional_string("finding")?;
+        let correction = Correction::read(&mut entry, &printed)?;
         entry.finish()?;
-        let (value, bound) = (channel.to_si(printed.value), channel.to_si(printed.half_unit()));
-        let point = OraclePoint { crank, value, bound, digits: printed.digits };
+        let point = si(printed);
+        let (mut points, mut expected) = (Vec::new(), Vec::new());
+        match correction {
+            None => points.push(point),
+            Some(Correction { finding, right }) => expected.push(ExpectedCell { point, right: si(right), finding }),
+        }
         let PrintedChannel { channel, magnitude, .. } = channel;
-        series.push(OracleSeries { name, channel, magnitude, points: vec![point], expected: Vec::new(), finding });
+        series.push(OracleSeries { name, channel, magnitude, points, expected, wrong: None });
     }
     if series.is_empty() {
         return Err(table.wrong(ErrorKind::Input, "values", "there is no value").help(VALUE_HELP));
@@ -185,6 +232,50 @@ pub(super) fn number(entry: &mut Table) -> Result<Printed> {
     let value = entry.number("value")?;
     let digits = digits(entry)?;
     Ok(Printed { value, digits })
+}
+
+/// Why a printed number is wrong, and the one that is right instead, in the printed unit.
+pub(super) struct Correction {
+    pub finding: String,
+    pub right: Printed,
+}
+
+impl Correction {
+    /// Under the keys `finding` and `right`, which belong together; `None` without them.
+    pub fn read(entry: &mut Table, printed: &Printed) -> Result<Option<Self>> {
+        let Some(finding) = finding(entry)? else { return Ok(None) };
+        let mut table = entry.table("right")?;
+        let right = number(&mut table)?;
+        table.finish()?;
+        check_apart(entry, printed, &right)?;
+        Ok(Some(Correction { finding, right }))
+    }
+}
+
+/// The anchor under the key `finding`, which goes with the key `right` and never alone.
+pub(super) fn finding(entry: &mut Table) -> Result<Option<String>> {
+    let finding = entry.optional_string("finding")?;
+    let help = "a number known to be wrong has a `finding`, which says why, and the number that is `right` instead: \
+                `right = { value = 2.6, digits = 1 }`";
+    match (finding, entry.has("right")) {
+        (Some(finding), true) => Ok(Some(finding)),
+        (None, false) => Ok(None),
+        (Some(_), false) => Err(entry.fault("`finding` stands without `right`").help(help)),
+        (None, true) => Err(entry.fault("`right` stands without `finding`").help(help)),
+    }
+}
+
+/// Refuses a right number that the printed one, or one number between the two, might be as well.
+pub(super) fn check_apart(entry: &Table, printed: &Printed, right: &Printed) -> Result<()> {
+    if (printed.value - right.value).abs() > printed.half_unit() + right.half_unit() {
+        return Ok(());
+    }
+    let message = format!(
+        "{} with {} decimals is not apart from the printed {} with {}",
+        right.value, right.digits, printed.value, printed.digits
+    );
+    let help = "give the right number with more decimals, or take `finding` and `right` out if the printed one holds";
+    Err(entry.wrong(ErrorKind::Input, "right", message).help(help))
 }
 
 /// The count of printed decimals under the key `digits`.

@@ -188,6 +188,14 @@ impl<'a> Table<'a> {
         self.required(key, value)
     }
 
+    /// Array of finite numbers without a unit.
+    pub fn numbers(&mut self, key: &str) -> Result<Vec<f64>> {
+        let value = self.take(key);
+        let value = self.required(key, value)?;
+        let array = value.get_ref().as_array().ok_or_else(|| self.mistyped(key, value, "an array of numbers"))?;
+        array.iter().map(|element| self.finite(key, element)).collect()
+    }
+
     /// Array of text.
     pub fn strings(&mut self, key: &str) -> Result<Vec<String>> {
         let value = self.take(key);

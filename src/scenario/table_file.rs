@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use super::oracle::{ExpectedCell, Known, OraclePoint, OracleSeries, digits};
+use super::oracle::{Correction, ExpectedCell, Known, OraclePoint, OracleSeries, check_apart, digits, finding};
 use super::printed::{Printed, PrintedChannel};
 use super::reader::{Sign, Table};
 use super::source::Source;
@@ -59,32 +59,80 @@ fn series(mut table: Table, rows: &Rows, cranks: &[f64], known: &Known) -> Resul
     let column = rows.column(&name).map_err(|error| error.key(table.path()))?;
     let (_, channel) = known.channel(&mut table)?;
     let offset = offset(&mut table, &channel)?;
-    let finding = table.optional_string("finding")?;
-    let expects = table.tables("expect")?;
+    let printed: Vec<Printed> = rows
+        .cells(column)
+        .map(|cell| Ok(cell.printed()?.with_zeros(known.digits)))
+        .collect::<Result<_>>()
+        .map_err(|error: Error| error.key(table.path()))?;
+    let whole = whole_column(&mut table, &printed)?;
+    let cells = single_cells(&mut table, cranks, &printed)?;
+    if whole.is_some() && !cells.is_empty() {
+        let message = "a column that is wrong as a whole has no single cells that are";
+        return Err(table.wrong(ErrorKind::Input, "expect", message).help("keep either `expect` or `finding`"));
+    }
     table.finish()?;
-    let mut findings: Vec<Option<String>> = vec![None; cranks.len()];
-    for mut expect in expects {
+    let point = |row: usize, number: &Printed, slack: f64| OraclePoint {
+        crank: cranks[row],
+        value: channel.to_si(number.value) - offset,
+        bound: channel.to_si(number.half_unit() + slack),
+        digits: number.digits,
+    };
+    // What is printed may be off by the slack; what is right instead is not.
+    let corrected = |row: usize, finding: &str, right: &Printed| ExpectedCell {
+        point: point(row, &printed[row], known.slack),
+        right: point(row, right, 0.0),
+        finding: finding.into(),
+    };
+    let (mut points, mut expected) = (Vec::with_capacity(cranks.len()), Vec::new());
+    let wrong = whole.map(|(finding, right)| {
+        let all = right.iter().enumerate().map(|(row, right)| corrected(row, &finding, right)).collect();
+        (finding, all)
+    });
+    let single = if wrong.is_none() { 0..cranks.len() } else { 0..0 };
+    for row in single {
+        match cells.iter().find(|(of, _)| *of == row) {
+            None => points.push(point(row, &printed[row], known.slack)),
+            Some((_, Correction { finding, right })) => expected.push(corrected(row, finding, right)),
+        }
+    }
+    let PrintedChannel { channel, magnitude, .. } = channel;
+    Ok(OracleSeries { name, channel, magnitude, points, expected, wrong })
+}
+
+/// The cells under `expect`: their rows, and what is right there.
+fn single_cells(table: &mut Table, cranks: &[f64], printed: &[Printed]) -> Result<Vec<(usize, Correction)>> {
+    let mut cells = Vec::new();
+    for mut expect in table.tables("expect")? {
         let crank = expect.quantity("crank", &ANGLE, Sign::Any)?;
-        let finding = expect.string("finding")?;
-        expect.finish()?;
         let Some(row) = cranks.iter().position(|row| (row - crank).abs() <= SAME_CRANK) else {
             let error = expect.wrong(ErrorKind::Input, "crank", "the table has no row with this crank angle");
             return Err(error.help("give a crank angle that stands in the table"));
         };
-        findings[row] = Some(finding);
+        let Some(correction) = Correction::read(&mut expect, &printed[row])? else {
+            return Err(expect.fault("`finding` is missing").help("say which finding calls the cell wrong"));
+        };
+        expect.finish()?;
+        cells.push((row, correction));
     }
-    let (mut points, mut expected) = (Vec::with_capacity(cranks.len()), Vec::new());
-    for ((cell, &crank), finding) in rows.cells(column).zip(cranks).zip(findings) {
-        let printed = cell.printed().map_err(|error| error.key(table.path()))?.with_zeros(known.digits);
-        let (value, bound) = (channel.to_si(printed.value) - offset, channel.to_si(printed.half_unit() + known.slack));
-        let point = OraclePoint { crank, value, bound, digits: printed.digits };
-        match finding {
-            None => points.push(point),
-            Some(finding) => expected.push(ExpectedCell { point, finding }),
-        }
+    Ok(cells)
+}
+
+/// The finding of a whole column and what is right in every row: under the keys `finding` and `right`.
+fn whole_column(table: &mut Table, printed: &[Printed]) -> Result<Option<(String, Vec<Printed>)>> {
+    let Some(finding) = finding(table)? else { return Ok(None) };
+    let mut right = table.table("right")?;
+    let values = right.numbers("values")?;
+    let digits = digits(&mut right)?;
+    right.finish()?;
+    if values.len() != printed.len() {
+        let message = format!("found {} right values for the column's {} rows", values.len(), printed.len());
+        return Err(right
+            .wrong(ErrorKind::Input, "values", message)
+            .help("give one value for every row, in their order"));
     }
-    let PrintedChannel { channel, magnitude, .. } = channel;
-    Ok(OracleSeries { name, channel, magnitude, points, expected, finding })
+    let right: Vec<Printed> = values.into_iter().map(|value| Printed { value, digits }).collect();
+    printed.iter().zip(&right).try_for_each(|(printed, right)| check_apart(table, printed, right))?;
+    Ok(Some((finding, right)))
 }
 
 /// The error that the published numbers are known to have, in the printed unit; it must be explained.

@@ -6,7 +6,7 @@ use proptest::prelude::*;
 
 use super::*;
 use linkage::math::Vec2;
-use linkage::mechanism::AssemblyMode;
+use linkage::mechanism::{AssemblyMode, Side};
 use linkage::trajectory::Channel;
 
 fn scenarios() -> PathBuf {
@@ -90,14 +90,22 @@ fn crank_rocker_starts_where_two_circles_meet() {
             "extreme position, folded",
             "reduced model",
             "steady speed",
-            "lengths and masses",
+            "lengths",
             "steady speed as printed"
         ]
     );
     assert_eq!(scenario.oracles[2].figures[0].figure, Figure::ReducedInertiaMean);
     let printed = &scenario.oracles[4].figures;
-    assert_eq!((printed[3].figure, printed[3].value, printed[3].bound), (Figure::Mass(1), 22.6, 0.05 * (1.0 + 1e-9)));
-    assert!(printed[3].finding.is_some() && printed[2].finding.is_none());
+    assert_eq!((printed[0].printed.value, printed[0].printed.bound), (0.013, 0.0005 * (1.0 + 1e-9)));
+    let (finding, right) = printed[0].wrong.as_ref().unwrap();
+    assert!(finding.starts_with("crank_rocker") && right.digits == 12 && right.value == 0.025_995_627_740);
+    assert!(printed[2].wrong.is_none());
+    // O stands on the ground and the crank, A on the crank and the coupler: measured from the one to the other.
+    let [ground, coupler] =
+        [0, 2].map(|link| Side { link, local: scenario.case.mechanism.links()[link].points[0].local });
+    assert_eq!(printed[0].figure, Figure::Distance([ground, coupler]));
+    let known = |index: usize| scenario.oracles[index].basis;
+    assert_eq!([0, 2, 4].map(known), [OracleBasis::Derived, OracleBasis::Recomputed, OracleBasis::Published]);
 }
 
 #[test]
@@ -168,13 +176,15 @@ fn cells_known_to_be_wrong_keep_their_finding() {
         .unwrap();
     let text = include_str!("../../scenarios/crank_rocker.toml").to_string()
         + "[[oracle]]\nsource = \"t\"\nfile = \"table.csv\"\ncrank = \"turn_rad\"\n[oracle.columns]\n\
-           B = { channel = \"link.rocker.angle_deg\", offset_deg = 2.5, expect = [{ crank_rad = 0.5, finding = \"misprint\" }] }\n";
+           B = { channel = \"link.rocker.angle_deg\", offset_deg = 2.5, expect = [{ crank_rad = 0.5, finding = \"misprint\", right = { value = 7.125, digits = 3 } }] }\n";
     let scenario = Scenario::parse(&text, &directory.path().join("x.toml")).unwrap_or_else(|error| panic!("{error}"));
     let oracle = scenario.oracles.last().unwrap();
     assert_eq!((oracle.name.as_str(), oracle.series[0].name.as_str()), ("table.csv", "B"));
     let expected = &oracle.series[0].expected;
     assert_eq!((expected.len(), expected[0].point.crank, expected[0].point.digits), (1, 0.5, 2));
     assert_eq!(expected[0].finding, "misprint");
+    assert_eq!((expected[0].right.crank, expected[0].right.digits), (0.5, 3));
+    assert!((expected[0].right.value - 4.625f64.to_radians()).abs() < 1e-15);
     let points = &oracle.series[0].points;
     assert_eq!((points.len(), points[0].digits, points[1].digits, points[1].crank), (2, 1, 0, 1.0));
     assert!((points[0].value - 10f64.to_radians()).abs() < 1e-15);

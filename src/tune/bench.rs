@@ -1,5 +1,6 @@
 //! Runs of one engine against the reference, and its cheapest settings.
 
+use linkage::math::KeepNan;
 use std::f64::consts::PI;
 
 use super::candidate::{Candidate, Measured, Price};
@@ -54,10 +55,10 @@ impl Floor {
     /// With `sweeps` a run costs a constant and a part in proportion to them, neither of them negative.
     fn at(&self, sweeps: usize) -> f64 {
         let sweeps = sweeps.max(1) as f64;
-        let of = |&(many, price): &(usize, f64)| price * (sweeps / many.max(1) as f64).min(1.0);
-        let least = self.0.iter().map(of).fold(0.0, f64::max);
+        let of = |&(many, price): &(usize, f64)| price * (sweeps / many.max(1) as f64).smaller(1.0);
+        let least = self.0.iter().map(of).fold(0.0, f64::larger);
         let [(few, low), (many, high)] = self.0[..] else { return least };
-        least.max(low + (high - low) / (many - few) as f64 * (sweeps - few as f64))
+        least.larger(low + (high - low) / (many - few) as f64 * (sweeps - few as f64))
     }
 }
 
@@ -86,7 +87,7 @@ struct Search<'e> {
 impl Search<'_> {
     /// Price that is worth a run.
     fn limit(&self) -> f64 {
-        self.best.as_ref().map_or(self.others, |best| best.price.min(self.others)) * GAIN
+        self.best.as_ref().map_or(self.others, |best| best.price.smaller(self.others)) * GAIN
     }
 }
 
@@ -165,14 +166,14 @@ impl Bench<'_> {
                         price,
                     });
                 }
-                within * (price / limit).max(1.0)
+                within * (price / limit).larger(1.0)
             }
             Found::TooDear { resolution, error } => {
                 (row.start, search.dear) = (resolution, true);
                 error
             }
             Found::TooCoarse(error) => {
-                (row.start, search.least) = (row.start / COARSER, search.least.min(error));
+                (row.start, search.least) = (row.start / COARSER, search.least.smaller(error));
                 error
             }
         }
@@ -183,7 +184,7 @@ impl Bench<'_> {
     fn floor(&mut self, engine: &dyn Engine, way: &Settings, sweeps: &[usize], limit: f64) -> Floor {
         let rough = match engine.controls_error() {
             true => vec![COARSEST],
-            false => ROUGH.map(|turn| turn / self.case.fastest_drive()).to_vec(),
+            false => ROUGH.map(|turn| turn / self.case.drives.top_speed()).to_vec(),
         };
         let mut floor = Floor(Vec::new());
         let many = sweeps.iter().copied().find(|&many| many >= ENOUGH && many > sweeps[0]);
@@ -259,7 +260,7 @@ impl Bench<'_> {
             let noise = finest.noise(self.case, kind);
             let found = Convergence::of_channel(ladder, channel, engine.formal_order(self.case, kind), noise);
             let found = found.expect("all runs of an engine have the same channels");
-            predicted = predicted.max((found.error + found.iteration) / residual.scale);
+            predicted = predicted.larger((found.error + found.iteration) / residual.scale);
         }
         Ok(predicted)
     }

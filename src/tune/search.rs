@@ -1,6 +1,7 @@
 //! The largest step that meets an error.
 
 use super::candidate::Measured;
+use linkage::math::KeepNan;
 
 /// Runs that one search may take.
 const MOST_RUNS: usize = 9;
@@ -52,7 +53,7 @@ pub(super) fn largest_step(
     let mut met: Option<(f64, Measured)> = None;
     let mut missed: Option<f64> = None;
     let mut last: Option<[f64; 3]> = None;
-    let (mut least, mut order, mut step) = (f64::INFINITY, order, start.min(most));
+    let (mut least, mut order, mut step) = (f64::INFINITY, order, start.smaller(most));
     for _ in 0..MOST_RUNS {
         let measured = run(step);
         let (error, price) = (measured.error, measured.price);
@@ -67,7 +68,7 @@ pub(super) fn largest_step(
             }
         }
         if error.is_finite() {
-            least = least.min(error);
+            least = least.smaller(error);
             if let Some([before, its_error, _]) = last {
                 let observed = (error / its_error).ln() / (step / before).ln();
                 if observed < FLAT && error > within && step < before {
@@ -90,11 +91,11 @@ pub(super) fn largest_step(
                 break;
             }
         } else {
-            missed = Some(missed.map_or(step, |known: f64| known.min(step)));
+            missed = Some(missed.map_or(step, |known: f64| known.smaller(step)));
             if met.is_none() && error.is_finite() {
                 // Errors at the finest step that can be afforded, if they fall as fast as possible, and as they seem to.
                 let [at_best, expected] =
-                    [STEEPEST, order].map(|order| error * (affordable / step).min(1.0).powf(order));
+                    [STEEPEST, order].map(|order| error * (affordable / step).smaller(1.0).powf(order));
                 if price >= AT_THE_LIMIT * limit || at_best > within {
                     return Found::TooDear { resolution: affordable, error: expected };
                 }
@@ -105,11 +106,11 @@ pub(super) fn largest_step(
             error if error.is_finite() => (AIM * within / error).powf(1.0 / order).clamp(1.0 / LEAP, LEAP),
             _ => 0.25,
         };
-        let aim = if met.is_none() { (step * factor).max(affordable.min(step)) } else { step * factor };
+        let aim = if met.is_none() { (step * factor).larger(affordable.smaller(step)) } else { step * factor };
         if met.is_none() && aim >= step && !(error <= within) {
             return Found::TooDear { resolution: affordable, error };
         }
-        step = aim.min(most);
+        step = aim.smaller(most);
         if let (Some((good, _)), Some(bad)) = (&met, missed) {
             if bad / good < CLOSE {
                 break;
@@ -135,7 +136,7 @@ mod tests {
 
     /// An error that falls with a power of the step down to a floor; the price is one over the step.
     fn model(order: f64, floor: f64) -> impl FnMut(f64) -> Measured {
-        move |step: f64| Measured { error: (step.powf(order)).max(floor), worst: "x".into(), price: 1.0 / step }
+        move |step: f64| Measured { error: (step.powf(order)).larger(floor), worst: "x".into(), price: 1.0 / step }
     }
 
     #[test]

@@ -330,7 +330,7 @@ fn oracles() {
             "oracle[1].columns.Bx_mm.channel", ["accelerations", "channels.want"]),
         bad!("channel = \"point.B.x_mm\"" => "channel = \"point.B.x_mm\", offset_deg = 3", INPUT, at "offset_deg", key
             "oracle[1].columns.Bx_mm.offset_deg", ["`offset_m` or `offset_mm`"]),
-        bad!("channel = \"point.B.x_mm\"" => "channel = \"point.B.x_mm\", expect = [{ crank_deg = 45, finding = \"misprint\" }]",
+        bad!("channel = \"point.B.x_mm\"" => "channel = \"point.B.x_mm\", expect = [{ crank_deg = 45, finding = \"misprint\", right = { value = 1, digits = 1 } }]",
             INPUT, at "expect", key "oracle[1].columns.Bx_mm.expect[1].crank_deg", ["no row with this crank angle"]),
         bad!("channel = \"point.B.x_mm\"" => "channel = \"point.B.x_mm\", expect = [{ crank_deg = 90 }]",
             INPUT, at "expect", key "oracle[1].columns.Bx_mm.expect[1]", ["`finding` is missing"]),
@@ -347,8 +347,29 @@ fn oracles() {
             "oracle[3].figures[1].points", ["between two points, found 1"]),
         bad!("\"reduced_inertia_mean_kg_m2\"" => "\"distance_mm\", points = [\"A\", \"X\"]", INPUT, at "figures =", key
             "oracle[3].figures[1].points", ["no point \"X\""]),
-        bad!("\"reduced_inertia_mean_kg_m2\"" => "\"mass_kg\", link = \"ground\"", INPUT, at "figures =", key
-            "oracle[3].figures[1].link", ["ground has no mass"]),
+        // What the file says of itself proves nothing: no masses, and no lengths of one link.
+        bad!("\"reduced_inertia_mean_kg_m2\"" => "\"mass_kg\", link = \"crank\"", INPUT, at "figures =", key
+            "oracle[3].figures[1].figure", ["no figure \"mass_kg\""]),
+        bad!("\"reduced_inertia_mean_kg_m2\"" => "\"distance_mm\", points = [\"C\", \"C\"]", INPUT, at "figures =", key
+            "oracle[3].figures[1].points", ["stands in the file"]),
+        bad!("digits = 1 }" => "digits = 1, finding = \"misprint\" }", INPUT, at "values =", key "oracle[2].values[1]",
+            ["`finding` stands without `right`", "right = {"]),
+        bad!("digits = 1 }" => "digits = 1, right = { value = 71, digits = 1 } }", INPUT, at "values =", key
+            "oracle[2].values[1]", ["`right` stands without `finding`"]),
+        bad!("digits = 1 }" => "digits = 1, finding = \"misprint\", right = { value = 70.05, digits = 2 } }", INPUT, at
+            "values =", key "oracle[2].values[1].right", ["not apart from the printed 70"]),
+        bad!("digits = 1 }" => "digits = 1, finding = \"misprint\", right = { value = 71 } }", INPUT, at "values =", key
+            "oracle[2].values[1].right", ["`digits` is missing"]),
+        bad!("digits = 2 }" => "digits = 2, finding = \"misprint\" }", INPUT, at "figures =", key "oracle[3].figures[1]",
+            ["`finding` stands without `right`"]),
+        bad!("channel = \"point.B.x_mm\"" => "channel = \"point.B.x_mm\", finding = \"misprint\"", INPUT, at "Bx_mm", key
+            "oracle[1].columns.Bx_mm", ["`finding` stands without `right`"]),
+        bad!("channel = \"point.B.x_mm\"" => "channel = \"point.B.x_mm\", finding = \"x\", right = { values = [1], digits = 1 }",
+            INPUT, at "Bx_mm", key "oracle[1].columns.Bx_mm.right.values", ["found 1 right values", "2 rows"]),
+        bad!("channel = \"point.B.x_mm\"" => "channel = \"point.B.x_mm\", expect = [{ crank_deg = 90, finding = \"x\" }]",
+            INPUT, at "expect", key "oracle[1].columns.Bx_mm.expect[1]", ["`finding` stands without `right`"]),
+        bad!("source = \"a number\"" => "source = \"a number\"\nbasis = \"guessed\"", INPUT, at "basis", key "oracle[2].basis",
+            ["cannot be \"guessed\"", "\"published\""]),
         bad!("figures = [" => "file = \"table.csv\"\nfigures = [", INPUT, at "[[oracle]]\nsource = \"a figure\"",
             key "oracle[3]", ["exactly one of"]),
     ]);

@@ -15,6 +15,7 @@ use crate::common::spec::four_bar;
 use analytic::AssurSolver;
 use linkage::case::Case;
 use linkage::engine::{Engine, Settings};
+use linkage::math::KeepNan;
 use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Stage, Subject, Trajectory};
 use linkproof::compare::convergence::observed_order;
@@ -153,7 +154,7 @@ fn regress_02_the_driven_joint_may_name_the_crank_first() {
         let (one, two) = (solve(engine.as_ref(), &one), solve(engine.as_ref(), &two));
         for ((channel, a), (_, b)) in one.iter().zip(two.iter()) {
             let sign = if channel.to_string().starts_with("joint.") { -1.0 } else { 1.0 };
-            let scale = a.iter().fold(0.0, |max: f64, v| max.max(v.abs()));
+            let scale = a.iter().fold(0.0, |max: f64, v| max.larger(v.abs()));
             let bound = share * scale + 2.0 * engine.noise(case, channel.kind);
             for (a, b) in a.iter().zip(b) {
                 assert!((a - sign * b).abs() <= bound, "{} {channel}: {a} {b}", engine.name());
@@ -189,8 +190,8 @@ fn regress_03_massless_links_move_alike_and_carry_no_force() {
                     _ => 1e-3,
                 };
                 let other = with.column(channel).unwrap();
-                let scale = other.iter().fold(0.0, |max: f64, v| max.max(v.abs()));
-                let worst = values.iter().zip(other).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+                let scale = other.iter().fold(0.0, |max: f64, v| max.larger(v.abs()));
+                let worst = values.iter().zip(other).map(|(a, b)| (a - b).abs()).fold(0.0, f64::larger);
                 let bound = bound * scale + 2.0 * engine.noise(case, channel.kind);
                 assert!(worst <= bound, "{} {channel}: {worst:e} of {scale:e}", engine.name());
             }

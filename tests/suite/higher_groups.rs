@@ -5,6 +5,7 @@ use crate::common::higher::{Among, FAMILIES, Family, mechanism};
 use crate::common::sketch::Random;
 use analytic::{AssurSolver, NewtonSolver};
 use linkage::ErrorKind;
+use linkage::math::KeepNan;
 use linkage::solver::Solver;
 use linkage::trajectory::{Stage, Trajectory};
 use linkproof::compare::{magnitudes, residuals};
@@ -16,14 +17,14 @@ const TRIES: usize = 60;
 /// square. Accelerations are of the order of that square and tell where a speed happens to pass through zero. Lengths are about a metre.
 fn nearness(trajectory: &Trajectory, crank: f64) -> f64 {
     let of = |(channel, values): (&linkage::trajectory::Channel, &[f64])| {
-        let most = values.iter().fold(0.0f64, |max, v| max.max(v.abs()));
+        let most = values.iter().fold(0.0f64, |max, v| max.larger(v.abs()));
         match channel.kind.stage {
             Stage::Velocities => most / crank,
             Stage::Accelerations => most.sqrt() / crank,
             _ => 0.0,
         }
     };
-    trajectory.iter().map(of).fold(1.0, f64::max)
+    trajectory.iter().map(of).fold(1.0, f64::larger)
 }
 
 /// Largest share of the mechanism's size, for each stage, that both sides differ by; and how many were solved and began as drawn.
@@ -56,11 +57,11 @@ fn worst(family: &Family, among: Among, tries: usize) -> ([f64; 5], usize, usize
             continue;
         };
         solved += 1;
-        let near = nearness(assur, case.drive.at(0.0).omega.abs());
+        let near = nearness(assur, case.crank().at(0.0).omega.abs());
         for (residual, size) in residuals(assur, newton).unwrap().iter().zip(magnitudes(assur)) {
             let share = residual.max / (size * near * near);
             let stage = residual.channel.kind.stage as usize;
-            worst[stage] = worst[stage].max(share);
+            worst[stage] = worst[stage].larger(share);
         }
     }
     (worst, solved, as_drawn)

@@ -7,7 +7,7 @@ mod turns;
 
 use crate::common::random::{REACH, Sample, for_each, within};
 use crate::common::{centre, centre_acceleration, centre_velocity, states};
-use linkage::math::Vec2;
+use linkage::math::{KeepNan, Vec2};
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
 use linkproof::compare::residuals;
@@ -32,7 +32,7 @@ struct Around {
 impl Around {
     fn of(solver: &dyn Solver, sample: &Sample, t: f64) -> Self {
         let case = &sample.scenario.case;
-        let spacing = TURN / case.drive.at(0.0).omega.abs();
+        let spacing = TURN / case.crank().at(0.0).omega.abs();
         let times = [-4.0, -2.0, -1.0, 0.0, 1.0, 2.0, 4.0].map(|k| t + k * spacing);
         let found = states(solver, case, &times).unwrap_or_else(|error| panic!("{error}"));
         Around { states: found.try_into().expect("seven states"), spacing, condition: sample.condition }
@@ -63,12 +63,12 @@ impl Around {
 fn velocities_and_accelerations_are_derivatives() {
     for_each(COUNT, |sample| {
         let case = &sample.scenario.case;
-        let speed = case.drive.at(0.0).omega.abs();
+        let speed = case.crank().at(0.0).omega.abs();
         for solver in analytic::all() {
             for k in [0, case.grid.len() / 2, case.grid.len() - 1] {
                 let around = Around::of(solver, sample, case.grid.times[k]);
                 let here = around.here();
-                let fastest = here.motions.iter().map(|m| m.omega.abs()).fold(speed, f64::max);
+                let fastest = here.motions.iter().map(|m| m.omega.abs()).fold(speed, f64::larger);
                 for link in 1..case.mechanism.links().len() {
                     let motion = &here.motions[link];
                     let (velocity, acceleration) =
@@ -90,19 +90,19 @@ fn both_solvers_agree_to_rounding() {
     for_each(8 * COUNT, |sample| {
         let case = &sample.scenario.case;
         let [a, b] = analytic::all().map(|solver| solver.solve(case, &mut |_| {}).expect("solvable"));
-        let speed = case.drive.at(0.0).omega.abs();
+        let speed = case.crank().at(0.0).omega.abs();
         let largest = |stage: Stage| {
             let own = a.iter().filter(|(channel, _)| channel.kind.stage == stage);
-            own.flat_map(|(_, values)| values).fold(0.0, |max: f64, v| max.max(v.abs()))
+            own.flat_map(|(_, values)| values).fold(0.0, |max: f64, v| max.larger(v.abs()))
         };
         for residual in residuals(&a, &b).expect("one grid") {
             let stage = residual.channel.kind.stage;
             let scale = match stage {
                 Stage::Positions => REACH,
-                Stage::Velocities => largest(stage).max(REACH * speed),
-                Stage::Accelerations => largest(stage).max(REACH * speed * speed),
+                Stage::Velocities => largest(stage).larger(REACH * speed),
+                Stage::Accelerations => largest(stage).larger(REACH * speed * speed),
                 Stage::Reactions | Stage::BalancingMoment => {
-                    largest(Stage::Reactions).max(largest(Stage::BalancingMoment))
+                    largest(Stage::Reactions).larger(largest(Stage::BalancingMoment))
                 }
             };
             // Units in the last place, times the condition: each derivative and each solve for forces adds its own sums.

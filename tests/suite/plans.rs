@@ -11,10 +11,12 @@ use std::f64::consts::PI;
 use std::path::Path;
 
 use analytic::{AssurSolver, NewtonSolver};
-use linkage::math::{Vec2, rotated, unit};
+use linkage::case::Case;
+use linkage::math::{KeepNan, Vec2, rotated, unit};
 use linkage::solver::Solver;
 use linkproof::scenario::Scenario;
-use workshop::diagram::{Part, Plan, Plans, SingularPoint, TipKind};
+use workshop::diagram::plan::state_at;
+use workshop::diagram::{Part, Plan, Plans, SingularPoint, TipKind, Vector};
 
 const REVOLUTE: [&str; 5] = ["crank_rocker", "ov7_base", "ov7_new", "ov7_new_tabulated", "fourth_class"];
 const SLIDERS: [&str; 5] = ["compressor", "six_bar_slider", "quick_return", "scotch_yoke", "tangent"];
@@ -35,8 +37,33 @@ fn scenario(name: &str) -> Scenario {
     Scenario::load(&path).unwrap_or_else(|error| panic!("{error}"))
 }
 
+/// The plans of a case at a crank angle (deg).
+fn plans_of(case: &Case, solver: &dyn Solver, degrees: f64) -> linkage::Result<Plans> {
+    let crank = degrees.to_radians();
+    Ok(Plans::of(case, solver, &state_at(case, solver, crank)?, crank))
+}
+
+/// What tests look for in a plan by its name.
+trait Named {
+    /// The vector called `name`.
+    fn vector(&self, name: &str) -> Option<&Vector>;
+
+    /// The point of the plan called `letter`, from the pole (SI).
+    fn tip(&self, letter: &str) -> Option<Vec2>;
+}
+
+impl Named for Plan {
+    fn vector(&self, name: &str) -> Option<&Vector> {
+        self.vectors.iter().find(|vector| vector.name == name)
+    }
+
+    fn tip(&self, letter: &str) -> Option<Vec2> {
+        self.tips.iter().find(|tip| tip.letter == letter).map(|tip| tip.at)
+    }
+}
+
 fn plans_with(name: &str, solver: &dyn Solver, degrees: f64) -> Plans {
-    Plans::at(&scenario(name).case, solver, degrees.to_radians()).unwrap_or_else(|error| panic!("{name}: {error}"))
+    plans_of(&scenario(name).case, solver, degrees).unwrap_or_else(|error| panic!("{name}: {error}"))
 }
 
 fn plans(name: &str, degrees: f64) -> Plans {
@@ -49,7 +76,7 @@ fn angles() -> impl Iterator<Item = f64> {
 }
 
 fn longest(plan: &Plan) -> f64 {
-    plan.vectors.iter().map(|vector| vector.value.norm()).fold(0.0, f64::max)
+    plan.vectors.iter().map(|vector| vector.value.norm()).fold(0.0, f64::larger)
 }
 
 /// Walks from the pole along vectors to every letter; each vector not needed for that closes a contour. Returns the number of contours
@@ -71,7 +98,7 @@ fn contours(plan: &Plan) -> (usize, f64) {
         match (reached.get(&from).copied(), reached.get(&to).copied()) {
             (Some(start), Some(end)) => {
                 closed += 1;
-                gap = gap.max((start + vector.value - end).norm());
+                gap = gap.larger((start + vector.value - end).norm());
             }
             (Some(start), None) => drop(reached.insert(to, start + vector.value)),
             (None, end) => drop(reached.insert(from, end.unwrap() - vector.value)),
@@ -102,7 +129,7 @@ fn every_contour_of_every_plan_closes() {
 #[test]
 fn the_image_of_a_link_is_similar_to_it() {
     for (name, degrees) in all() {
-        let mechanism = scenario(name).case.mechanism;
+        let mechanism = scenario(name).case.mechanism.clone();
         let plans = plans(name, degrees);
         // Points of the ground lie in the pole, and have no vector.
         let end = |plan: &Plan, name: &str| {
@@ -174,7 +201,7 @@ fn scale_factors_are_round_and_fill_the_paper() {
         for plan in [&plans.velocity, &plans.acceleration] {
             let text = format!("{:e}", plan.scale);
             assert!(["1", "2", "2.5", "5"].contains(&text.split('e').next().unwrap()), "{text}");
-            let most = plan.vectors.iter().map(|vector| plan.paper(vector)).fold(0.0, f64::max);
+            let most = plan.vectors.iter().map(|vector| plan.paper(vector)).fold(0.0, f64::larger);
             assert!(most > 50.0 && most <= 100.0 + 1e-9, "{name}: {most} mm");
         }
     }
@@ -217,9 +244,9 @@ fn the_singular_point_gives_the_solvers_velocities_and_accelerations() {
             for (side, link) in [point.links[0].0, point.links[1].0].into_iter().enumerate() {
                 let motion = &state.motions[link];
                 let local = rotated(Vec2::new(motion.direction.x, -motion.direction.y), point.at - motion.origin);
-                let speed = point.velocity.norm().max(1.0);
+                let speed = point.velocity.norm().larger(1.0);
                 assert!((motion.point_velocity(local) - point.velocity).norm() <= 1e-12 * speed * far);
-                let strong = point.accelerations[side].norm().max(100.0);
+                let strong = point.accelerations[side].norm().larger(100.0);
                 assert!((motion.point_acceleration(local) - point.accelerations[side]).norm() <= 1e-12 * strong * far);
             }
         }

@@ -4,7 +4,7 @@ use crate::common::sliders::{self, SPEED, Sample};
 use crate::common::{centre, centre_acceleration, states};
 use analytic::{self, witness::power};
 use linkage::case::Case;
-use linkage::math::{Vec2, cross};
+use linkage::math::{KeepNan, Vec2, cross};
 use linkage::solver::{Solver, State};
 
 /// The states of a solver on the sample's grid, with their times and crank angles.
@@ -87,12 +87,12 @@ fn every_link_is_in_equilibrium() {
     each(|sample, solver| {
         let case = &sample.case;
         for (time, _, state) in solved(solver, case) {
-            let largest = state.forces.iter().fold(0.0, |max: f64, force| max.max(force.norm()));
+            let largest = state.forces.iter().fold(0.0, |max: f64, force| max.larger(force.norm()));
             for (index, link) in case.mechanism.links().iter().enumerate().skip(1) {
                 let middle = centre(case, &state, index);
                 let mut force = (case.gravity - centre_acceleration(case, &state, index)) * link.mass;
                 let mut moment = -link.inertia * state.motions[index].alpha;
-                if index == case.drive.link {
+                if index == case.crank().link {
                     moment += state.torques[0];
                 }
                 for (joint, (reaction, own)) in
@@ -123,7 +123,7 @@ fn every_link_is_in_equilibrium() {
 fn sliders_are_not_pushed_along_their_guides() {
     each(|sample, solver| {
         for (_, _, state) in solved(solver, &sample.case) {
-            let largest = state.forces.iter().fold(0.0, |max: f64, force| max.max(force.norm()));
+            let largest = state.forces.iter().fold(0.0, |max: f64, force| max.larger(force.norm()));
             for (joint, force) in sample.case.mechanism.joints().iter().zip(&state.forces) {
                 let Some(axis) = joint.axis_on(joint.first.link) else { continue };
                 let along = state.motions[joint.first.link].arm(axis).dot(force);
@@ -139,7 +139,7 @@ fn drive_and_frame_agree_with_power_and_momentum() {
     each(|sample, solver| {
         let case = &sample.case;
         let states = solved(solver, case);
-        let size = states.iter().fold(0.0, |max: f64, (_, _, state)| max.max(state.torques[0].abs()));
+        let size = states.iter().fold(0.0, |max: f64, (_, _, state)| max.larger(state.torques[0].abs()));
         for (time, _, state) in &states {
             let error = (state.torques[0] - power::balancing_moment(case, state)).abs();
             assert!(error <= 1e-11 * size, "{} at {time}: {error:e} of {size}", sample.name);
@@ -164,14 +164,11 @@ fn order_of_a_joints_links_does_not_matter() {
     each(|sample, solver| {
         let other = sliders::swapped(&sample.case);
         for ((time, _, one), (_, _, two)) in solved(solver, &sample.case).into_iter().zip(solved(solver, &other)) {
-            let size = one.forces.iter().fold(0.0, |max: f64, force| max.max(force.norm()));
+            let size = one.forces.iter().fold(0.0, |max: f64, force| max.larger(force.norm()));
             for (index, joint) in sample.case.mechanism.joints().iter().enumerate() {
                 let [first, second] = [joint.first, joint.second].map(|side| one.motions[side.link].point(side.local));
-                let moment = if joint.is_prismatic() {
-                    one.moments[index] + cross(second - first, one.forces[index])
-                } else {
-                    0.0
-                };
+                let moment =
+                    if joint.slides() { one.moments[index] + cross(second - first, one.forces[index]) } else { 0.0 };
                 let errors = [(two.forces[index] + one.forces[index]).norm(), (two.moments[index] + moment).abs()];
                 assert!(errors.iter().all(|error| *error <= 1e-12 * size), "{} {time}: {errors:?}", sample.name);
             }

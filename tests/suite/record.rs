@@ -217,6 +217,46 @@ impl Run {
     }
 }
 
+/// The single precision numbers of a message, in the order of the wire.
+fn floats(data: &[u8]) -> Vec<f32> {
+    let fields = data.chunks_exact(5);
+    assert!(fields.remainder().is_empty());
+    fields
+        .map(|field| {
+            assert_eq!(field[0] & 7, 5, "a field of four bytes");
+            f32::from_le_bytes([field[1], field[2], field[3], field[4]])
+        })
+        .collect()
+}
+
+/// Engine less reference, sign and all, in micrometres, microradians and millinewtons.
+#[test]
+fn errors_are_the_engine_less_the_reference_in_small_units() {
+    let (_directory, path) = place("errors.mcap");
+    let run = Run::over(turn(50));
+    run.write(&path).unwrap();
+    let bytes = fs::read(&path).unwrap();
+    for (topic, subject, of, factor) in [
+        ("/error/point/B", Subject::Point, "B", 1e6),
+        ("/error/link/rocker", Subject::Link, "rocker", 1e6),
+        ("/error/joint/A", Subject::Joint, "A", 1e3),
+    ] {
+        let columns: Vec<Vec<f64>> = (run.engine.iter().zip(run.reference.iter()))
+            .filter(|((channel, _), _)| channel.kind.subject == subject && channel.of == of)
+            .map(|((_, engine), (_, reference))| engine.iter().zip(reference).map(|(e, r)| (e - r) * factor).collect())
+            .collect();
+        let all = mcap::MessageStream::new(&bytes).unwrap().map(Result::unwrap);
+        let rows: Vec<Vec<f32>> =
+            all.filter(|message| message.channel.topic == topic).map(|message| floats(&message.data)).collect();
+        assert_eq!((rows.len(), rows[0].len()), (50, columns.len()), "{topic}");
+        for (row, found) in rows.iter().enumerate() {
+            let wanted: Vec<f32> = columns.iter().map(|column| column[row] as f32).collect();
+            assert_eq!(*found, wanted, "{topic} {row}");
+        }
+        assert!(rows.iter().flatten().any(|&error| error > 0.0) && rows.iter().flatten().any(|&error| error < 0.0));
+    }
+}
+
 /// Place of a recording that vanishes with the test, or stays to be looked at in viewers.
 fn place(name: &str) -> (tempfile::TempDir, PathBuf) {
     let directory = tempfile::tempdir().unwrap();

@@ -6,7 +6,7 @@ use crate::common::{shipped, states};
 use analytic::all;
 use analytic::range::Range;
 use linkage::case::{Case, Grid};
-use linkage::math::{Matrix, Vec2, unit};
+use linkage::math::{KeepNan, Matrix, Vec2, unit};
 use linkage::solver::State;
 
 /// States of both analytic solvers at every instant of the grid, with the crank angles.
@@ -21,7 +21,7 @@ fn solved(case: &Case) -> Vec<Vec<(f64, State)>> {
 /// Largest difference over largest value of a series of pairs.
 fn relative(pairs: impl Iterator<Item = (f64, f64)>) -> f64 {
     let (error, size) = pairs.fold((0.0f64, 0.0f64), |(error, size), (found, expected)| {
-        (error.max((found - expected).abs()), size.max(expected.abs()))
+        (error.larger((found - expected).abs()), size.larger(expected.abs()))
     });
     error / size
 }
@@ -118,8 +118,8 @@ fn val_six_bar_slider_stands_highest_where_the_rocker_is_upright() {
     }
     assert_eq!(scenario.oracles.len(), 2);
     cranks.sort_by(f64::total_cmp);
-    let there = case.on(Grid::of_cranks(&case.drive, cranks));
-    let highest = solved(case)[0].iter().map(|(_, state)| place(case, state, "D")[0].y).fold(0.0, f64::max);
+    let there = case.on(Grid::of_cranks(case.crank(), cranks)).unwrap();
+    let highest = solved(case)[0].iter().map(|(_, state)| place(case, state, "D")[0].y).fold(0.0, f64::larger);
     for rows in solved(&there) {
         for (crank, state) in rows {
             let rocker = state.angles[case.mechanism.link_named("rocker").unwrap()];
@@ -180,7 +180,7 @@ fn val_quick_return_time_ratio() {
     };
     let quick = 2.0 * (0.1f64 / 0.3).acos();
     let between = (second.crank - first.crank).rem_euclid(TAU);
-    let found = between.min(TAU - between);
+    let found = between.smaller(TAU - between);
     // Extremes are promised to 1e-9 rad each.
     assert!((found - quick).abs() <= 2e-9, "{found} for {quick}");
     let ratio = (TAU - found) / found;
@@ -190,7 +190,7 @@ fn val_quick_return_time_ratio() {
     // The ram turns about there too: its speed, below 3 m/s elsewhere, is that of 1e-9 rad.
     let mut cranks = vec![first.crank, second.crank];
     cranks.sort_by(f64::total_cmp);
-    for rows in solved(&case.on(Grid::of_cranks(&case.drive, cranks))) {
+    for rows in solved(&case.on(Grid::of_cranks(case.crank(), cranks)).unwrap()) {
         for (crank, state) in rows {
             let speed = place(&case, &state, "C")[1].norm();
             assert!(speed <= 1e-7, "{crank}: {speed:e}");
@@ -230,7 +230,7 @@ fn val_class3_group_contours_close() {
             let first = unit(a1) * LEADS[0] + unit(a4) * BASE[0] - (FRAME_B - FRAME_A) - unit(a2) * LEADS[1];
             let second = unit(a1) * LEADS[0] + unit(a4 + beta()) * BASE[1] - (c - FRAME_A) - unit(a3) * LEADS[2];
             // Rounding of vectors shorter than half a metre.
-            assert!(first.norm().max(second.norm()) <= 1e-15, "{crank}: {first} {second}");
+            assert!(first.norm().larger(second.norm()) <= 1e-15, "{crank}: {first} {second}");
         }
     }
 }
@@ -285,7 +285,7 @@ fn val_class3_group_transfer_functions() {
             let errors = pairs.map(|pairs| relative(pairs.into_iter()));
             // Rounding for Cramer's rule; h^4 / 30 of harmonics up to the sixth and rounding 1e-16 / h for differences.
             assert!(errors[0] <= 1e-13, "{} alpha{}: {errors:?}", solver.name(), link + 1);
-            assert!(errors[1].max(errors[2]) <= 1e-9, "{} alpha{}: {errors:?}", solver.name(), link + 1);
+            assert!(errors[1].larger(errors[2]) <= 1e-9, "{} alpha{}: {errors:?}", solver.name(), link + 1);
         }
     }
 }

@@ -41,6 +41,10 @@ impl Engine for Rapier {
         noise::bound(case, self, channel)
     }
 
+    fn is_noise_measured(&self) -> bool {
+        true
+    }
+
     fn told(&self) -> Vec<(&'static str, String)> {
         // The resolution stands beside the engine's name, the route in how reactions come about; extrapolation is not known here.
         let Settings { resolution: _, sweeps, substeps, route: _, extrapolated: _ } = self.settings;

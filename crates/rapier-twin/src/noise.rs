@@ -6,6 +6,7 @@ use super::rapier::Rapier;
 use super::window::first_steps;
 use linkage::case::Case;
 use linkage::engine::Route;
+use linkage::math::KeepNan;
 use linkage::math::interpolate::lagrange_weights;
 use linkage::trajectory::{ChannelKind, Stage, Subject, Unit};
 
@@ -32,18 +33,18 @@ const PROBE_ULPS: f64 = 16000.0;
 /// sense for as long as speed and exponent stay what they are; lengths, forces and moments follow with the mechanism's size and mass.
 pub(super) fn bound(case: &Case, engine: &Rapier, channel: &ChannelKind) -> f64 {
     let (step, epsilon) = (engine.settings.resolution, engine.precision.epsilon());
-    let longest = case.grid.times.iter().fold(0.0, |max: f64, t| max.max(t.abs()));
-    let speed = case.fastest_drive();
+    let longest = case.grid.times.iter().fold(0.0, |max: f64, t| max.larger(t.abs()));
+    let speed = case.drives.top_speed();
     let size = case.mechanism.size();
     let mass: f64 = case.mechanism.links().iter().map(|link| link.mass).sum();
-    let turned = case.start.0.iter().fold(speed * longest, |max: f64, pose| max.max(pose.angle.abs())).max(1.0);
+    let turned = case.start.0.iter().fold(speed * longest, |max: f64, pose| max.larger(pose.angle.abs())).larger(1.0);
 
     // Places are world coordinates: far from the origin they are coarser than the mechanism's size lets expect.
-    let reach = case.start.0.iter().fold(size, |max: f64, pose| max.max(pose.origin.norm() + size));
+    let reach = case.start.0.iter().fold(size, |max: f64, pose| max.larger(pose.origin.norm() + size));
     let place = epsilon * reach;
-    let angle = epsilon * (longest / step * (MEAN_HALF_ULP * turned).max(1.0) + turned);
+    let angle = epsilon * (longest / step * (MEAN_HALF_ULP * turned).larger(1.0) + turned);
     let rate = (angle + SPEED_ULPS * epsilon) * speed;
-    let turned = turned.max(LEAST_TURN);
+    let turned = turned.larger(LEAST_TURN);
     let second = angle * speed * speed + DIFFERENCE_ULPS * epsilon * turned / (step * step);
     let second = second * beginning(case, engine);
     let (rate, rate_of_place) = match case.is_steady() {
@@ -81,7 +82,7 @@ fn lever(case: &Case, reach: f64, subject: Subject) -> f64 {
     match subject {
         // The lever of a drive is that of the largest driving link.
         Subject::Drive | Subject::Motor => {
-            case.drives().fold(0.0, |most: f64, drive| most.max(case.mechanism.links()[drive.link].size()))
+            case.drives.iter().fold(0.0, |most: f64, drive| most.larger(case.mechanism.links()[drive.link].size()))
         }
         Subject::Frame => reach,
         Subject::Link | Subject::Point | Subject::Joint | Subject::Slider => case.mechanism.size(),
@@ -92,7 +93,7 @@ fn lever(case: &Case, reach: f64, subject: Subject) -> f64 {
 /// the sizes of Lagrange's weights there.
 fn beginning(case: &Case, engine: &Rapier) -> f64 {
     let steps = first_steps(case, engine.build == Build::Impulse) as f64;
-    let first = case.grid.times.iter().fold(f64::INFINITY, |least: f64, &t| least.min(t));
+    let first = case.grid.times.iter().fold(f64::INFINITY, |least: f64, &t| least.smaller(t));
     if !case.is_free() || first > (2.0 + steps) * engine.settings.resolution {
         return 1.0;
     }

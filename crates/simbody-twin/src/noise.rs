@@ -5,6 +5,7 @@
 
 use super::model::inertia;
 use linkage::case::Case;
+use linkage::math::KeepNan;
 use linkage::trajectory::{ChannelKind, Subject, Unit};
 
 /// What poses make of an error in a constraint: 1 / sin of the angle at which two links meet, which is 10 at 6 degrees.
@@ -20,15 +21,15 @@ const ULPS: f64 = 20.0;
 /// A constraint error turns a link by that error over its length, the shortest being worst. Rates of constraints are held to the
 /// tolerance times the drive's speed, accelerations follow from both.
 pub(super) fn bound(case: &Case, [tolerance, accuracy]: [f64; 2], channel: &ChannelKind) -> f64 {
-    let longest = case.grid.times.iter().fold(0.0, |max: f64, t| max.max(t.abs()));
-    let speed = case.fastest_drive();
+    let longest = case.grid.times.iter().fold(0.0, |max: f64, t| max.larger(t.abs()));
+    let speed = case.drives.top_speed();
     let size = case.mechanism.size();
     let moving = &case.mechanism.links()[1..];
-    let shortest = moving.iter().map(|link| link.size()).filter(|&size| size > 0.0).fold(size, f64::min);
+    let shortest = moving.iter().map(|link| link.size()).filter(|&size| size > 0.0).fold(size, f64::smaller);
     let mass: f64 = (1..=moving.len()).map(|link| inertia(case, link)).map(|own| own.mass + own.extra_mass).sum();
-    let turned = case.start.0.iter().fold(speed * longest, |max: f64, pose| max.max(pose.angle.abs())).max(1.0);
+    let turned = case.start.0.iter().fold(speed * longest, |max: f64, pose| max.larger(pose.angle.abs())).larger(1.0);
     // Places are world coordinates: far from the origin they are coarser than the mechanism's size lets expect.
-    let reach = case.start.0.iter().fold(size, |max: f64, pose| max.max(pose.origin.norm() + size));
+    let reach = case.start.0.iter().fold(size, |max: f64, pose| max.larger(pose.origin.norm() + size));
 
     let place = POSE * tolerance + ULPS * f64::EPSILON * reach;
     let integrated = if case.is_free() { accuracy * case.grid.len() as f64 } else { 0.0 };

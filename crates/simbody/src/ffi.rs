@@ -254,7 +254,8 @@ impl Run {
         }
         let (raw, (steps, time_scale)) = (self.raw.as_ptr(), self.pace);
         // A cast of a number that is too large gives the largest.
-        let steps = (steps as f64 * ((time - self.time) / time_scale).max(1.0)) as usize;
+        let intervals = (time - self.time) / time_scale;
+        let steps = (steps as f64 * if intervals < 1.0 { 1.0 } else { intervals }) as usize;
         // SAFETY: the run is alive and nobody else has it; the shim writes at most `size` bytes of text.
         told(|text, size| unsafe { linkproof_simbody_advance(raw, time, steps, text, size) })
             .map_err(|failure| self.located(failure))?;

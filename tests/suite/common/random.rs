@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
-use linkage::math::cross;
+use linkage::math::{KeepNan, cross};
 use linkage::mechanism::assembly::transmission_sine;
 use linkage::mechanism::{Group, GroupKind, LinkPose, Pose, StartGroup, first_pose};
 use linkproof::scenario::Scenario;
@@ -105,7 +105,7 @@ pub fn sample(spec: Spec) -> Option<Sample> {
     let (mechanism, structure) = (&case.mechanism, &case.structure);
     let wanted: Vec<StartGroup> =
         case.modes.iter().map(|&mode| StartGroup { mode: Some(mode), ..StartGroup::default() }).collect();
-    let place = |cranks: &f64| first_pose(mechanism, structure, &[case.drive.world_angle(*cranks)], &wanted).ok();
+    let place = |cranks: &f64| first_pose(mechanism, structure, &[case.crank().world_angle(*cranks)], &wanted).ok();
     let poses: Vec<Pose> =
         case.grid.cranks.iter().map(place).map(|found| found.map(|(pose, _)| pose)).collect::<Option<_>>()?;
     let joint = |pose: &Pose, joint: usize| {
@@ -128,7 +128,7 @@ pub fn sample(spec: Spec) -> Option<Sample> {
         let sine = |pose: &Pose| transmission_sine(mechanism, group, pose).expect("a dyad");
         // Of one sign: where axes become parallel a slide goes to infinity and comes back from the other side.
         let sign = sine(&poses[0]).signum();
-        let least = poses.iter().map(|pose| sign * sine(pose)).fold(1.0, f64::min);
+        let least = poses.iter().map(|pose| sign * sine(pose)).fold(1.0, f64::smaller);
         if !(least >= DEAD) {
             return None;
         }
@@ -141,7 +141,7 @@ pub fn sample(spec: Spec) -> Option<Sample> {
 fn starts_as_drawn(sample: &Sample, drawn: &[LinkPose]) {
     for (found, drawn) in sample.scenario.case.start.0.iter().zip(drawn) {
         let turn = linkage::math::angle::wrapped(found.angle - drawn.angle);
-        let off = (found.origin - drawn.origin).norm().max(turn.abs());
+        let off = (found.origin - drawn.origin).norm().larger(turn.abs());
         // Rounding through the dyads, as between the solvers.
         assert!(off <= 1e-13 * sample.condition.powi(2), "{off:e}\n{}", sample.spec.toml());
     }
@@ -193,7 +193,7 @@ fn worst() -> String {
 pub fn within(what: &str, value: f64, bound: f64) -> Result<(), TestCaseError> {
     WORST.with_borrow_mut(|worst| {
         let most = worst.entry(what.into()).or_insert(0.0f64);
-        *most = most.max(value / bound);
+        *most = most.larger(value / bound);
     });
     if value <= bound { Ok(()) } else { Err(TestCaseError::fail(format!("{what}: {value:.3e} is beyond {bound:.3e}"))) }
 }

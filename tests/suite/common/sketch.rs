@@ -1,7 +1,7 @@
 //! Mechanisms drawn at random in the pose that they start in: links lie anywhere in any direction, and a joint is put where both of its
 //! links happen to be. So every drawing can be assembled, and the pose it must start in is known without any formula.
 
-use linkage::math::{Vec2, rotated, unit};
+use linkage::math::{KeepNan, Vec2, rotated, unit};
 use linkage::mechanism::LinkPose;
 use proptest::prelude::Rng;
 use proptest::test_runner::{RngAlgorithm, TestRng};
@@ -170,7 +170,7 @@ impl<'a> Sketch<'a> {
         for index in 0..self.spec.links.len() {
             let points = &self.spec.links[index].points;
             let middle = points.iter().map(|(_, at)| at).sum::<Vec2>() / points.len() as f64;
-            let reach = points.iter().map(|(_, at)| (at - middle).norm()).fold(0.05, f64::max);
+            let reach = points.iter().map(|(_, at)| (at - middle).norm()).fold(0.05, f64::larger);
             let centre = middle + self.random.vector(0.0, reach);
             let mass = self.random.number(0.1, 5.0);
             let inertia = mass * reach * reach * self.random.number(0.1, 1.0);

@@ -3,7 +3,7 @@
 use analytic::AssurSolver;
 use linkage::case::{Case, Grid};
 use linkage::engine::{Route, Settings};
-use linkage::math::Vec2;
+use linkage::math::{KeepNan, Vec2};
 use linkage::trajectory::{Stage, Trajectory};
 use linkproof::compare::residuals;
 
@@ -40,13 +40,13 @@ fn twelve_links() -> Spec {
 
 fn quarter(case: &Case) -> Case {
     let cranks = (0..=18).map(|k| f64::from(5 * k).to_radians()).collect();
-    case.on(Grid::of_cranks(&case.drive, cranks))
+    case.on(Grid::of_cranks(case.crank(), cranks)).unwrap()
 }
 
 /// Largest error over the scale in the channels of some stages.
 fn worst(truth: &Trajectory, run: &Trajectory, stages: impl Fn(Stage) -> bool) -> f64 {
     let found = residuals(truth, run).unwrap();
-    found.iter().filter(|r| stages(r.channel.kind.stage)).map(|r| r.share()).fold(0.0, f64::max)
+    found.iter().filter(|r| stages(r.channel.kind.stage)).map(|r| r.share()).fold(0.0, f64::larger)
 }
 
 /// Story 68. Errors of the impulse build go along a chain joint by joint, and need sweeps for it: over twelve links its default is enough for the

@@ -2,6 +2,7 @@
 
 use linkage::case::{Case, Grid};
 use linkage::engine::Settings;
+use linkage::math::KeepNan;
 use linkage::trajectory::Trajectory;
 use linkproof::compare::residuals;
 
@@ -15,7 +16,7 @@ fn case() -> Case {
 }
 
 fn at(case: &Case, times: Vec<f64>) -> Case {
-    case.on(Grid::of_times(&case.drive, times))
+    case.on(Grid::of_times(case.crank(), times)).unwrap()
 }
 
 /// Largest difference in any channel, relative to its scale, at rows of `other` that `rows` finds in `dense`.
@@ -62,7 +63,7 @@ fn regress_21_samples_between_steps_are_as_good_as_samples_on_steps() {
             let worst = [on, between].map(|case| {
                 let truth = solve(&analytic::AssurSolver, &case);
                 let found = residuals(&truth, &solve(engine.as_ref(), &case)).unwrap();
-                found.iter().map(|r| r.share()).fold(0.0, f64::max)
+                found.iter().map(|r| r.share()).fold(0.0, f64::larger)
             });
             assert!(worst[1] <= 1.01 * worst[0], "{shift}: {worst:?}");
         }

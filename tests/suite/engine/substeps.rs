@@ -3,6 +3,7 @@
 use analytic::AssurSolver;
 use linkage::case::{Case, Grid};
 use linkage::engine::{Engine, Route, Settings};
+use linkage::math::KeepNan;
 use linkage::trajectory::{Channel, Stage, Unit};
 use linkproof::compare::residuals;
 
@@ -16,8 +17,8 @@ const SWEEPS: usize = 1024;
 fn case() -> Case {
     let case = four_bar([0.4, 0.1, 0.35, 0.3], true).scenario().unwrap().case;
     let cranks = (0..=18).map(|k| f64::from(5 * k).to_radians()).collect();
-    let grid = Grid::of_cranks(&case.drive, cranks);
-    case.on(grid)
+    let grid = Grid::of_cranks(case.crank(), cranks);
+    case.on(grid).unwrap()
 }
 
 fn engine(name: &str, route: Route, substeps: usize) -> Box<dyn Engine> {
@@ -67,7 +68,7 @@ fn regress_67_two_substeps_are_nearly_as_good_as_half_the_step() {
         let run = solve(engine(name, route, substeps).as_ref(), &case);
         let found = residuals(&truth, &run).unwrap();
         let most = |wanted: &dyn Fn(&linkproof::compare::Residual) -> bool| {
-            found.iter().filter(|r| wanted(r)).map(|r| r.share()).fold(0.0, f64::max)
+            found.iter().filter(|r| wanted(r)).map(|r| r.share()).fold(0.0, f64::larger)
         };
         [most(&|r| r.channel.kind.unit == Unit::Radian), most(&|r| r.channel.kind.stage >= Stage::Reactions)]
     };

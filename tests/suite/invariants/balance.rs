@@ -2,7 +2,7 @@
 
 use linkage::case::Case;
 use linkage::drive::Wrench;
-use linkage::math::{Vec2, cross};
+use linkage::math::{KeepNan, Vec2, cross};
 use linkage::solver::State;
 use proptest::test_runner::TestCaseError;
 
@@ -70,7 +70,7 @@ fn at_instants(check: impl Fn(&Instant) -> Result<(), TestCaseError>) {
         for solver in analytic::all() {
             for k in [0, case.grid.len() / 2, case.grid.len() - 1] {
                 let around = Around::of(solver, sample, case.grid.times[k]);
-                let fastest = around.here().motions.iter().map(|m| m.omega.abs()).fold(0.0, f64::max);
+                let fastest = around.here().motions.iter().map(|m| m.omega.abs()).fold(0.0, f64::larger);
                 let mass = case.mechanism.links().iter().map(|link| link.mass).sum();
                 check(&Instant { case, around, fastest, mass })?;
             }
@@ -121,7 +121,7 @@ fn every_link_is_in_equilibrium() {
             let middle = centre(case, at.here(), link);
             let force: Vec2 = at.on(link).iter().map(|action| action.force).sum();
             let arms: f64 = at.on(link).iter().map(|action| action.about(middle)).sum();
-            let drive = if link == case.drive.link { at.here().torques[0] } else { 0.0 };
+            let drive = if link == case.crank().link { at.here().torques[0] } else { 0.0 };
             let scale = body.mass * REACH * at.fastest;
             let push = |s: &State| centre_velocity(case, s, link) * body.mass;
             at.around.are_slopes("force", scale, push, force + case.gravity * body.mass + loads[link].force)?;
@@ -145,7 +145,7 @@ fn drive_and_loads_change_the_energy() {
             at.masses().map(of).sum()
         };
         let loads = case.load_power(&at.here().motions, &at.here().angles);
-        let power = at.here().torques[0] * case.drive.at(0.0).omega + loads;
+        let power = at.here().torques[0] * case.crank().at(0.0).omega + loads;
         at.around.is_slope("energy", at.mass * (REACH * at.fastest).powi(2), energy, power)
     });
 }
@@ -154,7 +154,7 @@ fn drive_and_loads_change_the_energy() {
 fn joints_hold_together_and_guides_push_across_their_axes_only() {
     at_instants(|at| {
         let here = at.here();
-        let largest = here.forces.iter().map(|force| force.norm()).fold(0.0, f64::max);
+        let largest = here.forces.iter().map(|force| force.norm()).fold(0.0, f64::larger);
         for (joint, force) in at.case.mechanism.joints().iter().zip(&here.forces) {
             let sides = [joint.first, joint.second].map(|side| (&here.motions[side.link], side.local));
             let places = sides.map(|(motion, local)| motion.point(local));

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use linkage::case::Case;
-use linkage::math::{Vec2, cross, rotated, unit};
+use linkage::math::{KeepNan, Vec2, cross, rotated, unit};
 use linkage::mechanism::GroupKind;
 use linkage::solver::{Solver, State};
 use proptest::test_runner::TestCaseError;
@@ -20,7 +20,7 @@ const ROUNDING: f64 = 1e-12;
 /// States of both problems over the grid of the first at equal crank angles times `sense`.
 fn pairs(solver: &dyn Solver, sample: &Sample, two: &Case, sense: f64) -> Vec<(State, State)> {
     let one = &sample.scenario.case;
-    let times = one.grid.cranks.iter().map(|crank| two.drive.time_of(crank * sense));
+    let times = one.grid.cranks.iter().map(|crank| two.crank().time_of(crank * sense));
     let ours = states(solver, one, &one.grid.times).expect("solvable");
     let theirs = states(solver, two, &times.collect::<Vec<_>>()).expect("solvable");
     ours.into_iter().zip(theirs).collect()
@@ -61,8 +61,8 @@ fn compare(
 ) -> Result<(), TestCaseError> {
     let case = &sample.scenario.case;
     let bound = ROUNDING * sample.condition.powi(2);
-    let spin = ours.motions.iter().map(|m| m.omega.abs()).fold(0.0, f64::max);
-    let force = ours.forces.iter().map(|f| f.norm()).fold(0.0, f64::max);
+    let spin = ours.motions.iter().map(|m| m.omega.abs()).fold(0.0, f64::larger);
+    let force = ours.forces.iter().map(|f| f.norm()).fold(0.0, f64::larger);
     for (link, body) in case.mechanism.links().iter().enumerate().skip(1) {
         let (a, b, c) = (&ours.motions[link], &theirs.motions[link], body.mass_centre);
         let d = other.mechanism.links()[link].mass_centre;
@@ -81,12 +81,12 @@ fn compare(
     }
     // Moments change their sense as the driving one does.
     for (a, b) in ours.moments.iter().zip(&theirs.moments) {
-        within("moment", (b - expected.torque * a).abs(), bound * force.max(ours.torques[0].abs()))?;
+        within("moment", (b - expected.torque * a).abs(), bound * force.larger(ours.torques[0].abs()))?;
     }
     within(
         "torque",
         (theirs.torques[0] - expected.torque * ours.torques[0]).abs(),
-        bound * force.max(ours.torques[0].abs()),
+        bound * force.larger(ours.torques[0].abs()),
     )
 }
 
@@ -173,7 +173,7 @@ fn joints_read_the_other_way_round_flip_their_own_force_only() {
                     // About the place on the link that was second before.
                     let [first, second] =
                         [joint.first, joint.second].map(|side| ours.motions[side.link].point(side.local));
-                    if joint.is_prismatic() {
+                    if joint.slides() {
                         theirs.moments[index] = cross(first - second, theirs.forces[index]) - theirs.moments[index];
                     }
                     compare(sample, &other, [&ours, &theirs], &same())?;
@@ -201,7 +201,7 @@ fn turn_modes(case: &Case, spec: &mut Spec, joint: usize, matters: impl Fn(Group
 fn guides_read_against_their_axes_and_named_elsewhere_work_alike() {
     for_each(COUNT, |sample| {
         let case = &sample.scenario.case;
-        for (index, joint) in case.mechanism.joints().iter().enumerate().filter(|(_, joint)| joint.is_prismatic()) {
+        for (index, joint) in case.mechanism.joints().iter().enumerate().filter(|(_, joint)| joint.slides()) {
             let mut turned = sample.spec.clone();
             let guide = turned.guides.iter_mut().find(|guide| guide.name == joint.name).expect("a guide");
             guide.axes.iter_mut().for_each(|axis| *axis += PI);

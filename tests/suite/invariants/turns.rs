@@ -1,5 +1,6 @@
 //! Whole turns: the same pose every 360 degrees, and angles that keep their turns.
 
+use linkage::math::KeepNan;
 use std::f64::consts::TAU;
 
 use linkage::case::Grid;
@@ -37,7 +38,7 @@ fn three_turns(lengths: [f64; 4], turning: [f64; 2], left: bool, speed: f64, ste
     let case = spec.scenario().unwrap_or_else(|error| panic!("{error}")).case;
     let turn = (360.0 / step_deg) as usize;
     let cranks = (0..=3 * turn).map(|k| (k as f64 * step_deg).to_radians() * speed.signum());
-    let times = Grid::of_cranks(&case.drive, cranks.collect()).times;
+    let times = Grid::of_cranks(case.crank(), cranks.collect()).times;
     for solver in analytic::all() {
         let found = states(solver, &case, &times).unwrap_or_else(|error| panic!("{error}"));
         for (first, second) in found.iter().zip(&found[turn..]) {
@@ -47,15 +48,15 @@ fn three_turns(lengths: [f64; 4], turning: [f64; 2], left: bool, speed: f64, ste
                 assert!(wrong <= 1e-12, "{} {lengths:?} link {link}: {gone} in a turn", solver.name());
             }
             for (a, b) in first.forces.iter().zip(&second.forces) {
-                let bound = 1e-11 * first.forces.iter().map(|f| f.norm()).fold(0.0, f64::max);
+                let bound = 1e-11 * first.forces.iter().map(|f| f.norm()).fold(0.0, f64::larger);
                 assert!((a - b).norm() <= bound, "{} {lengths:?}", solver.name());
             }
         }
         for pair in found.windows(2) {
             // No link of these turns more than eight times as fast as the crank: more is a slip of a turn.
-            let limit = (8.0 * step_deg.to_radians()).min(TAU * 0.75);
+            let limit = (8.0 * step_deg.to_radians()).smaller(TAU * 0.75);
             let jumps = (1..4).map(|link| (pair[1].angles[link] - pair[0].angles[link]).abs());
-            assert!(jumps.fold(0.0, f64::max) <= limit, "{} {lengths:?}", solver.name());
+            assert!(jumps.fold(0.0, f64::larger) <= limit, "{} {lengths:?}", solver.name());
         }
     }
 }

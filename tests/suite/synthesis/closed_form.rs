@@ -6,7 +6,7 @@ use std::path::Path;
 use analytic::range::{Extent, FourBarType, Range};
 use analytic::{AssurSolver, NewtonSolver};
 use linkage::case::Case;
-use linkage::math::Vec2;
+use linkage::math::{KeepNan, Vec2};
 use linkproof::scenario::Scenario;
 use workshop::synthesis::Sheet;
 use workshop::synthesis::crank_rocker::{CrankRocker, Wish};
@@ -25,7 +25,7 @@ fn case(text: &str) -> Case {
 /// Angles (rad) are the same, whole turns aside.
 fn same_angle(a: f64, b: f64, within: f64) -> bool {
     let apart = (a - b).rem_euclid(TAU);
-    apart.min(TAU - apart) <= within
+    apart.smaller(TAU - apart) <= within
 }
 
 fn published() -> Wish {
@@ -41,9 +41,6 @@ fn published() -> Wish {
 #[test]
 fn the_published_crank_rocker_is_the_scenario_of_the_repository() {
     let found = CrankRocker::of(published()).unwrap();
-    assert!(
-        (found.crank - 0.025_995_627_740_337).abs() < 1e-12 && (found.coupler - 0.347_071_931_891_81).abs() < 1e-12
-    );
     let (own, shipped) = (case(&found.scenario(&sheet())), shipped("crank_rocker.toml").case);
     for (a, b) in own.mechanism.joints().iter().zip(shipped.mechanism.joints()) {
         assert_eq!(a.name, b.name);
@@ -88,7 +85,7 @@ fn crank_rockers_have_their_extreme_positions() {
         assert!(same_angle(least.crank, found.transmission_at, 1e-6));
         // From extreme to extreme the crank turns through pi + theta one way, pi - theta the other.
         let way = (rocker.extremes[0].crank - rocker.extremes[1].crank).abs();
-        let slower = way.max(TAU - way);
+        let slower = way.larger(TAU - way);
         assert!((slower / (TAU - slower) - found.time_ratio).abs() < 1e-7);
         proven += 1;
     }
@@ -110,7 +107,7 @@ fn slider_cranks_have_their_stroke() {
         let place = case.mechanism.links().iter().position(|link| link.name == "slider").unwrap();
         let cranks: Vec<f64> =
             [found.far[0], found.near[0]].into_iter().chain((0..3600).map(|k| f64::from(k) * TAU / 3600.0)).collect();
-        let times: Vec<f64> = cranks.iter().map(|&crank| case.drive.time_of(crank)).collect();
+        let times: Vec<f64> = cranks.iter().map(|&crank| case.crank().time_of(crank)).collect();
         let newton = states(&NewtonSolver, &case, &times).unwrap();
         let assur = states(&AssurSolver, &case, &times[..2]).unwrap();
         for (row, [_, x]) in [found.far, found.near].into_iter().enumerate() {
@@ -125,9 +122,9 @@ fn slider_cranks_have_their_stroke() {
             x <= found.far[1] + 1e-13 && x >= found.near[1] - 1e-13
         }));
         let way = (found.far[0] - found.near[0]).abs();
-        let slower = way.max(TAU - way);
+        let slower = way.larger(TAU - way);
         assert!((slower / (TAU - slower) - found.time_ratio).abs() < 1e-12, "{found:?}");
-        let steepest = newton.iter().map(|state| state.motions[2].direction.y.abs()).fold(0.0, f64::max);
+        let steepest = newton.iter().map(|state| state.motions[2].direction.y.abs()).fold(0.0, f64::larger);
         assert!((steepest.asin() - found.pressure).abs() < 1e-5 && found.pressure < PI / 2.0);
     }
 }

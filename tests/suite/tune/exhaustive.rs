@@ -4,6 +4,7 @@
 use analytic::NewtonSolver;
 use linkage::case::Grid;
 use linkage::engine::{Engine, Settings};
+use linkage::math::KeepNan;
 use linkage::solver::Solver;
 use linkage::trajectory::Trajectory;
 use linkproof::compare::{Residual, residuals};
@@ -46,7 +47,7 @@ pub struct Met {
 pub fn thinned(mut scenario: Scenario, every: usize) -> Scenario {
     let grid = &scenario.case.grid;
     let times = grid.times.iter().step_by(every).copied().collect();
-    scenario.case.grid = Grid::of_times(&scenario.case.drive, times);
+    scenario.case = scenario.case.on(Grid::of_times(scenario.case.crank(), times)).unwrap();
     scenario
 }
 
@@ -55,7 +56,7 @@ pub fn thinned(mut scenario: Scenario, every: usize) -> Scenario {
 pub fn error_of(scenario: &Scenario, truth: &Trajectory, engine: &dyn Engine) -> f64 {
     let Ok(found) = engine.solve(&scenario.case, &mut |_| {}) else { return f64::INFINITY };
     let residuals = residuals(truth, &found).expect("both stand on one grid");
-    residuals.iter().map(Residual::share).fold(0.0, f64::max)
+    residuals.iter().map(Residual::share).fold(0.0, f64::larger)
 }
 
 /// What [`error_of`] compares with.
@@ -91,7 +92,7 @@ pub fn cheaper(
     price: &mut dyn FnMut(&dyn Engine) -> f64,
 ) -> (Vec<Met>, usize) {
     let truth = truth(scenario);
-    let coarsest = COARSEST_DEG.to_radians() / scenario.case.drive.at(0.0).omega.abs();
+    let coarsest = COARSEST_DEG.to_radians() / scenario.case.crank().at(0.0).omega.abs();
     let (mut met, mut runs): (Vec<Met>, usize) = (Vec::new(), 0);
     for row in rows(space) {
         let mut limit = met.last().map_or(below, |best| best.price);

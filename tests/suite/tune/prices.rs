@@ -2,6 +2,7 @@
 
 use linkage::case::Case;
 use linkage::engine::{Engine, Route};
+use linkage::math::KeepNan;
 use rapier_twin::tree::Tree;
 
 /// Steps that a run does besides those between the first and the last instant: a few backwards, the same forwards, and some beyond the end.
@@ -45,7 +46,7 @@ pub fn price_of(case: &Case, engine: &dyn Engine) -> f64 {
         false => 1.0,
     };
     let end = |of: fn(f64, f64) -> f64| case.grid.times.iter().copied().fold(0.0, of);
-    let (span, instants) = (end(f64::max) - end(f64::min), case.grid.len() as f64);
+    let (span, instants) = (end(f64::larger) - end(f64::smaller), case.grid.len() as f64);
     let substep = costs.substep + costs.sweep * settings.sweeps as f64;
     let step = costs.step + settings.substeps as f64 * substep;
     let tiny = (costs.step + substep) * costs.tiny;

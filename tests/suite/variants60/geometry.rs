@@ -4,7 +4,7 @@
 //! cosine of the angle between rod and normal. The angle at D between link 3 and rocker 4 has the cosine (l3^2 + l4^2 - |C O2|^2) / 2 l3 l4.
 //! Either dyad is singular where its cosine is 1 or -1.
 
-use linkage::math::{Vec2, cross, turned, unit};
+use linkage::math::{KeepNan, Vec2, cross, turned, unit};
 
 /// One line of the table: lengths (m), angles (deg), angular velocity of the crank (rad/s).
 #[derive(Clone, Debug)]
@@ -124,18 +124,18 @@ impl Linkage {
         if rest < -SINGULAR {
             return [cosine, f64::INFINITY];
         }
-        let rod = slide.along * (slide.sense * rest.max(0.0).sqrt()) + turned(slide.along) * cosine;
+        let rod = slide.along * (slide.sense * rest.larger(0.0).sqrt()) + turned(slide.along) * cosine;
         [cosine, of_sides(l3, l4, a + rod * self.variant.ac)]
     }
 
     /// Greatest cosine of the two.
     fn worst(&self, crank: f64) -> f64 {
-        self.cosines(crank).iter().fold(0.0, |max, cosine| cosine.abs().max(max))
+        self.cosines(crank).iter().fold(0.0, |max, cosine| cosine.abs().larger(max))
     }
 
     /// Smaller transmission angle (deg).
     pub fn transmission(&self, crank: f64) -> f64 {
-        self.worst(crank).min(1.0).acos().to_degrees()
+        self.worst(crank).smaller(1.0).acos().to_degrees()
     }
 
     /// Crank angles (deg) between which both transmission angles stay above `least` (deg), around `from`; `None` if a whole turn does. Steps of
@@ -177,20 +177,16 @@ impl Linkage {
     /// Smallest of the transmission angles (deg) of each dyad between two crank angles (deg): the best of steps of 0.05 deg, then by
     /// golden section between its neighbours.
     pub fn least(&self, [from, to]: [f64; 2]) -> [f64; 2] {
-        let count = ((to - from) / 0.05).ceil().max(1.0);
+        let count = ((to - from) / 0.05).ceil().larger(1.0);
         let at = |k: f64| from + (to - from) * (k / count).clamp(0.0, 1.0);
         [0, 1].map(|dyad| {
             let size = |crank: f64| self.cosines(crank)[dyad].abs();
             let places = (0..=count as usize).map(|k| k as f64);
             let top = places.max_by(|&x, &y| size(at(x)).total_cmp(&size(at(y)))).unwrap();
-            let (mut low, mut high) = (at(top - 1.0), at(top + 1.0));
-            let share = 0.5 * (5f64.sqrt() - 1.0);
-            for _ in 0..40 {
-                let [left, right] = [high - share * (high - low), low + share * (high - low)];
-                if size(left) > size(right) { high = right } else { low = left }
-            }
-            let largest = [at(top), 0.5 * (low + high)].map(size).into_iter().fold(0.0, f64::max);
-            largest.min(1.0).acos().to_degrees()
+            let value = |crank: f64| Ok::<_, std::convert::Infallible>(size(crank));
+            let Ok([low, high]) = linkage::math::extremum::golden([at(top - 1.0), at(top + 1.0)], 40, value);
+            let largest = [at(top), 0.5 * (low + high)].map(size).into_iter().fold(0.0, f64::larger);
+            largest.smaller(1.0).acos().to_degrees()
         })
     }
 }

@@ -1,6 +1,7 @@
 //! Which crank angles of a variant are looked at, and in which steps.
 
 use super::geometry::{Linkage, OURS, Variant};
+use linkage::math::KeepNan;
 
 /// Transmission angle (deg) that the grid keeps where the crank cannot turn fully.
 const LEAST: f64 = 15.0;
@@ -63,13 +64,13 @@ impl Plan {
         let grid_step = steps.into_iter().find(|&step| high - low >= FEWEST * step).unwrap();
         let grid = ends(grid_step);
         let least = linkage.least(grid);
-        let room = limits.map_or(f64::INFINITY, |[from, to]| (grid[0] - from).min(to - grid[1]));
+        let room = limits.map_or(f64::INFINITY, |[from, to]| (grid[0] - from).smaller(to - grid[1]));
         let engine_step = ((room / STEPS_TO_LIMIT / ENGINE[1]).floor() * ENGINE[1]).clamp(ENGINE[1], ENGINE[0]);
         Plan { limits, given, kept, start, grid, grid_step, least, engine_step, linkage }
     }
 
     /// Smallest transmission angle on the grid (deg).
     pub fn smallest(&self) -> f64 {
-        self.least[0].min(self.least[1])
+        self.least[0].smaller(self.least[1])
     }
 }

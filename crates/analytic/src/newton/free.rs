@@ -8,6 +8,7 @@ use super::system::System;
 use crate::motion::side::{Held, Inputs, Side, embed, loads_held};
 use linkage::drive::Wrench;
 use linkage::error::Result;
+use linkage::math::KeepNan;
 use linkage::math::dense::Lu;
 use linkage::mechanism::EQUATIONS;
 use linkage::solver::State;
@@ -34,7 +35,7 @@ impl<'a> Embedded<'a> {
     pub(super) fn new(system: System<'a>) -> Self {
         let n = system.q.len();
         let drives = system.inputs.len();
-        let free: Vec<usize> = system.case.free_drives().map(|(index, _)| index).collect();
+        let free: Vec<usize> = system.case.drives.free().map(|(index, _)| index).collect();
         let mut embedded = Embedded {
             columns: vec![0.0; n * drives],
             rest: vec![0.0; n],
@@ -61,8 +62,8 @@ impl<'a> Embedded<'a> {
     /// Follows the branch to the angles of the driving links, in small turns.
     fn go_to(&mut self, angles: &[f64]) -> Result<()> {
         let from: Vec<f64> = self.system.inputs.iter().map(|input| input.angle).collect();
-        let farthest = from.iter().zip(angles).fold(0.0f64, |most, (a, b)| most.max((b - a).abs()));
-        let parts = (farthest / TRACKING_STEP).ceil().max(1.0);
+        let farthest = from.iter().zip(angles).fold(0.0f64, |most, (a, b)| most.larger((b - a).abs()));
+        let parts = (farthest / TRACKING_STEP).ceil().larger(1.0);
         let n = self.system.q.len();
         for part in 1..=parts as usize {
             let share = part as f64 / parts;

@@ -5,8 +5,8 @@ use std::f64::consts::PI;
 use super::system::System;
 use linkage::case::Case;
 use linkage::drive::{Drive, Wrench};
-use linkage::error::{Error, ErrorKind, Result};
-use linkage::math::Motion;
+use linkage::error::{Advice, Error, ErrorKind, Result};
+use linkage::math::{KeepNan, Motion};
 use linkage::mechanism::EQUATIONS;
 use linkage::solver::State;
 use linkage::trajectory::Stage;
@@ -29,13 +29,13 @@ impl System<'_> {
 
     /// Follows the branch to time `t`, in small turns of the crank.
     pub(super) fn go_to(&mut self, t: f64) -> Result<()> {
-        let turned = |drive: &Drive| match drive.law.constant() {
+        let turned = |drive: &Drive| match drive.constant_speed() {
             Some(_) => (drive.at(t).angle - drive.at(self.time).angle).abs(),
             // It may go there and back in between.
             None => drive.top_speed().abs() * (t - self.time).abs(),
         };
-        let turn = self.case.drives().map(turned).fold(0.0, f64::max);
-        let parts = (turn / TRACKING_STEP).ceil().max(1.0);
+        let turn = self.case.drives.iter().map(turned).fold(0.0, f64::larger);
+        let parts = (turn / TRACKING_STEP).ceil().larger(1.0);
         let from = self.time;
         for part in 1..parts as usize {
             self.step_to(from + (t - from) * (part as f64 / parts), HALVINGS)?;
@@ -76,7 +76,7 @@ impl System<'_> {
     /// Newton to rounding, from the pose that stands in `q`. The Jacobian is left factored at the last pose but one
     /// (which differs from the last by rounding).
     pub(super) fn correct(&mut self) -> Result<()> {
-        let size = self.case.mechanism.size().max(f64::MIN_POSITIVE);
+        let size = self.case.mechanism.size().larger(f64::MIN_POSITIVE);
         let mut last = f64::INFINITY;
         for _ in 0..MAX_ITERATIONS {
             self.assemble();
@@ -87,7 +87,7 @@ impl System<'_> {
             let mut change: f64 = 0.0;
             for (i, step) in self.residual.iter().enumerate() {
                 self.q[i] -= step;
-                change = change.max(step.abs() / if i % 3 == 2 { 1.0 } else { size });
+                change = change.larger(step.abs() / if i % 3 == 2 { 1.0 } else { size });
             }
             // Quadratic convergence: once below 1e-9 the next change is rounding, and one more step makes sure of it.
             if change < 1e-14 || (last < 1e-9 && change < 1e-9) {
@@ -180,8 +180,8 @@ impl System<'_> {
     }
 
     pub(super) fn lost(&self, why: &str) -> Error {
-        let crank = (self.inputs[0].angle - self.case.drive.zero).to_degrees();
-        Error::new(ErrorKind::Numeric, format!("crank angle {crank:.4} deg, t = {:.6} s: {why}", self.time))
-            .help("shorten the grid to the crank angles that can be reached on this branch")
+        let (crank, t) = (self.inputs[0].angle - self.case.crank().zero, self.time);
+        let message = format!("crank angle {:.4} deg, t = {t:.6} s: {why}", crank.to_degrees());
+        Error::new(ErrorKind::Numeric, message).at_time(t).at_crank(crank).help(Advice::ShortenGrid)
     }
 }

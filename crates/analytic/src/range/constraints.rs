@@ -3,7 +3,7 @@
 //! Coordinates are x, y (in sizes of the mechanism, so that they compare with angles) of the middle of the joints of every moving link, and its
 //! angle. The rows of a joint stand in one function for each kind of joint.
 
-use linkage::math::{Column, Matrix, Vec2, cross, rotated, unit};
+use linkage::math::{Column, KeepNan, Matrix, Vec2, cross, rotated, unit};
 use linkage::mechanism::{EQUATIONS, Group, Joint, JointKind, LinkPose, Mechanism, Pose, Side};
 
 /// A driving link that is geared to the crank: its angle follows the crank's.
@@ -46,7 +46,7 @@ impl<'a> Constraints<'a> {
         Constraints {
             mechanism,
             origin,
-            size: mechanism.size().max(f64::MIN_POSITIVE),
+            size: mechanism.size().larger(f64::MIN_POSITIVE),
             gearings,
             middles: (0..mechanism.links().len()).map(middle).collect(),
         }

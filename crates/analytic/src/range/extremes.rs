@@ -2,6 +2,7 @@
 //!
 //! A link is at an extreme position where its part of the tangent, hence its angular velocity, changes sign: a simple zero of the curve.
 
+use linkage::math::KeepNan;
 use std::f64::consts::TAU;
 
 use super::constraints::Constraints;
@@ -90,7 +91,7 @@ pub(super) fn least(tracker: &Tracker, points: &[Point], closed: bool, f: &dyn F
 /// The local minimum of `f` next to the pose at `place`.
 fn refined(tracker: &Tracker, points: &[Point], closed: bool, place: usize, f: &dyn Fn(&Point) -> f64) -> Point {
     let slope = |point: &Point| {
-        let step = (0.01 * point.sigma).min(1e-4);
+        let step = (0.01 * point.sigma).smaller(1e-4);
         match (tracker.advance(point, step), tracker.advance(point, -step)) {
             (Some(ahead), Some(behind)) => f(&ahead) - f(&behind),
             _ => 0.0,

@@ -5,7 +5,7 @@
 //! dyad the columns are the vectors from the outer joints to the inner one: the determinant is the sine of the transmission
 //! angle mu (Alt 1932), and the condition number is cot(mu / 2) for mu up to 90 degrees. Groups with sliders keep all columns.
 
-use linkage::math::Matrix;
+use linkage::math::{KeepNan, Matrix};
 use linkage::mechanism::assembly::transmission_sine;
 use linkage::mechanism::{Group, Mechanism, Pose};
 
@@ -22,7 +22,7 @@ pub struct Measure {
 /// Measures a group at a pose, from its square block of the Jacobian, x and y before the angles.
 pub(super) fn of(block: &Matrix, mechanism: &Mechanism, group: &Group, pose: &Pose) -> Measure {
     let mut joints = group.inner.iter().chain(&group.outer);
-    if joints.any(|&joint| mechanism.joints()[joint].is_prismatic()) {
+    if !joints.all(|&joint| mechanism.joints()[joint].is_pin()) {
         return of_sliding(block, transmission_sine(mechanism, group, pose));
     }
     let links = group.links.len();
@@ -48,7 +48,8 @@ fn of_columns(mut matrix: Matrix, sign: f64) -> Measure {
         }
     }
     let values = matrix.singular_values();
-    let condition = (values.max() / values.min()).min(f64::MAX);
+    // Of a matrix of zeros, whose quotient is no number, the condition is as bad as that of any singular one.
+    let condition = (values.max() / values.min()).smaller_number(f64::MAX);
     Measure { determinant: sign * values.product(), condition }
 }
 

@@ -1,5 +1,7 @@
 //! One smooth piece of a motor's moment on the crank. Equations of motion are integrated piece by piece.
 
+use crate::math::KeepNan;
+
 /// A smooth curve of torque over speed, of the motor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Curve {
@@ -49,7 +51,7 @@ impl Curve {
             // With x = s / b: torque (x + 1 / x) = 2 M, the root of smaller size, in a form that does not cancel.
             Curve::Kloss { breakdown_torque, breakdown_slip, synchronous_speed } => {
                 let share = torque / breakdown_torque;
-                let root = (1.0 - share * share).max(0.0).sqrt();
+                let root = (1.0 - share * share).larger(0.0).sqrt();
                 (share.abs() <= 1.0).then(|| synchronous_speed * (1.0 - breakdown_slip * share / (1.0 + root)))
             }
         }

@@ -48,6 +48,9 @@ pub trait Engine: Solver {
     /// Bound on the rounding noise of a channel on the grid of a case, in the channel's unit.
     fn noise(&self, case: &Case, channel: &ChannelKind) -> f64;
 
+    /// Whether the factors in [`Engine::noise`] were measured; if not they were chosen.
+    fn is_noise_measured(&self) -> bool;
+
     /// Settings that influence the result, by name, for people.
     fn told(&self) -> Vec<(&'static str, String)>;
 }

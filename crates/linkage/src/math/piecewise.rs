@@ -1,5 +1,7 @@
 //! A function through given points, cubic between neighbours: straight lines, or a cubic spline.
 
+use crate::math::KeepNan;
+
 /// Cubic pieces between ascending knots.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Piecewise {
@@ -70,7 +72,7 @@ impl Piecewise {
         &self.knots
     }
 
-    /// Extremes of the first derivative: its least and largest value at and between the knots.
+    /// KeepNans of the first derivative: its least and largest value at and between the knots.
     #[must_use]
     pub fn slopes(&self) -> [f64; 2] {
         let mut found = [f64::INFINITY, f64::NEG_INFINITY];
@@ -80,7 +82,7 @@ impl Piecewise {
             let turn = if e == 0.0 { 0.0 } else { (-c / (3.0 * e)).clamp(0.0, h) };
             for d in [0.0, turn, h] {
                 let slope = b + d * (2.0 * c + d * 3.0 * e);
-                found = [found[0].min(slope), found[1].max(slope)];
+                found = [found[0].smaller(slope), found[1].larger(slope)];
             }
         }
         found

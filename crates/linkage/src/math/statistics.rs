@@ -1,5 +1,7 @@
 //! Order statistics of residuals.
 
+use crate::math::KeepNan;
+
 /// Quantile `q` (0 to 1) of values sorted in ascending order, linear between neighbours (type 7 of Hyndman and Fan 1996).
 ///
 /// Returns 0 for an empty slice.
@@ -37,8 +39,8 @@ pub fn share(part: f64, whole: f64) -> f64 {
 #[must_use]
 pub fn half_range(values: &[f64]) -> f64 {
     let Some(&first) = values.first() else { return 0.0 };
-    let (low, high) = values.iter().fold((first, first), |(low, high), &v| (low.min(v), high.max(v)));
-    if values.iter().any(|v| v.is_nan()) { f64::NAN } else { (high - low) / 2.0 }
+    let (low, high) = values.iter().fold((first, first), |(low, high), &v| (low.smaller(v), high.larger(v)));
+    (high - low) / 2.0
 }
 
 #[cfg(test)]

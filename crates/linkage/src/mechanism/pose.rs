@@ -1,7 +1,7 @@
 //! Where every link is at one instant.
 
 use super::{Joint, Mechanism, Side};
-use crate::math::{Vec2, cross, rotated, unit};
+use crate::math::{KeepNan, Vec2, cross, rotated, unit};
 
 /// Place of one link's frame in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,9 +48,9 @@ impl Pose {
             let sides = [joint.first, joint.second];
             let places = sides.map(|side| self.0[side.link].point(side.local));
             let (distance, turn) = joint.opening(places, sides.map(|side| unit(self.0[side.link].angle)));
-            distance.max(turn * mechanism.size())
+            distance.larger(turn * mechanism.size())
         };
-        mechanism.joints().iter().map(opening).fold(0.0, f64::max)
+        mechanism.joints().iter().map(opening).fold(0.0, f64::larger)
     }
 }
 

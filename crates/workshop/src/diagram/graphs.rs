@@ -1,5 +1,7 @@
 //! Graphs of quantities over one period of the crank angle, whoever found them.
 
+use linkage::math::KeepNan;
+
 /// A place on a graph that is marked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mark {
@@ -35,7 +37,7 @@ impl Graph {
     #[must_use]
     pub fn range(&self) -> [f64; 2] {
         let values = self.points.iter().map(|point| point[1]).chain(self.marks.iter().map(|mark| mark.at[1]));
-        values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)])
+        values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.smaller(value), high.larger(value)])
     }
 
     /// Whether the quantity is the same all over the period, but for rounding.

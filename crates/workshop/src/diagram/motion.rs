@@ -6,6 +6,7 @@
 use super::chord::{closed_slopes, integral, slopes};
 use linkage::case::{Case, Grid, Wanted};
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::KeepNan;
 use linkage::math::statistics::{half_range, rms, share};
 use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Stage, Subject};
@@ -33,7 +34,7 @@ impl Course {
     /// # Errors
     /// [`ErrorKind::Input`] for any other name, with those that are possible.
     pub fn named(case: &Case, name: &str) -> Result<Self> {
-        let all = Case { wanted: Wanted::ALL, ..case.clone() }.channels();
+        let all = case.wanting(Wanted::ALL).channels();
         let wrong = |message: String, help: String| Error::new(ErrorKind::Input, message).help(help);
         let Some(channel) = all.iter().find(|channel| channel.to_string() == name) else {
             return Err(wrong(format!("the mechanism has no channel \"{name}\""), help(&all, name)));
@@ -173,11 +174,11 @@ impl MotionDiagram {
         // Divisions, their halves and quarters all have their middles among the rows.
         let stride = 8 * CURVE.div_ceil(8 * divisions);
         let rows = divisions * stride;
-        let sense = case.drive.sense();
-        let crank = |row: usize| case.drive.start + sense * TAU * (row as f64 / rows as f64);
-        let grid = Grid::of_cranks(&case.drive, (0..=rows).map(crank).collect());
+        let sense = case.crank().sense();
+        let crank = |row: usize| case.crank().start + sense * TAU * (row as f64 / rows as f64);
+        let grid = Grid::of_cranks(case.crank(), (0..=rows).map(crank).collect());
         let wanted = Wanted::of(&[Stage::Positions, Stage::Velocities, Stage::Accelerations]);
-        let trajectory = solver.solve(&Case { wanted, ..case.on(grid) }, &mut |_| {})?;
+        let trajectory = solver.solve(&case.on(grid)?.wanting(wanted), &mut |_| {})?;
         let column = |channel: &Channel| {
             trajectory.column(channel).map(<[f64]>::to_vec).ok_or_else(|| {
                 Error::new(ErrorKind::Unsupported, format!("{} does not provide {channel}", solver.name()))
@@ -196,7 +197,7 @@ impl MotionDiagram {
             let size = errors.each_ref().map(|errors| rms(errors.iter().copied()));
             let scale = scales[method.gives()];
             let order = |coarse: f64, fine: f64| (fine > ROUNDING * scale).then(|| (coarse / fine).log2());
-            let largest = errors[0].iter().fold(0.0f64, |most, error| most.max(error.abs()));
+            let largest = errors[0].iter().fold(0.0f64, |most, error| most.larger(error.abs()));
             let orders = [order(size[0], size[1]), order(size[1], size[2])];
             let [(rows, values), ..] = runs;
             // What stands perfectly still has no scale, and no error either.
@@ -212,18 +213,12 @@ impl MotionDiagram {
     pub fn half_range(&self, which: usize) -> f64 {
         half_range(&self.exact[which])
     }
-
-    /// What `method` found.
-    #[must_use]
-    pub fn by(&self, method: Method) -> Option<&Found> {
-        self.found.iter().find(|found| found.method == method)
-    }
 }
 
 /// Scales that errors are judged by.
 fn scales(exact: &[Vec<f64>; 3], period: f64) -> [f64; 3] {
     let natural = |order: i32| SMALLEST * half_range(&exact[0]) * (TAU / period).powi(order);
-    [0, 1, 2].map(|order| half_range(&exact[order as usize]).max(natural(order)))
+    [0, 1, 2].map(|order| half_range(&exact[order as usize]).larger(natural(order)))
 }
 
 /// Rows and values that a method gives with divisions of `stride` rows.

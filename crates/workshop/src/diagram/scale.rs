@@ -1,5 +1,7 @@
 //! Scale factors of drawings, as drawing practice takes them: 1, 2, 2.5 or 5 times a power of ten.
 
+use linkage::math::KeepNan;
+
 /// Share by which a number may exceed a round one and still count as it: rounding of the quotient.
 const SAME: f64 = 1e-12;
 
@@ -15,7 +17,7 @@ pub fn round_up(least: f64) -> f64 {
     let candidates = (power - 1..=power + 1).flat_map(|n| ["1", "2", "2.5", "5"].map(|m| (m, n)));
     // Read as text, so that 0.02 is the double nearest to 0.02 and is printed so.
     let numbers = candidates.filter_map(|(m, n)| format!("{m}e{n}").parse::<f64>().ok());
-    numbers.filter(|&number| number >= least * (1.0 - SAME)).fold(f64::INFINITY, f64::min)
+    numbers.filter(|&number| number >= least * (1.0 - SAME)).fold(f64::INFINITY, f64::smaller)
 }
 
 /// Scale factor (units a millimetre) with which `largest` is at most `room` millimetres long, and more than half of that.

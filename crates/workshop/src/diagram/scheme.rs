@@ -5,7 +5,7 @@ use super::scale::factor;
 use super::singular::SingularPoint;
 use super::sliding::Slide;
 use linkage::case::Case;
-use linkage::math::Vec2;
+use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{GROUND, Joint};
 use linkage::solver::State;
 
@@ -115,14 +115,14 @@ impl Scheme {
         let all: Vec<Vec2> = all.chain(points.iter().map(|(_, at)| *at)).collect();
         let extent = |of: fn(&Vec2) -> f64| {
             let (low, high) =
-                all.iter().map(of).fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
+                all.iter().map(of).fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.smaller(v), h.larger(v)));
             high - low
         };
-        let scale = factor(extent(|v| v.x), ROOM[0]).max(factor(extent(|v| v.y), ROOM[1]));
+        let scale = factor(extent(|v| v.x), ROOM[0]).larger(factor(extent(|v| v.y), ROOM[1]));
         let grounded = |joint: &&Joint| joint.on(GROUND).is_some();
-        let sliding = mechanism.joints().iter().filter(grounded).filter(|joint| joint.is_prismatic());
+        let sliding = mechanism.joints().iter().filter(grounded).filter(|joint| joint.slides());
         let pinned = |local: Vec2| {
-            let mut pins = mechanism.joints().iter().filter(grounded).filter(|joint| !joint.is_prismatic());
+            let mut pins = mechanism.joints().iter().filter(grounded).filter(|joint| joint.is_pin());
             pins.any(|joint| joint.on(GROUND) == Some(local))
         };
         let marks = sliding.filter_map(|joint| joint.on(GROUND)).filter(|local| !pinned(*local)).collect();
@@ -131,6 +131,6 @@ impl Scheme {
         let groups = case.structure.groups.iter();
         let singular =
             groups.filter_map(|group| SingularPoint::of(case, group, &state.motions).ok().flatten()).collect();
-        Scheme { scale, links, points, fixed, marks, guides, driver: case.drive.link, singular }
+        Scheme { scale, links, points, fixed, marks, guides, driver: case.crank().link, singular }
     }
 }

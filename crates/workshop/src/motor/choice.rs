@@ -11,6 +11,7 @@ use analytic::steady::Regime;
 use linkage::case::Case;
 use linkage::drive::Motor;
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::KeepNan;
 
 /// A motor chosen for a mechanism, and how it does.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,7 +49,7 @@ impl Choice {
         }
         let model = Model::of(case)?;
         let [_, resistance] = model.extremes()?;
-        let omega = case.drive.at(0.0).omega;
+        let omega = case.crank().at(0.0).omega;
         let mean = omega.signum() * means_over_turn(case, &AssurSolver)?.resistance;
         let wanted = omega.abs();
         let power = resistance.greatest.1 * wanted;
@@ -60,7 +61,7 @@ impl Choice {
         }
         let asked = power / efficiency;
         let Some(motor) = weakest_sufficient(catalogue, asked) else {
-            let strongest = catalogue.iter().map(|motor| motor.power).fold(0.0, f64::max);
+            let strongest = catalogue.iter().map(|motor| motor.power).fold(0.0, f64::larger);
             let message =
                 format!("the drive asks for {:.4} kW, the strongest motor has {:.4} kW", asked / 1e3, strongest / 1e3);
             return Err(Error::new(ErrorKind::Input, message).help(
@@ -69,7 +70,7 @@ impl Choice {
         };
         let geared = motor.geared_to(wanted, efficiency);
         let Some(averaged) = geared.steady_speed(mean) else { return Err(means::no_steady_speed(mean)) };
-        let driven = Case { motor: Some(geared.clone()), ..case.clone() };
+        let driven = case.with_motor(Some(geared.clone()))?;
         let regime = Model::of(&driven)?.regime(&[], ACCURACY)?;
         Ok(Choice {
             peak: resistance.greatest,

@@ -1,10 +1,11 @@
 //! What a mechanism does of what its output shall do, measured finely on its scenario.
 
+use linkage::math::KeepNan;
 use std::f64::consts::TAU;
 
 use super::evaluate::Evaluator;
 use crate::task::{Sense, Task};
-use linkage::error::{Error, ErrorKind, Result};
+use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::mechanism::GroupKind;
 
 /// Rows of the turn.
@@ -54,14 +55,14 @@ impl Achieved {
         let turns: Vec<f64> = (0..=ROWS).map(|row| TAU * (row as f64 / ROWS as f64)).collect();
         let as_drawn = Task { places: Vec::new(), ..task.clone() };
         let mut evaluator = Evaluator::new(&as_drawn);
-        evaluator.run(&[], task.case.drive.zero, &turns).map_err(|_| {
+        evaluator.run(&[], task.case.crank().zero, &turns).map_err(|_| {
             let message =
                 "the mechanism cannot be assembled over a whole turn of its crank, or its output does not rock";
-            Error::new(ErrorKind::Geometry, message)
-                .help("`linkproof inspect FILE --range` shows what limits the crank and which links turn fully")
+            Error::new(ErrorKind::Geometry, message).help(Advice::LookAtRange)
         })?;
         let curve = &evaluator.curve;
-        let (low, high) = curve.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &v| (l.min(v), h.max(v)));
+        let (low, high) =
+            curve.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &v| (l.smaller(v), h.larger(v)));
         let dyads = task.case.structure.groups.iter().all(|group| group.kind != GroupKind::Higher);
         let share =
             |&value: &f64| if forward > 0.0 { (value - low) / (high - low) } else { (high - value) / (high - low) };
@@ -94,13 +95,13 @@ impl Achieved {
     #[must_use]
     pub fn unrest(&self, task: &Task) -> f64 {
         let dwells = self.phases.iter().zip(task.timing.phases()).filter(|(_, phase)| phase.sense == Sense::Dwell);
-        dwells.map(|(done, _)| done.motion).fold(0.0, f64::max)
+        dwells.map(|(done, _)| done.motion).fold(0.0, f64::larger)
     }
 
     /// Largest way in the wrong sense in any phase (share of the stroke).
     #[must_use]
     pub fn wrong(&self) -> f64 {
-        self.phases.iter().map(|phase| phase.wrong).fold(0.0, f64::max)
+        self.phases.iter().map(|phase| phase.wrong).fold(0.0, f64::larger)
     }
 
     /// Largest distance of an extreme position from the limit of two opposite motions that it should be at (rad).
@@ -112,7 +113,7 @@ impl Achieved {
             let turns_about = phases[index].sense.sign() * next.sign() < 0.0;
             turns_about.then(|| done.end.map_or(TAU, |end| (end - phases[index].to).abs()))
         };
-        self.phases.iter().enumerate().filter_map(apart).fold(0.0, f64::max)
+        self.phases.iter().enumerate().filter_map(apart).fold(0.0, f64::larger)
     }
 
     /// By how much the worst dwell falls short at either end (rad): where the output is beyond [`BAND`] although it should rest. A dwell that is longer than asked for does
@@ -130,7 +131,7 @@ impl Achieved {
                 _ => None,
             }
         };
-        self.phases.iter().enumerate().filter_map(missing).fold(0.0, f64::max)
+        self.phases.iter().enumerate().filter_map(missing).fold(0.0, f64::larger)
     }
 
     /// The share at any row, counted on over turns.
@@ -160,8 +161,8 @@ impl Achieved {
         };
         PhaseDone {
             displacement: self.at(to) - self.at(from),
-            motion: values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min),
-            wrong: (from..to).map(|row| (-sign * (self.at(row + 1) - self.at(row))).max(0.0)).sum(),
+            motion: values().fold(f64::NEG_INFINITY, f64::larger) - values().fold(f64::INFINITY, f64::smaller),
+            wrong: (from..to).map(|row| (-sign * (self.at(row + 1) - self.at(row))).larger(0.0)).sum(),
             level: self.at(to),
             end,
         }
@@ -178,7 +179,7 @@ impl Achieved {
     fn leaves(&self, from: i64, to: i64, way: i64) -> Option<f64> {
         let (low, high) = (from.min(to), from.max(to));
         let values = || (low..=high).map(|row| self.at(row));
-        let middle = (values().fold(f64::NEG_INFINITY, f64::max) + values().fold(f64::INFINITY, f64::min)) / 2.0;
+        let middle = (values().fold(f64::NEG_INFINITY, f64::larger) + values().fold(f64::INFINITY, f64::smaller)) / 2.0;
         let mut row = (low + high) / 2;
         let outside = to + way * (ROWS as i64 / 4);
         while row != outside && (self.at(row) - middle).abs() <= BAND {

@@ -9,7 +9,7 @@ use std::f64::consts::{PI, TAU};
 use super::time_ratio;
 use analytic::range::{FourBar, FourBarType};
 use linkage::error::{Error, ErrorKind, Result};
-use linkage::math::{Vec2, cross, unit};
+use linkage::math::{KeepNan, Vec2, cross, unit};
 use linkage::mechanism::AssemblyMode;
 
 /// What a crank-rocker is wanted to do.
@@ -144,7 +144,7 @@ fn check(wish: &Wish) -> Result<()> {
 fn transmission([frame, crank, coupler, rocker]: [f64; 4], line: Vec2) -> (f64, f64) {
     let at = |distance: f64| {
         let cos = (coupler.powi(2) + rocker.powi(2) - distance * distance) / (2.0 * coupler * rocker);
-        cos.abs().min(1.0).acos()
+        cos.abs().smaller(1.0).acos()
     };
     let towards = line.y.atan2(line.x).rem_euclid(TAU);
     let (near, far) = (at(frame - crank), at(frame + crank));

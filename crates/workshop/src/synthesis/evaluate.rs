@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use crate::task::{Output, Task};
 use analytic::assur::groups::{Plan, Step};
-use linkage::math::{Motion, cross, unit};
+use linkage::math::{KeepNan, Motion, cross, unit};
 use linkage::mechanism::assembly::transmission_sine;
 use linkage::mechanism::{Mechanism, Pose, first_pose};
 use linkage::solver::State;
@@ -91,7 +91,7 @@ impl<'a> Evaluator<'a> {
     /// Higher groups: from the start pose on, in small steps; after the turn the output must be back.
     fn follow(&mut self, mut plan: Plan, world: &dyn Fn(f64) -> f64, turns: &[f64], zero: f64) -> Result<(), f64> {
         let case = &self.task.case;
-        let start = zero + case.drive.start;
+        let start = zero + case.crank().start;
         let (pose, _) = first_pose(&self.mechanism, &case.structure, &[start], &self.task.starts).map_err(|_| 0.0)?;
         for (motion, link) in self.motions.iter_mut().zip(&pose.0) {
             (motion.origin, motion.direction) = (link.origin, unit(link.angle));
@@ -100,7 +100,7 @@ impl<'a> Evaluator<'a> {
         plan.positions(&[angle], &mut self.motions).map_err(|_| 0.0)?;
         for (row, &turn) in turns.iter().enumerate() {
             let (from, way) = (angle, world(turn) - angle);
-            let steps = (way.abs() / FOLLOWED).ceil().max(1.0);
+            let steps = (way.abs() / FOLLOWED).ceil().larger(1.0);
             for step in 1..=steps as usize {
                 angle = from + way * (step as f64 / steps);
                 plan.positions(&[angle], &mut self.motions).map_err(|_| row as f64 / turns.len() as f64)?;
@@ -140,7 +140,7 @@ impl<'a> Evaluator<'a> {
                 }
                 transmission_sine(&self.mechanism, group, &self.pose).map_or(1.0, f64::abs)
             };
-            self.sine = self.sine.min(sine);
+            self.sine = self.sine.smaller(sine);
         }
     }
 

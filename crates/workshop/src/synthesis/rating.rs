@@ -7,6 +7,7 @@
 use std::f64::consts::TAU;
 
 use crate::task::{Phase, Sense, Task, Timing};
+use linkage::math::KeepNan;
 
 /// Weight of a way in the wrong sense, and of a moving phase that moves too little, against the motion in a dwell.
 const WRONG: f64 = 4.0;
@@ -52,7 +53,7 @@ impl<'a> Rater<'a> {
         let (mut turns, mut ends) = (vec![0.0], Vec::new());
         for phase in timing.phases() {
             let long = phase.to - phase.from;
-            let (parts, beside) = ((long / step).ceil().max(4.0), BESIDE.min(long / 16.0));
+            let (parts, beside) = ((long / step).ceil().larger(4.0), BESIDE.smaller(long / 16.0));
             turns.push(phase.from + beside);
             turns.extend((1..parts as usize).map(|part| phase.from + long * (part as f64 / parts)));
             turns.extend([phase.to - beside, phase.to]);
@@ -71,7 +72,8 @@ impl<'a> Rater<'a> {
 
     /// Takes an output in; its stroke.
     pub(super) fn take(&mut self, curve: &[f64]) -> f64 {
-        let (low, high) = curve.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &v| (l.min(v), h.max(v)));
+        let (low, high) =
+            curve.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &v| (l.smaller(v), h.larger(v)));
         self.span = high - low;
         let share = |value: &f64| (value - low) / self.span;
         self.twice.clear();
@@ -94,8 +96,8 @@ impl<'a> Rater<'a> {
                 sense @ (Sense::Forward | Sense::Back) => {
                     let sign = sense.sign();
                     let way = |row: usize| sign * (at(row + 1) - at(row));
-                    let back: f64 = (from..to).map(|row| (-way(row)).max(0.0)).sum();
-                    let little = (phase.least - sign * (at(to) - at(from))).max(0.0);
+                    let back: f64 = (from..to).map(|row| (-way(row)).larger(0.0)).sum();
+                    let little = (phase.least - sign * (at(to) - at(from))).larger(0.0);
                     WRONG * (back * back + little * little)
                 }
             };
@@ -120,9 +122,9 @@ impl<'a> Rater<'a> {
     /// What is added to the cost for a stroke outside its limits, and for a transmission sine below its own.
     pub(super) fn excess(&self, task: &Task, sine: f64) -> f64 {
         let [least, most] = task.stroke;
-        let short = if least > 0.0 { (1.0 - self.span / least).max(0.0) } else { 0.0 };
-        let long = if most.is_finite() { (self.span / most - 1.0).max(0.0) } else { 0.0 };
-        let flat = (task.transmission.sin() - sine).max(0.0);
+        let short = if least > 0.0 { (1.0 - self.span / least).larger(0.0) } else { 0.0 };
+        let long = if most.is_finite() { (self.span / most - 1.0).larger(0.0) } else { 0.0 };
+        let flat = (task.transmission.sin() - sine).larger(0.0);
         LIMIT * (short * short + long * long + flat * flat)
     }
 }
@@ -134,10 +136,10 @@ fn unrest(values: impl Iterator<Item = f64>) -> f64 {
         count += 1.0;
         sum += value;
         squares += value * value;
-        low = value.min(low);
-        high = value.max(high);
+        low = value.smaller(low);
+        high = value.larger(high);
     }
-    let scatter = (squares / count - (sum / count).powi(2)).max(0.0);
+    let scatter = (squares / count - (sum / count).powi(2)).larger(0.0);
     (high - low).powi(2) + 12.0 * scatter
 }
 

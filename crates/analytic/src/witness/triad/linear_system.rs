@@ -7,7 +7,7 @@
 use super::{Known, Places, Reactions, singular};
 use linkage::error::Result;
 use linkage::math::dense::Lu;
-use linkage::math::{Vec2, cross};
+use linkage::math::{KeepNan, Vec2, cross};
 
 /// Reactions (N) for the places of the joints and the known forces on leads and base link.
 ///
@@ -22,7 +22,7 @@ pub fn reactions(places: &Places, known: &[Known; 4]) -> Result<Reactions> {
         system.force(lead, lead, 1.0, (feet[lead] - heads[lead]) / length);
         system.force(lead, 3 + lead, -1.0, Vec2::zeros());
     }
-    let length = (heads[1] - heads[0]).norm().max((heads[2] - heads[0]).norm());
+    let length = (heads[1] - heads[0]).norm().larger((heads[2] - heads[0]).norm());
     system.known(3, &known[3], heads[0], length);
     for lead in 0..3 {
         system.force(3, 3 + lead, 1.0, (heads[lead] - heads[0]) / length);

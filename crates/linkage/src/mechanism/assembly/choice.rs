@@ -3,7 +3,8 @@
 use super::configurations::configurations;
 use super::mode::{AssemblyMode, Choice, Configuration, StartGroup};
 use super::{four_link, rough};
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Advice, Error, ErrorKind, Result};
+use crate::math::KeepNan;
 use crate::mechanism::{Group, GroupKind, Mechanism, Pose};
 
 /// Poses the links of a group as asked.
@@ -49,8 +50,7 @@ fn out_of_range(rank: usize, count: usize) -> Error {
         1 => format!("configuration {rank} is asked for, but the group has 1 here"),
         _ => format!("configuration {rank} is asked for, but the group has {count} here"),
     };
-    Error::new(ErrorKind::Input, message)
-        .help(format!("give a number from 1 to {count}; `linkproof inspect FILE --modes` lists them"))
+    Error::new(ErrorKind::Input, message).help(Advice::Configuration { give: format!("a number from 1 to {count}") })
 }
 
 fn nothing_asked(group: &Group) -> Error {
@@ -101,7 +101,7 @@ fn nearest<'a>(
             let links = &one.links[index.expect("the point is on a link of the group")];
             (links.point(point.side.local) - guess).norm()
         });
-        distances.fold(0.0, f64::max)
+        distances.fold(0.0, f64::larger)
     };
     let mut order: Vec<(f64, &Configuration)> = all.iter().map(|one| (distance(one), one)).collect();
     order.sort_by(|a, b| a.0.total_cmp(&b.0));

@@ -1,6 +1,6 @@
 //! Random mechanisms for the tests of this module, the same in every run.
 
-use crate::math::{Vec2, rotated, unit};
+use crate::math::{KeepNan, Vec2, rotated, unit};
 use crate::mechanism::{Group, GroupKind, Joint, JointKind, Link, LinkPose, Mechanism, Pose, Side};
 
 /// Linear congruential generator (Knuth's MMIX), upper bits.
@@ -80,6 +80,6 @@ pub fn group(mechanism: &Mechanism, links: &[usize], kind: GroupKind) -> Group {
 
 /// Largest distance between joints of one link, and between bases (m): what errors are measured by.
 pub fn size(mechanism: &Mechanism, pose: &Pose) -> f64 {
-    let bases = pose.0.iter().map(|link| link.origin.norm()).fold(0.0, f64::max);
-    mechanism.size().max(bases)
+    let bases = pose.0.iter().map(|link| link.origin.norm()).fold(0.0, f64::larger);
+    mechanism.size().larger(bases)
 }

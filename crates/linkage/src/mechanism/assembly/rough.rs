@@ -9,7 +9,7 @@ use super::mode::{AssemblyMode, Choice};
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::angle::wrapped;
 use crate::math::dense::Lu;
-use crate::math::{Vec2, cross, rotated, turned, unit};
+use crate::math::{KeepNan, Vec2, cross, rotated, turned, unit};
 use crate::mechanism::pose::SidePoint;
 use crate::mechanism::{EQUATIONS, Group, Joint, JointKind, LinkPose, Mechanism, Pose};
 
@@ -46,7 +46,7 @@ pub(super) fn place(mechanism: &Mechanism, group: &Group, near: &Near, pose: &mu
             )
             .help("give places nearer to the configuration you mean, or more of them; or check the lengths"));
         }
-        farthest = farthest.max(distance);
+        farthest = farthest.larger(distance);
     }
     *pose = drawn;
     Ok(Choice { mode: AssemblyMode::Followed, nearest_m: Some(farthest), next_m: None })
@@ -56,7 +56,7 @@ pub(super) fn place(mechanism: &Mechanism, group: &Group, near: &Near, pose: &mu
 fn half_link(mechanism: &Mechanism, group: &Group, point: &str) -> f64 {
     let links = group.links.iter().map(|&link| &mechanism.links()[link]);
     let carriers = links.filter(|link| link.points.iter().any(|own| own.name == point));
-    let least = carriers.map(|link| link.size()).filter(|&size| size > 0.0).fold(f64::INFINITY, f64::min);
+    let least = carriers.map(|link| link.size()).filter(|&size| size > 0.0).fold(f64::INFINITY, f64::smaller);
     0.5 * if least.is_finite() { least } else { mechanism.size() }
 }
 
@@ -87,7 +87,7 @@ fn lay_out(mechanism: &Mechanism, group: &Group, near: &Near, pose: &mut Pose) -
 fn lay(mechanism: &Mechanism, link: usize, near: &Near, hooks: &[&Joint], pose: &Pose) -> Option<LinkPose> {
     let own = |name: &str| mechanism.links()[link].points.iter().find(|point| point.name == name);
     let rough = near.iter().filter_map(|(point, place)| Some((own(&point.name)?.local, *place)));
-    let pins = hooks.iter().filter(|joint| !joint.is_prismatic()).map(|joint| {
+    let pins = hooks.iter().filter(|joint| joint.is_pin()).map(|joint| {
         let other = joint.other(link);
         (joint.on(link).expect("the joint is on the link"), pose.0[other.link].point(other.local))
     });
@@ -221,7 +221,7 @@ impl System<'_> {
             let next_gaps = self.gaps(&next);
             if square(&next_gaps) < square(&gaps) {
                 (*pose, gaps) = (next, next_gaps);
-                damping = (damping * 0.1).max(1e-12);
+                damping = (damping * 0.1).larger(1e-12);
             } else {
                 damping *= 10.0;
             }
@@ -252,7 +252,7 @@ impl System<'_> {
             let sides = [joint.first, joint.second];
             let places = sides.map(|side| pose.0[side.link].point(side.local));
             let (distance, turn) = joint.opening(places, sides.map(|side| unit(pose.0[side.link].angle)));
-            distance.max(turn * self.size)
+            distance.larger(turn * self.size)
         };
         self.joints().all(|joint| open(joint) <= CLOSED * self.size).then_some(())
     }

@@ -18,7 +18,7 @@ mod condition;
 pub(super) use condition::{End, Lead, Pair};
 
 use crate::math::dense::Lu;
-use crate::math::{Vec2, cross, harmonic, turned, unit};
+use crate::math::{KeepNan, Vec2, cross, harmonic, turned, unit};
 use crate::mechanism::LinkPose;
 use condition::{Condition, Locus};
 
@@ -37,7 +37,7 @@ impl Conditions {
     pub(super) fn of(leads: &[Lead; 3]) -> Self {
         let (frame, base) = (leads[0].near.body.place, leads[0].far.body.place);
         let all = leads.each_ref().map(|lead| Condition::of(lead, frame, base));
-        let size = all.iter().map(Condition::size).fold(f64::MIN_POSITIVE, f64::max);
+        let size = all.iter().map(Condition::size).fold(f64::MIN_POSITIVE, f64::larger);
         Conditions { all, size, frame, base }
     }
 
@@ -101,7 +101,7 @@ impl Conditions {
             // costs little, and a candidate counts only if it fulfils all conditions.
             let (p, q) = if q1.norm() > q2.norm() { (p1, q1) } else { (p2, q2) };
             let foot = -q * (p / q.norm_squared());
-            let along = turned(q) * (((radius - foot.norm()) * (radius + foot.norm())).max(0.0).sqrt() / q.norm());
+            let along = turned(q) * (((radius - foot.norm()) * (radius + foot.norm())).larger(0.0).sqrt() / q.norm());
             for x in [met, foot + along, foot - along] {
                 self.keep(&mut found, (centre + x, beta));
             }
@@ -121,7 +121,7 @@ impl Conditions {
             [0, 1, 2].map(|k: usize| (lines[k].0, cross(lines[(k + 1) % 3].1, lines[(k + 2) % 3].1)))
         };
         let determinant = |beta: f64| minors(beta).iter().map(|(p, minor)| p * minor).sum::<f64>();
-        let terms = |beta: f64| minors(beta).iter().map(|(p, minor)| p.abs() * minor.abs().max(0.1)).sum::<f64>();
+        let terms = |beta: f64| minors(beta).iter().map(|(p, minor)| p.abs() * minor.abs().larger(0.1)).sum::<f64>();
         let mut found = Vec::new();
         for beta in harmonic::zeros(2, self.most(terms), determinant)? {
             let (lines, minors) = (lines(beta), minors(beta));
@@ -172,7 +172,7 @@ impl Conditions {
 
     /// Largest of a function of beta at a few places.
     fn most(&self, of: impl Fn(f64) -> f64) -> f64 {
-        (0..8).map(|k| of(f64::from(k) * std::f64::consts::FRAC_PI_4)).fold(0.0, f64::max)
+        (0..8).map(|k| of(f64::from(k) * std::f64::consts::FRAC_PI_4)).fold(0.0, f64::larger)
     }
 
     /// Polishes a candidate and adds it, if it fulfils the conditions and is not known yet; or, where Newton's method fails because
@@ -248,7 +248,7 @@ impl Conditions {
         // Beside a double root the first steps may lead away; at rounding no step is better than the last.
         while worse < 4 {
             let rows = self.rows(at);
-            let worst = rows.iter().map(|(_, gap)| gap.abs()).fold(0.0, f64::max);
+            let worst = rows.iter().map(|(_, gap)| gap.abs()).fold(0.0, f64::larger);
             let (mut system, mut step) = (Lu::new(3), rows.map(|(_, gap)| gap));
             for (index, (row, _)) in rows.into_iter().enumerate() {
                 row.into_iter().enumerate().for_each(|(column, value)| system.add(index, column, value));

@@ -3,7 +3,7 @@
 use super::figure::{Figure, Style, Type, solid, words};
 use super::style::{BLACK, GREY};
 use crate::diagram::scale::{factor, round_up};
-use linkage::math::Vec2;
+use linkage::math::{KeepNan, Vec2};
 
 /// Line of a grid.
 pub const GRID: Style = solid("#c8c8c8", 0.15);
@@ -24,7 +24,7 @@ impl Axis {
     /// The axis for values from `low` to `high`, at most `room` (mm) long.
     pub fn of([low, high]: [f64; 2], room: f64) -> Self {
         let step = if high > low { round_up((high - low) / 6.0) } else { 1.0 };
-        let (bottom, up) = ((low / step).floor(), (high / step).ceil().max((low / step).floor() + 1.0));
+        let (bottom, up) = ((low / step).floor(), (high / step).ceil().larger((low / step).floor() + 1.0));
         Axis { bottom, up, step, scale: factor((up - bottom) * step, room) }
     }
 

@@ -3,7 +3,7 @@
 use svg::node::Blob;
 use svg::node::element::{Circle, Group, Line, Path, Title};
 
-use linkage::math::{Vec2, turned};
+use linkage::math::{KeepNan, Vec2, turned};
 
 /// Begins a subscript, a superscript, and ends either.
 const SUB: char = '\u{1}';
@@ -225,7 +225,7 @@ fn arrow(ends: [Vec2; 2], style: &Style, name: &str) -> Group {
     let along = ends[1] - ends[0];
     let length = along.norm();
     let unit = along / length;
-    let head = HEAD.min(HEAD_SHARE * length);
+    let head = HEAD.smaller(HEAD_SHARE * length);
     let base = ends[1] - unit * head;
     let side = turned(unit) * (head * 0.3);
     let corners = [ends[1], base + side, base - side].map(|corner| format!("{} {}", mm(corner.x), mm(-corner.y)));

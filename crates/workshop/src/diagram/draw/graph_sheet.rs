@@ -5,7 +5,7 @@ use super::document::document;
 use super::figure::{Figure, Style, Type, scripted, solid, words};
 use super::style::{COLOURS, significant};
 use crate::diagram::graphs::{Graph, Graphs};
-use linkage::math::Vec2;
+use linkage::math::{KeepNan, Vec2};
 
 /// Length of the crank angle's axis (mm): over one turn two degrees a millimetre.
 const LONG: f64 = 180.0;
@@ -50,7 +50,7 @@ fn panel(graph: &Graph, [start, end]: [f64; 2]) -> Figure {
     // Roundings next to the quantity's size are zero.
     let clear = |value: f64| if value.abs() <= 1e-9 * graph.size.abs() { 0.0 } else { value };
     let mean = clear(graph.mean);
-    let [low, high] = if constant { [mean.min(0.0), mean.max(0.0)] } else { graph.range() };
+    let [low, high] = if constant { [mean.smaller(0.0), mean.larger(0.0)] } else { graph.range() };
     let room = if constant { 0.0 } else { ROOM * (high - low) };
     let axis = Axis::of([low - room, high + room], HIGH);
     let share = |crank: f64| (crank - start) / (end - start);
@@ -91,10 +91,10 @@ fn panel(graph: &Graph, [start, end]: [f64; 2]) -> Figure {
 /// Lines at round crank angles, their numbers, and what they are.
 fn angles(figure: &mut Figure, [start, end]: [f64; 2], height: f64) {
     let (from, to) = (start.to_degrees(), end.to_degrees());
-    let every = 30.0 * ((to - from).abs() / 360.0).ceil().max(1.0);
+    let every = 30.0 * ((to - from).abs() / 360.0).ceil().larger(1.0);
     // A rounding beyond an end belongs to the end.
-    let [first, last] = [(from.min(to) / every - 1e-9).ceil(), (from.max(to) / every + 1e-9).floor()];
-    for k in 0..=(last - first).max(0.0) as u32 {
+    let [first, last] = [(from.smaller(to) / every - 1e-9).ceil(), (from.larger(to) / every + 1e-9).floor()];
+    for k in 0..=(last - first).larger(0.0) as u32 {
         let degrees = (first + f64::from(k)) * every + 0.0;
         let x = LONG * (degrees - from) / (to - from);
         figure.line([Vec2::new(x, 0.0), Vec2::new(x, height)], GRID);

@@ -4,7 +4,7 @@ use super::figure::{Figure, Style, solid};
 use super::labels::{Obstacles, inside};
 use super::style::{BLACK, GREY, colour};
 use crate::diagram::scheme::{Scheme, SchemeGuide};
-use linkage::math::{Vec2, turned};
+use linkage::math::{KeepNan, Vec2, turned};
 
 /// Half length and half width (mm) of a block in a fixed guide, and on a moving one: where both sit on one pin, both are seen.
 const FIXED: [f64; 2] = [5.0, 3.2];
@@ -38,7 +38,7 @@ pub fn rails(figure: &mut Figure, scheme: &Scheme, pivots: &[[Vec2; 2]], obstacl
         let length = along(ends[1]);
         // From the point of the ground, or the rail's own ends, a little over both.
         let near = along(origin).clamp(-AXIS, length + AXIS);
-        let axis = [near.min(0.0) - 2.0, near.max(length) + 2.0].map(|way| ends[0] + guide.axis * way);
+        let axis = [near.smaller(0.0) - 2.0, near.larger(length) + 2.0].map(|way| ends[0] + guide.axis * way);
         figure.line(axis, Style { colour: GREY, width: 0.2, dash: "4 1 0.5 1" });
         obstacles.segments.push(axis);
         for side in [1.0, -1.0].map(|side| turned(guide.axis) * side) {
@@ -74,7 +74,7 @@ fn pieces(rail: [Vec2; 2], boxes: &[[Vec2; 2]]) -> Vec<[Vec2; 2]> {
 /// Feet of the hatching of a rail.
 fn feet([start, end]: [Vec2; 2]) -> impl Iterator<Item = Vec2> {
     let (length, axis) = ((end - start).norm(), (end - start).normalize());
-    let strokes = ((length - HATCH) / PITCH).floor().max(0.0) + 1.0;
+    let strokes = ((length - HATCH) / PITCH).floor().larger(0.0) + 1.0;
     let inset = (length - HATCH - PITCH * (strokes - 1.0)) / 2.0 + HATCH;
     (0..strokes as usize).map(move |k| start + axis * (inset + PITCH * k as f64))
 }
@@ -93,7 +93,7 @@ pub fn slots(figure: &mut Figure, scheme: &Scheme, obstacles: &mut Obstacles) {
         // A guide's line begins at the joint's place on its link, wherever the block is.
         let origin = guide.origin / scheme.scale;
         let way = (origin - start).dot(&guide.axis);
-        let ends = [start + guide.axis * way.min(0.0), start + guide.axis * way.max((end - start).norm())];
+        let ends = [start + guide.axis * way.smaller(0.0), start + guide.axis * way.larger((end - start).norm())];
         obstacles.segments.push(ends);
         figure.line(ends, solid(colour(guide.link), 0.9));
     }

@@ -1,6 +1,6 @@
 //! Places letters so that they touch neither lines nor each other: each takes the cheapest of the places around its anchor, in a few rounds.
 
-use linkage::math::Vec2;
+use linkage::math::{KeepNan, Vec2};
 
 /// Room that a letter keeps from lines (mm).
 const AIR: f64 = 0.5;
@@ -87,7 +87,7 @@ fn candidates(label: &Label) -> impl Iterator<Item = Vec2> + '_ {
         DISTANCES.into_iter().map(move |distance| {
             // The box touches the ray's end with the side or corner that faces the anchor.
             let half = label.size / 2.0;
-            let reach = (half.x / direction.x.abs().max(1e-9)).min(half.y / direction.y.abs().max(1e-9));
+            let reach = (half.x / direction.x.abs().larger(1e-9)).smaller(half.y / direction.y.abs().larger(1e-9));
             label.anchor + direction * (label.clear + distance + reach)
         })
     })
@@ -110,7 +110,7 @@ fn cost(index: usize, place: Vec2, labels: &[Label], places: &[Option<Vec2>], ob
     }
     for &(centre, radius) in &obstacles.discs {
         let gap = (centre - place).abs() - half;
-        let gap = Vec2::new(gap.x.max(0.0), gap.y.max(0.0)).norm();
+        let gap = Vec2::new(gap.x.larger(0.0), gap.y.larger(0.0)).norm();
         if gap < radius {
             cost += 15.0 + 4.0 * (radius - gap);
         }
@@ -119,7 +119,7 @@ fn cost(index: usize, place: Vec2, labels: &[Label], places: &[Option<Vec2>], ob
         if let Some(at) = at {
             let overlap = (label.size + other.size) / 2.0 + Vec2::new(AIR, AIR) - (place - at).abs();
             if overlap.x > 0.0 && overlap.y > 0.0 {
-                cost += 40.0 + 10.0 * overlap.x.min(overlap.y);
+                cost += 40.0 + 10.0 * overlap.x.smaller(overlap.y);
             }
             // What leads from a letter to its point must not pass through another letter.
             let crossed = length_inside(&[label.anchor, place], *at, other.size / 2.0)
@@ -152,8 +152,8 @@ pub fn inside(segment: &[Vec2; 2], centre: Vec2, half: Vec2) -> Option<[f64; 2]>
             continue;
         }
         let (a, b) = ((-half[axis] - start[axis]) / along[axis], (half[axis] - start[axis]) / along[axis]);
-        from = from.max(a.min(b));
-        to = to.min(a.max(b));
+        from = from.larger(a.smaller(b));
+        to = to.smaller(a.larger(b));
     }
     (to > from).then_some([from, to])
 }

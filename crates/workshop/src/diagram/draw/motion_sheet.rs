@@ -5,7 +5,7 @@ use super::document::document;
 use super::figure::{Figure, Style, Type, solid, sub, words};
 use super::style::{BLACK, COLOURS, significant};
 use crate::diagram::motion::{Found, Method, MotionDiagram};
-use linkage::math::Vec2;
+use linkage::math::{KeepNan, Vec2};
 
 /// Length of the crank angle's axis (mm): two degrees a millimetre.
 const LONG: f64 = 180.0;
@@ -45,7 +45,7 @@ fn panel(diagram: &MotionDiagram, which: usize) -> Figure {
     let exact = &diagram.exact[which];
     let found: Vec<&Found> = diagram.found.iter().filter(|found| found.method.gives() == which).collect();
     let values = exact.iter().chain(found.iter().flat_map(|found| &found.values));
-    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &v| (l.min(v), h.max(v)));
+    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &v| (l.smaller(v), h.larger(v)));
     let axis = Axis::of([low, high], HIGH);
     let y = |value: f64| axis.y(value);
     let rows = exact.len() - 1;

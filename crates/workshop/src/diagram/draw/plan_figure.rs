@@ -6,7 +6,7 @@ use super::style::{BLACK, GREY, colour, significant};
 use super::table::Table;
 use crate::diagram::builder::NOTHING;
 use crate::diagram::vectors::{Part, Plan, Tip, TipKind, Vector};
-use linkage::math::Vec2;
+use linkage::math::{KeepNan, Vec2};
 
 /// Size of letters (mm).
 pub const LETTER: f64 = 4.2;
@@ -85,7 +85,7 @@ pub fn label_size(text: &str) -> Vec2 {
 pub fn letter(figure: &mut Figure, label: &Label, at: Vec2, text: &str, paint: &'static str) {
     let toward = label.anchor - at;
     let half = label.size / 2.0;
-    let edge = (half.x / toward.x.abs().max(1e-9)).min(half.y / toward.y.abs().max(1e-9));
+    let edge = (half.x / toward.x.abs().larger(1e-9)).smaller(half.y / toward.y.abs().larger(1e-9));
     if toward.norm() * (1.0 - edge) > FAR + label.clear {
         let end = label.anchor - toward.normalize() * (label.clear + 0.2);
         figure.line([at + toward * edge, end], solid(GREY, 0.15));

@@ -5,7 +5,7 @@ use super::figure::{Figure, Type, scripted, sub, words};
 use super::{plan_figure, scheme_figure};
 use crate::diagram::plan::Plans;
 use crate::diagram::vectors::Plan;
-use linkage::math::Vec2;
+use linkage::math::{KeepNan, Vec2};
 
 /// Margin of the sheet, room between columns, and between a figure and its table (mm).
 const MARGIN: f64 = 10.0;
@@ -52,14 +52,14 @@ pub fn plans(plans: &Plans, name: &str, title: &str) -> String {
         let [low, high] = figure.bounds();
         let table = table.figure();
         let [table_low, table_high] = table.bounds();
-        let wide = (high.x - low.x).max(table_high.x - table_low.x).max(60.0);
+        let wide = (high.x - low.x).larger(table_high.x - table_low.x).larger(60.0);
         let inset = (wide - (high.x - low.x)) / 2.0;
         sheet.add(&figure, Vec2::new(left + inset - low.x, top - HEADING - high.y));
         sheet.add(&table, Vec2::new(left - table_low.x, top - HEADING - (high.y - low.y) - SPACE));
         left += wide + GAP;
     }
     let [low, high] = sheet.bounds();
-    document(&sheet, [(high.x.max(left - GAP) + MARGIN).ceil(), (MARGIN - low.y).ceil()], name)
+    document(&sheet, [(high.x.larger(left - GAP) + MARGIN).ceil(), (MARGIN - low.y).ceil()], name)
 }
 
 /// An angle in degrees, without digits that are rounding.

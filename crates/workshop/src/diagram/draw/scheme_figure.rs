@@ -8,7 +8,7 @@ use super::style::{BLACK, GREY, colour, significant};
 use super::table::Table;
 use crate::diagram::scheme::{Scheme, SchemeLink};
 use crate::diagram::singular::SingularPoint;
-use linkage::math::{Vec2, cross, turned, unit};
+use linkage::math::{KeepNan, Vec2, cross, turned, unit};
 
 /// Radius of a joint's mark, of the disc around a link's number, and of a mass centre's mark.
 const PIN: f64 = 1.1;
@@ -180,7 +180,7 @@ fn mass_centre(figure: &mut Figure, at: Vec2) {
 /// Convex hull, counter-clockwise; both ends of a bar (Andrew 1979).
 fn hull(mut places: Vec<Vec2>) -> Vec<Vec2> {
     places.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
-    let flat = 1e-6 * places.iter().map(Vec2::norm_squared).fold(0.0, f64::max);
+    let flat = 1e-6 * places.iter().map(Vec2::norm_squared).fold(0.0, f64::larger);
     let half = |order: &mut dyn Iterator<Item = &Vec2>| {
         let mut chain: Vec<Vec2> = Vec::new();
         for &place in order {

@@ -2,7 +2,7 @@
 
 use super::figure::{Figure, Style, Type, solid, width, words};
 use super::style::{BLACK, GREY};
-use linkage::math::Vec2;
+use linkage::math::{KeepNan, Vec2};
 
 /// Size of the type (mm) and distance of lines.
 const SIZE: f64 = 2.5;
@@ -26,7 +26,7 @@ impl Table {
         let cells = |column: usize| self.rows.iter().filter_map(move |(_, row)| row.get(column));
         let wide = |column: usize| {
             let head = width(self.head[column], SIZE);
-            cells(column).map(|text| width(text, SIZE)).fold(head, f64::max)
+            cells(column).map(|text| width(text, SIZE)).fold(head, f64::larger)
         };
         let widths: Vec<f64> = (0..self.head.len()).map(wide).collect();
         let left = |column: usize| SAMPLE + widths[..column].iter().map(|w| w + GAP).sum::<f64>();

@@ -5,7 +5,7 @@ use super::names::Names;
 use linkage::case::Case;
 use linkage::drive::Load;
 use linkage::error::{Error, ErrorKind, Result};
-use linkage::math::Vec2;
+use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{GROUND, Tree};
 use linkage::solver::State;
 
@@ -62,9 +62,9 @@ impl<'a> Model<'a> {
                 .help("export a scenario whose drives are prescribed: take `motion = \"free\"` out"));
         }
         // A rotor keeps a constant speed and no other law.
-        if let Some(drive) = case.drives().find(|drive| drive.law.constant().is_none()) {
+        if let Some(drive) = case.drives.iter().find(|drive| drive.constant_speed().is_none()) {
             let message =
-                format!("a drive with the law \"{}\" cannot be written to a model for MuJoCo", drive.law.name());
+                format!("a drive with the law \"{}\" cannot be written to a model for MuJoCo", drive.law_name());
             return Err(Error::new(ErrorKind::Unsupported, message).help("give the drive a constant speed"));
         }
         if let Some(load) = case.loads.iter().find(|load| load.resistance().is_none()) {
@@ -110,7 +110,7 @@ impl<'a> Model<'a> {
     pub fn inertial(&self, link: usize) -> (f64, f64) {
         let link = &self.case.mechanism.links()[link];
         let light = LIGHT * self.mass();
-        let radius = GYRATION * link.size().max(SHORTEST * self.size());
+        let radius = GYRATION * link.size().larger(SHORTEST * self.size());
         let own_or = |own: f64, lent: f64| if own > 0.0 { own } else { lent };
         (own_or(link.mass, light), own_or(link.inertia, light * radius * radius))
     }
@@ -153,7 +153,7 @@ impl<'a> Model<'a> {
         let mut hinges = Vec::new();
         while link != GROUND {
             let branch = self.branch_of(link).expect("every moving link is in the tree");
-            if !self.case.mechanism.joints()[self.tree.branches[branch].joint].is_prismatic() {
+            if !self.case.mechanism.joints()[self.tree.branches[branch].joint].keeps_angle() {
                 hinges.push(branch);
             }
             link = self.tree.branches[branch].parent;

@@ -7,7 +7,7 @@ use super::bodies::Freedom;
 use super::model::Model;
 use super::names::Names;
 use super::shapes::{self, Shape};
-use linkage::math::Vec2;
+use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::GROUND;
 
 /// Stiffness of every constraint: see the module.
@@ -134,7 +134,7 @@ fn view(model: &Model) -> (Vec2, f64) {
     let places: Vec<Vec2> = places.collect();
     let low = places.iter().fold(Vec2::repeat(f64::INFINITY), |low, place| low.inf(place));
     let high = places.iter().fold(Vec2::repeat(f64::NEG_INFINITY), |high, place| high.sup(place));
-    ((low + high) / 2.0, (high - low).norm().max(model.size()))
+    ((low + high) / 2.0, (high - low).norm().larger(model.size()))
 }
 
 fn world(xml: &mut Xml, model: &Model) {
@@ -186,7 +186,7 @@ fn joint(xml: &mut Xml, model: &Model, index: usize) {
         }
     }
     attributes.push(("ref", &reference));
-    if model.case.drives().any(|drive| drive.joint == branch.joint) {
+    if model.case.drives.iter().any(|drive| drive.joint == branch.joint) {
         rotor = number(model.rotor());
         attributes.push(("armature", &rotor));
         xml.comment("Drive: a rotor so heavy that its speed stays what it is at the start.");
@@ -275,7 +275,7 @@ fn sensors(xml: &mut Xml, model: &Model) {
             let joint = &model.case.mechanism.joints()[branch.joint];
             let site = Names::side(joint, branch.link);
             xml.leaf("force", &[("name", &format!("{}.force", joint.name)), ("site", &site)]);
-            if joint.is_prismatic() || model.case.drives().any(|drive| drive.joint == branch.joint) {
+            if joint.keeps_angle() || model.case.drives.iter().any(|drive| drive.joint == branch.joint) {
                 xml.leaf("torque", &[("name", &format!("{}.moment", joint.name)), ("site", &site)]);
             }
         }

@@ -13,7 +13,7 @@ pub use contour::{Closing, Node};
 
 use self::contour::{Segment, contours};
 use linkage::math::dense::Lu;
-use linkage::math::{Motion, Vec2, cross, rotated, turned};
+use linkage::math::{KeepNan, Motion, Vec2, cross, rotated, turned};
 use linkage::mechanism::{Group, Mechanism};
 
 /// Newton from the last pose needs a few iterations; more mean that it has lost the branch.
@@ -290,7 +290,7 @@ impl Chain {
                 return false;
             }
             self.jacobian.solve(&mut self.unknown);
-            let change = self.unknown.iter().fold(0.0f64, |max, turn| max.max(turn.abs()));
+            let change = self.unknown.iter().fold(0.0f64, |max, turn| max.larger(turn.abs()));
             if !(change <= allowed) {
                 return false;
             }

@@ -1,6 +1,7 @@
 use super::super::random::{Random, group, mechanism, size};
 use super::super::transmission_sine;
 use super::*;
+use crate::math::KeepNan;
 use crate::mechanism::{Joint, JointKind};
 
 const CASES: usize = 100_000;
@@ -68,11 +69,11 @@ impl Case {
                 };
                 let (a, b) = (span(3, 0), span(4, 2));
                 let c = (outer_pin(0, 3) - outer_pin(2, 4)).norm();
-                (a + b - c).min(a + c - b).min(b + c - a)
+                (a + b - c).smaller(a + c - b).smaller(b + c - a)
             }
             GroupKind::Rrp => {
                 // Squared distance of the inner joint from the outer pin as a function of the slide, a parabola by three values.
-                let (slider, outer, rod, pin) = if self.joint(0).is_prismatic() { (3, 0, 4, 2) } else { (4, 2, 3, 0) };
+                let (slider, outer, rod, pin) = if self.joint(0).slides() { (3, 0, 4, 2) } else { (4, 2, 3, 0) };
                 let mut pose = self.with_turned(self.pose.clone(), outer, slider);
                 let axis = self.axis(&pose, outer);
                 let normal = turned(axis);
@@ -87,7 +88,7 @@ impl Case {
                 let (a, b) = ((before + after) / 2.0 - here, (after - before) / 2.0);
                 let least = here - b * b / (4.0 * a);
                 let rod = self.joint(1).on(rod).unwrap() - self.joint(pin).on(rod).unwrap();
-                rod.norm() - least.max(0.0).sqrt()
+                rod.norm() - least.larger(0.0).sqrt()
             }
             GroupKind::Rpr => {
                 // Distance from the line as a function of the common angle: a harmonic plus a constant, by three values.
@@ -119,7 +120,7 @@ impl Case {
             GroupKind::Rrr if cross(c - a, inner - a) > 0.0 => AssemblyMode::Left,
             GroupKind::Rrr => AssemblyMode::Right,
             GroupKind::Rrp => {
-                let (guide, pin) = if self.joint(0).is_prismatic() { (0, c) } else { (2, a) };
+                let (guide, pin) = if self.joint(0).slides() { (0, c) } else { (2, a) };
                 ahead(self.axis(pose, guide).dot(&(inner - pin)) > 0.0)
             }
             GroupKind::Rpr => {
@@ -165,7 +166,7 @@ fn random_dyads_of_every_kind() {
                 // Two axes that are nearly parallel cross far away: the size is that of the assembled dyad.
                 let size = size(&case.mechanism, pose);
                 let sine = transmission_sine(&case.mechanism, &case.group, pose).unwrap();
-                worst = worst.max(pose.closure(&case.mechanism) / size);
+                worst = worst.larger(pose.closure(&case.mechanism) / size);
                 // On the dead point the two modes are one.
                 if sine.abs() > 1e-12 {
                     assert_eq!(case.mode(pose), one.mode, "{kind:?} {sine}");
@@ -196,7 +197,7 @@ fn parallel_axes_are_refused() {
         for _ in 0..1000 {
             let mut case = case(&mut random, kind);
             let (Some(joint), Some(other)) = (0..3)
-                .filter(|&k| case.joint(k).is_prismatic())
+                .filter(|&k| case.joint(k).slides())
                 .fold((None, None), |(first, _), k| if first.is_none() { (Some(k), None) } else { (first, Some(k)) })
             else {
                 panic!("two prismatic joints");
@@ -212,7 +213,7 @@ fn parallel_axes_are_refused() {
                     let off = guide(joint, 3) - guide(other, 4) + angle;
                     case.pose.0[2].angle += off;
                 } else {
-                    let slider = if case.joint(0).is_prismatic() { 3 } else { 4 };
+                    let slider = if case.joint(0).slides() { 3 } else { 4 };
                     let (outer, inner) = if slider == 3 { (0, 1) } else { (2, 1) };
                     let along = case.joint(outer).axis_on(slider).unwrap();
                     let mut joints = case.mechanism.joints().to_vec();

@@ -1,8 +1,11 @@
+mod scan;
+
 use super::super::random::{Random, group, mechanism, size};
-use super::super::scan::{Scan, scanned};
 use super::*;
 use crate::fixtures::class_four;
+use crate::math::KeepNan;
 use crate::mechanism::{GROUND, GroupKind, Structure};
+use scan::{Scan, scanned};
 
 /// Pairs of the three leads with frame and base: whether each slides.
 type Pairs = [[bool; 2]; 3];
@@ -69,7 +72,7 @@ fn compare(random: &mut Random, pairs: Pairs, triad: bool, cases: usize, tally: 
         });
         for one in &all {
             let pose = posed(&case, one);
-            tally.closure = tally.closure.max(pose.closure(&case.mechanism) / size(&case.mechanism, &pose));
+            tally.closure = tally.closure.larger(pose.closure(&case.mechanism) / size(&case.mechanism, &pose));
         }
         let leads = layout.leads.map(|(_, lead)| lead);
         let scan = scanned(&leads);

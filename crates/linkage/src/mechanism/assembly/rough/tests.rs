@@ -1,5 +1,6 @@
 use super::super::random::{Random, group, mechanism, size};
 use super::*;
+use crate::math::KeepNan;
 use crate::mechanism::{GroupKind, Side};
 
 /// Two base links 6 and 5, pinned to each other, each on two leads: a group of six links and nine joints that hold in the pose.
@@ -79,7 +80,7 @@ fn a_rough_drawing_finds_its_configuration() {
                     choice,
                     Choice {
                         mode: AssemblyMode::Followed,
-                        nearest_m: Some(farthest.fold(0.0, f64::max)),
+                        nearest_m: Some(farthest.fold(0.0, f64::larger)),
                         next_m: None
                     }
                 );

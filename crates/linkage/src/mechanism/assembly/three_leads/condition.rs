@@ -2,7 +2,7 @@
 
 use super::super::dyads::turn;
 use crate::math::angle::wrapped;
-use crate::math::{Vec2, cross, rotated, turned, unit};
+use crate::math::{KeepNan, Vec2, cross, rotated, turned, unit};
 use crate::mechanism::LinkPose;
 
 /// One side of a pair: its place and, if it slides, its axis in the body's frame.
@@ -108,9 +108,9 @@ impl Condition {
     /// Largest length in it (m).
     pub fn size(&self) -> f64 {
         match *self {
-            Condition::Circle { a, w, length } => a.norm().max(w.norm()).max(length),
-            Condition::FrameLine { a, w, height, .. } => a.norm().max(w.norm()).max(height.abs()),
-            Condition::BaseLine { a, height, .. } => a.norm().max(height.abs()),
+            Condition::Circle { a, w, length } => a.norm().larger(w.norm()).larger(length),
+            Condition::FrameLine { a, w, height, .. } => a.norm().larger(w.norm()).larger(height.abs()),
+            Condition::BaseLine { a, height, .. } => a.norm().larger(height.abs()),
             Condition::Angle(_) => 0.0,
         }
     }

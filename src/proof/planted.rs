@@ -1,0 +1,286 @@
+//! Faults planted in solvers: for every check the smallest that it must find, and one below its bound that it must pass.
+
+use std::path::Path;
+
+use super::observe::{Observed, observe};
+use super::{checks, engines, methods, oracle};
+use crate::compare::{Check, magnitudes};
+use crate::proof::{EngineProof, Options, prove};
+use crate::scenario::Scenario;
+use analytic::witness::triad::Triad;
+use analytic::{AssurSolver, NewtonSolver};
+use linkage::case::{Case, Wanted};
+use linkage::engine::{Engine, Route, Settings};
+use linkage::error::Result;
+use linkage::mechanism::GROUND;
+use linkage::solver::{Progress, Provision, Solver, State, Visit};
+use linkage::trajectory::{Channel, ChannelKind};
+use rapier_twin::Rapier;
+
+/// What a fault of a size does to every state.
+type Fault = fn(&mut State, f64);
+
+fn text(name: &str) -> String {
+    std::fs::read_to_string(path(name)).unwrap()
+}
+
+fn path(name: &str) -> std::path::PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios").join(format!("{name}.toml"))
+}
+
+fn parsed(name: &str, text: &str) -> Scenario {
+    Scenario::parse(text, &path(name)).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// A solver, or an engine, whose states are all wrong by as much.
+struct Planted<S: ?Sized> {
+    fault: Fault,
+    size: f64,
+    inner: Box<S>,
+}
+
+impl<S: Solver + ?Sized> Solver for Planted<S> {
+    fn name(&self) -> &'static str {
+        self.inner.name()
+    }
+
+    fn provides(&self, channel: &Channel) -> Provision {
+        self.inner.provides(channel)
+    }
+
+    fn sweep(&self, case: &Case, visit: Visit, progress: Progress) -> Result<()> {
+        let mut wrong = |row: usize, state: &State| {
+            let mut state = state.clone();
+            (self.fault)(&mut state, self.size);
+            visit(row, &state)
+        };
+        self.inner.sweep(case, &mut wrong, progress)
+    }
+}
+
+impl Engine for Planted<dyn Engine> {
+    fn version(&self) -> String {
+        self.inner.version()
+    }
+
+    fn settings(&self) -> Settings {
+        self.inner.settings()
+    }
+
+    fn with(&self, settings: Settings) -> Box<dyn Engine> {
+        Box::new(Planted { fault: self.fault, size: self.size, inner: self.inner.with(settings) })
+    }
+
+    fn routes(&self) -> &'static [Route] {
+        self.inner.routes()
+    }
+
+    fn formal_order(&self, case: &Case, channel: &ChannelKind) -> f64 {
+        self.inner.formal_order(case, channel)
+    }
+
+    fn noise(&self, case: &Case, channel: &ChannelKind) -> f64 {
+        self.inner.noise(case, channel)
+    }
+
+    fn is_noise_measured(&self) -> bool {
+        self.inner.is_noise_measured()
+    }
+
+    fn told(&self) -> Vec<(&'static str, String)> {
+        self.inner.told()
+    }
+}
+
+fn seen(case: &Case, solver: &dyn Solver) -> Observed {
+    observe(case, solver, &mut |_| {}).unwrap_or_else(|stopped| panic!("{}", stopped.error))
+}
+
+fn assur(fault: Fault, size: f64) -> Planted<dyn Solver> {
+    Planted { fault, size, inner: Box::new(AssurSolver) }
+}
+
+/// The check whose name begins so.
+fn named<'a>(checks: &'a [Check], name: &str) -> &'a Check {
+    let names: Vec<String> = checks.iter().map(Check::name).collect();
+    checks.iter().find(|check| check.name().starts_with(name)).unwrap_or_else(|| panic!("{name}: {names:?}"))
+}
+
+fn nothing(_: &mut State, _: f64) {}
+
+#[test]
+fn every_check_of_the_two_sides_finds_three_times_its_bound_and_passes_a_fifth() {
+    let case = parsed("crank_rocker", &text("crank_rocker")).case;
+    let [truth, other] = [seen(&case, &AssurSolver), seen(&case, &NewtonSolver)];
+    let largest = |name: &str| {
+        let place = truth.trajectory.channels().iter().position(|channel| channel.to_string() == name).unwrap();
+        magnitudes(&truth.trajectory)[place]
+    };
+    let moved: Fault = |state, size| state.motions[3].origin.x += size;
+    let force: Fault = |state, size| state.forces[0].x += size;
+    let torque: Fault = |state, size| state.torques[0] += size;
+    let planted: [(&str, Fault, f64); 8] = [
+        ("closure of all joints (assur)", moved, 1e-13 * case.mechanism.size()),
+        (
+            "assur against newton, positions",
+            |state, size| state.angles[2] += size,
+            1e-12 * largest("link.coupler.angle_rad"),
+        ),
+        (
+            "assur against newton, velocities",
+            |state, size| state.motions[2].omega += size,
+            1e-11 * largest("link.coupler.omega_rad_s"),
+        ),
+        (
+            "assur against newton, accelerations",
+            |state, size| state.motions[2].alpha += size,
+            1e-11 * largest("link.coupler.alpha_rad_s2"),
+        ),
+        ("assur against newton, reactions", force, 1e-10 * largest("joint.O.fx_N")),
+        ("assur against newton, balancing_moment", torque, 1e-10 * largest("drive.torque_N_m")),
+        ("balancing moment from equilibrium and from powers (assur)", torque, 1e-11 * truth.moment),
+        // Where a force of the frame's joint is off, the shaking force is off by as much.
+        ("shaking force and moment from reactions and from momentum (assur)", force, 1e-11 * largest("joint.O.fx_N")),
+    ];
+    for (name, fault, bound) in planted {
+        for (share, word) in [(3.0, "disagree"), (0.2, "agree")] {
+            let sides = [("assur", seen(&case, &assur(fault, share * bound))), ("newton", other.clone())];
+            let found = checks::of_sides(&case, &sides);
+            let check = named(&found, name);
+            assert_eq!(check.verdict.word(), word, "{name} at {share}: {:e} of {:e}", check.value, check.bound);
+        }
+    }
+}
+
+/// Numbers that are none, on the way from what was watched to the bound.
+#[test]
+fn what_is_not_a_number_at_one_instant_disagrees() {
+    let case = parsed("crank_rocker", &text("crank_rocker")).case;
+    let [truth, other] = [seen(&case, &AssurSolver), seen(&case, &NewtonSolver)];
+    type Spoil = fn(&mut Observed);
+    let spoiled: [(&str, Spoil); 5] = [
+        ("closure of all joints (assur)", |side| side.opening[7] = f64::NAN),
+        ("closure of all joints (assur)", |side| side.reach = f64::NAN),
+        ("balancing moment from equilibrium and from powers (assur)", |side| side.power[7] = f64::NAN),
+        ("balancing moment from equilibrium and from powers (assur)", |side| side.moment = f64::NAN),
+        ("shaking force and moment from reactions and from momentum (assur)", |side| side.unbalance = Some(f64::NAN)),
+    ];
+    for (name, spoil) in spoiled {
+        let mut side = truth.clone();
+        spoil(&mut side);
+        let found = checks::of_sides(&case, &[("assur", side), ("newton", other.clone())]);
+        assert_eq!(named(&found, name).verdict.word(), "disagree", "{name}");
+    }
+    // Where no channel has it, it reaches the closure.
+    let second: Fault = |state, _| state.motions[3].origin.y = f64::NAN;
+    let positions = case.wanting(Wanted::of(&[]));
+    assert!(seen(&positions, &assur(second, 0.0)).closure().is_nan());
+}
+
+#[test]
+fn every_class_three_method_finds_a_wrong_group_and_stands_in_the_proof() {
+    let scenario = parsed("class3_group", &text("class3_group"));
+    let case = &scenario.case;
+    let all = [
+        "class III by Cramer's rule",
+        "class III by class change",
+        "class III reactions by the singular Assur point",
+        "class III reactions by the group's linear system",
+    ];
+    let right = methods::checks(case, &AssurSolver).unwrap();
+    assert_eq!(right.len(), all.len());
+    assert!(right.iter().all(|check| check.verdict.word() == "agree"), "{right:?}");
+    // Rates and forces of one link, or joint, of the group by 1e-9 of themselves: ten times the bound where it is largest.
+    let [first, ..] = Triad::all(case)[0].links();
+    assert_ne!(first, GROUND);
+    let rates: Fault = |state, size| state.motions.iter_mut().skip(2).for_each(|motion| motion.omega *= 1.0 + size);
+    let forces: Fault = |state, size| state.forces.iter_mut().for_each(|force| *force *= 1.0 + size);
+    for (fault, wrong) in [(rates, &all[..2]), (forces, &all[2..])] {
+        for (size, word) in [(1e-9, "disagree"), (1e-12, "agree")] {
+            let found = methods::checks(case, &assur(fault, size)).unwrap();
+            for name in wrong {
+                let check = named(&found, name);
+                assert_eq!(check.verdict.word(), word, "{name} at {size:e}: {:e}", check.value);
+            }
+        }
+    }
+    let proof = prove(&scenario, &Options::default(), &mut |_| {}).unwrap();
+    for name in all {
+        let own = named(&proof.checks, name);
+        let direct = named(&right, name);
+        assert_eq!((own.value, own.bound), (direct.value, direct.bound), "{name}");
+    }
+}
+
+fn engine_proof(scenario: &Scenario, fault: Fault, size: f64) -> EngineProof {
+    let reference = AssurSolver.solve(&scenario.case, &mut |_| {}).unwrap();
+    let rapier = Rapier::all(scenario.dt).into_iter().next().unwrap();
+    let inner = Box::new(rapier) as Box<dyn Engine>;
+    let engine: Planted<dyn Engine> = Planted { fault, size, inner };
+    engines::prove(scenario, &scenario.case, &engine, &reference, &mut |_| {}).unwrap()
+}
+
+/// An opening that does not vanish with the step, and a moment that its powers do not bear out: both far below 1 % of the size.
+#[test]
+fn the_engine_s_own_checks_find_what_does_not_vanish_with_the_step() {
+    let scenario = parsed("crank_rocker", &text("crank_rocker"));
+    let true_one = engine_proof(&scenario, nothing, 0.0);
+    assert_eq!(true_one.verdict.word(), "agree");
+    let [closure, powers] =
+        ["closure of all joints", "driving moment"].map(|name| named(&true_one.checks, name).clone());
+    // Its own runs bound the opening at a quarter more than it is.
+    assert!(closure.bound <= 1.3 * closure.value && closure.bound < 2e-5, "{closure:?}");
+    assert!(powers.bound < 1e-9, "{powers:?}");
+    let moved: Fault = |state, size| state.motions[3].origin.x += size;
+    let torque: Fault = |state, size| state.torques[0] += size;
+    let size = scenario.case.mechanism.size();
+    let moment = seen(&scenario.case, &AssurSolver).moment;
+    let planted = [
+        ("closure of all joints", moved, 2.0 * closure.bound * size),
+        ("driving moment", torque, 2.0 * powers.bound * moment),
+    ];
+    for (name, fault, amount) in planted {
+        let wrong = engine_proof(&scenario, fault, amount);
+        let check = named(&wrong.checks, name);
+        assert_eq!(check.verdict.word(), "disagree", "{name}: {:e} of {:e}", check.value, check.bound);
+        let little = engine_proof(&scenario, fault, amount / 100.0);
+        assert_eq!(named(&little.checks, name).verdict.word(), "agree", "{name}");
+    }
+}
+
+/// What is recorded as error is the engine less the reference: a fault that adds is an error above zero.
+#[test]
+fn errors_of_an_engine_have_the_sign_of_its_fault() {
+    let scenario = parsed("crank_rocker", &text("crank_rocker"));
+    let far: Fault = |state, size| state.torques[0] += size;
+    let proof = engine_proof(&scenario, far, 100.0);
+    let torque = Channel::named("drive.torque_N_m").unwrap();
+    let errors = proof.errors.unwrap();
+    assert!(errors.column(&torque).unwrap().iter().all(|error| (error - 100.0).abs() < 1.0));
+}
+
+/// Every figure, moved by a unit of its last digit.
+#[test]
+fn an_oracle_finds_a_unit_of_its_last_digit() {
+    let name = "crank_rocker";
+    let oracle_checks = |text: &str| oracle::checks(&parsed(name, text)).unwrap();
+    assert!(oracle_checks(&text(name)).iter().all(|check| ["agree", "expected"].contains(&check.verdict.word())));
+    let moved = [
+        ("value = 50, digits = 9", "value = 50.000000001, digits = 9", "link.rocker.angle_deg"),
+        ("value = 0.164846", "value = 0.164847", "reduced_inertia_mean_kg_m2"),
+        ("value = 17.7778", "value = 17.7779", "reduced_resistance_mean_N_m"),
+        ("value = 14.33204, digits = 5 },", "value = 14.33205, digits = 5 },", "steady_crank_speed_rad_s"),
+        ("value = 302.6266, digits = 4 },", "value = 302.6267, digits = 4 },", "steady_motor_speed_rad_s"),
+        ("value = 0.25, digits = 2", "value = 0.26, digits = 2", "distance_m of C B"),
+        ("value = 0.025995627740", "value = 0.025995627741", "distance_m of O A"),
+        ("value = 0.347071931892", "value = 0.347071931893", "distance_m of A B"),
+    ];
+    for (from, to, figure) in moved {
+        let wrong = text(name).replacen(from, to, 1);
+        assert_ne!(wrong, text(name), "{from}");
+        let found = oracle_checks(&wrong);
+        let missed: Vec<&Check> =
+            found.iter().filter(|check| check.detail == figure && check.verdict.word() == "disagree").collect();
+        assert_eq!(missed.len(), 2, "{figure}, on both sides");
+    }
+}
