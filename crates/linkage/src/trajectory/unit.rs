@@ -3,7 +3,7 @@
 use std::fmt;
 
 /// SI unit of a channel. Whoever asks what a quantity is measured in matches on it, so that a new unit is a compile error there.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Unit {
     /// Angles (rad).
     Radian,
