@@ -33,7 +33,7 @@ fn seconds(run: impl FnOnce()) -> f64 {
 fn bare(engine: &Rapier, build: Build, case: &Case, steps: usize) {
     let tree = if build == Build::Impulse { Tree::none(&case.mechanism) } else { Tree::of(&case.mechanism) };
     let mut world = engine.world(case, tree, false).expect("Rapier takes the mechanism");
-    for (index, drive) in case.drives().enumerate() {
+    for (index, drive) in case.drives.iter().enumerate() {
         world.set_drive(index, drive.at(0.0).omega);
     }
     for _ in 0..steps {
@@ -66,11 +66,10 @@ fn main() {
                 let engine = engine.set(Settings { sweeps, ..engine.settings() });
                 let last = STEPS as f64 * step;
                 // Ten steps come before the start and after the end: the same work for both.
-                let none = base.on(Grid::of_times(&base.drive, vec![last]));
-                let none = Case { wanted: Wanted::of(&[]), ..none };
+                let none = base.on(Grid::of_times(base.crank(), vec![last])).unwrap().wanting(Wanted::of(&[]));
                 let all = |every: usize| {
                     let times = (0..=STEPS / every).map(|k| every as f64 * step * k as f64).collect();
-                    Case { wanted: Wanted::ALL, ..base.on(Grid::of_times(&base.drive, times)) }
+                    base.on(Grid::of_times(base.crank(), times)).unwrap().wanting(Wanted::ALL)
                 };
                 let (tenth, each) = (all(10), all(1));
                 let mut best = [f64::INFINITY; 4];

@@ -57,7 +57,7 @@ fn by_hand(scenario: &Scenario) -> FourBar {
 
 /// The two must compute the same, or the ratio means nothing.
 fn check(scenario: &Scenario, hand: &FourBar) {
-    let omega = scenario.case.drive.at(0.0).omega;
+    let omega = scenario.case.crank().at(0.0).omega;
     let mut poses = PoseSolver::new(&scenario.case).unwrap();
     for k in 0..POSES {
         let state = poses.solve(angle(k), omega, 0.0, Stage::BalancingMoment).unwrap();
@@ -73,7 +73,7 @@ fn main() {
     let crank_rocker = scenario("crank_rocker");
     let hand = by_hand(&crank_rocker);
     check(&crank_rocker, &hand);
-    let omega = crank_rocker.case.drive.at(0.0).omega;
+    let omega = crank_rocker.case.crank().at(0.0).omega;
     let measure = shortest(|| {
         for k in 0..POSES {
             black_box(hand.solve(black_box(angle(k)), omega));
@@ -88,7 +88,7 @@ fn main() {
     println!("{:20} {:>10} {:>10} {:>10}", "scenario", "all", "positions", "batch");
     for name in ["crank_rocker", "ov7_base", "ov7_new", "fourth_class"] {
         let scenario = scenario(name);
-        let drive = scenario.case.drive.clone();
+        let drive = scenario.case.crank().clone();
         let omega = drive.at(0.0).omega;
         let time = |deepest: Stage| {
             let mut poses = PoseSolver::new(&scenario.case).unwrap();

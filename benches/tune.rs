@@ -59,7 +59,7 @@ impl Clock<'_> {
         let row = (Settings { resolution: 0.0, ..own }, engine.name());
         if self.row != Some(row) {
             self.row = Some(row);
-            let degree = 1f64.to_radians() / self.case.drive.at(0.0).omega.abs();
+            let degree = 1f64.to_radians() / self.case.crank().at(0.0).omega.abs();
             let [coarse, fine] = [2.0 * degree, degree];
             let [a, b] = [coarse, fine].map(|step| seconds(engine.at(step).as_ref(), self.case, 2));
             let slope = (b - a) / (1.0 / fine - 1.0 / coarse);
@@ -73,7 +73,7 @@ impl Clock<'_> {
 
 fn told(engine: &dyn Engine, case: &Case) -> String {
     let settings = engine.settings();
-    let degrees = (settings.resolution * case.drive.at(0.0).omega.abs()).to_degrees();
+    let degrees = (settings.resolution * case.crank().at(0.0).omega.abs()).to_degrees();
     format!(
         "{} {} {degrees:.3} deg, {} sweeps, {} substeps{}",
         engine.name(),
@@ -138,10 +138,10 @@ fn prices() {
     let base = scenario("crank_rocker").case;
     let (steps, step) = (1000, 1e-3);
     let last = steps as f64 * step;
-    let quiet = Case { wanted: Wanted::of(&[Stage::Positions]), ..base.on(Grid::of_times(&base.drive, vec![last])) };
-    let one = Case { wanted: Wanted::ALL, ..quiet.clone() };
+    let quiet = base.on(Grid::of_times(base.crank(), vec![last])).unwrap().wanting(Wanted::of(&[Stage::Positions]));
+    let one = quiet.wanting(Wanted::ALL);
     let times = (1..=steps).map(|k| k as f64 * step).collect();
-    let all = Case { wanted: Wanted::ALL, ..base.on(Grid::of_times(&base.drive, times)) };
+    let all = base.on(Grid::of_times(base.crank(), times)).unwrap().wanting(Wanted::ALL);
     let mut unit = f64::NAN;
     for engine in linkproof::engines::all(step).into_iter().filter(|engine| !engine.controls_error()) {
         let set = |sweeps, substeps, route| engine.with(Settings { sweeps, substeps, route, ..engine.settings() });

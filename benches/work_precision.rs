@@ -62,7 +62,7 @@ fn main() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios").join(format!("{name}.toml"));
     let scenario = Scenario::load(&path).unwrap_or_else(|error| panic!("{error}"));
     let reference = AssurSolver.solve(&scenario.case, &mut |_| {}).unwrap_or_else(|error| panic!("{error}"));
-    let omega = scenario.case.drive.at(0.0).omega.abs();
+    let omega = scenario.case.crank().at(0.0).omega.abs();
     let mut rows = Vec::new();
     for engine in linkproof::engines::all(scenario.dt) {
         let resolutions: Vec<(f64, String)> = match engine.controls_error() {

@@ -31,9 +31,9 @@ fn main() {
     let at = |k: usize, default: &str| arguments.get(k).cloned().unwrap_or_else(|| default.into());
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios").join(format!("{}.toml", at(0, "crank_rocker")));
     let scenario = Scenario::load(&path).unwrap_or_else(|error| panic!("{error}"));
-    let case = &Case { wanted: Wanted::ALL, ..scenario.case.clone() };
+    let case = &scenario.case.wanting(Wanted::ALL);
     let degrees: f64 = at(1, "0.08").parse().expect("a step in degrees");
-    let step = degrees.to_radians() / case.drive.at(0.0).omega.abs();
+    let step = degrees.to_radians() / case.crank().at(0.0).omega.abs();
     let (truth, _) = solve(&AssurSolver, case).expect("the reference solves its own scenarios");
     println!("{} at {degrees} deg = {step:e} s a step", scenario.name);
     println!(

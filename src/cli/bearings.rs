@@ -8,6 +8,7 @@ use serde_json::json;
 use super::output;
 use crate::report::table;
 use crate::scenario::Scenario;
+use analytic::range::explained;
 use linkage::error::{Error, ErrorKind, Result};
 use workshop::bearings::{self, Peak, Peaks, journal_diameter};
 
@@ -43,7 +44,7 @@ pub(super) fn bearings(args: &Args) -> Result<()> {
         }
     }
     let scenario = Scenario::load(&args.file)?.nominal();
-    let peaks = bearings::over_range(&scenario.case)?;
+    let peaks = bearings::over_range(&scenario.case).map_err(|error| explained(&scenario.case, error))?;
     match &args.json {
         Some(to) => output::write(&format!("{}\n", as_json(args, &scenario, &peaks)), to),
         None => output::print(&as_text(args, &scenario, &peaks)),
@@ -81,11 +82,10 @@ fn as_text(args: &Args, scenario: &Scenario, peaks: &Peaks) -> String {
 fn as_json(args: &Args, scenario: &Scenario, peaks: &Peaks) -> String {
     let whole = |peak: Peak, unit: &str| json!({unit: peak.value, "crank_rad": peak.crank});
     let joints = scenario.case.mechanism.joints().iter().enumerate().map(|(index, joint)| {
-        let slides = joint.is_prismatic();
         json!({
             "joint": joint.name, "reaction": whole(peaks.reactions[index], "N"),
             "moment": peaks.moments[index].map(|moment| whole(moment, "N_m")),
-            "smallest_journal_m": (!slides).then(|| diameter(args, peaks.reactions[index])),
+            "smallest_journal_m": joint.is_pin().then(|| diameter(args, peaks.reactions[index])),
         })
     });
     let value = json!({

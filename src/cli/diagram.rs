@@ -9,6 +9,7 @@ use serde_json::{Value, json};
 use super::load::reference_names;
 use super::output;
 use crate::scenario::Scenario;
+use analytic::range::explained;
 use linkage::error::Result;
 use workshop::diagram::draw::{self, significant};
 use workshop::diagram::{Course, MotionDiagram};
@@ -52,7 +53,8 @@ pub(super) fn diagram(args: &Args) -> Result<()> {
     let scenario = Scenario::load(&args.file)?.nominal();
     let solver = analytic::named(&args.with).expect("the argument parser knows all names");
     let course = Course::named(&scenario.case, &args.channel)?;
-    let diagram = MotionDiagram::of(&scenario.case, solver, &course, args.divisions)?;
+    let diagram = MotionDiagram::of(&scenario.case, solver, &course, args.divisions)
+        .map_err(|error| explained(&scenario.case, error))?;
     if let Some(to) = &args.svg {
         return output::write(&draw::motion(&diagram, &scenario.name), to);
     }

@@ -12,6 +12,7 @@ use super::{drive_graphs, drive_run_up};
 use crate::report::table;
 use crate::scenario::Scenario;
 use analytic::AssurSolver;
+use analytic::range::explained;
 use analytic::reduced::means::{self as reduced, Means};
 use analytic::reduced::{ACCURACY, Model, RunUp};
 use analytic::steady::course::{Extremes, Row};
@@ -95,8 +96,12 @@ struct Found {
 pub(super) fn drive(args: &Args) -> Result<()> {
     check(args)?;
     let scenario = load(&args.file, &args.mode)?.nominal();
+    driven(args, &scenario).map_err(|error| explained(&scenario.case, error))
+}
+
+fn driven(args: &Args, scenario: &Scenario) -> Result<()> {
     if let Some(file) = &args.choice.catalogue {
-        return motor_choice::choose(&args.choice, file, &scenario, args.json.as_deref());
+        return motor_choice::choose(&args.choice, file, scenario, args.json.as_deref());
     }
     let model = Model::of(&scenario.case)?;
     let targets = [&args.run_up, &args.json, &args.svg];
@@ -111,15 +116,15 @@ pub(super) fn drive(args: &Args) -> Result<()> {
             output::print(&drive_run_up::told(&run_up))?;
         }
     }
-    let found = find(args, &scenario, &model)?;
+    let found = find(args, scenario, &model)?;
     if let Some(to) = &args.svg {
         let steady = found.steady.as_ref().map(|(_, regime)| regime);
-        output::write(&drive_graphs::draw(&scenario, &model, &found.means, &found.extremes, steady)?, to)?;
+        output::write(&drive_graphs::draw(scenario, &model, &found.means, &found.extremes, steady)?, to)?;
     }
     match &args.json {
-        Some(to) => output::write(&format!("{}\n", as_json(args, &scenario, &found)), to),
+        Some(to) => output::write(&format!("{}\n", as_json(args, scenario, &found)), to),
         None if told_there => Ok(()),
-        None => output::print(&as_text(args, &scenario, &found)),
+        None => output::print(&as_text(args, scenario, &found)),
     }
 }
 
@@ -150,22 +155,22 @@ fn check(args: &Args) -> Result<()> {
 fn find(args: &Args, scenario: &Scenario, model: &Model) -> Result<Found> {
     let case = &scenario.case;
     let means = reduced::means_over_turn(case, &AssurSolver)?;
-    let sense = case.drive.sense();
+    let sense = case.crank().sense();
     let period = model.kinks().period.unwrap_or(std::f64::consts::TAU).to_degrees();
     let count = (period / args.step_deg + 1e-9).floor() as usize;
     let cranks: Vec<f64> =
-        (0..=count).map(|k| case.drive.start + sense * (args.step_deg * k as f64).to_radians()).collect();
+        (0..=count).map(|k| case.crank().start + sense * (args.step_deg * k as f64).to_radians()).collect();
     let resistance = sense * means.resistance;
     let inertia = means.inertia + model.added_inertia();
-    let averaged = case.motor.as_ref().and_then(|motor| Averaged::of(motor, inertia, resistance));
-    let steady = match &case.motor {
+    let averaged = case.crank().motor().and_then(|motor| Averaged::of(motor, inertia, resistance));
+    let steady = match case.crank().motor() {
         None => None,
         Some(motor) => {
             let Some(speed) = motor.steady_speed(resistance) else { return Err(reduced::no_steady_speed(resistance)) };
             Some(([sense * speed, sense * speed * motor.ratio], model.regime(&cranks, ACCURACY)?))
         }
     };
-    let flywheel = args.non_uniformity.map(|wanted| Flywheel::of(&model, wanted, ACCURACY)).transpose()?;
+    let flywheel = args.non_uniformity.map(|wanted| Flywheel::of(model, wanted, ACCURACY)).transpose()?;
     let (extremes, rows) = (model.extremes()?, model.rows(&cranks)?);
     Ok(Found { means, extremes, added: model.added_inertia(), rows, steady, averaged, flywheel })
 }
@@ -174,7 +179,7 @@ fn as_text(args: &Args, scenario: &Scenario, found: &Found) -> String {
     let mut text = String::new();
     let _ = writeln!(text, "{}: {}\n", scenario.name, scenario.title);
     let names = [("reduced moment of inertia", "kg m^2"), ("reduced moment of resistance", "N m")];
-    let means = [found.means.inertia, found.means.resistance * scenario.case.drive.sense()];
+    let means = [found.means.inertia, found.means.resistance * scenario.case.crank().sense()];
     for (((name, unit), mean), extremes) in names.into_iter().zip(means).zip(&found.extremes) {
         let end = |(crank, value): (f64, f64)| format!("{value:.9} {unit} at {:.4} deg", crank.to_degrees());
         let _ = writeln!(text, "{name}\n  mean      {mean:.9} {unit}");
@@ -235,7 +240,7 @@ fn by_angle(found: &Found) -> String {
 }
 
 fn as_json(args: &Args, scenario: &Scenario, found: &Found) -> String {
-    let sense = scenario.case.drive.sense();
+    let sense = scenario.case.crank().sense();
     let extremes = |extremes: &Extremes, mean: f64| {
         let end = |(crank, value): (f64, f64)| json!({"crank_rad": crank, "value": value});
         json!({"mean": mean, "least": end(extremes.least), "greatest": end(extremes.greatest)})

@@ -21,7 +21,7 @@ pub(super) fn draw(
     steady: Option<&Regime>,
 ) -> Result<String> {
     let case = &scenario.case;
-    let (start, sense) = (case.drive.start, case.drive.sense());
+    let (start, sense) = (case.crank().start, case.crank().sense());
     let period = model.kinks().period.unwrap_or(std::f64::consts::TAU);
     let even: Vec<f64> = (0..=PARTS).map(|k| start + sense * period * (f64::from(k) / f64::from(PARTS))).collect();
     let kinks = model.kinks().cranks.iter().map(|kink| start + sense * (sense * (kink - start)).rem_euclid(period));

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use super::load::load;
 use super::output;
 use analytic::AssurSolver;
+use analytic::range::explained;
 use linkage::error::Result;
 use workshop::export::mjcf;
 
@@ -37,7 +38,8 @@ pub(super) struct Args {
 
 pub(super) fn export(args: &Args) -> Result<()> {
     let scenario = load(&args.file, &args.mode)?;
-    let text = mjcf::mjcf(&scenario.case, &AssurSolver, &scenario.name, args.dt.unwrap_or(scenario.dt))?;
+    let (case, dt) = (&scenario.case, args.dt.unwrap_or(scenario.dt));
+    let text = mjcf::mjcf(case, &AssurSolver, &scenario.name, dt).map_err(|error| explained(case, error))?;
     match args.mjcf.as_ref().and_then(Option::as_ref) {
         Some(to) => output::write(&text, to),
         None => {

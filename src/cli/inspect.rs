@@ -7,6 +7,7 @@ use serde_json::{Value, json};
 
 use super::{modes, output, range};
 use crate::scenario::Scenario;
+use analytic::range::explained;
 use linkage::case::Grid;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::mechanism::assembly::{Choice, transmission_sine};
@@ -44,11 +45,11 @@ pub(super) fn inspect(args: &Args) -> Result<()> {
     let case = &scenario.case;
     let modes = match args.modes {
         true => {
-            let crank = args.at_crank_deg.map_or(case.drive.start, f64::to_radians);
-            Grid::of_cranks(&case.drive, vec![crank])
-                .check(&case.drive)
+            let crank = args.at_crank_deg.map_or(case.crank().start, f64::to_radians);
+            Grid::of_cranks(case.crank(), vec![crank])
+                .check(case.crank())
                 .map_err(|message| Error::new(ErrorKind::Input, message).help("check --at-crank-deg"))?;
-            Some((crank, analytic::modes::all(case, crank)?))
+            Some((crank, analytic::modes::all(case, crank).map_err(|error| explained(case, error))?))
         }
         false => None,
     };
@@ -104,10 +105,10 @@ fn as_text(scenario: &Scenario) -> String {
     let _ = writeln!(text, "\njoints");
     for joint in mechanism.joints() {
         let [first, second] = ends(mechanism, joint);
-        let driven = if joint.name == mechanism.joints()[case.drive.joint].name { ", driven" } else { "" };
+        let driven = if joint.name == mechanism.joints()[case.crank().joint].name { ", driven" } else { "" };
         let _ = writeln!(text, "  {:14} {}, {first} - {second}{driven}", joint.name, joint.kind.name());
     }
-    let _ = writeln!(text, "\ngroups at the start (crank {:.3} deg)", case.drive.start.to_degrees());
+    let _ = writeln!(text, "\ngroups at the start (crank {:.3} deg)", case.crank().start.to_degrees());
     for ((group, &mode), choice) in structure.groups.iter().zip(&case.modes).zip(&scenario.choices) {
         let transmission = transmission_sine(mechanism, group, &case.start)
             .map_or_else(String::new, |sine| format!(", transmission angle {:.2} deg", sine.abs().asin().to_degrees()));
@@ -168,7 +169,7 @@ fn as_json(scenario: &Scenario) -> Value {
         "schema": 1, "scenario": scenario.name, "title": scenario.title, "mobility": structure.mobility,
         "formula": structure.formula(mechanism), "drivers": drivers.collect::<Vec<_>>(),
         "groups": groups.collect::<Vec<_>>(), "links": links.collect::<Vec<_>>(), "joints": joints.collect::<Vec<_>>(),
-        "start_crank_rad": case.drive.start,
+        "start_crank_rad": case.crank().start,
     })
 }
 

@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::output;
+use super::{advice, output};
 use crate::scenario::Scenario;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::trajectory::{CHANNELS, Channel};
@@ -61,7 +61,9 @@ fn scenarios(directory: &Path) -> Result<String> {
                 scenario.title,
                 scenario.case.structure.formula(&scenario.case.mechanism)
             ),
-            Err(error) => writeln!(text, "{}\n    cannot be read: {error}", file.display()),
+            Err(error) => {
+                writeln!(text, "{}\n    cannot be read: {}", file.display(), error.line_by(advice::told))
+            }
         };
     }
     if files.is_empty() {

@@ -1,5 +1,6 @@
 //! The command line: the only part with standard output, paths, the clock, the environment and exit codes.
 
+mod advice;
 mod bearings;
 mod diagram;
 mod drive;
@@ -15,6 +16,7 @@ mod load;
 mod modes;
 mod motor_choice;
 mod output;
+mod panics;
 mod plan;
 mod progress;
 mod range;
@@ -75,6 +77,7 @@ enum Command {
 /// Runs the command line and returns its exit code.
 #[must_use]
 pub fn main() -> ExitCode {
+    panics::silence(rapier_twin::is_guarded);
     let cli = Cli::parse();
     let code = match cli.command {
         Command::Run(args) => run::run(&args),

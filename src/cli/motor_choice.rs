@@ -37,7 +37,7 @@ pub(super) fn choose(args: &Args, file: &Path, scenario: &Scenario, json_to: Opt
                 .help("give 3000 or 1500, or leave it out"));
         }
     }
-    let own = scenario.case.motor.as_ref().map_or(1.0, |motor| motor.efficiency);
+    let own = scenario.case.crank().motor().map_or(1.0, |motor| motor.efficiency);
     let choice = Choice::of(&scenario.case, &motors, args.efficiency.unwrap_or(own))?;
     match json_to {
         Some(to) => output::write(&format!("{}\n", as_json(scenario, &choice)), to),

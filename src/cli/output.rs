@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
+use super::advice;
 use linkage::error::{Error, ErrorKind, Result};
 
 /// Path that results may be written to, `-` for standard output. Scenarios are refused: `--json scenarios/*.toml` would
@@ -63,16 +64,17 @@ fn render(error: &Error) -> String {
         Some(key) => format!("`{key}`: {}", error.message()),
         None => error.message().to_string(),
     };
+    let help = error.way_out_by(advice::told);
     let Some(place) = error.place() else {
         // The renderer would draw a margin for lines that are not there.
-        let help = error.way_out().map(|help| format!("\n  = help: {help}")).unwrap_or_default();
+        let help = help.map(|help| format!("\n  = help: {help}")).unwrap_or_default();
         return format!("error: {title}{help}");
     };
     let path = place.file.display().to_string();
     let annotation = AnnotationKind::Primary.span(place.span.clone());
     let snippet = Snippet::source(place.text.as_str()).path(path.as_str()).annotation(annotation);
     let mut group = Group::with_title(Level::ERROR.primary_title(title.as_str())).element(snippet);
-    if let Some(help) = error.way_out() {
+    if let Some(help) = help {
         group = group.element(Level::HELP.message(help));
     }
     Renderer::plain().render(&[group])

@@ -7,8 +7,9 @@ use clap::builder::PossibleValuesParser;
 use serde_json::{Value, json};
 
 use super::load::reference_names;
-use super::output;
+use super::{advice, output};
 use crate::scenario::Scenario;
+use analytic::range::explained;
 use linkage::case::Case;
 use linkage::error::Result;
 use workshop::diagram::draw::{self, significant};
@@ -47,9 +48,9 @@ pub(super) struct Args {
 pub(super) fn plan(args: &Args) -> Result<()> {
     let scenario = Scenario::load(&args.file)?.nominal();
     let case = &scenario.case;
-    let crank = args.crank_deg.map_or(case.drive.start, f64::to_radians);
+    let crank = args.crank_deg.map_or(case.crank().start, f64::to_radians);
     let solver = analytic::named(&args.with).expect("the argument parser knows all names");
-    let state = state_at(case, solver, crank)?;
+    let state = state_at(case, solver, crank).map_err(|error| explained(case, error))?;
     let plans = Plans::of(case, solver, &state, crank);
     let singular: Vec<Result<SingularPoint>> = case
         .structure
@@ -110,7 +111,7 @@ fn as_text(scenario: &Scenario, plans: &Plans, singular: &[Result<SingularPoint>
     for found in singular {
         let _ = match found {
             Ok(point) => singular_text(&mut text, &scenario.case, point),
-            Err(error) => writeln!(text, "\nsingular point: {error}"),
+            Err(error) => writeln!(text, "\nsingular point: {}", error.line_by(advice::told)),
         };
     }
     text
@@ -160,7 +161,7 @@ fn as_json(scenario: &Scenario, plans: &Plans, singular: &[Result<SingularPoint>
                 "accelerations_m_s2": [[first.x, first.y], [second.x, second.y]], "links": links,
             })
         }
-        Err(error) => json!({"error": error.to_string()}),
+        Err(error) => json!({"error": error.line_by(advice::told)}),
     });
     json!({
         "schema": 1, "scenario": scenario.name, "crank_rad": plans.crank,

@@ -10,7 +10,7 @@ use clap::builder::PossibleValuesParser;
 use super::engine_args::EngineArgs;
 use super::load::{load, reference_names};
 use super::progress::Bar;
-use super::{exit_code, output};
+use super::{advice, exit_code, output};
 use crate::compare::Verdict;
 use crate::proof::{EngineProof, Proof, prove};
 use crate::record::{self as recorder, Level, LogEntry, Recording, Side};
@@ -58,7 +58,7 @@ pub(super) struct Args {
 
 /// Proves every file; one that is bad does not keep the others from being proven.
 pub(super) fn run(args: &Args) -> u8 {
-    let mut document = json::Document::new();
+    let mut document = json::Document::told_by(advice::told);
     let mut worst = exit_code::AGREE;
     let quiet = args.json.as_deref() == Some(Path::new("-"));
     let mut written = BTreeMap::new();
@@ -104,7 +104,7 @@ fn prove_file(args: &Args, file: &Path, quiet: bool) -> Result<(Scenario, Proof)
     let proof = prove(&scenario, &options, &mut |part| bar.at(part))?;
     drop(bar);
     if !quiet {
-        output::print(&text::proof(&proof))?;
+        output::print(&text::proof(&proof, advice::told))?;
     }
     Ok((scenario, proof))
 }
@@ -194,6 +194,10 @@ fn log(proof: &Proof) -> Vec<LogEntry> {
         Verdict::Inconclusive { .. } => Level::Warning,
         Verdict::Disagree { .. } => Level::Error,
     };
+    let why = |verdict: &Verdict| match verdict {
+        Verdict::Agree { .. } | Verdict::Expected { .. } => None,
+        Verdict::Disagree { .. } | Verdict::Inconclusive { .. } => verdict.reason(advice::told),
+    };
     let mut log = vec![LogEntry {
         time: start,
         level: level(&proof.verdict),
@@ -201,14 +205,14 @@ fn log(proof: &Proof) -> Vec<LogEntry> {
     }];
     let channels = proof.engines.iter().flat_map(|engine| &engine.channels);
     for channel in channels {
-        if let Verdict::Disagree { place: why } | Verdict::Inconclusive { reason: why } = &channel.verdict {
+        if let Some(why) = why(&channel.verdict) {
             let residual = &channel.residual;
             let text = format!("{}: {why}", residual.channel);
             log.push(LogEntry { time: residual.worst_time, level: level(&channel.verdict), text });
         }
     }
     for check in proof.all_checks() {
-        if let Verdict::Disagree { place: why } | Verdict::Inconclusive { reason: why } = &check.verdict {
+        if let Some(why) = why(&check.verdict) {
             let text = format!("{}: {why}", check.name());
             log.push(LogEntry { time: start, level: level(&check.verdict), text });
         }

@@ -9,6 +9,7 @@ use super::grid::Range;
 use super::load::{load, reference_names};
 use super::output;
 use super::progress::Bar;
+use analytic::range::explained;
 use linkage::case::{Case, Grid};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::trajectory::Trajectory;
@@ -60,7 +61,7 @@ pub(super) fn solve(args: &Args) -> Result<()> {
     let mut progress = |part| bar.at(part);
     let trajectory = match analytic::named(&args.with) {
         Some(_) if args.dt.is_some() => return Err(no_step(&args.with)),
-        Some(solver) => solver.solve(&case, &mut progress)?,
+        Some(solver) => solver.solve(&case, &mut progress).map_err(|error| explained(&case, error))?,
         None => {
             let step = args.dt.unwrap_or(scenario.dt);
             crate::engines::named(&args.with, step)
@@ -82,15 +83,15 @@ fn on_grid(case: &Case, args: &Args) -> Result<Case> {
     let grid = match (&args.crank_deg, &args.times) {
         (Some(Range(degrees)), _) => {
             let cranks = degrees.iter().map(|angle| angle.to_radians()).collect();
-            Grid::of_cranks(&case.drive, cranks)
+            Grid::of_cranks(case.crank(), cranks)
         }
-        (None, Some(Range(times))) => Grid::of_times(&case.drive, times.clone()),
+        (None, Some(Range(times))) => Grid::of_times(case.crank(), times.clone()),
         (None, None) => return Ok(case.clone()),
     };
-    grid.check(&case.drive).map_err(|message| {
+    grid.check(case.crank()).map_err(|message| {
         Error::new(ErrorKind::Input, message).help("check the unit and size of --crank-deg or --times")
     })?;
-    Ok(case.on(grid))
+    case.on(grid)
 }
 
 /// One row an instant, 17 significant digits: every double is read back as the one that was written.

@@ -15,7 +15,7 @@ use crate::report::table;
 use crate::scenario::{EngineKeys, Scenario, edit};
 use crate::tune::{Candidate, Tuning, Wish, tune};
 use linkage::engine::Engine;
-use linkage::error::{Error, ErrorKind, Result};
+use linkage::error::{Advice, Error, ErrorKind, Result};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -75,7 +75,7 @@ pub(super) fn run(args: &Args) -> Result<()> {
         }
         Ok(shortest)
     };
-    let found = tune(&scenario, &wish, &options, &mut price, &mut |part| bar.at(part))?;
+    let found = tune(&scenario, &wish, &options, &mut price, &mut |part| bar.at(part)).map_err(of_argument)?;
     drop(bar);
     if args.write {
         let text = edit::with_engine(&scenario.text, keys(&scenario, &found.best))?;
@@ -87,6 +87,14 @@ pub(super) fn run(args: &Args) -> Result<()> {
     match &args.json {
         Some(to) => output::write(&format!("{}\n", as_json(args, &scenario, &found)), to),
         None => output::print(&as_text(args, &scenario, &found)),
+    }
+}
+
+/// Names the argument that asked for a channel which there is not.
+fn of_argument(error: Error) -> Error {
+    match error.advice() {
+        [Advice::OtherChannel { .. }] => error.key("--channel"),
+        _ => error,
     }
 }
 

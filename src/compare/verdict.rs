@@ -2,6 +2,7 @@
 
 use super::{Convergence, Residual};
 use crate::tolerance::{Basis, Part, Parts, Tolerance};
+use linkage::error::Advice;
 use linkage::math::KeepNan;
 use linkage::math::statistics::share;
 
@@ -27,8 +28,10 @@ pub enum Verdict {
     },
     /// Nothing is proven either way.
     Inconclusive {
-        /// Why not, and what to do.
+        /// Why not.
         reason: String,
+        /// What would decide it, as alternatives; empty where nothing is known to.
+        advice: Vec<Advice>,
     },
 }
 
@@ -42,6 +45,37 @@ impl Verdict {
             Verdict::Expected { .. } => "expected",
             Verdict::Inconclusive { .. } => "inconclusive",
         }
+    }
+
+    /// Nothing is proven, and no way out is known.
+    #[must_use]
+    pub fn open(reason: impl Into<String>) -> Self {
+        Verdict::Inconclusive { reason: reason.into(), advice: Vec::new() }
+    }
+
+    /// Reason of a verdict that is not agreement, with what would decide it, told by `tell`.
+    #[must_use]
+    pub fn reason(&self, tell: impl Fn(&Advice) -> String) -> Option<String> {
+        match self {
+            Verdict::Agree { .. } => None,
+            Verdict::Expected { finding, .. } => Some(format!("expected, see docs/findings.md#{finding}")),
+            Verdict::Disagree { place } => Some(place.clone()),
+            Verdict::Inconclusive { reason, advice } => Some(match Advice::sentence(advice, tell) {
+                Some(way_out) => format!("{reason}; {way_out}"),
+                None => reason.clone(),
+            }),
+        }
+    }
+
+    /// The same, with numbers to try in its advice, from the settings of the engine: see [`Advice::from_settings`].
+    #[must_use]
+    pub fn from_settings(mut self, resolution: f64, controls_error: bool, sweeps: usize) -> Self {
+        if let Verdict::Inconclusive { advice, .. } = &mut self {
+            for one in advice {
+                *one = one.clone().from_settings(resolution, controls_error, sweeps);
+            }
+        }
+        self
     }
 
     /// A residual against its bound, written so that NaN disagrees.
@@ -80,37 +114,36 @@ impl Verdict {
         let bound = parts.sum();
         if scale == 0.0 && value > 0.0 {
             let reason = "the grid has no extent that an error could be measured by; give it more than one instant";
-            return Verdict::Inconclusive { reason: reason.into() };
+            return Verdict::open(reason);
         }
         if !convergence.is_trusted() {
-            return Verdict::Inconclusive {
-                reason: format!(
-                    "the engine converges with order {:.2} instead of {:.0} here: its error cannot be estimated; {}",
-                    convergence.observed,
-                    convergence.formal,
-                    way_out(parts)
-                ),
-            };
+            let (why, advice) = way_out(parts);
+            let reason = format!(
+                "the engine converges with order {:.2} instead of {:.0} here: its error cannot be estimated{why}",
+                convergence.observed, convergence.formal,
+            );
+            return Verdict::Inconclusive { reason, advice };
         }
         match Verdict::of(value, bound, place) {
-            Verdict::Agree { .. } if bound > wanted * scale => Verdict::Inconclusive {
-                reason: format!(
-                    "the engine's error may reach {:.1e} of the channel's scale, more than the {wanted:.0e} that still proves something; {}",
+            Verdict::Agree { .. } if bound > wanted * scale => {
+                let (why, advice) = way_out(parts);
+                let reason = format!(
+                    "the engine's error may reach {:.1e} of the channel's scale, more than the {wanted:.0e} that still proves something{why}",
                     bound / scale,
-                    way_out(parts)
-                ),
-            },
+                );
+                Verdict::Inconclusive { reason, advice }
+            }
             verdict => verdict,
         }
     }
 }
 
-/// How to make the largest part of an engine's error smaller.
-fn way_out(parts: Parts) -> &'static str {
+/// Where the largest part of an engine's error comes from, to be added to a reason, and how to make it smaller.
+fn way_out(parts: Parts) -> (&'static str, Vec<Advice>) {
     match parts.largest() {
-        Part::Rounding => "most of it is rounding: choose a larger step (--dt), or an engine in double precision",
-        Part::Iteration => "most of it is left by the sweeps: raise their number (--sweeps)",
-        Part::Discretisation => "choose a smaller step (--dt)",
+        Part::Rounding => ("; most of it is rounding", vec![Advice::LargerStep { to: None }, Advice::DoublePrecision]),
+        Part::Iteration => ("; most of it is left by the sweeps", vec![Advice::MoreSweeps { to: None }]),
+        Part::Discretisation => ("", vec![Advice::SmallerStep { to: None }]),
     }
 }
 
@@ -264,13 +297,27 @@ mod tests {
 
     #[test]
     fn what_is_open_says_what_would_close_it() {
-        let reason = |parts: Parts| match Verdict::of_engine(&residual(1e-4), &converging(2.0), parts, 1e-2) {
-            Verdict::Inconclusive { reason } => reason,
+        let told = |parts: Parts| match Verdict::of_engine(&residual(1e-4), &converging(2.0), parts, 1e-2) {
+            Verdict::Inconclusive { reason, advice } => (reason, advice),
             other => panic!("{other:?}"),
         };
-        assert!(reason(Parts { discretisation: 0.5, iteration: 0.1, rounding: 0.1 }).contains("--dt"));
-        assert!(reason(Parts { discretisation: 0.1, iteration: 0.5, rounding: 0.1 }).contains("--sweeps"));
-        assert!(reason(Parts { discretisation: 0.1, iteration: 0.1, rounding: 0.5 }).contains("rounding"));
+        let (_, advice) = told(Parts { discretisation: 0.5, iteration: 0.1, rounding: 0.1 });
+        assert_eq!(advice, [Advice::SmallerStep { to: None }]);
+        let (reason, advice) = told(Parts { discretisation: 0.1, iteration: 0.5, rounding: 0.1 });
+        assert!(reason.ends_with("left by the sweeps") && advice == [Advice::MoreSweeps { to: None }], "{reason}");
+        let (reason, advice) = told(Parts { discretisation: 0.1, iteration: 0.1, rounding: 0.5 });
+        assert!(reason.ends_with("most of it is rounding"), "{reason}");
+        assert_eq!(advice, [Advice::LargerStep { to: None }, Advice::DoublePrecision]);
+    }
+
+    #[test]
+    fn a_reason_ends_with_its_way_out() {
+        let parts = Parts { discretisation: 0.5, ..Parts::default() };
+        let open = Verdict::of_engine(&residual(1e-4), &converging(2.0), parts, 1e-2).from_settings(1e-3, false, 0);
+        let told = open.reason(Advice::to_string).unwrap();
+        assert!(told.ends_with("proves something; choose a smaller time step, such as 5e-4 s"), "{told}");
+        assert_eq!(Verdict::open("nothing was run").reason(Advice::to_string).unwrap(), "nothing was run");
+        assert_eq!(Verdict::Agree { margin: 1.0 }.reason(Advice::to_string), None);
     }
 
     #[test]
@@ -320,7 +367,7 @@ mod tests {
     #[test]
     fn the_whole_is_as_good_as_its_worst_part() {
         let agree = Verdict::Agree { margin: 2.0 };
-        let open = Verdict::Inconclusive { reason: "why".into() };
+        let open = Verdict::open("why");
         let no = Verdict::Disagree { place: "there".into() };
         assert_eq!(overall([&agree, &agree]).word(), "agree");
         assert_eq!(overall([&agree, &open]).word(), "inconclusive");

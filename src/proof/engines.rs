@@ -12,7 +12,7 @@ use crate::tolerance::{Basis, Parts};
 use linkage::case::Case;
 use linkage::drive::Load;
 use linkage::engine::{Engine, Settings};
-use linkage::error::{Error, Result};
+use linkage::error::{Advice, Error, Result};
 use linkage::solver::Provision;
 use linkage::trajectory::{CHANNELS, Channel, Stage, Trajectory};
 
@@ -90,7 +90,7 @@ pub(super) fn prove(
                 info,
                 channels: Vec::new(),
                 checks: Vec::new(),
-                verdict: Verdict::Inconclusive { reason: error.message().into() },
+                verdict: Verdict::open(error.message()),
                 trajectory: kept.map(|kept| *kept),
                 errors: None,
                 failure: Some(error),
@@ -155,7 +155,7 @@ fn run_ladder(case: &Case, engine: &dyn Engine, progress: &mut dyn FnMut(f64)) -
         observed
     };
     let unit = if engine.controls_error() { "" } else { " s" };
-    let of_ladder = |what: String| move |stopped: Stopped| in_ladder(stopped, &what);
+    let of_ladder = |what: String| move |stopped: Stopped| in_ladder(stopped, &what, engine);
     let single = run(0, 1.0)?;
     let half = run(1, 2.0).map_err(of_ladder(format!("at {:e}{unit}", asked / 2.0)))?;
     let double = run(2, 0.5).map_err(of_ladder(format!("at {:e}{unit}", asked * 2.0)))?;
@@ -167,22 +167,20 @@ fn run_ladder(case: &Case, engine: &dyn Engine, progress: &mut dyn FnMut(f64)) -
 }
 
 /// The same stop, told as that of a run which nobody asked for.
-fn in_ladder(stopped: Stopped, what: &str) -> Stopped {
-    let error = stopped.error;
-    let message =
-        format!("the run {what}, from which the error of the run asked for is estimated, failed: {}", error.message());
-    let told = Error::new(error.kind(), message);
-    let error = match error.way_out() {
-        Some(help) => told.help(help),
-        None => told,
+fn in_ladder(stopped: Stopped, what: &str, engine: &dyn Engine) -> Stopped {
+    let Settings { resolution, sweeps, .. } = engine.settings();
+    let told = |message: &str| {
+        format!("the run {what}, from which the error of the run asked for is estimated, failed: {message}")
     };
-    Stopped { error, kept: None }
+    // Numbers to try start from what was asked for.
+    let advised = |advice: Advice| advice.from_settings(resolution, engine.controls_error(), sweeps);
+    Stopped { error: stopped.error.map_message(told).map_advice(advised), kept: None }
 }
 
 fn judge(scenario: &Scenario, engine: &dyn Engine, reference: &Trajectory, runs: &Runs) -> Result<Vec<ChannelProof>> {
     let ladder = runs.ladder();
     let [_, single, half] = ladder.resolutions;
-    let (case, resolution) = (&scenario.case, engine.settings().resolution);
+    let (case, Settings { resolution, sweeps, .. }) = (&scenario.case, engine.settings());
     let finest = engine.at(resolution / 2.0);
     let judged = residuals(reference, single)?.into_iter().map(|residual| {
         let (channel, kind) = (residual.channel.clone(), residual.channel.kind);
@@ -192,6 +190,7 @@ fn judge(scenario: &Scenario, engine: &dyn Engine, reference: &Trajectory, runs:
         let parts = convergence.parts(engine.noise(case, kind));
         let basis = convergence.tolerance(resolution, parts, checks::noise_origin(engine)).basis;
         let verdict = Verdict::of_engine(&residual, &convergence, parts, scenario.engine_rel);
+        let verdict = verdict.from_settings(resolution, engine.controls_error(), sweeps);
         let verdict = unless_turning_about(case, [reference, single], &residual, resolution, verdict);
         let [single, half, reference] =
             [single, half, reference].map(|side| side.column(&channel).expect("all sides have the channel"));
@@ -211,7 +210,7 @@ pub(super) fn tell_sensitivity(proof: &mut EngineProof, reference: &Trajectory, 
         {
             let share = change / own.residual.scale;
             own.sensitivity = Some(share);
-            if let Verdict::Inconclusive { reason } = &mut own.verdict {
+            if let Verdict::Inconclusive { reason, .. } = &mut own.verdict {
                 let _ = write!(
                     reason,
                     "; a millionth more of gravity and motor torque changes the channel by {share:.2} millionths of its scale"
@@ -236,22 +235,20 @@ fn unless_turning_about(
         return verdict;
     }
     // Differences and impulses reach over a few steps to either side.
-    let jump = case.drive.law.jump().filter(|jump| (residual.worst_time - jump).abs() <= JUMP_STEPS * resolution);
+    let jump = case.crank().jump().filter(|jump| (residual.worst_time - jump).abs() <= JUMP_STEPS * resolution);
     if let (Verdict::Disagree { place }, Some(jump)) = (&verdict, jump) {
         let reason = format!(
             "{place}, but at {jump} s the drive's acceleration jumps: leave the instants about it out of the grid"
         );
-        return Verdict::Inconclusive { reason };
+        return Verdict::open(reason);
     }
     if residual.channel.kind.stage < Stage::Reactions {
         return verdict;
     }
     match (&verdict, turning_about(case, sides, residual.worst_time)) {
-        (Verdict::Disagree { place }, Some(link)) => Verdict::Inconclusive {
-            reason: format!(
-                "{place}, but there link \"{link}\" turns about and its load jumps: leave that instant out of the grid"
-            ),
-        },
+        (Verdict::Disagree { place }, Some(link)) => Verdict::open(format!(
+            "{place}, but there link \"{link}\" turns about and its load jumps: leave that instant out of the grid"
+        )),
         _ => verdict,
     }
 }

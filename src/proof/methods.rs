@@ -6,7 +6,7 @@ use analytic::witness::triad::class_change::ClassChange;
 use analytic::witness::triad::{Reactions, Triad, assur_point, cramer, linear_system};
 use linkage::case::Case;
 use linkage::drive::DriveState;
-use linkage::error::{ErrorKind, Result};
+use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::statistics::share;
 use linkage::math::{KeepNan, Vec2, cross};
 use linkage::solver::{Solver, State};
@@ -29,7 +29,7 @@ enum Quantity {
 #[derive(Default)]
 struct Worst {
     differences: [(f64, f64); 4],
-    failure: Option<String>,
+    failure: Option<Error>,
 }
 
 impl Worst {
@@ -46,7 +46,7 @@ impl Worst {
         match answer {
             Ok(answer) => Some(answer),
             Err(error) => {
-                self.failure.get_or_insert_with(|| error.to_string());
+                self.failure.get_or_insert(error);
                 None
             }
         }
@@ -59,8 +59,8 @@ impl Worst {
         let tolerance = rounding(BOUND, "two methods without a common equation, each good to rounding");
         let check = Check::new(family, value, tolerance, "").of(detail);
         let mut check = check.located(|| format!("at crank angle {:.3} deg", crank.to_degrees()));
-        if let Some(reason) = self.failure {
-            check.verdict = Verdict::Inconclusive { reason };
+        if let Some(error) = self.failure {
+            check.verdict = Verdict::Inconclusive { reason: error.message().into(), advice: error.advice().to_vec() };
         }
         check
     }
@@ -196,7 +196,7 @@ pub(super) fn checks(case: &Case, reference: &dyn Solver) -> Result<Vec<Check>> 
 
 /// The crank at an instant: by its law, or as the state has it where forces decide the motion.
 fn crank_of(case: &Case, row: usize, state: &State) -> DriveState {
-    let drive = &case.drive;
+    let drive = case.crank();
     if !case.is_free() {
         return DriveState { angle: case.grid.cranks[row], ..drive.at(case.grid.times[row]) };
     }

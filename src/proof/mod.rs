@@ -17,6 +17,7 @@ pub use parties::Dispute;
 
 use crate::compare::{Check, Verdict, overall};
 use crate::scenario::Scenario;
+use analytic::range::explained;
 use linkage::case::Case;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::solver::Solver;
@@ -80,6 +81,11 @@ pub fn prove_against(
     options: &Options,
     progress: &mut dyn FnMut(f64),
 ) -> Result<Proof> {
+    joined(scenario, engine_case, options, progress).map_err(|error| explained(&scenario.case, error))
+}
+
+/// The same with the errors of solvers as they come.
+fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: &mut dyn FnMut(f64)) -> Result<Proof> {
     let case = &scenario.case;
     let main = options.reference()?;
     let engines = options.engines(scenario)?;
@@ -92,7 +98,7 @@ pub fn prove_against(
     checks.extend(oracle::checks(scenario)?);
 
     let sensitivity = sensitivity::of(case, main, &own.trajectory)?;
-    let engine_case = engine_case.on(case.grid.clone());
+    let engine_case = engine_case.on(case.grid.clone())?;
     let mut proofs = Vec::with_capacity(engines.len());
     for (index, engine) in engines.iter().enumerate() {
         let mut part = |part: f64| progress((index as f64 + part) / engines.len() as f64);

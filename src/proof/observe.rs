@@ -75,7 +75,7 @@ pub(super) fn observe(
     let with_power = case.wanted.has(Stage::BalancingMoment);
     let mut power = if with_power { vec![0.0; case.grid.len()] } else { Vec::new() };
     let mut torque = power.clone();
-    let arm = case.drives().fold(0.0, |most: f64, drive| most.larger(case.mechanism.links()[drive.link].size()));
+    let arm = case.drives.iter().fold(0.0, |most: f64, drive| most.larger(case.mechanism.links()[drive.link].size()));
     let (size, steady) = (case.mechanism.size(), case.is_steady());
     let mut opening = vec![0.0f64; case.grid.len()];
     let (mut reach, mut moment): (f64, f64) = (0.0, 0.0);
@@ -93,7 +93,7 @@ pub(super) fn observe(
             (power[row], torque[row]) = match steady {
                 true => (power::balancing_moment(case, state), reduced_torque(case, state)),
                 false => {
-                    let top = case.drive.top_speed();
+                    let top = case.crank().top_speed();
                     (-power::of_known_forces(case, state) / top, power_of_drives(case, state) / top)
                 }
             };
@@ -101,7 +101,7 @@ pub(super) fn observe(
             moment =
                 forces.fold(state.torques.iter().fold(moment, |most, torque| most.larger(torque.abs())), f64::larger);
             // At the very instant of setting off loads act already against a motion that the state does not show yet.
-            let setting_off = case.is_free() && case.drives().all(|drive| state.motions[drive.link].omega == 0.0);
+            let setting_off = case.is_free() && case.drives.iter().all(|drive| state.motions[drive.link].omega == 0.0);
             if !setting_off {
                 unbalance.add(case, state);
             }
@@ -110,11 +110,11 @@ pub(super) fn observe(
         Ok(())
     };
     if let Err(error) = solver.sweep(case, &mut visit, progress) {
-        let kept = sampler.so_far(case, |channel| solver.provides(channel)).map(Box::new);
+        let kept = sampler.so_far(case).map(Box::new);
         return Err(Stopped { error, kept });
     }
     Ok(Observed {
-        trajectory: sampler.finish(case, |channel| solver.provides(channel))?,
+        trajectory: sampler.finish(case)?,
         opening,
         reach,
         power,
@@ -126,14 +126,14 @@ pub(super) fn observe(
 
 /// Power of all drives on their links (W).
 fn power_of_drives(case: &Case, state: &State) -> f64 {
-    case.drives().zip(&state.torques).map(|(drive, torque)| torque * state.motions[drive.link].omega).sum()
+    case.drives.iter().zip(&state.torques).map(|(drive, torque)| torque * state.motions[drive.link].omega).sum()
 }
 
 /// Balancing moments of all drives (N m), reduced to the crank by their powers.
 fn reduced_torque(case: &Case, state: &State) -> f64 {
     let omega = |link: usize| state.motions[link].omega;
-    let further = case.further_drives.iter().zip(&state.torques[1..]);
-    let further = further.map(|(drive, torque)| torque * (omega(drive.link) / omega(case.drive.link)));
+    let further = case.drives.further().iter().zip(&state.torques[1..]);
+    let further = further.map(|(drive, torque)| torque * (omega(drive.link) / omega(case.crank().link)));
     state.torques[0] + further.sum::<f64>()
 }
 

@@ -4,7 +4,7 @@ use crate::compare::{Check, Verdict};
 use crate::scenario::{ExpectedCell, Figure, FigureValue, Oracle, OracleBasis, OraclePoint, OracleSeries, Scenario};
 use crate::tolerance::{Basis, Origin, Tolerance};
 use analytic::reduced::means::{self as reduced, Means};
-use linkage::case::{Case, Grid, Wanted};
+use linkage::case::{Grid, Wanted};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::angle::wrapped;
 use linkage::mechanism::Side;
@@ -38,7 +38,7 @@ fn of_series(scenario: &Scenario, solver: &dyn Solver) -> Result<Vec<Check>> {
     cranks.dedup();
     let stages: Vec<Stage> = all().map(|(_, series)| series.channel.kind.stage).collect();
     let base = &scenario.case;
-    let case = Case { wanted: Wanted::of(&stages), ..base.on(Grid::of_cranks(&base.drive, cranks)) };
+    let case = base.on(Grid::of_cranks(base.crank(), cranks))?.wanting(Wanted::of(&stages));
     let solved = solver.solve(&case, &mut |_| {})?;
     let mut checks = Vec::new();
     for (oracle, series) in all() {
@@ -167,9 +167,9 @@ impl Measured<'_> {
     /// Steady speeds of the crank and of the motor (rad/s).
     fn steady(&mut self) -> Result<[f64; 2]> {
         let case = &self.scenario.case;
-        let motor = case.motor.as_ref().expect("a scenario with this figure has a motor");
+        let motor = case.crank().motor().expect("a scenario with this figure has a motor");
         // The motor works in the sense in which the crank is driven.
-        let sense = case.drive.sense();
+        let sense = case.crank().sense();
         let resistance = sense * self.means()?.resistance;
         let Some(speed) = motor.steady_speed(resistance) else {
             return Err(reduced::no_steady_speed(resistance));
@@ -181,8 +181,8 @@ impl Measured<'_> {
     /// Distance of two points as the side places them at t = 0 (m).
     fn distance(&self, ends: [Side; 2]) -> Result<f64> {
         let base = &self.scenario.case;
-        let grid = Grid::of_times(&base.drive, vec![0.0]);
-        let case = Case { wanted: Wanted::of(&[Stage::Positions]), ..base.on(grid) };
+        let grid = Grid::of_times(base.crank(), vec![0.0]);
+        let case = base.on(grid)?.wanting(Wanted::of(&[Stage::Positions]));
         let mut distance = f64::NAN;
         let mut visit = |_: usize, state: &State| {
             let [first, second] = ends.map(|end| state.motions[end.link].point(end.local));

@@ -173,7 +173,7 @@ fn what_is_not_a_number_at_one_instant_disagrees() {
     }
     // Where no channel has it, it reaches the closure.
     let second: Fault = |state, _| state.motions[3].origin.y = f64::NAN;
-    let positions = Case { wanted: Wanted::of(&[]), ..case.clone() };
+    let positions = case.wanting(Wanted::of(&[]));
     assert!(seen(&positions, &assur(second, 0.0)).closure().is_nan());
 }
 

@@ -20,8 +20,9 @@ pub(super) fn of(case: &Case, solver: &dyn Solver, reference: &Trajectory) -> Re
         return Ok(Vec::new());
     }
     let share = 1.0 + CHANGE;
-    let motor = case.motor.as_ref().map(|motor| Motor { law: motor.law.scaled(share), ..motor.clone() });
-    let changed = Case { gravity: case.gravity * share, motor, ..case.clone() };
+    let stronger = |motor: &Motor| Motor { law: motor.law.scaled(share), ..motor.clone() };
+    let drives = case.drives.map(|drive| drive.with_motor(drive.motor().map(stronger)));
+    let changed = case.with(|parts| (parts.gravity, parts.drives) = (case.gravity * share, drives))?;
     let other = solver.solve(&changed, &mut |_| {})?;
     let of = |((channel, ours), (_, theirs)): ((&linkage::trajectory::Channel, &[f64]), (_, &[f64]))| {
         largest_difference(ours, theirs, channel.kind.periodic) / CHANGE

@@ -122,7 +122,7 @@ impl<'a> Scene<'a> {
     /// Places of the ground that are drawn as pivots: all but those that only lie on a guide.
     pub fn pivots(&self) -> Vec<Vec2> {
         let joints = |at: Vec2| self.mechanism.joints().iter().filter(move |joint| joint.on(GROUND) == Some(at));
-        let pivot = |at: &Vec2| joints(*at).count() == 0 || joints(*at).any(|joint| !joint.is_prismatic());
+        let pivot = |at: &Vec2| joints(*at).count() == 0 || joints(*at).any(|joint| joint.is_pin());
         self.places(GROUND).into_iter().filter(pivot).collect()
     }
 
@@ -152,7 +152,7 @@ impl<'a> Scene<'a> {
             ..line.clone()
         };
         let strips: Vec<LinePrimitive> = self.strips(index).map(strip).collect();
-        let pins = self.mechanism.joints().iter().filter(|joint| !joint.is_prismatic());
+        let pins = self.mechanism.joints().iter().filter(|joint| joint.is_pin());
         let is_joint = |local: &Vec2| pins.clone().any(|joint| joint.on(index) == Some(*local));
         let (joints, others): (Vec<Vec2>, Vec<Vec2>) = places.iter().partition(|local| is_joint(local));
         let pin = |&local: &Vec2| CylinderPrimitive {

@@ -2,9 +2,10 @@
 
 use serde::Serialize;
 
+use super::tell::Tell;
 use crate::compare::{Check, Verdict};
 use crate::proof::{ChannelProof, Dispute, EngineProof, Proof};
-use linkage::error::Error;
+use linkage::error::{Advice, Error};
 use linkage::solver::Provision;
 
 /// The whole document.
@@ -14,6 +15,8 @@ pub struct Document {
     runs: Vec<Run>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     errors: Vec<Failure>,
+    #[serde(skip)]
+    tell: Tell,
 }
 
 #[derive(Debug, Serialize)]
@@ -118,15 +121,21 @@ struct Failure {
 }
 
 impl Document {
-    /// An empty document.
+    /// An empty document, whose advice names no options.
     #[must_use]
     pub fn new() -> Self {
-        Document { schema: 2, runs: Vec::new(), errors: Vec::new() }
+        Document::told_by(Advice::to_string)
+    }
+
+    /// An empty document, whose advice is told by `tell`.
+    #[must_use]
+    pub fn told_by(tell: Tell) -> Self {
+        Document { schema: 2, runs: Vec::new(), errors: Vec::new(), tell }
     }
 
     /// Adds a proof and the path of its recording, if one was written.
     pub fn add(&mut self, proof: &Proof, recording: Option<String>) {
-        self.runs.push(run(proof, recording));
+        self.runs.push(run(proof, recording, self.tell));
     }
 
     /// Adds a scenario that could not be proven at all.
@@ -136,7 +145,7 @@ impl Document {
             message: error.message().into(),
             line: error.place().map(linkage::error::Place::line),
             key: error.scenario_key().map(Into::into),
-            help: error.way_out().map(Into::into),
+            help: error.way_out_by(self.tell),
         });
     }
 
@@ -155,13 +164,13 @@ impl Default for Document {
     }
 }
 
-fn run(proof: &Proof, recording: Option<String>) -> Run {
+fn run(proof: &Proof, recording: Option<String>, tell: Tell) -> Run {
     let times = proof.reference_trajectory.times();
     Run {
         scenario: proof.scenario.clone(),
         title: proof.title.clone(),
         verdict: proof.verdict.word(),
-        reason: reason(&proof.verdict),
+        reason: proof.verdict.reason(tell),
         structure: proof.formula.clone(),
         reference: Reference {
             name: proof.reference,
@@ -169,14 +178,14 @@ fn run(proof: &Proof, recording: Option<String>) -> Run {
             from_s: times.first().copied().unwrap_or(0.0),
             to_s: times.last().copied().unwrap_or(0.0),
         },
-        checks: proof.checks.iter().map(check).collect(),
-        engines: proof.engines.iter().map(engine).collect(),
+        checks: proof.checks.iter().map(|own| check(own, tell)).collect(),
+        engines: proof.engines.iter().map(|own| engine(own, tell)).collect(),
         disputes: proof.disputes.iter().map(dispute).collect(),
         recording,
     }
 }
 
-fn engine(proof: &EngineProof) -> Engine {
+fn engine(proof: &EngineProof, tell: Tell) -> Engine {
     let info = &proof.info;
     let resolution = Some(info.settings.resolution);
     Engine {
@@ -187,9 +196,9 @@ fn engine(proof: &EngineProof) -> Engine {
         settings: info.told.iter().map(|(k, v)| ((*k).into(), v.clone().into())).collect(),
         provides: info.provides.iter().map(|(k, v)| ((*k).into(), provision(v).into())).collect(),
         verdict: proof.verdict.word(),
-        reason: reason(&proof.verdict),
-        channels: proof.channels.iter().map(channel).collect(),
-        checks: proof.checks.iter().map(check).collect(),
+        reason: proof.verdict.reason(tell),
+        channels: proof.channels.iter().map(|own| channel(own, tell)).collect(),
+        checks: proof.checks.iter().map(|own| check(own, tell)).collect(),
         failure: proof.failure.as_ref().map(|error| error.message().to_string()),
     }
 }
@@ -198,7 +207,7 @@ fn dispute(dispute: &Dispute) -> DisputeRow {
     DisputeRow { channel: dispute.channel.clone(), pairs: dispute.pairs.clone(), odd_one_out: dispute.odd }
 }
 
-fn channel(proof: &ChannelProof) -> Channel {
+fn channel(proof: &ChannelProof, tell: Tell) -> Channel {
     let residual = &proof.residual;
     Channel {
         channel: residual.channel.to_string(),
@@ -215,7 +224,7 @@ fn channel(proof: &ChannelProof) -> Channel {
         origin: proof.basis.origin().word(),
         basis: proof.basis.to_string(),
         verdict: proof.verdict.word(),
-        reason: reason(&proof.verdict),
+        reason: proof.verdict.reason(tell),
         observed_order: proof.convergence.observed,
         limit: proof.limit,
         worst_t_s: residual.worst_time,
@@ -223,7 +232,7 @@ fn channel(proof: &ChannelProof) -> Channel {
     }
 }
 
-fn check(check: &Check) -> CheckRow {
+fn check(check: &Check, tell: Tell) -> CheckRow {
     let (finding, printed_off) = match &check.verdict {
         Verdict::Expected { finding, off } => (Some(finding.clone()), Some(*off)),
         _ => (None, None),
@@ -236,7 +245,7 @@ fn check(check: &Check) -> CheckRow {
         origin: check.basis.origin().word(),
         basis: check.basis.to_string(),
         verdict: check.verdict.word(),
-        reason: reason(&check.verdict),
+        reason: check.verdict.reason(tell),
         finding,
         printed_off,
     }
@@ -248,15 +257,5 @@ pub fn provision(provision: &Provision) -> String {
     match provision {
         Provision::Computed => "read".into(),
         Provision::Derived(how) => format!("derived: {how}"),
-        Provision::Absent(why) => format!("absent: {why}"),
-    }
-}
-
-fn reason(verdict: &Verdict) -> Option<String> {
-    match verdict {
-        Verdict::Agree { .. } => None,
-        Verdict::Expected { finding, .. } => Some(format!("expected, see docs/findings.md#{finding}")),
-        Verdict::Disagree { place } => Some(place.clone()),
-        Verdict::Inconclusive { reason } => Some(reason.clone()),
     }
 }

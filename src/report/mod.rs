@@ -3,6 +3,8 @@
 mod cells;
 mod engines;
 pub mod json;
+mod tell;
 pub mod text;
 
 pub(crate) use cells::table;
+pub use tell::Tell;

@@ -6,15 +6,17 @@ use comfy_table::Table;
 
 use super::cells::{share, table, used};
 use super::engines;
+use super::tell::Tell;
 use crate::compare::{Check, Verdict};
 use crate::proof::{ChannelProof, EngineInfo, EngineProof, Proof};
+use linkage::error::Advice;
 
 /// Reasons shown in full before the rest is only counted.
 const REASONS: usize = 5;
 
-/// The whole report of one proof.
+/// The whole report of one proof, with its advice told by `tell`.
 #[must_use]
-pub fn proof(proof: &Proof) -> String {
+pub fn proof(proof: &Proof, tell: Tell) -> String {
     let mut text = String::new();
     let _ = writeln!(text, "{}: {}", proof.scenario, proof.title);
     let _ = writeln!(text, "structure  {}", proof.formula);
@@ -40,7 +42,7 @@ pub fn proof(proof: &Proof) -> String {
     let all: Vec<&Check> = proof.all_checks().collect();
     let _ = writeln!(text, "\nChecks:\n{}", checks(&all));
     expected(proof, &mut text);
-    reasons(proof, &mut text);
+    reasons(proof, tell, &mut text);
     let _ = writeln!(text, "\n{}", sentence(&proof.verdict, proof));
     text
 }
@@ -102,19 +104,14 @@ fn verdicts(proof: &Proof) -> impl Iterator<Item = (String, &Verdict)> {
     channels.chain(proof.all_checks().map(|c| (c.name(), &c.verdict)))
 }
 
-fn reasons(proof: &Proof, text: &mut String) {
-    let open: Vec<(String, &str)> = verdicts(proof)
-        .filter_map(|(name, verdict)| match verdict {
-            Verdict::Agree { .. } | Verdict::Expected { .. } => None,
-            Verdict::Disagree { place } => Some((name, place.as_str())),
-            Verdict::Inconclusive { reason } => Some((name, reason.as_str())),
-        })
-        .collect();
-    for (name, reason) in open.iter().take(REASONS) {
-        let _ = writeln!(text, "\n{name}: {reason}");
+fn reasons(proof: &Proof, tell: Tell, text: &mut String) {
+    let of_report = |verdict: &Verdict| matches!(verdict, Verdict::Disagree { .. } | Verdict::Inconclusive { .. });
+    let open: Vec<(String, &Verdict)> = verdicts(proof).filter(|(_, verdict)| of_report(verdict)).collect();
+    for (name, verdict) in open.iter().take(REASONS) {
+        let _ = writeln!(text, "\n{name}: {}", verdict.reason(tell).unwrap_or_default());
     }
     if open.len() > REASONS {
-        let _ = writeln!(text, "\n... and {} more (all of them with --json)", open.len() - REASONS);
+        let _ = writeln!(text, "\n... and {} more ({})", open.len() - REASONS, tell(&Advice::AllResults));
     }
 }
 

@@ -107,7 +107,7 @@ pub(super) fn read(table: &mut Table, case: &Case) -> Result<Vec<OracleFigure>> 
 }
 
 fn with_motor(entry: &mut Table, case: &Case, figure: Figure) -> Result<(Figure, String)> {
-    match case.motor {
+    match case.crank().motor() {
         Some(_) => Ok((figure, String::new())),
         None => Err(entry
             .wrong(ErrorKind::Input, "figure", "a steady speed needs a motor, and the scenario has none")

@@ -77,13 +77,21 @@ struct Places {
 }
 
 fn places(table: &mut Table, kind: JointKind, name: &str) -> Result<Places> {
-    if kind == JointKind::Revolute {
-        let rule = "a joint lies at the point of its name, or of its key `point`, on both links";
-        return Ok(match table.optional_string("point")? {
-            Some(point) => Places { names: [point.clone(), point], key: "point", rule },
-            None => Places { names: [name.to_string(), name.to_string()], key: "name", rule },
-        });
+    match kind {
+        JointKind::Revolute => pinned(table, name),
+        JointKind::Prismatic { .. } => guided(table),
     }
+}
+
+fn pinned(table: &mut Table, name: &str) -> Result<Places> {
+    let rule = "a joint lies at the point of its name, or of its key `point`, on both links";
+    Ok(match table.optional_string("point")? {
+        Some(point) => Places { names: [point.clone(), point], key: "point", rule },
+        None => Places { names: [name.to_string(), name.to_string()], key: "name", rule },
+    })
+}
+
+fn guided(table: &mut Table) -> Result<Places> {
     let names = table.strings("points")?;
     let [first, second] = &names[..] else {
         let message = format!("found {} points, but a guide takes two", names.len());

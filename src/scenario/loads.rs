@@ -86,7 +86,7 @@ fn resisting_force(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
     let at = loaded_point(table, mechanism)?;
     let force = table.quantity("force", &FORCE, Sign::NotNegative)?;
     // Its velocity would be the rounding of zero, and so would the direction of the force.
-    let mut pins = mechanism.joints().iter().filter(|joint| !joint.is_prismatic() && joint.on(GROUND).is_some());
+    let mut pins = mechanism.joints().iter().filter(|joint| joint.is_pin() && joint.on(GROUND).is_some());
     if pins.any(|joint| joint.on(at.link) == Some(at.local)) {
         let message = "the point does not move: it is hinged to the ground";
         return Err(table.wrong(ErrorKind::Input, "point", message).help("name a point that moves"));

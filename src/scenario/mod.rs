@@ -32,10 +32,10 @@ use std::path::{Path, PathBuf};
 
 use self::reader::{Sign, Table};
 use self::source::Source;
-use linkage::case::{Case, Grid};
+use linkage::case::{Case, CaseParts, Grid};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::mechanism::assembly::{Choice, first_choices};
-use linkage::mechanism::{Mechanism, Pose, StartGroup, Structure};
+use linkage::mechanism::{Mechanism, StartGroup, Structure};
 
 /// Version of the file format that this crate reads.
 pub const FORMAT: i64 = 1;
@@ -110,18 +110,20 @@ impl Scenario {
     /// [`ErrorKind::Input`] if a group, its mode or its number is not known; those of [`first_choices`] for the groups after it.
     pub fn with_modes(&self, asked: &[String]) -> Result<Scenario> {
         let mut changed = self.clone();
-        let case = &mut changed.case;
+        let case = &self.case;
         for text in asked {
             let (index, start) = start::asked(text, &case.mechanism, &case.structure)?;
             changed.starts[index] = start;
         }
-        let angles = case.drive_angles(case.drive.start);
+        let angles = case.drives.world_angles(case.crank().start);
         let (pose, choices) = first_choices(&case.mechanism, &case.structure, &angles, &changed.starts)?;
         if pose != case.start {
             changed.oracles.clear();
         }
-        case.modes = choices.iter().map(|choice| choice.mode).collect();
-        case.start = pose;
+        changed.case = case.with(|parts| {
+            parts.modes = choices.iter().map(|choice| choice.mode).collect();
+            parts.start = pose;
+        })?;
         changed.choices = choices;
         Ok(changed)
     }
@@ -147,29 +149,24 @@ fn read(root: &mut Table) -> Result<Scenario> {
     let crank = start.quantity("crank", &unit::ANGLE, Sign::Any)?;
     let groups = start.tables("groups")?;
     start.finish()?;
-    let (drive, further_drives) = motion::drives(drives, &mechanism, crank)?;
-    let motor = motor.map(motor::read).transpose()?;
+    let drives = motion::drives(drives, motor, &mechanism, crank)?;
     let loads = loads::read(loads, &mechanism)?;
     let gravity = motion::gravity(gravity)?;
-    let driven: Vec<usize> = std::iter::once(&drive).chain(&further_drives).map(|drive| drive.joint).collect();
-    let structure = Structure::of(&mechanism, &driven)?;
+    let structure = Structure::of(&mechanism, &drives.joints())?;
     let starts = start::groups(&start, groups, &mechanism, &structure)?;
-    let grid = grid::read(grid, &drive)?;
+    let grid = grid::read(grid, drives.crank())?;
     let wanted = settings::wanted(channels)?;
-    let (dt, engine) = settings::engine(engine, &drive)?;
+    let (dt, engine) = settings::engine(engine, drives.crank())?;
     let engine_rel = settings::engine_rel(tolerances)?;
-    let (start, modes) = (Pose(Vec::new()), Vec::new());
-    let mut case =
-        Case { mechanism, structure, drive, further_drives, motor, loads, gravity, start, modes, grid, wanted };
-    let (pose, choices) = first_choices(&case.mechanism, &case.structure, &case.drive_angles(crank), &starts)?;
-    case.modes = choices.iter().map(|choice| choice.mode).collect();
-    case.start = pose;
+    let (start, choices) = first_choices(&mechanism, &structure, &drives.world_angles(crank), &starts)?;
+    let modes = choices.iter().map(|choice| choice.mode).collect();
+    let case = Case::new(CaseParts { mechanism, structure, drives, loads, gravity, start, modes, grid, wanted })?;
     let oracles = oracle::read(oracles, &case)?;
     let series = oracles.iter().flat_map(|oracle| &oracle.series);
     let published =
         series.flat_map(|series| series.points.iter().chain(series.expected.iter().map(|cell| &cell.point)));
     let cranks = published.map(|point| point.crank).collect();
-    if let Err(message) = Grid::of_cranks(&case.drive, cranks).check(&case.drive) {
+    if let Err(message) = Grid::of_cranks(case.crank(), cranks).check(case.crank()) {
         let error = Error::new(ErrorKind::Input, format!("published numbers: {message}")).key("oracle");
         return Err(error.help("take the numbers out, or give them at crank angles to which the drive comes"));
     }

@@ -1,17 +1,19 @@
-//! `[drive]` and `[gravity]`.
+//! `[drive]`, with `[motor]`, and `[gravity]`.
 
 use std::sync::Arc;
 
+use super::motor;
 use super::reader::{Sign, Table};
 use super::unit::{ACCELERATION, ANGLE, ANGULAR_SPEED, TIME};
 use super::words::suggestion;
-use linkage::drive::{Drive, MotionLaw};
+use linkage::drive::{Drive, DriveMotion, Drives, MotionLaw};
 use linkage::error::{ErrorKind, Result};
 use linkage::math::{Piecewise, Vec2};
 use linkage::mechanism::{GROUND, Mechanism, Side};
 
-/// The crank's drive, with `start` as the crank angle at t = 0 (rad), and further drives, which say their own.
-pub fn drives(tables: Vec<Table>, mechanism: &Mechanism, start: f64) -> Result<(Drive, Vec<Drive>)> {
+/// What moves the mechanism: the crank, with `start` as its angle at t = 0 (rad) and with the motor, and further drives, which say their
+/// own start.
+pub fn drives(tables: Vec<Table>, motor: Option<Table>, mechanism: &Mechanism, start: f64) -> Result<Drives> {
     let mut drives: Vec<Drive> = Vec::new();
     for mut table in tables {
         let start = match drives.is_empty() {
@@ -20,15 +22,15 @@ pub fn drives(tables: Vec<Table>, mechanism: &Mechanism, start: f64) -> Result<(
         };
         let drive = drive(&mut table, mechanism, &drives, start)?;
         // Several drives are geared to each other by the crank angle, which tells the time at constant speeds only.
-        let changing = drives.iter().chain([&drive]).any(|drive| drive.law.constant().is_none());
+        let changing = drives.iter().chain([&drive]).any(|drive| drive.constant_speed().is_none());
         if changing && !drives.is_empty() {
             let message = "one of several drives has a speed that changes";
             return Err(table.wrong(ErrorKind::Unsupported, "law", message).help("give all drives constant speeds"));
         }
         drives.push(drive);
     }
-    let crank = drives.remove(0);
-    Ok((crank, drives))
+    let crank = drives.remove(0).with_motor(motor.map(motor::read).transpose()?);
+    Ok(Drives::new(crank, drives))
 }
 
 /// A drive, after the drives `before` it.
@@ -36,12 +38,7 @@ fn drive(table: &mut Table, mechanism: &Mechanism, before: &[Drive], start: f64)
     let name = table.string("joint")?;
     let law = law(table, start)?;
     let zero = table.optional_quantity("zero", &ANGLE, Sign::Any)?.unwrap_or(0.0);
-    let free = free(table)?;
-    if free.is_some() && law.constant().is_none() {
-        let message = "the motion is free, but a law is given";
-        let help = "forces decide a free motion: give its nominal speed only (`speed_rpm`)";
-        return Err(table.wrong(ErrorKind::Input, "law", message).help(help));
-    }
+    let motion = motion(table, law)?;
     table.finish()?;
     let Some(index) = mechanism.joint_named(&name) else {
         let names = mechanism.joints().iter().map(|joint| joint.name.as_str());
@@ -61,36 +58,44 @@ fn drive(table: &mut Table, mechanism: &Mechanism, before: &[Drive], start: f64)
         let names = [joint.first, joint.second].map(|side| &mechanism.links()[side.link].name);
         let message =
             format!("joint \"{name}\" joins \"{}\" and \"{}\", not a link and the ground", names[0], names[1]);
-        let hinges = mechanism.joints().iter().filter(|joint| joint.on(GROUND).is_some() && !joint.is_prismatic());
+        let hinges = mechanism.joints().iter().filter(|joint| joint.on(GROUND).is_some() && joint.is_pin());
         let hinges: Vec<&str> = hinges.map(|joint| joint.name.as_str()).collect();
         return Err(table
             .wrong(ErrorKind::Unsupported, "joint", message)
             .help(format!("drive a link that is hinged to the ground: {}", super::words::choice(hinges, "\""))));
     };
-    if joint.on(GROUND).is_none() && free.is_none() {
+    let drive = Drive { joint: index, link, zero, start, motion };
+    if joint.on(GROUND).is_none() && !drive.is_free() {
         let message = format!("joint \"{name}\" hangs on a moving link, but the motion of its link is prescribed");
         let help = "only a free link may hang on a moving one: write `motion = \"free\"`, or drive a link that is hinged to the ground";
         return Err(table.wrong(ErrorKind::Unsupported, "joint", message).help(help));
     }
-    if joint.is_prismatic() {
-        let message = format!("joint \"{name}\" is prismatic, but the crank turns");
+    if !joint.is_pin() {
+        let message = format!("joint \"{name}\" is {}, but the crank turns", joint.kind.name());
         let help = "drive a link that is hinged to the ground by a revolute joint";
         return Err(table.wrong(ErrorKind::Unsupported, "joint", message).help(help));
     }
-    Ok(Drive { joint: index, link, zero, start, law, free })
+    Ok(drive)
 }
 
-/// The speed at t = 0 of a link that is free from then on.
-fn free(table: &mut Table) -> Result<Option<f64>> {
+/// Whether the link follows `law`, or is free from t = 0 on and has it as its nominal motion.
+fn motion(table: &mut Table, law: MotionLaw) -> Result<DriveMotion> {
     let initial = table.optional_quantity("initial_speed", &ANGULAR_SPEED, Sign::Any)?;
     match table.optional_string("motion")?.as_deref() {
-        Some("free") => Ok(Some(initial.unwrap_or(0.0))),
+        Some("free") => {
+            let Some(nominal_speed) = law.constant() else {
+                let message = "the motion is free, but a law is given";
+                let help = "forces decide a free motion: give its nominal speed only (`speed_rpm`)";
+                return Err(table.wrong(ErrorKind::Input, "law", message).help(help));
+            };
+            Ok(DriveMotion::Free { initial_speed: initial.unwrap_or(0.0), nominal_speed, motor: None })
+        }
         None | Some("prescribed") if initial.is_some() => {
             let message = "the link is given a speed at t = 0, but its motion is prescribed";
             let help = "write `motion = \"free\"` to leave it to its motor and the loads, or take the key out";
             Err(table.wrong(ErrorKind::Input, "initial_speed", message).help(help))
         }
-        None | Some("prescribed") => Ok(None),
+        None | Some("prescribed") => Ok(DriveMotion::Prescribed { law, motor: None }),
         Some(other) => Err(table
             .wrong(ErrorKind::Input, "motion", format!("\"{other}\" is no sort of motion"))
             .help(suggestion(other, ["prescribed", "free"], "\""))),

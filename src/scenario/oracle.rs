@@ -101,7 +101,7 @@ pub struct ExpectedCell {
 
 /// All oracles of a case.
 pub(super) fn read(tables: Vec<Table>, case: &Case) -> Result<Vec<Oracle>> {
-    let (wanted, all) = (case.wanted, Case { wanted: Wanted::ALL, ..case.clone() }.channels());
+    let (wanted, all) = (case.wanted, case.wanting(Wanted::ALL).channels());
     let channels = all.as_slice();
     let mut inline = 0;
     let mut oracles = Vec::with_capacity(tables.len());

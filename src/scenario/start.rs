@@ -4,7 +4,7 @@ use super::joints::link;
 use super::reader::{Sign, Table};
 use super::unit::LENGTH;
 use super::words::suggestion;
-use linkage::error::{Error, ErrorKind, Result};
+use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::Vec2;
 use linkage::mechanism::pose::SidePoint;
 use linkage::mechanism::{AssemblyMode, Group, GroupKind, Mechanism, Side, StartGroup, Structure};
@@ -97,8 +97,9 @@ pub fn asked(text: &str, mechanism: &Mechanism, structure: &Structure) -> Result
     let Some(&found) = modes_of(group.kind).iter().find(|own| own.name() == mode) else {
         let message = format!("\"{mode}\" is no assembly mode of the group ({})", group.names(mechanism));
         let names = modes_of(group.kind).iter().map(|mode| format!("\"{}\", ", mode.name())).collect::<String>();
+        let or = if names.is_empty() { "" } else { "or " };
         return Err(Error::new(ErrorKind::Input, message)
-            .help(format!("give {names}or a number from the list of `linkproof inspect FILE --modes`")));
+            .help(Advice::Configuration { give: format!("{names}{or}a number from the list of configurations") }));
     };
     let in_order = links.is_some_and(|links| links == group.links);
     let mode = if in_order { found } else { found.swapped() };

@@ -72,7 +72,7 @@ fn read(root: &mut Table) -> Result<TaskFile> {
         places.push(found);
     }
     let zero = match zero {
-        None => Entry::Fixed(drawing.case.drive.zero),
+        None => Entry::Fixed(drawing.case.crank().zero),
         Some(mut table) => {
             let bounds = bounds(&mut table, &ANGLE)?;
             table.finish()?;

@@ -15,9 +15,10 @@ pub use candidate::{Candidate, Price};
 use crate::proof::Options;
 use crate::scenario::Scenario;
 use analytic::AssurSolver;
+use analytic::range::explained;
 use bench::{Bench, Outcome};
-use linkage::case::{Case, Wanted};
-use linkage::error::{Error, ErrorKind, Result};
+use linkage::case::Wanted;
+use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::KeepNan;
 use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Stage};
@@ -67,8 +68,8 @@ pub fn tune(
     }
     let wanted = wanted_channels(scenario, wish)?;
     let stages: Vec<Stage> = wanted.iter().map(|channel| channel.kind.stage).collect();
-    let case = Case { wanted: Wanted::of(&stages), ..scenario.case.clone() };
-    let reference = AssurSolver.solve(&case, &mut |_| {})?;
+    let case = scenario.case.wanting(Wanted::of(&stages));
+    let reference = AssurSolver.solve(&case, &mut |_| {}).map_err(|error| explained(&case, error))?;
     let engines = options.engines(scenario)?;
     let mut bench = Bench { case: &case, reference: &reference, wanted: &wanted, price, runs: 0, refused: false };
     let (mut by_engine, mut too_coarse, mut too_dear): (Vec<Candidate>, _, _) = (Vec::new(), Vec::new(), Vec::new());
@@ -89,8 +90,7 @@ pub fn tune(
         };
         let tells: Vec<String> = too_coarse.iter().map(tell).collect();
         let message = format!("no settings meet an error within {:e} of the scale: {}", wish.within, tells.join(", "));
-        return Err(Error::new(ErrorKind::Numeric, message)
-            .help("ask for a larger error, other channels (--channel) or further engines (--engine all)"));
+        return Err(Error::new(ErrorKind::Numeric, message).help(Advice::WeakerWish));
     };
     let engine = engines.iter().find(|engine| engine.name() == best.engine).expect("it is one of them");
     let predicted = bench.predicted(engine.with(best.settings).as_ref())?;
@@ -111,8 +111,7 @@ fn wanted_channels(scenario: &Scenario, wish: &Wish) -> Result<Vec<Channel>> {
         if wanted.len() == before {
             let stages = Stage::ALL.map(Stage::name).join(", ");
             return Err(Error::new(ErrorKind::Input, format!("the scenario wants no channel \"{asked}\""))
-                .key("--channel")
-                .help(format!("name a column of `linkproof solve`, such as joint.A.fx_N, or one of: {stages}")));
+                .help(Advice::OtherChannel { groups: stages }));
         }
     }
     Ok(wanted)

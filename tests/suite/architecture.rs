@@ -13,16 +13,16 @@ use graph::Graph;
 /// As tight as the manifests are: an entry that nothing uses fails too.
 const CRATES: &[(&str, &str, &str, &str)] = &[
     ("linkage", "crates/linkage", "", "nalgebra petgraph"),
-    ("analytic", "crates/analytic", "linkage", "differential-equations pulp wide"),
+    ("analytic", "crates/analytic", "linkage", "differential-equations num-integer pulp wide"),
     ("rapier_twin", "crates/rapier-twin", "linkage", "parry2d parry2d-f64 rapier2d rapier2d-f64"),
     ("linkproof_simbody", "crates/simbody", "", ""),
     ("simbody_twin", "crates/simbody-twin", "linkage simbody", ""),
-    ("workshop", "crates/workshop", "analytic linkage", "cobyla quick-xml rand_chacha rayon svg"),
+    ("workshop", "crates/workshop", "analytic linkage", "cobyla quick-xml rand rand_chacha rayon svg"),
     (
         "linkproof",
         "",
         "analytic linkage rapier-twin simbody-twin workshop",
-        "annotate-snippets clap comfy-table csv foxglove indicatif mcap prost prost-types serde serde_json toml toml_edit",
+        "annotate-snippets clap comfy-table csv foxglove indicatif mcap prost prost-types serde serde_json strsim toml toml_edit",
     ),
 ];
 
@@ -96,6 +96,7 @@ const HOMES: &[(&str, &str)] = &[
     ("toml_edit", "linkproof::scenario"),
     ("comfy_table", "linkproof::report"),
     ("serde", "linkproof::report"),
+    ("strsim", "linkproof::scenario"),
     ("serde_json", "linkproof::report linkproof::cli"),
     ("clap", "linkproof::cli"),
     ("indicatif", "linkproof::cli"),
@@ -107,8 +108,10 @@ const HOMES: &[(&str, &str)] = &[
     ("nalgebra", "linkage::math"),
     ("petgraph", "linkage::mechanism"),
     ("differential_equations", "analytic::motion analytic::reduced"),
+    ("num_integer", "analytic::reduced"),
     ("pulp", "analytic::assur"),
     ("cobyla", "workshop::synthesis"),
+    ("rand", "workshop::synthesis"),
     ("rand_chacha", "workshop::synthesis"),
     ("rayon", "workshop::synthesis"),
     ("svg", "workshop::diagram"),

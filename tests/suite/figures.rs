@@ -30,9 +30,9 @@ fn proof(name: &str, step: Option<f64>) -> Proof {
 
 /// A turn in steps of a tenth of a degree, in the sense of the drive.
 fn fine(case: &Case) -> Case {
-    let sense = case.drive.sense();
-    let cranks = (0..=3600).map(|k| (sense * f64::from(k) / 10.0).to_radians() + case.drive.start).collect();
-    case.on(Grid::of_cranks(&case.drive, cranks))
+    let sense = case.crank().sense();
+    let cranks = (0..=3600).map(|k| (sense * f64::from(k) / 10.0).to_radians() + case.crank().start).collect();
+    case.on(Grid::of_cranks(case.crank(), cranks)).unwrap()
 }
 
 #[test]

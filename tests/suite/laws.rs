@@ -50,11 +50,11 @@ fn both_sides_agree_and_balance_powers_and_momentum() {
         let moment = largest(Stage::BalancingMoment);
         for solver in analytic::all() {
             for (state, &t) in states(solver, case, &case.grid.times).unwrap().iter().zip(&case.grid.times) {
-                let crank = state.motions[case.drive.link];
-                let law = case.drive.at(t);
+                let crank = state.motions[case.crank().link];
+                let law = case.crank().at(t);
                 assert!((crank.omega - law.omega).abs() < 1e-12 && (crank.alpha - law.alpha).abs() < 1e-9, "{t}");
                 let power = power::of_known_forces(case, state) + state.torques[0] * crank.omega;
-                let scale = moment * case.drive.top_speed().abs();
+                let scale = moment * case.crank().top_speed().abs();
                 assert!(power.abs() < 1e-12 * scale, "{} {t}: {:e}", solver.name(), power / scale);
                 let ((force, _), (other, _)) = (state.shaking(case), momentum::shaking(case, state));
                 assert!((force - other).norm() < 1e-12 * largest(Stage::Reactions), "{} {t}", solver.name());
@@ -134,8 +134,7 @@ fn a_jump_of_the_acceleration_is_no_disagreement() {
 #[test]
 fn what_knows_constant_speeds_only_refuses_by_name() {
     let case = shipped("cycloidal_start.toml").case;
-    let mut unloaded = case.clone();
-    unloaded.loads.clear();
+    let unloaded = case.with(|parts| parts.loads.clear()).unwrap();
     let error = export::mjcf::mjcf(&unloaded, analytic::all()[0], "swing", 1e-3).unwrap_err();
     assert_eq!(error.kind(), ErrorKind::Unsupported);
     assert!(error.message().contains("law \"cycloidal\""), "{error}");

@@ -16,6 +16,7 @@ mod figures;
 mod higher_groups;
 mod invariants;
 mod laws;
+mod library_texts;
 mod loads;
 mod peaks;
 mod plans;

@@ -60,7 +60,7 @@ fn the_other_side_has_the_same_peaks() {
         let peaks = over_range(&case).unwrap();
         for (joint, peak) in peaks.reactions.iter().enumerate() {
             let cranks = [-1e-4, 0.0, 1e-4].map(|by| peak.crank + by);
-            let times = cranks.map(|crank| case.drive.time_of(crank));
+            let times = cranks.map(|crank| case.crank().time_of(crank));
             let forces: Vec<f64> = crate::common::states(&NewtonSolver, &case, &times)
                 .unwrap()
                 .iter()

@@ -11,10 +11,12 @@ use std::f64::consts::PI;
 use std::path::Path;
 
 use analytic::{AssurSolver, NewtonSolver};
+use linkage::case::Case;
 use linkage::math::{KeepNan, Vec2, rotated, unit};
 use linkage::solver::Solver;
 use linkproof::scenario::Scenario;
-use workshop::diagram::{Part, Plan, Plans, SingularPoint, TipKind};
+use workshop::diagram::plan::state_at;
+use workshop::diagram::{Part, Plan, Plans, SingularPoint, TipKind, Vector};
 
 const REVOLUTE: [&str; 5] = ["crank_rocker", "ov7_base", "ov7_new", "ov7_new_tabulated", "fourth_class"];
 const SLIDERS: [&str; 5] = ["compressor", "six_bar_slider", "quick_return", "scotch_yoke", "tangent"];
@@ -35,8 +37,33 @@ fn scenario(name: &str) -> Scenario {
     Scenario::load(&path).unwrap_or_else(|error| panic!("{error}"))
 }
 
+/// The plans of a case at a crank angle (deg).
+fn plans_of(case: &Case, solver: &dyn Solver, degrees: f64) -> linkage::Result<Plans> {
+    let crank = degrees.to_radians();
+    Ok(Plans::of(case, solver, &state_at(case, solver, crank)?, crank))
+}
+
+/// What tests look for in a plan by its name.
+trait Named {
+    /// The vector called `name`.
+    fn vector(&self, name: &str) -> Option<&Vector>;
+
+    /// The point of the plan called `letter`, from the pole (SI).
+    fn tip(&self, letter: &str) -> Option<Vec2>;
+}
+
+impl Named for Plan {
+    fn vector(&self, name: &str) -> Option<&Vector> {
+        self.vectors.iter().find(|vector| vector.name == name)
+    }
+
+    fn tip(&self, letter: &str) -> Option<Vec2> {
+        self.tips.iter().find(|tip| tip.letter == letter).map(|tip| tip.at)
+    }
+}
+
 fn plans_with(name: &str, solver: &dyn Solver, degrees: f64) -> Plans {
-    Plans::at(&scenario(name).case, solver, degrees.to_radians()).unwrap_or_else(|error| panic!("{name}: {error}"))
+    plans_of(&scenario(name).case, solver, degrees).unwrap_or_else(|error| panic!("{name}: {error}"))
 }
 
 fn plans(name: &str, degrees: f64) -> Plans {
@@ -102,7 +129,7 @@ fn every_contour_of_every_plan_closes() {
 #[test]
 fn the_image_of_a_link_is_similar_to_it() {
     for (name, degrees) in all() {
-        let mechanism = scenario(name).case.mechanism;
+        let mechanism = scenario(name).case.mechanism.clone();
         let plans = plans(name, degrees);
         // Points of the ground lie in the pole, and have no vector.
         let end = |plan: &Plan, name: &str| {

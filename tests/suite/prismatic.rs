@@ -92,7 +92,7 @@ fn every_link_is_in_equilibrium() {
                 let middle = centre(case, &state, index);
                 let mut force = (case.gravity - centre_acceleration(case, &state, index)) * link.mass;
                 let mut moment = -link.inertia * state.motions[index].alpha;
-                if index == case.drive.link {
+                if index == case.crank().link {
                     moment += state.torques[0];
                 }
                 for (joint, (reaction, own)) in
@@ -167,11 +167,8 @@ fn order_of_a_joints_links_does_not_matter() {
             let size = one.forces.iter().fold(0.0, |max: f64, force| max.larger(force.norm()));
             for (index, joint) in sample.case.mechanism.joints().iter().enumerate() {
                 let [first, second] = [joint.first, joint.second].map(|side| one.motions[side.link].point(side.local));
-                let moment = if joint.is_prismatic() {
-                    one.moments[index] + cross(second - first, one.forces[index])
-                } else {
-                    0.0
-                };
+                let moment =
+                    if joint.slides() { one.moments[index] + cross(second - first, one.forces[index]) } else { 0.0 };
                 let errors = [(two.forces[index] + one.forces[index]).norm(), (two.moments[index] + moment).abs()];
                 assert!(errors.iter().all(|error| *error <= 1e-12 * size), "{} {time}: {errors:?}", sample.name);
             }

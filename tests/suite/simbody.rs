@@ -84,9 +84,9 @@ fn the_other_analytic_side_agrees_too() {
 fn instants_far_apart_are_as_good() {
     for name in ["crank_rocker.toml", "ov7_base.toml", "fourth_class.toml", "compressor.toml", "five_bar.toml"] {
         let case = shipped(name).case;
-        let sense = case.drive.sense();
-        let cranks = (0..=5).map(|k| case.drive.start + sense * 1.9 * f64::from(k)).collect();
-        let case = case.on(Grid::of_cranks(&case.drive, cranks));
+        let sense = case.crank().sense();
+        let cranks = (0..=5).map(|k| case.crank().start + sense * 1.9 * f64::from(k)).collect();
+        let case = case.on(Grid::of_cranks(case.crank(), cranks)).unwrap();
         for accuracy in [1e-2, 1e-4, 1e-6, Simbody::ACCURACY] {
             agree(&case, &Simbody::new(accuracy), &AssurSolver, 1.0);
         }
@@ -100,11 +100,11 @@ fn instants_may_come_in_any_order_on_both_sides_of_the_start() {
         let case = shipped(name).case;
         let times: Vec<f64> = [3.0, -1.0, 0.5, -2.5, 3.0, 0.0, -0.001].iter().map(|turns| turns * 0.1).collect();
         for times in [times, vec![-0.3, -0.2], vec![0.25, 0.3], vec![0.0]] {
-            let case = case.on(Grid::of_times(&case.drive, times));
+            let case = case.on(Grid::of_times(case.crank(), times)).unwrap();
             agree(&case, &default(), &AssurSolver, 1.0);
         }
     }
-    assert_eq!(solve(&default(), &shipped("crank_rocker.toml").case.on(Grid::default())).times().len(), 0);
+    assert_eq!(solve(&default(), &shipped("crank_rocker.toml").case.on(Grid::default()).unwrap()).times().len(), 0);
 }
 
 /// Names in the other order, the other place, the other sense, heavier and without masses: all of them loaded.
@@ -148,16 +148,19 @@ fn laws_other_than_constant_speeds_are_refused_by_name() {
 /// Before the start and after it, with all loads of the press, and with a force against the motion of its ram.
 #[test]
 fn loads_of_all_sorts_agree() {
-    let mut case = shipped("loaded_slider.toml").case;
+    let case = shipped("loaded_slider.toml").case;
     let ram = case.mechanism.link_named("ram").unwrap();
     let local = case.mechanism.links()[ram].points[2].local;
     let at = linkage::mechanism::Side { link: ram, local };
-    case.loads.push(linkage::drive::Load::ResistingForce { at, force: 200.0 });
     let rod = case.mechanism.link_named("rod").unwrap();
-    case.loads.push(linkage::drive::Load::TorsionSpring { links: [0, rod], stiffness: 30.0, free_angle: 0.4 });
-    case.loads.push(linkage::drive::Load::Resistance { link: rod, moment: 7.0 });
+    let more = [
+        linkage::drive::Load::ResistingForce { at, force: 200.0 },
+        linkage::drive::Load::TorsionSpring { links: [0, rod], stiffness: 30.0, free_angle: 0.4 },
+        linkage::drive::Load::Resistance { link: rod, moment: 7.0 },
+    ];
+    let case = case.with(|parts| parts.loads.extend(more)).unwrap();
     let cranks = (-7..20).map(|k| 0.05 + 0.31 * f64::from(k)).collect();
-    let case = case.on(Grid::of_cranks(&case.drive, cranks));
+    let case = case.on(Grid::of_cranks(case.crank(), cranks)).unwrap();
     println!("{:?}", agree(&case, &default(), &AssurSolver, 1.0));
 }
 
@@ -175,11 +178,10 @@ fn sliders_agree_however_their_joints_are_written() {
 fn crank_last(case: &Case) -> Case {
     use linkage::mechanism::{AssemblyMode, Mechanism, Structure};
     let joints: Vec<_> = case.mechanism.joints().iter().rev().cloned().collect();
-    let driven = joints.len() - 1 - case.drive.joint;
+    let driven = joints.len() - 1 - case.crank().joint;
     let mechanism = Mechanism::new(case.mechanism.links().to_vec(), joints).unwrap();
     let structure = Structure::of(&mechanism, &[driven]).unwrap();
-    let mut drive = case.drive.clone();
-    drive.joint = driven;
+    let drives = linkage::drive::Drive { joint: driven, ..case.crank().clone() }.into();
     // One group a sample: its links may have changed places.
     let turned = structure.groups[0].links != case.structure.groups[0].links;
     let mode = |&mode: &AssemblyMode| match mode {
@@ -188,7 +190,10 @@ fn crank_last(case: &Case) -> Case {
         mode => mode,
     };
     let modes = case.modes.iter().map(mode).collect();
-    Case { mechanism, structure, drive, modes, ..case.clone() }
+    case.with(|parts| {
+        (parts.mechanism, parts.structure, parts.drives, parts.modes) = (mechanism, structure, drives, modes);
+    })
+    .unwrap()
 }
 
 /// Chains of dyads magnify errors from dyad to dyad, in forces on the way back too.
@@ -203,7 +208,7 @@ fn random_mechanisms_agree() {
 /// How near to a singular pose a run comes: its largest speed or root of an acceleration, over the crank's (lengths are about a metre). What a
 /// small error becomes grows with its square.
 fn nearness(case: &Case, truth: &Trajectory) -> f64 {
-    let crank = case.drive.at(0.0).omega.abs();
+    let crank = case.crank().at(0.0).omega.abs();
     let of = |(channel, values): (&Channel, &[f64])| {
         let most = values.iter().fold(0.0f64, |max, value| max.larger(value.abs()));
         match channel.kind.stage {
@@ -251,8 +256,7 @@ fn positions_alone_are_the_same_positions() {
     let case = shipped("six_bar_slider.toml").case;
     let times = [0.0, 0.01, 0.02];
     let whole = states(&default(), &case, &times).unwrap();
-    let mut bare = case.clone();
-    bare.wanted = linkage::case::Wanted::of(&[Stage::Positions]);
+    let bare = case.wanting(linkage::case::Wanted::of(&[Stage::Positions]));
     for (a, b) in whole.iter().zip(states(&default(), &bare, &times).unwrap()) {
         assert!(a.motions == b.motions && a.angles == b.angles);
     }
@@ -310,9 +314,10 @@ fn a_slider_out_of_reach_is_an_error() {
 /// Simbody would quietly assemble another pose nearby.
 #[test]
 fn a_start_pose_that_is_open_is_refused() {
-    let mut case = shipped("crank_rocker.toml").case;
-    let link = case.start.0.len() - 1;
-    case.start.0[link].angle += 1e-3;
+    let mut parts = shipped("crank_rocker.toml").case.into_parts();
+    parts.start.0.last_mut().unwrap().angle += 1e-3;
+    assert_eq!(Case::new(parts.clone()).unwrap_err().kind(), ErrorKind::Geometry);
+    let case = Case::unchecked(parts);
     let error = default().solve(&case, &mut |_| {}).unwrap_err();
     assert!(error.kind() == ErrorKind::Geometry && error.message().contains("at joint \""), "{error}");
 }

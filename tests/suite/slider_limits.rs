@@ -12,7 +12,7 @@ use linkage::case::{Case, Grid};
 use linkproof::scenario::Scenario;
 
 fn on_cranks(case: &Case, cranks: &[f64]) -> Case {
-    case.on(Grid::of_cranks(&case.drive, cranks.iter().map(|degrees| degrees.to_radians()).collect()))
+    case.on(Grid::of_cranks(case.crank(), cranks.iter().map(|degrees| degrees.to_radians()).collect())).unwrap()
 }
 
 /// Symptom: the range of a mechanism whose slide goes to infinity is an error, and every message that names the range takes 20 s. Cause: its curve
@@ -51,20 +51,20 @@ fn no_solver_goes_on_behind_parallel_axes() {
 /// The rod of `short_rod` is in line with the normal of the guide at 244.158 deg from it: a dead point.
 #[test]
 fn a_start_at_a_dead_point_of_a_slider_says_so() {
-    let mut case = short_rod();
+    let case = short_rod();
     let range = Range::of(&case).unwrap();
     let Extent::Limited([_, to]) = range.extent else { panic!("{:?}", range.extent) };
     assert!((to.crank.to_degrees() - 261.347).abs() < 1e-3, "{}", to.crank.to_degrees());
-    let end = on_cranks(&case, &[case.drive.start.to_degrees(), (to.crank - 1e-12).to_degrees()]);
+    let end = on_cranks(&case, &[case.crank().start.to_degrees(), (to.crank - 1e-12).to_degrees()]);
     let states = crate::common::states(&AssurSolver, &end, &end.grid.times).unwrap();
     let last = &states[1];
-    case.start.0 = last
+    let pose = last
         .motions
         .iter()
         .zip(&last.angles)
         .map(|(motion, &angle)| linkage::mechanism::LinkPose { origin: motion.origin, angle })
         .collect();
-    case.drive.start = to.crank;
+    let case = case.with(|parts| (parts.start.0, parts.drives.crank_mut().start) = (pose, to.crank)).unwrap();
     let case = on_cranks(&case, &[to.crank.to_degrees(), to.crank.to_degrees() + 5.0]);
     let error = Range::of(&case).unwrap_err();
     assert_eq!(error.kind(), ErrorKind::Geometry, "{error}");

@@ -118,7 +118,7 @@ fn val_six_bar_slider_stands_highest_where_the_rocker_is_upright() {
     }
     assert_eq!(scenario.oracles.len(), 2);
     cranks.sort_by(f64::total_cmp);
-    let there = case.on(Grid::of_cranks(&case.drive, cranks));
+    let there = case.on(Grid::of_cranks(case.crank(), cranks)).unwrap();
     let highest = solved(case)[0].iter().map(|(_, state)| place(case, state, "D")[0].y).fold(0.0, f64::larger);
     for rows in solved(&there) {
         for (crank, state) in rows {
@@ -190,7 +190,7 @@ fn val_quick_return_time_ratio() {
     // The ram turns about there too: its speed, below 3 m/s elsewhere, is that of 1e-9 rad.
     let mut cranks = vec![first.crank, second.crank];
     cranks.sort_by(f64::total_cmp);
-    for rows in solved(&case.on(Grid::of_cranks(&case.drive, cranks))) {
+    for rows in solved(&case.on(Grid::of_cranks(case.crank(), cranks)).unwrap()) {
         for (crank, state) in rows {
             let speed = place(&case, &state, "C")[1].norm();
             assert!(speed <= 1e-7, "{crank}: {speed:e}");

@@ -12,7 +12,7 @@ use analytic::witness::triad::{Triad, assur_point, linear_system};
 use analytic::{AssurSolver, NewtonSolver};
 use linkage::ErrorKind;
 use linkage::case::Case;
-use linkage::math::{KeepNan, Vec2, cross, rotated, unit};
+use linkage::math::{KeepNan, Matrix, Vec2, cross, rotated, turned, unit};
 use linkage::mechanism::GROUND;
 use linkage::solver::{Solver, State};
 use linkproof::proof::{Options, prove};
@@ -55,10 +55,24 @@ fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
     values.into_iter().fold(0.0, |max, value| if max.is_nan() || value <= max { max } else { value })
 }
 
+/// Product of the lengths of the four columns of a group's equations over the size of their determinant, at least 1: by so much the rounding of
+/// the coefficients can grow in the unknowns.
+fn condition(contours: &Contours) -> f64 {
+    let mut matrix = Matrix::zeros(4, 4);
+    for (k, side) in contours.sides.into_iter().enumerate() {
+        let columns = [(0, turned(contours.leads[0])), (k + 1, -turned(contours.leads[k + 1])), (3, turned(side))];
+        for (column, vector) in columns {
+            matrix[(2 * k, column)] = vector.x;
+            matrix[(2 * k + 1, column)] = vector.y;
+        }
+    }
+    matrix.column_iter().map(|column| column.norm()).product::<f64>() / matrix.determinant().abs()
+}
+
 /// The methods at the given states of a solver.
 fn differences(case: &Case, triad: &Triad, states: &[State], times: &[f64]) -> Differences {
     let links = triad.links();
-    let speed = case.drive.at(0.0).omega;
+    let speed = case.crank().at(0.0).omega;
     let all =
         |of: &dyn Fn(&State, usize) -> f64| largest(states.iter().flat_map(|s| links.map(|link| of(s, link).abs())));
     let omega = all(&|state, link| state.motions[link].omega).larger(speed.abs());
@@ -77,9 +91,9 @@ fn differences(case: &Case, triad: &Triad, states: &[State], times: &[f64]) -> D
             }
         };
         compare(&mut found.cramer, cramer::rates(triad, motions).unwrap());
-        keep(&mut found.condition, Contours::of(triad, motions).condition());
+        keep(&mut found.condition, condition(&Contours::of(triad, motions)));
         if let Ok(change) = &mut change {
-            let drive = case.drive.at(time);
+            let drive = case.crank().at(time);
             let transfer = change.solve(drive.angle).unwrap_or_else(|error| panic!("{error}"));
             for (link, direction) in links.into_iter().zip(transfer.directions) {
                 keep(&mut found.change[0], (direction - motions[link].direction).norm());
@@ -248,7 +262,7 @@ fn mechanism(draw: &mut Draw, moving: bool) -> Option<Scenario> {
 /// Whether the class change, too, says that the group cannot be followed to one of the times.
 fn class_change_is_lost(case: &Case, times: &[f64]) -> bool {
     match ClassChange::new(case, &only_triad(case)) {
-        Ok(mut change) => times.iter().any(|&time| change.solve(case.drive.at(time).angle).is_err()),
+        Ok(mut change) => times.iter().any(|&time| change.solve(case.crank().at(time).angle).is_err()),
         Err(error) => error.kind() == ErrorKind::Geometry,
     }
 }

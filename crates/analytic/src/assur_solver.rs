@@ -30,7 +30,7 @@ impl Solver for AssurSolver {
         let mut poses = PoseSolver::counting_turns(case)?;
         let deepest = case.wanted.deepest();
         for (done, row) in case.grid.ascending().into_iter().enumerate() {
-            let drive = case.drive.at(case.grid.times[row]);
+            let drive = case.crank().at(case.grid.times[row]);
             poses.solve(case.grid.cranks[row], drive.omega, drive.alpha, deepest)?;
             visit(row, poses.with_angles())?;
             progress((done + 1) as f64 / case.grid.len() as f64);
@@ -41,7 +41,7 @@ impl Solver for AssurSolver {
 
 /// Motion under forces: of one freedom by its reduced equation of motion, of several by their transfer functions.
 fn free_motion(case: &Case, visit: Visit, progress: Progress) -> Result<()> {
-    if !case.further_drives.is_empty() || case.loads.iter().any(Load::is_viscous) {
+    if !case.drives.further().is_empty() || case.loads.iter().any(Load::is_viscous) {
         return free::sweep(case, &mut TransferSide::new(case)?, visit, progress);
     }
     free::check(case)?;
@@ -49,7 +49,7 @@ fn free_motion(case: &Case, visit: Visit, progress: Progress) -> Result<()> {
     let mut times: Vec<f64> = rows.iter().map(|&row| case.grid.times[row]).collect();
     times.dedup();
     let model = Model::of(case)?;
-    let (motion, end) = reduced::motion(&model, case.drive.initial_speed(), &times, ACCURACY)?;
+    let (motion, end) = reduced::motion(&model, case.crank().initial_speed(), &times, ACCURACY)?;
     if motion.len() < times.len() {
         return Err(ended(end));
     }
@@ -72,5 +72,6 @@ fn ended(end: End) -> Error {
         End::Reached => ("the motion ends", 0.0, 0.0),
     };
     let message = format!("{what} at t = {t:.6} s, crank angle {:.4} deg", crank.to_degrees());
-    Error::new(ErrorKind::Numeric, message).help("let the grid end before, or give the motor more torque")
+    let error = Error::new(ErrorKind::Numeric, message).at_time(t).at_crank(crank);
+    error.help("let the grid end before, or give the motor more torque")
 }

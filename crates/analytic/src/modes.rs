@@ -40,9 +40,10 @@ pub struct Modes {
 pub fn all(case: &Case, crank: f64) -> Result<Vec<Modes>> {
     let mechanism = &case.mechanism;
     let mut poses = PoseSolver::counting_turns(case)?;
-    let t = case.drive.time_of(crank);
-    let omega = if case.is_steady() { case.drive.at(t).omega } else { case.drive.top_speed() };
-    let (angles, omegas) = (case.drive_angles(crank), case.ratios(t).map(|ratio| ratio * omega).collect::<Vec<f64>>());
+    let t = case.crank().time_of(crank);
+    let omega = if case.is_steady() { case.crank().at(t).omega } else { case.crank().top_speed() };
+    let (angles, omegas) =
+        (case.drives.world_angles(crank), case.drives.ratios(t).map(|ratio| ratio * omega).collect::<Vec<f64>>());
     poses.solve(crank, omega, 0.0, Stage::Velocities)?;
     let state = poses.with_angles().clone();
     let followed: Vec<LinkPose> =

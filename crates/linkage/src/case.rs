@@ -1,8 +1,12 @@
 //! What every solver is given: the mechanism, what drives and loads it, where it starts, and what is wanted.
 
-use std::f64::consts::TAU;
+mod check;
 
-use crate::drive::{Action, Drive, Load, MotionLaw, Motor, Setting, Wrench};
+use std::f64::consts::TAU;
+use std::ops::Deref;
+
+use crate::Result;
+use crate::drive::{Action, Drive, Drives, Load, Motor, Setting, Wrench};
 use crate::math::statistics::ascending;
 use crate::math::{KeepNan, Motion, Vec2};
 use crate::mechanism::{AssemblyMode, Mechanism, Pose, Structure};
@@ -53,15 +57,15 @@ impl Grid {
     /// # Errors
     /// A message that says how far the grid leads, or where the law ends.
     pub fn check(&self, drive: &Drive) -> std::result::Result<(), String> {
-        if drive.law.constant().is_none() {
-            let name = drive.law.name();
+        if drive.constant_speed().is_none() {
+            let name = drive.law_name();
             if self.times.iter().any(|t| t.is_nan()) && self.cranks.iter().all(|crank| crank.is_finite()) {
                 return Err(format!(
                     "the drive's law, \"{name}\", does not come to a crank angle of the grid at one time"
                 ));
             }
             // The rounding of the last instant belongs to it.
-            let end = drive.law.end().unwrap_or(f64::INFINITY);
+            let end = drive.end().unwrap_or(f64::INFINITY);
             if let Some(t) = self.times.iter().find(|&&t| t < 0.0 || t > end * (1.0 + 1e-12)) {
                 return Err(format!(
                     "the grid leads to {t} s, but the drive's law, \"{name}\", goes from 0 to {end} s"
@@ -114,19 +118,15 @@ impl Wanted {
     }
 }
 
-/// A problem, ready for any solver. SI units, world axes.
+/// What a [`Case`] is made of, not checked yet. SI units, world axes.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Case {
+pub struct CaseParts {
     /// The mechanism.
     pub mechanism: Mechanism,
-    /// Its driving link and Assur groups.
+    /// Its driving links and Assur groups.
     pub structure: Structure,
-    /// Prescribed motion of the driving link by whose angle instants are told: the crank.
-    pub drive: Drive,
-    /// Prescribed motions of further driving links.
-    pub further_drives: Vec<Drive>,
-    /// Motor whose speed under the load is asked for; under a prescribed motion it moves nothing.
-    pub motor: Option<Motor>,
+    /// What moves the mechanism, in the order of [`Structure::drivers`].
+    pub drives: Drives,
     /// Loads besides gravity and inertia.
     pub loads: Vec<Load>,
     /// Acceleration of gravity (m/s^2).
@@ -141,17 +141,103 @@ pub struct Case {
     pub wanted: Wanted,
 }
 
+/// A problem, ready for any solver: parts that fit together. They are read as fields, `case.mechanism` for one; what changes them gives a new case, and
+/// checks it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Case(CaseParts);
+
+impl Deref for Case {
+    type Target = CaseParts;
+
+    #[inline]
+    fn deref(&self) -> &CaseParts {
+        &self.0
+    }
+}
+
 impl Case {
+    /// The case of these parts.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Input`](crate::ErrorKind::Input) with the part at fault as key, if drives, loads, start pose or modes do not belong to the mechanism or
+    /// hold numbers that are none, or the structure is not that of mechanism and drives; [`ErrorKind::Geometry`](crate::ErrorKind::Geometry) if the start pose
+    /// leaves a joint open or a driving link off its angle; [`ErrorKind::Unsupported`](crate::ErrorKind::Unsupported) for drives that this version does not solve
+    /// together; those of [`Structure::of`] and [`Grid::check`].
+    pub fn new(parts: CaseParts) -> Result<Case> {
+        check::all(&parts)?;
+        Ok(Case(parts))
+    }
+
+    /// The case of these parts, whatever they are: for tests that plant a fault and ask who notices it.
+    #[cfg(any(test, feature = "fixtures"))]
+    #[doc(hidden)]
+    #[must_use]
+    pub fn unchecked(parts: CaseParts) -> Case {
+        Case(parts)
+    }
+
+    /// The parts, to be changed and put together again.
+    #[must_use]
+    pub fn into_parts(self) -> CaseParts {
+        self.0
+    }
+
+    /// The same problem with some parts changed by `change`.
+    ///
+    /// # Errors
+    /// Those of [`Case::new`].
+    pub fn with(&self, change: impl FnOnce(&mut CaseParts)) -> Result<Case> {
+        let mut parts = self.0.clone();
+        change(&mut parts);
+        Case::new(parts)
+    }
+
+    /// The same problem on another grid.
+    ///
+    /// # Errors
+    /// Those of [`Grid::check`].
+    pub fn on(&self, grid: Grid) -> Result<Case> {
+        check::grid(&grid, self.crank())?;
+        Ok(Case(CaseParts { grid, ..self.0.clone() }))
+    }
+
+    /// The same problem with other channels wanted.
+    #[must_use]
+    pub fn wanting(&self, wanted: Wanted) -> Case {
+        Case(CaseParts { wanted, ..self.0.clone() })
+    }
+
+    /// The same problem with another motor of the crank, or without one.
+    ///
+    /// # Errors
+    /// Those of [`Case::new`]: of a motor whose numbers are none.
+    pub fn with_motor(&self, motor: Option<Motor>) -> Result<Case> {
+        self.with(|parts| *parts.drives.crank_mut() = self.crank().with_motor(motor))
+    }
+
+    /// The same problem with every drive in its nominal motion: what questions about crank angles are about.
+    #[must_use]
+    pub fn nominal(&self) -> Case {
+        Case(CaseParts { drives: self.drives.map(Drive::nominal), ..self.0.clone() })
+    }
+
+    /// The same problem with the crank turning at its drive's top speed all the time.
+    #[must_use]
+    pub fn at_top_speed(&self) -> Case {
+        let mut drives = self.drives.clone();
+        *drives.crank_mut() = self.crank().at_top_speed();
+        Case(CaseParts { drives, ..self.0.clone() })
+    }
     /// The wanted channels in the order of columns: links, points, joints, sliders, frame, drive, further drives; within each as in [`CHANNELS`].
     #[must_use]
     pub fn channels(&self) -> Vec<Channel> {
         let links = self.mechanism.links()[1..].iter().map(|link| (Subject::Link, link.name.as_str()));
         let points = self.mechanism.moving_points().map(|(name, _)| (Subject::Point, name));
         let joints = self.mechanism.joints().iter().map(|joint| (Subject::Joint, joint.name.as_str()));
-        let sliders = self.mechanism.joints().iter().filter(|joint| joint.is_prismatic());
+        let sliders = self.mechanism.joints().iter().filter(|joint| joint.slides());
         let sliders = sliders.map(|joint| (Subject::Slider, joint.name.as_str()));
         let frame = std::iter::once((Subject::Frame, ""));
-        let moved = self.moved().map(|(index, drive)| match index {
+        let moved = self.drives.with_moment().map(|(index, drive)| match index {
             0 => (Subject::Drive, ""),
             _ => (Subject::Motor, self.mechanism.joints()[drive.joint].name.as_str()),
         });
@@ -163,89 +249,24 @@ impl Case {
         subjects.flat_map(rows).collect()
     }
 
-    /// All drives, the crank's first, in the order of [`Structure::drivers`].
-    pub fn drives(&self) -> impl Iterator<Item = &Drive> {
-        std::iter::once(&self.drive).chain(&self.further_drives)
-    }
-
-    /// The drives that have a moment, with their numbers: all but those of free links without a motor.
-    pub fn moved(&self) -> impl Iterator<Item = (usize, &Drive)> {
-        let has_motor = self.motor_of_free_crank().is_some();
-        self.drives().enumerate().filter(move |&(index, drive)| drive.free.is_none() || (index == 0 && has_motor))
-    }
-
-    /// The drives of free links, with their numbers.
-    pub fn free_drives(&self) -> impl Iterator<Item = (usize, &Drive)> {
-        self.drives().enumerate().filter(|(_, drive)| drive.free.is_some())
-    }
-
-    /// The motor where it moves the crank: in a free motion.
+    /// The driving link by whose angle instants are told.
+    #[inline]
     #[must_use]
-    pub fn motor_of_free_crank(&self) -> Option<&Motor> {
-        self.motor.as_ref().filter(|_| self.drive.free.is_some())
-    }
-
-    /// Moment of inertia of rotor and reducer that turn with a free crank (kg m^2).
-    #[must_use]
-    pub fn inertia_on_free_crank(&self) -> f64 {
-        self.motor_of_free_crank().map_or(0.0, Motor::inertia_on_crank)
+    pub fn crank(&self) -> &Drive {
+        self.drives.crank()
     }
 
     /// Whether forces decide the motion of a driving link. Then crank angles are known of solved trajectories only: those of the grid are
     /// of the nominal motion.
     #[must_use]
     pub fn is_free(&self) -> bool {
-        self.free_drives().next().is_some()
-    }
-
-    /// The same problem with every drive in its nominal motion: what questions about crank angles are about.
-    #[must_use]
-    pub fn nominal(&self) -> Case {
-        let bound = |drive: &Drive| Drive { free: None, ..drive.clone() };
-        Case {
-            drive: bound(&self.drive),
-            further_drives: self.further_drives.iter().map(bound).collect(),
-            ..self.clone()
-        }
-    }
-
-    /// World angles of the driving links' x axes (rad) where the crank angle is `crank` (rad, as the scenario states it).
-    #[must_use]
-    pub fn drive_angles(&self, crank: f64) -> Vec<f64> {
-        let t = self.drive.time_of(crank);
-        let further = self.further_drives.iter().map(|drive| drive.world_angle(drive.at(t).angle));
-        std::iter::once(self.drive.world_angle(crank)).chain(further).collect()
-    }
-
-    /// Angular velocities of the driving links as shares of the crank's at the time `t` (s); the crank's own is 1.
-    pub fn ratios(&self, t: f64) -> impl Iterator<Item = f64> {
-        let omega = self.drive.at(t).omega;
-        self.drives().enumerate().map(move |(index, drive)| if index == 0 { 1.0 } else { drive.at(t).omega / omega })
+        self.drives.iter().any(Drive::is_free)
     }
 
     /// Whether all driving links turn with constant speeds.
     #[must_use]
     pub fn is_steady(&self) -> bool {
-        !self.is_free() && self.drives().all(|drive| drive.law.constant().is_some())
-    }
-
-    /// Largest speed of a driving link (rad/s), without sign.
-    #[must_use]
-    pub fn fastest_drive(&self) -> f64 {
-        self.drives().fold(0.0, |most: f64, drive| most.larger(drive.top_speed().abs()))
-    }
-
-    /// The same problem with the crank turning at its drive's top speed all the time.
-    #[must_use]
-    pub fn at_top_speed(&self) -> Case {
-        let law = MotionLaw::ConstantSpeed(self.drive.top_speed());
-        Case { drive: Drive { law, ..self.drive.clone() }, ..self.clone() }
-    }
-
-    /// The same problem on another grid.
-    #[must_use]
-    pub fn on(&self, grid: Grid) -> Case {
-        Case { grid, ..self.clone() }
+        !self.is_free() && self.drives.iter().all(|drive| drive.constant_speed().is_some())
     }
 
     /// Hands what every load does to every link, the ground included, to `put`; `motions` and `angles` (rad, turns kept) are those of all
@@ -260,7 +281,7 @@ impl Case {
 
     #[inline]
     fn setting<'a>(&'a self, motions: &'a [Motion], angles: &'a [f64]) -> Setting<'a> {
-        let crank = angles[self.drive.link] - self.drive.zero;
+        let crank = angles[self.crank().link] - self.crank().zero;
         Setting { motions, angles, start: &self.start.0, crank }
     }
 

@@ -1,4 +1,8 @@
-//! The one error type: what was asked, what was found, where, and the way out.
+//! The one error type: what was asked, what was found, where, and the way out. Each is data; words come last.
+
+mod advice;
+
+pub use advice::Advice;
 
 use std::fmt;
 use std::ops::Range;
@@ -42,7 +46,47 @@ impl Place {
     }
 }
 
-/// An error with its message, its place where there is one, and the way out.
+/// Part of a mechanism that an error is about, by name.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// A link.
+    Link(String),
+    /// A joint.
+    Joint(String),
+    /// An Assur group: the names of its links.
+    Group(String),
+}
+
+/// A number that is beyond its bound.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Excess {
+    /// The number; may be NaN.
+    pub value: f64,
+    /// The bound that it had to keep.
+    pub bound: f64,
+    /// Unit of both; empty for a ratio.
+    pub unit: &'static str,
+}
+
+/// How far a run came before it failed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Reached {
+    /// Up to this time (s).
+    Time(f64),
+    /// Up to this crank angle (rad, as the scenario states it).
+    Crank(f64),
+}
+
+impl fmt::Display for Reached {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Reached::Time(t) => write!(f, "the run stands up to t = {t:.6} s"),
+            Reached::Crank(crank) => write!(f, "the run stands up to crank angle {:.4} deg", crank.to_degrees()),
+        }
+    }
+}
+
+/// An error with its message, what is known about it, its place where there is one, and the way out.
 #[derive(Clone, Debug)]
 pub struct Error(Box<Inner>);
 
@@ -52,20 +96,123 @@ struct Inner {
     message: String,
     key: Option<String>,
     place: Option<Place>,
-    help: Option<String>,
+    time: Option<f64>,
+    crank: Option<f64>,
+    part: Option<Part>,
+    residual: Option<Excess>,
+    reached: Option<Reached>,
+    out_of_reach: bool,
+    advice: Vec<Advice>,
 }
 
 impl Error {
     /// New error of a kind; `message` says what was asked and what was found.
     #[must_use]
     pub fn new(kind: ErrorKind, message: impl Into<String>) -> Self {
-        Error(Box::new(Inner { kind, message: message.into(), key: None, place: None, help: None }))
+        Error(Box::new(Inner {
+            kind,
+            message: message.into(),
+            key: None,
+            place: None,
+            time: None,
+            crank: None,
+            part: None,
+            residual: None,
+            reached: None,
+            out_of_reach: false,
+            advice: Vec::new(),
+        }))
     }
 
-    /// Adds the way out.
+    /// Sets the way out, in place of one that is there.
     #[must_use]
-    pub fn help(mut self, help: impl Into<String>) -> Self {
-        self.0.help = Some(help.into());
+    pub fn help(mut self, advice: impl Into<Advice>) -> Self {
+        self.0.advice = vec![advice.into()];
+        self
+    }
+
+    /// Adds an alternative to the way out.
+    #[must_use]
+    pub fn or_help(mut self, advice: impl Into<Advice>) -> Self {
+        self.0.advice.push(advice.into());
+        self
+    }
+
+    /// Replaces every way out by what `change` makes of it.
+    #[must_use]
+    pub fn map_advice(mut self, change: impl FnMut(Advice) -> Advice) -> Self {
+        self.0.advice = std::mem::take(&mut self.0.advice).into_iter().map(change).collect();
+        self
+    }
+
+    /// The same error in other words: `change` makes the new message of the old one. All else is kept.
+    #[must_use]
+    pub fn map_message(mut self, change: impl FnOnce(&str) -> String) -> Self {
+        self.0.message = change(&self.0.message);
+        self
+    }
+
+    /// Says at which time (s).
+    #[must_use]
+    pub fn at_time(mut self, time: f64) -> Self {
+        self.0.time = Some(time);
+        self
+    }
+
+    /// Says at which crank angle (rad, as the scenario states it).
+    #[must_use]
+    pub fn at_crank(mut self, crank: f64) -> Self {
+        self.0.crank = Some(crank);
+        self
+    }
+
+    /// Says which link it is about.
+    #[must_use]
+    pub fn of_link(mut self, name: impl Into<String>) -> Self {
+        self.0.part = Some(Part::Link(name.into()));
+        self
+    }
+
+    /// Says which joint it is about.
+    #[must_use]
+    pub fn of_joint(mut self, name: impl Into<String>) -> Self {
+        self.0.part = Some(Part::Joint(name.into()));
+        self
+    }
+
+    /// Says which Assur group it is about, by the names of its links.
+    #[must_use]
+    pub fn of_group(mut self, names: impl Into<String>) -> Self {
+        self.0.part = Some(Part::Group(names.into()));
+        self
+    }
+
+    /// Says which number is beyond which bound, both in `unit` (empty for a ratio).
+    #[must_use]
+    pub fn beyond(mut self, value: f64, bound: f64, unit: &'static str) -> Self {
+        self.0.residual = Some(Excess { value, bound, unit });
+        self
+    }
+
+    /// Says how far the run came.
+    #[must_use]
+    pub fn after(mut self, reached: Reached) -> Self {
+        self.0.reached = Some(reached);
+        self
+    }
+
+    /// Marks the error as that of a pose which the branch of the case does not reach. Who joins solvers and range adds
+    /// the crank angles that can be reached.
+    #[must_use]
+    pub fn out_of_reach(mut self) -> Self {
+        self.0.out_of_reach = true;
+        self
+    }
+
+    /// Takes that mark off, once it is explained.
+    #[must_use]
+    pub fn explained(mut self) -> Self {
+        self.0.out_of_reach = false;
         self
     }
 
@@ -107,27 +254,117 @@ impl Error {
         self.0.place.as_ref()
     }
 
-    /// The way out, where one is known.
+    /// Time (s), where one is known.
     #[must_use]
-    pub fn way_out(&self) -> Option<&str> {
-        self.0.help.as_deref()
+    pub fn time(&self) -> Option<f64> {
+        self.0.time
+    }
+
+    /// Crank angle (rad, as the scenario states it), where one is known.
+    #[must_use]
+    pub fn crank(&self) -> Option<f64> {
+        self.0.crank
+    }
+
+    /// Link, joint or group at fault, where one is known.
+    #[must_use]
+    pub fn part(&self) -> Option<&Part> {
+        self.0.part.as_ref()
+    }
+
+    /// Number that is beyond its bound, where there is one.
+    #[must_use]
+    pub fn residual(&self) -> Option<Excess> {
+        self.0.residual
+    }
+
+    /// How far the run came, where it had begun.
+    #[must_use]
+    pub fn reached(&self) -> Option<Reached> {
+        self.0.reached
+    }
+
+    /// Whether the pose that was asked for is not reached on the case's branch, which nobody has explained so far.
+    #[must_use]
+    pub fn is_out_of_reach(&self) -> bool {
+        self.0.out_of_reach
+    }
+
+    /// The ways out, which are alternatives; empty where none is known.
+    #[must_use]
+    pub fn advice(&self) -> &[Advice] {
+        &self.0.advice
+    }
+
+    /// The way out in words that name no option of any program, where one is known.
+    #[must_use]
+    pub fn way_out(&self) -> Option<String> {
+        self.way_out_by(Advice::to_string)
+    }
+
+    /// The way out in words, each advice told by `tell`, where one is known.
+    #[must_use]
+    pub fn way_out_by(&self, tell: impl Fn(&Advice) -> String) -> Option<String> {
+        let parts = [Advice::sentence(&self.0.advice, tell), self.0.reached.map(|reached| reached.to_string())];
+        let parts: Vec<String> = parts.into_iter().flatten().collect();
+        (!parts.is_empty()).then(|| parts.join("; "))
+    }
+
+    /// The whole error in one line, as its `Display`, with each advice told by `tell`.
+    #[must_use]
+    pub fn line_by(&self, tell: impl Fn(&Advice) -> String) -> String {
+        let place = self.0.place.as_ref().map(|place| format!("{}:{}: ", place.file.display(), place.line()));
+        let key = self.0.key.as_ref().map(|key| format!("`{key}`: "));
+        let way_out = self.way_out_by(tell).map(|way_out| format!("; {way_out}"));
+        let [place, key, way_out] = [place, key, way_out].map(Option::unwrap_or_default);
+        format!("{place}{key}{}{way_out}", self.0.message)
     }
 }
 
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if let Some(place) = &self.0.place {
-            write!(f, "{}:{}: ", place.file.display(), place.line())?;
-        }
-        if let Some(key) = &self.0.key {
-            write!(f, "`{key}`: ")?;
-        }
-        write!(f, "{}", self.0.message)?;
-        if let Some(help) = &self.0.help {
-            write!(f, "; {help}")?;
-        }
-        Ok(())
+        f.write_str(&self.line_by(Advice::to_string))
     }
 }
 
 impl std::error::Error for Error {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_error_is_as_small_as_a_pointer() {
+        assert_eq!(size_of::<Error>(), size_of::<usize>());
+        assert_eq!(size_of::<Result<()>>(), size_of::<usize>());
+    }
+
+    #[test]
+    fn an_error_tells_its_data_and_its_way_out() {
+        let error = Error::new(ErrorKind::Numeric, "the loop has opened")
+            .at_time(0.25)
+            .at_crank(1.5)
+            .of_joint("B")
+            .beyond(0.2, 0.1, "m")
+            .after(Reached::Time(0.125))
+            .help(Advice::SmallerStep { to: None })
+            .or_help("check the pose");
+        assert_eq!((error.time(), error.crank()), (Some(0.25), Some(1.5)));
+        assert_eq!(error.part(), Some(&Part::Joint("B".into())));
+        assert_eq!(error.residual(), Some(Excess { value: 0.2, bound: 0.1, unit: "m" }));
+        assert_eq!(error.advice(), [Advice::SmallerStep { to: None }, "check the pose".into()]);
+        let way_out = "choose a smaller time step, or check the pose; the run stands up to t = 0.125000 s";
+        assert_eq!(error.way_out().unwrap(), way_out);
+        assert_eq!(error.to_string(), format!("the loop has opened; {way_out}"));
+        let other = error.map_message(|old| format!("{old} again")).help("go on");
+        assert_eq!((other.message(), other.advice()), ("the loop has opened again", &["go on".into()][..]));
+        assert_eq!(other.time(), Some(0.25));
+    }
+
+    #[test]
+    fn the_mark_of_a_pose_out_of_reach_comes_off_once() {
+        let error = Error::new(ErrorKind::Geometry, "too far").out_of_reach();
+        assert!(error.is_out_of_reach() && !error.clone().explained().is_out_of_reach());
+        assert!(!Error::new(ErrorKind::Geometry, "too far").is_out_of_reach());
+    }
+}

@@ -1,10 +1,12 @@
 //! Mechanisms built without a scenario file, for unit tests.
 
 use crate::Result;
-use crate::case::{Case, Grid, Wanted};
-use crate::drive::{Drive, MotionLaw};
+use crate::case::{Case, CaseParts, Grid, Wanted};
+use crate::drive::{Drive, Drives, MotionLaw};
 use crate::math::Vec2;
-use crate::mechanism::{Joint, JointKind, Link, LinkPose, Mechanism, Point, Pose, Side, Structure};
+use crate::mechanism::{
+    AssemblyMode, Joint, JointKind, Link, Mechanism, Point, Side, StartGroup, Structure, first_pose,
+};
 
 /// A massless link from its points.
 pub fn link(name: &str, points: &[(&str, f64, f64)]) -> Link {
@@ -74,20 +76,22 @@ pub fn class_four(side_b: f64, side_d: f64) -> Mechanism {
     mechanism(links, &pins).unwrap()
 }
 
-/// A mechanism whose joint 0 drives its link 1 with 1 rad/s, without gravity; no grid, and a start pose that is none.
+/// A mechanism of dyads, all in mode left, whose joint 0 drives its link 1 from angle zero with 1 rad/s; no gravity, no loads, no grid.
 pub fn turning(mechanism: Mechanism) -> Case {
-    let law = MotionLaw::ConstantSpeed(1.0);
-    Case {
-        structure: Structure::of(&mechanism, &[0]).unwrap(),
-        start: Pose(vec![LinkPose::GROUND; mechanism.links().len()]),
-        drive: Drive { joint: 0, link: 1, zero: 0.0, start: 0.0, law, free: None },
+    let drives = Drives::from(Drive::prescribed(0, 1, 0.0, 0.0, MotionLaw::ConstantSpeed(1.0)));
+    let structure = Structure::of(&mechanism, &drives.joints()).unwrap();
+    let left = vec![StartGroup { mode: Some(AssemblyMode::Left), ..StartGroup::default() }; structure.groups.len()];
+    let (start, modes) = first_pose(&mechanism, &structure, &drives.world_angles(0.0), &left).unwrap();
+    Case::new(CaseParts {
         mechanism,
-        further_drives: Vec::new(),
-        motor: None,
+        structure,
+        drives,
         loads: Vec::new(),
         gravity: Vec2::zeros(),
-        modes: Vec::new(),
+        start,
+        modes,
         grid: Grid::default(),
         wanted: Wanted::ALL,
-    }
+    })
+    .unwrap()
 }

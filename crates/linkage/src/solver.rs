@@ -13,8 +13,6 @@ pub enum Provision {
     Computed,
     /// It is derived from something else; the text says how.
     Derived(&'static str),
-    /// It is not there; the text says why.
-    Absent(&'static str),
 }
 
 /// Told how far a long run is, from 0 to 1.
@@ -24,7 +22,7 @@ pub type Progress<'a> = &'a mut dyn FnMut(f64);
 pub type Visit<'a> = &'a mut dyn FnMut(usize, &State) -> Result<()>;
 
 /// Anything that turns a case into a trajectory.
-pub trait Solver {
+pub trait Solver: Send + Sync {
     /// Short name, as on the command line.
     fn name(&self) -> &'static str;
 
@@ -49,7 +47,7 @@ pub trait Solver {
             Ok(())
         };
         self.sweep(case, &mut put, progress)?;
-        sampler.finish(case, |channel| self.provides(channel))
+        sampler.finish(case)
     }
 }
 
@@ -78,7 +76,7 @@ pub struct State {
     pub forces: Vec<Vec2>,
     /// Moment of the first link on the second in every joint, about the joint's place on the second (N m); 0 in revolute joints.
     pub moments: Vec<f64>,
-    /// Balancing moment on every driving link (N m), in the order of [`Case::drives`].
+    /// Balancing moment on every driving link (N m), in the order of [`CaseParts::drives`](crate::case::CaseParts::drives).
     pub torques: Vec<f64>,
 }
 
@@ -91,7 +89,7 @@ impl State {
             angles: vec![0.0; case.mechanism.links().len()],
             forces: vec![Vec2::zeros(); case.mechanism.joints().len()],
             moments: vec![0.0; case.mechanism.joints().len()],
-            torques: vec![0.0; case.drives().count()],
+            torques: vec![0.0; case.drives.len()],
         }
     }
 
@@ -192,7 +190,7 @@ impl Sampler {
         let (at, width) = (self.rows.len() - self.kept, self.channels.len());
         self.rows.push(row);
         if case.is_free() {
-            self.cranks[row] = state.angles[case.drive.link] - case.drive.zero;
+            self.cranks[row] = state.angles[case.crank().link] - case.crank().zero;
         }
         let has = |stage| self.wanted.has(stage);
         let wanted = [has(Stage::Positions), has(Stage::Velocities), has(Stage::Accelerations)];
@@ -220,7 +218,7 @@ impl Sampler {
         if has(Stage::BalancingMoment) {
             let (force, moment) = state.shaking(case);
             out.put([force.x, force.y, moment]);
-            case.moved().for_each(|(index, _)| out.put([state.torques[index]]));
+            case.drives.with_moment().for_each(|(index, _)| out.put([state.torques[index]]));
         }
         debug_assert!(out.values.is_empty(), "as many values as channels");
     }
@@ -237,30 +235,26 @@ impl Sampler {
         self.kept = self.rows.len();
     }
 
-    /// The trajectory on the case's grid, without the channels that `provides` calls absent.
+    /// The trajectory on the case's grid.
     ///
     /// # Errors
     /// If a value is missing or not finite.
-    pub fn finish(mut self, case: &Case, provides: impl Fn(&Channel) -> Provision) -> Result<Trajectory> {
+    pub fn finish(mut self, case: &Case) -> Result<Trajectory> {
         self.keep();
-        let present = |channel: &Channel| !matches!(provides(channel), Provision::Absent(_));
-        let (channels, columns) = self.channels.into_iter().zip(self.columns).filter(|(c, _)| present(c)).unzip();
-        Trajectory::new(case.grid.times.clone(), self.cranks, channels, columns)
+        Trajectory::new(case.grid.times.clone(), self.cranks, self.channels, self.columns)
     }
 
     /// What there is of the trajectory: the rows stored so far, in the order in which they came. `None` if there is none, or if
     /// their numbers are not finite.
     #[must_use]
-    pub fn so_far(mut self, case: &Case, provides: impl Fn(&Channel) -> Provision) -> Option<Trajectory> {
+    pub fn so_far(mut self, case: &Case) -> Option<Trajectory> {
         self.keep();
         if self.rows.is_empty() {
             return None;
         }
-        let present = |channel: &Channel| !matches!(provides(channel), Provision::Absent(_));
         let stored = |values: &[f64]| self.rows.iter().map(|&row| values[row]).collect::<Vec<f64>>();
-        let kept = self.channels.iter().zip(&self.columns).filter(|(channel, _)| present(channel));
-        let (channels, columns) = kept.map(|(channel, column)| (channel.clone(), stored(column))).unzip();
-        Trajectory::new(stored(&case.grid.times), stored(&self.cranks), channels, columns).ok()
+        let columns = self.columns.iter().map(|column| stored(column)).collect();
+        Trajectory::new(stored(&case.grid.times), stored(&self.cranks), self.channels, columns).ok()
     }
 }
 

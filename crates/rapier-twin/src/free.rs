@@ -81,9 +81,9 @@ impl Acting {
     /// Speed aimed at and damping of the motor that has the law's moment and slope at the crank's speed. Where the moment rises with the speed, or does
     /// not depend on it, it goes to the loads instead.
     fn motor(&mut self, case: &Case) -> [f64; 2] {
-        let Some(motor) = case.motor_of_free_crank() else { return [0.0; 2] };
-        let sense = case.drive.sense();
-        let omega = sense * self.state.motions[case.drive.link].omega;
+        let Some(motor) = case.crank().moving_motor() else { return [0.0; 2] };
+        let sense = case.crank().sense();
+        let omega = sense * self.state.motions[case.crank().link].omega;
         let holds = |branch: &Branch| omega >= branch.speeds[0] && omega < branch.speeds[1];
         let branch = match self.branch {
             Some(branch) if holds(&branch) => branch,
@@ -93,7 +93,7 @@ impl Acting {
         if slope < 0.0 {
             return [sense * (omega - moment / slope), -slope];
         }
-        self.loads[case.drive.link].moment += sense * moment;
+        self.loads[case.crank().link].moment += sense * moment;
         [0.0; 2]
     }
 }
@@ -121,7 +121,7 @@ pub(super) fn begin(case: &Case, acting: &mut Acting, worlds: &mut [Guard], sett
 
 /// Places worlds at the start with the velocities of the driving links there: a tiny step with rigid drives brings all others in line.
 fn settle(case: &Case, worlds: &mut [Guard], step: f64) -> Result<()> {
-    let fastest = case.drives().fold(0.0f64, |most, drive| most.larger(drive.initial_speed().abs()));
+    let fastest = case.drives.iter().fold(0.0f64, |most, drive| most.larger(drive.initial_speed().abs()));
     for guard in worlds {
         guard.set_step(if fastest > 0.0 { SETTLING_TURN / fastest } else { SETTLING_TURN * step });
         guard.drive_from_start();

@@ -1,11 +1,13 @@
 //! A world that is watched: a loop that opens, a link that turns wildly, a number that is none, a panic inside the engine. All become an
 //! error that says when, at which crank angle and where.
 
-use super::quiet::quietly;
+use std::fmt;
+
+use super::quiet::guarded;
 use super::world::{LinkFrame, World, masses, opening};
 use linkage::case::Case;
-use linkage::drive::{Drive, Wrench};
-use linkage::error::{Error, ErrorKind, Result};
+use linkage::drive::{Drive, DriveMotion, Wrench};
+use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{LinkPose, Side};
 use linkage::solver::State;
@@ -53,7 +55,7 @@ impl<'a> Guard<'a> {
             masses,
             step,
             loads: vec![Wrench::ZERO; case.mechanism.links().len()],
-            energy: energy * case.fastest_drive().powi(2),
+            energy: energy * case.drives.top_speed().powi(2),
         };
         guard.stand();
         guard
@@ -84,21 +86,21 @@ impl<'a> Guard<'a> {
 
     /// Sets all drives to their speeds at `t`.
     pub(super) fn drive(&mut self, t: f64) {
-        for (index, drive) in self.case.drives().enumerate() {
+        for (index, drive) in self.case.drives.iter().enumerate() {
             self.world.set_drive(index, drive.at(t).omega);
         }
     }
 
     /// Sets all drives to the speeds that take them from where they are at the time `from` (s) to where they are at `to`, a step later or earlier.
     pub(super) fn drive_on(&mut self, from: f64, to: f64) {
-        for (index, drive) in self.case.drives().enumerate() {
+        for (index, drive) in self.case.drives.iter().enumerate() {
             self.world.set_drive(index, drive.step_speed(from, to));
         }
     }
 
     /// Sets all drives to their speeds at t = 0: those from which free links start, those of the laws for the others.
     pub(super) fn drive_from_start(&mut self) {
-        for (index, drive) in self.case.drives().enumerate() {
+        for (index, drive) in self.case.drives.iter().enumerate() {
             self.world.set_drive(index, drive.initial_speed());
         }
     }
@@ -106,11 +108,11 @@ impl<'a> Guard<'a> {
     /// Sets the speed, over a step between two instants, of the links whose motion is prescribed, and for free ones what `motor` says: speed aimed at
     /// (rad/s) and damping (N m s/rad).
     pub(super) fn drive_freely(&mut self, [from, to]: [f64; 2], motor: [f64; 2]) {
-        for (index, drive) in self.case.drives().enumerate() {
-            match (drive.free, index) {
-                (None, _) => self.world.set_drive(index, drive.step_speed(from, to)),
-                (Some(_), 0) => self.world.set_motor(index, motor[0], motor[1]),
-                (Some(_), _) => self.world.set_motor(index, 0.0, 0.0),
+        for (index, drive) in self.case.drives.iter().enumerate() {
+            match (&drive.motion, index) {
+                (DriveMotion::Prescribed { .. }, _) => self.world.set_drive(index, drive.step_speed(from, to)),
+                (DriveMotion::Free { .. }, 0) => self.world.set_motor(index, motor[0], motor[1]),
+                (DriveMotion::Free { .. }, _) => self.world.set_motor(index, 0.0, 0.0),
             }
         }
     }
@@ -154,18 +156,19 @@ impl<'a> Guard<'a> {
         let Guard { case, world, frames: before, centres, masses, size, .. } = self;
         let (links, joints) = (case.mechanism.links(), case.mechanism.joints());
         // Said in the words of the frames before the step.
-        let crank = |before: &[LinkFrame]| at(&case.drive, before[case.drive.link].angle() - case.drive.zero, t);
-        quietly(|| world.step()).map_err(|cause| panicked(&crank(before), cause.as_ref()))?;
+        let place =
+            |before: &[LinkFrame]| Instant::of(case.crank(), before[case.crank().link].angle() - case.crank().zero, t);
+        guarded(|| world.step()).map_err(|cause| panicked(place(before), cause.as_ref()))?;
         let frames = world.frames();
         let mut twice_energy = 0.0;
         for (link, (frame, before_it)) in frames.iter().zip(before.iter()).enumerate().skip(1) {
             let turn = frame.turn_since(before_it);
             // Written so that NaN stops the run too.
             if !(turn <= LARGEST_TURN) {
-                let (name, turn) = (&links[link].name, turn.to_degrees());
+                let (name, degrees, place) = (&links[link].name, turn.to_degrees(), place(before));
                 let message =
-                    format!("the engine's link \"{name}\" has turned by {turn:.1} deg in one step, {}", crank(before));
-                return Err(failed(message));
+                    format!("the engine's link \"{name}\" has turned by {degrees:.1} deg in one step, {place}");
+                return Err(place.failed(message).of_link(name).beyond(turn, LARGEST_TURN, "rad"));
             }
             let [mass, inertia] = masses[link];
             let centre = frame.point(links[link].mass_centre);
@@ -175,19 +178,17 @@ impl<'a> Guard<'a> {
         }
         let energy = 0.5 * twice_energy / (self.step * self.step);
         if !(energy <= LARGEST_GROWTH * self.energy) {
-            let growth = energy / self.energy;
-            let message =
-                format!("the engine's kinetic energy has grown {growth:.1e} times in one step, {}", crank(before));
-            return Err(failed(message));
+            let (growth, place) = (energy / self.energy, place(before));
+            let message = format!("the engine's kinetic energy has grown {growth:.1e} times in one step, {place}");
+            return Err(place.failed(message).beyond(growth, LARGEST_GROWTH, ""));
         }
         self.energy = self.energy.larger(energy);
         for &joint in &world.tree().cut {
             let gap = opening(frames, &joints[joint], *size);
             if !(gap <= self.largest_gap) {
-                let name = &joints[joint].name;
-                let message =
-                    format!("the engine's loop has opened by {gap:.3e} m at joint \"{name}\", {}", crank(before));
-                return Err(failed(message));
+                let (name, place) = (&joints[joint].name, place(before));
+                let message = format!("the engine's loop has opened by {gap:.3e} m at joint \"{name}\", {place}");
+                return Err(place.failed(message).of_joint(name).beyond(gap, self.largest_gap, "m"));
             }
         }
         before.copy_from_slice(frames);
@@ -206,35 +207,59 @@ impl<'a> Guard<'a> {
             let far = link.points.iter().map(|point| off(point.local)).fold(off(link.mass_centre), f64::larger);
             // Written so that NaN stops the run too.
             if !(far <= self.largest_gap) {
-                let crank = case.drive.start.to_degrees();
+                let crank = case.crank().start.to_degrees();
                 let message = format!(
                     "the engine ran up from a few steps before the grid and came back to the start at crank angle {crank:.4} deg with link \"{}\" {far:.3e} m off: it has passed a dead point on the way",
                     link.name
                 );
                 return Err(Error::new(ErrorKind::Numeric, message)
-                    .help("choose a smaller time step (--dt), or begin the grid farther from the dead point"));
+                    .at_time(0.0)
+                    .at_crank(case.crank().start)
+                    .of_link(&link.name)
+                    .beyond(far, self.largest_gap, "m")
+                    .help(Advice::SmallerStep { to: None })
+                    .or_help("begin the grid farther from the dead point"));
             }
         }
         Ok(())
     }
 }
 
-/// When and where, for messages: a free crank is where it was `before` the step.
-fn at(drive: &Drive, before: f64, t: f64) -> String {
-    let crank = if drive.free.is_some() { before } else { drive.at(t).angle };
-    format!("t = {t:.6} s, crank angle {:.4} deg", crank.to_degrees())
+/// When and where a step went wrong.
+#[derive(Clone, Copy)]
+struct Instant {
+    /// Time (s).
+    t: f64,
+    /// Crank angle (rad, as the scenario states it).
+    crank: f64,
 }
 
-fn failed(message: String) -> Error {
-    Error::new(ErrorKind::Numeric, message)
-        .help("choose a smaller time step (--dt), or check that the pose can be assembled there")
+impl Instant {
+    /// A free crank is where it was `before` the step.
+    fn of(drive: &Drive, before: f64, t: f64) -> Self {
+        Instant { t, crank: if drive.is_free() { before } else { drive.at(t).angle } }
+    }
+
+    fn error(self, message: String) -> Error {
+        let error = Error::new(ErrorKind::Numeric, message).at_time(self.t).at_crank(self.crank);
+        error.help(Advice::SmallerStep { to: None })
+    }
+
+    fn failed(self, message: String) -> Error {
+        self.error(message).or_help("check that the pose can be assembled there")
+    }
 }
 
-fn panicked(place: &str, cause: &(dyn std::any::Any + Send)) -> Error {
+impl fmt::Display for Instant {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "t = {:.6} s, crank angle {:.4} deg", self.t, self.crank.to_degrees())
+    }
+}
+
+fn panicked(place: Instant, cause: &(dyn std::any::Any + Send)) -> Error {
     let words = cause.downcast_ref::<&str>().copied().or_else(|| cause.downcast_ref::<String>().map(String::as_str));
     let words = words.unwrap_or("no message");
-    Error::new(ErrorKind::Numeric, format!("the engine has panicked (\"{words}\"), {place}"))
-        .help("choose a smaller time step (--dt), or another engine")
+    place.error(format!("the engine has panicked (\"{words}\"), {place}")).or_help(Advice::OtherEngine)
 }
 
 #[cfg(test)]
@@ -245,7 +270,6 @@ mod tests {
     use crate::{Build, Precision, Rapier};
     use linkage::fixtures::{four_bar, turning};
     use linkage::math::{rotated, unit};
-    use linkage::mechanism::Pose;
 
     /// A world whose steps go wrong, after which it tells of places and angles that are off.
     struct Broken {
@@ -308,9 +332,7 @@ mod tests {
 
     /// What a guard says of a step that goes wrong, after which all places and angles are off by `off`.
     fn step(build: Build, wrong: fn(&mut dyn World), off: (Vec2, f64)) -> Result<()> {
-        let start = [(0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (1.0, 0.0, 0.8410686705679303), (4.0, 0.0, 1.6821373411358607)];
-        let pose = |(x, y, angle)| LinkPose { origin: Vec2::new(x, y), angle };
-        let case = Case { start: Pose(start.map(pose).to_vec()), ..turning(four_bar()) };
+        let case = turning(four_bar());
         let engine = Rapier::new(build, Precision::Double, 1e-3);
         let tree = if build == Build::Impulse { Tree::none(&case.mechanism) } else { Tree::of(&case.mechanism) };
         let world = engine.world(&case, tree, false).unwrap();

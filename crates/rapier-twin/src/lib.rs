@@ -25,4 +25,5 @@ pub mod world;
 
 pub use build::{Build, Precision};
 pub use linkage::mechanism::spanning_tree as tree;
+pub use quiet::is_guarded;
 pub use rapier::Rapier;

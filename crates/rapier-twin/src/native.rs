@@ -36,7 +36,7 @@ pub(super) struct Native {
 impl Native {
     pub(super) fn new(case: &Case, worlds: &[Guard], settings: &Settings, start: i64) -> Self {
         let cuts: Vec<&[usize]> = worlds.iter().map(|guard| guard.world().tree().cut.as_slice()).collect();
-        let width = 3 * case.mechanism.joints().len() + case.drives().count();
+        let width = 3 * case.mechanism.joints().len() + case.drives.len();
         let reporters = reporters(case, &cuts);
         // In a free motion step 1 is the first that is reported.
         let lowest = if case.is_free() { 3 } else { i64::MIN / 2 };

@@ -53,14 +53,14 @@ impl NewtonEuler {
     /// The equations with other masses and moments of inertia, and with a share of the loads.
     #[must_use]
     pub fn of(case: &Case, masses: Vec<[f64; 2]>, load_share: f64) -> Self {
-        let driven: Vec<usize> = case.drives().map(|drive| drive.joint).collect();
+        let driven: Vec<usize> = case.drives.iter().map(|drive| drive.joint).collect();
         NewtonEuler::along(case, &Tree::with(&case.mechanism, &driven), masses, load_share)
     }
 
     /// The same along any tree that has all links and all driven joints.
     #[must_use]
     pub fn along(case: &Case, tree: &Tree, masses: Vec<[f64; 2]>, load_share: f64) -> Self {
-        let driven: Vec<usize> = case.drives().map(|drive| drive.joint).collect();
+        let driven: Vec<usize> = case.drives.iter().map(|drive| drive.joint).collect();
         let mut numbers = vec![None; masses.len()];
         for (number, branch) in tree.branches.iter().enumerate() {
             numbers[branch.link] = Some(number);
@@ -117,6 +117,7 @@ impl NewtonEuler {
                 ErrorKind::Numeric,
                 format!("the reactions are not determined at t = {t:.6} s (dead point)"),
             )
+            .at_time(t)
             .help("shorten the grid to the crank angles before the dead point"));
         }
         self.read(state);

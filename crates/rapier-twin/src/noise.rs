@@ -34,7 +34,7 @@ const PROBE_ULPS: f64 = 16000.0;
 pub(super) fn bound(case: &Case, engine: &Rapier, channel: &ChannelKind) -> f64 {
     let (step, epsilon) = (engine.settings.resolution, engine.precision.epsilon());
     let longest = case.grid.times.iter().fold(0.0, |max: f64, t| max.larger(t.abs()));
-    let speed = case.fastest_drive();
+    let speed = case.drives.top_speed();
     let size = case.mechanism.size();
     let mass: f64 = case.mechanism.links().iter().map(|link| link.mass).sum();
     let turned = case.start.0.iter().fold(speed * longest, |max: f64, pose| max.larger(pose.angle.abs())).larger(1.0);
@@ -80,7 +80,7 @@ fn lever(case: &Case, reach: f64, subject: Subject) -> f64 {
     match subject {
         // The lever of a drive is that of the largest driving link.
         Subject::Drive | Subject::Motor => {
-            case.drives().fold(0.0, |most: f64, drive| most.larger(case.mechanism.links()[drive.link].size()))
+            case.drives.iter().fold(0.0, |most: f64, drive| most.larger(case.mechanism.links()[drive.link].size()))
         }
         Subject::Frame => reach,
         _ => case.mechanism.size(),

@@ -32,7 +32,7 @@ impl<'a> Probe<'a> {
     pub(super) fn new(case: &'a Case, worlds: Vec<Guard<'a>>, turn: f64) -> Self {
         let cuts: Vec<&[usize]> = worlds.iter().map(|guard| guard.world().tree().cut.as_slice()).collect();
         let reporters = reporters(case, &cuts);
-        let speed = case.fastest_drive();
+        let speed = case.drives.top_speed();
         let poses = [Vec::new(), Vec::new()];
         Probe { reporters, step: turn / speed, ghost: Ghost::of(case, false), worlds, poses }
     }

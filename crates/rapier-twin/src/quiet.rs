@@ -1,61 +1,68 @@
-//! Panics that are caught on purpose say nothing on the terminal: what they say becomes an error's message.
+//! Panics inside the engine are caught and become an error's message. The panic hook belongs to the process, not to a
+//! library: who owns the process asks here which panics need no words of its own.
 
 use std::cell::Cell;
-use std::panic::{AssertUnwindSafe, catch_unwind, set_hook, take_hook};
-use std::sync::Once;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::thread;
 
 thread_local! {
-    /// Whether this thread is inside [`quietly`].
-    static QUIET: Cell<bool> = const { Cell::new(false) };
+    /// Whether this thread is inside [`guarded`].
+    static GUARDED: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Runs `action` and catches its panic, which the process's panic hook does not see. Installs, once, a hook that passes on all other panics to the
-/// hook that was there before.
-pub(super) fn quietly<R>(action: impl FnOnce() -> R) -> thread::Result<R> {
-    static HOOK: Once = Once::new();
-    HOOK.call_once(|| {
-        let previous = take_hook();
-        set_hook(Box::new(move |info| {
-            if !QUIET.get() {
-                previous(info);
-            }
-        }));
-    });
-    let before = QUIET.replace(true);
+/// Whether the current thread is inside a step of the engine whose panic is caught and becomes an error.
+///
+/// A program may ask this in its panic hook and stay silent then: the error says what the panic said. The hook runs on
+/// the thread that panics, before the panic is caught. This crate sets no hook.
+#[must_use]
+pub fn is_guarded() -> bool {
+    GUARDED.get()
+}
+
+/// Runs `action` and catches its panic. Inside of it [`is_guarded`] holds.
+pub(super) fn guarded<R>(action: impl FnOnce() -> R) -> thread::Result<R> {
+    let before = GUARDED.replace(true);
     let outcome = catch_unwind(AssertUnwindSafe(action));
-    QUIET.set(before);
+    GUARDED.set(before);
     outcome
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::panic::set_hook;
     use std::process::Command;
     use std::sync::atomic::{AtomicUsize, Ordering};
 
     const ALONE: &str = "LINKPROOF_TEST_OF_THE_PANIC_HOOK";
+    const NAME: &str = "quiet::tests::the_hook_stays_the_process_own_and_can_tell_caught_panics";
 
     /// Hooks belong to the process: the test runs again in one of its own.
     #[test]
-    fn only_panics_inside_are_kept_from_the_hook() {
+    fn the_hook_stays_the_process_own_and_can_tell_caught_panics() {
         static HEARD: AtomicUsize = AtomicUsize::new(0);
+        static CAUGHT: AtomicUsize = AtomicUsize::new(0);
         if std::env::var_os(ALONE).is_none() {
-            let name = "engine::rapier::quiet::tests::only_panics_inside_are_kept_from_the_hook";
             let mut again = Command::new(std::env::current_exe().unwrap());
-            let output = again.args(["--exact", name]).env(ALONE, "").output().unwrap();
-            assert!(output.status.success(), "{output:?}");
+            let output = again.args(["--exact", NAME]).env(ALONE, "").output().unwrap();
+            let told = String::from_utf8_lossy(&output.stdout).into_owned();
+            assert!(output.status.success() && told.contains("1 passed"), "{output:?}");
             return;
         }
         set_hook(Box::new(|_| {
             HEARD.fetch_add(1, Ordering::SeqCst);
+            CAUGHT.fetch_add(usize::from(is_guarded()), Ordering::SeqCst);
         }));
-        let cause = quietly(|| panic!("inside")).unwrap_err();
+        let cause = guarded(|| panic!("inside")).unwrap_err();
         assert_eq!(cause.downcast_ref(), Some(&"inside"));
-        assert_eq!(quietly(|| 2).unwrap(), 2);
-        assert_eq!(HEARD.load(Ordering::SeqCst), 0);
-        thread::spawn(|| panic!("outside")).join().unwrap_err();
+        assert!(!is_guarded());
+        assert!(guarded(is_guarded).unwrap());
+        // The hook was not changed: it hears every panic, and knows which are caught.
+        assert_eq!((HEARD.load(Ordering::SeqCst), CAUGHT.load(Ordering::SeqCst)), (1, 1));
+        // Another thread is guarded by its own steps only.
+        let outside = guarded(|| thread::spawn(|| panic!("outside")).join()).unwrap();
+        outside.unwrap_err();
         catch_unwind(|| panic!("outside")).unwrap_err();
-        assert_eq!(HEARD.load(Ordering::SeqCst), 2);
+        assert_eq!((HEARD.load(Ordering::SeqCst), CAUGHT.load(Ordering::SeqCst)), (3, 1));
     }
 }

@@ -12,7 +12,7 @@ use super::tree::Tree;
 use super::window::Window;
 use linkage::case::Case;
 use linkage::engine::{Route, Settings};
-use linkage::error::{Error, ErrorKind, Result};
+use linkage::error::{Advice, Error, ErrorKind, Reached, Result};
 use linkage::math::KeepNan;
 use linkage::solver::{Progress, State, Visit, check_instants};
 use linkage::trajectory::Stage;
@@ -70,20 +70,21 @@ pub(super) fn sweep(engine: &Rapier, case: &Case, visit: Visit, progress: Progre
         progress(1.0);
         Ok(())
     };
-    go().map_err(|error| reached(error, case, visited))
+    let Settings { resolution, sweeps, .. } = engine.settings;
+    go().map_err(|error: Error| {
+        let error = error.map_advice(|advice| advice.from_settings(resolution, false, sweeps));
+        reached(error, case, visited)
+    })
 }
 
-/// Says in the way out how far the run has come: what has been visited stands.
+/// Says how far the run has come: what has been visited stands.
 fn reached(error: Error, case: &Case, visited: Option<usize>) -> Error {
     let (Some(row), ErrorKind::Numeric) = (visited, error.kind()) else { return error };
     let until = match case.is_free() {
-        true => format!("the run stands up to t = {:.6} s", case.grid.times[row]),
-        false => format!("the run stands up to crank angle {:.4} deg", case.grid.cranks[row].to_degrees()),
+        true => Reached::Time(case.grid.times[row]),
+        false => Reached::Crank(case.grid.cranks[row]),
     };
-    match error.way_out().map(str::to_string) {
-        Some(way) => error.help(format!("{way}; {until}")),
-        None => error.help(until),
-    }
+    error.after(until)
 }
 
 struct Run<'a> {
@@ -120,7 +121,7 @@ impl<'a> Run<'a> {
         if let (Some(_), Some(Route::Probe)) = (&acting, route) {
             let message = "the motion is free, but a probe needs prescribed speeds";
             return Err(Error::new(ErrorKind::Unsupported, message)
-                .help("take another way to the reactions: --route differences or --route native"));
+                .help(Advice::OtherRoute { routes: &["differences", "native"] }));
         }
         let native = route == Some(Route::Native);
         let trees = if native { reporting() } else { vec![moving()] };
@@ -254,10 +255,11 @@ fn check(settings: &Settings, steps: f64) -> Result<()> {
         );
     }
     if !(steps <= MAX_STEPS) {
-        return wrong(
-            format!("a time step of {step:e} s needs {steps:.3e} steps for this grid, the limit is {MAX_STEPS:e}"),
-            "choose a larger time step or a shorter grid",
-        );
+        let message =
+            format!("a time step of {step:e} s needs {steps:.3e} steps for this grid, the limit is {MAX_STEPS:e}");
+        return Err(Error::new(ErrorKind::Input, message)
+            .help(Advice::LargerStep { to: None })
+            .or_help("give a shorter grid"));
     }
     Ok(())
 }

@@ -7,7 +7,7 @@ use linkage::case::Case;
 use linkage::engine::Settings;
 use linkage::math::interpolate::{POINTS, lagrange_weights};
 use linkage::math::{Motion, Vec2, rotated, turned, unit};
-use linkage::mechanism::LinkPose;
+use linkage::mechanism::{JointKind, LinkPose};
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 
@@ -18,7 +18,7 @@ const WIDTH: usize = 3;
 /// second. In a multibody nothing is seen of that; but links that move at once have no step before the first, only a straight line that leads there, and the
 /// first step takes no account of how transfer functions change.
 pub(super) fn first_steps(case: &Case, plain: bool) -> i64 {
-    let moving = case.drives().any(|drive| drive.initial_speed() != 0.0);
+    let moving = case.drives.iter().any(|drive| drive.initial_speed() != 0.0);
     if plain || moving { 2 } else { 0 }
 }
 
@@ -154,8 +154,8 @@ impl Window {
             let along = |link: usize, local: Vec2| rotated(self.directions[link], local);
             let (velocity, omega) = self.rates[branch.parent];
             let speed = world.relative_speed(index);
-            self.rates[branch.link] = match joint.axis_on(branch.parent) {
-                None => {
+            self.rates[branch.link] = match joint.kind {
+                JointKind::Revolute => {
                     let arm = |link: usize| {
                         let local = joint.on(link).expect("the joint is on the link");
                         along(link, local - links[link].mass_centre)
@@ -163,7 +163,8 @@ impl Window {
                     let spin = omega + speed;
                     (velocity + turned(arm(branch.parent)) * omega - turned(arm(branch.link)) * spin, spin)
                 }
-                Some(axis) => {
+                JointKind::Prismatic { .. } => {
+                    let axis = joint.axis_on(branch.parent).expect("a branch's joint is on its parent");
                     let centre = |link: usize| match link {
                         0 => Vec2::zeros(),
                         _ => pair(&self.poses[link]),

@@ -7,7 +7,7 @@ use linkage::case::Case;
 use linkage::drive::Wrench;
 use linkage::engine::bodies::stand_in;
 use linkage::math::{KeepNan, Vec2, cross, rotated};
-use linkage::mechanism::{GROUND, Joint, Link, LinkPose, Side};
+use linkage::mechanism::{GROUND, Joint, JointKind, Link, LinkPose, Side};
 
 /// What is known of a link's angle (rad, counter-clockwise positive).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -116,7 +116,7 @@ pub trait World {
     /// Sets the time step (s).
     fn set_step(&mut self, step: f64);
 
-    /// Sets the angular velocity (rad/s, counter-clockwise positive) that a drive, by its number in [`Case::drives`], gives its link.
+    /// Sets the angular velocity (rad/s, counter-clockwise positive) that a drive, by its number in [`drives`](linkage::case::CaseParts::drives), gives its link.
     fn set_drive(&mut self, drive: usize, omega: f64);
 
     /// Leaves a drive to a motor: moment (N m) on its link of `damping` (N m s/rad, not negative) times what `target` (rad/s) is ahead of the speed at the END of
@@ -176,7 +176,7 @@ pub(super) fn masses(case: &Case) -> Vec<[f64; 2]> {
     };
     let mut masses: Vec<[f64; 2]> = case.mechanism.links().iter().enumerate().map(of).collect();
     masses[GROUND] = [0.0; 2];
-    masses[case.drive.link][1] += case.inertia_on_free_crank();
+    masses[case.crank().link][1] += case.crank().moving_inertia();
     masses
 }
 
@@ -188,7 +188,7 @@ pub(super) fn masses_with_flywheels(case: &Case) -> Vec<[f64; 2]> {
     }
     let total: f64 = masses.iter().map(|[mass, _]| mass).sum();
     let size = case.mechanism.size();
-    for drive in case.drives() {
+    for drive in &case.drives {
         masses[drive.link][1] += FLYWHEEL * total * size * size;
     }
     masses
@@ -200,11 +200,13 @@ pub(super) fn masses_with_flywheels(case: &Case) -> Vec<[f64; 2]> {
 pub(super) fn opening(frames: &[LinkFrame], joint: &Joint, size: f64) -> f64 {
     let sides = [joint.first, joint.second];
     let places = sides.map(|side| frames[side.link].point(side.local));
-    if !joint.is_prismatic() {
-        return (places[1] - places[0]).norm();
+    match joint.kind {
+        JointKind::Revolute => (places[1] - places[0]).norm(),
+        JointKind::Prismatic { .. } => {
+            let (distance, turn) = joint.opening(places, sides.map(|side| frames[side.link].direction));
+            distance.larger(turn * size)
+        }
     }
-    let (distance, turn) = joint.opening(places, sides.map(|side| frames[side.link].direction));
-    distance.larger(turn * size)
 }
 
 #[cfg(test)]

@@ -65,8 +65,8 @@ fn acting(case: &Case, linkage: &Linkage, setting_off: Rc<RefCell<Vec<f64>>>) ->
             load.moment_in(if omega == 0.0 { senses[link] } else { omega }, crank)
         };
         case.loads_with(motions, angles, sensed, &mut wrenches);
-        if let Some(motor) = case.motor_of_free_crank() {
-            let (sense, crank) = (case.drive.sense(), case.drive.link);
+        if let Some(motor) = case.crank().moving_motor() {
+            let (sense, crank) = (case.crank().sense(), case.crank().link);
             wrenches[crank].moment += sense * motor.moment_on_crank(sense * motions[crank].omega);
         }
         for (load, found) in loads.iter_mut().zip(linkage.loads(&wrenches)) {

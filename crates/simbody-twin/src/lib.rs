@@ -14,7 +14,7 @@ use linkproof_simbody::{Failure, Run};
 use linkage::case::Case;
 use linkage::drive::{Load, Wrench};
 use linkage::engine::{Engine, Route, Settings};
-use linkage::error::{Error, ErrorKind, Result};
+use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::{KeepNan, unit};
 use linkage::solver::{Progress, Provision, Solver, State, Visit, check_instants};
 use linkage::trajectory::{Channel, ChannelKind, Stage};
@@ -52,11 +52,10 @@ impl Simbody {
             let message = format!("the engine's accuracy is {}", self.accuracy);
             return Err(Error::new(ErrorKind::Input, message).help("give an accuracy between 0 and 1, 1e-8 for one"));
         }
-        if let Some(drive) = case.drives().find(|drive| drive.law.constant().is_none()) {
+        if let Some(drive) = case.drives.iter().find(|drive| drive.constant_speed().is_none()) {
             let message =
-                format!("a drive with the law \"{}\" is not handed to Simbody by this version", drive.law.name());
-            return Err(Error::new(ErrorKind::Unsupported, message)
-                .help("take another engine: `linkproof list --solvers` names them"));
+                format!("a drive with the law \"{}\" is not handed to Simbody by this version", drive.law_name());
+            return Err(Error::new(ErrorKind::Unsupported, message).help(Advice::OtherEngine));
         }
         check_start(case)?;
         let settings = self.settings_for(case);
@@ -73,7 +72,7 @@ impl Simbody {
         linkproof_simbody::Settings {
             accuracy: self.accuracy,
             tolerance: tolerance(case),
-            time_scale: 1.0 / case.fastest_drive(),
+            time_scale: 1.0 / case.drives.top_speed(),
             // An error of fourth order a step.
             steps: (MAX_STEPS * (Simbody::ACCURACY / self.accuracy).larger(1.0).powf(0.25)) as usize,
         }
@@ -146,7 +145,7 @@ impl Solver for Simbody {
         let backwards: Vec<usize> = before.iter().rev().copied().collect();
         let mut state = State::at_rest(case);
         // Resistances are forces of Simbody's own; the others are set wherever reactions are read.
-        let others = Case { loads: other_loads(case), ..case.clone() };
+        let others = case.with(|parts| parts.loads = other_loads(case))?;
         let mut wrenches = vec![Wrench::ZERO; case.mechanism.links().len()];
         for (sense, rows, end) in [(-1.0, backwards.as_slice(), ends[0]), (1.0, after, ends[1])] {
             if rows.is_empty() {
@@ -166,9 +165,16 @@ impl Solver for Simbody {
                 let found = run.read(reactions).map_err(|failure| stopped(case, &linkage, sense, &failure))?;
                 // Written so that NaN stops the run too.
                 if !found.loops.iter().all(|closed| closed.gap <= 2.0 * tolerance(case)) {
-                    let gaps = found.loops.iter().map(|closed| closed.gap).collect();
+                    let gaps: Vec<f64> = found.loops.iter().map(|closed| closed.gap).collect();
+                    // Written so that NaN is the largest.
+                    let widest = gaps
+                        .iter()
+                        .copied()
+                        .fold(0.0, |most: f64, gap| if most.is_nan() || gap <= most { most } else { gap });
                     let message = "a loop is open by more than its tolerance".into();
-                    return Err(stopped(case, &linkage, sense, &Failure { message, time: Some(t.abs()), gaps }));
+                    let failure = Failure { message, time: Some(t.abs()), gaps };
+                    let error = stopped(case, &linkage, sense, &failure);
+                    return Err(error.beyond(widest, 2.0 * tolerance(case), "m"));
                 }
                 linkage.motion(&found.bodies, &mut state);
                 if reactions {
@@ -213,8 +219,11 @@ fn check_start(case: &Case) -> Result<()> {
     };
     let widest = case.mechanism.joints().iter().reduce(|a, b| if gap(a) >= gap(b) { a } else { b });
     let name = widest.map_or("", |joint| joint.name.as_str());
-    let crank = case.drive.start.to_degrees();
-    let message =
-        format!("the pose at t = 0, crank angle {crank:.4} deg, is open by {closure:.3e} m, most at joint \"{name}\"");
-    Err(Error::new(ErrorKind::Geometry, message).help("give a start pose in which all joints are closed"))
+    let (crank, bound) = (case.crank().start, LARGEST_GAP * case.mechanism.size());
+    let degrees = crank.to_degrees();
+    let message = format!(
+        "the pose at t = 0, crank angle {degrees:.4} deg, is open by {closure:.3e} m, most at joint \"{name}\""
+    );
+    let error = Error::new(ErrorKind::Geometry, message).at_time(0.0).at_crank(crank).of_joint(name);
+    Err(error.beyond(closure, bound, "m").help("give a start pose in which all joints are closed"))
 }

@@ -33,7 +33,7 @@ impl Linkage {
     /// In a free motion, `rates` are those of all bodies' coordinates at t = 0; without them, free links turn with their initial speeds, as prescribed ones do.
     pub(super) fn new(case: &Case, sense: f64, rates: Option<&[f64]>) -> Result<Self, String> {
         let mechanism = &case.mechanism;
-        let driven: Vec<usize> = case.drives().map(|drive| drive.joint).collect();
+        let driven: Vec<usize> = case.drives.iter().map(|drive| drive.joint).collect();
         let tree = Tree::with(mechanism, &driven);
         let mut model = Model::new(case.gravity.into());
         // Bodies are numbered in the order of the branches, the ground is 0 on both sides.
@@ -42,7 +42,7 @@ impl Linkage {
         for (index, branch) in tree.branches.iter().enumerate() {
             let found = &mechanism.joints()[branch.joint];
             let [parent, child] = [branch.parent, branch.link].map(|link| case.start.0[link].angle);
-            let drive = case.drives().find(|drive| drive.joint == branch.joint);
+            let drive = case.drives.iter().find(|drive| drive.joint == branch.joint);
             let body = Body {
                 parent: numbers[branch.parent],
                 joint: joint(found, branch),
@@ -57,7 +57,7 @@ impl Linkage {
                     .map(|rate| Law { rate: sense * rate }),
             };
             numbers[branch.link] = model.add(body).map_err(|failure| failure.message)?;
-            twists.push(found.is_prismatic().then_some(child - parent));
+            twists.push(found.keeps_angle().then_some(child - parent));
         }
         for &cut in &tree.cut {
             let mechanism::Joint { first, second, .. } = &mechanism.joints()[cut];
@@ -104,13 +104,13 @@ impl Linkage {
                 (-force, -body.moment - cross(places[0] - places[1], force))
             };
             state.forces[branch.joint] = force;
-            state.moments[branch.joint] = if joint.is_prismatic() { moment } else { 0.0 };
-            if let Some(index) = case.drives().position(|drive| drive.joint == branch.joint) {
+            state.moments[branch.joint] = if joint.keeps_angle() { moment } else { 0.0 };
+            if let Some(index) = case.drives.iter().position(|drive| drive.joint == branch.joint) {
                 state.torques[index] = body.drive;
             }
         }
-        if let Some(motor) = case.motor_of_free_crank() {
-            let (sense, crank) = (case.drive.sense(), &state.motions[case.drive.link]);
+        if let Some(motor) = case.crank().moving_motor() {
+            let (sense, crank) = (case.crank().sense(), &state.motions[case.crank().link]);
             let inertial = motor.inertia_on_crank() * crank.alpha;
             state.torques[0] = sense * motor.moment_on_crank(sense * crank.omega) - inertial;
         }
@@ -122,25 +122,28 @@ impl Linkage {
 
 /// Rate of a driven coordinate, unless it is left to forces.
 fn law(case: &Case, branch: &Branch, drive: &Drive, moving: bool) -> Option<f64> {
-    if moving && drive.free.is_some() {
+    if moving && drive.is_free() {
         return None;
     }
     // Drives turn links in the world, coordinates against the parent.
-    let parent = case.drives().find(|other| other.link == branch.parent);
+    let parent = case.drives.iter().find(|other| other.link == branch.parent);
     Some(drive.initial_speed() - parent.map_or(0.0, Drive::initial_speed))
 }
 
 fn joint(found: &mechanism::Joint, branch: &Branch) -> Joint {
     let [parent, child] = [branch.parent, branch.link];
     let on = |link: usize| found.on(link).expect("the joint is on the link").into();
-    match (found.axis_on(parent), found.axis_on(child)) {
-        (Some(axis_parent), Some(axis_child)) => Joint::Slider {
-            on_parent: on(parent),
-            on_child: on(child),
-            axis_parent: axis_parent.into(),
-            axis_child: axis_child.into(),
-        },
-        _ => Joint::Pin { on_parent: on(parent), on_child: on(child) },
+    match found.kind {
+        mechanism::JointKind::Revolute => Joint::Pin { on_parent: on(parent), on_child: on(child) },
+        mechanism::JointKind::Prismatic { .. } => {
+            let axis = |link: usize| found.axis_on(link).expect("the joint is on the link").into();
+            Joint::Slider {
+                on_parent: on(parent),
+                on_child: on(child),
+                axis_parent: axis(parent),
+                axis_child: axis(child),
+            }
+        }
     }
 }
 
@@ -149,7 +152,7 @@ fn joint(found: &mechanism::Joint, branch: &Branch) -> Joint {
 pub(super) fn inertia(case: &Case, link: usize) -> Inertia {
     let body = &case.mechanism.links()[link];
     let [extra_mass, extra_inertia] = stand_in(case, link);
-    let inertia = body.inertia + if link == case.drive.link { case.inertia_on_free_crank() } else { 0.0 };
+    let inertia = body.inertia + if link == case.crank().link { case.crank().moving_inertia() } else { 0.0 };
     Inertia { mass: body.mass, centre: body.mass_centre.into(), inertia, extra_mass, extra_inertia }
 }
 

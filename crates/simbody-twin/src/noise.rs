@@ -22,7 +22,7 @@ const ULPS: f64 = 20.0;
 /// tolerance times the drive's speed, accelerations follow from both.
 pub(super) fn bound(case: &Case, [tolerance, accuracy]: [f64; 2], channel: &ChannelKind) -> f64 {
     let longest = case.grid.times.iter().fold(0.0, |max: f64, t| max.larger(t.abs()));
-    let speed = case.fastest_drive();
+    let speed = case.drives.top_speed();
     let size = case.mechanism.size();
     let moving = &case.mechanism.links()[1..];
     let shortest = moving.iter().map(|link| link.size()).filter(|&size| size > 0.0).fold(size, f64::smaller);

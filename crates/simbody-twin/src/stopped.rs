@@ -9,14 +9,19 @@ use linkage::error::{Error, ErrorKind};
 /// What stopped a run, in the case's terms.
 pub(super) fn stopped(case: &Case, linkage: &Linkage, sense: f64, failure: &Failure) -> Error {
     let t = failure.time.unwrap_or(0.0) * sense;
-    let crank = case.drive.at(t).angle.to_degrees();
+    let crank = case.crank().at(t).angle;
+    let degrees = crank.to_degrees();
     // Written so that NaN is the largest.
     let widest = failure.gaps.iter().zip(&linkage.tree.cut).reduce(|a, b| if a.0 >= b.0 { a } else { b });
     let gap = widest.map_or(String::new(), |(gap, &joint)| {
         format!(", joint \"{}\" open by {gap:.3e} m", case.mechanism.joints()[joint].name)
     });
-    let message = format!("Simbody stopped at t = {t:.6} s, crank angle {crank:.4} deg{gap}: {}", failure.message);
-    Error::new(ErrorKind::Numeric, message).help(
-        "check that the pose can be assembled there, or shorten the grid to the crank angles before the dead point",
-    )
+    let message = format!("Simbody stopped at t = {t:.6} s, crank angle {degrees:.4} deg{gap}: {}", failure.message);
+    let mut error = Error::new(ErrorKind::Numeric, message).at_time(t).at_crank(crank);
+    if let Some((_, &joint)) = widest {
+        error = error.of_joint(&case.mechanism.joints()[joint].name);
+    }
+    error
+        .help("check that the pose can be assembled there")
+        .or_help("shorten the grid to the crank angles before the dead point")
 }

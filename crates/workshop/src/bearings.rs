@@ -5,8 +5,8 @@ use std::f64::consts::PI;
 
 use analytic::PoseSolver;
 use linkage::case::Case;
-use linkage::error::{Error, ErrorKind, Result};
-use linkage::math::golden;
+use linkage::error::{Advice, Error, ErrorKind, Result};
+use linkage::math::extremum;
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 
@@ -27,7 +27,7 @@ pub struct Peak {
 pub struct Peaks {
     /// Magnitude of the reaction in each joint (N).
     pub reactions: Vec<Peak>,
-    /// Magnitude of the moment in each prismatic joint (N m); `None` for revolute joints.
+    /// Magnitude of the moment in each joint that keeps an angle (N m); `None` for joints that bear none.
     pub moments: Vec<Option<Peak>>,
     /// Magnitude of the shaking force (N).
     pub shaking_force: Peak,
@@ -47,12 +47,10 @@ pub fn journal_diameter(force: f64, lever: f64, stress: f64) -> f64 {
 /// # Errors
 /// Those of [`PoseSolver::solve`], for crank angles in between that cannot be reached.
 pub fn over_range(case: &Case) -> Result<Peaks> {
-    if case.grid.cranks.iter().any(|&crank| case.drive.time_of(crank).is_nan()) {
+    if case.grid.cranks.iter().any(|&crank| case.crank().time_of(crank).is_nan()) {
         let message =
             "peaks are looked for over the crank angle, but the drive's law may come to an angle more than once";
-        return Err(
-            Error::new(ErrorKind::Unsupported, message).help("read them off a table of `linkproof solve` instead")
-        );
+        return Err(Error::new(ErrorKind::Unsupported, message).help(Advice::SolutionTable));
     }
     let mut poses = PoseSolver::new(case)?;
     let (from, to) =
@@ -61,7 +59,7 @@ pub fn over_range(case: &Case) -> Result<Peaks> {
     let cranks: Vec<f64> = (0..=parts).map(|k| from + (to - from) * (k as f64 / parts as f64)).collect();
     let joints = case.mechanism.joints();
     let mut quantities: Vec<Quantity> = (0..joints.len()).map(Quantity::Reaction).collect();
-    let sliding = joints.iter().enumerate().filter(|(_, joint)| joint.is_prismatic());
+    let sliding = joints.iter().enumerate().filter(|(_, joint)| joint.keeps_angle());
     quantities.extend(sliding.map(|(joint, _)| Quantity::Moment(joint)));
     quantities.extend([Quantity::ShakingForce, Quantity::BalancingMoment]);
     let mut samples = vec![Vec::with_capacity(cranks.len()); quantities.len()];
@@ -106,13 +104,13 @@ impl Quantity {
 }
 
 fn at<'p>(case: &Case, poses: &'p mut PoseSolver, crank: f64) -> Result<&'p State> {
-    let drive = case.drive.at(case.drive.time_of(crank));
+    let drive = case.crank().at(case.crank().time_of(crank));
     poses.solve(crank, drive.omega, drive.alpha, Stage::BalancingMoment)
 }
 
 /// The largest sample and, by golden section between its neighbours, the largest value there.
 fn refined(case: &Case, poses: &mut PoseSolver, quantity: Quantity, cranks: &[f64], samples: &[f64]) -> Result<Peak> {
     let mut value = |crank: f64| -> Result<f64> { Ok(quantity.of(case, at(case, poses, crank)?)) };
-    let (crank, value) = golden::greatest(cranks, samples, &mut value)?;
+    let (crank, value) = extremum::greatest(cranks, samples, &mut value)?;
     Ok(Peak { value, crank })
 }

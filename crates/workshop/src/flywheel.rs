@@ -4,6 +4,7 @@ use analytic::reduced::Model;
 use analytic::steady::Regime;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
+use linkage::math::root::{self, Close};
 
 /// A flywheel on the crank's shaft, and the motion with it.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,8 +15,8 @@ pub struct Flywheel {
     pub regime: Regime,
 }
 
-/// Doublings of the first guess before a wish counts as out of reach.
-const DOUBLINGS: usize = 60;
+/// So many times the first guess is the largest flywheel before a wish counts as out of reach: sixty doublings.
+const LARGEST: f64 = (1u64 << 60) as f64;
 /// Regula falsi steps; it takes about eight.
 const STEPS: usize = 80;
 /// Relative deviation of the coefficient that is good enough.
@@ -33,43 +34,25 @@ impl Flywheel {
             let message = format!("a coefficient of non-uniformity of {wanted} is asked for");
             return Err(Error::new(ErrorKind::Input, message).help("give a number above zero, such as 0.02"));
         }
-        let with = |inertia: f64| -> Result<(f64, Regime)> {
-            let regime = model.with_flywheel(inertia).regime(&[], accuracy)?;
-            // The inverse is nearly linear in the flywheel: delta J is about the largest surplus of work over omega^2.
-            Ok((1.0 / regime.non_uniformity() - 1.0 / wanted, regime))
+        let mut last = Flywheel { inertia: 0.0, regime: model.with_flywheel(0.0).regime(&[], accuracy)? };
+        // The inverse is nearly linear in the flywheel: delta J is about the largest surplus of work over omega^2.
+        let excess = |regime: &Regime| 1.0 / regime.non_uniformity() - 1.0 / wanted;
+        let none = (0.0, excess(&last.regime));
+        if none.1 >= 0.0 {
+            return Ok(last);
+        }
+        let mut with = |inertia: f64| -> Result<f64> {
+            last = Flywheel { inertia, regime: model.with_flywheel(inertia).regime(&[], accuracy)? };
+            Ok(excess(&last.regime))
         };
-        let (mut low, (mut below, regime)) = (0.0, with(0.0)?);
-        if below >= 0.0 {
-            return Ok(Flywheel { inertia: 0.0, regime });
-        }
-        let mut high = model.inertia_at_start()?.larger(f64::MIN_POSITIVE);
-        let mut above = with(high)?.0;
-        let mut doublings = 0;
-        while above < 0.0 {
-            (low, below) = (high, above);
-            high *= 2.0;
-            above = with(high)?.0;
-            doublings += 1;
-            if doublings > DOUBLINGS {
-                let message = format!("no flywheel makes the coefficient of non-uniformity {wanted}");
-                return Err(Error::new(ErrorKind::Numeric, message).help("ask for a larger coefficient"));
-            }
-        }
-        let mut side = 0i32;
-        for _ in 0..STEPS {
-            let middle = high - above * (high - low) / (above - below);
-            let (value, regime) = with(middle)?;
-            if (value * wanted).abs() <= CLOSE || high - low <= 4.0 * f64::EPSILON * high {
-                return Ok(Flywheel { inertia: middle, regime });
-            }
-            let was = std::mem::replace(&mut side, if value >= 0.0 { 1 } else { -1 });
-            if value >= 0.0 {
-                (high, above) = (middle, value);
-                below = if was > 0 { below / 2.0 } else { below };
-            } else {
-                (low, below) = (middle, value);
-                above = if was < 0 { above / 2.0 } else { above };
-            }
+        let guess = model.inertia_at_start()?.larger(f64::MIN_POSITIVE);
+        let Some(ends) = root::widened(none, guess, guess * LARGEST, &mut with)? else {
+            let message = format!("no flywheel makes the coefficient of non-uniformity {wanted}");
+            return Err(Error::new(ErrorKind::Numeric, message).help("ask for a larger coefficient"));
+        };
+        let close = Close { value: CLOSE / wanted, width: 0.0 };
+        if root::regula_falsi(ends, close, STEPS, with)?.is_some() {
+            return Ok(last);
         }
         let message =
             format!("the flywheel for a coefficient of non-uniformity of {wanted} was not found in {STEPS} steps");

@@ -79,6 +79,6 @@ fn sliders() {
     // The ground named second is the same guide.
     let turned = SLIDER.replace(GUIDE, "links = [\"slider\", \"ground\"]\npoints = [\"B\", \"O\"]");
     assert_ne!(turned, SLIDER);
-    let [one, other] = [SLIDER, &turned].map(|text| parse(text, TABLE).unwrap().case.start);
+    let [one, other] = [SLIDER, &turned].map(|text| parse(text, TABLE).unwrap().case.start.clone());
     assert_eq!(one, other);
 }

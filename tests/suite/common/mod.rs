@@ -20,7 +20,7 @@ pub fn shipped(name: &str) -> Scenario {
 
 /// The states that a solver finds at the given times (s), in their order.
 pub fn states(solver: &dyn Solver, case: &Case, times: &[f64]) -> linkage::Result<Vec<State>> {
-    let case = case.on(Grid::of_times(&case.drive, times.to_vec()));
+    let case = case.on(Grid::of_times(case.crank(), times.to_vec())).unwrap();
     let mut found: Vec<Option<State>> = vec![None; times.len()];
     let mut keep = |row: usize, state: &State| {
         found[row] = Some(state.clone());

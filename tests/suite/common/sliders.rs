@@ -4,7 +4,7 @@
 pub mod double;
 
 use double::{oldham, scotch_yoke, slotted_crank};
-use linkage::case::{Case, Grid, Wanted};
+use linkage::case::{Case, CaseParts, Grid, Wanted};
 use linkage::drive::{Drive, MotionLaw};
 use linkage::math::{Vec2, rotated, turned, unit};
 use linkage::mechanism::{
@@ -68,28 +68,27 @@ pub fn swapped(case: &Case) -> Case {
         _ => mode,
     };
     let modes = case.structure.groups.iter().zip(&case.modes).map(mode).collect();
-    Case { mechanism, modes, ..case.clone() }
+    case.with(|parts| (parts.mechanism, parts.modes) = (mechanism, modes)).unwrap()
 }
 
 /// The case with its crank as link 1, driven at joint 0.
 fn case(links: Vec<Link>, joints: Vec<Joint>, mode: AssemblyMode, start: f64, to: f64, pose: Vec<LinkPose>) -> Case {
     let mechanism = Mechanism::new(links, joints).unwrap();
     let structure = Structure::of(&mechanism, &[0]).unwrap();
-    let drive = Drive { joint: 0, link: 1, zero: 0.0, start, law: MotionLaw::ConstantSpeed(SPEED), free: None };
+    let drive = Drive::prescribed(0, 1, 0.0, start, MotionLaw::ConstantSpeed(SPEED));
     let cranks = (0..=72).map(|k| start + (to - start) * f64::from(k) / 72.0).collect();
-    let case = Case {
+    let case = Case::new(CaseParts {
         mechanism,
         structure,
-        drive: drive.clone(),
-        further_drives: Vec::new(),
-        motor: None,
+        drives: drive.clone().into(),
         loads: Vec::new(),
         gravity: Vec2::new(0.0, -9.81),
         start: Pose(pose),
         modes: vec![mode],
         grid: Grid::of_cranks(&drive, cranks),
         wanted: Wanted::ALL,
-    };
+    });
+    let case = case.unwrap();
     let closure = case.start.closure(&case.mechanism);
     assert!(closure < 1e-15, "the start pose is off by {closure:e} m");
     case
@@ -158,14 +157,18 @@ pub fn slider_crank() -> Sample {
 /// the start this begins at 180 deg + asin(0.09 / 0.1) = 244.158 deg from the guide, crank angle 261.347 deg.
 pub fn short_rod() -> Case {
     let rod = 0.11;
-    let mut case = slider_crank().case;
+    let case = slider_crank().case;
     let (mut links, mut joints) = (case.mechanism.links().to_vec(), case.mechanism.joints().to_vec());
     let end = Vec2::new(rod, 0.0);
     (links[2].points[1].local, joints[2].first.local) = (end, end);
-    case.mechanism = Mechanism::new(links, joints).unwrap();
-    case.start.0[2].angle = GUIDE + ((OFFSET - CRANK * (case.drive.start - GUIDE).sin()) / rod).asin();
-    case.start.0[3].origin = case.start.0[2].point(end);
-    case
+    let angle = GUIDE + ((OFFSET - CRANK * (case.crank().start - GUIDE).sin()) / rod).asin();
+    let changed = case.with(|parts| {
+        parts.mechanism = Mechanism::new(links, joints).unwrap();
+        let pose = &mut parts.start.0;
+        pose[2].angle = angle;
+        pose[3].origin = pose[2].point(end);
+    });
+    changed.unwrap()
 }
 
 const PIVOT: Vec2 = Vec2::new(0.25, 0.05);

@@ -9,7 +9,7 @@ use analytic::reduced::means;
 use analytic::reduced::{ACCURACY, End, Model, RunUp, motion};
 use analytic::steady::Averaged;
 use linkage::case::Case;
-use linkage::drive::{Load, MotionLaw, Motor, MotorLaw, ShaftInertia};
+use linkage::drive::{DriveMotion, Load, MotionLaw, Motor, MotorLaw, ShaftInertia};
 use linkproof::scenario::Scenario;
 
 /// A bar of 2 kg and 0.05 kg m^2 about its mass centre, 0.3 m from the pivot; from the direction `start` (deg).
@@ -42,10 +42,10 @@ fn elliptic(k: f64) -> f64 {
 /// I domega/dt = M0 - c omega has omega = M0 / c (1 - exp(-c t / I)).
 #[test]
 fn constant_coefficients_have_their_closed_form() {
-    let mut case = bar(0.0, 0.0, false);
+    let case = bar(0.0, 0.0, false);
     let inertia = ShaftInertia { rotor: 1e-3, input: 5e-4, intermediate: 2e-2, intermediate_ratio: 3.0, output: 0.1 };
     let motor = Motor { inertia, ..Motor::ideal(MotorLaw::Linear { at_rest: 4.0, slope: -0.02 }, 10.0) };
-    case.motor = Some(motor);
+    let case = case.with_motor(Some(motor)).unwrap();
     let model = Model::of(&case).unwrap();
     let whole = 0.05 + 1.5e-3 * 100.0 + 2e-2 * 9.0 + 0.1;
     assert!((model.added_inertia() + 0.05 - whole).abs() < 1e-15);
@@ -66,11 +66,13 @@ fn the_averaged_model_is_exact_for_constant_coefficients() {
     let inertia = ShaftInertia { rotor: 1e-3, input: 5e-4, intermediate: 2e-2, intermediate_ratio: 3.0, output: 0.1 };
     let law = MotorLaw::Linear { at_rest: 4.0, slope: -0.02 };
     for (speed, efficiency) in [(1.0, 0.9), (-1.0, 0.9), (1.0, 1.0)] {
-        let mut case = bar(0.0, 20.0, false);
-        case.drive.law = MotionLaw::ConstantSpeed(speed);
-        case.loads.push(Load::Resistance { link: 1, moment: 6.0 });
         let motor = Motor { efficiency, inertia, ..Motor::ideal(law.clone(), 10.0) };
-        case.motor = Some(motor.clone());
+        let (law, turned) = (MotionLaw::ConstantSpeed(speed), Some(motor.clone()));
+        let case = bar(0.0, 20.0, false).with(|parts| {
+            parts.drives.crank_mut().motion = DriveMotion::Prescribed { law, motor: turned };
+            parts.loads.push(Load::Resistance { link: 1, moment: 6.0 });
+        });
+        let case = case.unwrap();
         let model = Model::of(&case).unwrap();
         let means = means::means_over_turn(&case, &AssurSolver).unwrap();
         let averaged = Averaged::of(&motor, means.inertia + model.added_inertia(), speed * means.resistance).unwrap();
@@ -81,8 +83,11 @@ fn the_averaged_model_is_exact_for_constant_coefficients() {
         assert_eq!((found.len(), end), (301, End::Reached));
         let mut most = [0.0f64; 2];
         for at in &found {
-            let (omega, angle) = (speed * at.omega, speed * (at.crank - case.drive.start));
-            let off = [omega - averaged.speed(at.t), angle - averaged.angle(at.t)];
+            let (omega, angle) = (speed * at.omega, speed * (at.crank - case.crank().start));
+            // omega_s (1 - exp(-t / T)), and its integral.
+            let Averaged { time_constant, steady_speed } = averaged;
+            let gone = (-at.t / time_constant).exp_m1();
+            let off = [omega + steady_speed * gone, angle - steady_speed * (at.t + time_constant * gone)];
             most = [0, 1].map(|k| most[k].larger(off[k].abs()));
         }
         assert!(most.iter().all(|off| *off < 1e-12), "{most:?}");
@@ -114,10 +119,9 @@ fn the_averaged_model_is_closed_on_one_straight_line_only() {
 /// Kloss's run-up time without load: t = I omega_s / (2 M_b) ((1 - s^2) / (2 s_b) + s_b ln(1 / s)).
 #[test]
 fn kloss_runs_up_in_its_known_time() {
-    let mut case = bar(0.0, 0.0, false);
     let (largest, breakdown, synchronous) = (3.0, 0.2, 100.0);
     let law = MotorLaw::Kloss { breakdown_torque: largest, breakdown_slip: breakdown, synchronous_speed: synchronous };
-    case.motor = Some(Motor::ideal(law, 1.0));
+    let case = bar(0.0, 0.0, false).with_motor(Some(Motor::ideal(law, 1.0))).unwrap();
     let time = |slip: f64| {
         0.05 * synchronous / (2.0 * largest) * ((1.0 - slip * slip) / (2.0 * breakdown) + breakdown * (1.0 / slip).ln())
     };
@@ -168,7 +172,7 @@ fn a_pendulum_turns_in_its_known_time() {
             let times: Vec<f64> = (1..=10).map(|k| turn * f64::from(k)).collect();
             let (found, _) = motion(&model, way * omega, &times, 1e-13).unwrap();
             for (k, at) in (1..).zip(&found) {
-                let expected = case.drive.start + way * TAU * f64::from(k);
+                let expected = case.crank().start + way * TAU * f64::from(k);
                 assert!((at.crank - expected).abs() < 1e-10, "{factor} {k}: {}", at.crank - expected);
             }
         }

@@ -26,9 +26,8 @@ fn energy(case: &Case, poses: &mut PoseSolver, at: &CrankState) -> [f64; 2] {
 fn conservative_mechanisms_keep_their_energy() {
     for (name, speed) in [("crank_rocker", 30.0), ("compressor", 40.0), ("six_bar_slider", 100.0), ("ov7_base", -97.0)]
     {
-        let mut case = shipped(&format!("{name}.toml")).case;
-        case.loads.clear();
-        case.motor = None;
+        let case = shipped(&format!("{name}.toml")).case;
+        let case = case.with(|parts| parts.loads.clear()).unwrap().with_motor(None).unwrap();
         let model = Model::of(&case).unwrap();
         // Time enough for a hundred turns; the speed swings about what it was at the start.
         let times: Vec<f64> = (0..=4000).map(|k| f64::from(k) * 0.1 * TAU / f64::abs(speed)).collect();
@@ -55,8 +54,7 @@ fn conservative_mechanisms_keep_their_energy() {
 /// A mechanism left to itself against a resistance loses just the work of the resistance: 100 N m times the angle that the rocker has gone.
 #[test]
 fn a_resistance_takes_its_work() {
-    let mut case = shipped("crank_rocker.toml").case;
-    case.motor = None;
+    let case = shipped("crank_rocker.toml").case.with_motor(None).unwrap();
     let model = Model::of(&case).unwrap();
     let times: Vec<f64> = (0..=20_000).map(|k| f64::from(k) * 1e-4).collect();
     let (found, end) = motion(&model, 60.0, &times, 1e-12).unwrap();

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use crate::common::shipped;
 use analytic::reduced::means;
 use analytic::reduced::{ACCURACY, End, Model, RunUp, motion};
-use linkage::drive::{Load, MotorLaw};
+use linkage::drive::{Load, Motor, MotorLaw};
 use linkage::math::{KeepNan, Vec2};
 use workshop::flywheel::Flywheel;
 
@@ -25,12 +25,12 @@ fn val_crank_rocker_reduced_means_and_maximum() {
         assert!((means.resistance - closed).abs() < 1e-11, "{}: {:e}", solver.name(), means.resistance - closed);
     }
     // The published reduced moment leaves out the crank's weight: its mass is moved to the pivot, its moment of inertia about it kept.
-    let mut weightless = case.clone();
     let mut links = case.mechanism.links().to_vec();
     let crank = &mut links[1];
     crank.inertia += crank.mass * crank.mass_centre.norm_squared();
     crank.mass_centre = Vec2::zeros();
-    weightless.mechanism = linkage::mechanism::Mechanism::new(links, case.mechanism.joints().to_vec()).unwrap();
+    let mechanism = linkage::mechanism::Mechanism::new(links, case.mechanism.joints().to_vec()).unwrap();
+    let weightless = case.with(|parts| parts.mechanism = mechanism).unwrap();
     let [inertia, resistance] = Model::of(&weightless).unwrap().extremes().unwrap();
     assert!((resistance.greatest.1 - 37.016_264_0).abs() < 5.1e-8, "{resistance:?}");
     let [own, _] = Model::of(&case).unwrap().extremes().unwrap();
@@ -47,7 +47,7 @@ fn val_crank_rocker_steady_motion() {
     assert!((regime.period - 0.440_496_106_159_4).abs() < 1e-12, "{}", regime.period);
     assert!((regime.start_speed - 16.679_930_049_7).abs() < 1e-9, "{}", regime.start_speed);
     assert!(regime.multiplier < 1e-90 && regime.turns == 1.0);
-    let motor = case.motor.as_ref().unwrap();
+    let motor = case.crank().motor().unwrap();
     let steady = motor.steady_speed(100.0 * 64.0 / 360.0).unwrap();
     assert!((steady - 14.33204).abs() < 5e-6 && (steady * motor.ratio - 302.6266).abs() < 5e-5);
 }
@@ -99,9 +99,9 @@ fn slope_of_the_inertia_is_its_derivative() {
         let case = shipped(&format!("{name}.toml")).case;
         let model = Model::of(&case).unwrap();
         let step = 1e-5;
-        let start = case.drive.start;
+        let start = case.crank().start;
         for k in 0..24 {
-            let crank = start + case.drive.sense() * f64::from(k) * 0.2;
+            let crank = start + case.crank().sense() * f64::from(k) * 0.2;
             let rows = model.rows(&[crank - step, crank, crank + step]).unwrap();
             let slope = (rows[2].inertia - rows[0].inertia) / (2.0 * step);
             // Central differences err by the third derivative, some hundred times the inertia, times 1e-10 / 6, and by rounding over 2e-5.
@@ -129,7 +129,7 @@ fn a_flywheel_does_what_is_asked() {
     let count = 36_000;
     let cranks: Vec<f64> = (0..count).map(|k| TAU * (f64::from(k) + 0.5) / f64::from(count)).collect();
     let mean = 100.0 * 64.0 / 360.0;
-    let speed = case.motor.as_ref().unwrap().steady_speed(mean).unwrap();
+    let speed = case.crank().motor().unwrap().steady_speed(mean).unwrap();
     let (mut work, mut least, mut most) = (0.0f64, f64::INFINITY, f64::NEG_INFINITY);
     for row in model.rows(&cranks).unwrap() {
         work += (mean - row.resistance) * TAU / f64::from(count);
@@ -146,11 +146,11 @@ fn a_flywheel_does_what_is_asked() {
 #[test]
 fn a_table_of_a_straight_line_is_the_line() {
     let case = shipped("crank_rocker.toml").case;
-    let mut tabled = case.clone();
-    let motor = tabled.motor.as_mut().unwrap();
+    let motor = case.crank().motor().unwrap();
     let speeds: Vec<f64> = (0..8).map(|k| 50.0 * f64::from(k)).collect();
     let torques = speeds.iter().map(|&speed| motor.law.torque(speed)).collect();
-    motor.law = MotorLaw::Table { speeds, torques };
+    let motor = Motor { law: MotorLaw::Table { speeds, torques }, ..motor.clone() };
+    let tabled = case.with_motor(Some(motor)).unwrap();
     let both = [&case, &tabled].map(|case| motion(&Model::of(case).unwrap(), 0.0, &times(), ACCURACY).unwrap().0);
     for (line, table) in both[0].iter().zip(&both[1]) {
         assert!((line.crank - table.crank).abs() < 1e-11 && (line.omega - table.omega).abs() < 1e-10);
@@ -161,12 +161,13 @@ fn a_table_of_a_straight_line_is_the_line() {
 
 #[test]
 fn losses_of_the_reducer_cost_their_share() {
-    let mut case = shipped("crank_rocker.toml").case;
-    case.motor.as_mut().unwrap().efficiency = 0.9;
+    let case = shipped("crank_rocker.toml").case;
+    let motor = Motor { efficiency: 0.9, ..case.crank().motor().unwrap().clone() };
+    let case = case.with_motor(Some(motor)).unwrap();
     let model = Model::of(&case).unwrap();
     let run_up = RunUp::of(&model, 0.0, &times(), ACCURACY).unwrap();
     // Twice in a turn the mechanism drives the motor: the moment on the crank is then 1 / 0.9 of the motor's, else 0.9.
-    let motor = case.motor.as_ref().unwrap();
+    let motor = case.crank().motor().unwrap();
     let (mut drives, mut driven) = (0, 0);
     for at in &run_up.motion[1..] {
         let own = motor.ratio * motor.law.torque(motor.ratio * at.omega);
@@ -180,9 +181,9 @@ fn losses_of_the_reducer_cost_their_share() {
 
 #[test]
 fn what_a_motor_cannot_move_is_held() {
-    let mut case = shipped("crank_rocker.toml").case;
     // 10 N m against a greatest resistance of 37: it gets so far and stops for good.
-    case.motor = Some(linkage::drive::Motor::ideal(MotorLaw::Constant { torque: 10.0 }, 1.0));
+    let motor = Motor::ideal(MotorLaw::Constant { torque: 10.0 }, 1.0);
+    let case = shipped("crank_rocker.toml").case.with_motor(Some(motor)).unwrap();
     let model = Model::of(&case).unwrap();
     let (found, end) = motion(&model, 0.0, &times(), ACCURACY).unwrap();
     let End::Held(t, crank) = end else { panic!("{end:?}") };
@@ -193,7 +194,7 @@ fn what_a_motor_cannot_move_is_held() {
     let error = model.regime(&[], ACCURACY).unwrap_err();
     assert!(error.message().contains("no stable speed"), "{error}");
     // Without a load it is not held.
-    case.loads.retain(|load| !matches!(load, Load::Resistance { .. }));
+    let case = case.with(|parts| parts.loads.retain(|load| !matches!(load, Load::Resistance { .. }))).unwrap();
     let free = Model::of(&case).unwrap();
     assert_eq!(motion(&free, 0.0, &times(), ACCURACY).unwrap().1, End::Reached);
 }

@@ -2,7 +2,9 @@
 
 use analytic::{AssurSolver, NewtonSolver};
 use linkage::case::{Case, Grid, Wanted};
+use linkage::drive::{DriveMotion, Motor};
 use linkage::engine::{Engine, Route, Settings};
+use linkage::error::Advice;
 use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::Mechanism;
 use linkage::solver::Solver;
@@ -47,8 +49,8 @@ fn both_sides_agree_in_every_channel() {
 fn two_ways_of_side_1_agree() {
     for name in ["crank_rocker_runup", "compressor_runup"] {
         let case = shipped(&format!("{name}.toml")).case;
-        let mut damped = case.clone();
-        damped.loads.push(linkage::drive::Load::TorsionDamper { links: [0, 1], damping: 0.0 });
+        let damper = linkage::drive::Load::TorsionDamper { links: [0, 1], damping: 0.0 };
+        let damped = case.with(|parts| parts.loads.push(damper)).unwrap();
         let found = worst(&solve(&AssurSolver, &case), &solve(&AssurSolver, &damped), |_| true);
         assert!(found < 1e-10, "{name}: {found:e}");
     }
@@ -114,9 +116,9 @@ fn energies(case: &Case, found: &Trajectory) -> Vec<f64> {
 /// Both sides, over ten seconds of a motion that is chaotic in the end: their paths may part, their energy may not change.
 #[test]
 fn several_freedoms_keep_their_energy() {
-    let mut case = shipped("double_pendulum.toml").case;
-    case.grid = Grid::of_times(&case.drive, (0..=1000).map(|k| f64::from(k) * 0.01).collect());
-    case.wanted = Wanted::of(&[Stage::Positions, Stage::Velocities]);
+    let case = shipped("double_pendulum.toml").case;
+    let grid = Grid::of_times(case.crank(), (0..=1000).map(|k| f64::from(k) * 0.01).collect());
+    let case = case.on(grid).unwrap().wanting(Wanted::of(&[Stage::Positions, Stage::Velocities]));
     for solver in [&AssurSolver as &dyn Solver, &NewtonSolver] {
         let energies = energies(&case, &solve(solver, &case));
         let drift = energies.iter().map(|energy| (energy - energies[0]).abs()).fold(0.0, f64::larger);
@@ -136,7 +138,7 @@ fn twin(name: &str, scenario: &Scenario, settings: impl Fn(Settings) -> Settings
 fn the_twin_runs_up_with_order_one_and_extrapolated_exactly() {
     let scenario = shipped("crank_rocker_runup.toml");
     let begun = (0..=100).map(|k| f64::from(k) * 1e-3).collect();
-    let begun = scenario.case.on(Grid::of_times(&scenario.case.drive, begun));
+    let begun = scenario.case.on(Grid::of_times(scenario.case.crank(), begun)).unwrap();
     let angle = |channel: &Channel| channel.kind.unit == "rad";
     let force = |channel: &Channel| channel.kind.stage >= Stage::Reactions;
     // The impulse build needs its thousands of sweeps: a fifth of the time will do for it.
@@ -168,13 +170,14 @@ fn the_twin_runs_up_with_order_one_and_extrapolated_exactly() {
 #[test]
 fn an_ill_conditioned_run_up_is_inconclusive_with_its_sensitivity() {
     let mut scenario = shipped("crank_rocker_runup.toml");
-    scenario.case.motor.as_mut().unwrap().inertia = Default::default();
+    let motor = Motor { inertia: Default::default(), ..scenario.case.crank().motor().unwrap().clone() };
+    scenario.case = scenario.case.with_motor(Some(motor)).unwrap();
     let proof = prove(&scenario, &Options::of_engine("rapier"), &mut |_| {}).unwrap();
     assert!(matches!(proof.verdict, Verdict::Inconclusive { .. }), "{:?}", proof.verdict);
     let unclear: Vec<_> = proof.engine().channels.iter().filter(|c| c.verdict.word() == "inconclusive").collect();
     assert!(!unclear.is_empty());
     for channel in unclear {
-        let Verdict::Inconclusive { reason } = &channel.verdict else { unreachable!() };
+        let Verdict::Inconclusive { reason, .. } = &channel.verdict else { unreachable!() };
         assert!(reason.contains("a millionth more of gravity and motor torque"), "{reason}");
         assert!(channel.sensitivity.unwrap() > 1e-3);
     }
@@ -185,8 +188,12 @@ fn an_ill_conditioned_run_up_is_inconclusive_with_its_sensitivity() {
 #[test]
 fn the_twin_starts_at_a_speed() {
     let mut scenario = shipped("crank_rocker_runup.toml");
-    scenario.case.drive.free = Some(9.0);
-    let case = scenario.case.on(Grid::of_times(&scenario.case.drive, vec![0.0, 0.002, 0.05, 0.1]));
+    let case = scenario.case.with(|parts| match &mut parts.drives.crank_mut().motion {
+        DriveMotion::Free { initial_speed, .. } => *initial_speed = 9.0,
+        motion @ DriveMotion::Prescribed { .. } => panic!("{motion:?}"),
+    });
+    scenario.case = case.unwrap();
+    let case = scenario.case.on(Grid::of_times(scenario.case.crank(), vec![0.0, 0.002, 0.05, 0.1])).unwrap();
     let reference = solve(&AssurSolver, &case);
     assert!((column(&reference, "link.crank.omega_rad_s")[0] - 9.0).abs() < 1e-14);
     // Measured: 8.5e-6 and 3.1e-4. Bodies of their own begin with a gap in every joint, which costs the impulse build more than it gains by extrapolation.
@@ -201,25 +208,21 @@ fn the_twin_starts_at_a_speed() {
 #[test]
 fn what_a_free_motion_cannot_be_asked_says_so() {
     let scenario = shipped("crank_rocker_runup.toml");
-    let case = |change: &dyn Fn(&mut Case)| {
-        let mut case = scenario.case.clone();
-        change(&mut case);
-        case
-    };
-    let before = case(&|case| case.grid = Grid::of_times(&case.drive, vec![-0.1, 0.0]));
-    let held = case(&|case| case.motor.as_mut().unwrap().ratio = 0.1);
+    let case = &scenario.case;
+    let before = case.on(Grid::of_times(case.crank(), vec![-0.1, 0.0])).unwrap();
+    let motor = Motor { ratio: 0.1, ..case.crank().motor().unwrap().clone() };
+    let held = case.with_motor(Some(motor)).unwrap();
     for solver in [&AssurSolver as &dyn Solver, &NewtonSolver] {
         let error = solver.solve(&held, &mut |_| {}).unwrap_err();
         assert!(error.message().contains("hold"), "{}: {error}", solver.name());
         assert!(error.way_out().unwrap().contains("torque"), "{error}");
     }
     // A motion that begins at t = 0 is not continued backwards, nor does a stand-in move a link without inertia.
-    let bare = case(&|case| {
-        let mut links = case.mechanism.links().to_vec();
-        let coupler = case.mechanism.link_named("coupler").unwrap();
-        links[coupler].inertia = 0.0;
-        case.mechanism = Mechanism::new(links, case.mechanism.joints().to_vec()).unwrap();
-    });
+    let mut links = case.mechanism.links().to_vec();
+    let coupler = case.mechanism.link_named("coupler").unwrap();
+    links[coupler].inertia = 0.0;
+    let mechanism = Mechanism::new(links, case.mechanism.joints().to_vec()).unwrap();
+    let bare = case.with(|parts| parts.mechanism = mechanism).unwrap();
     let extrapolated = twin("rapier", &scenario, |settings| Settings { extrapolated: true, ..settings });
     let engines: Vec<_> = linkproof::engines::all(scenario.dt).into_iter().chain([extrapolated]).collect();
     let solvers = engines.iter().map(|engine| engine.as_ref() as &dyn Solver);
@@ -233,5 +236,5 @@ fn what_a_free_motion_cannot_be_asked_says_so() {
     }
     let probe = twin("rapier", &scenario, |settings| Settings { route: Route::Probe, ..settings });
     let error = probe.solve(&scenario.case, &mut |_| {}).unwrap_err();
-    assert!(error.way_out().unwrap().contains("--route differences"), "{error}");
+    assert_eq!(error.advice(), [Advice::OtherRoute { routes: &["differences", "native"] }], "{error}");
 }

@@ -16,12 +16,12 @@ use crate::common::shipped;
 const SWEEPS: usize = 256;
 
 fn whole(name: &str) -> Case {
-    Case { wanted: Wanted::ALL, ..shipped(&format!("{name}.toml")).case }
+    shipped(&format!("{name}.toml")).case.wanting(Wanted::ALL)
 }
 
 /// The engine at a step of 0.08 deg of the crank.
 fn fine(name: &str, case: &Case, route: Route, extrapolated: bool) -> Box<dyn Engine> {
-    let engine = linkproof::engines::named(name, 0.08f64.to_radians() / case.drive.at(0.0).omega.abs()).unwrap();
+    let engine = linkproof::engines::named(name, 0.08f64.to_radians() / case.crank().at(0.0).omega.abs()).unwrap();
     engine.with(Settings { route, extrapolated, sweeps: SWEEPS, ..engine.settings() })
 }
 
@@ -151,7 +151,7 @@ fn regress_64_a_crank_half_as_long_leaves_less_than_a_ten_millionth() {
     let half = text.replace("A = { x_m = 0.025995627740337, y_m = 0 }", "A = { x_m = 0.0129978138701685, y_m = 0 }");
     assert_ne!(text, half);
     let half = linkproof::scenario::Scenario::parse(&half, std::path::Path::new("half.toml")).unwrap().case;
-    let half = Case { wanted: Wanted::of(&[Stage::Positions]), ..half };
+    let half = half.wanting(Wanted::of(&[Stage::Positions]));
     let gaps = [&whole_crank, &half].map(|case| {
         let run = of_states(fine("rapier", case, Route::Differences, false).as_ref(), case, |state| gap(case, state));
         run.into_iter().fold(0.0, f64::larger)
@@ -233,9 +233,9 @@ fn regress_60_single_precision_is_within_its_rounding_bound() {
         [("crank_rocker", 0.0, 1.0), ("crank_rocker", 0.0, 0.25), ("ov7_base", 0.0, 0.5), ("quick_return", 0.0, 2.0)];
     for (name, from, to) in parts {
         let base = whole(name);
-        let turn = std::f64::consts::TAU / base.drive.at(0.0).omega.abs();
+        let turn = std::f64::consts::TAU / base.crank().at(0.0).omega.abs();
         let times = (0..=45).map(|k| turn * (from + (to - from) * f64::from(k) / 45.0)).collect();
-        let case = base.on(linkage::case::Grid::of_times(&base.drive, times));
+        let case = base.on(linkage::case::Grid::of_times(base.crank(), times)).unwrap();
         // Rows of ill-conditioned loops weigh more in an impulse, the constants of whose routes were found on the crank-rocker.
         let routes: &[Route] = if name == "crank_rocker" { &Route::ALL } else { &[Route::Differences, Route::Native] };
         for (single, double) in [("rapier-f32", "rapier"), ("impulse-f32", "impulse")] {

@@ -16,7 +16,7 @@ fn case() -> Case {
 }
 
 fn at(case: &Case, times: Vec<f64>) -> Case {
-    case.on(Grid::of_times(&case.drive, times))
+    case.on(Grid::of_times(case.crank(), times)).unwrap()
 }
 
 /// Largest difference in any channel, relative to its scale, at rows of `other` that `rows` finds in `dense`.

@@ -35,8 +35,9 @@ fn regress_40_steps_that_are_too_large_prove_nothing() {
 fn assert_helpful(error: &linkage::Error) {
     assert_eq!(error.kind(), ErrorKind::Numeric, "{error}");
     assert!(error.message().contains("crank angle"), "{error}");
+    assert!(error.crank().is_some() && error.time().is_some(), "{error:?}");
     // An engine that chooses its steps cannot be helped by smaller ones.
-    let helps = |way: &str| way.contains("smaller time step") || way.contains("can be assembled");
+    let helps = |way: String| way.contains("smaller time step") || way.contains("can be assembled");
     assert!(error.way_out().is_some_and(helps), "{error}");
 }
 

@@ -17,8 +17,8 @@ const SWEEPS: usize = 1024;
 fn case() -> Case {
     let case = four_bar([0.4, 0.1, 0.35, 0.3], true).scenario().unwrap().case;
     let cranks = (0..=18).map(|k| f64::from(5 * k).to_radians()).collect();
-    let grid = Grid::of_cranks(&case.drive, cranks);
-    case.on(grid)
+    let grid = Grid::of_cranks(case.crank(), cranks);
+    case.on(grid).unwrap()
 }
 
 fn engine(name: &str, route: Route, substeps: usize) -> Box<dyn Engine> {

@@ -121,7 +121,7 @@ fn every_link_is_in_equilibrium() {
             let middle = centre(case, at.here(), link);
             let force: Vec2 = at.on(link).iter().map(|action| action.force).sum();
             let arms: f64 = at.on(link).iter().map(|action| action.about(middle)).sum();
-            let drive = if link == case.drive.link { at.here().torques[0] } else { 0.0 };
+            let drive = if link == case.crank().link { at.here().torques[0] } else { 0.0 };
             let scale = body.mass * REACH * at.fastest;
             let push = |s: &State| centre_velocity(case, s, link) * body.mass;
             at.around.are_slopes("force", scale, push, force + case.gravity * body.mass + loads[link].force)?;
@@ -145,7 +145,7 @@ fn drive_and_loads_change_the_energy() {
             at.masses().map(of).sum()
         };
         let loads = case.load_power(&at.here().motions, &at.here().angles);
-        let power = at.here().torques[0] * case.drive.at(0.0).omega + loads;
+        let power = at.here().torques[0] * case.crank().at(0.0).omega + loads;
         at.around.is_slope("energy", at.mass * (REACH * at.fastest).powi(2), energy, power)
     });
 }

@@ -20,7 +20,7 @@ const ROUNDING: f64 = 1e-12;
 /// States of both problems over the grid of the first at equal crank angles times `sense`.
 fn pairs(solver: &dyn Solver, sample: &Sample, two: &Case, sense: f64) -> Vec<(State, State)> {
     let one = &sample.scenario.case;
-    let times = one.grid.cranks.iter().map(|crank| two.drive.time_of(crank * sense));
+    let times = one.grid.cranks.iter().map(|crank| two.crank().time_of(crank * sense));
     let ours = states(solver, one, &one.grid.times).expect("solvable");
     let theirs = states(solver, two, &times.collect::<Vec<_>>()).expect("solvable");
     ours.into_iter().zip(theirs).collect()
@@ -173,7 +173,7 @@ fn joints_read_the_other_way_round_flip_their_own_force_only() {
                     // About the place on the link that was second before.
                     let [first, second] =
                         [joint.first, joint.second].map(|side| ours.motions[side.link].point(side.local));
-                    if joint.is_prismatic() {
+                    if joint.slides() {
                         theirs.moments[index] = cross(first - second, theirs.forces[index]) - theirs.moments[index];
                     }
                     compare(sample, &other, [&ours, &theirs], &same())?;
@@ -201,7 +201,7 @@ fn turn_modes(case: &Case, spec: &mut Spec, joint: usize, matters: impl Fn(Group
 fn guides_read_against_their_axes_and_named_elsewhere_work_alike() {
     for_each(COUNT, |sample| {
         let case = &sample.scenario.case;
-        for (index, joint) in case.mechanism.joints().iter().enumerate().filter(|(_, joint)| joint.is_prismatic()) {
+        for (index, joint) in case.mechanism.joints().iter().enumerate().filter(|(_, joint)| joint.slides()) {
             let mut turned = sample.spec.clone();
             let guide = turned.guides.iter_mut().find(|guide| guide.name == joint.name).expect("a guide");
             guide.axes.iter_mut().for_each(|axis| *axis += PI);

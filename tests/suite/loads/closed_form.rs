@@ -134,7 +134,7 @@ fn val_a_torsional_spring_is_wound_up_turn_by_turn() {
 /// Work of the balancing moment between two crank angles: by Gauss's rule.
 fn work(case: &Case, from: f64, to: f64) -> f64 {
     let nodes = quadrature::composite(&[from, to], 0.05);
-    let times: Vec<f64> = nodes.iter().map(|&(crank, _)| case.drive.time_of(crank)).collect();
+    let times: Vec<f64> = nodes.iter().map(|&(crank, _)| case.crank().time_of(crank)).collect();
     let found = states(analytic::all()[0], case, &times).unwrap();
     found.iter().zip(&nodes).map(|(state, &(_, weight))| state.torques[0] * weight).sum()
 }

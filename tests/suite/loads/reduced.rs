@@ -14,9 +14,7 @@ use crate::common::{centre, centre_velocity, shipped};
 
 /// The press with those of its loads that `keep` keeps.
 fn press(keep: impl Fn(&Load) -> bool) -> Case {
-    let mut case = shipped("loaded_slider.toml").case;
-    case.loads.retain(keep);
-    case
+    shipped("loaded_slider.toml").case.with(|parts| parts.loads.retain(keep)).unwrap()
 }
 
 /// Kinetic energy, that of the weights and that of the linear springs (J).
@@ -54,12 +52,12 @@ fn a_spring_gives_back_what_it_takes() {
 
 #[test]
 fn the_reduced_moment_of_tables_and_one_sided_moments_is_that_of_the_reactions() {
-    let mut case = press(|load| matches!(load, Load::Force { .. } | Load::Spring { .. }));
+    let case = press(|load| matches!(load, Load::Force { .. } | Load::Spring { .. }));
     let rod = case.mechanism.link_named("rod").unwrap();
     let table = linkage::drive::Course::table(&[(0.3, 2.0), (4.0, -5.0), (9.0, 8.0)], 2, false);
     let acts = linkage::drive::Acts::Clockwise;
-    case.loads.push(Load::Moment { link: rod, moment: table, acts });
-    case.loads.push(Load::Resistance { link: rod, moment: 3.0 });
+    let more = [Load::Moment { link: rod, moment: table, acts }, Load::Resistance { link: rod, moment: 3.0 }];
+    let case = case.with(|parts| parts.loads.extend(more)).unwrap();
     let model = Model::of(&case).unwrap();
     // Two turns, for the table of two: its three points in them, the press's nine twice, and where the press's table has points the rod turns about.
     assert_eq!((model.kinks().period, model.kinks().cranks.len()), (Some(2.0 * TAU), 3 + 18));
@@ -81,17 +79,20 @@ fn what_the_reduction_does_not_know_is_refused_by_name() {
             "{error}"
         );
     }
-    let mut case = press(|_| false);
+    let case = press(|_| false);
+    let loaded = |loads: Vec<Load>| case.with(|parts| parts.loads = loads).unwrap();
     let at = case.mechanism.joint_named("guide").map(|joint| case.mechanism.joints()[joint].second).unwrap();
-    case.loads = vec![Load::ResistingForce { at, force: 1.0 }];
-    let error = Model::of(&case).unwrap_err();
+    let resisted = loaded(vec![Load::ResistingForce { at, force: 1.0 }]);
+    let error = Model::of(&resisted).unwrap_err();
     assert!(error.message().contains("\"resisting_force\" turns with the motion of a point"), "{error}");
     let (link, acts) = (at.link, linkage::drive::Acts::Always);
-    case.loads = [7, 11, 17]
-        .map(|turns| Load::Moment { link, moment: linkage::drive::Course::table(&[(0.0, 1.0)], turns, true), acts })
-        .into();
-    assert!(Model::of(&case).unwrap_err().message().contains("after 1309 turns"));
-    let crank = case.drive.link;
-    case.loads = vec![Load::TorsionSpring { links: [0, crank], stiffness: 1.0, free_angle: 0.0 }];
-    assert!(Model::of(&case).unwrap_err().message().contains("wound up by every turn"));
+    let tables = [7, 11, 17].map(|turns| Load::Moment {
+        link,
+        moment: linkage::drive::Course::table(&[(0.0, 1.0)], turns, true),
+        acts,
+    });
+    assert!(Model::of(&loaded(tables.into())).unwrap_err().message().contains("after 1309 turns"));
+    let crank = case.crank().link;
+    let spring = vec![Load::TorsionSpring { links: [0, crank], stiffness: 1.0, free_angle: 0.0 }];
+    assert!(Model::of(&loaded(spring)).unwrap_err().message().contains("wound up by every turn"));
 }

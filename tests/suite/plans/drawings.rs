@@ -3,7 +3,7 @@
 use linkage::math::Vec2;
 use workshop::diagram::draw;
 
-use super::{REVOLUTE, SLIDERS, all, degrees_of, plans};
+use super::{Named, REVOLUTE, SLIDERS, all, degrees_of, plans};
 
 #[test]
 fn drawings_are_well_formed_and_hold_every_vector() {

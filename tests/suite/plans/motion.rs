@@ -5,7 +5,8 @@ use std::f64::consts::{PI, TAU};
 
 use analytic::AssurSolver;
 use workshop::diagram::motion::Method;
-use workshop::diagram::{Course, MotionDiagram, Plans, draw};
+use workshop::diagram::plan::state_at;
+use workshop::diagram::{Course, MotionDiagram, draw};
 
 use super::scenario;
 
@@ -23,7 +24,7 @@ fn the_chord_method_on_the_crank_pin_has_its_known_factor() {
         let half = PI / n as f64;
         let factor = half.sin() / half;
         for (method, factor) in [(Method::ChordVelocity, factor), (Method::ChordAcceleration, factor * factor)] {
-            let found = diagram.by(method).unwrap();
+            let found = diagram.found.iter().find(|found| found.method == method).unwrap();
             let exact = &diagram.exact[method.gives()];
             for (&row, value) in found.rows.iter().zip(&found.values) {
                 // Rounding of positions (1e-15 of their range) over the interval, once or twice.
@@ -161,6 +162,6 @@ fn bad_questions_are_answered_with_the_way_out() {
         assert!(error.way_out().unwrap().contains("from 4 to 1000"), "{error}");
     }
     for crank in [f64::NAN, f64::INFINITY, 1e30] {
-        assert!(Plans::at(&case, &AssurSolver, crank).is_err());
+        assert!(state_at(&case, &AssurSolver, crank).is_err());
     }
 }

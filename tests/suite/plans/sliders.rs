@@ -7,9 +7,9 @@ use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
 use linkproof::scenario::Scenario;
 use workshop::diagram::plan::state_at;
-use workshop::diagram::{Part, Plans, TipKind, draw};
+use workshop::diagram::{Part, TipKind, draw};
 
-use super::{SLIDERS, angles, contours, degrees_of, longest, plans, plans_with, scenario};
+use super::{Named, SLIDERS, angles, contours, degrees_of, longest, plans, plans_of, plans_with, scenario};
 
 /// Joint, sliding point and the name of what lies under it on a moving guide.
 const MOVING: [(&str, &str, &str, &str); 3] =
@@ -61,7 +61,7 @@ fn parts_along_and_across_a_moving_guide_are_those_of_numerical_differentiation(
             rotated(Vec2::new(direction.x, -direction.y), place)
         };
         for degrees in angles().map(|degrees| degrees_of(name, degrees)) {
-            let omega = case.drive.at(0.0).omega;
+            let omega = case.crank().at(0.0).omega;
             let at = |k: f64| relative(degrees + (k * h).to_degrees());
             let [a, b, c, d, e] = [-2.0, -1.0, 0.0, 1.0, 2.0].map(at);
             let here = &state(&case, degrees).motions[guide.link];
@@ -179,7 +179,7 @@ step_deg = 0.5
 "#;
     let scenario = Scenario::parse(text, std::path::Path::new("swinging_block.toml")).unwrap_or_else(|e| panic!("{e}"));
     for degrees in angles() {
-        let plans = Plans::at(&scenario.case, &AssurSolver, degrees.to_radians()).unwrap();
+        let plans = plans_of(&scenario.case, &AssurSolver, degrees).unwrap();
         for plan in [&plans.velocity, &plans.acceleration] {
             let (count, gap) = contours(plan);
             assert!(count > 0 && gap <= 1e-11 * longest(plan), "{degrees}: {gap:e}");
@@ -201,9 +201,9 @@ fn guides_in_the_diagram_span_the_travel() {
     for name in SLIDERS {
         let case = scenario(name).case;
         let wanted = linkage::case::Wanted::of(&[Stage::Positions]);
-        let trajectory = AssurSolver.solve(&Case { wanted, ..case.clone() }, &mut |_| {}).unwrap();
+        let trajectory = AssurSolver.solve(&case.wanting(wanted), &mut |_| {}).unwrap();
         let plans = plans(name, degrees_of(name, 67.0));
-        let sliding: Vec<_> = case.mechanism.joints().iter().filter(|joint| joint.is_prismatic()).collect();
+        let sliding: Vec<_> = case.mechanism.joints().iter().filter(|joint| joint.slides()).collect();
         assert_eq!(plans.scheme.guides.len(), sliding.len());
         for (guide, joint) in plans.scheme.guides.iter().zip(sliding) {
             let channel = format!("joint.{}.slide_m", joint.name);

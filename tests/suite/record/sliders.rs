@@ -67,7 +67,7 @@ fn every_channel_of_a_slider_is_read_back_from_one_topic_a_joint() {
             schemas.entry(schema.name.clone()).or_default().insert(schema.data.to_vec());
         }
         assert!(schemas.values().all(|contents| contents.len() == 1), "a name of two schemas");
-        let sliding = case.mechanism.joints().iter().filter(|joint| joint.is_prismatic());
+        let sliding = case.mechanism.joints().iter().filter(|joint| joint.slides());
         assert!(sliding.clone().count() > 0 && schemas.contains_key("linkproof.Slider"));
         for joint in sliding {
             assert!(topics.contains_key(&format!("/reference/joint/{}", joint.name)));
@@ -83,8 +83,7 @@ fn rails_span_the_slide_and_guide_points_are_no_pivots() {
         let scene: SceneUpdate = messages(&bytes, "/mechanism/links").remove(0);
         let ground = entity(&scene, "ground");
         assert_eq!(ground.triangles[0].points.len(), 3 * pivots, "{name}");
-        let fixed: Vec<_> =
-            case.mechanism.joints().iter().filter(|j| j.is_prismatic() && j.on(GROUND).is_some()).collect();
+        let fixed: Vec<_> = case.mechanism.joints().iter().filter(|j| j.slides() && j.on(GROUND).is_some()).collect();
         assert_eq!(ground.lines.len(), pivots + 2 * fixed.len(), "{name}");
         for (joint, rails) in fixed.iter().zip(ground.lines[pivots..].chunks(2)) {
             let (axis, origin) = (joint.axis_on(GROUND).unwrap(), joint.first.local);
@@ -115,7 +114,7 @@ fn blocks_are_rectangles_and_moving_guides_lines_along_their_axes() {
             };
             entity.lines.iter().map(|line| (line.r#type == LineType::LineLoop as i32, points(line))).collect::<Vec<_>>()
         };
-        for joint in mechanism.joints().iter().filter(|joint| joint.is_prismatic()) {
+        for joint in mechanism.joints().iter().filter(|joint| joint.slides()) {
             let [guide, block] = mechanism.guide_and_block(joint).unwrap();
             let axis = joint.axis_on(block.link).unwrap();
             let rectangle = lines(block.link).into_iter().find(|(closed, points)| {

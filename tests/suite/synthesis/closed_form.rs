@@ -41,9 +41,6 @@ fn published() -> Wish {
 #[test]
 fn the_published_crank_rocker_is_the_scenario_of_the_repository() {
     let found = CrankRocker::of(published()).unwrap();
-    assert!(
-        (found.crank - 0.025_995_627_740_337).abs() < 1e-12 && (found.coupler - 0.347_071_931_891_81).abs() < 1e-12
-    );
     let (own, shipped) = (case(&found.scenario(&sheet())), shipped("crank_rocker.toml").case);
     for (a, b) in own.mechanism.joints().iter().zip(shipped.mechanism.joints()) {
         assert_eq!(a.name, b.name);
@@ -110,7 +107,7 @@ fn slider_cranks_have_their_stroke() {
         let place = case.mechanism.links().iter().position(|link| link.name == "slider").unwrap();
         let cranks: Vec<f64> =
             [found.far[0], found.near[0]].into_iter().chain((0..3600).map(|k| f64::from(k) * TAU / 3600.0)).collect();
-        let times: Vec<f64> = cranks.iter().map(|&crank| case.drive.time_of(crank)).collect();
+        let times: Vec<f64> = cranks.iter().map(|&crank| case.crank().time_of(crank)).collect();
         let newton = states(&NewtonSolver, &case, &times).unwrap();
         let assur = states(&AssurSolver, &case, &times[..2]).unwrap();
         for (row, [_, x]) in [found.far, found.near].into_iter().enumerate() {

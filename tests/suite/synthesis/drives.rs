@@ -76,7 +76,7 @@ fn the_curve_is_the_motion_of_the_lever() {
         let (task, found) = designed(name);
         let rows: Vec<usize> = (0..found.turns.len()).step_by(100).collect();
         let times: Vec<f64> =
-            rows.iter().map(|&row| task.case.drive.time_of(task.turning() * found.turns[row])).collect();
+            rows.iter().map(|&row| task.case.crank().time_of(task.turning() * found.turns[row])).collect();
         let lever = task.case.mechanism.link_named("lever").unwrap();
         let directions: Vec<Vec2> = states(&NewtonSolver, &task.case, &times)
             .unwrap()
@@ -105,7 +105,7 @@ fn the_published_eyelet_needle_drives_keep_their_timing() {
     assert!((new.stroke.to_degrees() - 5.5049).abs() < 1e-3 && new.transmission.is_none());
     // Its output is the printed one: a table angle of 0 and its neighbours, 30 degrees apart.
     let rocker = task.case.mechanism.link_named("rocker_75").unwrap();
-    let times: Vec<f64> = (0..12).map(|k| task.case.drive.time_of(-f64::from(k) * 30f64.to_radians())).collect();
+    let times: Vec<f64> = (0..12).map(|k| task.case.crank().time_of(-f64::from(k) * 30f64.to_radians())).collect();
     let states = states(&AssurSolver, &task.case, &times).unwrap();
     let angles: Vec<f64> =
         states.iter().map(|state| state.motions[rocker].direction.y.atan2(state.motions[rocker].direction.x)).collect();
@@ -124,7 +124,7 @@ fn a_class_three_group_is_searched() {
     assert!(found.candidates[1] > 10 && found.cost < found.refined[1].smaller(found.random_cost) + 1e-15, "{found:?}");
     let mut mechanism = task.case.mechanism.clone();
     task.places.iter().for_each(|place| place.apply(&found.values, &mut mechanism));
-    let drive = linkage::drive::Drive { zero: task.zero.value(&found.values), ..task.case.drive.clone() };
+    let drive = linkage::drive::Drive { zero: task.zero.value(&found.values), ..task.case.crank().clone() };
     let (start, modes) = linkage::mechanism::first_pose(
         &mechanism,
         &task.case.structure,
@@ -132,7 +132,10 @@ fn a_class_three_group_is_searched() {
         &task.starts,
     )
     .unwrap();
-    let case = linkage::case::Case { mechanism, drive, start, modes, ..task.case.clone() };
+    let case = task.case.with(|parts| {
+        (parts.mechanism, parts.drives, parts.start, parts.modes) = (mechanism, drive.into(), start, modes);
+    });
+    let case = case.unwrap();
     let better = Achieved::of(&Task { case, ..task.clone() }, found.forward).unwrap();
     let (own, published) = measured("eyelet_needle", shipped("ov7_new.toml"));
     eprintln!("{} against {}", better.unrest(&task), published.unrest(&own));

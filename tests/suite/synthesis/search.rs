@@ -111,7 +111,7 @@ fn the_scenario_written_has_the_values_found() {
     let links = scenario.case.mechanism.links();
     let length = |link: usize| (links[link].points[1].local - links[link].points[0].local).norm();
     assert!((length(1) - 0.031_235).abs() < 1e-15 && (length(2) - 0.345_679).abs() < 1e-15);
-    assert!((scenario.case.drive.zero.to_degrees() - 70.7355).abs() < 1e-9);
+    assert!((scenario.case.crank().zero.to_degrees() - 70.7355).abs() < 1e-9);
     assert!(
         (links[2].mass - 3.0 * 0.345_679).abs() < 1e-6
             && (links[2].inertia / links[2].mass - 0.345_679f64.powi(2) / 12.0).abs() < 1e-7
@@ -125,9 +125,14 @@ fn the_scenario_written_has_the_values_found() {
 #[test]
 fn what_is_measured_are_the_extreme_positions() {
     let TaskFile { task, .. } = task(TASK);
-    let mut case = task.case.clone();
     // The turn begins in the stretched position.
-    case.drive.zero = 33.610_819_789_881_56f64.to_radians();
+    let case = task.case.with(|parts| {
+        parts.drives.crank_mut().zero = 33.610_819_789_881_56f64.to_radians();
+        let angles = parts.drives.world_angles(parts.drives.crank().start);
+        (parts.start, parts.modes) =
+            linkage::mechanism::first_pose(&parts.mechanism, &parts.structure, &angles, &task.starts).unwrap();
+    });
+    let case = case.unwrap();
     let found = Achieved::of(&Task { case, ..task.clone() }, 1.0).unwrap();
     assert!((found.stroke.to_degrees() - 32.0).abs() < 1e-4, "{}", found.stroke.to_degrees());
     for (done, phase) in found.phases.iter().zip(task.timing.phases()) {

@@ -47,7 +47,7 @@ pub struct Met {
 pub fn thinned(mut scenario: Scenario, every: usize) -> Scenario {
     let grid = &scenario.case.grid;
     let times = grid.times.iter().step_by(every).copied().collect();
-    scenario.case.grid = Grid::of_times(&scenario.case.drive, times);
+    scenario.case = scenario.case.on(Grid::of_times(scenario.case.crank(), times)).unwrap();
     scenario
 }
 
@@ -92,7 +92,7 @@ pub fn cheaper(
     price: &mut dyn FnMut(&dyn Engine) -> f64,
 ) -> (Vec<Met>, usize) {
     let truth = truth(scenario);
-    let coarsest = COARSEST_DEG.to_radians() / scenario.case.drive.at(0.0).omega.abs();
+    let coarsest = COARSEST_DEG.to_radians() / scenario.case.crank().at(0.0).omega.abs();
     let (mut met, mut runs): (Vec<Met>, usize) = (Vec::new(), 0);
     for row in rows(space) {
         let mut limit = met.last().map_or(below, |best| best.price);

@@ -183,12 +183,8 @@ impl Linkage {
             let size = |crank: f64| self.cosines(crank)[dyad].abs();
             let places = (0..=count as usize).map(|k| k as f64);
             let top = places.max_by(|&x, &y| size(at(x)).total_cmp(&size(at(y)))).unwrap();
-            let (mut low, mut high) = (at(top - 1.0), at(top + 1.0));
-            let share = 0.5 * (5f64.sqrt() - 1.0);
-            for _ in 0..40 {
-                let [left, right] = [high - share * (high - low), low + share * (high - low)];
-                if size(left) > size(right) { high = right } else { low = left }
-            }
+            let value = |crank: f64| Ok::<_, std::convert::Infallible>(size(crank));
+            let Ok([low, high]) = linkage::math::extremum::golden([at(top - 1.0), at(top + 1.0)], 40, value);
             let largest = [at(top), 0.5 * (low + high)].map(size).into_iter().fold(0.0, f64::larger);
             largest.smaller(1.0).acos().to_degrees()
         })

@@ -3,10 +3,9 @@
 use super::forces::Kinetostatics;
 use super::turns::Turns;
 use crate::assur::groups::{Misfit, OutOfReach, Plan};
-use crate::range;
 use linkage::case::Case;
 use linkage::drive::Load;
-use linkage::error::{Error, ErrorKind, Result};
+use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 
@@ -41,9 +40,10 @@ impl<'a> PoseSolver<'a> {
         let plan = Plan::of(&case.mechanism, &case.structure, &case.modes);
         let step = if plan.is_closed_form() { CLOSED_FORM_STEP } else { FOLLOWED_STEP };
         let (statics, state) = (Kinetostatics::of(case, &plan), State::at_start(case));
-        let inputs = vec![0.0; case.drives().count()];
-        let mut solver = PoseSolver { case, plan, statics, state, turns: None, inputs, crank: case.drive.start, step };
-        solver.step_to(case.drive.start, 0)?;
+        let inputs = vec![0.0; case.drives.len()];
+        let mut solver =
+            PoseSolver { case, plan, statics, state, turns: None, inputs, crank: case.crank().start, step };
+        solver.step_to(case.crank().start, 0)?;
         if case.loads.iter().any(Load::needs_angles) {
             solver.turns = Some(Turns::from(&case.start, &solver.state.motions));
         }
@@ -110,10 +110,10 @@ impl<'a> PoseSolver<'a> {
     #[inline]
     fn turn(&mut self, crank: f64) {
         let (first, further) = self.inputs.split_first_mut().expect("there is a drive");
-        *first = self.case.drive.world_angle(crank);
+        *first = self.case.crank().world_angle(crank);
         if !further.is_empty() {
-            let t = self.case.drive.time_of(crank);
-            for (angle, drive) in further.iter_mut().zip(&self.case.further_drives) {
+            let t = self.case.crank().time_of(crank);
+            for (angle, drive) in further.iter_mut().zip(self.case.drives.further()) {
                 *angle = drive.world_angle(drive.at(t).angle);
             }
         }
@@ -125,7 +125,7 @@ impl<'a> PoseSolver<'a> {
         let (first, further) = self.inputs.split_first_mut().expect("there is a drive");
         *first = rate;
         if !further.is_empty() {
-            let ratios = self.case.ratios(self.case.drive.time_of(self.crank));
+            let ratios = self.case.drives.ratios(self.case.crank().time_of(self.crank));
             further.iter_mut().zip(ratios.skip(1)).for_each(|(own, ratio)| *own = rate * ratio);
         }
     }
@@ -161,7 +161,7 @@ impl<'a> PoseSolver<'a> {
             self.state.angles.iter_mut().zip(turns.angles()).for_each(|(angle, found)| *angle = found);
         }
         self.turn(self.crank);
-        for (drive, &angle) in self.case.drives().zip(&self.inputs) {
+        for (drive, &angle) in self.case.drives.iter().zip(&self.inputs) {
             self.state.angles[drive.link] = angle;
         }
         &self.state
@@ -174,8 +174,8 @@ impl<'a> PoseSolver<'a> {
 
     fn unreachable(&self, crank: f64, reach: OutOfReach) -> Error {
         let group = self.case.structure.groups[reach.group].names(&self.case.mechanism);
-        let crank = crank.to_degrees();
-        let assembled = format!("the group ({group}) cannot be assembled at crank angle {crank:.4} deg");
+        let degrees = crank.to_degrees();
+        let assembled = format!("the group ({group}) cannot be assembled at crank angle {degrees:.4} deg");
         let message = match reach.why {
             Misfit::Span { distance, reach: [shortest, longest] } => format!(
                 "{assembled}: its outer joints are {distance:.6} m apart, its links span {shortest:.6} to {longest:.6} m"
@@ -188,11 +188,14 @@ impl<'a> PoseSolver<'a> {
             ),
             Misfit::Parallel => format!("{assembled}: its two axes are parallel there"),
             Misfit::Lost => format!(
-                "the group ({group}) cannot be followed beyond crank angle {crank:.4} deg: it has a dead point there"
+                "the group ({group}) cannot be followed beyond crank angle {degrees:.4} deg: it has a dead point there"
             ),
         };
-        let error = Error::new(ErrorKind::Geometry, message)
-            .help("shorten the grid to the crank angles that can be reached, or check the lengths");
-        range::explained(self.case, &error)
+        Error::new(ErrorKind::Geometry, message)
+            .at_crank(crank)
+            .of_group(group)
+            .out_of_reach()
+            .help(Advice::ShortenGrid)
+            .or_help("check the lengths")
     }
 }

@@ -10,7 +10,7 @@ use crate::motion::march::SETTING_OFF;
 use crate::motion::side::{Held, Inputs, Side, embed, loads_held};
 use linkage::case::Case;
 use linkage::drive::Wrench;
-use linkage::error::{Error, ErrorKind, Result};
+use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::dense::Lu;
 use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::GROUND;
@@ -49,11 +49,11 @@ impl<'a> TransferSide<'a> {
         let plan = Plan::of(&case.mechanism, &case.structure, &case.modes);
         if !plan.is_closed_form() {
             let message = "side \"assur\" solves the free motion of several freedoms with dyads only, but the mechanism has a larger group";
-            return Err(Error::new(ErrorKind::Unsupported, message).help("take side \"newton\": --reference newton"));
+            return Err(Error::new(ErrorKind::Unsupported, message).help(Advice::OtherReference { solver: "newton" }));
         }
         let (statics, state) = (Kinetostatics::of(case, &plan), State::at_start(case));
-        let free: Vec<usize> = case.free_drives().map(|(index, _)| index).collect();
-        let at: Vec<f64> = case.drives().map(|drive| drive.world_angle(drive.start)).collect();
+        let free: Vec<usize> = case.drives.free().map(|(index, _)| index).collect();
+        let at: Vec<f64> = case.drives.iter().map(|drive| drive.world_angle(drive.start)).collect();
         let turns = Turns::from(&case.start, &state.motions);
         let mut side = TransferSide {
             case,
@@ -78,11 +78,13 @@ impl<'a> TransferSide<'a> {
     fn place(&mut self) -> Result<()> {
         self.plan.positions(&self.target, &mut self.state.motions).map_err(|reach| {
             let group = self.case.structure.groups[reach.group].names(&self.case.mechanism);
-            let crank = (self.target[0] - self.case.drive.zero).to_degrees();
+            let crank = self.target[0] - self.case.crank().zero;
             Error::new(
                 ErrorKind::Geometry,
-                format!("the group ({group}) cannot be assembled at crank angle {crank:.4} deg"),
+                format!("the group ({group}) cannot be assembled at crank angle {:.4} deg", crank.to_degrees()),
             )
+            .at_crank(crank)
+            .of_group(group)
             .help("let the grid end before the motion comes there")
         })?;
         self.turns.count(&self.state.motions);
@@ -106,7 +108,7 @@ impl<'a> TransferSide<'a> {
     /// Angles of all links, turns kept.
     fn find_angles(&mut self, driving: &[f64]) {
         self.state.angles.iter_mut().zip(self.turns.angles()).for_each(|(angle, found)| *angle = found);
-        for (drive, &angle) in self.case.drives().zip(driving) {
+        for (drive, &angle) in self.case.drives.iter().zip(driving) {
             self.state.angles[drive.link] = angle;
         }
     }

@@ -21,7 +21,7 @@ const TOO_FAST: usize = 0;
 /// Angles and speeds of the free driving links at t = 0: first all angles in the world, then all speeds.
 pub(super) fn start<const N: usize>(case: &Case) -> [f64; N] {
     let mut y = [0.0; N];
-    for (k, (_, drive)) in case.free_drives().enumerate() {
+    for (k, (_, drive)) in case.drives.free().enumerate() {
         (y[k], y[N / 2 + k]) = (drive.world_angle(drive.start), drive.initial_speed());
     }
     y
@@ -47,9 +47,9 @@ struct Work<'a> {
 
 impl<'a, const N: usize> Pieces<'a, N> {
     pub(super) fn new(case: &'a Case, side: &'a mut dyn Side) -> Self {
-        let drives = case.drives().count();
+        let drives = case.drives.len();
         let zeros = || vec![0.0; drives];
-        let held = Held { motor: 0.0, added: case.inertia_on_free_crank(), senses: vec![0.0; case.loads.len()] };
+        let held = Held { motor: 0.0, added: case.crank().moving_inertia(), senses: vec![0.0; case.loads.len()] };
         let sensed = case.loads.iter().enumerate().filter_map(|(index, load)| Some((index, load.sensed_link()?)));
         let inputs = Inputs { angles: zeros(), speeds: zeros(), accelerations: zeros() };
         Pieces {
@@ -64,8 +64,8 @@ impl<'a, const N: usize> Pieces<'a, N> {
     /// The driving links at time `t` in the state `y`.
     fn put(&self, inputs: &mut Inputs, t: f64, y: &[f64; N]) {
         let mut free = 0;
-        for (index, drive) in self.case.drives().enumerate() {
-            if drive.free.is_some() {
+        for (index, drive) in self.case.drives.iter().enumerate() {
+            if drive.is_free() {
                 (inputs.angles[index], inputs.speeds[index]) = (y[free], y[N / 2 + free]);
                 free += 1;
             } else {
@@ -78,7 +78,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
 
     /// Moment of the motor on the crank (N m), counter-clockwise positive.
     fn motor_moment(&self, y: &[f64; N]) -> f64 {
-        self.branch.get().map_or(0.0, |branch| self.case.drive.sense() * branch.moment(self.crank_speed(y)))
+        self.branch.get().map_or(0.0, |branch| self.case.crank().sense() * branch.moment(self.crank_speed(y)))
     }
 
     /// Accelerations of the driving links, left in the inputs of `work`.
@@ -109,7 +109,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
             Some((_, Some(end))) => {
                 // Exactly on the bound, or the same piece would be chosen again.
                 let speeds = self.branch.get().map_or([0.0; 2], |branch| branch.speeds);
-                place.y[N / 2] = self.case.drive.sense() * speeds[1 - end];
+                place.y[N / 2] = self.case.crank().sense() * speeds[1 - end];
                 self.choose_branch(place, if end == TOO_FAST { 1.0 } else { -1.0 });
                 Vec::new()
             }
@@ -124,7 +124,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
 
     /// The motor's branch at the crank's speed, and from there towards higher speeds for a positive `towards`, else towards lower ones.
     fn choose_branch(&self, place: &Place<N>, towards: f64) {
-        let motor = self.case.motor_of_free_crank();
+        let motor = self.case.crank().moving_motor();
         self.branch.set(motor.map(|motor| motor.branch(self.crank_speed(&place.y), towards)));
     }
 
@@ -166,12 +166,14 @@ impl<'a, const N: usize> Pieces<'a, N> {
         let name = &self.case.mechanism.links()[link].name;
         let message = format!("the resistance of link \"{name}\" holds it at t = {:.6} s", place.x);
         Error::new(ErrorKind::Numeric, message)
+            .at_time(place.x)
+            .of_link(name)
             .help("give the motor more torque or the mechanism more speed, or let the grid end before")
     }
 
     /// The crank's own speed in the motor's sense: it is the first that is free, wherever there is a branch.
     fn crank_speed(&self, y: &[f64; N]) -> f64 {
-        self.case.drive.sense() * y[N / 2]
+        self.case.crank().sense() * y[N / 2]
     }
 
     /// How far within the speeds of its branch the motor is.
@@ -198,7 +200,7 @@ impl<const N: usize> ODE<f64, [f64; N]> for Pieces<'_, N> {
             rate.fill(f64::NAN);
             return;
         }
-        for (k, (index, _)) in self.case.free_drives().enumerate() {
+        for (k, (index, _)) in self.case.drives.free().enumerate() {
             (rate[k], rate[N / 2 + k]) = (y[N / 2 + k], work.inputs.accelerations[index]);
         }
     }

@@ -20,7 +20,7 @@ pub const MOST_FREEDOMS: usize = 4;
 /// [`ErrorKind::Input`] for instants before t = 0, and for mechanisms in which nothing has a mass; [`ErrorKind::Unsupported`] for too many freedoms.
 pub(crate) fn check(case: &Case) -> Result<()> {
     check_instants(case)?;
-    let free = case.free_drives().count();
+    let free = case.drives.free().count();
     if free > MOST_FREEDOMS {
         let message = format!("{free} driving links are free, at most {MOST_FREEDOMS} are solved");
         return Err(Error::new(ErrorKind::Unsupported, message).help("prescribe the motion of some of them"));
@@ -32,7 +32,7 @@ pub(crate) fn check(case: &Case) -> Result<()> {
             .key("loads")
             .help("give it as a force over the crank angle, or as a moment against the rotation of its link"));
     }
-    if case.inertia_on_free_crank() == 0.0 && case.mechanism.links().iter().all(|link| link.mass == 0.0) {
+    if case.crank().moving_inertia() == 0.0 && case.mechanism.links().iter().all(|link| link.mass == 0.0) {
         let message = "the motion under forces is asked for, but nothing in the mechanism has a mass";
         return Err(Error::new(ErrorKind::Input, message).help("give the links masses, or the motor a rotor"));
     }
@@ -45,7 +45,7 @@ pub(crate) fn check(case: &Case) -> Result<()> {
 /// Those of [`check`] and of the side; [`ErrorKind::Numeric`] where a resistance holds the mechanism.
 pub(crate) fn sweep(case: &Case, side: &mut dyn Side, visit: Visit, progress: Progress) -> Result<()> {
     check(case)?;
-    match case.free_drives().count() {
+    match case.drives.free().count() {
         1 => run::<2>(case, side, visit, progress),
         2 => run::<4>(case, side, visit, progress),
         3 => run::<6>(case, side, visit, progress),
@@ -87,6 +87,7 @@ fn run<const N: usize>(case: &Case, side: &mut dyn Side, visit: Visit, progress:
         if empty > MOST_EMPTY {
             let message = format!("the motion does not get away from t = {from:.9} s, where a sense of motion changes");
             return Err(Error::new(ErrorKind::Numeric, message)
+                .at_time(from)
                 .help("a load that turns about just there holds and lets go in turn: start a little aside"));
         }
         pieces.enter(&mut place, Some(bound))?;

@@ -11,6 +11,7 @@ use differential_equations::status::Status;
 use linkage::math::KeepNan;
 
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::root;
 
 /// DOP853 on a state of `N` numbers.
 pub(crate) type Method<const N: usize> = ExplicitRungeKutta<Ordinary, DormandPrince, f64, [f64; N], 8, 12, 16>;
@@ -144,16 +145,10 @@ fn end_on_bound<const N: usize, F: Flow<N>>(
 
 /// About where in its last step a method passes a bound. The library's interpolation is of order 4 only: good for a first guess.
 fn crossing<const N: usize, F: Flow<N>>(flow: &F, method: &mut Method<N>, bound: usize) -> Result<f64> {
-    let (mut low, mut high) = (method.t_prev(), method.t());
-    for _ in 0..BISECTIONS {
-        let middle = low + (high - low) / 2.0;
+    let [low, _] = root::halved([method.t_prev(), method.t()], BISECTIONS, |middle| -> Result<bool> {
         let state = method.interpolate(middle).map_err(|why| lost(middle, &format!("{why:?}")))?;
-        if flow.margin(bound, middle, &state) < 0.0 {
-            high = middle;
-        } else {
-            low = middle;
-        }
-    }
+        Ok(!(flow.margin(bound, middle, &state) < 0.0))
+    })?;
     Ok(low)
 }
 
@@ -161,22 +156,16 @@ fn crossing<const N: usize, F: Flow<N>>(flow: &F, method: &mut Method<N>, bound:
 fn shortened<const N: usize, F: Flow<N>>(
     flow: &F,
     (x, y): (f64, [f64; N]),
-    mut h: f64,
+    h: f64,
     method: &Method<N>,
     bound: usize,
 ) -> Result<(f64, [f64; N])> {
-    let mut known = (method.t() - x, flow.margin(bound, method.t(), method.y()));
-    let mut end = (x + h, one_step(flow, x, &y, h)?);
-    for _ in 0..CORRECTIONS {
-        let margin = flow.margin(bound, end.0, &end.1);
-        let shift = margin * (h - known.0) / (margin - known.1);
-        if !(shift.abs() > 4.0 * f64::EPSILON * h && shift.abs() < h) {
-            break;
-        }
-        known = (h, margin);
-        h -= shift;
+    let known = (method.t() - x, flow.margin(bound, method.t(), method.y()));
+    let mut end = (x, y);
+    root::secants(known, h, CORRECTIONS, |h| -> Result<f64> {
         end = (x + h, one_step(flow, x, &y, h)?);
-    }
+        Ok(flow.margin(bound, end.0, &end.1))
+    })?;
     Ok(end)
 }
 

@@ -35,7 +35,7 @@ impl<'a> Embedded<'a> {
     pub(super) fn new(system: System<'a>) -> Self {
         let n = system.q.len();
         let drives = system.inputs.len();
-        let free: Vec<usize> = system.case.free_drives().map(|(index, _)| index).collect();
+        let free: Vec<usize> = system.case.drives.free().map(|(index, _)| index).collect();
         let mut embedded = Embedded {
             columns: vec![0.0; n * drives],
             rest: vec![0.0; n],

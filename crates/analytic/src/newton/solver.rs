@@ -8,9 +8,8 @@
 use super::free::Embedded;
 use super::system::System;
 use crate::motion::free;
-use crate::range;
 use linkage::case::Case;
-use linkage::error::Result;
+use linkage::error::{Error, Result};
 use linkage::solver::{Progress, Provision, Solver, State, Visit};
 use linkage::trajectory::Channel;
 
@@ -30,7 +29,7 @@ impl Solver for NewtonSolver {
     fn sweep(&self, case: &Case, visit: Visit, progress: Progress) -> Result<()> {
         let mut system = System::new(case);
         if case.is_free() {
-            system.settle().map_err(|error| range::explained(case, &error))?;
+            system.settle().map_err(Error::out_of_reach)?;
             return free::sweep(case, &mut Embedded::new(system), visit, progress);
         }
         let mut state = State::at_rest(case);
@@ -40,7 +39,7 @@ impl Solver for NewtonSolver {
         let mut done = 0;
         let mut follow = |rows: &mut dyn Iterator<Item = usize>, system: &mut System| -> Result<()> {
             for row in rows {
-                system.go_to(case.grid.times[row]).map_err(|error| range::explained(case, &error))?;
+                system.go_to(case.grid.times[row]).map_err(Error::out_of_reach)?;
                 system.fill(&mut state);
                 visit(row, &state)?;
                 done += 1;
@@ -48,7 +47,7 @@ impl Solver for NewtonSolver {
             }
             Ok(())
         };
-        system.settle().map_err(|error| range::explained(case, &error))?;
+        system.settle().map_err(Error::out_of_reach)?;
         follow(&mut rows[split..].iter().copied(), &mut system)?;
         if split > 0 {
             system = System::new(case);

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::system::System;
 use linkage::case::Case;
 use linkage::drive::{Drive, Wrench};
-use linkage::error::{Error, ErrorKind, Result};
+use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::{KeepNan, Motion};
 use linkage::mechanism::EQUATIONS;
 use linkage::solver::State;
@@ -29,12 +29,12 @@ impl System<'_> {
 
     /// Follows the branch to time `t`, in small turns of the crank.
     pub(super) fn go_to(&mut self, t: f64) -> Result<()> {
-        let turned = |drive: &Drive| match drive.law.constant() {
+        let turned = |drive: &Drive| match drive.constant_speed() {
             Some(_) => (drive.at(t).angle - drive.at(self.time).angle).abs(),
             // It may go there and back in between.
             None => drive.top_speed().abs() * (t - self.time).abs(),
         };
-        let turn = self.case.drives().map(turned).fold(0.0, f64::larger);
+        let turn = self.case.drives.iter().map(turned).fold(0.0, f64::larger);
         let parts = (turn / TRACKING_STEP).ceil().larger(1.0);
         let from = self.time;
         for part in 1..parts as usize {
@@ -180,8 +180,8 @@ impl System<'_> {
     }
 
     pub(super) fn lost(&self, why: &str) -> Error {
-        let crank = (self.inputs[0].angle - self.case.drive.zero).to_degrees();
-        Error::new(ErrorKind::Numeric, format!("crank angle {crank:.4} deg, t = {:.6} s: {why}", self.time))
-            .help("shorten the grid to the crank angles that can be reached on this branch")
+        let (crank, t) = (self.inputs[0].angle - self.case.crank().zero, self.time);
+        let message = format!("crank angle {:.4} deg, t = {t:.6} s: {why}", crank.to_degrees());
+        Error::new(ErrorKind::Numeric, message).at_time(t).at_crank(crank).help(Advice::ShortenGrid)
     }
 }

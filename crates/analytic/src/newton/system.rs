@@ -6,7 +6,7 @@ use linkage::case::Case;
 use linkage::drive::{Drive, DriveState, Wrench};
 use linkage::math::dense::Lu;
 use linkage::math::{Motion, Vec2, rotated, turned, unit};
-use linkage::mechanism::{EQUATIONS, Joint, JointKind, Side};
+use linkage::mechanism::{EQUATIONS, Joint, Side};
 use linkage::trajectory::Stage;
 
 /// The equations of one case and the state they are solved for.
@@ -64,14 +64,14 @@ impl<'a> System<'a> {
             motions: vec![Motion::REST; links.len() + 1],
             angles: vec![0.0; links.len() + 1],
             loads: vec![Wrench::ZERO; links.len() + 1],
-            inputs: case.drives().map(|drive| by_law(drive, 0.0)).collect(),
+            inputs: case.drives.iter().map(|drive| by_law(drive, 0.0)).collect(),
         }
     }
 
     /// Sets the time, and the driving links as their laws have them then.
     pub(super) fn set_time(&mut self, t: f64) {
         self.time = t;
-        for (input, drive) in self.inputs.iter_mut().zip(self.case.drives()) {
+        for (input, drive) in self.inputs.iter_mut().zip(self.case.drives.iter()) {
             *input = by_law(drive, t);
         }
     }
@@ -93,7 +93,7 @@ impl<'a> System<'a> {
     /// The drives with their rows, which stand below those of the joints.
     pub(super) fn drives(&self) -> impl Iterator<Item = (usize, &'a Drive)> + use<'a> {
         let first = EQUATIONS * self.case.mechanism.joints().len();
-        self.case.drives().enumerate().map(move |(index, drive)| (first + index, drive))
+        self.case.drives.iter().enumerate().map(move |(index, drive)| (first + index, drive))
     }
 
     /// World position of a link's mass centre; the origin for the ground.
@@ -141,7 +141,7 @@ fn by_law(drive: &Drive, t: f64) -> DriveState {
 /// Angle of a joint's second link less that of its first (rad) while the axes of a prismatic pair are parallel; its whole turns
 /// are those of the start pose. 0 for a revolute joint, which does not use it.
 fn twist(case: &Case, joint: &Joint) -> f64 {
-    let JointKind::Prismatic { axes } = joint.kind else { return 0.0 };
+    let Some(axes) = joint.kind.axes() else { return 0.0 };
     let [first, second] = axes.map(|axis| axis.y.atan2(axis.x));
     let start = case.start.0[joint.second.link].angle - case.start.0[joint.first.link].angle;
     let parallel = first - second;

@@ -5,7 +5,7 @@
 //! 1883; for example Hunt, "Kinematic geometry of mechanisms", 1978, section 4.1).
 
 use linkage::case::Case;
-use linkage::mechanism::{GROUND, GroupKind, JointKind};
+use linkage::mechanism::{GROUND, GroupKind};
 
 /// Lengths whose sums differ by no more than this part of the sum are equal: the rounding of four lengths read from decimal numbers.
 const EQUAL: f64 = 1e-14;
@@ -39,12 +39,6 @@ impl FourBarType {
             FourBarType::TripleRocker => "triple-rocker (non-Grashof, s + l > p + q)",
             FourBarType::ChangePoint => "change-point mechanism (s + l = p + q)",
         }
-    }
-
-    /// Whether the driving link turns fully, between change points at least.
-    #[must_use]
-    pub fn driver_turns(self) -> bool {
-        matches!(self, FourBarType::CrankRocker | FourBarType::DoubleCrank)
     }
 }
 
@@ -84,10 +78,10 @@ impl FourBar {
     /// The four-bar that a case is; `None` if it is another mechanism.
     #[must_use]
     pub fn of(case: &Case) -> Option<Self> {
-        let (mechanism, drive) = (&case.mechanism, &case.drive);
+        let (mechanism, drive) = (&case.mechanism, case.crank());
         let joints = mechanism.joints();
         let [group] = case.structure.groups.as_slice() else { return None };
-        if group.kind != GroupKind::Rrr || joints.len() != 4 || joints.iter().any(|j| j.kind != JointKind::Revolute) {
+        if group.kind != GroupKind::Rrr || joints.len() != 4 || !joints.iter().all(|joint| joint.is_pin()) {
             return None;
         }
         let output = *group

@@ -22,7 +22,7 @@ pub struct Measure {
 /// Measures a group at a pose, from its square block of the Jacobian, x and y before the angles.
 pub(super) fn of(block: &Matrix, mechanism: &Mechanism, group: &Group, pose: &Pose) -> Measure {
     let mut joints = group.inner.iter().chain(&group.outer);
-    if joints.any(|&joint| mechanism.joints()[joint].is_prismatic()) {
+    if !joints.all(|&joint| mechanism.joints()[joint].is_pin()) {
         return of_sliding(block, transmission_sine(mechanism, group, pose));
     }
     let links = group.links.len();

@@ -110,19 +110,21 @@ pub fn reachable(case: &Case) -> Result<Extent> {
     Ok(both_ways(&tracker, &start)?.1)
 }
 
-/// The same error, which came of a crank angle that cannot be reached, with the interval that can.
-pub(crate) fn explained(case: &Case, error: &Error) -> Error {
+/// An error of a solver on this case, for those who join the solvers. If it [is that of a pose out of
+/// reach](Error::is_out_of_reach), the message gets the crank angles that can be reached, or why none can be told; any
+/// other error stays as it is. The solvers do not ask for the range themselves: they must not share it.
+#[must_use]
+pub fn explained(case: &Case, error: Error) -> Error {
+    if !error.is_out_of_reach() {
+        return error;
+    }
     let reached = match reachable(case) {
         Ok(Extent::Limited(limits)) => format!("; crank angles can be reached {}", interval(limits)),
         Ok(Extent::FullTurn(_)) => String::new(),
         Err(why) if why.kind() == ErrorKind::Geometry => format!("; {}", why.message()),
         Err(_) => String::new(),
     };
-    let told = Error::new(error.kind(), format!("{}{reached}", error.message()));
-    match error.way_out() {
-        Some(help) => told.help(help),
-        None => told,
-    }
+    error.map_message(|message| format!("{message}{reached}")).explained()
 }
 
 /// `from X to Y deg on this branch`, to 1e-6 deg and rounded inwards, so that the numbers can be asked for.

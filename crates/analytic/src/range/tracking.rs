@@ -13,6 +13,7 @@ use super::singularity::{Kind, Singularity};
 use linkage::case::Case;
 use linkage::drive::Drive;
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::root::{self, Close};
 use linkage::math::{Column, KeepNan, Matrix, unit};
 
 /// Longest step: two degrees, where the crank alone turns.
@@ -26,6 +27,8 @@ const STRAIGHT: f64 = 0.969;
 const MEET: f64 = 1e-6;
 /// Shortest step before branches are said to meet.
 const SHORTEST: f64 = 1e-9;
+/// Most steps to a zero along the curve; it takes about eight.
+const STEPS_TO_ZERO: usize = 60;
 /// More poses mean that something is wrong.
 const MOST_POINTS: usize = 200_000;
 /// Turns after which a crank that has not come back to its first pose is left alone.
@@ -79,7 +82,7 @@ impl<'a> Tracker<'a> {
     /// # Errors
     /// [`ErrorKind::Geometry`] if it is singular.
     pub(super) fn new(case: &'a Case) -> Result<(Self, Point)> {
-        let drive = &case.drive;
+        let drive = case.crank();
         let joint = &case.mechanism.joints()[drive.joint];
         let constraints = Constraints::of(&case.mechanism, joint.other(drive.link).local, gearings(case));
         let q = constraints.coordinates_of(&case.start);
@@ -105,7 +108,7 @@ impl<'a> Tracker<'a> {
 
     /// Crank angle of a pose as the scenario states it (rad).
     pub(super) fn crank_of(&self, q: &Column) -> f64 {
-        q[self.crank] - self.case.drive.zero
+        q[self.crank] - self.case.crank().zero
     }
 
     /// The crank's part of the tangent.
@@ -121,10 +124,12 @@ impl<'a> Tracker<'a> {
                     ErrorKind::Geometry,
                     format!(
                         "the start pose at crank angle {:.6} deg is singular: two configurations of the group ({names}) meet there",
-                        self.case.drive.start.to_degrees()
+                        self.case.crank().start.to_degrees()
                     ),
                 )
                 .key("start")
+                .at_crank(self.case.crank().start)
+                .of_group(names)
                 .help("start at another crank angle, where the configurations are apart"));
             }
         }
@@ -188,28 +193,21 @@ impl<'a> Tracker<'a> {
 
     /// Zero of `f` between the neighbours `a` and `b`, where it has different signs, by the Illinois method in the distance from `a`.
     pub(super) fn zero(&self, a: &Point, b: &Point, f: impl Fn(&Point) -> f64) -> Point {
-        let mut low = (0.0, f(a));
-        let mut high = (a.tangent.dot(&(&b.q - &a.q)), f(b));
-        let width = high.0;
-        let mut best = if low.1.abs() < high.1.abs() { a.clone() } else { b.clone() };
-        for _ in 0..60 {
-            let at = (low.0 * high.1 - high.0 * low.1) / (high.1 - low.1);
-            let Some(point) = self.advance(a, at) else { break };
+        let width = a.tangent.dot(&(&b.q - &a.q));
+        let ends = [(0.0, f(a)), (width, f(b))];
+        let nearer = usize::from(!(ends[0].1.abs() < ends[1].1.abs()));
+        let mut best = ([a, b][nearer].clone(), ends[nearer].1.abs());
+        let close = Close { value: 0.0, width: 1e-14 * width.abs() };
+        // A pose that cannot be corrected ends the search: the best so far is as near as the equations allow.
+        let _ = root::regula_falsi(ends, close, STEPS_TO_ZERO, |at| {
+            let point = self.advance(a, at).ok_or(())?;
             let value = f(&point);
-            if value.abs() <= f(&best).abs() {
-                best = point;
+            if value.abs() <= best.1 {
+                best = (point, value.abs());
             }
-            if value == 0.0 || (high.0 - low.0).abs() <= 1e-14 * width.abs() {
-                break;
-            }
-            if value * high.1 < 0.0 {
-                low = high;
-            } else {
-                low.1 /= 2.0;
-            }
-            high = (at, value);
-        }
-        best
+            Ok::<f64, ()>(value)
+        });
+        best.0
     }
 
     /// Follows the curve with the crank turning in the sense of `sense` at first.
@@ -350,6 +348,7 @@ pub(super) fn lost(crank: f64) -> Error {
         ErrorKind::Numeric,
         format!("the poses of the mechanism cannot be followed at crank angle {:.4} deg", crank.to_degrees()),
     )
+    .at_crank(crank)
     .help("check the lengths, or start at another crank angle")
 }
 
@@ -383,8 +382,8 @@ fn neville_at_zero(known: &[(f64, &Column)]) -> Column {
 }
 /// Further drives as gearings. With constant speeds the ratios are constant.
 fn gearings(case: &Case) -> Vec<Gearing> {
-    let crank = &case.drive;
-    let further = case.further_drives.iter().zip(case.ratios(0.0).skip(1));
+    let crank = case.crank();
+    let further = case.drives.further().iter().zip(case.drives.ratios(0.0).skip(1));
     let gearing = |(drive, ratio): (&Drive, f64)| {
         let offset = drive.world_angle(drive.start) - ratio * crank.world_angle(crank.start);
         Gearing { crank: crank.link, link: drive.link, ratio, offset }

@@ -37,7 +37,7 @@ impl<'m, 'a> Forces<'m, 'a> {
             model,
             poses: RefCell::new(PoseSolver::new(model.case)?),
             fault: RefCell::new(None),
-            origin: Cell::new(model.case.drive.start),
+            origin: Cell::new(model.case.crank().start),
             piece: Cell::new(piece),
             way: Cell::new(way),
             branch: Cell::new(model.branch(0.0, way)),

@@ -2,12 +2,14 @@
 
 use std::f64::consts::{PI, TAU};
 
+use num_integer::Integer;
+
 use crate::PoseSolver;
 use crate::range::{Extent, Range};
 use linkage::case::{Case, Grid, Wanted};
 use linkage::drive::{Course, Load};
-use linkage::error::{Error, ErrorKind, Result};
-use linkage::math::{KeepNan, Motion, quadrature};
+use linkage::error::{Advice, Error, ErrorKind, Result};
+use linkage::math::{KeepNan, Motion, quadrature, root};
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
 
@@ -20,7 +22,7 @@ pub fn moment_of_inertia(case: &Case, motions: &[Motion]) -> f64 {
         body.mass * motion.point_velocity(body.mass_centre).norm_squared() + body.inertia * motion.omega.powi(2)
     };
     let sum: f64 = motions.iter().enumerate().skip(1).map(energy).sum();
-    sum / motions[case.drive.link].omega.powi(2)
+    sum / motions[case.crank().link].omega.powi(2)
 }
 
 /// Reduced moment of resistance (N m): minus the power of gravity and loads over the driving link's speed, positive
@@ -32,7 +34,7 @@ pub fn moment_of_resistance(case: &Case, state: &State) -> f64 {
         case.gravity.dot(&motion.point_velocity(body.mass_centre)) * body.mass
     };
     let weights: f64 = state.motions.iter().enumerate().skip(1).map(power).sum();
-    -(weights + case.load_power(&state.motions, &state.angles)) / state.motions[case.drive.link].omega
+    -(weights + case.load_power(&state.motions, &state.angles)) / state.motions[case.crank().link].omega
 }
 
 /// Over which crank angles the reduced quantities repeat, and where they have kinks.
@@ -74,7 +76,7 @@ pub fn kinks(case: &Case) -> Result<Kinks> {
         Extent::FullTurn(turns) => (Some(turns.unsigned_abs()), None),
         Extent::Limited([from, to]) => (None, Some([from.crank, to.crank])),
     };
-    let start = case.drive.start;
+    let start = case.crank().start;
     let within = |crank: f64, period: f64| {
         let inside = (crank - start).rem_euclid(period);
         // A rounding before the start belongs to the start.
@@ -84,20 +86,18 @@ pub fn kinks(case: &Case) -> Result<Kinks> {
     let mut cranks = Vec::new();
     for link in range.links.iter().filter(|link| case.loads.iter().any(|load| load.sensed_link() == Some(link.link))) {
         for extreme in &link.extremes {
-            let mut crank = extreme.crank;
-            for _ in 0..POLISHING {
+            // A flat extreme stays where it was found.
+            let crank = root::polished(extreme.crank, POLISHING, 1e-6, |crank| -> Result<(f64, f64)> {
                 let motion = &poses.solve(crank, 1.0, 0.0, Stage::Accelerations)?.motions[link.link];
-                let step = motion.omega / motion.alpha;
-                // A flat extreme stays where it was found.
-                crank -= if step.abs() < 1e-6 { step } else { 0.0 };
-            }
+                Ok((motion.omega, motion.alpha))
+            })?;
             cranks.push(turns.map_or(crank, |turns| within(crank, TAU * f64::from(turns))));
         }
     }
     let tables = || case.loads.iter().flat_map(Load::courses).filter_map(Course::knots);
     let mut all = turns;
     for (_, own) in tables() {
-        all = all.map(|all| least_common_multiple(all, own));
+        all = all.map(|all| all.lcm(&own));
         if let Some(turns) = all.filter(|&turns| turns > MOST_TURNS) {
             let message = format!(
                 "mechanism and tables of loads repeat together after {turns} turns only, the limit is {MOST_TURNS}"
@@ -130,14 +130,6 @@ pub fn kinks(case: &Case) -> Result<Kinks> {
     Ok(Kinks { period, cranks, limits })
 }
 
-fn least_common_multiple(a: u32, b: u32) -> u32 {
-    let (mut larger, mut smaller) = (a, b);
-    while smaller > 0 {
-        (larger, smaller) = (smaller, larger % smaller);
-    }
-    a / larger * b
-}
-
 /// Means of the reduced quantities over one turn of the crank, or as many as bring the mechanism back to its first pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Means {
@@ -158,14 +150,14 @@ const PANEL: f64 = PI / 90.0;
 pub fn means_over_turn(case: &Case, solver: &dyn Solver) -> Result<Means> {
     let found = kinks(case)?;
     let Some(period) = found.period else { return Err(no_turn(&found)) };
-    let start = case.drive.start;
+    let start = case.crank().start;
     let mut breaks = vec![start];
     breaks.extend(found.cranks.iter().filter(|&&kink| kink > start));
     breaks.push(start + period);
     let nodes = quadrature::composite(&breaks, PANEL);
     let cranks = nodes.iter().map(|&(crank, _)| crank).collect();
     let steady = case.nominal().at_top_speed();
-    let turn = Case { wanted: Wanted::of(&[Stage::Velocities]), ..steady.on(Grid::of_cranks(&steady.drive, cranks)) };
+    let turn = steady.on(Grid::of_cranks(steady.crank(), cranks))?.wanting(Wanted::of(&[Stage::Velocities]));
     let mut means = Means { inertia: 0.0, resistance: 0.0 };
     let mut visit = |row: usize, state: &State| {
         means.inertia += moment_of_inertia(&turn, &state.motions) * nodes[row].1 / period;
@@ -185,7 +177,7 @@ pub(crate) fn no_turn(kinks: &Kinks) -> Error {
         ErrorKind::Geometry,
         format!("means over a turn are asked for, but the crank does not turn fully{reached}"),
     )
-    .help("`linkproof inspect FILE --range` shows what limits the crank")
+    .help(Advice::LookAtRange)
 }
 
 /// The error for a resistance that no speed of the motor balances.

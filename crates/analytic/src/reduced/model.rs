@@ -77,10 +77,10 @@ impl<'a> Model<'a> {
     /// [`ErrorKind::Unsupported`] for mechanisms of several freedoms, [`ErrorKind::Input`] for one without masses, and those of
     /// [`Range::of`](crate::range::Range::of).
     pub fn of(case: &'a Case) -> Result<Self> {
-        if !case.further_drives.is_empty() {
+        if !case.drives.further().is_empty() {
             let message = format!(
                 "the motion under forces is asked for, but the mechanism has {} freedoms: this version reduces to one crank",
-                case.drives().count()
+                case.drives.len()
             );
             return Err(Error::new(ErrorKind::Unsupported, message).help("take a scenario with one `[drive]`"));
         }
@@ -97,12 +97,12 @@ impl<'a> Model<'a> {
             masses: masses.collect(),
             sensed: sensed.collect(),
             steady: steady.collect(),
-            boundaries: boundaries(&kinks, case.drive.start),
+            boundaries: boundaries(&kinks, case.crank().start),
             kinks,
             senses: Vec::new(),
-            motor: case.motor.clone(),
-            sense: case.drive.sense(),
-            added: case.motor.as_ref().map_or(0.0, Motor::inertia_on_crank),
+            motor: case.crank().motor().cloned(),
+            sense: case.crank().sense(),
+            added: case.crank().motor().map_or(0.0, Motor::inertia_on_crank),
         };
         if model.masses.is_empty() && model.added == 0.0 {
             let message = "the motion under forces is asked for, but nothing in the mechanism has a mass";
@@ -110,13 +110,6 @@ impl<'a> Model<'a> {
         }
         model.find_senses()?;
         Ok(model)
-    }
-
-    /// The same without a motor, its rotor and its reducer: the crank is free.
-    #[must_use]
-    pub fn without_motor(&self) -> Self {
-        let own = self.motor.as_ref().map_or(0.0, Motor::inertia_on_crank);
-        Model { motor: None, added: self.added - own, ..self.clone() }
     }
 
     /// The same with a flywheel on the crank's shaft (kg m^2, may be negative to take inertia away, as long as all in all it stays positive).
@@ -231,7 +224,7 @@ impl<'a> Model<'a> {
     /// Those of [`Model::at`].
     pub fn inertia_at_start(&self) -> Result<f64> {
         let mut poses = PoseSolver::new(self.case)?;
-        Ok(self.at(&mut poses, self.case.drive.start, self.sense)?.inertia + self.added)
+        Ok(self.at(&mut poses, self.case.crank().start, self.sense)?.inertia + self.added)
     }
 
     fn at_unit_speed<'p>(&self, poses: &'p mut PoseSolver, crank: f64) -> Result<&'p State> {
@@ -284,7 +277,7 @@ fn check_loads(case: &Case, kinks: &Kinks) -> Result<()> {
             return refuse(load, why, "leave it out, or take its part into the motor's law");
         }
         if let (&Load::TorsionSpring { links, .. }, Some(period)) = (load, kinks.period) {
-            let (mut poses, start) = (PoseSolver::new(case)?, case.drive.start);
+            let (mut poses, start) = (PoseSolver::new(case)?, case.crank().start);
             let mut twist = |crank: f64| -> Result<f64> {
                 poses.solve(crank, 1.0, 0.0, Stage::Positions)?;
                 let state = poses.with_angles();

@@ -7,7 +7,7 @@ use crate::motion::march::{MOST_EMPTY, Place, SETTING_OFF, Step, Stop, march};
 use linkage::case::{Case, Grid};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
-use linkage::solver::{Provision, Sampler, State, Visit};
+use linkage::solver::{Sampler, State, Visit};
 use linkage::trajectory::{Channel, Stage, Trajectory};
 
 /// The crank at one instant.
@@ -73,7 +73,7 @@ struct Runner<'m, 'a> {
 
 impl<'m, 'a> Runner<'m, 'a> {
     fn begin(model: &'m Model<'a>, omega: f64) -> Result<Self> {
-        let crank = model.case.drive.start;
+        let crank = model.case.crank().start;
         let somewhere = Piece::unbounded();
         let flow = InTime(Forces::of(model, somewhere, 1f64.copysign(omega))?);
         Ok(Runner { flow, place: Place { x: 0.0, y: [crank, omega], h: 0.0 }, gone: 0.0 })
@@ -231,7 +231,8 @@ impl RunUp {
             times: motion.iter().map(|instant| instant.t).collect(),
             cranks: motion.iter().map(|instant| instant.crank).collect(),
         };
-        let case: Case = model.case.on(grid);
+        // Forces decide this motion: no law of the crank is asked where it ends.
+        let case = model.case.at_top_speed().on(grid)?;
         let mut sampler = Sampler::new(&case);
         let (mut natural, size) = (0.0f64, case.mechanism.size());
         states(&case, &motion, &mut |row, state| {
@@ -239,7 +240,7 @@ impl RunUp {
             sampler.put(&case, row, state);
             Ok(())
         })?;
-        let trajectory = sampler.finish(&case, |_| Provision::Computed)?;
+        let trajectory = sampler.finish(&case)?;
         Ok(RunUp { motion, trajectory, end, natural })
     }
 

@@ -31,16 +31,4 @@ impl Averaged {
         let holds = steady_speed > 0.0 && steady_speed <= line.speeds[1] * (1.0 + SAME);
         (holds && inertia > 0.0).then(|| Averaged { time_constant: inertia / -line.slope(0.0), steady_speed })
     }
-
-    /// Speed of the crank (rad/s) at `t` (s) after the start from rest.
-    #[must_use]
-    pub fn speed(&self, t: f64) -> f64 {
-        -self.steady_speed * (-t / self.time_constant).exp_m1()
-    }
-
-    /// Angle that the crank has turned (rad) at `t` (s) after the start from rest.
-    #[must_use]
-    pub fn angle(&self, t: f64) -> f64 {
-        self.steady_speed * (t + self.time_constant * (-t / self.time_constant).exp_m1())
-    }
 }

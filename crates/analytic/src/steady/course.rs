@@ -4,7 +4,7 @@ use crate::PoseSolver;
 use crate::reduced::means::no_turn;
 use crate::reduced::model::Model;
 use linkage::error::Result;
-use linkage::math::golden;
+use linkage::math::extremum;
 use std::f64::consts::PI;
 
 /// Crank angle between two samples, at most (rad): a reduced quantity has a few extremes in a turn, not hundreds.
@@ -68,7 +68,7 @@ impl Model<'_> {
     fn extremes_of<const N: usize>(&self, quantities: [fn(&Row) -> f64; N]) -> Result<[Extremes; N]> {
         let Some(period) = self.kinks().period else { return Err(no_turn(self.kinks())) };
         let count = (period / SAMPLE_STEP).ceil();
-        let start = self.case.drive.start;
+        let start = self.case.crank().start;
         let mut cranks: Vec<f64> = (0..=count as usize).map(|k| start + period * (k as f64 / count)).collect();
         // A kink may be an extreme, and has no flat top.
         cranks.extend(&self.kinks().cranks);
@@ -80,7 +80,7 @@ impl Model<'_> {
             let mut end = |sign: f64| -> Result<(f64, f64)> {
                 let values: Vec<f64> = rows.iter().map(|row| sign * of(row)).collect();
                 let mut value = |crank: f64| -> Result<f64> { Ok(sign * of(&self.row(&mut poses, crank)?)) };
-                let (crank, value) = golden::greatest(&cranks, &values, &mut value)?;
+                let (crank, value) = extremum::greatest(&cranks, &values, &mut value)?;
                 Ok((crank, sign * value))
             };
             *extremes = Extremes { least: end(-1.0)?, greatest: end(1.0)? };

@@ -9,6 +9,7 @@ use crate::reduced::flow::{Forces, OverAngle};
 use crate::reduced::means::{self, no_turn};
 use crate::reduced::model::{Model, Piece};
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::root;
 
 /// Newton steps of the shooting; it takes three to six.
 const MOST_SHOTS: usize = 60;
@@ -115,7 +116,7 @@ struct Turn<'m, 'a> {
 impl<'m, 'a> Turn<'m, 'a> {
     fn of(model: &'m Model<'a>, period: f64) -> Result<Self> {
         let flow = OverAngle(Forces::of(model, Piece::unbounded(), model.sense)?);
-        Ok(Turn { flow, start: model.sense * model.case.drive.start, period })
+        Ok(Turn { flow, start: model.sense * model.case.crank().start, period })
     }
 
     /// Energy, time and share at the end of a period that begins with `energy` (J). Targets end steps.
@@ -215,17 +216,12 @@ fn extreme(
     low: At,
     here: &dyn Fn(&OverAngle, f64, f64) -> At,
 ) -> Result<At> {
-    let (mut shortest, mut longest, mut found) = (0.0, end - x, low);
+    let mut found = low;
     // At an extreme the speed is flat: half the digits of the angle are enough.
-    for _ in 0..30 {
-        let h = (shortest + longest) / 2.0;
+    root::halved([0.0, end - x], 30, |h| -> Result<bool> {
         found = here(flow, x + h, one_step(flow, x, &y, h)?[0]);
-        if found.alpha * low.alpha > 0.0 {
-            shortest = h;
-        } else {
-            longest = h;
-        }
-    }
+        Ok(found.alpha * low.alpha > 0.0)
+    })?;
     Ok(found)
 }
 

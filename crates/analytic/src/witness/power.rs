@@ -20,5 +20,5 @@ pub fn of_known_forces(case: &Case, state: &State) -> f64 {
 /// their moments times the ratios of speed. Ideal joints do no work, so no reaction enters. The crank must turn.
 #[must_use]
 pub fn balancing_moment(case: &Case, state: &State) -> f64 {
-    -of_known_forces(case, state) / state.motions[case.drive.link].omega
+    -of_known_forces(case, state) / state.motions[case.crank().link].omega
 }

@@ -2,12 +2,16 @@
 
 mod branch;
 pub mod course;
+pub mod driven;
+pub mod drives;
 pub mod load;
 pub mod motion;
 pub mod motor;
 
 pub use branch::Branch;
 pub use course::Course;
+pub use driven::{Drive, DriveMotion};
+pub use drives::Drives;
 pub use load::{Action, Acts, Load, Setting, Wrench};
-pub use motion::{Drive, DriveState, MotionLaw};
+pub use motion::{DriveState, MotionLaw};
 pub use motor::{Motor, MotorLaw, ShaftInertia};

@@ -1,7 +1,7 @@
 //! What engines ask of links because they integrate bodies.
 
 use crate::case::Case;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Advice, Error, ErrorKind, Result};
 
 /// Mass (kg) and moment of inertia (kg m^2) that engines add to a link, by its number, which has none: the mean mass of all links, and the moment of a rod of that
 /// mass and the mechanism's size. 0 of what it has itself.
@@ -27,5 +27,7 @@ pub fn check_inertias(case: &Case, software: &str) -> Result<()> {
         format!("link \"{}\" has no mass or no moment of inertia: {software} cannot move it under forces", bare.name);
     Err(Error::new(ErrorKind::Unsupported, message)
         .key(format!("links.{}", bare.name))
-        .help("give every link both, or solve the scenario with `linkproof solve --with newton`"))
+        .of_link(&bare.name)
+        .help("give every link both")
+        .or_help(Advice::OtherSolver { solver: "newton" }))
 }

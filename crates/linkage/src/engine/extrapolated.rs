@@ -1,7 +1,7 @@
 //! Any engine with a fixed step, extrapolated to step zero: solved at h and at h / 2, and both states combined so that the leading error
 //! drops out (Richardson 1911).
 
-use std::rc::Rc;
+use std::sync::Arc;
 
 use super::shared::Shared;
 use super::{Engine, Route, Settings};
@@ -16,7 +16,7 @@ pub struct Extrapolated {
     inner: Box<dyn Engine>,
     half: Box<dyn Engine>,
     /// Runs that other extrapolations of the engine need too.
-    shared: Rc<Shared>,
+    shared: Arc<Shared>,
 }
 
 impl Extrapolated {
@@ -24,7 +24,7 @@ impl Extrapolated {
     pub fn new(inner: Box<dyn Engine>) -> Self {
         debug_assert!(!inner.controls_error(), "there is no step to be halved");
         let half = inner.at(0.5 * inner.settings().resolution);
-        Extrapolated { inner, half, shared: Rc::default() }
+        Extrapolated { inner, half, shared: Arc::default() }
     }
 }
 
@@ -134,7 +134,7 @@ impl Engine for Extrapolated {
     }
 
     fn ladder(&self, rungs: &[Settings]) -> Vec<Box<dyn Engine>> {
-        let shared = Rc::new(Shared::default());
+        let shared = Arc::new(Shared::default());
         let rung = |&settings: &Settings| -> Box<dyn Engine> {
             if !settings.extrapolated {
                 return self.with(settings);
@@ -142,7 +142,7 @@ impl Engine for Extrapolated {
             let plain = Extrapolated::new(self.inner.with(Settings { extrapolated: false, ..settings }));
             shared.expect(plain.inner.settings());
             shared.expect(plain.half.settings());
-            Box::new(Extrapolated { shared: Rc::clone(&shared), ..plain })
+            Box::new(Extrapolated { shared: Arc::clone(&shared), ..plain })
         };
         rungs.iter().map(rung).collect()
     }
@@ -174,7 +174,7 @@ impl Engine for Extrapolated {
 
 #[cfg(test)]
 mod tests {
-    use std::cell::RefCell;
+    use std::sync::Mutex;
 
     use super::*;
     use crate::case::Grid;
@@ -185,8 +185,15 @@ mod tests {
     #[derive(Clone, Debug)]
     struct Counted {
         settings: Settings,
-        runs: Rc<RefCell<Vec<(f64, usize)>>>,
+        runs: Arc<Mutex<Vec<(f64, usize)>>>,
         fails: Option<(f64, usize)>,
+    }
+
+    impl Counted {
+        /// The runs written down so far, which are forgotten.
+        fn taken(&self) -> Vec<(f64, usize)> {
+            std::mem::take(&mut self.runs.lock().unwrap())
+        }
     }
 
     impl Solver for Counted {
@@ -198,7 +205,7 @@ mod tests {
         }
         fn sweep(&self, case: &Case, visit: Visit, progress: Progress) -> Result<()> {
             let (h, sweeps) = (self.settings.resolution, self.settings.sweeps);
-            self.runs.borrow_mut().push((h, sweeps));
+            self.runs.lock().unwrap().push((h, sweeps));
             let mut state = State::at_rest(case);
             for (done, row) in case.grid.ascending().into_iter().enumerate() {
                 if done == 1 && self.fails == Some((h, sweeps)) {
@@ -244,7 +251,7 @@ mod tests {
         Settings { resolution: 0.1, sweeps: 8, substeps: 1, route: Route::Native, extrapolated: true };
 
     fn counted(fails: Option<(f64, usize)>) -> Counted {
-        Counted { settings: Settings { extrapolated: false, ..ASKED }, runs: Rc::default(), fails }
+        Counted { settings: Settings { extrapolated: false, ..ASKED }, runs: Arc::default(), fails }
     }
 
     /// The rungs of a proof, in its order.
@@ -255,7 +262,7 @@ mod tests {
 
     fn case() -> Case {
         let case = fixtures::turning(fixtures::four_bar());
-        case.on(Grid::of_times(&case.drive, vec![0.2, 0.0, 0.1]))
+        case.on(Grid::of_times(case.crank(), vec![0.2, 0.0, 0.1])).unwrap()
     }
 
     /// Rows and angles that an engine hands over, in its order, and how the run ended; progress must rise from 0 to 1.
@@ -277,22 +284,22 @@ mod tests {
     fn a_ladder_takes_every_step_once_and_changes_no_bit() {
         let (engine, case) = (counted(None), case());
         let alone: Vec<_> = rungs().map(|rung| run(engine.with(rung).as_ref(), &case).0).into();
-        assert_eq!(engine.runs.take().len(), 8);
+        assert_eq!(engine.taken().len(), 8);
         let ladder = engine.with(ASKED).ladder(&rungs());
         let together: Vec<_> = ladder.iter().map(|rung| run(rung.as_ref(), &case).0).collect();
         assert_eq!(together, alone);
         assert_eq!(alone[0].len(), 3);
         let once = [(0.1, 8), (0.05, 8), (0.025, 8), (0.2, 8), (0.1, 4), (0.05, 4)];
-        assert_eq!(engine.runs.take(), once);
+        assert_eq!(engine.taken(), once);
         // What nobody expects any more is not kept: the first rung runs again as if alone.
         assert_eq!(run(ladder[0].as_ref(), &case).0, alone[0]);
-        assert_eq!(engine.runs.take(), once[..2]);
+        assert_eq!(engine.taken(), once[..2]);
     }
 
     #[test]
     fn what_is_kept_of_one_case_is_not_given_for_another() {
         let (engine, one) = (counted(None), case());
-        let other = one.on(Grid::of_times(&one.drive, vec![0.4, 0.3, 0.5]));
+        let other = one.on(Grid::of_times(one.crank(), vec![0.4, 0.3, 0.5])).unwrap();
         let ladder = engine.with(ASKED).ladder(&rungs());
         for (rung, case) in ladder.iter().zip([&one, &other, &one, &one]) {
             assert_eq!(run(rung.as_ref(), case).0, run(engine.with(rung.settings()).as_ref(), case).0);

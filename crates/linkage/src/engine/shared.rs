@@ -1,7 +1,6 @@
 //! Runs that several engines are made of.
 
-use std::cell::RefCell;
-use std::rc::Rc;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::{Engine, Settings};
 use crate::case::Case;
@@ -14,9 +13,14 @@ type States = Vec<Option<State>>;
 /// Runs of one engine on one case at different settings: each is made once, and kept as long as somebody still expects it.
 #[derive(Debug, Default)]
 pub(super) struct Shared {
-    runs: RefCell<Vec<Run>>,
+    kept: Mutex<Kept>,
+}
+
+#[derive(Debug, Default)]
+struct Kept {
+    runs: Vec<Run>,
     /// What the kept runs are of.
-    case: RefCell<Option<Case>>,
+    case: Option<Case>,
 }
 
 #[derive(Debug)]
@@ -24,13 +28,13 @@ struct Run {
     settings: Settings,
     /// How many times it will be asked for.
     expected: usize,
-    states: Option<Rc<States>>,
+    states: Option<Arc<States>>,
 }
 
 impl Shared {
     /// Announces that a run at these settings will be asked for, once more than it has been announced before.
     pub(super) fn expect(&self, settings: Settings) {
-        let mut runs = self.runs.borrow_mut();
+        let runs = &mut self.kept().runs;
         match runs.iter_mut().find(|run| run.settings == settings) {
             Some(run) => run.expected += 1,
             None => runs.push(Run { settings, expected: 1, states: None }),
@@ -59,16 +63,16 @@ impl Shared {
             visit(row, state)
         };
         engine.sweep(case, &mut keep, progress)?;
-        if let Some(run) = self.runs.borrow_mut().iter_mut().find(|run| run.settings == engine.settings()) {
-            run.states = Some(Rc::new(states));
+        if let Some(run) = self.kept().runs.iter_mut().find(|run| run.settings == engine.settings()) {
+            run.states = Some(Arc::new(states));
         }
         Ok(())
     }
 
     /// What is kept of a run at these settings, and whether it is expected again after this time.
-    fn ask(&self, settings: Settings, case: &Case) -> (Option<Rc<States>>, bool) {
-        let mut runs = self.runs.borrow_mut();
-        let mut own = self.case.borrow_mut();
+    fn ask(&self, settings: Settings, case: &Case) -> (Option<Arc<States>>, bool) {
+        let mut kept = self.kept();
+        let Kept { runs, case: own } = &mut *kept;
         if !runs.is_empty() && own.as_ref() != Some(case) {
             runs.iter_mut().for_each(|run| run.states = None);
             *own = Some(case.clone());
@@ -79,5 +83,10 @@ impl Shared {
             0 => (run.states.take(), false),
             _ => (run.states.clone(), true),
         }
+    }
+
+    /// What is kept. A thread that panicked meanwhile left whole runs or none.
+    fn kept(&self) -> MutexGuard<'_, Kept> {
+        self.kept.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

@@ -6,7 +6,10 @@
 
 use crate::math::KeepNan;
 use nalgebra::{Complex, DMatrix, linalg::Schur};
+use std::convert::Infallible;
 use std::f64::consts::TAU;
+
+use super::root;
 
 type Coefficients = Vec<Complex<f64>>;
 
@@ -94,19 +97,17 @@ fn extrema(coefficients: &[Complex<f64>]) -> Option<Vec<f64>> {
     if derivative.iter().all(|c| c.norm() == 0.0) {
         return Some(Vec::new());
     }
-    let near = roots(&derivative)?.into_iter().filter(|root| (root.norm() - 1.0).abs() < ON_CIRCLE);
-    let polished = near.map(|root| {
-        let (mut x, mut best) = (root.arg(), root.arg());
-        let mut least = evaluate(&derivative, x).0.abs();
-        // Beside a multiple root Newton's method may go astray: the flattest place on its way is kept.
-        for _ in 0..4 {
+    let near = roots(&derivative)?.into_iter().filter(|found| (found.norm() - 1.0).abs() < ON_CIRCLE);
+    let polished = near.map(|found| {
+        let (mut best, mut least) = (found.arg(), f64::INFINITY);
+        // Beside a multiple root Newton's method may go astray: the flattest place on its way is kept, the fifth too.
+        let Ok(_) = root::polished(found.arg(), 5, f64::INFINITY, |x| {
             let (value, slope) = evaluate(&derivative, x);
-            x -= value / slope;
-            let value = evaluate(&derivative, x).0.abs();
-            if value < least && (x - root.arg()).abs() < ON_CIRCLE {
-                (best, least) = (x, value);
+            if value.abs() < least && (x - found.arg()).abs() < ON_CIRCLE {
+                (best, least) = (x, value.abs());
             }
-        }
+            Ok::<_, Infallible>((value, slope))
+        });
         best.rem_euclid(TAU)
     });
     Some(polished.collect())
@@ -115,23 +116,10 @@ fn extrema(coefficients: &[Complex<f64>]) -> Option<Vec<f64>> {
 /// The one zero between two places where the signs differ: Newton's method, by halves where it would leave the interval.
 fn between(coefficients: &[Complex<f64>], from: f64, to: f64) -> f64 {
     let rises = evaluate(coefficients, to).0 > 0.0;
-    let (mut low, mut high) = (from, to);
-    let mut x = 0.5 * (low + high);
-    for _ in 0..100 {
-        let (value, slope) = evaluate(coefficients, x);
-        if (value > 0.0) == rises {
-            high = x;
-        } else {
-            low = x;
-        }
-        let newton = x - value / slope;
-        let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-        if (next - x).abs() <= 2.0 * f64::EPSILON {
-            return next;
-        }
-        x = next;
-    }
-    x
+    let middle = f64::midpoint(from, to);
+    let value = |x: f64| Ok::<_, Infallible>(evaluate(coefficients, x));
+    let Ok(found) = root::newton([from, to], rises, middle, 2.0 * f64::EPSILON, value);
+    found.expect("coefficients are finite, and so are the values")
 }
 
 /// Roots of a polynomial (lowest power first) whose coefficients are their own mirror image but for conjugation and a sign, so that roots

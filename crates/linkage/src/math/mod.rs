@@ -1,14 +1,15 @@
-//! Small mathematics without physics: plane vectors, rigid motion fields, dense solves, quantiles, interpolation, splines.
+//! Small mathematics without physics: plane vectors, rigid motion fields, dense solves, quantiles, interpolation, splines, zeros and extremes.
 
 pub mod angle;
 pub mod dense;
-pub mod golden;
+pub mod extremum;
 pub mod harmonic;
 pub mod interpolate;
 pub mod keep_nan;
 pub mod motion;
 pub mod piecewise;
 pub mod quadrature;
+pub mod root;
 pub mod statistics;
 
 pub use keep_nan::{KeepNan, largest_size};

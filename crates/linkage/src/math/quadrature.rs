@@ -1,7 +1,10 @@
 //! Integrals of smooth functions.
 
 use crate::math::KeepNan;
+use std::convert::Infallible;
 use std::f64::consts::PI;
+
+use super::root;
 
 /// Nodes in one panel.
 pub const NODES: usize = 8;
@@ -13,18 +16,18 @@ pub const NODES: usize = 8;
 pub fn gauss_legendre() -> [(f64, f64); NODES] {
     let n = NODES as f64;
     std::array::from_fn(|k| {
-        let mut x = -(PI * (k as f64 + 0.75) / (n + 0.5)).cos();
+        let guess = -(PI * (k as f64 + 0.75) / (n + 0.5)).cos();
         let mut slope = 1.0;
         // Quadratic from three digits on: five steps reach rounding.
-        for _ in 0..6 {
+        let Ok(x) = root::polished(guess, 6, f64::INFINITY, |x| {
             let (mut before, mut here) = (1.0, x);
             for degree in 2..=NODES {
                 let d = degree as f64;
                 (before, here) = (here, ((2.0 * d - 1.0) * x * here - (d - 1.0) * before) / d);
             }
             slope = n * (x * here - before) / (x * x - 1.0);
-            x -= here / slope;
-        }
+            Ok::<_, Infallible>((here, slope))
+        });
         (x, 2.0 / ((1.0 - x * x) * slope * slope))
     })
 }

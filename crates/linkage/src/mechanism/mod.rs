@@ -64,16 +64,56 @@ pub enum JointKind {
     },
 }
 
-/// Number of constraint equations of any lower pair of the plane.
+/// Number of constraint equations of any lower pair of the plane: rows of joint k begin at `EQUATIONS * k` wherever equations are listed.
 pub const EQUATIONS: usize = 2;
 
+/// What the rest of the crate asks of a pair. A new kind answers here, and where its equations are written out by kind.
 impl JointKind {
-    /// Letter of the pair in the names of groups: R or P.
+    /// Axes along which the links slide: unit vectors in the frames of the first and the second link. `None` if they do not slide.
+    #[inline]
     #[must_use]
-    pub fn letter(self) -> char {
+    pub fn axes(self) -> Option<[Vec2; 2]> {
         match self {
-            JointKind::Revolute => 'R',
-            JointKind::Prismatic { .. } => 'P',
+            JointKind::Revolute => None,
+            JointKind::Prismatic { axes } => Some(axes),
+        }
+    }
+
+    /// Number of constraint equations. A kind with another number than [`EQUATIONS`] asks for another count of rows wherever that stands.
+    #[must_use]
+    pub fn equations(self) -> usize {
+        match self {
+            JointKind::Revolute | JointKind::Prismatic { .. } => EQUATIONS,
+        }
+    }
+
+    /// Whether the links slide along each other: there is a guide and a block, and a way between them.
+    #[inline]
+    #[must_use]
+    pub fn slides(self) -> bool {
+        match self {
+            JointKind::Revolute => false,
+            JointKind::Prismatic { .. } => true,
+        }
+    }
+
+    /// Whether the joint is one point of both links, about which they turn.
+    #[inline]
+    #[must_use]
+    pub fn is_pin(self) -> bool {
+        match self {
+            JointKind::Revolute => true,
+            JointKind::Prismatic { .. } => false,
+        }
+    }
+
+    /// Whether the links turn together, so that the angle between them stays and the reaction has a moment.
+    #[inline]
+    #[must_use]
+    pub fn keeps_angle(self) -> bool {
+        match self {
+            JointKind::Revolute => false,
+            JointKind::Prismatic { .. } => true,
         }
     }
 
@@ -123,16 +163,31 @@ impl Joint {
         if self.first.link == link { self.second } else { self.first }
     }
 
-    /// Whether the pair is prismatic.
+    /// [`JointKind::slides`] of its kind.
+    #[inline]
     #[must_use]
-    pub fn is_prismatic(&self) -> bool {
-        matches!(self.kind, JointKind::Prismatic { .. })
+    pub fn slides(&self) -> bool {
+        self.kind.slides()
     }
 
-    /// Unit vector of a prismatic pair's axis in the frame of `link`, if the joint is prismatic and on that link.
+    /// [`JointKind::is_pin`] of its kind.
+    #[inline]
+    #[must_use]
+    pub fn is_pin(&self) -> bool {
+        self.kind.is_pin()
+    }
+
+    /// [`JointKind::keeps_angle`] of its kind.
+    #[inline]
+    #[must_use]
+    pub fn keeps_angle(&self) -> bool {
+        self.kind.keeps_angle()
+    }
+
+    /// Unit vector of the axis along which the links slide in the frame of `link`, if they do and the joint is on that link.
     #[must_use]
     pub fn axis_on(&self, link: usize) -> Option<Vec2> {
-        let JointKind::Prismatic { axes } = self.kind else { return None };
+        let axes = self.kind.axes()?;
         let sides = [self.first, self.second];
         sides.iter().position(|side| side.link == link).map(|index| axes[index])
     }
@@ -203,13 +258,13 @@ impl Mechanism {
         self.joints.iter().position(|joint| joint.name == name)
     }
 
-    /// Guide and block of a prismatic joint: the ground is a guide, and so is the larger of two moving links, of equal ones the first. `None` for
-    /// a revolute joint.
+    /// Guide and block of a joint that slides: the ground is a guide, and so is the larger of two moving links, of equal ones the first. `None` for
+    /// other joints.
     #[must_use]
     pub fn guide_and_block(&self, joint: &Joint) -> Option<[Side; 2]> {
         let size = |side: Side| if side.link == GROUND { f64::INFINITY } else { self.links[side.link].size() };
         let (first, second) = (joint.first, joint.second);
-        joint.is_prismatic().then(|| if size(first) >= size(second) { [first, second] } else { [second, first] })
+        joint.slides().then(|| if size(first) >= size(second) { [first, second] } else { [second, first] })
     }
 
     /// Points that move, each name once: the link that carries it first, and its place there.
@@ -234,14 +289,14 @@ impl Mechanism {
         self.links.iter().map(Link::size).fold(0.0, f64::larger)
     }
 
-    /// Whether a link can turn: it cannot if prismatic joints alone connect it with the ground.
+    /// Whether a link can turn: it cannot if joints that keep the angle connect it with the ground.
     #[must_use]
     pub fn can_turn(&self, link: usize) -> bool {
         let mut still = vec![GROUND];
         let mut next = 0;
         while let Some(&own) = still.get(next) {
             next += 1;
-            for joint in self.joints.iter().filter(|joint| joint.is_prismatic() && joint.on(own).is_some()) {
+            for joint in self.joints.iter().filter(|joint| joint.keeps_angle() && joint.on(own).is_some()) {
                 let other = joint.other(own).link;
                 if !still.contains(&other) {
                     still.push(other);
@@ -266,7 +321,7 @@ impl Mechanism {
             if self.joints[..j].iter().any(|other| other.name == joint.name) {
                 return wrong(format!("two joints are called \"{}\"", joint.name), "give every joint its own name");
             }
-            if let JointKind::Prismatic { axes } = joint.kind
+            if let Some(axes) = joint.kind.axes()
                 && !axes.iter().all(|axis| (axis.norm() - 1.0).abs() <= 1e-12)
             {
                 return wrong("its axis is no unit vector".into(), "give the axis by its angle");
@@ -315,7 +370,7 @@ impl Mechanism {
         let mut next = 0;
         while let Some(&link) = reached.get(next) {
             next += 1;
-            let pins = self.joints.iter().filter(|joint| joint.kind == JointKind::Revolute);
+            let pins = self.joints.iter().filter(|joint| joint.is_pin());
             for joint in pins.filter(|joint| at(joint.first) && at(joint.second)) {
                 if joint.on(link).is_some() && !reached.contains(&joint.other(link).link) {
                     reached.push(joint.other(link).link);

@@ -5,7 +5,7 @@
 //! step of 1e-3 s, with prismatic joints kept and with the innermost joint cut whatever its kind: slider-crank 1.4e-4 and 2.0e-4,
 //! swinging guide 8.3e-4 and 1.2e-3, Scotch yoke 7.8e-5 and 6.5e-5, a crank with a slot 1.9e-3 and an Oldham coupling 9.0e-5 both ways.
 
-use super::{GROUND, Joint, LinkPose, Mechanism};
+use super::{GROUND, Joint, JointKind, LinkPose, Mechanism};
 use crate::math::{rotated, unit};
 
 /// A link hung on its parent by a joint of the tree.
@@ -133,7 +133,7 @@ impl Tree {
     /// Takes a link and all that slides on it.
     fn reach(&mut self, mechanism: &Mechanism, parent: usize, reached: &mut Vec<usize>) {
         reached.push(parent);
-        for (joint, found) in mechanism.joints().iter().enumerate().filter(|(_, found)| found.is_prismatic()) {
+        for (joint, found) in mechanism.joints().iter().enumerate().filter(|(_, found)| found.slides()) {
             let link = found.other(parent).link;
             if found.on(parent).is_some() && !reached.contains(&link) {
                 self.branches.push(Branch { link, parent, joint });
@@ -148,11 +148,13 @@ impl Tree {
 #[must_use]
 pub fn coordinate(joint: &Joint, branch: &Branch, poses: &[LinkPose]) -> f64 {
     let [parent, child] = [branch.parent, branch.link].map(|link| poses[link]);
-    match (joint.axis_on(branch.parent), joint.on(branch.parent), joint.on(branch.link)) {
-        (Some(axis), Some(on_parent), Some(on_child)) => {
-            rotated(unit(parent.angle), axis).dot(&(child.point(on_child) - parent.point(on_parent)))
+    let on = |link: usize| joint.on(link).expect("a branch's joint is on both links");
+    match joint.kind {
+        JointKind::Revolute => child.angle - parent.angle,
+        JointKind::Prismatic { .. } => {
+            let axis = joint.axis_on(branch.parent).expect("a branch's joint is on both links");
+            rotated(unit(parent.angle), axis).dot(&(child.point(on(branch.link)) - parent.point(on(branch.parent))))
         }
-        _ => child.angle - parent.angle,
     }
 }
 
@@ -161,7 +163,6 @@ mod tests {
     use super::*;
     use crate::fixtures::{class_four, four_bar};
     use crate::math::Vec2;
-    use crate::mechanism::JointKind;
 
     #[test]
     fn four_bar_is_cut_once() {

@@ -2,7 +2,7 @@
 
 use linkage::case::Case;
 use linkage::math::{Vec2, cross, turned};
-use linkage::mechanism::{EQUATIONS, Side};
+use linkage::mechanism::{EQUATIONS, JointKind, Side};
 use linkage::solver::State;
 
 /// A joint between two links.
@@ -52,9 +52,9 @@ impl Seam {
         let found = &case.mechanism.joints()[joint];
         let centres = links.map(|link| case.mechanism.links()[link].mass_centre);
         let on = links.map(|link| found.on(link).expect("the joint is on the link"));
-        let pair = match found.axis_on(found.first.link) {
-            None => Pair::Pin([on[0] - centres[0], on[1] - centres[1]]),
-            Some(axis) => {
+        let pair = match found.kind {
+            JointKind::Revolute => Pair::Pin([on[0] - centres[0], on[1] - centres[1]]),
+            JointKind::Prismatic { axes: [axis, _] } => {
                 Pair::Slide { axis: Side { link: found.first.link, local: axis }, place: found.second, centres }
             }
         };

@@ -8,7 +8,7 @@ use super::rapier::prelude::{
 use super::{Real, real};
 use linkage::engine::Settings;
 use linkage::math::Vec2;
-use linkage::mechanism::{Joint, Link};
+use linkage::mechanism::{Joint, JointKind, Link};
 
 /// Joint frequency (Hz): rigid to rounding. The default, 1e6 Hz, adds 6 % to the closure gap at a step of 1e-5 s.
 const JOINT_FREQUENCY: f64 = 1e12;
@@ -31,12 +31,12 @@ pub(super) fn holding(axes: JointAxesMask, joint: &Joint, links: [usize; 2]) -> 
 /// The joint between `links`, which Rapier calls first and second. Of a prismatic one, the x axis of either joint frame lies
 /// along the axis.
 pub(super) fn between(joint: &Joint, links: [usize; 2]) -> GenericJoint {
-    match links.map(|link| joint.axis_on(link)) {
-        [Some(first), Some(second)] => holding(JointAxesMask::LOCKED_PRISMATIC_AXES, joint, links)
-            .local_axis1(vector(first))
-            .local_axis2(vector(second))
-            .build(),
-        _ => holding(JointAxesMask::LOCKED_REVOLUTE_AXES, joint, links).build(),
+    match joint.kind {
+        JointKind::Revolute => holding(JointAxesMask::LOCKED_REVOLUTE_AXES, joint, links).build(),
+        JointKind::Prismatic { .. } => {
+            let [first, second] = links.map(|link| vector(joint.axis_on(link).expect("the joint is on the link")));
+            holding(JointAxesMask::LOCKED_PRISMATIC_AXES, joint, links).local_axis1(first).local_axis2(second).build()
+        }
     }
 }
 

@@ -115,7 +115,7 @@ impl Twin {
             Cut { joint, index, handle, plain, start: frame::Frame::default() }
         });
         let cuts = cuts.collect();
-        let motors = case.drives().map(|drive| {
+        let motors = case.drives.iter().map(|drive| {
             let joint = &mechanism.joints()[drive.joint];
             let links = [joint.first.link, joint.second.link];
             let data = joints::holding(JointAxesMask::empty(), joint, links)
@@ -129,7 +129,7 @@ impl Twin {
         let motors = motors.collect();
         let twists = tree.branches.iter().map(|branch| {
             let angle = |link: usize| case.start.0[link].angle;
-            mechanism.joints()[branch.joint].is_prismatic().then(|| angle(branch.link) - angle(branch.parent))
+            mechanism.joints()[branch.joint].keeps_angle().then(|| angle(branch.link) - angle(branch.parent))
         });
         let frames = (0..mechanism.links().len()).map(|link| {
             let angle = if link == GROUND || !plain(link) { LinkAngle::Whole(0.0) } else { LinkAngle::Turns(0.0) };

@@ -7,7 +7,7 @@ use crate::world::{LinkAngle, LinkFrame, World};
 use linkage::drive::Wrench;
 use linkage::math::Vec2;
 use linkage::math::angle::arc_tangent;
-use linkage::mechanism::LinkPose;
+use linkage::mechanism::{JointKind, LinkPose};
 
 impl Twin {
     fn multibody(&self) -> Option<&Multibody> {
@@ -23,7 +23,10 @@ impl Twin {
             let joint = &self.joints[branch.joint];
             let coords = multibody.link(id).expect("known link").joint().coords();
             // The free coordinate of a slider is the first, of a pin the last.
-            let now = coords[if joint.is_prismatic() { 0 } else { 2 }];
+            let now = match joint.kind {
+                JointKind::Prismatic { .. } => coords[0],
+                JointKind::Revolute => coords[2],
+            };
             displacements[dof] = real(coordinate(joint, branch, poses)) - now;
         }
         multibody.apply_displacements(&displacements);

@@ -4,6 +4,7 @@ use super::frame::Frame;
 use super::{Twin, wide};
 use crate::world::World;
 use linkage::math::{Vec2, cross, rotated, turned};
+use linkage::mechanism::JointKind;
 
 impl Twin {
     /// Remembers where the joints to be read stand, as far as `share` says on the way from what was remembered before: Rapier gives impulses in
@@ -15,9 +16,9 @@ impl Twin {
             let sides = [joint.first, joint.second];
             let [first, second] = sides.map(|side| self.point(side));
             let direction = self.frames[joint.first.link].direction;
-            let (axis, place) = match joint.axis_on(joint.first.link) {
-                None => (direction, first),
-                Some(axis) => {
+            let (axis, place) = match joint.kind {
+                JointKind::Revolute => (direction, first),
+                JointKind::Prismatic { axes: [axis, _] } => {
                     // Along the free axis the rows act at the place on the second body.
                     let normal = turned(rotated(direction, axis));
                     (rotated(direction, axis), second - normal * normal.dot(&(second - first)))
@@ -40,19 +41,22 @@ impl Twin {
         let turning =
             |of: [f64; 2], other: [f64; 2]| of[0] * other[0] * inverse[0][1] + of[1] * other[1] * inverse[1][1];
         let lever = |along: Vec2| arms.map(|arm| cross(arm, along));
-        let (force, moment) = if cut.joint.is_prismatic() {
-            if cut.plain {
-                // The row across the axis was made orthogonal to the one that keeps the angle.
-                rows[2] -= rows[1] * turning(lever(across), [1.0; 2]) / turning([1.0; 2], [1.0; 2]);
+        let (force, moment) = match cut.joint.kind {
+            JointKind::Prismatic { .. } => {
+                if cut.plain {
+                    // The row across the axis was made orthogonal to the one that keeps the angle.
+                    rows[2] -= rows[1] * turning(lever(across), [1.0; 2]) / turning([1.0; 2], [1.0; 2]);
+                }
+                (across * rows[1], rows[2])
             }
-            (across * rows[1], rows[2])
-        } else {
-            if cut.plain {
-                // The second row was made orthogonal to the first.
-                let mass = inverse[0][0] + inverse[1][0] + turning(lever(axis), lever(axis));
-                rows[0] -= rows[1] * turning(lever(axis), lever(across)) / mass;
+            JointKind::Revolute => {
+                if cut.plain {
+                    // The second row was made orthogonal to the first.
+                    let mass = inverse[0][0] + inverse[1][0] + turning(lever(axis), lever(axis));
+                    rows[0] -= rows[1] * turning(lever(axis), lever(across)) / mass;
+                }
+                (axis * rows[0] + across * rows[1], 0.0)
             }
-            (axis * rows[0] + across * rows[1], 0.0)
         };
         // An impulse is that of the last substep, and counted as that on the first body.
         let duration = -self.substep();

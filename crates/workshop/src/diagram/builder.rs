@@ -1,8 +1,8 @@
 //! How the vectors of a plan are found: from the motions of the links, pair of points by pair of points.
 
-use super::names::{Place, fixed_guide, pair, pivot};
+use super::names::{Place, fixed_guide, pair, pivot, primed};
 use super::scale::factor;
-use super::sliding::{Slide, translates};
+use super::sliding::Slide;
 use super::vectors::{Part, Plan, Quantity, Tip, TipKind, Vector};
 use linkage::math::{KeepNan, Motion, Vec2, turned};
 use linkage::mechanism::Mechanism;
@@ -159,7 +159,7 @@ impl<'a> Builder<'a> {
             let meaning = format!("acceleration of {} relative to {}{along_guide}", slide.name, under.name);
             let coriolis = turned(speed) * (2.0 * self.state.motions[slide.guide.link].omega);
             let start = self.tips.iter().find(|tip| tip.letter == *from).map_or_else(Vec2::zeros, |tip| tip.at);
-            let end = if translates(self.mechanism, slide.guide.link) {
+            let end = if !self.mechanism.can_turn(slide.guide.link) {
                 from.to_string()
             } else {
                 number += 1;
@@ -174,11 +174,8 @@ impl<'a> Builder<'a> {
     }
 
     /// `letter`, with as many primes as no other end of a vector has.
-    fn unused(&self, mut letter: String) -> String {
-        while self.tips.iter().any(|tip| tip.letter == letter) {
-            letter.push('\'');
-        }
-        letter
+    fn unused(&self, letter: String) -> String {
+        primed(letter, |letter| self.tips.iter().any(|tip| tip.letter == letter))
     }
 
     /// Normal and tangential parts of every relative acceleration, and of those about a pivot on the ground.
@@ -215,7 +212,7 @@ impl<'a> Builder<'a> {
     /// Pairs of points of a link: first its pivot on the ground with every other, then the moving ones among themselves, last those under
     /// sliding points with its pivot or, where it has none, with its moving points. None of a link that never turns: all its points move alike.
     fn pairs(&self, link: usize) -> Vec<(On<'a>, On<'a>)> {
-        if translates(self.mechanism, link) {
+        if !self.mechanism.can_turn(link) {
             return Vec::new();
         }
         let places = self.places;

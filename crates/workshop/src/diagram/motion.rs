@@ -34,7 +34,7 @@ impl Course {
     /// # Errors
     /// [`ErrorKind::Input`] for any other name, with those that are possible.
     pub fn named(case: &Case, name: &str) -> Result<Self> {
-        let all = Case { wanted: Wanted::ALL, ..case.clone() }.channels();
+        let all = case.wanting(Wanted::ALL).channels();
         let wrong = |message: String, help: String| Error::new(ErrorKind::Input, message).help(help);
         let Some(channel) = all.iter().find(|channel| channel.to_string() == name) else {
             return Err(wrong(format!("the mechanism has no channel \"{name}\""), help(&all, name)));
@@ -174,11 +174,11 @@ impl MotionDiagram {
         // Divisions, their halves and quarters all have their middles among the rows.
         let stride = 8 * CURVE.div_ceil(8 * divisions);
         let rows = divisions * stride;
-        let sense = case.drive.sense();
-        let crank = |row: usize| case.drive.start + sense * TAU * (row as f64 / rows as f64);
-        let grid = Grid::of_cranks(&case.drive, (0..=rows).map(crank).collect());
+        let sense = case.crank().sense();
+        let crank = |row: usize| case.crank().start + sense * TAU * (row as f64 / rows as f64);
+        let grid = Grid::of_cranks(case.crank(), (0..=rows).map(crank).collect());
         let wanted = Wanted::of(&[Stage::Positions, Stage::Velocities, Stage::Accelerations]);
-        let trajectory = solver.solve(&Case { wanted, ..case.on(grid) }, &mut |_| {})?;
+        let trajectory = solver.solve(&case.on(grid)?.wanting(wanted), &mut |_| {})?;
         let column = |channel: &Channel| {
             trajectory.column(channel).map(<[f64]>::to_vec).ok_or_else(|| {
                 Error::new(ErrorKind::Unsupported, format!("{} does not provide {channel}", solver.name()))
@@ -212,12 +212,6 @@ impl MotionDiagram {
     #[must_use]
     pub fn half_range(&self, which: usize) -> f64 {
         half_range(&self.exact[which])
-    }
-
-    /// What `method` found.
-    #[must_use]
-    pub fn by(&self, method: Method) -> Option<&Found> {
-        self.found.iter().find(|found| found.method == method)
     }
 }
 

@@ -1,7 +1,7 @@
 //! Letters of the plans: points A, B are a, b there, mass centres s2, ends of normal parts n1; the pole has its own.
 
 use linkage::math::Vec2;
-use linkage::mechanism::{GROUND, Joint, JointKind, Mechanism, Side};
+use linkage::mechanism::{GROUND, Joint, Mechanism, Side};
 
 /// A named point of the mechanism, once for all links that carry it.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,7 +18,7 @@ pub struct Place {
 
 /// Place on `link` of its revolute joint with the ground, and the name of that pivot.
 pub fn pivot(mechanism: &Mechanism, link: usize) -> Option<(Vec2, String)> {
-    let mut pins = mechanism.joints().iter().filter(|joint| joint.kind == JointKind::Revolute);
+    let mut pins = mechanism.joints().iter().filter(|joint| joint.is_pin());
     let joint = pins.find(|joint| joint.on(link).is_some() && joint.other(link).link == GROUND)?;
     let (own, ground) = (joint.on(link)?, joint.other(link).local);
     let named = mechanism.links()[GROUND].points.iter().find(|point| point.local == ground);
@@ -27,7 +27,7 @@ pub fn pivot(mechanism: &Mechanism, link: usize) -> Option<(Vec2, String)> {
 
 /// The prismatic joint that leads `link` along a guide of the ground.
 pub fn fixed_guide(mechanism: &Mechanism, link: usize) -> Option<&Joint> {
-    let mut sliding = mechanism.joints().iter().filter(|joint| joint.is_prismatic());
+    let mut sliding = mechanism.joints().iter().filter(|joint| joint.slides());
     sliding.find(|joint| joint.on(link).is_some() && joint.other(link).link == GROUND)
 }
 
@@ -35,10 +35,7 @@ pub fn fixed_guide(mechanism: &Mechanism, link: usize) -> Option<&Joint> {
 pub fn places(mechanism: &Mechanism, poles: &[&str]) -> Vec<Place> {
     let mut taken: Vec<String> = poles.iter().map(ToString::to_string).collect();
     let mut letter = |name: &str| {
-        let mut letter = name.to_lowercase();
-        while taken.contains(&letter) {
-            letter.push('\'');
-        }
+        let letter = primed(name.to_lowercase(), |letter| taken.iter().any(|other| other == letter));
         taken.push(letter.clone());
         letter
     };
@@ -56,6 +53,14 @@ pub fn places(mechanism: &Mechanism, poles: &[&str]) -> Vec<Place> {
         all.push(Place { name: name.to_string(), letter: letter(name), side, fixed: false });
     }
     all
+}
+
+/// `name` with as many primes as it takes not to be `taken`.
+pub fn primed(mut name: String, taken: impl Fn(&str) -> bool) -> String {
+    while taken(&name) {
+        name.push('\'');
+    }
+    name
 }
 
 /// Two names as the field writes them side by side: BA, but P3,P2 where letters alone would run together.

@@ -35,14 +35,6 @@ pub struct Plans {
 }
 
 impl Plans {
-    /// The plans of `case` at the crank angle `crank` (rad, as the scenario states it), from a solution by `solver`.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Input`] for a crank angle too far away to be followed; those of the solver.
-    pub fn at(case: &Case, solver: &dyn Solver, crank: f64) -> Result<Self> {
-        Ok(Plans::of(case, solver, &state_at(case, solver, crank)?, crank))
-    }
-
     /// The plans of a state that holds motions up to accelerations. `solver` finds how far sliders travel on the case's grid: so long are
     /// the guides in the kinematic diagram.
     #[must_use]
@@ -59,13 +51,13 @@ impl Plans {
 /// The state of `case` at the crank angle `crank` (rad, as the scenario states it), up to accelerations.
 ///
 /// # Errors
-/// As [`Plans::at`].
+/// [`ErrorKind::Input`] for a crank angle too far away to be followed; those of the solver.
 pub fn state_at(case: &Case, solver: &dyn Solver, crank: f64) -> Result<State> {
-    let grid = Grid::of_cranks(&case.drive, vec![crank]);
-    grid.check(&case.drive)
+    let grid = Grid::of_cranks(case.crank(), vec![crank]);
+    grid.check(case.crank())
         .map_err(|message| Error::new(ErrorKind::Input, message).help("give a crank angle in degrees, as 70 or -30"))?;
     let wanted = Wanted::of(&[Stage::Positions, Stage::Velocities, Stage::Accelerations]);
-    let case = Case { wanted, ..case.on(grid) };
+    let case = case.on(grid)?.wanting(wanted);
     let mut found = State::at_start(&case);
     let mut visit = |_: usize, state: &State| {
         found = state.clone();

@@ -120,9 +120,9 @@ impl Scheme {
         };
         let scale = factor(extent(|v| v.x), ROOM[0]).larger(factor(extent(|v| v.y), ROOM[1]));
         let grounded = |joint: &&Joint| joint.on(GROUND).is_some();
-        let sliding = mechanism.joints().iter().filter(grounded).filter(|joint| joint.is_prismatic());
+        let sliding = mechanism.joints().iter().filter(grounded).filter(|joint| joint.slides());
         let pinned = |local: Vec2| {
-            let mut pins = mechanism.joints().iter().filter(grounded).filter(|joint| !joint.is_prismatic());
+            let mut pins = mechanism.joints().iter().filter(grounded).filter(|joint| joint.is_pin());
             pins.any(|joint| joint.on(GROUND) == Some(local))
         };
         let marks = sliding.filter_map(|joint| joint.on(GROUND)).filter(|local| !pinned(*local)).collect();
@@ -131,6 +131,6 @@ impl Scheme {
         let groups = case.structure.groups.iter();
         let singular =
             groups.filter_map(|group| SingularPoint::of(case, group, &state.motions).ok().flatten()).collect();
-        Scheme { scale, links, points, fixed, marks, guides, driver: case.drive.link, singular }
+        Scheme { scale, links, points, fixed, marks, guides, driver: case.crank().link, singular }
     }
 }

@@ -1,6 +1,6 @@
 //! Sliding pairs as plans and drawings see them: which link is the guide, which point slides on it, and what lies under that point.
 
-use super::names::Place;
+use super::names::{Place, primed};
 use linkage::case::{Case, Wanted};
 use linkage::math::{KeepNan, Vec2, rotated};
 use linkage::mechanism::{GROUND, Mechanism, Side};
@@ -93,34 +93,15 @@ pub fn slides(mechanism: &Mechanism, places: &mut Vec<Place>) -> Vec<Slide> {
 }
 
 /// `name` and its letter, with as many primes as make both the only ones.
-fn unused(mut name: String, places: &[Place], others: &[Named]) -> Named {
-    loop {
+fn unused(name: String, places: &[Place], others: &[Named]) -> Named {
+    let name = primed(name, |name| {
         let letter = name.to_lowercase();
-        let taken = places.iter().any(|place| place.name == name || place.letter == letter)
-            || others.iter().any(|other| other.name == name || other.letter == letter);
-        // The poles of both plans.
-        if !taken && letter != "p" && letter != "π" {
-            return Named { name, letter };
-        }
-        name.push('\'');
-    }
-}
-
-/// Whether a link never turns: prismatic pairs alone connect it with the ground.
-pub fn translates(mechanism: &Mechanism, link: usize) -> bool {
-    let mut reached = vec![GROUND];
-    let mut next = 0;
-    while let Some(&from) = reached.get(next) {
-        next += 1;
-        let sliding = mechanism.joints().iter().filter(|joint| joint.is_prismatic() && joint.on(from).is_some());
-        for joint in sliding {
-            let other = joint.other(from).link;
-            if !reached.contains(&other) {
-                reached.push(other);
-            }
-        }
-    }
-    reached.contains(&link)
+        // The poles of both plans have letters too.
+        ["p", "π"].contains(&letter.as_str())
+            || places.iter().any(|place| place.name == name || place.letter == letter)
+            || others.iter().any(|other| other.name == name || other.letter == letter)
+    });
+    Named { letter: name.to_lowercase(), name }
 }
 
 /// Least and largest way of every slide from the joint's place on its guide (m): on the case's grid, as far as the solver gets, and in `state`.
@@ -136,7 +117,7 @@ pub fn travels(case: &Case, solver: &dyn Solver, state: &State, slides: &[Slide]
         }
         Ok(())
     };
-    let case = Case { wanted: Wanted::of(&[Stage::Positions]), ..case.clone() };
+    let case = case.wanting(Wanted::of(&[Stage::Positions]));
     // A grid that the crank cannot follow to its end still shows how far the sliders came.
     let _ = solver.sweep(&case, &mut visit, &mut |_| {});
     travels

@@ -136,16 +136,4 @@ impl Plan {
     pub fn paper(&self, vector: &Vector) -> f64 {
         vector.value.norm() / self.scale
     }
-
-    /// The vector called `name`.
-    #[must_use]
-    pub fn vector(&self, name: &str) -> Option<&Vector> {
-        self.vectors.iter().find(|vector| vector.name == name)
-    }
-
-    /// The point of the plan called `letter`, from the pole (SI).
-    #[must_use]
-    pub fn tip(&self, letter: &str) -> Option<Vec2> {
-        self.tips.iter().find(|tip| tip.letter == letter).map(|tip| tip.at)
-    }
 }

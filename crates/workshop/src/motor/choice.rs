@@ -49,7 +49,7 @@ impl Choice {
         }
         let model = Model::of(case)?;
         let [_, resistance] = model.extremes()?;
-        let omega = case.drive.at(0.0).omega;
+        let omega = case.crank().at(0.0).omega;
         let mean = omega.signum() * means_over_turn(case, &AssurSolver)?.resistance;
         let wanted = omega.abs();
         let power = resistance.greatest.1 * wanted;
@@ -70,7 +70,7 @@ impl Choice {
         };
         let geared = motor.geared_to(wanted, efficiency);
         let Some(averaged) = geared.steady_speed(mean) else { return Err(means::no_steady_speed(mean)) };
-        let driven = Case { motor: Some(geared.clone()), ..case.clone() };
+        let driven = case.with_motor(Some(geared.clone()))?;
         let regime = Model::of(&driven)?.regime(&[], ACCURACY)?;
         Ok(Choice {
             peak: resistance.greatest,

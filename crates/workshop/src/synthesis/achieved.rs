@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use super::evaluate::Evaluator;
 use crate::task::{Sense, Task};
-use linkage::error::{Error, ErrorKind, Result};
+use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::mechanism::GroupKind;
 
 /// Rows of the turn.
@@ -55,11 +55,10 @@ impl Achieved {
         let turns: Vec<f64> = (0..=ROWS).map(|row| TAU * (row as f64 / ROWS as f64)).collect();
         let as_drawn = Task { places: Vec::new(), ..task.clone() };
         let mut evaluator = Evaluator::new(&as_drawn);
-        evaluator.run(&[], task.case.drive.zero, &turns).map_err(|_| {
+        evaluator.run(&[], task.case.crank().zero, &turns).map_err(|_| {
             let message =
                 "the mechanism cannot be assembled over a whole turn of its crank, or its output does not rock";
-            Error::new(ErrorKind::Geometry, message)
-                .help("`linkproof inspect FILE --range` shows what limits the crank and which links turn fully")
+            Error::new(ErrorKind::Geometry, message).help(Advice::LookAtRange)
         })?;
         let curve = &evaluator.curve;
         let (low, high) =

@@ -91,7 +91,7 @@ impl<'a> Evaluator<'a> {
     /// Higher groups: from the start pose on, in small steps; after the turn the output must be back.
     fn follow(&mut self, mut plan: Plan, world: &dyn Fn(f64) -> f64, turns: &[f64], zero: f64) -> Result<(), f64> {
         let case = &self.task.case;
-        let start = zero + case.drive.start;
+        let start = zero + case.crank().start;
         let (pose, _) = first_pose(&self.mechanism, &case.structure, &[start], &self.task.starts).map_err(|_| 0.0)?;
         for (motion, link) in self.motions.iter_mut().zip(&pose.0) {
             (motion.origin, motion.direction) = (link.origin, unit(link.angle));

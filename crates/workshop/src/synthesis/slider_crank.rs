@@ -9,7 +9,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::time_ratio;
-use linkage::error::{Error, ErrorKind, Result};
+use linkage::error::{Advice, Error, ErrorKind, Result};
 
 /// What a slider-crank is wanted to do, besides its stroke and offset.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,11 +41,11 @@ pub struct SliderCrank {
     pub pressure: f64,
 }
 
-fn wrong(key: &str, message: String, help: impl Into<String>) -> Error {
+fn wrong(key: &str, message: String, help: impl Into<Advice>) -> Error {
     Error::new(ErrorKind::Input, message).key(key).help(help)
 }
 
-fn impossible(message: String, help: impl Into<String>) -> Error {
+fn impossible(message: String, help: impl Into<Advice>) -> Error {
     Error::new(ErrorKind::Geometry, message).help(help)
 }
 

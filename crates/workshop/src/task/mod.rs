@@ -101,7 +101,7 @@ impl Task {
         let wrong = |key: &str, message: &str, help: &str| {
             Err(Error::new(ErrorKind::Input, message.to_string()).key(key).help(help.to_string()))
         };
-        if !self.case.further_drives.is_empty() {
+        if !self.case.drives.further().is_empty() {
             let message = "the mechanism has several drives, but a timing belongs to one crank";
             return Err(Error::new(ErrorKind::Unsupported, message)
                 .key("scenario")
@@ -133,6 +133,6 @@ impl Task {
     /// Sense in which the crank turns: +1 or -1.
     #[must_use]
     pub fn turning(&self) -> f64 {
-        self.case.drive.sense()
+        self.case.crank().sense()
     }
 }

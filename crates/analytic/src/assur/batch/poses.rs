@@ -31,7 +31,7 @@ impl Layout {
     pub(super) fn of(case: &Case, has_moments: bool) -> Self {
         let mechanism = &case.mechanism;
         let (links, joints) = (mechanism.links().len(), mechanism.joints().len());
-        Layout { links, joints, drives: case.drives().count(), has_moments }
+        Layout { links, joints, drives: case.drives.len(), has_moments }
     }
 
     /// First column of a link; the ground has none.
@@ -122,7 +122,7 @@ impl Poses {
         if self.layout.has_moments { self.get(row, self.layout.moment(joint)) } else { 0.0 }
     }
 
-    /// Balancing moment on the driving link of the drive `drive` of [`Case::drives`] (N m), in the pose `row`.
+    /// Balancing moment on the driving link of the drive `drive` of [`drives`](linkage::case::CaseParts::drives) (N m), in the pose `row`.
     #[must_use]
     pub fn torque(&self, row: usize, drive: usize) -> f64 {
         self.get(row, self.layout.torque(drive))

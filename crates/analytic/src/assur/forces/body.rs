@@ -3,7 +3,7 @@
 use linkage::case::Case;
 use linkage::drive::Wrench;
 use linkage::math::{Motion, Vec2, cross};
-use linkage::mechanism::Side;
+use linkage::mechanism::{JointKind, Side};
 
 /// What the first link of every joint exerts on the second, filled in from the last group to the first.
 #[derive(Debug)]
@@ -28,8 +28,11 @@ impl Action {
     pub(super) fn of(case: &Case, joint: usize, link: usize) -> Self {
         let found = &case.mechanism.joints()[joint];
         let local = found.on(link).expect("the joint is on the link");
-        // The places of a revolute joint are one point; that on the link itself is at hand.
-        let side = if found.is_prismatic() { found.second } else { Side { link, local } };
+        let side = match found.kind {
+            // The places are one point; that on the link itself is at hand.
+            JointKind::Revolute => Side { link, local },
+            JointKind::Prismatic { .. } => found.second,
+        };
         Action { joint, side, sign: if found.second.link == link { 1.0 } else { -1.0 } }
     }
 

@@ -48,7 +48,7 @@ impl Kinetostatics {
             });
             group.inner.iter().chain(&group.outer).for_each(|&joint| settled[joint] = true);
         }
-        let drives: Vec<&Drive> = case.drives().collect();
+        let drives: Vec<&Drive> = case.drives.iter().collect();
         let mut drivers = Vec::with_capacity(drives.len());
         for (index, drive) in drives.into_iter().enumerate().rev() {
             drivers.push((Body::of(case, drive.link, &settled), Action::of(case, drive.joint, drive.link), index));

@@ -32,7 +32,7 @@ impl Sliding {
         let inner = &joints[group.inner[0]];
         let mut order = [0, 1];
         let swapped = match group.kind {
-            GroupKind::Rrp | GroupKind::Rpp => joints[group.outer[0]].is_prismatic(),
+            GroupKind::Rrp | GroupKind::Rpp => joints[group.outer[0]].slides(),
             GroupKind::Rpr => inner.first.link == group.links[1],
             _ => false,
         };

@@ -38,7 +38,7 @@ impl Rpp {
     /// Prepares the dyad `group`, which has one configuration.
     #[must_use]
     pub fn of(mechanism: &Mechanism, group: &Group) -> Self {
-        let [slider, pinned] = of_dyad(mechanism, group, |outer, _| outer.is_prismatic());
+        let [slider, pinned] = of_dyad(mechanism, group, |outer, _| outer.slides());
         let inner = &mechanism.joints()[group.inner[0]];
         let links = [pinned.link, slider.link];
         Rpp {

@@ -29,7 +29,7 @@ impl Rrp {
     /// Prepares the dyad `group` in the assembly mode `mode`.
     #[must_use]
     pub fn of(mechanism: &Mechanism, group: &Group, mode: AssemblyMode) -> Self {
-        let [slider, rod] = of_dyad(mechanism, group, |outer, _| outer.is_prismatic());
+        let [slider, rod] = of_dyad(mechanism, group, |outer, _| outer.slides());
         let inner = &mechanism.joints()[group.inner[0]];
         let on = |link: usize| inner.on(link).expect("the inner joint is on both links");
         let pin = Pin::of(rod.outer, rod.link);

@@ -46,15 +46,6 @@ impl Contours {
         matrix
     }
 
-    /// Product of the lengths of the four columns over the size of the determinant, at least 1: by so much the rounding of the
-    /// coefficients can grow in the unknowns. Infinite at a dead point.
-    #[must_use]
-    pub fn condition(&self) -> f64 {
-        let matrix = self.matrix();
-        let length = |column: usize| matrix.iter().map(|row| row[column].powi(2)).sum::<f64>().sqrt();
-        (0..4).map(length).product::<f64>() / determinant4(&matrix).abs()
-    }
-
     /// Angular velocities of the three leads and the base link (rad/s) for the velocities of the three feet (m/s); with the feet's
     /// derivatives by the crank angle (m) the first transfer functions alpha_i'.
     ///
@@ -144,6 +135,5 @@ mod tests {
         assert_eq!(rates, [-3.0, -3.0, 0.0, 0.0]);
         let parallel = Contours { leads: [up; 3], ..contours };
         assert_eq!(parallel.first([Vec2::zeros(), up, along]).unwrap_err().kind(), ErrorKind::Numeric);
-        assert_eq!(parallel.condition(), f64::INFINITY);
     }
 }

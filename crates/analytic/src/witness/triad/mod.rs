@@ -16,7 +16,7 @@ use linkage::case::Case;
 use linkage::drive::Wrench;
 use linkage::error::{Error, ErrorKind};
 use linkage::math::{Motion, Vec2, cross};
-use linkage::mechanism::{Group, JointKind, Mechanism, Side};
+use linkage::mechanism::{Group, Mechanism, Side};
 use linkage::solver::State;
 
 /// One of the three leads of the group.
@@ -54,7 +54,7 @@ impl Triad {
     pub fn of(mechanism: &Mechanism, group: &Group) -> Option<Self> {
         let touching = mechanism.joints().iter().filter(|joint| group.links.iter().any(|&l| joint.on(l).is_some()));
         let sizes = [group.class, group.links.len(), group.inner.len(), group.outer.len()];
-        if sizes != [3, 4, 3, 3] || !touching.clone().all(|joint| matches!(joint.kind, JointKind::Revolute)) {
+        if sizes != [3, 4, 3, 3] || !touching.clone().all(|joint| joint.is_pin()) {
             return None;
         }
         let on = |joint: usize, link: usize| mechanism.joints()[joint].on(link);

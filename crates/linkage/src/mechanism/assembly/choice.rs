@@ -3,7 +3,7 @@
 use super::configurations::configurations;
 use super::mode::{AssemblyMode, Choice, Configuration, StartGroup};
 use super::{four_link, rough};
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Advice, Error, ErrorKind, Result};
 use crate::math::KeepNan;
 use crate::mechanism::{Group, GroupKind, Mechanism, Pose};
 
@@ -50,8 +50,7 @@ fn out_of_range(rank: usize, count: usize) -> Error {
         1 => format!("configuration {rank} is asked for, but the group has 1 here"),
         _ => format!("configuration {rank} is asked for, but the group has {count} here"),
     };
-    Error::new(ErrorKind::Input, message)
-        .help(format!("give a number from 1 to {count}; `linkproof inspect FILE --modes` lists them"))
+    Error::new(ErrorKind::Input, message).help(Advice::Configuration { give: format!("a number from 1 to {count}") })
 }
 
 fn nothing_asked(group: &Group) -> Error {

@@ -122,7 +122,7 @@ pub(super) fn transmission_sine(mechanism: &Mechanism, group: &Group, pose: &Pos
 
 /// The link with the outer revolute pair, then that with the outer prismatic one.
 fn prismatic_last<'a, 'b>([a, b]: &'b [Member<'a>; 2]) -> [&'b Member<'a>; 2] {
-    if a.outer.is_prismatic() { [b, a] } else { [a, b] }
+    if a.outer.slides() { [b, a] } else { [a, b] }
 }
 
 /// First and second link of the inner joint.

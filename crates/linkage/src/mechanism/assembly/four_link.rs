@@ -10,7 +10,7 @@ use super::three_leads::{Conditions, End, Lead, Pair};
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::angle::wrapped;
 use crate::math::{Vec2, rotated, unit};
-use crate::mechanism::{Group, LinkPose, Mechanism, Pose};
+use crate::mechanism::{Group, JointKind, LinkPose, Mechanism, Pose};
 use std::f64::consts::TAU;
 
 #[cfg(test)]
@@ -69,7 +69,10 @@ impl Layout {
         let lead = |body: Body| {
             let pair = |other: Body| {
                 let joint = between(body, other)?;
-                let slides = joints[joint].is_prismatic();
+                let slides = match joints[joint].kind {
+                    JointKind::Revolute => false,
+                    JointKind::Prismatic { .. } => true,
+                };
                 Some(Pair { slides, lead: end(joint, body)?, body: end(joint, other)? })
             };
             Some((body, Lead { near: pair(frame)?, far: pair(Body::Link(base))? }))

@@ -12,15 +12,13 @@ mod mode;
 #[cfg(test)]
 mod random;
 mod rough;
-#[cfg(test)]
-mod scan;
 mod three_leads;
 
 pub use configurations::{configurations, transmission_sine};
 pub use mode::{AssemblyMode, Choice, Configuration, StartGroup};
 
 use super::{LinkPose, Mechanism, Pose, Structure};
-use crate::error::Result;
+use crate::error::{Error, Result};
 
 /// Pose at the start, with the driving links at the world angles `drive_angles` (rad, in the order of
 /// [`Structure::drivers`]) and each group as asked in `wanted` (in the order of [`Structure::groups`]); and the
@@ -60,10 +58,11 @@ pub fn first_choices(
     }
     let mut choices = Vec::with_capacity(structure.groups.len());
     for (group, wanted) in structure.groups.iter().zip(wanted) {
-        choices.push(
-            choice::place(mechanism, group, wanted, &mut pose)
-                .map_err(|error| error.key(format!("start.groups ({})", group.names(mechanism))))?,
-        );
+        let of_group = |error: Error| {
+            let names = group.names(mechanism);
+            error.key(format!("start.groups ({names})")).of_group(names)
+        };
+        choices.push(choice::place(mechanism, group, wanted, &mut pose).map_err(of_group)?);
     }
     Ok((pose, choices))
 }

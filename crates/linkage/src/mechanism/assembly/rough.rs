@@ -87,7 +87,7 @@ fn lay_out(mechanism: &Mechanism, group: &Group, near: &Near, pose: &mut Pose) -
 fn lay(mechanism: &Mechanism, link: usize, near: &Near, hooks: &[&Joint], pose: &Pose) -> Option<LinkPose> {
     let own = |name: &str| mechanism.links()[link].points.iter().find(|point| point.name == name);
     let rough = near.iter().filter_map(|(point, place)| Some((own(&point.name)?.local, *place)));
-    let pins = hooks.iter().filter(|joint| !joint.is_prismatic()).map(|joint| {
+    let pins = hooks.iter().filter(|joint| joint.is_pin()).map(|joint| {
         let other = joint.other(link);
         (joint.on(link).expect("the joint is on the link"), pose.0[other.link].point(other.local))
     });

@@ -13,7 +13,7 @@ mod tests;
 
 pub use group::{Group, GroupKind};
 
-use super::{EQUATIONS, GROUND, Mechanism};
+use super::{GROUND, JointKind, Mechanism};
 use crate::error::{Error, ErrorKind, Result};
 use contour::highest_contour;
 use owners::{Owners, check_sparse};
@@ -73,7 +73,7 @@ impl Structure {
     fn carries(&self, mechanism: &Mechanism, joint: usize, link: usize) -> bool {
         let joint = &mechanism.joints()[joint];
         let base = joint.other(link).link;
-        !joint.is_prismatic() && (base == GROUND || self.drivers.iter().any(|&(driving, _)| driving == base))
+        joint.is_pin() && (base == GROUND || self.drivers.iter().any(|&(driving, _)| driving == base))
     }
 
     /// A driving link is placed after the one that carries it.
@@ -110,9 +110,10 @@ impl Structure {
     }
 }
 
-/// W = 3 n - 2 p.
+/// W = 3 n - 2 p: every joint of a lower pair takes two freedoms.
 fn mobility(mechanism: &Mechanism) -> i64 {
-    3 * (mechanism.links().len() as i64 - 1) - (EQUATIONS * mechanism.joints().len()) as i64
+    let equations: usize = mechanism.joints().iter().map(|joint| joint.kind.equations()).sum();
+    3 * (mechanism.links().len() as i64 - 1) - equations as i64
 }
 
 fn check_connected(mechanism: &Mechanism) -> Result<()> {
@@ -136,7 +137,7 @@ fn check_connected(mechanism: &Mechanism) -> Result<()> {
 /// A closed loop of prismatic pairs alone fixes the angle between its links twice over and leaves it free to slide.
 fn check_sliders(mechanism: &Mechanism) -> Result<()> {
     let mut part: Vec<usize> = (0..mechanism.links().len()).collect();
-    for joint in mechanism.joints().iter().filter(|joint| joint.is_prismatic()) {
+    for joint in mechanism.joints().iter().filter(|joint| joint.keeps_angle()) {
         let (a, b) = (part[joint.first.link], part[joint.second.link]);
         if a == b {
             return Err(Error::new(ErrorKind::Input, "the joint closes a loop of prismatic joints alone")
@@ -199,7 +200,12 @@ fn kind(mechanism: &Mechanism, links: &[usize], inner: &[usize], outer: &[usize]
     if links.len() != 2 {
         return GroupKind::Higher;
     }
-    let slides = |joints: &[usize]| joints.iter().filter(|&&joint| mechanism.joints()[joint].is_prismatic()).count();
+    // Dyads are known with these two kinds of pairs.
+    let slides = |&&joint: &&usize| match mechanism.joints()[joint].kind {
+        JointKind::Revolute => false,
+        JointKind::Prismatic { .. } => true,
+    };
+    let slides = |joints: &[usize]| joints.iter().filter(slides).count();
     match (slides(inner), slides(outer)) {
         (0, 0) => GroupKind::Rrr,
         (0, 1) => GroupKind::Rrp,

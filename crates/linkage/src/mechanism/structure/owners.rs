@@ -4,7 +4,7 @@ use petgraph::algo::tarjan_scc;
 use petgraph::graph::{DiGraph, NodeIndex};
 
 use crate::error::{Error, ErrorKind, Result};
-use crate::mechanism::{EQUATIONS, GROUND, Mechanism};
+use crate::mechanism::{GROUND, Mechanism};
 
 /// Every part of k links, the ground counted among them, may carry at most 3 k - 3 equations (Laman's condition for
 /// plane bodies). Equivalent: with three more copies of any one equation, all equations still find owners among all links,
@@ -49,7 +49,7 @@ impl Owners {
         let mut owners = Owners { equations: Vec::new(), owner: Vec::new(), of_ground };
         for (index, joint) in mechanism.joints().iter().enumerate() {
             let ends = [joint.first.link, joint.second.link];
-            owners.add((0..EQUATIONS).map(|_| Equation { joint: index, of_drive: false, ends }));
+            owners.add((0..joint.kind.equations()).map(|_| Equation { joint: index, of_drive: false, ends }));
             let driven = drives.iter().filter(|&&drive| drive == index);
             owners.add(driven.map(|_| Equation { joint: index, of_drive: true, ends }));
         }

@@ -2,7 +2,7 @@
 
 use linkage::case::Case;
 use linkage::math::{Vec2, rotated, unit};
-use linkage::mechanism::Branch;
+use linkage::mechanism::{Branch, JointKind};
 use linkage::solver::State;
 
 /// The one freedom of a body in its parent.
@@ -35,13 +35,14 @@ pub(super) fn body(case: &Case, start: &State, branch: &Branch) -> Body {
     let [parent, child] = [branch.parent, branch.link].map(|link| case.start.0[link]);
     let offset = rotated(unit(-parent.angle), child.origin - parent.origin);
     let turn = child.angle - parent.angle;
-    let (freedom, coordinate, rate) = match joint.axis_on(branch.link) {
-        None => {
+    let (freedom, coordinate, rate) = match joint.kind {
+        JointKind::Revolute => {
             let place = joint.on(branch.link).expect("a branch's joint is on its link");
             let rate = start.motions[branch.link].omega - start.motions[branch.parent].omega;
             (Freedom::Hinge(place), turn, rate)
         }
-        Some(axis) => {
+        JointKind::Prismatic { .. } => {
+            let axis = joint.axis_on(branch.link).expect("a branch's joint is on its link");
             // A slide counts from the first link to the second.
             let sense = if branch.link == joint.second.link { 1.0 } else { -1.0 };
             let of = |state: &State| state.slide(joint).expect("the joint slides");

@@ -39,7 +39,7 @@ pub fn mjcf(case: &Case, solver: &dyn Solver, name: &str, step: f64) -> Result<S
 /// The state at t = 0, with velocities.
 fn first_state(case: &Case, solver: &dyn Solver) -> Result<State> {
     let wanted = Wanted::of(&[Stage::Positions, Stage::Velocities]);
-    let case = Case { wanted, ..case.on(Grid::of_times(&case.drive, vec![0.0])) };
+    let case = case.on(Grid::of_times(case.crank(), vec![0.0]))?.wanting(wanted);
     let mut found = State::at_rest(&case);
     let mut keep = |_, state: &State| {
         found.clone_from(state);

@@ -62,9 +62,9 @@ impl<'a> Model<'a> {
                 .help("export a scenario whose drives are prescribed: take `motion = \"free\"` out"));
         }
         // A rotor keeps a constant speed and no other law.
-        if let Some(drive) = case.drives().find(|drive| drive.law.constant().is_none()) {
+        if let Some(drive) = case.drives.iter().find(|drive| drive.constant_speed().is_none()) {
             let message =
-                format!("a drive with the law \"{}\" cannot be written to a model for MuJoCo", drive.law.name());
+                format!("a drive with the law \"{}\" cannot be written to a model for MuJoCo", drive.law_name());
             return Err(Error::new(ErrorKind::Unsupported, message).help("give the drive a constant speed"));
         }
         if let Some(load) = case.loads.iter().find(|load| !matches!(load, Load::Resistance { .. })) {
@@ -153,7 +153,7 @@ impl<'a> Model<'a> {
         let mut hinges = Vec::new();
         while link != GROUND {
             let branch = self.branch_of(link).expect("every moving link is in the tree");
-            if !self.case.mechanism.joints()[self.tree.branches[branch].joint].is_prismatic() {
+            if !self.case.mechanism.joints()[self.tree.branches[branch].joint].keeps_angle() {
                 hinges.push(branch);
             }
             link = self.tree.branches[branch].parent;

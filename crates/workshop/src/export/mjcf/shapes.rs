@@ -2,7 +2,7 @@
 
 use super::model::Model;
 use linkage::math::{Vec2, rotated, unit};
-use linkage::mechanism::{GROUND, JointKind};
+use linkage::mechanism::GROUND;
 
 /// Thickness of what is drawn as a share of the mechanism's size.
 const THICKNESS: f64 = 0.012;
@@ -30,7 +30,7 @@ pub(super) fn of_link(model: &Model, link: usize) -> Vec<Shape> {
         if places.iter().all(|other| (other - place).norm() > 1e-6 * model.size()) {
             places.push(place);
         }
-        let (JointKind::Prismatic { .. }, Some(axis)) = (joint.kind, joint.axis_on(link)) else { continue };
+        let Some(axis) = joint.axis_on(link) else { continue };
         let sides = mechanism.guide_and_block(joint).expect("a prismatic joint has a guide");
         if sides[1].link == link {
             shapes.push(Shape::Block(place, axis.y.atan2(axis.x), [3.0 * thick, 2.0 * thick]));

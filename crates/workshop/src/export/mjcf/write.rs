@@ -186,7 +186,7 @@ fn joint(xml: &mut Xml, model: &Model, index: usize) {
         }
     }
     attributes.push(("ref", &reference));
-    if model.case.drives().any(|drive| drive.joint == branch.joint) {
+    if model.case.drives.iter().any(|drive| drive.joint == branch.joint) {
         rotor = number(model.rotor());
         attributes.push(("armature", &rotor));
         xml.comment("Drive: a rotor so heavy that its speed stays what it is at the start.");
@@ -275,7 +275,7 @@ fn sensors(xml: &mut Xml, model: &Model) {
             let joint = &model.case.mechanism.joints()[branch.joint];
             let site = Names::side(joint, branch.link);
             xml.leaf("force", &[("name", &format!("{}.force", joint.name)), ("site", &site)]);
-            if joint.is_prismatic() || model.case.drives().any(|drive| drive.joint == branch.joint) {
+            if joint.keeps_angle() || model.case.drives.iter().any(|drive| drive.joint == branch.joint) {
                 xml.leaf("torque", &[("name", &format!("{}.moment", joint.name)), ("site", &site)]);
             }
         }

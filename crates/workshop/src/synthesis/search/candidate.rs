@@ -2,9 +2,6 @@
 
 use std::f64::consts::TAU;
 
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::Rng;
-
 use crate::task::{Entry, Task, Variable};
 use linkage::mechanism::GroupKind;
 
@@ -38,9 +35,4 @@ pub(super) fn free_zero(task: &Task) -> Option<usize> {
     let [low, high] = task.variables[index].bounds;
     let closed_form = task.case.structure.groups.iter().all(|group| group.kind != GroupKind::Higher);
     (closed_form && (high - low - TAU).abs() < 1e-9).then_some(index)
-}
-
-/// A random number from 0 to below 1: the upper 53 bits.
-pub(super) fn uniform(rng: &mut ChaCha8Rng) -> f64 {
-    (rng.next_u64() >> 11) as f64 / (1u64 << 53) as f64
 }

@@ -3,10 +3,10 @@
 use std::cell::RefCell;
 
 use cobyla::{RhoBeg, minimize};
+use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
 
-use super::candidate::{Candidate, free_zero, uniform, values};
+use super::candidate::{Candidate, free_zero, values};
 use crate::synthesis::evaluate::Evaluator;
 use crate::synthesis::rating::Rater;
 use crate::task::Task;
@@ -87,9 +87,9 @@ fn evolve(bench: &mut Bench, zero: Option<usize>, evaluations: usize, number: us
     for _ in 0..evaluations {
         child.copy_from_slice(&bench.best);
         for (index, share) in child.iter_mut().enumerate() {
-            if uniform(&mut rng) < CHANGED {
+            if rng.random::<f64>() < CHANGED {
                 // Nearly normal: four even numbers, of variance 1 / 3 all in all.
-                let normal = (0..4).map(|_| uniform(&mut rng) - 0.5).sum::<f64>() * 3f64.sqrt();
+                let normal = (0..4).map(|_| rng.random::<f64>() - 0.5).sum::<f64>() * 3f64.sqrt();
                 *share += step * normal;
                 if zero != Some(index) {
                     *share = share.clamp(0.0, 1.0);

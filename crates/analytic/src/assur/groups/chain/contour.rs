@@ -2,7 +2,7 @@
 
 use crate::assur::groups::guide::turn_between;
 use linkage::math::{Motion, Vec2};
-use linkage::mechanism::{Group, Joint, Mechanism, Side};
+use linkage::mechanism::{Group, Joint, JointKind, Mechanism, Side};
 
 /// How a link is guided by the one it hangs on with a prismatic joint.
 #[derive(Clone, Copy, Debug)]
@@ -37,9 +37,14 @@ impl Node {
         let found = &joints[joint];
         let parent = found.other(link);
         let parent_node = before.iter().position(|node| node.link == parent.link);
-        let guided = found.axis_on(parent.link).zip(found.axis_on(link));
-        let guided = guided.map(|(axis, own)| Guided { axis, turn: turn_between(axis, own) });
-        let spin = if guided.is_none() { Some(before.len()) } else { parent_node.and_then(|node| before[node].spin) };
+        let (guided, spin) = match found.kind {
+            JointKind::Revolute => (None, Some(before.len())),
+            JointKind::Prismatic { .. } => {
+                let [axis, own] = [parent.link, link].map(|on| found.axis_on(on).expect("the joint is on the link"));
+                let spin = parent_node.and_then(|node| before[node].spin);
+                (Some(Guided { axis, turn: turn_between(axis, own) }), spin)
+            }
+        };
         let own = found.on(link).expect("the joint is on the link");
         Node { link, joint, own, parent, parent_node, spin, guided }
     }
@@ -109,7 +114,7 @@ pub(super) fn contours(mechanism: &Mechanism, group: &Group) -> (Vec<Node>, Vec<
         };
         let next = || group.outer.iter().chain(&group.inner).filter_map(hung);
         // Prismatic joints first: so none of them is left over (Prim's spanning tree of smallest weight).
-        let slider = next().find(|&(joint, _)| joints[joint].is_prismatic());
+        let slider = next().find(|&(joint, _)| joints[joint].slides());
         let (joint, link) = slider.or_else(|| next().next()).expect("a group hangs together");
         used[joint] = true;
         nodes.push(Node::of(joints, joint, link, &nodes));

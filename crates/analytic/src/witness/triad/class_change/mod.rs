@@ -23,9 +23,9 @@ mod chain;
 use super::Triad;
 use chain::{Chain, Grounded, Place, along};
 use linkage::case::Case;
-use linkage::error::{Error, ErrorKind, Result};
-use linkage::math::{KeepNan, Vec2, cross, rotated, turned, unit};
-use linkage::mechanism::{GROUND, JointKind};
+use linkage::error::{Advice, Error, ErrorKind, Result};
+use linkage::math::{KeepNan, Vec2, cross, root, rotated, turned, unit};
+use linkage::mechanism::GROUND;
 
 /// Largest turn of the crank between two poses (rad): one degree.
 const TRACKING_STEP: f64 = std::f64::consts::PI / 180.0;
@@ -35,8 +35,6 @@ const HALVINGS: u32 = 20;
 const MAX_TURN: f64 = 0.3;
 /// Largest change of the last iteration of Newton's method (rad).
 const LAST_CHANGE: f64 = 1e-9;
-/// Bisection alone ends after as many halvings as a double has bits.
-const MAX_ITERATIONS: usize = 64;
 
 /// Transfer functions of leads and base link at one crank angle, in the order of [`Triad::links`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -95,12 +93,12 @@ impl ClassChange {
     /// [`ErrorKind::Unsupported`] if the group does not hang with two leads on the ground and with the third on a driving link that turns;
     /// [`ErrorKind::Geometry`] if the start pose is a dead point.
     pub fn new(case: &Case, triad: &Triad) -> Result<Self> {
-        let (mechanism, drive) = (&case.mechanism, &case.drive);
+        let (mechanism, drive) = (&case.mechanism, case.crank());
         let hung_on = |link: usize| (0..3).filter(move |&k| triad.leads[k].support.link == link);
         let grounds: Vec<usize> = hung_on(GROUND).collect();
         let driven: Vec<usize> = hung_on(drive.link).collect();
         let joint = &mechanism.joints()[drive.joint];
-        let turns = matches!(joint.kind, JointKind::Revolute);
+        let turns = joint.is_pin();
         let (&[a, b], &[c], true, Some(own)) = (&grounds[..], &driven[..], turns, joint.on(drive.link)) else {
             return Err(unsupported(case, triad));
         };
@@ -160,7 +158,9 @@ impl ClassChange {
                 "class change: the group ({names}) cannot be followed beyond crank angle {crank:.4} deg: it has a dead point there"
             );
             return Err(Error::new(ErrorKind::Geometry, message)
-                .help("shorten the grid to the crank angles that can be reached on this branch"));
+                .at_crank(target)
+                .of_group(names)
+                .help(Advice::ShortenGrid));
         }
         self.step_to((self.crank + target) / 2.0, halvings - 1)?;
         self.step_to(target, halvings - 1)
@@ -238,6 +238,9 @@ impl ClassChange {
     }
 }
 
+/// The chain cannot be placed.
+struct Ended;
+
 /// The zero next to `guess` (rad) of a function with its derivative, between bounds by Newton's method with bisection. `None` if there
 /// is none within [`MAX_TURN`], or the function ends before it.
 fn zero(gap: impl Fn(f64) -> Option<(f64, f64)>, guess: f64) -> Option<f64> {
@@ -246,30 +249,11 @@ fn zero(gap: impl Fn(f64) -> Option<(f64, f64)>, guess: f64) -> Option<f64> {
         return Some(guess);
     }
     let newton = value / slope;
-    let mut width = (2.0 * newton.abs()).clamp(f64::EPSILON, MAX_TURN);
-    let mut bounds = loop {
-        if !(width <= MAX_TURN) {
-            return None;
-        }
-        let beyond = guess - newton.signum() * width;
-        if gap(beyond)?.0 * value <= 0.0 {
-            break [guess, beyond];
-        }
-        width *= 2.0;
-    };
-    let mut at = guess;
-    for _ in 0..MAX_ITERATIONS {
-        let (now, slope) = gap(at)?;
-        bounds[usize::from(now * value <= 0.0)] = at;
-        let next = at - now / slope;
-        let [low, high] = [bounds[0].smaller(bounds[1]), bounds[0].larger(bounds[1])];
-        // Quadratic convergence: what is left is of the order of the square.
-        if (next - at).abs() < LAST_CHANGE {
-            return Some(next);
-        }
-        at = if next > low && next < high { next } else { 0.5 * (low + high) };
-    }
-    Some(at)
+    let width = -newton.signum() * (2.0 * newton.abs()).clamp(f64::EPSILON, MAX_TURN);
+    let gap = |turn: f64| gap(turn).ok_or(Ended);
+    let ahead = |turn: f64| gap(turn).map(|(value, _)| value);
+    let [_, (beyond, _)] = root::widened((guess, value), width, MAX_TURN, ahead).ok()??;
+    root::newton([guess, beyond], value < 0.0, guess, LAST_CHANGE, gap).ok()?
 }
 
 fn names(case: &Case, triad: &Triad) -> String {
@@ -279,7 +263,7 @@ fn names(case: &Case, triad: &Triad) -> String {
 fn unsupported(case: &Case, triad: &Triad) -> Error {
     let links = case.mechanism.links();
     let supports = triad.leads.map(|lead| links[lead.support.link].name.as_str()).join(", ");
-    let (names, crank) = (names(case, triad), &links[case.drive.link].name);
+    let (names, crank) = (names(case, triad), &links[case.crank().link].name);
     let message = format!(
         "class change asks for a group with two leads on the ground and one on the driving link \"{crank}\", turning about the ground; the leads of the group ({names}) hang on: {supports}"
     );

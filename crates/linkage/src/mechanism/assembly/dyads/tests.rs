@@ -73,7 +73,7 @@ impl Case {
             }
             GroupKind::Rrp => {
                 // Squared distance of the inner joint from the outer pin as a function of the slide, a parabola by three values.
-                let (slider, outer, rod, pin) = if self.joint(0).is_prismatic() { (3, 0, 4, 2) } else { (4, 2, 3, 0) };
+                let (slider, outer, rod, pin) = if self.joint(0).slides() { (3, 0, 4, 2) } else { (4, 2, 3, 0) };
                 let mut pose = self.with_turned(self.pose.clone(), outer, slider);
                 let axis = self.axis(&pose, outer);
                 let normal = turned(axis);
@@ -120,7 +120,7 @@ impl Case {
             GroupKind::Rrr if cross(c - a, inner - a) > 0.0 => AssemblyMode::Left,
             GroupKind::Rrr => AssemblyMode::Right,
             GroupKind::Rrp => {
-                let (guide, pin) = if self.joint(0).is_prismatic() { (0, c) } else { (2, a) };
+                let (guide, pin) = if self.joint(0).slides() { (0, c) } else { (2, a) };
                 ahead(self.axis(pose, guide).dot(&(inner - pin)) > 0.0)
             }
             GroupKind::Rpr => {
@@ -197,7 +197,7 @@ fn parallel_axes_are_refused() {
         for _ in 0..1000 {
             let mut case = case(&mut random, kind);
             let (Some(joint), Some(other)) = (0..3)
-                .filter(|&k| case.joint(k).is_prismatic())
+                .filter(|&k| case.joint(k).slides())
                 .fold((None, None), |(first, _), k| if first.is_none() { (Some(k), None) } else { (first, Some(k)) })
             else {
                 panic!("two prismatic joints");
@@ -213,7 +213,7 @@ fn parallel_axes_are_refused() {
                     let off = guide(joint, 3) - guide(other, 4) + angle;
                     case.pose.0[2].angle += off;
                 } else {
-                    let slider = if case.joint(0).is_prismatic() { 3 } else { 4 };
+                    let slider = if case.joint(0).slides() { 3 } else { 4 };
                     let (outer, inner) = if slider == 3 { (0, 1) } else { (2, 1) };
                     let along = case.joint(outer).axis_on(slider).unwrap();
                     let mut joints = case.mechanism.joints().to_vec();

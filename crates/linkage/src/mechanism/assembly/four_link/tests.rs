@@ -1,9 +1,11 @@
+mod scan;
+
 use super::super::random::{Random, group, mechanism, size};
-use super::super::scan::{Scan, scanned};
 use super::*;
 use crate::fixtures::class_four;
 use crate::math::KeepNan;
 use crate::mechanism::{GROUND, GroupKind, Structure};
+use scan::{Scan, scanned};
 
 /// Pairs of the three leads with frame and base: whether each slides.
 type Pairs = [[bool; 2]; 3];

@@ -1,13 +1,19 @@
-//! Configurations of a base on three leads counted by a scan: a method without any polynomial, for the tests of this module.
+//! Configurations of a base on three leads counted by a scan: a method without any polynomial, as a witness for the tests of this module.
 //!
 //! For every angle of the base two leads leave its reference point one or two places; the third is fulfilled where a function of the
 //! angle changes sign. Each place is followed over the angles where it exists, out on one branch and back on the other, so
 //! that the function is smooth and periodic. Samples lie closer where the place moves fast; between samples of one sign
 //! the extremum is sought, so that pairs of zeros are told from near misses.
 
-use super::three_leads::{Lead, Pair};
-use crate::math::{KeepNan, Vec2, cross, rotated, turned, unit};
+use crate::math::KeepNan;
+use std::convert::Infallible;
 use std::f64::consts::{PI, TAU};
+
+use crate::math::{Vec2, cross, extremum, root, rotated, turned, unit};
+use crate::mechanism::assembly::three_leads::{Lead, Pair};
+
+/// Halvings of an interval with a zero, and steps of golden section about an extremum: both end at rounding.
+const STEPS: usize = 60;
 
 /// An extremum within this share of the function's largest value is a double root: neither method can tell.
 const DOUBLE: f64 = 1e-9;
@@ -117,23 +123,16 @@ fn zeros(f: &dyn Fn(f64) -> f64, place: &dyn Fn(f64) -> Vec2, period: f64, step:
     (found, double)
 }
 
-fn bisect(f: &dyn Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
+fn bisect(f: &dyn Fn(f64) -> f64, low: f64, high: f64) -> f64 {
     let rises = f(high) > 0.0;
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        if (f(middle) > 0.0) == rises { high = middle } else { low = middle }
-    }
-    0.5 * (low + high)
+    let Ok([low, high]) = root::halved([low, high], STEPS, |x| Ok::<_, Infallible>((f(x) > 0.0) != rises));
+    f64::midpoint(low, high)
 }
 
-/// Place of the least value, by golden section.
-fn least(f: &dyn Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
-    let share = 0.5 * (5f64.sqrt() - 1.0);
-    for _ in 0..60 {
-        let (a, b) = (high - share * (high - low), low + share * (high - low));
-        if f(a) < f(b) { high = b } else { low = a }
-    }
-    0.5 * (low + high)
+/// Place of the least value.
+fn least(f: &dyn Fn(f64) -> f64, low: f64, high: f64) -> f64 {
+    let Ok([low, high]) = extremum::golden([low, high], STEPS, |x| Ok::<_, Infallible>(-f(x)));
+    f64::midpoint(low, high)
 }
 
 /// Counts the configurations; `None` if a lead gives the base's angle and there is nothing to scan.

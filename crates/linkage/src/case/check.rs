@@ -1,0 +1,258 @@
+//! What must hold between the parts of a case.
+
+use super::{CaseParts, Grid};
+use crate::drive::{Course, Drive, DriveMotion, Load, MotionLaw, Motor, MotorLaw};
+use crate::error::{Error, ErrorKind, Result};
+use crate::math::unit;
+use crate::mechanism::{AssemblyMode, GROUND, GroupKind, JointKind, LinkPose, Side, Structure};
+
+/// Largest opening of a joint in a start pose, as a share of the farthest place in it: what closed forms and Newton's method leave by rounding
+/// lies a thousand times below, a pose of another mechanism far above.
+const LARGEST_OPENING: f64 = 1e-9;
+
+/// Checks all parts.
+///
+/// # Errors
+/// Those of [`Case::new`](super::Case::new).
+pub(super) fn all(parts: &CaseParts) -> Result<()> {
+    drives(parts)?;
+    structure(parts)?;
+    loads(parts)?;
+    if !parts.gravity.iter().all(|value| value.is_finite()) {
+        return Err(wrong("gravity", format!("gravity is ({}, {}) m/s^2", parts.gravity.x, parts.gravity.y)));
+    }
+    start(parts)?;
+    modes(parts)?;
+    grid(&parts.grid, parts.drives.crank())
+}
+
+/// Checks the instants.
+pub(super) fn grid(grid: &Grid, crank: &Drive) -> Result<()> {
+    if grid.times.len() != grid.cranks.len() {
+        let [times, cranks] = [grid.times.len(), grid.cranks.len()];
+        return Err(wrong("grid", format!("the grid has {times} times, but {cranks} crank angles")));
+    }
+    grid.check(crank)
+        .map_err(|message| wrong("grid", message).help("ask for instants and crank angles to which the drive comes"))
+}
+
+fn wrong(key: &str, message: impl Into<String>) -> Error {
+    Error::new(ErrorKind::Input, message).key(key)
+}
+
+fn drives(parts: &CaseParts) -> Result<()> {
+    let several = parts.drives.len() > 1;
+    for (index, drive) in parts.drives.iter().enumerate() {
+        let fault = |kind, message: String| Err(Error::new(kind, message).key("drive"));
+        let links = parts.mechanism.links();
+        let (Some(joint), Some(link)) = (parts.mechanism.joints().get(drive.joint), links.get(drive.link)) else {
+            let message = format!("drive {index} turns link {} at joint {}", drive.link, drive.joint);
+            let [links, joints] = [links.len(), parts.mechanism.joints().len()];
+            return fault(ErrorKind::Input, format!("{message}, but there are {links} links and {joints} joints"));
+        };
+        let names = format!("the drive of link \"{}\" at joint \"{}\"", link.name, joint.name);
+        if drive.link == GROUND || joint.on(drive.link).is_none() {
+            return fault(ErrorKind::Input, format!("{names}: the joint does not carry a moving link of that name"));
+        }
+        match joint.kind {
+            JointKind::Revolute => {}
+            JointKind::Prismatic { .. } => {
+                return fault(ErrorKind::Unsupported, format!("{names}: the joint is prismatic, but a drive turns"));
+            }
+        }
+        let before = &parts.drives[..index];
+        if before.iter().any(|other| other.joint == drive.joint || other.link == drive.link) {
+            return fault(ErrorKind::Input, format!("{names}: joint or link is driven already"));
+        }
+        if !(drive.zero.is_finite() && drive.start.is_finite() && motion_is_sound(&drive.motion)) {
+            return fault(ErrorKind::Input, format!("{names} has a number that is none: {drive:?}"));
+        }
+        if several && drive.constant_speed().is_none() {
+            let message = format!("{names} has a speed that changes, beside other drives");
+            return fault(ErrorKind::Unsupported, message);
+        }
+        if joint.on(GROUND).is_none() && !drive.is_free() {
+            let message = format!("{names} hangs on a moving link, but the motion is prescribed");
+            return fault(ErrorKind::Unsupported, message);
+        }
+        if index > 0 && drive.motor().is_some() {
+            let message = format!("{names} has a motor, but only the crank's is solved");
+            return fault(ErrorKind::Unsupported, message);
+        }
+    }
+    Ok(())
+}
+
+fn motion_is_sound(motion: &DriveMotion) -> bool {
+    let moves = |value: f64| value.is_finite() && value != 0.0;
+    let (moved, motor) = match motion {
+        DriveMotion::Prescribed { law, motor } => {
+            let moved = match *law {
+                MotionLaw::ConstantSpeed(speed) => moves(speed),
+                MotionLaw::Ramp { speed, time } => moves(speed) && moves(time) && time > 0.0,
+                MotionLaw::Cycloidal { rise, time } => moves(rise) && moves(time) && time > 0.0,
+                MotionLaw::Table(ref table) => table.knots().iter().all(|knot| knot.is_finite()),
+            };
+            (moved && moves(law.top_speed()), motor)
+        }
+        &DriveMotion::Free { initial_speed, nominal_speed, ref motor } => {
+            (initial_speed.is_finite() && moves(nominal_speed), motor)
+        }
+    };
+    moved && motor.as_ref().is_none_or(motor_is_sound)
+}
+
+fn motor_is_sound(motor: &Motor) -> bool {
+    let finite = |values: &[f64]| values.iter().all(|value| value.is_finite());
+    let law = match &motor.law {
+        MotorLaw::Constant { torque } => torque.is_finite(),
+        MotorLaw::Linear { at_rest, slope } => finite(&[*at_rest, *slope]),
+        &MotorLaw::Kloss { breakdown_torque, breakdown_slip, synchronous_speed } => {
+            finite(&[breakdown_torque, breakdown_slip, synchronous_speed])
+                && breakdown_slip > 0.0
+                && synchronous_speed > 0.0
+        }
+        MotorLaw::Table { speeds, torques } => {
+            let ascends = speeds.windows(2).all(|pair| pair[0] < pair[1]);
+            speeds.len() >= 2 && speeds.len() == torques.len() && ascends && finite(speeds) && finite(torques)
+        }
+    };
+    let own = &motor.inertia;
+    let inertias = [own.rotor, own.input, own.intermediate, own.output];
+    law && motor.ratio > 0.0
+        && motor.ratio.is_finite()
+        && motor.efficiency > 0.0
+        && motor.efficiency <= 1.0
+        && inertias.iter().all(|&value| value >= 0.0 && value.is_finite())
+        && own.intermediate_ratio.is_finite()
+}
+
+/// That the structure is the one of mechanism and drives.
+fn structure(parts: &CaseParts) -> Result<()> {
+    let own = Structure::of(&parts.mechanism, &parts.drives.joints())?;
+    if own != parts.structure {
+        let [own, given] = [&own, &parts.structure].map(|structure| structure.groups.len() + structure.drivers.len());
+        let message = format!("the structure, of {given} parts, is not that of mechanism and drives, of {own}");
+        return Err(wrong("structure", message).help("take `Structure::of` the mechanism and its driven joints"));
+    }
+    match parts.drives.iter().zip(&own.drivers).find(|(drive, (link, _))| drive.link != *link) {
+        None => Ok(()),
+        Some((drive, &(link, joint))) => {
+            let [said, turned] = [drive.link, link].map(|link| &parts.mechanism.links()[link].name);
+            let name = &parts.mechanism.joints()[joint].name;
+            Err(wrong("drive", format!("joint \"{name}\" drives link \"{turned}\", not \"{said}\"")))
+        }
+    }
+}
+
+fn loads(parts: &CaseParts) -> Result<()> {
+    for (index, load) in parts.loads.iter().enumerate() {
+        let fault = |message: String| Err(wrong("loads", format!("load {index}, a {}: {message}", load.sort())));
+        let (links, sound) = of_load(load);
+        let count = parts.mechanism.links().len();
+        if let Some(link) = links.iter().find(|&&link| link >= count) {
+            return fault(format!("it acts on link {link}, but there are {count} links"));
+        }
+        if !sound {
+            return fault(format!("a number is none: {load:?}"));
+        }
+    }
+    Ok(())
+}
+
+/// The links that a load acts on, and whether its numbers are such.
+fn of_load(load: &Load) -> (Vec<usize>, bool) {
+    let finite = |side: &Side| side.local.iter().all(|value| value.is_finite());
+    let course = |course: &Course| match course {
+        Course::Constant(value) => value.is_finite(),
+        Course::Table { function, turns } => *turns > 0 && function.knots().iter().all(|knot| knot.is_finite()),
+    };
+    let ends = |ends: &[Side; 2]| ends.map(|end| end.link).to_vec();
+    match load {
+        Load::Resistance { link, moment } => (vec![*link], *moment >= 0.0 && moment.is_finite()),
+        Load::Moment { link, moment, acts: _ } => (vec![*link], course(moment)),
+        Load::Force { at, force, follows: _ } => (vec![at.link], finite(at) && force.iter().all(course)),
+        Load::ResistingForce { at, force } => (vec![at.link], finite(at) && *force >= 0.0 && force.is_finite()),
+        Load::Spring { ends: sides, stiffness, free_length } => {
+            (ends(sides), sides.iter().all(finite) && stiffness.is_finite() && free_length.is_finite())
+        }
+        Load::Damper { ends: sides, damping } => (ends(sides), sides.iter().all(finite) && damping.is_finite()),
+        Load::TorsionSpring { links, stiffness, free_angle } => {
+            (links.to_vec(), stiffness.is_finite() && free_angle.is_finite())
+        }
+        Load::TorsionDamper { links, damping } => (links.to_vec(), damping.is_finite()),
+    }
+}
+
+/// That there is a place for every link, at which all joints hold together and the driving links are where they start.
+fn start(parts: &CaseParts) -> Result<()> {
+    let (mechanism, poses) = (&parts.mechanism, &parts.start.0);
+    let links = mechanism.links();
+    if poses.len() != links.len() {
+        let message = format!("the start pose has {} places, but there are {} links", poses.len(), links.len());
+        return Err(wrong("start", message));
+    }
+    if poses[GROUND] != LinkPose::GROUND {
+        return Err(wrong("start", format!("the ground is moved in the start pose: {:?}", poses[GROUND])));
+    }
+    let is_finite = |pose: &LinkPose| [pose.origin.x, pose.origin.y, pose.angle].iter().all(|value| value.is_finite());
+    if let Some((link, pose)) = links.iter().zip(poses).find(|(_, pose)| !is_finite(pose)) {
+        return Err(wrong("start", format!("link \"{}\" has no place in the start pose: {pose:?}", link.name)));
+    }
+    let crank = parts.drives.crank().start.to_degrees();
+    let reach = poses.iter().fold(mechanism.size(), |most, pose| most.max(pose.origin.norm()));
+    for joint in mechanism.joints() {
+        let sides = [joint.first, joint.second];
+        let places = sides.map(|side| poses[side.link].point(side.local));
+        let (gap, turn) = joint.opening(places, sides.map(|side| unit(poses[side.link].angle)));
+        // Written so that NaN is refused.
+        if !(gap <= LARGEST_OPENING * reach && turn <= LARGEST_OPENING) {
+            let message = format!(
+                "joint \"{}\" is open in the start pose, crank angle {crank:.4} deg: by {gap:.3e} m and, in a guide, by {turn:.3e} rad",
+                joint.name
+            );
+            return Err(Error::new(ErrorKind::Geometry, message).key("start").help(CLOSED));
+        }
+    }
+    for drive in &parts.drives {
+        let off = (unit(poses[drive.link].angle) - unit(drive.world_angle(drive.start))).norm();
+        if !(off <= LARGEST_OPENING) {
+            let name = &links[drive.link].name;
+            let message = format!("link \"{name}\" stands {off:.3e} rad off the angle at which its drive starts");
+            return Err(Error::new(ErrorKind::Geometry, message).key("start").help(CLOSED));
+        }
+    }
+    Ok(())
+}
+
+const CLOSED: &str =
+    "take `first_pose` at the world angles of the drives, or another pose in which all joints are closed";
+
+/// That every group has a mode, and one of its kind.
+fn modes(parts: &CaseParts) -> Result<()> {
+    let (groups, modes) = (&parts.structure.groups, &parts.modes);
+    if groups.len() != modes.len() {
+        let message = format!("there are {} assembly modes, but {} groups", modes.len(), groups.len());
+        return Err(wrong("start", message));
+    }
+    for (group, mode) in groups.iter().zip(modes) {
+        if !has_mode(group.kind, *mode) {
+            let message = format!("the mode \"{}\" is none of group {}", mode.name(), group.names(&parts.mechanism));
+            return Err(wrong("start", message));
+        }
+    }
+    Ok(())
+}
+
+fn has_mode(kind: GroupKind, mode: AssemblyMode) -> bool {
+    use AssemblyMode::{Ahead, Behind, Followed, Left, Only, Right};
+    match kind {
+        GroupKind::Rrr => matches!(mode, Left | Right),
+        GroupKind::Rrp | GroupKind::Rpr => matches!(mode, Ahead | Behind),
+        GroupKind::Rpp | GroupKind::Prp => mode == Only,
+        GroupKind::Higher => mode == Followed,
+    }
+}
+
+#[cfg(test)]
+mod tests;

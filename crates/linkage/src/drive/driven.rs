@@ -1,0 +1,312 @@
+//! A driving link, and what moves it.
+
+use super::{DriveState, MotionLaw, Motor};
+
+/// What moves a driving link.
+#[derive(Clone, Debug, PartialEq)]
+pub enum DriveMotion {
+    /// A law prescribes the motion; whatever moment that takes is there.
+    Prescribed {
+        /// The law.
+        law: MotionLaw,
+        /// Motor whose speed under the load is asked for. The law holds whether the motor can follow it or not.
+        motor: Option<Motor>,
+    },
+    /// From t = 0 on, forces decide the motion: loads, weights, inertia and the motor, if there is one.
+    Free {
+        /// Speed at t = 0 (rad/s), counter-clockwise positive.
+        initial_speed: f64,
+        /// Speed of the nominal motion (rad/s, not zero), counter-clockwise positive: the motor drives in its sense, speeds are measured by its
+        /// size, and questions about crank angles are answered in it.
+        nominal_speed: f64,
+        /// The motor that moves the link.
+        motor: Option<Motor>,
+    },
+}
+
+/// A driving link: it turns about its joint as its motion says.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drive {
+    /// Driven joint.
+    pub joint: usize,
+    /// Driving link.
+    pub link: usize,
+    /// World direction from which the crank angle is measured: the angle of the link's x axis at crank angle zero (rad).
+    pub zero: f64,
+    /// Crank angle at t = 0 (rad).
+    pub start: f64,
+    /// What moves the link.
+    pub motion: DriveMotion,
+}
+
+impl Drive {
+    /// A drive that follows `law` and has no motor; the other arguments are the fields of the same names.
+    #[must_use]
+    pub fn prescribed(joint: usize, link: usize, zero: f64, start: f64, law: MotionLaw) -> Self {
+        Drive { joint, link, zero, start, motion: DriveMotion::Prescribed { law, motor: None } }
+    }
+
+    /// Reads the law that prescribes the motion, or that of the nominal motion.
+    #[inline]
+    fn by_law<T>(&self, read: impl FnOnce(&MotionLaw) -> T) -> T {
+        match &self.motion {
+            DriveMotion::Prescribed { law, .. } => read(law),
+            DriveMotion::Free { nominal_speed, .. } => read(&MotionLaw::ConstantSpeed(*nominal_speed)),
+        }
+    }
+
+    /// State of the driving link at time `t` (s), as [`MotionLaw::at`]; of a free link, in the nominal motion.
+    #[inline]
+    #[must_use]
+    pub fn at(&self, t: f64) -> DriveState {
+        self.by_law(|law| law.at(self.start, t))
+    }
+
+    /// Time (s) at which the crank angle is `angle` (rad, as the scenario states it), as [`MotionLaw::time_of`]; of a free link, in the nominal
+    /// motion.
+    #[inline]
+    #[must_use]
+    pub fn time_of(&self, angle: f64) -> f64 {
+        self.by_law(|law| law.time_of(angle - self.start))
+    }
+
+    /// Constant speed (rad/s) that takes the driving link in a step from where the law is at the time `from` (s) to where it is at `to`, in a
+    /// time as long as the step; negative of the law's sense if `to` lies before `from`.
+    #[inline]
+    #[must_use]
+    pub fn step_speed(&self, from: f64, to: f64) -> f64 {
+        self.by_law(|law| match law.constant() {
+            Some(omega) => omega.copysign(omega * (to - from)),
+            None => (law.at(self.start, to).angle - law.at(self.start, from).angle) / (to - from).abs(),
+        })
+    }
+
+    /// The speed that the law reaches, as [`MotionLaw::top_speed`]; of a free link, the nominal one.
+    #[must_use]
+    pub fn top_speed(&self) -> f64 {
+        self.by_law(MotionLaw::top_speed)
+    }
+
+    /// Sense in which the law goes: +1 counter-clockwise, -1 clockwise. A law that goes to and fro has the sense of its top speed.
+    #[must_use]
+    pub fn sense(&self) -> f64 {
+        self.top_speed().signum()
+    }
+
+    /// Angular velocity at t = 0 (rad/s), counter-clockwise positive: the law's, or that from which a free link starts.
+    #[must_use]
+    pub fn initial_speed(&self) -> f64 {
+        match self.motion {
+            DriveMotion::Prescribed { .. } => self.at(0.0).omega,
+            DriveMotion::Free { initial_speed, .. } => initial_speed,
+        }
+    }
+
+    /// The speed of the law, or the nominal one, if it is constant (rad/s).
+    #[inline]
+    #[must_use]
+    pub fn constant_speed(&self) -> Option<f64> {
+        self.by_law(MotionLaw::constant)
+    }
+
+    /// Time (s) up to which the law holds, if it ends.
+    #[must_use]
+    pub fn end(&self) -> Option<f64> {
+        self.by_law(MotionLaw::end)
+    }
+
+    /// Time (s) at which the angular acceleration jumps, if it does.
+    #[must_use]
+    pub fn jump(&self) -> Option<f64> {
+        self.by_law(MotionLaw::jump)
+    }
+
+    /// What the law, or that of the nominal motion, is called in scenario files.
+    #[must_use]
+    pub fn law_name(&self) -> &'static str {
+        self.by_law(MotionLaw::name)
+    }
+
+    /// Whether forces decide the motion.
+    #[inline]
+    #[must_use]
+    pub fn is_free(&self) -> bool {
+        match self.motion {
+            DriveMotion::Prescribed { .. } => false,
+            DriveMotion::Free { .. } => true,
+        }
+    }
+
+    /// Whether there is a moment between drive and link: not on a free link without a motor.
+    #[must_use]
+    pub fn has_moment(&self) -> bool {
+        match &self.motion {
+            DriveMotion::Prescribed { .. } => true,
+            DriveMotion::Free { motor, .. } => motor.is_some(),
+        }
+    }
+
+    /// The motor, whether it moves the link or its speed is asked for only.
+    #[must_use]
+    pub fn motor(&self) -> Option<&Motor> {
+        match &self.motion {
+            DriveMotion::Prescribed { motor, .. } | DriveMotion::Free { motor, .. } => motor.as_ref(),
+        }
+    }
+
+    /// The motor that moves the link: that of a free link.
+    #[must_use]
+    pub fn moving_motor(&self) -> Option<&Motor> {
+        match &self.motion {
+            DriveMotion::Prescribed { .. } => None,
+            DriveMotion::Free { motor, .. } => motor.as_ref(),
+        }
+    }
+
+    /// Moment of inertia of rotor and reducer that turn with a free link (kg m^2). A law carries its motor, so that there it does not count.
+    #[must_use]
+    pub fn moving_inertia(&self) -> f64 {
+        self.moving_motor().map_or(0.0, Motor::inertia_on_crank)
+    }
+
+    /// The same drive with another motor, or without one.
+    #[must_use]
+    pub fn with_motor(&self, motor: Option<Motor>) -> Drive {
+        let motion = match &self.motion {
+            DriveMotion::Prescribed { law, .. } => DriveMotion::Prescribed { law: law.clone(), motor },
+            &DriveMotion::Free { initial_speed, nominal_speed, .. } => {
+                DriveMotion::Free { initial_speed, nominal_speed, motor }
+            }
+        };
+        Drive { motion, ..*self }
+    }
+
+    /// The same drive in its nominal motion: where it is free, the nominal speed is prescribed.
+    #[must_use]
+    pub fn nominal(&self) -> Drive {
+        let motion = match &self.motion {
+            DriveMotion::Prescribed { .. } => self.motion.clone(),
+            DriveMotion::Free { nominal_speed, motor, .. } => {
+                DriveMotion::Prescribed { law: MotionLaw::ConstantSpeed(*nominal_speed), motor: motor.clone() }
+            }
+        };
+        Drive { motion, ..*self }
+    }
+
+    /// The same drive with the law's top speed all the time. A free link stays free: its nominal motion is that already.
+    #[must_use]
+    pub fn at_top_speed(&self) -> Drive {
+        let motion = match &self.motion {
+            DriveMotion::Prescribed { law, motor } => {
+                DriveMotion::Prescribed { law: MotionLaw::ConstantSpeed(law.top_speed()), motor: motor.clone() }
+            }
+            DriveMotion::Free { .. } => self.motion.clone(),
+        };
+        Drive { motion, ..*self }
+    }
+
+    /// World angle of the driving link's x axis (rad) for a crank angle as the scenario states it.
+    #[inline]
+    #[must_use]
+    pub fn world_angle(&self, angle: f64) -> f64 {
+        self.zero + angle
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::math::Piecewise;
+
+    fn drive(law: MotionLaw) -> Drive {
+        Drive::prescribed(0, 1, 3.0, 0.5, law)
+    }
+
+    fn table() -> MotionLaw {
+        MotionLaw::Table(Arc::new(Piecewise::clamped_spline(
+            &[(0.0, 0.0), (0.1, 0.4), (0.25, 0.2), (0.4, 1.0)],
+            [0.0; 2],
+        )))
+    }
+
+    #[test]
+    fn time_and_angle_are_inverse() {
+        let constant = drive(MotionLaw::ConstantSpeed(-97.2));
+        assert_eq!((constant.at(0.01).omega, constant.at(0.01).alpha), (-97.2, 0.0));
+        let ramp = drive(MotionLaw::Ramp { speed: -30.0, time: 0.02 });
+        let cycloidal = drive(MotionLaw::Cycloidal { rise: -2.0, time: 0.05 });
+        for drive in [constant, ramp, cycloidal] {
+            for t in [0.01, 0.02, 0.03] {
+                let state = drive.at(t);
+                assert!((drive.time_of(state.angle) - t).abs() < 1e-15, "{t} {:?}", drive.motion);
+                assert_eq!(drive.world_angle(state.angle), 3.0 + state.angle);
+            }
+        }
+        assert!(drive(table()).time_of(0.6).is_nan());
+        let cycloidal = drive(MotionLaw::Cycloidal { rise: 2.0, time: 0.05 });
+        assert_eq!([cycloidal.time_of(0.5), cycloidal.time_of(2.5)], [0.0, 0.05]);
+        assert!(cycloidal.time_of(2.6).is_nan() && cycloidal.time_of(0.4).is_nan());
+    }
+
+    #[test]
+    fn rates_are_derivatives() {
+        let laws = [
+            MotionLaw::ConstantSpeed(4.0),
+            MotionLaw::Ramp { speed: 7.0, time: 0.2 },
+            MotionLaw::Cycloidal { rise: 3.0, time: 0.4 },
+            table(),
+        ];
+        for drive in laws.map(drive) {
+            for t in [-0.01, 0.003, 0.09, 0.15, 0.31, 0.39] {
+                let h = 1e-5;
+                let [back, here, ahead] = [t - h, t, t + h].map(|t| drive.at(t));
+                let (omega, alpha) = ((ahead.angle - back.angle) / (2.0 * h), (ahead.omega - back.omega) / (2.0 * h));
+                assert!(
+                    (omega - here.omega).abs() < 1e-7 && (alpha - here.alpha).abs() < 1e-5,
+                    "{t} {:?}",
+                    drive.motion
+                );
+                assert!(here.omega.abs() <= drive.top_speed().abs() * (1.0 + 1e-12), "{t} {:?}", drive.motion);
+                let step = drive.step_speed(t, t + h);
+                assert!((drive.at(t).angle + step * h - ahead.angle).abs() < 1e-15);
+                let step = drive.step_speed(t, t - h);
+                assert!((drive.at(t).angle + step * h - back.angle).abs() < 1e-15);
+            }
+            assert_eq!(drive.at(0.0).angle, 0.5);
+        }
+    }
+
+    /// Laws that start from rest have a sense there too.
+    #[test]
+    fn sense_and_initial_speed() {
+        let laws = [
+            (MotionLaw::ConstantSpeed(-4.0), -1.0, -4.0),
+            (MotionLaw::ConstantSpeed(4.0), 1.0, 4.0),
+            (MotionLaw::Ramp { speed: -7.0, time: 0.2 }, -1.0, 0.0),
+            (MotionLaw::Cycloidal { rise: -3.0, time: 0.4 }, -1.0, 0.0),
+            (table(), 1.0, 0.0),
+        ];
+        for (law, sense, speed) in laws {
+            let drive = drive(law);
+            assert_eq!((drive.sense(), drive.initial_speed()), (sense, speed), "{:?}", drive.motion);
+            let motion = DriveMotion::Free { initial_speed: 0.5, nominal_speed: 4.0 * sense, motor: None };
+            let free = Drive { motion, ..drive };
+            assert_eq!((free.sense(), free.initial_speed()), (sense, 0.5), "{:?}", free.motion);
+            // What is asked about crank angles goes by the nominal motion.
+            assert_eq!(free.at(2.0), free.nominal().at(2.0));
+            assert_eq!((free.time_of(3.0), free.nominal().initial_speed()), (2.5 * sense / 4.0, 4.0 * sense));
+        }
+    }
+
+    #[test]
+    fn a_cycloid_rests_at_both_ends() {
+        let drive = drive(MotionLaw::Cycloidal { rise: 3.0, time: 0.4 });
+        for (t, angle) in [(0.0, 0.5), (0.2, 2.0), (0.4, 3.5)] {
+            assert!((drive.at(t).angle - angle).abs() < 1e-15 && drive.at(t).alpha.abs() < 1e-12, "{t}");
+        }
+        assert!(drive.at(0.0).omega == 0.0 && drive.at(0.4).omega.abs() < 1e-12 && drive.at(0.2).omega == 15.0);
+        assert_eq!(drive.end(), Some(0.4));
+    }
+}

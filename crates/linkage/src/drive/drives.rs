@@ -1,0 +1,106 @@
+//! All driving links of a mechanism in one list.
+
+use std::ops::Deref;
+
+use super::Drive;
+
+/// The driving links of a mechanism, the crank first: the one by whose angle instants are told. At least one; in the order of
+/// [`Structure::drivers`](crate::mechanism::Structure::drivers).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drives(Vec<Drive>);
+
+impl Drives {
+    /// The crank and what else is driven.
+    #[must_use]
+    pub fn new(crank: Drive, further: Vec<Drive>) -> Self {
+        let mut all = further;
+        all.insert(0, crank);
+        Drives(all)
+    }
+
+    /// The crank.
+    #[inline]
+    #[must_use]
+    pub fn crank(&self) -> &Drive {
+        &self.0[0]
+    }
+
+    /// The crank, to be changed.
+    pub fn crank_mut(&mut self) -> &mut Drive {
+        &mut self.0[0]
+    }
+
+    /// All but the crank.
+    #[inline]
+    #[must_use]
+    pub fn further(&self) -> &[Drive] {
+        &self.0[1..]
+    }
+
+    /// The drives of free links, with their numbers.
+    pub fn free(&self) -> impl Iterator<Item = (usize, &Drive)> {
+        self.0.iter().enumerate().filter(|(_, drive)| drive.is_free())
+    }
+
+    /// The drives that exert a moment, with their numbers: all but those of free links without a motor.
+    pub fn with_moment(&self) -> impl Iterator<Item = (usize, &Drive)> {
+        self.0.iter().enumerate().filter(|(_, drive)| drive.has_moment())
+    }
+
+    /// Driven joints, in the order of the drives.
+    #[must_use]
+    pub fn joints(&self) -> Vec<usize> {
+        self.0.iter().map(|drive| drive.joint).collect()
+    }
+
+    /// The same drives, each changed by `change`.
+    #[must_use]
+    pub fn map(&self, change: impl FnMut(&Drive) -> Drive) -> Drives {
+        Drives(self.0.iter().map(change).collect())
+    }
+
+    /// World angles of the driving links' x axes (rad) where the crank angle is `crank` (rad, as the scenario states it).
+    #[must_use]
+    pub fn world_angles(&self, crank: f64) -> Vec<f64> {
+        let t = self.crank().time_of(crank);
+        let further = self.further().iter().map(|drive| drive.world_angle(drive.at(t).angle));
+        std::iter::once(self.crank().world_angle(crank)).chain(further).collect()
+    }
+
+    /// Angular velocities of the driving links as shares of the crank's at the time `t` (s); the crank's own is 1.
+    pub fn ratios(&self, t: f64) -> impl Iterator<Item = f64> {
+        let omega = self.crank().at(t).omega;
+        self.0.iter().enumerate().map(move |(index, drive)| if index == 0 { 1.0 } else { drive.at(t).omega / omega })
+    }
+
+    /// Largest speed of a driving link (rad/s), without sign.
+    #[must_use]
+    pub fn top_speed(&self) -> f64 {
+        self.0.iter().fold(0.0, |most: f64, drive| most.max(drive.top_speed().abs()))
+    }
+}
+
+impl From<Drive> for Drives {
+    fn from(crank: Drive) -> Self {
+        Drives(vec![crank])
+    }
+}
+
+impl Deref for Drives {
+    type Target = [Drive];
+
+    #[inline]
+    fn deref(&self) -> &[Drive] {
+        &self.0
+    }
+}
+
+impl<'a> IntoIterator for &'a Drives {
+    type Item = &'a Drive;
+    type IntoIter = std::slice::Iter<'a, Drive>;
+
+    #[inline]
+    fn into_iter(self) -> Self::IntoIter {
+        self.0.iter()
+    }
+}

@@ -1,0 +1,182 @@
+//! The way out of an error, as data. In words it names no option of any program: who has options adds them.
+
+use std::fmt;
+
+/// One way out. Several of them are alternatives.
+///
+/// The variants are what a program can act on; advice about the text of a description is [`Advice::Text`].
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Advice {
+    /// Words that are the same for every reader, such as the name of a scenario key.
+    Text(String),
+    /// A smaller time step of the engine.
+    SmallerStep {
+        /// A step to try (s), where the present one is known.
+        to: Option<f64>,
+    },
+    /// A larger time step of the engine.
+    LargerStep {
+        /// A step to try (s), where the present one is known.
+        to: Option<f64>,
+    },
+    /// A smaller accuracy number of an engine that chooses its own steps.
+    TighterAccuracy {
+        /// A relative accuracy to try.
+        to: f64,
+    },
+    /// A larger accuracy number of an engine that chooses its own steps.
+    LooserAccuracy {
+        /// A relative accuracy to try.
+        to: f64,
+    },
+    /// More sweeps of the engine's iteration in a step.
+    MoreSweeps {
+        /// A number to try, where the present one is known.
+        to: Option<usize>,
+    },
+    /// An engine in double precision.
+    DoublePrecision,
+    /// Another engine.
+    OtherEngine,
+    /// Another way to the reactions.
+    OtherRoute {
+        /// Names of the routes that work.
+        routes: &'static [&'static str],
+    },
+    /// Another analytic side as the reference of a proof.
+    OtherReference {
+        /// Its name.
+        solver: &'static str,
+    },
+    /// No engine, but an analytic solver alone.
+    OtherSolver {
+        /// Its name.
+        solver: &'static str,
+    },
+    /// A grid within the crank angles that the branch reaches.
+    ShortenGrid,
+    /// A look at the range of motion, which shows what limits the crank and which links turn fully.
+    LookAtRange,
+    /// Another choice among the configurations of a group.
+    Configuration {
+        /// What can be given, in words.
+        give: String,
+    },
+    /// The solution as a table in place of what was asked for.
+    SolutionTable,
+    /// Channels that exist.
+    OtherChannel {
+        /// Groups of channels, in words.
+        groups: String,
+    },
+    /// A larger error, other channels or further engines in place of a wish that no engine meets.
+    WeakerWish,
+    /// The complete results in place of an extract.
+    AllResults,
+}
+
+impl Advice {
+    /// The same advice with a number to try, from the present `resolution` of an engine (time step in s, or relative
+    /// accuracy if it `controls_error`) and its present number of `sweeps`.
+    #[must_use]
+    pub fn from_settings(self, resolution: f64, controls_error: bool, sweeps: usize) -> Self {
+        let (half, double) = (rounded(resolution / 2.0), rounded(resolution * 2.0));
+        match self {
+            Advice::SmallerStep { .. } | Advice::TighterAccuracy { .. } if controls_error => {
+                Advice::TighterAccuracy { to: half }
+            }
+            Advice::LargerStep { .. } | Advice::LooserAccuracy { .. } if controls_error => {
+                Advice::LooserAccuracy { to: double }
+            }
+            Advice::SmallerStep { .. } => Advice::SmallerStep { to: Some(half) },
+            Advice::LargerStep { .. } => Advice::LargerStep { to: Some(double) },
+            Advice::MoreSweeps { .. } => Advice::MoreSweeps { to: Some(2 * sweeps) },
+            other => other,
+        }
+    }
+
+    /// Alternatives as one sentence, each told by `tell`; `None` if there is none.
+    #[must_use]
+    pub fn sentence(all: &[Advice], tell: impl Fn(&Advice) -> String) -> Option<String> {
+        (!all.is_empty()).then(|| all.iter().map(tell).collect::<Vec<_>>().join(", or "))
+    }
+}
+
+/// A number to try, to two digits.
+fn rounded(number: f64) -> f64 {
+    format!("{number:.1e}").parse().unwrap_or(number)
+}
+
+impl From<&str> for Advice {
+    fn from(words: &str) -> Self {
+        Advice::Text(words.into())
+    }
+}
+
+impl From<String> for Advice {
+    fn from(words: String) -> Self {
+        Advice::Text(words)
+    }
+}
+
+impl fmt::Display for Advice {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Advice::Text(words) => f.write_str(words),
+            Advice::SmallerStep { to: None } => f.write_str("choose a smaller time step"),
+            Advice::SmallerStep { to: Some(to) } => write!(f, "choose a smaller time step, such as {to:e} s"),
+            Advice::LargerStep { to: None } => f.write_str("choose a larger time step"),
+            Advice::LargerStep { to: Some(to) } => write!(f, "choose a larger time step, such as {to:e} s"),
+            Advice::TighterAccuracy { to } => write!(f, "choose a tighter accuracy, such as {to:e}"),
+            Advice::LooserAccuracy { to } => write!(f, "choose a looser accuracy, such as {to:e}"),
+            Advice::MoreSweeps { to: None } => f.write_str("raise the number of sweeps"),
+            Advice::MoreSweeps { to: Some(to) } => write!(f, "raise the number of sweeps, such as to {to}"),
+            Advice::DoublePrecision => f.write_str("take an engine in double precision"),
+            Advice::OtherEngine => f.write_str("take another engine"),
+            Advice::OtherRoute { routes } => {
+                write!(f, "take another way to the reactions: {}", routes.join(" or "))
+            }
+            Advice::OtherReference { solver } => write!(f, "take side \"{solver}\" as the reference"),
+            Advice::OtherSolver { solver } => write!(f, "solve the scenario with side \"{solver}\" alone"),
+            Advice::ShortenGrid => {
+                f.write_str("shorten the grid to the crank angles that can be reached on this branch")
+            }
+            Advice::LookAtRange => {
+                f.write_str("the range of motion shows what limits the crank and which links turn fully")
+            }
+            Advice::Configuration { give } => write!(f, "give {give}"),
+            Advice::SolutionTable => f.write_str("read them off a table of the solution instead"),
+            Advice::OtherChannel { groups } => {
+                write!(f, "name a channel of the solution, such as joint.A.fx_N, or one of: {groups}")
+            }
+            Advice::WeakerWish => f.write_str("ask for a larger error, other channels or further engines"),
+            Advice::AllResults => f.write_str("the complete results have all of them"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn alternatives_are_one_sentence() {
+        let all = [Advice::SmallerStep { to: Some(5e-4) }, "check the lengths".into()];
+        let told = Advice::sentence(&all, Advice::to_string);
+        assert_eq!(told.unwrap(), "choose a smaller time step, such as 5e-4 s, or check the lengths");
+        assert_eq!(Advice::sentence(&[], Advice::to_string), None);
+    }
+
+    #[test]
+    fn numbers_to_try_come_from_the_present_settings() {
+        let from = |advice: Advice, controls| advice.from_settings(1e-3, controls, 32);
+        let smaller = Advice::SmallerStep { to: None };
+        assert_eq!(from(smaller.clone(), false), Advice::SmallerStep { to: Some(5e-4) });
+        assert_eq!(from(smaller, true), Advice::TighterAccuracy { to: 5e-4 });
+        assert_eq!(from(Advice::LargerStep { to: None }, false), Advice::LargerStep { to: Some(2e-3) });
+        assert_eq!(from(Advice::LargerStep { to: None }, true), Advice::LooserAccuracy { to: 2e-3 });
+        assert_eq!(from(Advice::MoreSweeps { to: None }, false), Advice::MoreSweeps { to: Some(64) });
+        assert_eq!(from(Advice::OtherEngine, false), Advice::OtherEngine);
+    }
+}

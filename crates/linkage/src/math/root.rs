@@ -1,0 +1,199 @@
+//! Zeros of a function of one variable, between bounds where there are any: every search for one is here.
+//!
+//! Each function says what it needs of the one it searches, and where it ends. Functions may fail (`E`): the first error ends a search.
+//! What is not a number is never taken for a zero.
+
+/// Whether the values at two places have different signs, or one of them is zero. What is not a number has no sign.
+#[inline]
+#[must_use]
+pub fn changes(a: f64, b: f64) -> bool {
+    a <= 0.0 && b >= 0.0 || a >= 0.0 && b <= 0.0
+}
+
+/// The interval from `low` to `high` halved `halvings` times about the place up to which `before` holds: both ends of what is left. Where
+/// `before` never holds the lower end stays, where it always holds the upper one. About 52 halvings reach rounding.
+///
+/// # Errors
+/// The first of `before`.
+#[inline]
+pub fn halved<E>(
+    [mut low, mut high]: [f64; 2],
+    halvings: usize,
+    mut before: impl FnMut(f64) -> Result<bool, E>,
+) -> Result<[f64; 2], E> {
+    for _ in 0..halvings {
+        let middle = f64::midpoint(low, high);
+        if before(middle)? {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    Ok([low, high])
+}
+
+/// A place and the value there.
+pub type Known = (f64, f64);
+
+/// Looks from `from` on, first `width` away and then twice as far each time, up to `most`, for a place where the sign differs from that at
+/// `from`. The last two places looked at, between which it changes; `None` if it does not, a value or the width is not a number, or the
+/// width is zero. A negative `width` looks backwards.
+///
+/// # Errors
+/// The first of `value`.
+pub fn widened<E>(
+    from: Known,
+    mut width: f64,
+    most: f64,
+    mut value: impl FnMut(f64) -> Result<f64, E>,
+) -> Result<Option<[Known; 2]>, E> {
+    let mut last = from;
+    while width.abs() <= most && width != 0.0 {
+        let at = from.0 + width;
+        let next = (at, value(at)?);
+        if changes(last.1, next.1) {
+            return Ok(Some([last, next]));
+        }
+        if next.1.is_nan() {
+            return Ok(None);
+        }
+        last = next;
+        width *= 2.0;
+    }
+    Ok(None)
+}
+
+/// When a regula falsi ends: as soon as one of the two holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Close {
+    /// Size of the value that counts as zero.
+    pub value: f64,
+    /// Distance of the bounds at which they are one place; never less than four roundings of the larger one.
+    pub width: f64,
+}
+
+/// The zero between two places with different signs by regula falsi, in the Illinois form: a bound that stays counts half with every step
+/// (Dowell and Jarratt, BIT 11, 1971, 168-174; order 1.44). `None` if the signs are the same, a value is not a number, or `steps` were not enough.
+///
+/// # Errors
+/// The first of `value`.
+pub fn regula_falsi<E>(
+    [mut held, mut last]: [Known; 2],
+    close: Close,
+    steps: usize,
+    mut value: impl FnMut(f64) -> Result<f64, E>,
+) -> Result<Option<f64>, E> {
+    if !changes(held.1, last.1) {
+        return Ok(None);
+    }
+    if let Some(end) = [held, last].into_iter().find(|end| end.1 == 0.0) {
+        return Ok(Some(end.0));
+    }
+    for _ in 0..steps {
+        // A mean weighted with positive weights: it lies between the bounds, and no digits are lost.
+        let at = (held.0 * last.1 - last.0 * held.1) / (last.1 - held.1);
+        let found = value(at)?;
+        let rounding = 4.0 * f64::EPSILON * held.0.abs().max(last.0.abs());
+        if found.abs() <= close.value || (last.0 - held.0).abs() <= close.width.max(rounding) {
+            return Ok(Some(at));
+        }
+        if found.is_nan() {
+            return Ok(None);
+        }
+        if found.is_sign_positive() == last.1.is_sign_positive() {
+            held.1 /= 2.0;
+        } else {
+            held = last;
+        }
+        last = (at, found);
+    }
+    Ok(None)
+}
+
+/// The zero of a function with its slope between `bounds` (either may be the larger) by Newton's method from `start`, by halves where that
+/// leaves the bounds. `rises`: whether the value is positive at the second bound. A step of Newton's of at most `settled` is the last one and is
+/// still taken: the method is quadratic, so that what is left is of the order of its square. `None` for a value that is not a number.
+///
+/// # Errors
+/// The first of `value`.
+#[inline]
+pub fn newton<E>(
+    mut bounds: [f64; 2],
+    rises: bool,
+    start: f64,
+    settled: f64,
+    mut value: impl FnMut(f64) -> Result<(f64, f64), E>,
+) -> Result<Option<f64>, E> {
+    /// As many halvings as a double has bits, and what Newton's method takes besides.
+    const MOST: usize = 100;
+    let mut at = start;
+    for _ in 0..MOST {
+        let (here, slope) = value(at)?;
+        if here.is_nan() {
+            return Ok(None);
+        }
+        if here == 0.0 {
+            return Ok(Some(at));
+        }
+        bounds[usize::from((here > 0.0) == rises)] = at;
+        let next = at - here / slope;
+        if (next - at).abs() <= settled {
+            return Ok(Some(next));
+        }
+        let [low, high] = [bounds[0].min(bounds[1]), bounds[0].max(bounds[1])];
+        at = if next > low && next < high { next } else { f64::midpoint(low, high) };
+        if !(low < at && at < high) {
+            break;
+        }
+    }
+    Ok(Some(at))
+}
+
+/// `steps` steps of Newton's method from a place near the zero; steps of `longest` or more, and such that are not numbers, are not taken. The
+/// function gives value and slope.
+///
+/// # Errors
+/// The first of `value`.
+#[inline]
+pub fn polished<E>(
+    mut at: f64,
+    steps: usize,
+    longest: f64,
+    mut value: impl FnMut(f64) -> Result<(f64, f64), E>,
+) -> Result<f64, E> {
+    for _ in 0..steps {
+        let (here, slope) = value(at)?;
+        let step = here / slope;
+        if step.abs() < longest {
+            at -= step;
+        }
+    }
+    Ok(at)
+}
+
+/// A length at which the value vanishes, by at most `steps` secants, the first through what is `known` and a `guess`, both positive. Ends where
+/// a secant would change the length by no more than four roundings; by more than the length itself it is not changed.
+///
+/// # Errors
+/// The first of `value`.
+pub fn secants<E>(
+    mut known: Known,
+    guess: f64,
+    steps: usize,
+    mut value: impl FnMut(f64) -> Result<f64, E>,
+) -> Result<f64, E> {
+    let mut last = (guess, value(guess)?);
+    for _ in 0..steps {
+        let change = last.1 * (last.0 - known.0) / (last.1 - known.1);
+        if !(change.abs() > 4.0 * f64::EPSILON * last.0 && change.abs() < last.0) {
+            break;
+        }
+        known = last;
+        let at = last.0 - change;
+        last = (at, value(at)?);
+    }
+    Ok(last.0)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,153 @@
+use std::convert::Infallible;
+
+use proptest::prelude::*;
+
+use super::*;
+
+/// An answer of a search whose function cannot fail.
+fn sure<T>(answer: Result<T, Infallible>) -> T {
+    let Ok(found) = answer;
+    found
+}
+
+const EXACT: Close = Close { value: 0.0, width: 0.0 };
+
+#[test]
+fn signs_change_over_zero_and_not_over_what_is_no_number() {
+    assert!(changes(-1.0, 2.0) && changes(2.0, -1.0) && changes(0.0, 1.0) && changes(-1.0, 0.0) && changes(0.0, 0.0));
+    // Their product would be zero.
+    assert!(!changes(1e-200, 1e-200) && !changes(-1e-200, -1e-200));
+    assert!(!changes(f64::NAN, 1.0) && !changes(-1.0, f64::NAN) && !changes(f64::NAN, 0.0));
+}
+
+#[test]
+fn halves_end_at_an_end_where_nothing_changes() {
+    let ends = |before: bool| sure(halved([1.0, 2.0], 60, |_| Ok(before)));
+    assert_eq!((ends(true), ends(false)), ([2.0; 2], [1.0; 2]));
+    assert_eq!(halved([0.0, 1.0], 3, |x| if x < 0.3 { Err("out of reach") } else { Ok(false) }), Err("out of reach"));
+    assert_eq!(sure(halved([0.0, 1.0], 0, |_| Ok(true))), [0.0, 1.0]);
+}
+
+#[test]
+fn a_change_of_sign_is_looked_for_both_ways() {
+    let f = |x: f64| Ok::<f64, Infallible>(x * x - 9.0);
+    assert_eq!(sure(widened((0.0, -9.0), 1.0, 100.0, f)), Some([(2.0, -5.0), (4.0, 7.0)]));
+    assert_eq!(sure(widened((0.0, -9.0), -1.0, 100.0, f)), Some([(-2.0, -5.0), (-4.0, 7.0)]));
+    assert_eq!(sure(widened((0.0, -9.0), 1.0, 3.9, f)), None);
+    assert_eq!(sure(widened((0.0, -9.0), 0.0, 100.0, f)), None);
+    assert_eq!(sure(widened((0.0, -9.0), f64::NAN, 100.0, f)), None);
+    assert_eq!(sure(widened((0.0, -1.0), 1.0, 100.0, |_| Ok(f64::NAN))), None);
+    assert_eq!(widened((0.0, -9.0), 1.0, 100.0, |_| Err("fails")), Err("fails"));
+}
+
+#[test]
+fn regula_falsi_refuses_what_has_no_change_of_sign() {
+    let f = |x: f64| Ok::<f64, Infallible>(x - 0.3);
+    assert_eq!(sure(regula_falsi([(1.0, 0.7), (2.0, 1.7)], EXACT, 60, f)), None);
+    assert_eq!(sure(regula_falsi([(1.0, f64::NAN), (2.0, 1.7)], EXACT, 60, f)), None);
+    assert_eq!(sure(regula_falsi([(0.0, -0.3), (2.0, 1.7)], EXACT, 60, |_| Ok(f64::NAN))), None);
+    assert_eq!(sure(regula_falsi([(0.3, 0.0), (2.0, 1.7)], EXACT, 60, |_| panic!("known"))), Some(0.3));
+    assert_eq!(sure(regula_falsi([(0.0, -1.0), (2.0, 7.0)], EXACT, 1, |x| Ok(x * x * x - 1.0))), None);
+    assert_eq!(regula_falsi([(0.0, -0.3), (2.0, 1.7)], EXACT, 60, |_| Err("fails")), Err("fails"));
+}
+
+/// A bound that never moves would make regula falsi linear, here with 1000 steps and more.
+#[test]
+fn a_bound_does_not_stay_for_long() {
+    let mut steps = 0;
+    let f = |x: f64| x.powi(9) - 1e-3;
+    let found = regula_falsi([(0.0, f(0.0)), (2.0, f(2.0))], EXACT, 100, |x| {
+        steps += 1;
+        Ok::<f64, Infallible>(f(x))
+    });
+    assert!((sure(found).unwrap() - 1e-3f64.powf(1.0 / 9.0)).abs() < 1e-15 && steps < 50, "{found:?} {steps}");
+}
+
+#[test]
+fn newton_is_held_between_bounds() {
+    // From 0.1 Newton's method on atan(20 x) goes to -0.18, then to 0.7, and farther out each time.
+    let steep = |x: f64| Ok::<_, Infallible>(((20.0 * x).atan(), 20.0 / (1.0 + 400.0 * x * x)));
+    for (bounds, rises) in [([-0.3, 0.1], true), ([0.1, -0.3], false)] {
+        assert!(sure(newton(bounds, rises, 0.1, 1e-9, steep)).unwrap().abs() < f64::EPSILON);
+    }
+    // Without a slope halves alone are left.
+    let flat = |x: f64| Ok::<_, Infallible>((x - 0.3, 0.0));
+    assert!((sure(newton([0.0, 1.0], true, 0.5, 1e-9, flat)).unwrap() - 0.3).abs() < 1e-15);
+    let touched = |x: f64| Ok::<_, Infallible>(((x - 0.5).powi(3), 3.0 * (x - 0.5).powi(2)));
+    assert_eq!(sure(newton([0.0, 1.0], true, 0.5, 1e-9, touched)), Some(0.5));
+    assert_eq!(sure(newton([0.0, 1.0], true, 0.5, 1e-9, |_| Ok((f64::NAN, 1.0)))), None);
+    assert_eq!(newton([0.0, 1.0], true, 0.5, 1e-9, |_| Err("ends")), Err("ends"));
+}
+
+#[test]
+fn long_steps_are_not_taken() {
+    let f = |x: f64| Ok::<_, Infallible>((x * x - 2.0, 2.0 * x));
+    assert!((sure(polished(1.4, 4, f64::INFINITY, f)) - 2f64.sqrt()).abs() < 1e-15);
+    assert_eq!(sure(polished(1.4, 4, 1e-3, f)), 1.4);
+    assert_eq!(sure(polished(1.4, 4, 1.0, |_| Ok((0.0, 0.0)))), 1.4);
+    assert_eq!(polished(1.4, 4, 1.0, |_| Err("fails")), Err("fails"));
+}
+
+#[test]
+fn secants_keep_to_positive_lengths() {
+    let mut asked = 0;
+    let found = secants((2.0, 2f64.exp() - 3.0), 1.0, 10, |x: f64| {
+        asked += 1;
+        Ok::<f64, Infallible>(x.exp() - 3.0)
+    });
+    assert!((sure(found) - 3f64.ln()).abs() < 1e-15 && asked < 9, "{found:?} {asked}");
+    // The line through both values meets zero at -1.
+    assert_eq!(sure(secants((2.0, 3.0), 1.0, 6, |_| Ok(2.0))), 1.0);
+    assert_eq!(sure(secants((2.0, 3.0), 1.0, 6, |_| Ok(f64::NAN))), 1.0);
+    assert_eq!(secants((2.0, 3.0), 1.0, 6, |_| Err("fails")), Err("fails"));
+}
+
+/// A cubic that rises all the way, with its zero, and its slope.
+fn cubic(zero: f64, a: f64, b: f64) -> impl Fn(f64) -> (f64, f64) {
+    move |x: f64| {
+        let d = x - zero;
+        (a * d * d * d + b * d, 3.0 * a * d * d + b)
+    }
+}
+
+proptest! {
+    /// All ways come to the same zero, to rounding, from either sense.
+    #[test]
+    fn every_way_finds_the_zero(zero in -5.0f64..5.0, below in 0.01f64..10.0, above in 0.01f64..10.0, a in 0.0f64..10.0, b in 0.1f64..10.0,
+        falls in any::<bool>()) {
+        let sign = if falls { -1.0 } else { 1.0 };
+        let f = |x: f64| { let (value, slope) = cubic(zero, a, b)(x); (sign * value, sign * slope) };
+        let (low, high) = (zero - below, zero + above);
+        let near = |x: f64| (x - zero).abs() <= 4.0 * f64::EPSILON * low.abs().max(high.abs());
+        let [under, over] = sure(halved([low, high], 60, |x| Ok((f(x).0 > 0.0) == falls)));
+        prop_assert!(near(under) && near(over) && under <= over, "{under} {over}");
+        let ends = [low, high].map(|x| (x, f(x).0));
+        for ends in [ends, [ends[1], ends[0]]] {
+            let found = sure(regula_falsi(ends, EXACT, 100, |x| Ok(f(x).0)));
+            prop_assert!(found.is_some_and(near), "{found:?}");
+            let found = sure(newton(ends.map(|end| end.0), ends[1].1 > 0.0, ends[0].0, 1e-9, |x| Ok(f(x))));
+            prop_assert!(found.is_some_and(near), "{found:?}");
+        }
+        let polish = sure(polished(zero + 1e-3, 5, 1e-2, |x| Ok(f(x))));
+        prop_assert!(near(polish) || a * 1e-4 > b, "{polish}");
+        // From one end on, in the sense in which the zero lies, however far it is.
+        let wide = sure(widened(ends[0], 1e-3, 100.0, |x| Ok(f(x).0))).unwrap();
+        prop_assert!(wide[0].0 <= zero && zero <= wide[1].0 && changes(wide[0].1, wide[1].1));
+        let of_length = |length: f64| f(low + length).0;
+        let known = 1.1 * below;
+        let length = sure(secants((known, of_length(known)), 1.05 * below, 12, |length| Ok(of_length(length))));
+        prop_assert!((length - below).abs() <= 16.0 * f64::EPSILON * low.abs().max(high.abs()), "{length} {below}");
+    }
+
+    /// The width that is asked for is kept, and no more steps are made than it takes.
+    #[test]
+    fn regula_falsi_ends_when_it_is_told(zero in -1.0f64..1.0, tolerance in 1e-9f64..1e-2) {
+        let f = |x: f64| (x - zero).exp() - 1.0;
+        let ends = [-2.0, 2.0].map(|x| (x, f(x)));
+        let by_value = sure(regula_falsi(ends, Close { value: tolerance, width: 0.0 }, 100, |x| Ok(f(x)))).unwrap();
+        prop_assert!(f(by_value).abs() <= tolerance);
+        let mut steps = 0;
+        let by_width = regula_falsi(ends, Close { value: 0.0, width: tolerance }, 100, |x| { steps += 1; Ok(f(x)) });
+        prop_assert!((sure(by_width).unwrap() - zero).abs() <= tolerance && steps < 30, "{steps}");
+    }
+}
