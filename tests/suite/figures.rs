@@ -138,7 +138,9 @@ fn val_crank_rocker_printed_mass_and_inertia_show_in_the_mean_reduced_inertia() 
             assert_eq!(text.matches(from).count(), 1, "{from}");
             text.replace(from, to)
         });
-        analytic::reduced::means::means_over_turn(&Scenario::parse(&wrong, &path).unwrap().case, solver).unwrap().inertia
+        analytic::reduced::means::means_over_turn(&Scenario::parse(&wrong, &path).unwrap().case, solver)
+            .unwrap()
+            .inertia
     };
     // m l^2 / 12 of 22.6 kg, and the listed m l^2 / 5 of 2.6 kg.
     let mass = ("mass_kg = 2.6", "mass_kg = 22.6");

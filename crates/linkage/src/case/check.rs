@@ -3,6 +3,7 @@
 use super::{CaseParts, Grid};
 use crate::drive::{Course, Drive, DriveMotion, Load, MotionLaw, Motor, MotorLaw};
 use crate::error::{Error, ErrorKind, Result};
+use crate::math::KeepNan;
 use crate::math::unit;
 use crate::mechanism::{AssemblyMode, GROUND, GroupKind, JointKind, LinkPose, Side, Structure};
 
@@ -200,7 +201,7 @@ fn start(parts: &CaseParts) -> Result<()> {
         return Err(wrong("start", format!("link \"{}\" has no place in the start pose: {pose:?}", link.name)));
     }
     let crank = parts.drives.crank().start.to_degrees();
-    let reach = poses.iter().fold(mechanism.size(), |most, pose| most.max(pose.origin.norm()));
+    let reach = poses.iter().fold(mechanism.size(), |most, pose| most.larger(pose.origin.norm()));
     for joint in mechanism.joints() {
         let sides = [joint.first, joint.second];
         let places = sides.map(|side| poses[side.link].point(side.local));

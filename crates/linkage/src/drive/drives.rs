@@ -1,5 +1,6 @@
 //! All driving links of a mechanism in one list.
 
+use crate::math::KeepNan;
 use std::ops::Deref;
 
 use super::Drive;
@@ -76,7 +77,7 @@ impl Drives {
     /// Largest speed of a driving link (rad/s), without sign.
     #[must_use]
     pub fn top_speed(&self) -> f64 {
-        self.0.iter().fold(0.0, |most: f64, drive| most.max(drive.top_speed().abs()))
+        self.0.iter().fold(0.0, |most: f64, drive| most.larger(drive.top_speed().abs()))
     }
 }
 

@@ -68,6 +68,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
+    use crate::math::KeepNan;
 
     #[test]
     fn a_peak_between_samples_is_found() {
@@ -115,7 +116,7 @@ mod tests {
             let samples: Vec<f64> = places.iter().map(|&x| f(x)).collect();
             let (place, value) = greatest(&places, &samples, &mut |x| Ok::<f64, ()>(f(x))).unwrap();
             prop_assert!(samples.iter().all(|&sample| value >= sample) && value == f(place));
-            let dense = (0..7000).map(|k| f(k as f64 * 1e-3)).fold(f64::NEG_INFINITY, f64::max);
+            let dense = (0..7000).map(|k| f(k as f64 * 1e-3)).fold(f64::NEG_INFINITY, f64::larger);
             // Two peaks of nearly the same height may be told wrongly by the samples, by a parabola's height between two of them.
             prop_assert!(value >= dense - 5.0 * (7.0 / count as f64).powi(2), "{value} {dense}");
         }

@@ -3,6 +3,8 @@
 //! Each function says what it needs of the one it searches, and where it ends. Functions may fail (`E`): the first error ends a search.
 //! What is not a number is never taken for a zero.
 
+use crate::math::KeepNan;
+
 /// Whether the values at two places have different signs, or one of them is zero. What is not a number has no sign.
 #[inline]
 #[must_use]
@@ -93,8 +95,8 @@ pub fn regula_falsi<E>(
         // A mean weighted with positive weights: it lies between the bounds, and no digits are lost.
         let at = (held.0 * last.1 - last.0 * held.1) / (last.1 - held.1);
         let found = value(at)?;
-        let rounding = 4.0 * f64::EPSILON * held.0.abs().max(last.0.abs());
-        if found.abs() <= close.value || (last.0 - held.0).abs() <= close.width.max(rounding) {
+        let rounding = 4.0 * f64::EPSILON * held.0.abs().larger(last.0.abs());
+        if found.abs() <= close.value || (last.0 - held.0).abs() <= close.width.larger(rounding) {
             return Ok(Some(at));
         }
         if found.is_nan() {
@@ -140,7 +142,7 @@ pub fn newton<E>(
         if (next - at).abs() <= settled {
             return Ok(Some(next));
         }
-        let [low, high] = [bounds[0].min(bounds[1]), bounds[0].max(bounds[1])];
+        let [low, high] = [bounds[0].smaller(bounds[1]), bounds[0].larger(bounds[1])];
         at = if next > low && next < high { next } else { f64::midpoint(low, high) };
         if !(low < at && at < high) {
             break;

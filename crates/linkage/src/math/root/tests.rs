@@ -3,6 +3,7 @@ use std::convert::Infallible;
 use proptest::prelude::*;
 
 use super::*;
+use crate::math::KeepNan;
 
 /// An answer of a search whose function cannot fail.
 fn sure<T>(answer: Result<T, Infallible>) -> T {
@@ -118,7 +119,7 @@ proptest! {
         let sign = if falls { -1.0 } else { 1.0 };
         let f = |x: f64| { let (value, slope) = cubic(zero, a, b)(x); (sign * value, sign * slope) };
         let (low, high) = (zero - below, zero + above);
-        let near = |x: f64| (x - zero).abs() <= 4.0 * f64::EPSILON * low.abs().max(high.abs());
+        let near = |x: f64| (x - zero).abs() <= 4.0 * f64::EPSILON * low.abs().larger(high.abs());
         let [under, over] = sure(halved([low, high], 60, |x| Ok((f(x).0 > 0.0) == falls)));
         prop_assert!(near(under) && near(over) && under <= over, "{under} {over}");
         let ends = [low, high].map(|x| (x, f(x).0));
@@ -136,7 +137,7 @@ proptest! {
         let of_length = |length: f64| f(low + length).0;
         let known = 1.1 * below;
         let length = sure(secants((known, of_length(known)), 1.05 * below, 12, |length| Ok(of_length(length))));
-        prop_assert!((length - below).abs() <= 16.0 * f64::EPSILON * low.abs().max(high.abs()), "{length} {below}");
+        prop_assert!((length - below).abs() <= 16.0 * f64::EPSILON * low.abs().larger(high.abs()), "{length} {below}");
     }
 
     /// The width that is asked for is kept, and no more steps are made than it takes.
