@@ -1,5 +1,6 @@
 //! All driving links of a mechanism in one list.
 
+use crate::math::KeepNan;
 use std::ops::Deref;
 
 use super::Drive;

@@ -3,6 +3,7 @@ use std::convert::Infallible;
 use proptest::prelude::*;
 
 use super::*;
+use crate::math::KeepNan;
 
 /// An answer of a search whose function cannot fail.
 fn sure<T>(answer: Result<T, Infallible>) -> T {
