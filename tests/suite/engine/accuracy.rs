@@ -251,7 +251,7 @@ fn regress_60_single_precision_is_within_its_rounding_bound() {
                 });
                 assert!(super::epsilon(engines[1].as_ref()) > 1e-8);
                 let [wide, narrow] = [0, 1].map(|k| solve(engines[k].as_ref(), &case));
-                let mut used: std::collections::BTreeMap<(Stage, Unit), f64> = Default::default();
+                let mut used: std::collections::BTreeMap<(Stage, &str), f64> = Default::default();
                 for residual in residuals(&wide, &narrow).unwrap() {
                     let kind = residual.channel.kind;
                     let noise = engines[1].noise(&case, kind);

@@ -4,7 +4,6 @@ use crate::math::KeepNan;
 use std::ops::Deref;
 
 use super::Drive;
-use crate::math::KeepNan;
 
 /// The driving links of a mechanism, the crank first: the one by whose angle instants are told. At least one; in the
 /// order of
