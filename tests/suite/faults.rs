@@ -20,7 +20,7 @@ fn edited(from: &str, to: &str) -> String {
 }
 
 fn against(wrong: &str) -> Proof {
-    let proof = prove_against(&scenario(TEXT), &scenario(wrong).case, &Options::default(), &mut |_| {});
+    let proof = prove_against(&scenario(TEXT), &scenario(wrong).case, &Options::default());
     proof.unwrap_or_else(|error| panic!("{error}"))
 }
 
@@ -184,11 +184,11 @@ fn how_small_a_fault_is_found() {
 fn engines_that_agree_against_the_reference_make_it_the_odd_one_out() {
     let options = Options { engines: vec!["rapier".into(), "impulse".into()], ..Options::default() };
     let wrong = scenario(&edited("mass_kg = 34.7", "mass_kg = 34.8"));
-    let proof = prove_against(&scenario(TEXT), &wrong.case, &options, &mut |_| {}).unwrap();
+    let proof = prove_against(&scenario(TEXT), &wrong.case, &options).unwrap();
     assert_eq!(proof.verdict.word(), "disagree");
     let odd: Vec<&str> = proof.disputes.iter().filter_map(|dispute| dispute.odd).collect();
     assert!(odd.len() > 3 && odd.iter().all(|name| *name == "assur"), "{:?}", proof.disputes);
 
-    let right = prove_against(&scenario(TEXT), &scenario(TEXT).case, &options, &mut |_| {}).unwrap();
+    let right = prove_against(&scenario(TEXT), &scenario(TEXT).case, &options).unwrap();
     assert!(right.disputes.is_empty(), "{:?}", right.disputes);
 }
