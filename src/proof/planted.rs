@@ -217,7 +217,7 @@ fn engine_proof(scenario: &Scenario, fault: Fault, size: f64) -> EngineProof {
     let rapier = Rapier::all(scenario.dt).into_iter().next().unwrap();
     let inner = Box::new(rapier) as Box<dyn Engine>;
     let engine: Planted<dyn Engine> = Planted { fault, size, inner };
-    engines::prove(scenario, &scenario.case, &engine, &reference).unwrap()
+    engines::prove(scenario, &scenario.case, &engine, &reference, &mut |_| {}).unwrap()
 }
 
 /// An opening that does not vanish with the step, and a moment that its powers do not bear out: both far below 1 % of the size.

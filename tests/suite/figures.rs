@@ -26,7 +26,8 @@ fn solve(solver: &dyn Solver, case: &Case) -> Trajectory {
 }
 
 fn proof(name: &str, step: Option<f64>) -> Proof {
-    prove(&scenario(name), &Options { step, ..Options::default() }).unwrap()
+    let options = step.map_or_else(Options::default, |step| Options::default().step(step));
+    prove(&scenario(name), &options).unwrap()
 }
 
 /// A turn in steps of a tenth of a degree, in the sense of the drive.

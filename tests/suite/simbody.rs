@@ -14,6 +14,7 @@ use linkage::math::{KeepNan, Vec2};
 use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Stage, Trajectory, Unit};
 use linkproof::compare::{Verdict, residuals};
+use linkproof::engines::EngineName;
 use linkproof::proof::{Options, prove};
 use simbody_twin::Simbody;
 
@@ -266,7 +267,7 @@ fn positions_alone_are_the_same_positions() {
 #[test]
 fn a_proof_with_simbody_agrees() {
     for name in ["crank_rocker.toml", "quick_return.toml"] {
-        let proof = prove(&shipped(name), &Options::of_engine("simbody"));
+        let proof = prove(&shipped(name), &Options::default().engine(EngineName::Simbody));
         let proof = proof.unwrap();
         assert_eq!(proof.verdict.word(), "agree", "{name}: {:?}", proof.verdict);
         assert!(proof.engine().info.version.starts_with("Simbody 3."), "{}", proof.engine().info.version);
@@ -344,7 +345,7 @@ fn run_ups_and_pendulums_are_those_of_the_reference() {
         let worst = all.iter().map(|r| r.share()).fold(0.0, f64::larger);
         println!("{name}: {worst:.1e} of the scale");
         assert_within!(worst, 1e-6, "{name}: {worst:e}");
-        let proof = prove(&shipped(&format!("{name}.toml")), &Options::of_engine("simbody")).unwrap();
+        let proof = prove(&shipped(&format!("{name}.toml")), &Options::default().engine(EngineName::Simbody)).unwrap();
         // The compressor's pistons have channels of a thousandth of what is natural, of which its accuracy proves nothing.
         assert!(!matches!(proof.verdict, Verdict::Disagree { .. }), "{name}: {:?}", proof.verdict);
         agreed += usize::from(matches!(proof.verdict, Verdict::Agree { .. }));

@@ -10,6 +10,7 @@ use linkage::mechanism::Mechanism;
 use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Stage, Trajectory, Unit};
 use linkproof::compare::{Verdict, residuals};
+use linkproof::engines::EngineName;
 use linkproof::proof::{Options, prove};
 use linkproof::scenario::Scenario;
 
@@ -173,7 +174,7 @@ fn an_ill_conditioned_run_up_is_inconclusive_with_its_sensitivity() {
     let mut scenario = shipped("crank_rocker_runup.toml");
     let motor = Motor { inertia: Default::default(), ..scenario.case.crank().motor().unwrap().clone() };
     scenario.case = scenario.case.with_motor(Some(motor)).unwrap();
-    let proof = prove(&scenario, &Options::of_engine("rapier")).unwrap();
+    let proof = prove(&scenario, &Options::default().engine(EngineName::Rapier)).unwrap();
     assert!(matches!(proof.verdict, Verdict::Inconclusive { .. }), "{:?}", proof.verdict);
     let unclear: Vec<_> = proof.engine().channels.iter().filter(|c| c.verdict.word() == "inconclusive").collect();
     assert!(!unclear.is_empty());

@@ -3,6 +3,7 @@
 use analytic::{self, AssurSolver, NewtonSolver};
 use linkage::ErrorKind;
 use linkage::solver::Solver;
+use linkproof::engines::EngineName;
 use linkproof::proof::{Options, prove};
 
 use super::stepping;
@@ -17,7 +18,7 @@ fn regress_40_steps_that_are_too_large_prove_nothing() {
     let scenario = shipped("crank_rocker.toml");
     for engine in stepping(1e-3) {
         for step in [0.05, 0.02, 0.01] {
-            let options = Options { step: Some(step), ..Options::of_engine(engine.name()) };
+            let options = Options::default().engine(EngineName::named(engine.name()).unwrap()).step(step);
             match prove(&scenario, &options) {
                 Ok(proof) => {
                     assert_eq!(proof.verdict.word(), "inconclusive", "{step}: {:?}", proof.verdict);
