@@ -1,7 +1,7 @@
 //! All engines: one variant and one line each.
 
 use linkage::engine::Engine;
-use linkage::error::{Error, ErrorKind, Result};
+use linkage::error::Result;
 use rapier_twin::{Build, Precision, Rapier};
 
 /// An engine by name.
@@ -67,7 +67,7 @@ impl EngineName {
     /// its own if it controls its error.
     ///
     /// # Errors
-    /// [`ErrorKind::Unsupported`] if this build does not have it, with the feature that it needs.
+    /// [`ErrorKind::Unsupported`](linkage::ErrorKind::Unsupported) if this build does not have it, with the feature that it needs.
     pub fn with_step(self, step: f64) -> Result<Box<dyn Engine>> {
         let rapier =
             |build, precision| -> Result<Box<dyn Engine>> { Ok(Box::new(Rapier::new(build, precision, step))) };
@@ -88,10 +88,11 @@ impl EngineName {
     }
 
     #[cfg(not(all(feature = "f32", feature = "simbody")))]
-    fn missing(self) -> Error {
+    fn missing(self) -> linkage::Error {
         let (name, feature) = (self.name(), self.feature().unwrap_or_default());
         let message = format!("the engine \"{name}\" is asked for, but this build does not have it");
-        Error::new(ErrorKind::Unsupported, message).help(format!("build with the cargo feature \"{feature}\""))
+        linkage::Error::new(linkage::ErrorKind::Unsupported, message)
+            .help(format!("build with the cargo feature \"{feature}\""))
     }
 }
 

@@ -38,8 +38,7 @@ pub(super) struct EngineArgs {
 impl EngineArgs {
     /// The options of a proof with these arguments.
     pub(super) fn options(&self, reference: &str) -> Options {
-        let mut options = Options::default();
-        options.reference = Reference::named(reference).unwrap_or_default();
+        let mut options = Options::default().reference(Reference::named(reference).unwrap_or_default());
         options.engines = self.engine.iter().filter_map(|name| EngineName::named(name)).collect();
         if self.engine.iter().any(|name| name == ALL) {
             options = options.every_engine();
