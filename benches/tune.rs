@@ -10,6 +10,7 @@ use std::time::Instant;
 use linkage::case::{Case, Grid, Wanted};
 use linkage::engine::{Engine, Route, Settings};
 use linkage::trajectory::Stage;
+use linkproof::engines::EngineName;
 use linkproof::proof::Options;
 use linkproof::scenario::Scenario;
 use linkproof::tune::{Wish, tune};
@@ -43,7 +44,7 @@ fn seconds(engine: &dyn Engine, case: &Case, repeats: usize) -> f64 {
     let mut shortest = f64::INFINITY;
     for _ in 0..repeats {
         let since = Instant::now();
-        if black_box(engine.solve(case, &mut |_| {})).is_err() {
+        if black_box(engine.solve(case)).is_err() {
             return f64::INFINITY;
         }
         shortest = shortest.smaller(since.elapsed().as_secs_f64());
@@ -93,8 +94,8 @@ fn compare(name: &str) {
     let scenario = thinned(scenario(name), EVERY);
     let case = &scenario.case;
     let engines = linkproof::engines::all(1e-3).into_iter().filter(|engine| !engine.controls_error());
-    let engines = engines.map(|engine| engine.name().to_string()).collect();
-    let options = Options { engines, ..Options::default() };
+    let named = engines.filter_map(|engine| EngineName::named(engine.name()));
+    let options = named.fold(Options::default(), Options::engine);
     let wish = Wish { within: WITHIN, channels: Vec::new() };
     let mut price = |_: &dyn Engine, run: &mut dyn FnMut() -> linkage::Result<()>| {
         let mut shortest = f64::INFINITY;

@@ -42,7 +42,7 @@ fn measure(engine: &dyn Engine, scenario: &Scenario, reference: &Trajectory, res
     let mut found = None;
     for _ in 0..REPEATS {
         let since = Instant::now();
-        found = Some(engine.solve(&scenario.case, &mut |_| {}).ok()?);
+        found = Some(engine.solve(&scenario.case).ok()?);
         shortest = shortest.smaller(since.elapsed().as_secs_f64());
         if shortest > 1.0 {
             break;
@@ -63,7 +63,7 @@ fn main() {
     let name = std::env::args().skip(1).find(|word| !word.starts_with('-')).unwrap_or_else(|| "crank_rocker".into());
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios").join(format!("{name}.toml"));
     let scenario = Scenario::load(&path).unwrap_or_else(|error| panic!("{error}"));
-    let reference = AssurSolver.solve(&scenario.case, &mut |_| {}).unwrap_or_else(|error| panic!("{error}"));
+    let reference = AssurSolver.solve(&scenario.case).unwrap_or_else(|error| panic!("{error}"));
     let omega = scenario.case.crank().at(0.0).omega.abs();
     let mut rows = Vec::new();
     for engine in linkproof::engines::all(scenario.dt) {

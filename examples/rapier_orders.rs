@@ -17,7 +17,7 @@ use linkproof::scenario::Scenario;
 
 fn solve(solver: &dyn Solver, case: &Case) -> Option<(Trajectory, f64)> {
     let since = Instant::now();
-    match solver.solve(case, &mut |_| {}) {
+    match solver.solve(case) {
         Ok(found) => Some((found, since.elapsed().as_secs_f64())),
         Err(error) => {
             println!("{:12} {error}", solver.name());

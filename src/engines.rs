@@ -1,16 +1,110 @@
-//! All engines: one line each.
+//! All engines: one variant and one line each.
 
 use linkage::engine::Engine;
+use linkage::error::{Error, ErrorKind, Result};
+use rapier_twin::{Build, Precision, Rapier};
 
-/// Every engine, the default first, each with its own default settings: those with a fixed step at the time step `step` (s), those
-/// that control their error at an accuracy of their own.
+/// An engine by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum EngineName {
+    /// Rapier, a spanning tree as a multibody, loops closed by impulse joints, f64: the default.
+    Rapier,
+    /// The same in single precision; needs the feature `f32`.
+    RapierF32,
+    /// Rapier, every link a body of its own, f64.
+    Impulse,
+    /// The same in single precision; needs the feature `f32`.
+    ImpulseF32,
+    /// Simbody; needs the feature `simbody`, and the library.
+    Simbody,
+}
+
+impl EngineName {
+    /// All engines, the default first, whether this build has them or not.
+    pub const ALL: [EngineName; 5] =
+        [EngineName::Rapier, EngineName::RapierF32, EngineName::Impulse, EngineName::ImpulseF32, EngineName::Simbody];
+
+    /// Name, as on the command line and in scenario files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            EngineName::Rapier => "rapier",
+            EngineName::RapierF32 => "rapier-f32",
+            EngineName::Impulse => "impulse",
+            EngineName::ImpulseF32 => "impulse-f32",
+            EngineName::Simbody => "simbody",
+        }
+    }
+
+    /// The engine called `name`.
+    #[must_use]
+    pub fn named(name: &str) -> Option<EngineName> {
+        EngineName::ALL.into_iter().find(|engine| engine.name() == name)
+    }
+
+    /// Cargo feature without which a build does not have the engine.
+    #[must_use]
+    pub fn feature(self) -> Option<&'static str> {
+        match self {
+            EngineName::Rapier | EngineName::Impulse => None,
+            EngineName::RapierF32 | EngineName::ImpulseF32 => Some("f32"),
+            EngineName::Simbody => Some("simbody"),
+        }
+    }
+
+    /// Whether this build has the engine.
+    #[must_use]
+    pub fn is_built(self) -> bool {
+        match self {
+            EngineName::Rapier | EngineName::Impulse => true,
+            EngineName::RapierF32 | EngineName::ImpulseF32 => cfg!(feature = "f32"),
+            EngineName::Simbody => cfg!(feature = "simbody"),
+        }
+    }
+
+    /// The engine with its own default settings: at the time step `step` (s) if it has a fixed one, at an accuracy of
+    /// its own if it controls its error.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Unsupported`] if this build does not have it, with the feature that it needs.
+    pub fn with_step(self, step: f64) -> Result<Box<dyn Engine>> {
+        let rapier =
+            |build, precision| -> Result<Box<dyn Engine>> { Ok(Box::new(Rapier::new(build, precision, step))) };
+        match self {
+            EngineName::Rapier => rapier(Build::Multibody, Precision::Double),
+            EngineName::Impulse => rapier(Build::Impulse, Precision::Double),
+            #[cfg(feature = "f32")]
+            EngineName::RapierF32 => rapier(Build::Multibody, Precision::Single),
+            #[cfg(feature = "f32")]
+            EngineName::ImpulseF32 => rapier(Build::Impulse, Precision::Single),
+            #[cfg(feature = "simbody")]
+            EngineName::Simbody => Ok(Box::new(simbody_twin::Simbody::new(simbody_twin::Simbody::ACCURACY))),
+            #[cfg(not(feature = "f32"))]
+            EngineName::RapierF32 | EngineName::ImpulseF32 => Err(self.missing()),
+            #[cfg(not(feature = "simbody"))]
+            EngineName::Simbody => Err(self.missing()),
+        }
+    }
+
+    #[cfg(not(all(feature = "f32", feature = "simbody")))]
+    fn missing(self) -> Error {
+        let (name, feature) = (self.name(), self.feature().unwrap_or_default());
+        let message = format!("the engine \"{name}\" is asked for, but this build does not have it");
+        Error::new(ErrorKind::Unsupported, message).help(format!("build with the cargo feature \"{feature}\""))
+    }
+}
+
+/// Every engine that this build has, the default first, as [`EngineName::with_step`] makes it.
 #[must_use]
 pub fn all(step: f64) -> Vec<Box<dyn Engine>> {
-    let rapier = rapier_twin::Rapier::all(step).into_iter().map(|engine| Box::new(engine) as Box<dyn Engine>);
-    #[cfg(feature = "simbody")]
-    let rapier =
-        rapier.chain([Box::new(simbody_twin::Simbody::new(simbody_twin::Simbody::ACCURACY)) as Box<dyn Engine>]);
-    rapier.collect()
+    EngineName::ALL.into_iter().filter_map(|engine| engine.with_step(step).ok()).collect()
+}
+
+/// The engine called `name`, as [`all`] has it.
+#[must_use]
+pub fn named(name: &str, step: f64) -> Option<Box<dyn Engine>> {
+    EngineName::named(name)?.with_step(step).ok()
 }
 
 /// Whether the current thread is inside a step of an engine whose panic is caught and becomes an error: for the panic
@@ -18,10 +112,4 @@ pub fn all(step: f64) -> Vec<Box<dyn Engine>> {
 #[must_use]
 pub fn panic_is_caught() -> bool {
     rapier_twin::is_guarded()
-}
-
-/// The engine called `name`, as [`all`] has it.
-#[must_use]
-pub fn named(name: &str, step: f64) -> Option<Box<dyn Engine>> {
-    all(step).into_iter().find(|engine| engine.name() == name)
 }

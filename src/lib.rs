@@ -1,18 +1,85 @@
 //! Builds every planar mechanism twice, once analytically and once as a Rapier multibody, and proves that the two agree.
 //!
-//! One line, one fork, one join: a [`scenario`] becomes a [`case`], the case is solved by an analytic
-//! [`reference`](mod@reference) and by an [`engine`], both answer with a [`trajectory`], and only trajectories are
-//! compared ([`compare`]). [`proof`] runs the whole line; [`record`] and [`report`] tell what came out.
+//! One line, one fork, one join: a [`Scenario`] holds a [`Case`], an analytic side and an engine solve it, and their
+//! trajectories are compared. [`prove`] runs the whole line; [`solve`] gives the analytic solution alone.
 //!
-//! SI units and world axes (x right, y up, angles counter-clockwise from +x) everywhere inside; other units exist
+//! From a file:
+//!
+//! ```
+//! use linkproof::{Options, Scenario, prove};
+//!
+//! # std::env::set_current_dir(env!("CARGO_MANIFEST_DIR"))?;
+//! let scenario = Scenario::load("scenarios/crank_rocker.toml".as_ref())?;
+//! let proof = prove(&scenario, &Options::default())?;
+//! println!("{}", proof.verdict.word());
+//! # assert_eq!(proof.verdict.word(), "agree");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! From code, in SI units:
+//!
+//! ```
+//! use linkproof::parts::AssemblyMode;
+//! use linkproof::{Case, Options, Scenario, prove};
+//!
+//! let case = Case::builder()
+//!     .ground(&[("O", [0.0, 0.0]), ("C", [0.4, 0.0])])
+//!     .link("crank", &[("O", [0.0, 0.0]), ("A", [0.1, 0.0])])
+//!     .link("coupler", &[("A", [0.0, 0.0]), ("B", [0.35, 0.0])])
+//!     .link("rocker", &[("C", [0.0, 0.0]), ("B", [0.25, 0.0])])
+//!     .mass("coupler", 2.0, [0.175, 0.0], 0.02)
+//!     .pin("O", "ground", "crank")
+//!     .pin("A", "crank", "coupler")
+//!     .pin("B", "coupler", "rocker")
+//!     .pin("C", "ground", "rocker")
+//!     .crank("O", 10.0)
+//!     .mode(&["coupler", "rocker"], AssemblyMode::Left)
+//!     .build()?;
+//! let proof = prove(&Scenario::of_case("four_bar", case, 5e-4)?, &Options::default())?;
+//! # assert_eq!(proof.verdict.word(), "agree");
+//! # Ok::<(), linkproof::parts::Error>(())
+//! ```
+//!
+//! SI units and world axes (x right, y up, angles counter-clockwise from +x) everywhere; other units exist
 //! only in scenario files and carry their suffix there.
 
+#[doc(hidden)]
 pub mod cli;
+#[doc(hidden)]
 pub mod compare;
+#[doc(hidden)]
 pub mod engines;
+#[doc(hidden)]
 pub mod proof;
+#[doc(hidden)]
 pub mod record;
+#[doc(hidden)]
 pub mod report;
+#[doc(hidden)]
 pub mod scenario;
+#[doc(hidden)]
 pub mod tolerance;
+#[doc(hidden)]
 pub mod tune;
+
+#[doc(inline)]
+pub use compare::Verdict;
+#[doc(inline)]
+pub use linkage::case::Case;
+#[doc(inline)]
+pub use proof::{Options, Proof, prove, solve};
+#[doc(inline)]
+pub use scenario::Scenario;
+
+/// What the front door's signatures name besides: errors, choices, what a proof and a solution consist of.
+pub mod parts {
+    pub use crate::compare::{Check, Residual};
+    pub use crate::engines::EngineName;
+    pub use crate::proof::{ChannelProof, EngineInfo, EngineProof, Reference, prove_with};
+    pub use linkage::case::{CaseBuilder, Grid, Wanted};
+    pub use linkage::drive::{Load, MotionLaw};
+    pub use linkage::engine::Route;
+    pub use linkage::error::{Advice, Error, ErrorKind};
+    pub use linkage::mechanism::AssemblyMode;
+    pub use linkage::trajectory::{Channel, Stage, Trajectory};
+}

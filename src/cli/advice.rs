@@ -3,7 +3,6 @@
 use linkage::error::Advice;
 
 /// What a user of the command line is told.
-#[expect(clippy::wildcard_enum_match_arm, reason = "advice without a flag of its own is told in words")]
 pub(super) fn told(advice: &Advice) -> String {
     match advice {
         Advice::SmallerStep { to } => format!("choose a smaller time step{}", option("--dt", *to)),

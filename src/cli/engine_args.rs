@@ -2,8 +2,12 @@
 
 use clap::builder::PossibleValuesParser;
 
-use crate::proof::Options;
+use crate::engines::EngineName;
+use crate::proof::{Options, Reference};
 use linkage::engine::Route;
+
+/// Every engine of this build, in place of a name.
+const ALL: &str = "all";
 
 /// Which engines, and how they are set.
 #[derive(Clone, Debug, clap::Args)]
@@ -34,23 +38,27 @@ pub(super) struct EngineArgs {
 impl EngineArgs {
     /// The options of a proof with these arguments.
     pub(super) fn options(&self, reference: &str) -> Options {
-        Options {
-            reference: reference.into(),
-            engines: self.engine.clone(),
-            step: self.dt,
-            accuracy: self.accuracy,
-            sweeps: self.sweeps,
-            substeps: self.substeps,
-            route: self.route.clone(),
-            extrapolated: self.extrapolate.then_some(true),
+        let mut options = Options::default();
+        options.reference = Reference::named(reference).unwrap_or_default();
+        options.engines = self.engine.iter().filter_map(|name| EngineName::named(name)).collect();
+        if self.engine.iter().any(|name| name == ALL) {
+            options = options.every_engine();
         }
+        options.step = self.dt;
+        options.accuracy = self.accuracy;
+        options.sweeps = self.sweeps;
+        options.substeps = self.substeps;
+        options.route = self.route.as_deref().and_then(Route::named);
+        options.extrapolated = self.extrapolate.then_some(true);
+        options
     }
 }
 
+/// Names of all engines. The build may lack some: asked for, they say what they need.
 pub(super) fn engine_names() -> Vec<&'static str> {
-    crate::engines::all(1.0).iter().map(|engine| engine.name()).collect()
+    EngineName::ALL.map(EngineName::name).to_vec()
 }
 
 fn names_and_all() -> Vec<&'static str> {
-    [engine_names(), vec!["all"]].concat()
+    [engine_names(), vec![ALL]].concat()
 }

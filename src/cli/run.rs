@@ -12,7 +12,7 @@ use super::load::{load, reference_names};
 use super::progress::Bar;
 use super::{advice, exit_code, output};
 use crate::compare::Verdict;
-use crate::proof::{EngineProof, Proof, prove};
+use crate::proof::{EngineProof, Proof, prove_with};
 use crate::record::{self as recorder, Level, LogEntry, Recording, Side};
 use crate::report::{json, residuals, text};
 use crate::scenario::Scenario;
@@ -110,7 +110,7 @@ fn prove_file(args: &Args, file: &Path, quiet: bool) -> Result<(Scenario, Proof)
     let scenario = load(file, &args.mode)?;
     let options = args.engine.options(&args.reference);
     let mut bar = Bar::new(&scenario.name);
-    let proof = prove(&scenario, &options, &mut |part| bar.at(part))?;
+    let proof = prove_with(&scenario, &options, &mut |part| bar.at(part))?;
     drop(bar);
     let proof = match args.tolerance_scale {
         Some(dial) if dial > 0.0 => proof.with_bounds_scaled(dial),

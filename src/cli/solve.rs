@@ -9,6 +9,7 @@ use super::grid::Range;
 use super::load::{load, reference_names};
 use super::output;
 use super::progress::Bar;
+use crate::engines::EngineName;
 use analytic::range::explained;
 use linkage::case::{Case, Grid};
 use linkage::error::{Error, ErrorKind, Result};
@@ -61,12 +62,11 @@ pub(super) fn solve(args: &Args) -> Result<()> {
     let mut progress = |part| bar.at(part);
     let trajectory = match analytic::named(&args.with) {
         Some(_) if args.dt.is_some() => return Err(no_step(&args.with)),
-        Some(solver) => solver.solve(&case, &mut progress).map_err(|error| explained(&case, error))?,
+        Some(solver) => solver.solve_with(&case, &mut progress).map_err(|error| explained(&case, error))?,
         None => {
             let step = args.dt.unwrap_or(scenario.dt);
-            crate::engines::named(&args.with, step)
-                .expect("the argument parser knows all names")
-                .solve(&case, &mut progress)?
+            let engine = EngineName::named(&args.with).expect("the argument parser knows all names");
+            engine.with_step(step)?.solve_with(&case, &mut progress)?
         }
     };
     drop(bar);

@@ -60,7 +60,7 @@ pub(super) fn run(args: &Args) -> Result<()> {
     let wish = Wish { within: args.within, channels: args.channel.clone() };
     let mut options = args.engine.options("assur");
     if options.engines.is_empty() {
-        options.engines.push("all".into());
+        options = options.every_engine();
     }
     let mut bar = Bar::new(&scenario.name);
     let mut price = |_: &dyn Engine, run: &mut dyn FnMut() -> Result<()>| {

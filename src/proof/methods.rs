@@ -185,7 +185,7 @@ pub(super) fn checks(case: &Case, reference: &dyn Solver) -> Result<Vec<Check>> 
         watches.iter_mut().for_each(|watch| watch.see(case, row, state));
         Ok(())
     };
-    reference.sweep(case, &mut visit, &mut |_| {})?;
+    reference.each(case, &mut visit)?;
     let several = watches.len() > 1;
     let of_one = |watch: Watch| {
         let base = &case.mechanism.links()[watch.triad.base].name;

@@ -13,7 +13,7 @@ mod planted;
 mod sensitivity;
 
 pub use engines::{ChannelProof, EngineInfo, EngineProof};
-pub use options::Options;
+pub use options::{Options, Reference};
 pub use parties::Dispute;
 
 use crate::compare::{Check, Verdict, overall};
@@ -26,7 +26,21 @@ use linkage::trajectory::Trajectory;
 use observe::observe;
 
 /// Everything that one proof found out.
+///
+/// ```
+/// use linkproof::{Options, Scenario, prove};
+///
+/// # std::env::set_current_dir(env!("CARGO_MANIFEST_DIR"))?;
+/// let scenario = Scenario::load("scenarios/pendulum.toml".as_ref())?;
+/// let proof = prove(&scenario, &Options::default())?;
+/// println!("{}: {} by {}", proof.scenario, proof.verdict.word(), proof.engine().info.version);
+/// for channel in &proof.engine().channels {
+///     println!("{}: {:e} of {:e}", channel.residual.channel, channel.residual.max, channel.bound);
+/// }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Proof {
     /// Name of the scenario.
     pub scenario: String,
@@ -61,35 +75,66 @@ impl Proof {
     }
 }
 
-/// Solves a scenario with both analytic sides and engines, each at three resolutions, and judges what comes out.
-/// `progress` is told how far the work is, from 0 to 1.
+/// Solves a scenario with both analytic sides and engines, each engine at three resolutions, and judges what comes out.
+///
+/// ```
+/// use linkproof::{Options, Scenario, Verdict, prove};
+///
+/// # std::env::set_current_dir(env!("CARGO_MANIFEST_DIR"))?;
+/// let scenario = Scenario::load("scenarios/crank_rocker.toml".as_ref())?;
+/// let proof = prove(&scenario, &Options::default())?;
+/// assert!(matches!(proof.verdict, Verdict::Agree { .. }));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 ///
 /// # Errors
-/// If an analytic side cannot solve the case, with the crank angle; if a solver is not known; if the only engine cannot even begin. An engine that
-/// fails later, or beside others, is part of the proof, with what it had computed until then.
-pub fn prove(scenario: &Scenario, options: &Options, progress: &mut dyn FnMut(f64)) -> Result<Proof> {
-    prove_against(scenario, &scenario.case, options, progress)
+/// If an analytic side cannot solve the case, with the crank angle; if a solver is not known; if the only engine cannot
+/// even begin. An engine that fails later, or beside others, is part of the proof, with what it had computed until then.
+pub fn prove(scenario: &Scenario, options: &Options) -> Result<Proof> {
+    prove_with(scenario, options, &mut |_| {})
 }
 
-/// As [`prove`], with engines that are given a case of their own, on the scenario's instants. With a fault planted in it, what a proof
-/// can find is seen.
+/// As [`prove`]; `progress` is told which share of the work is done, from 0 to 1.
 ///
 /// # Errors
 /// Those of [`prove`].
-pub fn prove_against(
-    scenario: &Scenario,
-    engine_case: &Case,
-    options: &Options,
-    progress: &mut dyn FnMut(f64),
-) -> Result<Proof> {
-    joined(scenario, engine_case, options, progress).map_err(|error| explained(&scenario.case, error))
+pub fn prove_with(scenario: &Scenario, options: &Options, progress: &mut dyn FnMut(f64)) -> Result<Proof> {
+    joined(scenario, &scenario.case, options, progress).map_err(|error| explained(&scenario.case, error))
+}
+
+/// As [`prove`], with engines that are given a case of their own, on the scenario's instants. With a fault planted in
+/// it, what a proof can find is seen.
+///
+/// # Errors
+/// Those of [`prove`].
+pub fn prove_against(scenario: &Scenario, engine_case: &Case, options: &Options) -> Result<Proof> {
+    joined(scenario, engine_case, options, &mut |_| {}).map_err(|error| explained(&scenario.case, error))
+}
+
+/// Solves a case with side 1: all its wanted channels on its grid, to rounding.
+///
+/// ```
+/// use linkproof::{Scenario, solve};
+///
+/// # std::env::set_current_dir(env!("CARGO_MANIFEST_DIR"))?;
+/// let scenario = Scenario::load("scenarios/crank_rocker.toml".as_ref())?;
+/// let solution = solve(&scenario.case)?;
+/// let moment = solution.named("drive.torque_N_m").expect("every mechanism with a drive has it");
+/// assert_eq!(moment.len(), solution.times().len());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// Whatever keeps the mechanism from staying on its branch, with the crank angle and the interval that can be reached.
+pub fn solve(case: &Case) -> Result<Trajectory> {
+    Reference::Assur.solver().solve(case).map_err(|error| explained(case, error))
 }
 
 /// The same with the errors of solvers as they come.
 fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: &mut dyn FnMut(f64)) -> Result<Proof> {
     let case = &scenario.case;
-    let main = options.reference()?;
-    let engines = options.engines(scenario)?;
+    let main = options.reference.solver();
+    let engines = options.set_engines(scenario)?;
     let observed = |solver: &dyn Solver| -> Result<_> { Ok((solver.name(), observe(case, solver, &mut |_| {})?)) };
     let [first, second] = analytic::all();
     let sides = [observed(first)?, observed(second)?];

@@ -1,79 +1,169 @@
 //! What to prove a scenario with.
 
 use super::unknown;
+use crate::engines::EngineName;
 use crate::scenario::Scenario;
 use linkage::engine::{Engine, Route, Settings};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::solver::Solver;
 
-/// What to prove a scenario with. What is not given is the scenario's own, and what that does not say is the engine's default.
-#[derive(Clone, Debug, PartialEq)]
+/// An analytic side.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Reference {
+    /// Side 1: Assur groups, dyads in closed form.
+    #[default]
+    Assur,
+    /// Side 2: the whole mechanism by Newton and Lagrange multipliers.
+    Newton,
+}
+
+impl Reference {
+    /// Both sides, the default first.
+    pub const ALL: [Reference; 2] = [Reference::Assur, Reference::Newton];
+
+    /// Name, as on the command line.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        self.solver().name()
+    }
+
+    /// The side called `name`.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Reference> {
+        Reference::ALL.into_iter().find(|side| side.name() == name)
+    }
+
+    /// The side as a solver.
+    #[must_use]
+    pub fn solver(self) -> &'static dyn Solver {
+        match self {
+            Reference::Assur => &analytic::AssurSolver,
+            Reference::Newton => &analytic::NewtonSolver,
+        }
+    }
+}
+
+/// What to prove a scenario with.
+///
+/// What is not given is the scenario's own, and what that does not say is the engine's default.
+/// Numbers are checked when the proof begins.
+///
+/// ```
+/// use linkproof::Options;
+/// use linkproof::parts::{EngineName, Reference, Route};
+///
+/// let options = Options::default()
+///     .engine(EngineName::Rapier)
+///     .engine(EngineName::Impulse)
+///     .reference(Reference::Newton)
+///     .route(Route::Probe)
+///     .step(5e-4);
+/// assert_eq!(options.engines.len(), 2);
+/// ```
+#[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Options {
-    /// Analytic solver whose trajectory is the reference; the other one checks it.
-    pub reference: String,
-    /// Names of engines, or `all`; the scenario's, or the default one, if there is none.
-    pub engines: Vec<String>,
+    /// Analytic side whose trajectory is the reference; the other one checks it.
+    pub reference: Reference,
+    /// Engines; the scenario's, or the default one, if there is none.
+    pub engines: Vec<EngineName>,
     /// Time step (s) of engines with a fixed step.
     pub step: Option<f64>,
-    /// Accuracy of engines that control their error.
+    /// Relative accuracy of engines that control their error.
     pub accuracy: Option<f64>,
     /// Sweeps of the iteration in a step.
     pub sweeps: Option<usize>,
     /// Parts that an engine itself divides a step into.
     pub substeps: Option<usize>,
     /// The way to reactions and balancing moment.
-    pub route: Option<String>,
-    /// Whether the engine's state is combined from two steps.
+    pub route: Option<Route>,
+    /// Whether the engine's state is combined from two steps, so that the leading error drops out.
     pub extrapolated: Option<bool>,
 }
 
-impl Default for Options {
-    fn default() -> Self {
-        Options {
-            reference: "assur".into(),
-            engines: Vec::new(),
-            step: None,
-            accuracy: None,
-            sweeps: None,
-            substeps: None,
-            route: None,
-            extrapolated: None,
-        }
-    }
-}
-
 impl Options {
-    /// The options that ask for one engine, and nothing else.
+    /// Adds an engine.
     #[must_use]
-    pub fn of_engine(name: &str) -> Self {
-        Options { engines: vec![name.into()], ..Options::default() }
+    pub fn engine(mut self, engine: EngineName) -> Self {
+        self.engines.push(engine);
+        self
     }
 
-    /// The analytic solver.
-    pub(super) fn reference(&self) -> Result<&'static dyn Solver> {
-        let known = || analytic::all().into_iter().map(|solver| solver.name());
-        analytic::named(&self.reference).ok_or_else(|| unknown("analytic solver", &self.reference, known()))
+    /// Every engine that this build has, side by side.
+    #[must_use]
+    pub fn every_engine(mut self) -> Self {
+        self.engines = EngineName::ALL.into_iter().filter(|engine| engine.is_built()).collect();
+        self
+    }
+
+    /// The analytic side whose trajectory is the reference.
+    #[must_use]
+    pub fn reference(mut self, side: Reference) -> Self {
+        self.reference = side;
+        self
+    }
+
+    /// Time step (s) of engines with a fixed step.
+    #[must_use]
+    pub fn step(mut self, step: f64) -> Self {
+        self.step = Some(step);
+        self
+    }
+
+    /// Relative accuracy of engines that control their error.
+    #[must_use]
+    pub fn accuracy(mut self, accuracy: f64) -> Self {
+        self.accuracy = Some(accuracy);
+        self
+    }
+
+    /// Sweeps of the iteration in a step.
+    #[must_use]
+    pub fn sweeps(mut self, sweeps: usize) -> Self {
+        self.sweeps = Some(sweeps);
+        self
+    }
+
+    /// Parts that an engine itself divides a step into.
+    #[must_use]
+    pub fn substeps(mut self, substeps: usize) -> Self {
+        self.substeps = Some(substeps);
+        self
+    }
+
+    /// The way to reactions and balancing moment.
+    #[must_use]
+    pub fn route(mut self, route: Route) -> Self {
+        self.route = Some(route);
+        self
+    }
+
+    /// Whether the engine's state is combined from two steps.
+    #[must_use]
+    pub fn extrapolated(mut self, extrapolated: bool) -> Self {
+        self.extrapolated = Some(extrapolated);
+        self
     }
 
     /// The engines with their settings.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] if an engine or a route is not known, or if a number cannot be a setting.
-    pub fn engines(&self, scenario: &Scenario) -> Result<Vec<Box<dyn Engine>>> {
+    /// [`ErrorKind::Input`] if an engine or a route of the scenario is not known, or if a number cannot be a setting;
+    /// [`ErrorKind::Unsupported`] for an engine that this build does not have.
+    pub(crate) fn set_engines(&self, scenario: &Scenario) -> Result<Vec<Box<dyn Engine>>> {
         let own = &scenario.engine;
         let step = self.step.unwrap_or(scenario.dt);
-        let known = crate::engines::all(step);
         let chosen = match (self.engines.as_slice(), &own.name) {
-            ([], None) => known.into_iter().take(1).collect(),
+            ([], None) => vec![EngineName::Rapier.with_step(step)?],
             ([], Some(name)) => vec![named(name, step).map_err(|error| error.key("engine.name"))?],
-            ([one], _) if one == "all" => known,
-            (names, _) => names.iter().map(|name| named(name, step)).collect::<Result<_>>()?,
+            (names, _) => names.iter().map(|engine| engine.with_step(step)).collect::<Result<_>>()?,
         };
         let several = chosen.len() > 1;
         chosen.into_iter().map(|engine| self.set(engine, scenario, several)).collect()
     }
 
-    /// An engine with the settings asked for. Of `several` engines side by side those that do not know a route keep their own.
+    /// An engine with the settings asked for. Of `several` engines side by side those that do not know a route keep
+    /// their own.
     fn set(&self, engine: Box<dyn Engine>, scenario: &Scenario, several: bool) -> Result<Box<dyn Engine>> {
         let (own, defaults) = (&scenario.engine, engine.settings());
         let resolution = match engine.controls_error() {
@@ -88,19 +178,15 @@ impl Options {
             Some(number) => Ok(number),
             None => Ok(default),
         };
-        let mut route = defaults.route;
-        if let Some(name) = self.route.as_ref().or(own.route.as_ref()) {
-            let asked = Route::named(name)
-                .ok_or_else(|| unknown("route to reactions", name, Route::ALL.iter().map(|route| route.name())))?;
-            match engine.routes().contains(&asked) {
-                true => route = asked,
-                false if several => {}
-                false => {
-                    let offered = engine.routes().iter().map(|route| route.name());
-                    return Err(unknown(&format!("route of engine {}", engine.name()), name, offered));
-                }
+        let own_route = || own.route.as_deref().map(route_named).transpose();
+        let route = match self.route.map_or_else(own_route, |route| Ok(Some(route)))? {
+            Some(asked) if engine.routes().contains(&asked) => asked,
+            Some(asked) if !several => {
+                let offered = engine.routes().iter().map(|route| route.name());
+                return Err(unknown(&format!("route of engine {}", engine.name()), asked.name(), offered));
             }
-        }
+            Some(_) | None => defaults.route,
+        };
         let settings = Settings {
             resolution,
             sweeps: count(self.sweeps, own.sweeps, defaults.sweeps, "sweeps")?,
@@ -112,9 +198,14 @@ impl Options {
     }
 }
 
+fn route_named(name: &str) -> Result<Route> {
+    Route::named(name).ok_or_else(|| unknown("route to reactions", name, Route::ALL.iter().map(|route| route.name())))
+}
+
+/// The engine of a scenario file.
 fn named(name: &str, step: f64) -> Result<Box<dyn Engine>> {
-    crate::engines::named(name, step).ok_or_else(|| {
-        let known = crate::engines::all(step);
-        unknown("engine", name, known.iter().map(|engine| engine.name()).chain(["all"]))
-    })
+    match EngineName::named(name) {
+        Some(engine) => engine.with_step(step),
+        None => Err(unknown("engine", name, EngineName::ALL.iter().map(|engine| engine.name()))),
+    }
 }

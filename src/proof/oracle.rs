@@ -39,7 +39,7 @@ fn of_series(scenario: &Scenario, solver: &dyn Solver) -> Result<Vec<Check>> {
     let stages: Vec<Stage> = all().map(|(_, series)| series.channel.kind.stage).collect();
     let base = &scenario.case;
     let case = base.on(Grid::of_cranks(base.crank(), cranks))?.wanting(Wanted::of(&stages));
-    let solved = solver.solve(&case, &mut |_| {})?;
+    let solved = solver.solve(&case)?;
     let mut checks = Vec::new();
     for (oracle, series) in all() {
         checks.extend(of_one(oracle, series, &solved, solver.name())?);
@@ -189,7 +189,7 @@ impl Measured<'_> {
             distance = (second - first).norm();
             Ok(())
         };
-        self.solver.sweep(&case, &mut visit, &mut |_| {})?;
+        self.solver.each(&case, &mut visit)?;
         Ok(distance)
     }
 }

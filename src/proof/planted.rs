@@ -204,7 +204,7 @@ fn every_class_three_method_finds_a_wrong_group_and_stands_in_the_proof() {
             }
         }
     }
-    let proof = prove(&scenario, &Options::default(), &mut |_| {}).unwrap();
+    let proof = prove(&scenario, &Options::default()).unwrap();
     for name in all {
         let own = named(&proof.checks, name);
         let direct = named(&right, name);
@@ -213,7 +213,7 @@ fn every_class_three_method_finds_a_wrong_group_and_stands_in_the_proof() {
 }
 
 fn engine_proof(scenario: &Scenario, fault: Fault, size: f64) -> EngineProof {
-    let reference = AssurSolver.solve(&scenario.case, &mut |_| {}).unwrap();
+    let reference = AssurSolver.solve(&scenario.case).unwrap();
     let rapier = Rapier::all(scenario.dt).into_iter().next().unwrap();
     let inner = Box::new(rapier) as Box<dyn Engine>;
     let engine: Planted<dyn Engine> = Planted { fault, size, inner };

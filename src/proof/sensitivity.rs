@@ -23,7 +23,7 @@ pub(super) fn of(case: &Case, solver: &dyn Solver, reference: &Trajectory) -> Re
     let stronger = |motor: &Motor| Motor { law: motor.law.scaled(share), ..motor.clone() };
     let drives = case.drives.map(|drive| drive.with_motor(drive.motor().map(stronger)));
     let changed = case.with(|parts| (parts.gravity, parts.drives) = (case.gravity * share, drives))?;
-    let other = solver.solve(&changed, &mut |_| {})?;
+    let other = solver.solve(&changed)?;
     let of = |((channel, ours), (_, theirs)): ((&linkage::trajectory::Channel, &[f64]), (_, &[f64]))| {
         largest_difference(ours, theirs, channel.kind.periodic) / CHANGE
     };

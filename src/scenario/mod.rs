@@ -188,12 +188,17 @@ fn check_format(root: &mut Table) -> Result<()> {
     }
 }
 
+/// Whether a name is fit for file names.
+fn is_name(name: &str) -> bool {
+    !name.is_empty() && name.bytes().all(|byte| matches!(byte, b'a'..=b'z' | b'0'..=b'9' | b'_'))
+}
+
+const NAME_HELP: &str = "it names files: use lower-case letters, digits and `_`";
+
 fn name(root: &mut Table) -> Result<String> {
     let name = root.string("name")?;
-    if !name.is_empty() && name.bytes().all(|byte| matches!(byte, b'a'..=b'z' | b'0'..=b'9' | b'_')) {
+    if is_name(&name) {
         return Ok(name);
     }
-    Err(root
-        .wrong(ErrorKind::Input, "name", format!("\"{name}\" cannot be the name of a scenario"))
-        .help("it names files: use lower-case letters, digits and `_`"))
+    Err(root.wrong(ErrorKind::Input, "name", format!("\"{name}\" cannot be the name of a scenario")).help(NAME_HELP))
 }

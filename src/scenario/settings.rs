@@ -91,12 +91,14 @@ fn engine_step(mut table: Table, drive: &Drive) -> Result<f64> {
     }
 }
 
-/// Largest discretisation error of the engine, as a share of a channel's scale, with which agreement still proves
+/// The share that [`engine_rel`] is if a scenario does not say: chosen, not derived.
+pub const ENGINE_REL: f64 = 1e-2;
+
+/// Largest bound on the error of the engine, as a share of a channel's scale, with which agreement still proves
 /// something.
 pub fn engine_rel(table: Option<Table>) -> Result<f64> {
-    const DEFAULT: f64 = 1e-2;
-    let Some(mut table) = table else { return Ok(DEFAULT) };
-    let share = table.optional_number("engine_rel")?.unwrap_or(DEFAULT);
+    let Some(mut table) = table else { return Ok(ENGINE_REL) };
+    let share = table.optional_number("engine_rel")?.unwrap_or(ENGINE_REL);
     table.finish()?;
     if share > 0.0 && share < 1.0 {
         return Ok(share);

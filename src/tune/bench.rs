@@ -208,7 +208,7 @@ impl Bench<'_> {
         let engine = engine.with(settings);
         let mut found = None;
         let mut run = || {
-            found = Some(engine.solve(self.case, &mut |_| {})?);
+            found = Some(engine.solve(self.case)?);
             Ok(())
         };
         let failed = |price: f64| Measured { error: f64::INFINITY, worst: String::new(), price };
@@ -246,7 +246,7 @@ impl Bench<'_> {
         }
         self.runs += rungs.len();
         let ladder = engine.ladder(&rungs);
-        let runs: Result<Vec<Trajectory>> = ladder.iter().map(|rung| rung.solve(self.case, &mut |_| {})).collect();
+        let runs: Result<Vec<Trajectory>> = ladder.iter().map(|rung| rung.solve(self.case)).collect();
         let runs = runs?;
         let [double, single, half] = [0, 1, 2].map(|k| &runs[k]);
         let ladder = Ladder { resolutions: [double, single, half], fewer_sweeps: runs.get(3) };

@@ -69,8 +69,8 @@ pub fn tune(
     let wanted = wanted_channels(scenario, wish)?;
     let stages: Vec<Stage> = wanted.iter().map(|channel| channel.kind.stage).collect();
     let case = scenario.case.wanting(Wanted::of(&stages));
-    let reference = AssurSolver.solve(&case, &mut |_| {}).map_err(|error| explained(&case, error))?;
-    let engines = options.engines(scenario)?;
+    let reference = AssurSolver.solve(&case).map_err(|error| explained(&case, error))?;
+    let engines = options.set_engines(scenario)?;
     let mut bench = Bench { case: &case, reference: &reference, wanted: &wanted, price, runs: 0, refused: false };
     let (mut by_engine, mut too_coarse, mut too_dear): (Vec<Candidate>, _, _) = (Vec::new(), Vec::new(), Vec::new());
     for (index, engine) in engines.iter().enumerate() {

@@ -28,7 +28,7 @@ const CRATES: &[(&str, &str, &str, &str)] = &[
 
 /// Rooms of the crates that have walls inside, and what they may know of their own crate.
 const ROOMS: &[(&str, &str)] = &[
-    ("linkage::case", "drive math mechanism trajectory"),
+    ("linkage::case", "drive error math mechanism trajectory"),
     ("linkage::drive", "math mechanism"),
     ("linkage::engine", "case error math solver trajectory"),
     ("linkage::error", ""),

@@ -5,7 +5,7 @@ use linkage::math::Vec2;
 use linkproof::proof::{Options, prove};
 
 fn agrees(what: &str, spec: &Spec) {
-    let proof = prove(&spec.scenario().unwrap(), &Options::default(), &mut |_| {});
+    let proof = prove(&spec.scenario().unwrap(), &Options::default());
     let proof = proof.unwrap_or_else(|error| panic!("{what}: {error}"));
     assert_eq!(proof.verdict.word(), "agree", "{what}: {:?}", proof.verdict);
 }

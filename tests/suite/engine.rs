@@ -22,13 +22,13 @@ use linkproof::compare::convergence::observed_order;
 use linkproof::compare::residuals;
 
 fn solve(solver: &dyn Solver, case: &Case) -> Trajectory {
-    solver.solve(case, &mut |_| {}).unwrap_or_else(|error| panic!("{error}"))
+    solver.solve(case).unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn engine_runs(engine: &dyn Engine, case: &Case, factors: [f64; 3]) -> [Trajectory; 3] {
     factors.map(|factor| {
         let engine = engine.at(engine.settings().resolution * factor);
-        engine.solve(case, &mut |_| {}).unwrap_or_else(|error| panic!("{error}"))
+        engine.solve(case).unwrap_or_else(|error| panic!("{error}"))
     })
 }
 

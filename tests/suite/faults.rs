@@ -4,6 +4,7 @@
 use std::path::Path;
 
 use linkage::trajectory::Stage;
+use linkproof::engines::EngineName;
 use linkproof::proof::{Options, Proof, prove_against};
 use linkproof::scenario::Scenario;
 
@@ -20,7 +21,7 @@ fn edited(from: &str, to: &str) -> String {
 }
 
 fn against(wrong: &str) -> Proof {
-    let proof = prove_against(&scenario(TEXT), &scenario(wrong).case, &Options::default(), &mut |_| {});
+    let proof = prove_against(&scenario(TEXT), &scenario(wrong).case, &Options::default());
     proof.unwrap_or_else(|error| panic!("{error}"))
 }
 
@@ -182,13 +183,13 @@ fn how_small_a_fault_is_found() {
 /// Two builds of the engine are given the fault, so that they agree with one another: then it is the reference that stands alone.
 #[test]
 fn engines_that_agree_against_the_reference_make_it_the_odd_one_out() {
-    let options = Options { engines: vec!["rapier".into(), "impulse".into()], ..Options::default() };
+    let options = Options::default().engine(EngineName::Rapier).engine(EngineName::Impulse);
     let wrong = scenario(&edited("mass_kg = 34.7", "mass_kg = 34.8"));
-    let proof = prove_against(&scenario(TEXT), &wrong.case, &options, &mut |_| {}).unwrap();
+    let proof = prove_against(&scenario(TEXT), &wrong.case, &options).unwrap();
     assert_eq!(proof.verdict.word(), "disagree");
     let odd: Vec<&str> = proof.disputes.iter().filter_map(|dispute| dispute.odd).collect();
     assert!(odd.len() > 3 && odd.iter().all(|name| *name == "assur"), "{:?}", proof.disputes);
 
-    let right = prove_against(&scenario(TEXT), &scenario(TEXT).case, &options, &mut |_| {}).unwrap();
+    let right = prove_against(&scenario(TEXT), &scenario(TEXT).case, &options).unwrap();
     assert!(right.disputes.is_empty(), "{:?}", right.disputes);
 }

@@ -22,11 +22,12 @@ fn scenario(name: &str) -> Scenario {
 }
 
 fn solve(solver: &dyn Solver, case: &Case) -> Trajectory {
-    solver.solve(case, &mut |_| {}).unwrap_or_else(|error| panic!("{error}"))
+    solver.solve(case).unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn proof(name: &str, step: Option<f64>) -> Proof {
-    prove(&scenario(name), &Options { step, ..Options::default() }, &mut |_| {}).unwrap()
+    let options = step.map_or_else(Options::default, |step| Options::default().step(step));
+    prove(&scenario(name), &options).unwrap()
 }
 
 /// A turn in steps of a tenth of a degree, in the sense of the drive.
@@ -90,7 +91,7 @@ fn balancing_moment_from_equilibrium_and_from_powers() {
                 worst = worst.larger((state.torques[0] - power::balancing_moment(&case, state)).abs());
                 Ok(())
             };
-            solver.sweep(&case, &mut visit, &mut |_| {}).unwrap();
+            solver.each(&case, &mut visit).unwrap();
             assert_within!(worst, 1e-11 * amplitude, "{name} {}: {:e}", solver.name(), worst / amplitude);
         }
     }
@@ -264,7 +265,7 @@ fn with_correction(printed: f64, right: f64) -> Proof {
     let wrong = text.replace(value, &correction);
     assert_ne!(text, wrong);
     let scenario = Scenario::parse(&wrong, &path).unwrap();
-    prove(&scenario, &Options::default(), &mut |_| {}).unwrap()
+    prove(&scenario, &Options::default()).unwrap()
 }
 
 #[test]
@@ -288,7 +289,7 @@ fn a_length_as_solved_is_held_to_its_last_digit() {
     let text = std::fs::read_to_string(&path).unwrap();
     let longer = text.replace("B = { x_m = 0.34707193189181,", "B = { x_m = 0.34707193189281,");
     assert_ne!(text, longer);
-    let proof = prove(&Scenario::parse(&longer, &path).unwrap(), &Options::default(), &mut |_| {}).unwrap();
+    let proof = prove(&Scenario::parse(&longer, &path).unwrap(), &Options::default()).unwrap();
     let wrong: Vec<String> = proof
         .checks
         .iter()
@@ -331,7 +332,7 @@ fn val_ov7_new_printed_r1_and_moment_come_from_half_a_reaction() {
         }
         Ok(())
     };
-    AssurSolver.sweep(&case, &mut visit, &mut |_| {}).unwrap();
+    AssurSolver.each(&case, &mut visit).unwrap();
     // Printed -5.831: the moment that the forces have on the crank, not the one that balances it.
     assert_abs_diff_eq!(-first, -5.831, epsilon = 0.5e-3);
     // Printed maxima over the turn, between the twelve angles of the table.

@@ -51,7 +51,7 @@ fn worst(family: &Family, among: Among, tries: usize) -> ([f64; 5], usize, usize
             (a.origin - b.origin).norm() < 1e-6
         };
         as_drawn += usize::from(case.start.0.iter().zip(&drawn).all(off));
-        let (assur, newton) = (AssurSolver.solve(case, &mut |_| {}), NewtonSolver.solve(case, &mut |_| {}));
+        let (assur, newton) = (AssurSolver.solve(case), NewtonSolver.solve(case));
         // Beyond a dead point there is nothing to compare; the two sides must both say so.
         let (Ok(assur), Ok(newton)) = (&assur, &newton) else {
             assert!(assur.is_err() && newton.is_err(), "{:?} {:?}\n{}", assur.err(), newton.err(), spec.toml());

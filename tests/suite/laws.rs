@@ -38,7 +38,7 @@ fn both_sides_agree_and_balance_powers_and_momentum() {
     ] {
         let scenario = swing(law, grid);
         let case = &scenario.case;
-        let [a, b] = analytic::all().map(|solver| solver.solve(case, &mut |_| {}).unwrap());
+        let [a, b] = analytic::all().map(|solver| solver.solve(case).unwrap());
         let largest = |stage: Stage| {
             let own = a.iter().filter(move |(channel, _)| channel.kind.stage == stage);
             own.flat_map(|(_, values)| values).fold(0.0, |max: f64, v| max.larger(v.abs()))
@@ -99,7 +99,7 @@ fn val_the_engine_agrees_by_every_route() {
                 continue;
             }
             (scenario.engine.route, scenario.dt) = (Some(route.into()), dt * part);
-            let proof = prove(&scenario, &Options::default(), &mut |_| {}).unwrap();
+            let proof = prove(&scenario, &Options::default()).unwrap();
             let wrong = proof.engine().channels.iter().filter(|channel| channel.verdict.word() != "agree");
             let wrong: Vec<_> = wrong
                 .map(|c| (c.residual.channel.to_string(), c.residual.max, c.bound, c.convergence.observed))
@@ -113,7 +113,7 @@ fn val_the_engine_agrees_by_every_route() {
 #[test]
 fn val_the_order_stays_two() {
     let scenario = shipped("cycloidal_start.toml");
-    let proof = prove(&scenario, &Options::default(), &mut |_| {}).unwrap();
+    let proof = prove(&scenario, &Options::default()).unwrap();
     for channel in &proof.engine().channels {
         // The crank itself lands on the law at every step: its angle has no error to see an order of.
         let order = channel.convergence.observed;
@@ -128,7 +128,7 @@ fn val_the_order_stays_two() {
 #[test]
 fn a_jump_of_the_acceleration_is_no_disagreement() {
     let scenario = swing(RAMP, "from_s = 0.1\nto_s = 0.14\nstep_s = 0.0005");
-    let proof = prove(&scenario, &Options::default(), &mut |_| {}).unwrap();
+    let proof = prove(&scenario, &Options::default()).unwrap();
     assert_eq!(proof.verdict.word(), "inconclusive", "{:?}", proof.verdict);
 }
 

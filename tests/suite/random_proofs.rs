@@ -28,7 +28,7 @@ fn never_disagree(sorts: &[[bool; 3]], most: usize) {
     for_each_of(sorts, most, 60, |sample| {
         let mut scenario = sample.scenario.clone();
         scenario.dt = 0.005 / scenario.case.crank().at(0.0).omega.abs();
-        match prove(&scenario, &Options::default(), &mut |_| {}) {
+        match prove(&scenario, &Options::default()) {
             Ok(proof) => {
                 let word = proof.verdict.word();
                 let wrong = proof.engine().channels.iter().filter(|channel| channel.verdict.word() == "disagree");
@@ -73,7 +73,7 @@ fn regress_random_higher_groups_never_disagree() {
             let (spec, _) = mechanism(&mut random, family, among);
             let Ok(mut scenario) = spec.scenario() else { continue };
             scenario.dt = 0.005 / scenario.case.crank().at(0.0).omega.abs();
-            let word = match prove(&scenario, &Options::default(), &mut |_| {}) {
+            let word = match prove(&scenario, &Options::default()) {
                 Ok(proof) => {
                     for channel in &proof.engine().channels {
                         let wrong = channel.verdict.word() == "disagree";
@@ -110,7 +110,7 @@ fn regress_a_load_that_jumps_within_the_engines_error_is_no_disagreement() {
             let text = text.replace("from_deg = 0", &format!("from_deg = {from}"));
             let text = text.replace("to_deg = 360", &format!("to_deg = {to}")).replace("step_deg = 1", "step_deg = 10");
             let scenario = Scenario::parse(&text, Path::new("turning.toml")).unwrap();
-            let proof = prove(&scenario, &Options::default(), &mut |_| {}).unwrap();
+            let proof = prove(&scenario, &Options::default()).unwrap();
             assert_ne!(proof.verdict.word(), "disagree", "{extreme} {offset}: {:?}", proof.verdict);
         }
     }

@@ -339,12 +339,12 @@ fn an_angle_out_of_reach_is_answered_with_the_interval() {
         // Rounded inwards at the sixth decimal.
         assert!((0.0..=1.001e-6).contains(&(low - from)) && (0.0..=1.001e-6).contains(&(to - high)), "{who}: {text}");
         for end in [low, high] {
-            assert!(AssurSolver.solve(&asked(&case, end), &mut |_| {}).is_ok(), "{end} was said to be reached");
+            assert!(AssurSolver.solve(&asked(&case, end)).is_ok(), "{end} was said to be reached");
         }
     };
     for degrees in [to + 10.0, from - 10.0] {
         for solver in all() {
-            check(solver.solve(&asked(&case, degrees), &mut |_| {}).unwrap_err(), solver.name());
+            check(solver.solve(&asked(&case, degrees)).unwrap_err(), solver.name());
         }
         check(modes::all(&case, degrees.to_radians()).unwrap_err(), "modes");
     }
@@ -386,8 +386,7 @@ fn loss_of_digits_near_a_dead_point_is_that_of_the_condition_number() {
             let reach = (b * b + c * c + 2.0 * b * c * angle.cos()).sqrt();
             let crank = crank_at(d, a, reach).unwrap();
             let case = asked(&case, crank.to_degrees());
-            let (ours, theirs) =
-                (AssurSolver.solve(&case, &mut |_| {}).unwrap(), NewtonSolver.solve(&case, &mut |_| {}).unwrap());
+            let (ours, theirs) = (AssurSolver.solve(&case).unwrap(), NewtonSolver.solve(&case).unwrap());
             let condition = 1.0 / (angle / 2.0).tan();
             for (stage, channel) in ["angle_rad", "omega_rad_s", "alpha_rad_s2"].into_iter().enumerate() {
                 let values = |t: &linkage::trajectory::Trajectory| {

@@ -14,6 +14,7 @@ use linkage::math::{KeepNan, Vec2};
 use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Stage, Trajectory, Unit};
 use linkproof::compare::{Verdict, residuals};
+use linkproof::engines::EngineName;
 use linkproof::proof::{Options, prove};
 use simbody_twin::Simbody;
 
@@ -30,7 +31,7 @@ fn scenarios() -> Vec<String> {
 }
 
 fn solve(solver: &dyn Solver, case: &Case) -> Trajectory {
-    solver.solve(case, &mut |_| {}).unwrap_or_else(|error| panic!("{error}"))
+    solver.solve(case).unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn default() -> Simbody {
@@ -141,7 +142,7 @@ fn variants_of_a_four_bar_agree() {
 #[test]
 fn laws_other_than_constant_speeds_are_refused_by_name() {
     let case = shipped("cycloidal_start.toml").case;
-    let error = default().solve(&case, &mut |_| {}).unwrap_err();
+    let error = default().solve(&case).unwrap_err();
     assert_eq!(error.kind(), linkage::ErrorKind::Unsupported);
     assert!(error.message().contains("law \"cycloidal\"") && error.way_out().is_some(), "{error}");
 }
@@ -230,7 +231,7 @@ fn random_higher_groups_agree() {
             let (spec, _) = mechanism(&mut random, family, among);
             let Ok(scenario) = spec.scenario() else { continue };
             // Beyond a dead point there is nothing to compare.
-            if let Ok(truth) = AssurSolver.solve(&scenario.case, &mut |_| {}) {
+            if let Ok(truth) = AssurSolver.solve(&scenario.case) {
                 agree(&scenario.case, &default(), &AssurSolver, nearness(&scenario.case, &truth).powi(2));
                 solved += 1;
             }
@@ -266,7 +267,7 @@ fn positions_alone_are_the_same_positions() {
 #[test]
 fn a_proof_with_simbody_agrees() {
     for name in ["crank_rocker.toml", "quick_return.toml"] {
-        let proof = prove(&shipped(name), &Options::of_engine("simbody"), &mut |_| {});
+        let proof = prove(&shipped(name), &Options::default().engine(EngineName::Simbody));
         let proof = proof.unwrap();
         assert_eq!(proof.verdict.word(), "agree", "{name}: {:?}", proof.verdict);
         assert!(proof.engine().info.version.starts_with("Simbody 3."), "{}", proof.engine().info.version);
@@ -292,7 +293,7 @@ fn a_dead_point_is_an_error_with_time_crank_angle_and_joint() {
         spec.grid = (0.5, step, 60);
         let case = spec.scenario().unwrap().case;
         for accuracy in [1e-2, Simbody::ACCURACY, 1e-11] {
-            let error = Simbody::new(accuracy).solve(&case, &mut |_| {}).unwrap_err();
+            let error = Simbody::new(accuracy).solve(&case).unwrap_err();
             assert_eq!(error.kind(), ErrorKind::Numeric, "{error}");
             let (_, rest) = error.message().split_once("crank angle ").expect("the crank angle is told");
             let crank: f64 = rest.split_once(" deg").unwrap().0.parse().unwrap();
@@ -308,7 +309,7 @@ fn a_dead_point_is_an_error_with_time_crank_angle_and_joint() {
 /// A slider that its rod does not reach beyond 261.347 deg.
 #[test]
 fn a_slider_out_of_reach_is_an_error() {
-    let error = default().solve(&sliders::short_rod(), &mut |_| {}).unwrap_err();
+    let error = default().solve(&sliders::short_rod()).unwrap_err();
     assert!(error.kind() == ErrorKind::Numeric && error.message().contains("crank angle 261.34"), "{error}");
 }
 
@@ -319,7 +320,7 @@ fn a_start_pose_that_is_open_is_refused() {
     parts.start.0.last_mut().unwrap().angle += 1e-3;
     assert_eq!(Case::new(parts.clone()).unwrap_err().kind(), ErrorKind::Geometry);
     let case = Case::unchecked(parts);
-    let error = default().solve(&case, &mut |_| {}).unwrap_err();
+    let error = default().solve(&case).unwrap_err();
     assert!(error.kind() == ErrorKind::Geometry && error.message().contains("at joint \""), "{error}");
 }
 
@@ -327,7 +328,7 @@ fn a_start_pose_that_is_open_is_refused() {
 fn an_accuracy_that_is_none_is_refused() {
     let case = shipped("crank_rocker.toml").case;
     for accuracy in [0.0, -1e-3, 1.0, f64::NAN, f64::INFINITY] {
-        let error = Simbody::new(accuracy).solve(&case, &mut |_| {}).unwrap_err();
+        let error = Simbody::new(accuracy).solve(&case).unwrap_err();
         assert!(error.kind() == ErrorKind::Input && error.message().contains("accuracy"), "{error}");
     }
 }
@@ -338,13 +339,13 @@ fn run_ups_and_pendulums_are_those_of_the_reference() {
     let mut agreed = 0;
     for name in ["crank_rocker_runup", "ov7_new_runup", "compressor_runup", "pendulum", "double_pendulum"] {
         let case = shipped(&format!("{name}.toml")).case;
-        let reference = NewtonSolver.solve(&case, &mut |_| {}).unwrap();
-        let found = Simbody::new(1e-9).solve(&case, &mut |_| {}).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let reference = NewtonSolver.solve(&case).unwrap();
+        let found = Simbody::new(1e-9).solve(&case).unwrap_or_else(|error| panic!("{name}: {error}"));
         let all = residuals(&reference, &found).unwrap();
         let worst = all.iter().map(|r| r.share()).fold(0.0, f64::larger);
         println!("{name}: {worst:.1e} of the scale");
         assert_within!(worst, 1e-6, "{name}: {worst:e}");
-        let proof = prove(&shipped(&format!("{name}.toml")), &Options::of_engine("simbody"), &mut |_| {}).unwrap();
+        let proof = prove(&shipped(&format!("{name}.toml")), &Options::default().engine(EngineName::Simbody)).unwrap();
         // The compressor's pistons have channels of a thousandth of what is natural, of which its accuracy proves nothing.
         assert!(!matches!(proof.verdict, Verdict::Disagree { .. }), "{name}: {:?}", proof.verdict);
         agreed += usize::from(matches!(proof.verdict, Verdict::Agree { .. }));

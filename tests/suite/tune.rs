@@ -5,6 +5,7 @@ mod near;
 mod prices;
 
 use linkage::engine::Engine;
+use linkproof::engines::EngineName;
 use linkproof::proof::Options;
 use linkproof::tune::{Wish, tune};
 
@@ -32,7 +33,7 @@ fn tune_comes_near_the_cheapest_of_an_exhaustive_search_and_keeps_its_promise() 
 #[test]
 fn wishes_that_make_no_sense_say_so() {
     let scenario = shipped("crank_rocker.toml");
-    let options = Options::of_engine("rapier");
+    let options = Options::default().engine(EngineName::Rapier);
     for within in [0.0, -1e-3, 2.0, f64::NAN] {
         let error = tuned(&scenario, within, &[], &options).unwrap_err();
         assert!(error.way_out().unwrap().contains("between 0 and 1"), "{error}");
@@ -44,8 +45,7 @@ fn wishes_that_make_no_sense_say_so() {
 #[test]
 fn a_wish_beyond_rounding_tells_how_far_the_engine_comes() {
     let scenario = shipped("crank_rocker.toml");
-    let options =
-        Options { extrapolated: Some(false), sweeps: Some(64), substeps: Some(1), ..Options::of_engine("rapier") };
+    let options = Options::default().engine(EngineName::Rapier).extrapolated(false).sweeps(64).substeps(1);
     let error = tuned(&scenario, 1e-15, &["accelerations"], &options).unwrap_err();
     assert!(error.message().contains("rapier comes to"), "{error}");
 }
@@ -54,7 +54,7 @@ fn a_wish_beyond_rounding_tells_how_far_the_engine_comes() {
 #[test]
 fn only_the_channels_asked_for_decide() {
     let scenario = shipped("crank_rocker.toml");
-    let options = Options { extrapolated: Some(false), substeps: Some(1), ..Options::of_engine("rapier") };
+    let options = Options::default().engine(EngineName::Rapier).extrapolated(false).substeps(1);
     let positions = tuned(&scenario, 1e-4, &["positions"], &options).unwrap();
     let all = tuned(&scenario, 1e-4, &[], &options).unwrap();
     assert!(positions.best.price < all.best.price, "{:?} {:?}", positions.best, all.best);
@@ -65,7 +65,7 @@ fn only_the_channels_asked_for_decide() {
 #[test]
 fn a_route_that_is_refused_is_given_up_at_once() {
     let scenario = shipped("pendulum.toml");
-    let options = Options { route: Some("probe".into()), ..Options::of_engine("rapier") };
+    let options = Options::default().engine(EngineName::Rapier).route(linkage::engine::Route::Probe);
     let mut runs = 0;
     let wish = Wish { within: 1e-3, channels: Vec::new() };
     let mut price = |_: &dyn Engine, run: &mut dyn FnMut() -> linkage::Result<()>| {

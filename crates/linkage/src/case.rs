@@ -1,5 +1,6 @@
 //! What every solver is given: the mechanism, what drives and loads it, where it starts, and what is wanted.
 
+mod builder;
 mod check;
 mod grid;
 mod parts;
@@ -11,6 +12,7 @@ use crate::drive::{Action, Drive, Load, Motor, Setting, Wrench};
 use crate::math::Motion;
 use crate::trajectory::{CHANNELS, Channel, Subject};
 
+pub use builder::CaseBuilder;
 pub use grid::Grid;
 pub use parts::{CaseParts, Wanted};
 
@@ -31,6 +33,12 @@ impl Deref for Case {
 }
 
 impl Case {
+    /// A case written down in code, link by link.
+    #[must_use]
+    pub fn builder() -> CaseBuilder {
+        CaseBuilder::new()
+    }
+
     /// The case of these parts.
     ///
     /// # Errors

@@ -17,7 +17,7 @@ pub enum Provision {
     Derived(&'static str),
 }
 
-/// Told how far a long run is, from 0 to 1.
+/// Is told which share of a long run is done, from 0 to 1.
 pub type Progress<'a> = &'a mut dyn FnMut(f64);
 
 /// Given every state with its row of the grid; what it refuses stops the run.
@@ -38,11 +38,27 @@ pub trait Solver: Send + Sync {
     /// Whatever keeps the solution from staying on the asked branch, with the crank angle; and the visitor's own.
     fn sweep(&self, case: &Case, visit: Visit, progress: Progress) -> Result<()>;
 
+    /// As [`Solver::sweep`], without telling how far the run is.
+    ///
+    /// # Errors
+    /// Those of [`Solver::sweep`].
+    fn each(&self, case: &Case, visit: Visit) -> Result<()> {
+        self.sweep(case, visit, &mut |_| {})
+    }
+
     /// Solves the case: all its wanted channels on its grid.
     ///
     /// # Errors
     /// Those of [`Solver::sweep`], and numbers that are not finite.
-    fn solve(&self, case: &Case, progress: Progress) -> Result<Trajectory> {
+    fn solve(&self, case: &Case) -> Result<Trajectory> {
+        self.solve_with(case, &mut |_| {})
+    }
+
+    /// As [`Solver::solve`]; `progress` is told which share of the run is done, from 0 to 1.
+    ///
+    /// # Errors
+    /// Those of [`Solver::solve`].
+    fn solve_with(&self, case: &Case, progress: Progress) -> Result<Trajectory> {
         let mut sampler = Sampler::new(case);
         let mut put = |row: usize, state: &State| {
             sampler.put(case, row, state);

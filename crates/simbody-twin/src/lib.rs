@@ -139,6 +139,7 @@ impl Solver for Simbody {
 
     fn sweep(&self, case: &Case, visit: Visit, progress: Progress) -> Result<()> {
         check_instants(case)?;
+        check_start(case)?;
         let rows = case.grid.ascending();
         let (before, after) = rows.split_at(rows.partition_point(|&row| case.grid.times[row] < 0.0));
         let reactions = case.wanted.deepest() >= Stage::Reactions;

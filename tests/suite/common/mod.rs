@@ -34,7 +34,7 @@ pub fn states(solver: &dyn Solver, case: &Case, times: &[f64]) -> linkage::Resul
         found[row] = Some(state.clone());
         Ok(())
     };
-    solver.sweep(&case, &mut keep, &mut |_| {})?;
+    solver.each(&case, &mut keep)?;
     Ok(found.into_iter().map(|state| state.expect("every row is visited")).collect())
 }
 

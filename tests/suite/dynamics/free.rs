@@ -10,13 +10,14 @@ use linkage::mechanism::Mechanism;
 use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Stage, Trajectory, Unit};
 use linkproof::compare::{Verdict, residuals};
+use linkproof::engines::EngineName;
 use linkproof::proof::{Options, prove};
 use linkproof::scenario::Scenario;
 
 use crate::common::{assert_within, shipped};
 
 fn solve(solver: &dyn Solver, case: &Case) -> Trajectory {
-    solver.solve(case, &mut |_| {}).unwrap_or_else(|error| panic!("{}: {error}", solver.name()))
+    solver.solve(case).unwrap_or_else(|error| panic!("{}: {error}", solver.name()))
 }
 
 /// Largest error over the scale, of the channels that `of` picks.
@@ -173,7 +174,7 @@ fn an_ill_conditioned_run_up_is_inconclusive_with_its_sensitivity() {
     let mut scenario = shipped("crank_rocker_runup.toml");
     let motor = Motor { inertia: Default::default(), ..scenario.case.crank().motor().unwrap().clone() };
     scenario.case = scenario.case.with_motor(Some(motor)).unwrap();
-    let proof = prove(&scenario, &Options::of_engine("rapier"), &mut |_| {}).unwrap();
+    let proof = prove(&scenario, &Options::default().engine(EngineName::Rapier)).unwrap();
     assert!(matches!(proof.verdict, Verdict::Inconclusive { .. }), "{:?}", proof.verdict);
     let unclear: Vec<_> = proof.engine().channels.iter().filter(|c| c.verdict.word() == "inconclusive").collect();
     assert!(!unclear.is_empty());
@@ -214,7 +215,7 @@ fn what_a_free_motion_cannot_be_asked_says_so() {
     let motor = Motor { ratio: 0.1, ..case.crank().motor().unwrap().clone() };
     let held = case.with_motor(Some(motor)).unwrap();
     for solver in [&AssurSolver as &dyn Solver, &NewtonSolver] {
-        let error = solver.solve(&held, &mut |_| {}).unwrap_err();
+        let error = solver.solve(&held).unwrap_err();
         assert!(error.message().contains("hold"), "{}: {error}", solver.name());
         assert!(error.way_out().unwrap().contains("torque"), "{error}");
     }
@@ -228,14 +229,14 @@ fn what_a_free_motion_cannot_be_asked_says_so() {
     let engines: Vec<_> = linkproof::engines::all(scenario.dt).into_iter().chain([extrapolated]).collect();
     let solvers = engines.iter().map(|engine| engine.as_ref() as &dyn Solver);
     for solver in solvers.clone().chain([&AssurSolver as &dyn Solver, &NewtonSolver]) {
-        let error = solver.solve(&before, &mut |_| {}).unwrap_err();
+        let error = solver.solve(&before).unwrap_err();
         assert!(error.message().contains("an instant at -0.1 s"), "{}: {error}", solver.name());
     }
     for solver in solvers {
-        let error = solver.solve(&bare, &mut |_| {}).unwrap_err();
+        let error = solver.solve(&bare).unwrap_err();
         assert!(error.message().contains("link \"coupler\" has no mass or no moment"), "{}: {error}", solver.name());
     }
     let probe = twin("rapier", &scenario, |settings| Settings { route: Route::Probe, ..settings });
-    let error = probe.solve(&scenario.case, &mut |_| {}).unwrap_err();
+    let error = probe.solve(&scenario.case).unwrap_err();
     assert_eq!(error.advice(), [Advice::OtherRoute { routes: &["differences", "native"] }], "{error}");
 }

@@ -60,7 +60,7 @@ fn of_states(solver: &dyn Solver, case: &Case, of: impl Fn(&State) -> f64) -> Ve
         found[row] = of(state);
         Ok(())
     };
-    solver.sweep(case, &mut visit, &mut |_| {}).unwrap();
+    solver.each(case, &mut visit).unwrap();
     found
 }
 

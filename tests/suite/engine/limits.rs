@@ -3,6 +3,7 @@
 use analytic::{self, AssurSolver, NewtonSolver};
 use linkage::ErrorKind;
 use linkage::solver::Solver;
+use linkproof::engines::EngineName;
 use linkproof::proof::{Options, prove};
 
 use super::stepping;
@@ -17,8 +18,8 @@ fn regress_40_steps_that_are_too_large_prove_nothing() {
     let scenario = shipped("crank_rocker.toml");
     for engine in stepping(1e-3) {
         for step in [0.05, 0.02, 0.01] {
-            let options = Options { step: Some(step), ..Options::of_engine(engine.name()) };
-            match prove(&scenario, &options, &mut |_| {}) {
+            let options = Options::default().engine(EngineName::named(engine.name()).unwrap()).step(step);
+            match prove(&scenario, &options) {
                 Ok(proof) => {
                     assert_eq!(proof.verdict.word(), "inconclusive", "{step}: {:?}", proof.verdict);
                     proof.engine().failure.iter().for_each(assert_helpful);
@@ -26,7 +27,7 @@ fn regress_40_steps_that_are_too_large_prove_nothing() {
                 Err(error) => assert_helpful(&error),
             }
         }
-        let error = engine.at(0.1).solve(&scenario.case, &mut |_| {}).unwrap_err();
+        let error = engine.at(0.1).solve(&scenario.case).unwrap_err();
         assert_helpful(&error);
     }
 }
@@ -51,14 +52,14 @@ fn regress_41_a_pose_that_cannot_be_assembled_is_an_error_with_its_crank_angle()
     let case = spec.scenario().unwrap().case;
     for step in [1e-2, 1e-3, 1e-4] {
         for engine in linkproof::engines::all(step) {
-            assert_helpful(&engine.solve(&case, &mut |_| {}).unwrap_err());
+            assert_helpful(&engine.solve(&case).unwrap_err());
         }
     }
     for solver in analytic::all() {
-        let error = solver.solve(&case, &mut |_| {}).unwrap_err();
+        let error = solver.solve(&case).unwrap_err();
         assert!(error.message().contains("crank angle"), "{error}");
     }
-    let geometry = AssurSolver.solve(&case, &mut |_| {}).unwrap_err();
+    let geometry = AssurSolver.solve(&case).unwrap_err();
     assert_eq!(geometry.kind(), ErrorKind::Geometry);
 }
 
@@ -68,9 +69,9 @@ fn regress_42_a_slider_out_of_reach_is_an_error_with_its_crank_angle() {
     let case = short_rod();
     for step in [1e-2, 1e-3, 1e-4] {
         for engine in linkproof::engines::all(step) {
-            assert_helpful(&engine.solve(&case, &mut |_| {}).unwrap_err());
+            assert_helpful(&engine.solve(&case).unwrap_err());
         }
     }
-    let error = NewtonSolver.solve(&case, &mut |_| {}).unwrap_err();
+    let error = NewtonSolver.solve(&case).unwrap_err();
     assert!(error.message().contains("crank angle 261.34"), "{error}");
 }

@@ -15,7 +15,7 @@ fn val_the_press_agrees_by_every_route() {
     scenario.case = scenario.case.on(grid).unwrap();
     for route in ["differences", "native", "probe"] {
         scenario.engine.route = Some(route.into());
-        let proof = prove(&scenario, &Options::default(), &mut |_| {}).unwrap();
+        let proof = prove(&scenario, &Options::default()).unwrap();
         let wrong = proof.engine().channels.iter().filter(|channel| channel.verdict.word() != "agree");
         let wrong: Vec<_> = wrong.map(|c| (c.residual.channel.to_string(), c.residual.max, c.bound)).collect();
         assert_eq!(proof.verdict.word(), "agree", "{route:?}: {:?} {wrong:?}", proof.verdict);

@@ -97,7 +97,7 @@ fn reactions_balance_powers_and_momentum_on_both_sides() {
         for load in &case.loads {
             *sorts.borrow_mut().entry(load.sort()).or_insert(0) += 1;
         }
-        let [a, b] = analytic::all().map(|solver| solver.solve(case, &mut |_| {}).expect("solvable"));
+        let [a, b] = analytic::all().map(|solver| solver.solve(case).expect("solvable"));
         let forces = |stage| {
             let own = a.iter().filter(move |(channel, _)| channel.kind.stage == stage);
             own.flat_map(|(_, values)| values).fold(0.0, |max: f64, v| max.larger(v.abs()))
@@ -131,7 +131,7 @@ fn higher_groups_bear_loads_too() {
         for _ in 0..4 {
             let scenario = loaded(&mut random, &shipped(name));
             let case = &scenario.case;
-            let [a, b] = analytic::all().map(|solver| solver.solve(case, &mut |_| {}).expect("solvable"));
+            let [a, b] = analytic::all().map(|solver| solver.solve(case).expect("solvable"));
             let own = a.iter().filter(|(channel, _)| channel.kind.stage >= Stage::Reactions);
             let scale = own.flat_map(|(_, values)| values).fold(0.0, |max: f64, v| max.larger(v.abs()));
             for residual in residuals(&a, &b).expect("one grid") {

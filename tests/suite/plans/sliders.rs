@@ -203,7 +203,7 @@ fn guides_in_the_diagram_span_the_travel() {
     for name in SLIDERS {
         let case = scenario(name).case;
         let wanted = linkage::case::Wanted::of(&[Stage::Positions]);
-        let trajectory = AssurSolver.solve(&case.wanting(wanted), &mut |_| {}).unwrap();
+        let trajectory = AssurSolver.solve(&case.wanting(wanted)).unwrap();
         let plans = plans(name, degrees_of(name, 67.0));
         let sliding: Vec<_> = case.mechanism.joints().iter().filter(|joint| joint.slides()).collect();
         assert_eq!(plans.scheme.guides.len(), sliding.len());

@@ -23,7 +23,7 @@ const SLIDERS: [&str; 5] = ["compressor", "six_bar_slider", "quick_return", "sco
 fn recorded(name: &str) -> (Case, Trajectory, Vec<u8>, Trajectory) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios").join(format!("{name}.toml"));
     let case = Scenario::load(&path).unwrap().case;
-    let trajectory = AssurSolver.solve(&case, &mut |_| {}).unwrap();
+    let trajectory = AssurSolver.solve(&case).unwrap();
     let directory = tempfile::tempdir().unwrap();
     let file = directory.path().join("slider.mcap");
     let sides = [Side { name: "reference", trajectory: &trajectory }];

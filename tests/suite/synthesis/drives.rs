@@ -64,7 +64,7 @@ fn the_designed_drives_keep_their_timing() {
 fn both_sides_agree_on_the_designed_drives() {
     for (name, _) in STATED {
         let scenario = Scenario::load(&top().join(format!("{name}.toml"))).unwrap();
-        let proof = prove(&scenario, &Options::default(), &mut |_| {}).unwrap();
+        let proof = prove(&scenario, &Options::default()).unwrap();
         assert!(matches!(proof.verdict, Verdict::Agree { .. }), "{name}: {:?}", proof.verdict);
     }
 }

@@ -54,14 +54,14 @@ pub fn thinned(mut scenario: Scenario, every: usize) -> Scenario {
 /// Largest error over the scale in all channels that the case wants, infinite if the engine fails. The reference is not the
 /// analytic side that `tune` uses.
 pub fn error_of(scenario: &Scenario, truth: &Trajectory, engine: &dyn Engine) -> f64 {
-    let Ok(found) = engine.solve(&scenario.case, &mut |_| {}) else { return f64::INFINITY };
+    let Ok(found) = engine.solve(&scenario.case) else { return f64::INFINITY };
     let residuals = residuals(truth, &found).expect("both stand on one grid");
     residuals.iter().map(Residual::share).fold(0.0, f64::larger)
 }
 
 /// What [`error_of`] compares with.
 pub fn truth(scenario: &Scenario) -> Trajectory {
-    NewtonSolver.solve(&scenario.case, &mut |_| {}).unwrap_or_else(|error| panic!("{error}"))
+    NewtonSolver.solve(&scenario.case).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// All ways of setting the Rapier engines but for the step: engine, route, extrapolation, substeps, sweeps.

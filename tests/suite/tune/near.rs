@@ -1,6 +1,7 @@
 //! What `tune` finds against all of a space of settings, by the price model: for the tests, and with the whole space for `benches/tune.rs`.
 
 use linkage::engine::Engine;
+use linkproof::engines::EngineName;
 use linkproof::proof::Options;
 use linkproof::scenario::Scenario;
 use linkproof::tune::{Tuning, Wish, tune};
@@ -26,8 +27,8 @@ pub fn tuned(scenario: &Scenario, within: f64, channels: &[&str], options: &Opti
 pub fn near_the_cheapest(scenario: &Scenario, within: f64, below: f64, space: &Space) {
     let name = &scenario.name;
     let engines = linkproof::engines::all(1e-3).into_iter().filter(|engine| !engine.controls_error());
-    let engines = engines.map(|engine| engine.name().to_string()).collect();
-    let options = Options { engines, ..Options::default() };
+    let named = engines.filter_map(|engine| EngineName::named(engine.name()));
+    let options = named.fold(Options::default(), Options::engine);
     let found = tuned(scenario, within, &[], &options).unwrap_or_else(|error| panic!("{name}: {error}"));
     let best = linkproof::engines::named(found.best.engine, 1e-3).unwrap().with(found.best.settings);
     let verified = error_of(scenario, &truth(scenario), best.as_ref());

@@ -164,7 +164,7 @@ pub fn means_over_turn(case: &Case, solver: &dyn Solver) -> Result<Means> {
         means.resistance += moment_of_resistance(&turn, state) * nodes[row].1 / period;
         Ok(())
     };
-    solver.sweep(&turn, &mut visit, &mut |_| {})?;
+    solver.each(&turn, &mut visit)?;
     Ok(means)
 }
 

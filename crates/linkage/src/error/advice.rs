@@ -79,7 +79,6 @@ impl Advice {
     /// The same advice with a number to try, from the present `resolution` of an engine (time step in s, or relative
     /// accuracy if it `controls_error`) and its present number of `sweeps`.
     #[must_use]
-    #[expect(clippy::wildcard_enum_match_arm, reason = "advice without a number stays as it is")]
     pub fn from_settings(self, resolution: f64, controls_error: bool, sweeps: usize) -> Self {
         let (half, double) = (rounded(resolution / 2.0), rounded(resolution * 2.0));
         match self {

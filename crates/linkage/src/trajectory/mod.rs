@@ -73,6 +73,12 @@ impl Trajectory {
         Some(&self.columns[index])
     }
 
+    /// Values of the channel called `name`, such as `joint.A.fx_N`, over the grid, in its SI unit.
+    #[must_use]
+    pub fn named(&self, name: &str) -> Option<&[f64]> {
+        self.column(&Channel::named(name)?)
+    }
+
     /// Channels with their values, in the order of columns.
     pub fn iter(&self) -> impl Iterator<Item = (&Channel, &[f64])> {
         self.channels.iter().zip(self.columns.iter().map(Vec::as_slice))

@@ -178,7 +178,7 @@ impl MotionDiagram {
         let crank = |row: usize| case.crank().start + sense * TAU * (row as f64 / rows as f64);
         let grid = Grid::of_cranks(case.crank(), (0..=rows).map(crank).collect());
         let wanted = Wanted::of(&[Stage::Positions, Stage::Velocities, Stage::Accelerations]);
-        let trajectory = solver.solve(&case.on(grid)?.wanting(wanted), &mut |_| {})?;
+        let trajectory = solver.solve(&case.on(grid)?.wanting(wanted))?;
         let column = |channel: &Channel| {
             trajectory.column(channel).map(<[f64]>::to_vec).ok_or_else(|| {
                 Error::new(ErrorKind::Unsupported, format!("{} does not provide {channel}", solver.name()))

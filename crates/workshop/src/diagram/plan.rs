@@ -63,6 +63,6 @@ pub fn state_at(case: &Case, solver: &dyn Solver, crank: f64) -> Result<State> {
         found = state.clone();
         Ok(())
     };
-    solver.sweep(&case, &mut visit, &mut |_| {})?;
+    solver.each(&case, &mut visit)?;
     Ok(found)
 }

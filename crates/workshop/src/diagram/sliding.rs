@@ -119,6 +119,6 @@ pub fn travels(case: &Case, solver: &dyn Solver, state: &State, slides: &[Slide]
     };
     let case = case.wanting(Wanted::of(&[Stage::Positions]));
     // A grid that the crank cannot follow to its end still shows how far the sliders came.
-    let _ = solver.sweep(&case, &mut visit, &mut |_| {});
+    let _ = solver.each(&case, &mut visit);
     travels
 }

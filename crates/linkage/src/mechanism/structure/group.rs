@@ -20,6 +20,15 @@ pub enum GroupKind {
 }
 
 impl GroupKind {
+    /// Whether a group of this sort has one configuration, whatever its dimensions.
+    #[must_use]
+    pub fn has_one_configuration(self) -> bool {
+        match self {
+            GroupKind::Rpp | GroupKind::Prp => true,
+            GroupKind::Rrr | GroupKind::Rrp | GroupKind::Rpr | GroupKind::Higher => false,
+        }
+    }
+
     /// Letters of a dyad's pairs from outer over inner to outer; none for higher groups.
     #[must_use]
     pub fn letters(self) -> Option<&'static str> {

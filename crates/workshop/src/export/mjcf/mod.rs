@@ -45,6 +45,6 @@ fn first_state(case: &Case, solver: &dyn Solver) -> Result<State> {
         found.clone_from(state);
         Ok(())
     };
-    solver.sweep(&case, &mut keep, &mut |_| {})?;
+    solver.each(&case, &mut keep)?;
     Ok(found)
 }

@@ -1,0 +1,350 @@
+//! A case written down in code: names instead of numbers of links, checked when it is built.
+
+use std::f64::consts::TAU;
+
+use super::{Case, CaseParts, Grid, Wanted};
+use crate::drive::{Drive, Drives, Load, MotionLaw};
+use crate::error::{Error, ErrorKind, Result};
+use crate::math::{Vec2, unit};
+use crate::mechanism::{
+    AssemblyMode, GROUND, Joint, JointKind, Link, Mechanism, Point, Side, StartGroup, Structure, first_pose,
+};
+
+/// A link under construction, a joint with the names it was given, a crank.
+#[derive(Clone, Debug)]
+struct Wish {
+    name: String,
+    first: String,
+    second: String,
+    /// Angles of the axis in the frames of both links (rad), of a prismatic joint.
+    axes: Option<[f64; 2]>,
+}
+
+/// Builds a [`Case`] from names and numbers (SI units).
+///
+/// Every step takes what is given and checks nothing; [`CaseBuilder::build`] checks all of it and names what is wrong.
+///
+/// ```
+/// use linkage::case::Case;
+/// use linkage::mechanism::AssemblyMode;
+///
+/// let four_bar = Case::builder()
+///     .ground(&[("O", [0.0, 0.0]), ("C", [0.4, 0.0])])
+///     .link("crank", &[("O", [0.0, 0.0]), ("A", [0.1, 0.0])])
+///     .link("coupler", &[("A", [0.0, 0.0]), ("B", [0.35, 0.0])])
+///     .link("rocker", &[("C", [0.0, 0.0]), ("B", [0.25, 0.0])])
+///     .mass("coupler", 2.0, [0.175, 0.0], 0.02)
+///     .pin("O", "ground", "crank")
+///     .pin("A", "crank", "coupler")
+///     .pin("B", "coupler", "rocker")
+///     .pin("C", "ground", "rocker")
+///     .crank("O", 10.0)
+///     .mode(&["coupler", "rocker"], AssemblyMode::Left)
+///     .build()?;
+/// assert_eq!(four_bar.grid.len(), 361);
+/// # Ok::<(), linkage::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct CaseBuilder {
+    links: Vec<Link>,
+    masses: Vec<(String, f64, Vec2, f64)>,
+    joints: Vec<Wish>,
+    cranks: Vec<(String, MotionLaw)>,
+    start: f64,
+    modes: Vec<(Vec<String>, AssemblyMode)>,
+    gravity: Vec2,
+    loads: Vec<Load>,
+    instants: usize,
+    wanted: Wanted,
+}
+
+impl CaseBuilder {
+    pub(super) fn new() -> Self {
+        CaseBuilder {
+            links: Vec::new(),
+            masses: Vec::new(),
+            joints: Vec::new(),
+            cranks: Vec::new(),
+            start: 0.0,
+            modes: Vec::new(),
+            gravity: Vec2::zeros(),
+            loads: Vec::new(),
+            instants: 360,
+            wanted: Wanted::ALL,
+        }
+    }
+
+    /// The ground and its points: names and places (m) in the world.
+    #[must_use]
+    pub fn ground(mut self, points: &[(&str, [f64; 2])]) -> Self {
+        self.links.insert(GROUND, bare("ground", points));
+        self
+    }
+
+    /// A moving link and its points: names and places (m) in its own frame. Without mass until it is given one.
+    #[must_use]
+    pub fn link(mut self, name: &str, points: &[(&str, [f64; 2])]) -> Self {
+        self.links.push(bare(name, points));
+        self
+    }
+
+    /// Mass (kg), mass centre in the link's frame (m) and moment of inertia about it (kg m^2) of a link.
+    #[must_use]
+    pub fn mass(mut self, link: &str, mass: f64, centre: [f64; 2], inertia: f64) -> Self {
+        self.masses.push((link.into(), mass, centre.into(), inertia));
+        self
+    }
+
+    /// A revolute joint where both links have a point called `name`.
+    #[must_use]
+    pub fn pin(self, name: &str, first: &str, second: &str) -> Self {
+        self.joint(name, first, second, None)
+    }
+
+    /// A prismatic joint where both links have a point called `name`; `axes` are the angles (rad) of its axis in the
+    /// frames of both links.
+    #[must_use]
+    pub fn slider(self, name: &str, first: &str, second: &str, axes: [f64; 2]) -> Self {
+        self.joint(name, first, second, Some(axes))
+    }
+
+    fn joint(mut self, name: &str, first: &str, second: &str, axes: Option<[f64; 2]>) -> Self {
+        self.joints.push(Wish { name: name.into(), first: first.into(), second: second.into(), axes });
+        self
+    }
+
+    /// A driving link: that which the joint `joint` hinges to the ground, at constant speed (rad/s, counter-clockwise
+    /// positive). The first one is the crank.
+    #[must_use]
+    pub fn crank(self, joint: &str, speed: f64) -> Self {
+        self.driven(joint, MotionLaw::ConstantSpeed(speed))
+    }
+
+    /// A driving link that follows a law.
+    #[must_use]
+    pub fn driven(mut self, joint: &str, law: MotionLaw) -> Self {
+        self.cranks.push((joint.into(), law));
+        self
+    }
+
+    /// World angle of the crank's x axis at t = 0 (rad); 0 if it is not given.
+    #[must_use]
+    pub fn start(mut self, crank: f64) -> Self {
+        self.start = crank;
+        self
+    }
+
+    /// Assembly mode of the group that has these links.
+    #[must_use]
+    pub fn mode(mut self, links: &[&str], mode: AssemblyMode) -> Self {
+        self.modes.push((links.iter().map(ToString::to_string).collect(), mode));
+        self
+    }
+
+    /// Acceleration of gravity (m/s^2); none if it is not given.
+    #[must_use]
+    pub fn gravity(mut self, gravity: [f64; 2]) -> Self {
+        self.gravity = gravity.into();
+        self
+    }
+
+    /// A load, whose links are numbered in the order of [`CaseBuilder::link`] from 1; the ground is 0.
+    #[must_use]
+    pub fn load(mut self, load: Load) -> Self {
+        self.loads.push(load);
+        self
+    }
+
+    /// Number of equal parts of the crank's turn at whose ends a solution is wanted; 360 if it is not given.
+    #[must_use]
+    pub fn instants(mut self, parts: usize) -> Self {
+        self.instants = parts;
+        self
+    }
+
+    /// Channels wanted; all if it is not given.
+    #[must_use]
+    pub fn wanted(mut self, wanted: Wanted) -> Self {
+        self.wanted = wanted;
+        self
+    }
+
+    /// The case.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Input`] for a link, point or joint that there is not, with the names that there are, and for a
+    /// mechanism without ground or crank; those of [`Mechanism::new`], [`Structure::of`], [`first_pose`] and
+    /// [`Case::new`].
+    pub fn build(mut self) -> Result<Case> {
+        if self.links.first().is_none_or(|link| link.name != "ground") {
+            return Err(missing("ground", "the mechanism has no ground", "give its points with `ground`"));
+        }
+        for (name, mass, centre, inertia) in std::mem::take(&mut self.masses) {
+            let index = self.link_of(&name, "masses")?;
+            let link = &mut self.links[index];
+            (link.mass, link.mass_centre, link.inertia) = (mass, centre, inertia);
+        }
+        let joints = self.joints.iter().map(|wish| self.made(wish)).collect::<Result<Vec<Joint>>>()?;
+        let mechanism = Mechanism::new(std::mem::take(&mut self.links), joints)?;
+        let drives = self.drives(&mechanism)?;
+        let structure = Structure::of(&mechanism, &drives.joints())?;
+        let starts = self.starts(&mechanism, &structure)?;
+        let (start, modes) = first_pose(&mechanism, &structure, &drives.world_angles(self.start), &starts)?;
+        let turn = |part: usize| self.start + drives.crank().sense() * TAU * part as f64 / self.instants.max(1) as f64;
+        let grid = Grid::of_cranks(drives.crank(), (0..=self.instants).map(turn).collect());
+        let (gravity, loads, wanted) = (self.gravity, self.loads, self.wanted);
+        Case::new(CaseParts { mechanism, structure, drives, loads, gravity, start, modes, grid, wanted })
+    }
+
+    fn link_of(&self, name: &str, key: &str) -> Result<usize> {
+        let known = self.links.iter().map(|link| link.name.as_str());
+        known.clone().position(|own| own == name).ok_or_else(|| unknown("link", name, key, known))
+    }
+
+    fn made(&self, wish: &Wish) -> Result<Joint> {
+        let key = format!("joints.{}", wish.name);
+        let side = |link: &str| -> Result<Side> {
+            let index = self.link_of(link, &key)?;
+            let points = &self.links[index].points;
+            let point = points.iter().find(|point| point.name == wish.name).ok_or_else(|| {
+                unknown(
+                    &format!("point of link \"{link}\""),
+                    &wish.name,
+                    &key,
+                    points.iter().map(|own| own.name.as_str()),
+                )
+            })?;
+            Ok(Side { link: index, local: point.local })
+        };
+        let kind = match wish.axes {
+            None => JointKind::Revolute,
+            Some(angles) => JointKind::Prismatic { axes: angles.map(unit) },
+        };
+        Ok(Joint { name: wish.name.clone(), kind, first: side(&wish.first)?, second: side(&wish.second)? })
+    }
+
+    fn drives(&self, mechanism: &Mechanism) -> Result<Drives> {
+        let drive = |(name, law): &(String, MotionLaw)| -> Result<Drive> {
+            let known = mechanism.joints().iter().map(|joint| joint.name.as_str());
+            let joint = mechanism.joint_named(name).ok_or_else(|| unknown("joint", name, "drive", known))?;
+            let Joint { first, second, .. } = mechanism.joints()[joint];
+            let link = if first.link == GROUND { second.link } else { first.link };
+            Ok(Drive::prescribed(joint, link, 0.0, self.start, law.clone()))
+        };
+        let mut all = self.cranks.iter().map(drive).collect::<Result<Vec<Drive>>>()?;
+        if all.is_empty() {
+            return Err(missing("drive", "nothing drives the mechanism", "name the driven joint with `crank`"));
+        }
+        let crank = all.remove(0);
+        Ok(Drives::new(crank, all))
+    }
+
+    /// What is asked of each group, in the order of the structure. A group with one configuration need not be asked.
+    fn starts(&self, mechanism: &Mechanism, structure: &Structure) -> Result<Vec<StartGroup>> {
+        let mut starts = vec![StartGroup::default(); structure.groups.len()];
+        for (start, group) in starts.iter_mut().zip(&structure.groups) {
+            if group.kind.has_one_configuration() {
+                start.mode = Some(AssemblyMode::Only);
+            }
+        }
+        for (links, mode) in &self.modes {
+            let own = |name: &String| mechanism.link_named(name);
+            let wanted: Option<Vec<usize>> = links.iter().map(own).collect();
+            let is_it = |of: &[usize]| {
+                wanted.as_ref().is_some_and(|all| all.len() == of.len() && all.iter().all(|link| of.contains(link)))
+            };
+            let Some(index) = structure.groups.iter().position(|group| is_it(&group.links)) else {
+                let known: Vec<String> = structure.groups.iter().map(|group| group.names(mechanism)).collect();
+                return Err(unknown("group", &links.join(", "), "start.groups", known.iter().map(String::as_str)));
+            };
+            let first = structure.groups[index].links[0];
+            let in_order = mechanism.link_named(&links[0]) == Some(first);
+            starts[index].mode = Some(if in_order { *mode } else { mode.swapped() });
+        }
+        Ok(starts)
+    }
+}
+
+/// A link without mass.
+fn bare(name: &str, points: &[(&str, [f64; 2])]) -> Link {
+    let point = |&(name, local): &(&str, [f64; 2])| Point { name: name.into(), local: local.into() };
+    let points = points.iter().map(point).collect();
+    Link { name: name.into(), points, mass: 0.0, mass_centre: Vec2::zeros(), inertia: 0.0 }
+}
+
+fn unknown<'a>(what: &str, asked: &str, key: &str, known: impl Iterator<Item = &'a str>) -> Error {
+    let known: Vec<&str> = known.collect();
+    let error = Error::new(ErrorKind::Input, format!("there is no {what} called \"{asked}\"")).key(key);
+    error.help(format!("use one of: {}", known.join("; ")))
+}
+
+fn missing(key: &str, what: &str, help: &str) -> Error {
+    Error::new(ErrorKind::Input, what).key(key).help(help.to_string())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn four_bar() -> CaseBuilder {
+        Case::builder()
+            .ground(&[("O", [0.0, 0.0]), ("C", [4.0, 0.0])])
+            .link("crank", &[("O", [0.0, 0.0]), ("A", [1.0, 0.0])])
+            .link("coupler", &[("A", [0.0, 0.0]), ("B", [4.0, 0.0])])
+            .link("rocker", &[("C", [0.0, 0.0]), ("B", [3.0, 0.0])])
+            .pin("O", "ground", "crank")
+            .pin("A", "crank", "coupler")
+            .pin("B", "coupler", "rocker")
+            .pin("C", "ground", "rocker")
+    }
+
+    fn message(builder: CaseBuilder) -> String {
+        builder.build().unwrap_err().to_string()
+    }
+
+    #[test]
+    fn a_four_bar_is_that_of_the_fixtures() {
+        let case = four_bar().crank("O", -2.0).mode(&["rocker", "coupler"], AssemblyMode::Right).build().unwrap();
+        assert_eq!(case.mechanism, crate::fixtures::four_bar());
+        assert_eq!(case.modes, [AssemblyMode::Left]);
+        assert_eq!((case.grid.len(), case.grid.cranks[360]), (361, -TAU));
+        assert_eq!(case.crank().link, 1);
+    }
+
+    #[test]
+    fn a_slider_crank_takes_its_axis_in_both_frames() {
+        let case = Case::builder()
+            .ground(&[("O", [0.0, 0.0]), ("D", [0.0, 0.0])])
+            .link("crank", &[("O", [0.0, 0.0]), ("A", [0.1, 0.0])])
+            .link("rod", &[("A", [0.0, 0.0]), ("B", [0.4, 0.0])])
+            .link("piston", &[("B", [0.0, 0.0]), ("D", [0.0, 0.0])])
+            .pin("O", "ground", "crank")
+            .pin("A", "crank", "rod")
+            .pin("B", "rod", "piston")
+            .slider("D", "ground", "piston", [0.0, 0.0])
+            .crank("O", 10.0)
+            .mode(&["rod", "piston"], AssemblyMode::Ahead)
+            .instants(8)
+            .build()
+            .unwrap();
+        assert!((case.start.0[3].origin.x - 0.5).abs() < 1e-15, "{:?}", case.start);
+    }
+
+    #[test]
+    fn what_is_wrong_is_named_with_what_there_is() {
+        let said = message(four_bar().crank("P", 1.0));
+        assert!(said.contains("no joint called \"P\"") && said.contains("O; A; B; C"), "{said}");
+        let said = message(four_bar().pin("E", "crank", "coupler").crank("O", 1.0));
+        assert!(said.contains("no point of link \"crank\" called \"E\"") && said.contains("O; A"), "{said}");
+        let said = message(four_bar().mass("lever", 1.0, [0.0; 2], 0.0).crank("O", 1.0));
+        assert!(said.contains("no link called \"lever\"") && said.contains("rocker"), "{said}");
+        let said = message(four_bar().crank("O", 1.0).mode(&["crank"], AssemblyMode::Left));
+        assert!(said.contains("no group called \"crank\"") && said.contains("coupler, rocker"), "{said}");
+        assert!(message(four_bar()).contains("nothing drives the mechanism"));
+        assert!(message(Case::builder()).contains("no ground"));
+        let said = message(four_bar().crank("O", 1.0));
+        assert!(said.contains("coupler, rocker"), "{said}");
+        let nan = message(four_bar().crank("O", f64::NAN).mode(&["coupler", "rocker"], AssemblyMode::Left));
+        assert!(nan.contains("NaN"), "{nan}");
+    }
+}
