@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::common::sliders::short_rod;
 use crate::common::{assert_within, shipped};
-use analytic::range::{Extent, Kind, Range};
+use analytic::range::{Extent, Kind, Range, explained};
 use analytic::{self, AssurSolver};
 use linkage::ErrorKind;
 use linkage::case::{Case, Grid};
@@ -42,7 +42,8 @@ fn no_solver_goes_on_behind_parallel_axes() {
             assert!(error.message().contains("crank angle") && error.way_out().is_some(), "{error}");
         }
         for beyond in [90.0, 90.5, 100.0, 180.0] {
-            let message = solver.solve(&on_cranks(&case, &[0.0, beyond])).unwrap_err().to_string();
+            let error = solver.solve(&on_cranks(&case, &[0.0, beyond])).unwrap_err();
+            let message = explained(&case, error).to_string();
             assert!(message.contains("from -90.000000 to 90.000000 deg"), "{}: {message}", solver.name());
         }
     }
