@@ -41,7 +41,18 @@ use linkage::mechanism::{Mechanism, StartGroup, Structure};
 pub const FORMAT: i64 = 1;
 
 /// A scenario: the problem, the engine's settings, and the published numbers it is judged by.
+///
+/// ```
+/// use linkproof::Scenario;
+///
+/// # std::env::set_current_dir(env!("CARGO_MANIFEST_DIR"))?;
+/// let scenario = Scenario::load("scenarios/crank_rocker.toml".as_ref())?;
+/// assert_eq!(scenario.name, "crank_rocker");
+/// assert_eq!(scenario.case.mechanism.joints().len(), 4);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Scenario {
     /// Short name, fit for file names: lower-case letters, digits and `_`.
     pub name: String,
@@ -93,6 +104,37 @@ impl Scenario {
         let source = Source { path, text };
         let tree = source.tree()?;
         read(&mut Table::root(&source, &tree)).map_err(|error| source.located(tree.get_ref(), error))
+    }
+
+    /// The scenario of a case that was built in code: without a file, without published numbers, at the engine's own
+    /// settings. `name` is fit for file names; `step` is the engine's time step (s).
+    ///
+    /// # Errors
+    /// [`ErrorKind::Input`] for a name that is not of lower-case letters, digits and `_`, and for a step that is not
+    /// above zero.
+    pub fn of_case(name: &str, case: Case, step: f64) -> Result<Scenario> {
+        if !is_name(name) {
+            let message = format!("\"{name}\" cannot be the name of a scenario");
+            return Err(Error::new(ErrorKind::Input, message).key("name").help(NAME_HELP));
+        }
+        if !(step > 0.0 && step.is_finite()) {
+            let message = format!("the engine's time step is {step} s");
+            return Err(Error::new(ErrorKind::Input, message).help("give a finite number above zero"));
+        }
+        Ok(Scenario {
+            name: name.into(),
+            title: name.into(),
+            source: None,
+            path: PathBuf::new(),
+            text: String::new(),
+            choices: case.modes.iter().map(|&mode| Choice { mode, nearest_m: None, next_m: None }).collect(),
+            starts: vec![StartGroup::default(); case.structure.groups.len()],
+            case,
+            dt: step,
+            engine: EngineKeys::default(),
+            engine_rel: settings::ENGINE_REL,
+            oracles: Vec::new(),
+        })
     }
 
     /// The same scenario with every drive in its nominal motion: for questions about crank angles.
