@@ -1,6 +1,6 @@
 //! `tune` by the clock: its choice against the cheapest settings of an exhaustive search over engines, routes, extrapolation, substeps, sweeps and
 //! steps, both timed in turns. `cargo bench --bench tune [-- SCENARIO...]`; with `-- prices` what the price model of `tests/suite/tune/prices.rs`
-//! needs.
+//! needs; with `-- whole` the price model's own whole space is searched for three wishes, which fails where `tune` misses its promise.
 
 use linkage::math::KeepNan;
 use std::hint::black_box;
@@ -16,8 +16,13 @@ use linkproof::tune::{Wish, tune};
 
 #[path = "../tests/suite/tune/exhaustive.rs"]
 mod exhaustive;
+#[path = "../tests/suite/tune/near.rs"]
+mod near;
+#[path = "../tests/suite/tune/prices.rs"]
+mod prices;
 
 use exhaustive::{Met, REFERENCES, Space, cheaper, error_of, thinned, truth};
+use near::near_the_cheapest;
 
 const WITHIN: f64 = 1e-3;
 /// Every how many instants of a scenario's grid are looked at.
@@ -87,8 +92,9 @@ fn told(engine: &dyn Engine, case: &Case) -> String {
 fn compare(name: &str) {
     let scenario = thinned(scenario(name), EVERY);
     let case = &scenario.case;
-    let engines = ["rapier", "rapier-f32", "impulse", "impulse-f32"].map(String::from);
-    let options = Options { engines: engines.into(), ..Options::default() };
+    let engines = linkproof::engines::all(1e-3).into_iter().filter(|engine| !engine.controls_error());
+    let engines = engines.map(|engine| engine.name().to_string()).collect();
+    let options = Options { engines, ..Options::default() };
     let wish = Wish { within: WITHIN, channels: Vec::new() };
     let mut price = |_: &dyn Engine, run: &mut dyn FnMut() -> linkage::Result<()>| {
         let mut shortest = f64::INFINITY;
@@ -134,7 +140,7 @@ fn compare(name: &str) {
 }
 
 /// Cost of steps, sweeps, substeps, instants and worlds, in units of a step of `rapier` without sweeps.
-fn prices() {
+fn measure_prices() {
     let base = scenario("crank_rocker").case;
     let (steps, step) = (1000, 1e-3);
     let last = steps as f64 * step;
@@ -170,12 +176,32 @@ fn prices() {
     println!("unit: {:.2} us", unit * 1e6);
 }
 
+/// Three wishes on the whole space, by the price model: no clock, but minutes.
+fn whole(names: &[&str]) {
+    const SWEEPS: &[usize] = &[1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 512, 1024];
+    const WHOLE: Space = Space { sweeps: SWEEPS, factor: 1.1 };
+    for name in names {
+        for within in [1e-2, 1e-3, 1e-4] {
+            near_the_cheapest(&thinned(scenario(name), EVERY), within, 1.0, &WHOLE);
+        }
+    }
+}
+
 fn main() {
     let words: Vec<String> = std::env::args().skip(1).filter(|word| !word.starts_with('-')).collect();
     if words.iter().any(|word| word == "prices") {
-        return prices();
+        return measure_prices();
     }
-    for name in REFERENCES.iter().filter(|name| words.is_empty() || words.iter().any(|word| word == *name)) {
-        compare(name);
+    let of_model = words.iter().any(|word| word == "whole");
+    let named = |name: &&str| words.len() == usize::from(of_model) || words.iter().any(|word| word == name);
+    let names: Vec<&str> = REFERENCES.into_iter().filter(named).collect();
+    if of_model {
+        // The searches have no clock: both halves at once.
+        let (one, other) = names.split_at(names.len() / 2);
+        return std::thread::scope(|scope| {
+            scope.spawn(|| whole(one));
+            whole(other);
+        });
     }
+    names.into_iter().for_each(compare);
 }

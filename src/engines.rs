@@ -13,6 +13,13 @@ pub fn all(step: f64) -> Vec<Box<dyn Engine>> {
     rapier.collect()
 }
 
+/// Whether the current thread is inside a step of an engine whose panic is caught and becomes an error: for the panic
+/// hook of a program, which may stay silent then.
+#[must_use]
+pub fn panic_is_caught() -> bool {
+    rapier_twin::is_guarded()
+}
+
 /// The engine called `name`, as [`all`] has it.
 #[must_use]
 pub fn named(name: &str, step: f64) -> Option<Box<dyn Engine>> {

@@ -3,6 +3,7 @@
 use linkage::error::Advice;
 
 /// What a user of the command line is told.
+#[expect(clippy::wildcard_enum_match_arm, reason = "advice without a flag of its own is told in words")]
 pub(super) fn told(advice: &Advice) -> String {
     match advice {
         Advice::SmallerStep { to } => format!("choose a smaller time step{}", option("--dt", *to)),
@@ -30,7 +31,7 @@ pub(super) fn told(advice: &Advice) -> String {
             "ask for a larger error, other channels (--channel) or further engines (--engine all)".into()
         }
         Advice::AllResults => "all of them with --json".into(),
-        _ => advice.to_string(),
+        Advice::Text(_) | Advice::DoublePrecision | Advice::ShortenGrid => advice.to_string(),
     }
 }
 

@@ -83,7 +83,7 @@ fn as_text(scenario: &Scenario, diagram: &MotionDiagram) -> String {
     let [largest, rms, share, first, second] = header;
     let _ = writeln!(text, "\n  {:34} {largest:>20} {rms:>20} {share:>14} {first:>6} {second:>6}", "method");
     for found in &diagram.found {
-        let unit = diagram.course.0[found.method.gives()].kind.unit;
+        let unit = diagram.course.0[found.method.gives()].kind.unit.symbol();
         let [first, second] = found.orders.map(|order| order.map_or_else(|| "-".into(), |order| format!("{order:.2}")));
         let with = |value: f64| format!("{} {unit}", significant(value));
         let _ = writeln!(
@@ -133,7 +133,7 @@ fn as_json(scenario: &Scenario, diagram: &MotionDiagram) -> Value {
         })
     });
     let course = diagram.course.0.iter().enumerate().map(|(which, channel)| {
-        json!({"channel": channel.to_string(), "unit": channel.kind.unit, "half_range": diagram.half_range(which)})
+        json!({"channel": channel.to_string(), "unit": channel.kind.unit.symbol(), "half_range": diagram.half_range(which)})
     });
     json!({
         "schema": 1, "scenario": scenario.name, "divisions": diagram.divisions,

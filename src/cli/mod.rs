@@ -77,7 +77,7 @@ enum Command {
 /// Runs the command line and returns its exit code.
 #[must_use]
 pub fn main() -> ExitCode {
-    panics::silence(rapier_twin::is_guarded);
+    panics::silence(crate::engines::panic_is_caught);
     let cli = Cli::parse();
     let code = match cli.command {
         Command::Run(args) => run::run(&args),

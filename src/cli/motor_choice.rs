@@ -53,7 +53,7 @@ fn rpm(omega: f64) -> f64 {
 fn line(choice: &Choice) -> [f64; 2] {
     match choice.geared.law {
         MotorLaw::Linear { at_rest, slope } => [at_rest, slope],
-        _ => [f64::NAN; 2],
+        MotorLaw::Constant { .. } | MotorLaw::Kloss { .. } | MotorLaw::Table { .. } => [f64::NAN; 2],
     }
 }
 

@@ -53,7 +53,7 @@ fn in_turn(crank: f64, range: &Range) -> f64 {
     match range.extent {
         // What lies a rounding below a whole turn is zero.
         Extent::FullTurn(1) => (crank + 1e-12).rem_euclid(TAU) - 1e-12,
-        _ => crank,
+        Extent::FullTurn(_) | Extent::Limited(_) => crank,
     }
 }
 

@@ -14,7 +14,7 @@ use super::{advice, exit_code, output};
 use crate::compare::Verdict;
 use crate::proof::{EngineProof, Proof, prove};
 use crate::record::{self as recorder, Level, LogEntry, Recording, Side};
-use crate::report::{json, text};
+use crate::report::{json, residuals, text};
 use crate::scenario::Scenario;
 use linkage::error::{Error, ErrorKind, Result};
 
@@ -45,6 +45,9 @@ pub(super) struct Args {
     /// published numbers, which belong to the file's own modes, are left out then. May be given for several groups
     #[arg(long, value_name = "LINK,LINK=MODE")]
     mode: Vec<String>,
+    /// Multiply every bound by this, to see how far a proof is from its bounds; 0 judges as ever and prints every residual beside its bound
+    #[arg(long, hide = true, value_name = "FACTOR", value_parser = dial)]
+    tolerance_scale: Option<f64>,
     /// Directory that the recordings (MCAP) are written to
     #[arg(long, value_name = "DIR", default_value = "recordings")]
     record: PathBuf,
@@ -97,14 +100,27 @@ pub(super) fn run(args: &Args) -> u8 {
     worst
 }
 
+/// A factor for all bounds.
+fn dial(text: &str) -> std::result::Result<f64, String> {
+    let factor: f64 = text.parse().map_err(|error| format!("{error}"))?;
+    if factor.is_finite() && factor >= 0.0 { Ok(factor) } else { Err("a factor is 0 or greater".into()) }
+}
+
 fn prove_file(args: &Args, file: &Path, quiet: bool) -> Result<(Scenario, Proof)> {
     let scenario = load(file, &args.mode)?;
     let options = args.engine.options(&args.reference);
     let mut bar = Bar::new(&scenario.name);
     let proof = prove(&scenario, &options, &mut |part| bar.at(part))?;
     drop(bar);
+    let proof = match args.tolerance_scale {
+        Some(dial) if dial > 0.0 => proof.with_bounds_scaled(dial),
+        _ => proof,
+    };
     if !quiet {
         output::print(&text::proof(&proof, advice::told))?;
+        if args.tolerance_scale == Some(0.0) {
+            output::print(&residuals::all(&proof))?;
+        }
     }
     Ok((scenario, proof))
 }

@@ -14,7 +14,7 @@ use super::progress::Bar;
 use crate::report::table;
 use crate::scenario::{EngineKeys, Scenario, edit};
 use crate::tune::{Candidate, Tuning, Wish, tune};
-use linkage::engine::Engine;
+use linkage::engine::{Engine, Settings};
 use linkage::error::{Advice, Error, ErrorKind, Result};
 
 const EXAMPLES: &str = "\
@@ -100,15 +100,15 @@ fn of_argument(error: Error) -> Error {
 
 /// What the scenario must say to run a candidate: its step (s), and its other keys.
 fn keys(scenario: &Scenario, best: &Candidate) -> (f64, EngineKeys) {
-    let settings = best.settings;
+    let Settings { resolution, sweeps, substeps, route, extrapolated } = best.settings;
     // An engine that chooses its own steps leaves the scenario's as it is: it belongs to the others.
-    let step = if best.controls_error { scenario.dt } else { settings.resolution };
+    let step = if best.controls_error { scenario.dt } else { resolution };
     let keys = EngineKeys {
         name: Some(best.engine.into()),
-        sweeps: (settings.sweeps > 0).then_some(settings.sweeps),
-        substeps: (settings.substeps > 1).then_some(settings.substeps),
-        route: Some(settings.route.name().into()),
-        extrapolated: settings.extrapolated.then_some(true),
+        sweeps: (sweeps > 0).then_some(sweeps),
+        substeps: (substeps > 1).then_some(substeps),
+        route: Some(route.name().into()),
+        extrapolated: extrapolated.then_some(true),
     };
     (step, keys)
 }
@@ -117,14 +117,14 @@ fn as_text(args: &Args, scenario: &Scenario, found: &Tuning) -> String {
     let header = ["engine", "step", "sweeps", "substeps", "extrapolated", "route", "error", "worst channel", "price"];
     let mut table = table(header, &[1, 2, 3, 6, 8]);
     for candidate in &found.by_engine {
-        let settings = candidate.settings;
+        let Settings { resolution, sweeps, substeps, route, extrapolated } = candidate.settings;
         table.add_row([
             candidate.engine.to_string(),
-            format!("{:.3e}", settings.resolution),
-            settings.sweeps.to_string(),
-            settings.substeps.to_string(),
-            if settings.extrapolated { "yes" } else { "no" }.to_string(),
-            settings.route.name().to_string(),
+            format!("{resolution:.3e}"),
+            sweeps.to_string(),
+            substeps.to_string(),
+            if extrapolated { "yes" } else { "no" }.to_string(),
+            route.name().to_string(),
             format!("{:.2e}", candidate.verified),
             candidate.worst.clone(),
             format!("{:.2}", candidate.price / found.best.price),
@@ -160,11 +160,11 @@ fn as_text(args: &Args, scenario: &Scenario, found: &Tuning) -> String {
 
 fn as_json(args: &Args, scenario: &Scenario, found: &Tuning) -> String {
     let candidate = |candidate: &Candidate| {
-        let settings = candidate.settings;
-        let resolution = if candidate.controls_error { "accuracy" } else { "dt_s" };
+        let Settings { resolution, sweeps, substeps, route, extrapolated } = candidate.settings;
+        let key = if candidate.controls_error { "accuracy" } else { "dt_s" };
         json!({
-            "engine": candidate.engine, resolution: settings.resolution, "sweeps": settings.sweeps,
-            "substeps": settings.substeps, "route": settings.route.name(), "extrapolated": settings.extrapolated,
+            "engine": candidate.engine, key: resolution, "sweeps": sweeps,
+            "substeps": substeps, "route": route.name(), "extrapolated": extrapolated,
             "error": candidate.verified, "worst_channel": candidate.worst, "price_of_best": candidate.price / found.best.price,
         })
     };

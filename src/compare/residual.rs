@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::statistics::{half_range, quantile, rms, share};
-use linkage::trajectory::{Channel, Trajectory};
+use linkage::trajectory::{Channel, Trajectory, Unit};
 
 /// A channel that moves less than this share of what is natural for its quantity is measured by that share: its errors come
 /// from its neighbours, not from its own motion (a nearly constant coordinate).
@@ -62,23 +62,24 @@ pub fn magnitudes(trajectory: &Trajectory) -> Vec<f64> {
 /// speed, its `turn` (rad) and the sizes of places and forces.
 fn natural(trajectory: &Trajectory, sizes: &[f64], turn: f64) -> Vec<f64> {
     let all = || trajectory.channels().iter().zip(sizes);
-    let of_unit = |unit: &str| all().filter(|(c, _)| c.kind.unit == unit).fold(0.0, |max: f64, (_, &s)| max.larger(s));
+    let of_unit = |unit: Unit| all().filter(|(c, _)| c.kind.unit == unit).fold(0.0, |max: f64, (_, &s)| max.larger(s));
     let of_quantity = |quantity: &str| {
         all().filter(|(c, _)| c.kind.quantity == quantity).fold(0.0, |max: f64, (_, &s)| max.larger(s))
     };
     let span = half_range(trajectory.times());
     let speed = if span > 0.0 { half_range(trajectory.cranks()) / span } else { 0.0 };
-    let (length, force) = (of_unit("m"), of_unit("N"));
+    let (length, force) = (of_unit(Unit::Metre), of_unit(Unit::Newton));
     let natural = |channel: &Channel| {
         let derived = match channel.kind.unit {
-            "rad" => turn,
-            "rad/s" => speed * turn,
-            "rad/s^2" => speed * speed * turn,
-            "m" => length,
-            "m/s" => speed * length,
-            "m/s^2" => speed * speed * length,
-            "N m" => force * length,
-            _ => 0.0,
+            Unit::Radian => turn,
+            Unit::RadianPerSecond => speed * turn,
+            Unit::RadianPerSecondSquared => speed * speed * turn,
+            Unit::Metre => length,
+            Unit::MetrePerSecond => speed * length,
+            Unit::MetrePerSecondSquared => speed * speed * length,
+            // What forces come from is not known here: the widest of their own is all there is.
+            Unit::Newton => 0.0,
+            Unit::NewtonMetre => force * length,
         };
         of_quantity(channel.kind.quantity).larger(derived)
     };

@@ -133,7 +133,10 @@ impl Verdict {
                 );
                 Verdict::Inconclusive { reason, advice }
             }
-            verdict => verdict,
+            verdict @ (Verdict::Agree { .. }
+            | Verdict::Disagree { .. }
+            | Verdict::Expected { .. }
+            | Verdict::Inconclusive { .. }) => verdict,
         }
     }
 }
@@ -224,7 +227,7 @@ impl Check {
             (Verdict::Disagree { place }, _) => Verdict::Disagree {
                 place: format!("neither the printed number nor the one that \"{finding}\" says is right: {place}"),
             },
-            (verdict, _) => verdict,
+            (verdict @ (Verdict::Agree { .. } | Verdict::Expected { .. } | Verdict::Inconclusive { .. }), _) => verdict,
         };
         self
     }
@@ -299,7 +302,9 @@ mod tests {
     fn what_is_open_says_what_would_close_it() {
         let told = |parts: Parts| match Verdict::of_engine(&residual(1e-4), &converging(2.0), parts, 1e-2) {
             Verdict::Inconclusive { reason, advice } => (reason, advice),
-            other => panic!("{other:?}"),
+            other @ (Verdict::Agree { .. } | Verdict::Disagree { .. } | Verdict::Expected { .. }) => {
+                panic!("{other:?}")
+            }
         };
         let (_, advice) = told(Parts { discretisation: 0.5, iteration: 0.1, rounding: 0.1 });
         assert_eq!(advice, [Advice::SmallerStep { to: None }]);
@@ -356,7 +361,9 @@ mod tests {
         assert_eq!(known_wrong(7.2), Verdict::Expected { finding: "why".into(), off: 7.2 - 5.0 });
         let reason = |found: f64| match known_wrong(found) {
             Verdict::Disagree { place } => place,
-            other => panic!("{found}: {other:?}"),
+            other @ (Verdict::Agree { .. } | Verdict::Expected { .. } | Verdict::Inconclusive { .. }) => {
+                panic!("{found}: {other:?}")
+            }
         };
         assert!(reason(5.2).contains("but it agrees"));
         for third in [f64::NAN, f64::INFINITY, 9.0, 6.0, -7.0] {

@@ -1,6 +1,7 @@
 //! The join: a scenario solved by both analytic sides and by engines, compared, checked, and judged.
 
 mod checks;
+mod dial;
 mod engines;
 mod methods;
 mod observe;

@@ -56,7 +56,7 @@ fn of_one(oracle: &Oracle, series: &OracleSeries, solved: &Trajectory, side: &st
         let difference = values[row] - point.value;
         let deviation = if series.channel.kind.periodic { wrapped(difference) } else { difference }.abs();
         let tolerance = tolerance(oracle, origin, point.bound, point.digits);
-        Check::new(family, deviation, tolerance, series.channel.kind.unit)
+        Check::new(family, deviation, tolerance, series.channel.kind.unit.symbol())
             .located(|| format!("at crank angle {:.3} deg", point.crank.to_degrees()))
     };
     let [family, wrong] = [false, true].map(|wrong| family(oracle, wrong, side));

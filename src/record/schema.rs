@@ -2,7 +2,7 @@
 //!
 //! Every field has presence (proto3 `optional`): a channel that was not computed is absent, which is not zero.
 
-use linkage::trajectory::{CHANNELS, ChannelKind, Subject};
+use linkage::trajectory::{CHANNELS, ChannelKind, Subject, Unit};
 use prost::Message;
 use prost::encoding::{WireType, decode_key, double, encode_key, skip_field};
 use prost_types::field_descriptor_proto::{Label, Type};
@@ -45,9 +45,13 @@ pub fn tag(kind: &ChannelKind) -> u32 {
 
 /// Name of a channel's error with its small unit, and how many of these units the SI unit has.
 pub fn small_unit(kind: &ChannelKind) -> (String, f64) {
-    let unit = kind.unit.replace("/s^2", "_s2").replace(['/', ' '], "_");
-    let stem = kind.suffix.strip_suffix(&unit).unwrap_or(kind.suffix);
-    let (prefix, factor) = if unit.starts_with('N') { ("m", 1e3) } else { ("u", 1e6) };
+    let (prefix, factor) = match kind.unit {
+        Unit::Radian | Unit::RadianPerSecond | Unit::RadianPerSecondSquared => ("u", 1e6),
+        Unit::Metre | Unit::MetrePerSecond | Unit::MetrePerSecondSquared => ("u", 1e6),
+        Unit::Newton | Unit::NewtonMetre => ("m", 1e3),
+    };
+    let unit = kind.unit.suffix();
+    let stem = kind.suffix.strip_suffix(unit).unwrap_or(kind.suffix);
     (format!("{stem}{prefix}{unit}"), factor)
 }
 

@@ -211,7 +211,7 @@ fn channel(proof: &ChannelProof, tell: Tell) -> Channel {
     let residual = &proof.residual;
     Channel {
         channel: residual.channel.to_string(),
-        unit: residual.channel.kind.unit,
+        unit: residual.channel.kind.unit.symbol(),
         scale: residual.scale,
         max: residual.max,
         rms: residual.rms,
@@ -235,7 +235,7 @@ fn channel(proof: &ChannelProof, tell: Tell) -> Channel {
 fn check(check: &Check, tell: Tell) -> CheckRow {
     let (finding, printed_off) = match &check.verdict {
         Verdict::Expected { finding, off } => (Some(finding.clone()), Some(*off)),
-        _ => (None, None),
+        Verdict::Agree { .. } | Verdict::Disagree { .. } | Verdict::Inconclusive { .. } => (None, None),
     };
     CheckRow {
         name: check.name(),

@@ -3,6 +3,7 @@
 mod cells;
 mod engines;
 pub mod json;
+pub mod residuals;
 mod tell;
 pub mod text;
 

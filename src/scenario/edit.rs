@@ -32,13 +32,14 @@ pub fn engine_section(engine: (f64, EngineKeys)) -> String {
 
 fn fill(table: &mut Table, (step, keys): (f64, EngineKeys)) {
     let count = |count: usize| value(i64::try_from(count).unwrap_or(i64::MAX));
+    let EngineKeys { name, sweeps, substeps, route, extrapolated } = keys;
     let items = [
         ("dt_s", Some(value(step))),
-        ("name", keys.name.map(value)),
-        ("sweeps", keys.sweeps.map(count)),
-        ("substeps", keys.substeps.map(count)),
-        ("route", keys.route.map(value)),
-        ("extrapolated", keys.extrapolated.map(value)),
+        ("name", name.map(value)),
+        ("sweeps", sweeps.map(count)),
+        ("substeps", substeps.map(count)),
+        ("route", route.map(value)),
+        ("extrapolated", extrapolated.map(value)),
     ];
     for (key, item) in items {
         if let Some(item) = item {

@@ -63,7 +63,7 @@ fn moment(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
     };
     let link = match acts {
         Acts::Always => moving(table, &name, mechanism)?,
-        _ => turning(table, &name, mechanism)?,
+        Acts::CounterClockwise | Acts::Clockwise => turning(table, &name, mechanism)?,
     };
     Ok(Load::Moment { link, moment, acts })
 }

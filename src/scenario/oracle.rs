@@ -183,10 +183,10 @@ impl Known<'_> {
         }
         let subject = name.split('.').next().unwrap_or_default();
         let kinds = CHANNELS.iter().filter(|kind| kind.subject.word() == subject);
-        let endings: Vec<&str> = kinds.flat_map(|kind| printed::endings(kind.suffix)).collect();
+        let endings: Vec<String> = kinds.flat_map(printed::endings).collect();
         match name.rsplit_once('.') {
             Some((of, ending)) if !endings.is_empty() => {
-                format!("after `{of}.`, {}", suggestion(ending, endings, "`"))
+                format!("after `{of}.`, {}", suggestion(ending, endings.iter().map(String::as_str), "`"))
             }
             _ => "channels are named like \"point.A.x_mm\", \"link.crank.angle_deg\", \"link.crank.omega_rad_s\", \
                   \"joint.A.fx_N\" or \"drive.torque_N_m\""

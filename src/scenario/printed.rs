@@ -1,7 +1,7 @@
 //! Printed numbers: their value, and how far the true value may be away.
 
 use super::unit::{ANGLE, Family, LENGTH, Unit};
-use linkage::trajectory::Channel;
+use linkage::trajectory::{self, CHANNELS, Channel, ChannelKind};
 
 /// A number as printed: its value and its count of decimals.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,18 +49,34 @@ impl Printed {
 pub const MOST_DIGITS: i32 = 20;
 
 /// Ending of a joint's name that stands for the size of its reaction.
-const MAGNITUDE: &str = ".f_N";
+const MAGNITUDE: &str = "f_N";
 
-/// The endings that channel names with the SI ending `suffix` may have, one a printed unit.
-#[must_use]
-pub fn endings(suffix: &'static str) -> Vec<&'static str> {
-    match suffix {
-        "x_m" => vec!["x_m", "x_mm"],
-        "y_m" => vec!["y_m", "y_mm"],
-        "angle_rad" => vec!["angle_rad", "angle_deg"],
-        "fx_N" => vec!["fx_N", "f_N"],
-        si => vec![si],
+/// Ending of the row that a joint's magnitude is read from.
+const X_OF_MAGNITUDE: &str = "fx_N";
+
+/// The units that a channel is printed in; `None` where print knows the SI unit only.
+fn family(unit: trajectory::Unit) -> Option<&'static Family> {
+    match unit {
+        trajectory::Unit::Radian => Some(&ANGLE),
+        trajectory::Unit::Metre => Some(&LENGTH),
+        trajectory::Unit::RadianPerSecond | trajectory::Unit::RadianPerSecondSquared => None,
+        trajectory::Unit::MetrePerSecond | trajectory::Unit::MetrePerSecondSquared => None,
+        trajectory::Unit::Newton | trajectory::Unit::NewtonMetre => None,
     }
+}
+
+/// The endings that names of channels of a kind may have, one a printed unit.
+#[must_use]
+pub fn endings(kind: &ChannelKind) -> Vec<String> {
+    let si = format!("_{}", kind.unit.suffix());
+    let mut endings = match (family(kind.unit), kind.suffix.strip_suffix(&si)) {
+        (Some(family), Some(stem)) => family.keys(stem),
+        (None, _) | (_, None) => vec![kind.suffix.to_string()],
+    };
+    if kind.suffix == X_OF_MAGNITUDE {
+        endings.push(MAGNITUDE.into());
+    }
+    endings
 }
 
 /// A channel with the unit its values are printed in.
@@ -80,18 +96,20 @@ impl PrintedChannel {
     /// else the name in SI.
     #[must_use]
     pub fn named(name: &str) -> Option<PrintedChannel> {
-        if let Some(base) = name.strip_suffix(MAGNITUDE) {
-            let channel = Channel::named(&format!("{base}.fx_N"))?;
+        if let Some(base) = name.strip_suffix(&format!(".{MAGNITUDE}")) {
+            let channel = Channel::named(&format!("{base}.{X_OF_MAGNITUDE}"))?;
             return Some(PrintedChannel { channel, family: None, magnitude: true, unit: None });
         }
-        for family in [&LENGTH, &ANGLE] {
-            for unit in family.units {
-                let Some(base) = name.strip_suffix(unit.suffix) else { continue };
-                let Some(channel) = Channel::named(&format!("{base}{}", family.units[0].suffix)) else { continue };
-                if endings(channel.kind.suffix).iter().any(|ending| name.ends_with(&format!(".{ending}"))) {
-                    return Some(PrintedChannel { channel, family: Some(family), magnitude: false, unit: Some(unit) });
-                }
-            }
+        let printed = |kind: &ChannelKind| {
+            let family = family(kind.unit)?;
+            family.units.iter().find_map(|unit| {
+                let si = format!("{}{}", name.strip_suffix(unit.suffix)?, kind.unit.suffix());
+                let channel = Channel::named(&si).filter(|channel| channel.kind == kind)?;
+                Some(PrintedChannel { channel, family: Some(family), magnitude: false, unit: Some(unit) })
+            })
+        };
+        if let Some(found) = CHANNELS.iter().find_map(printed) {
+            return Some(found);
         }
         Channel::named(name).map(|channel| PrintedChannel { channel, family: None, magnitude: false, unit: None })
     }
@@ -132,6 +150,7 @@ mod tests {
             |name: &str| PrintedChannel::named(name).map(|found| (found.channel.to_string(), found.to_si(180.0)));
         assert_eq!(named("point.2.x_mm"), Some(("point.2.x_m".into(), 0.18)));
         assert_eq!(named("point.2.x_m"), Some(("point.2.x_m".into(), 180.0)));
+        assert_eq!(named("joint.B.slide_mm"), Some(("joint.B.slide_m".into(), 0.18)));
         assert_eq!(named("link.a.angle_deg"), Some(("link.a.angle_rad".into(), std::f64::consts::PI)));
         assert_eq!(named("link.a.omega_rad_s"), Some(("link.a.omega_rad_s".into(), 180.0)));
         assert_eq!(named("joint.A.f_N"), Some(("joint.A.fx_N".into(), 180.0)));

@@ -255,6 +255,7 @@ impl<'a> Table<'a> {
         self.entries.iter().map(|entry| self.child(entry.key, self.path_of(entry.key), entry.value)).collect()
     }
 
+    #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the TOML parser")]
     fn child(&self, key: &str, path: String, value: &'a Spanned<DeValue<'a>>) -> Result<Table<'a>> {
         match value.get_ref() {
             DeValue::Table(table) => Ok(Table::new(self.source, key.to_string(), path, value.span(), table)),
@@ -262,6 +263,7 @@ impl<'a> Table<'a> {
         }
     }
 
+    #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the TOML parser")]
     fn finite(&self, key: &str, value: &Spanned<DeValue>) -> Result<f64> {
         let number = match value.get_ref() {
             DeValue::Float(float) => float.as_str().parse().ok(),
@@ -290,6 +292,7 @@ impl<'a> Table<'a> {
 }
 
 /// A value as it stands in the file, for messages.
+#[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the TOML parser")]
 fn found(source: &Source, value: &Spanned<DeValue>) -> String {
     match value.get_ref() {
         DeValue::Table(_) => "a table".into(),

@@ -30,6 +30,7 @@ pub fn round_values(task: &Task, values: &[f64]) -> Vec<f64> {
 ///
 /// # Errors
 /// [`ErrorKind::Input`] if the text is not the scenario that the task was read from.
+#[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the TOML parser")]
 pub fn redrawn(task: &Task, text: &str, values: &[f64], comment: &str) -> Result<String> {
     let mut document: DocumentMut =
         text.parse().map_err(|error| Error::new(ErrorKind::Input, format!("the file is not valid TOML: {error}")))?;

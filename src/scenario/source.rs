@@ -44,6 +44,7 @@ impl<'a> Source<'a> {
 
 /// Where the dotted `key` stands, or else the nearest parent that exists. Elements of an array are found by their
 /// name (`joints.A`), Assur groups by their links (`start.groups (coupler, rocker)`).
+#[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the TOML parser")]
 pub fn locate(tree: &DeTable, key: &str) -> Range<usize> {
     let (path, links) = match key.split_once(" (") {
         Some((path, rest)) => (path, Some(rest.trim_end_matches(')').split(", ").collect::<Vec<_>>())),

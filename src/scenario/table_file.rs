@@ -170,6 +170,7 @@ struct Cell<'a> {
 }
 
 impl<'a> Rows<'a> {
+    #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the CSV reader")]
     fn read(source: &'a Source<'a>) -> Result<Self> {
         let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(source.text.as_bytes());
         let wrong = |error: &csv::Error| {

@@ -13,25 +13,25 @@ const SUBSTEPS: [usize; 2] = [1, 2];
 /// All ways of setting an engine but for its sweeps and its resolution, the cheapest in most cases first: whatever costs more than what is known is
 /// given up soon.
 pub(super) fn ways(engine: &dyn Engine, case: &Case, options: &Options) -> Vec<Settings> {
-    let defaults = engine.settings();
+    let Settings { resolution, sweeps, substeps, route, extrapolated } = engine.settings();
     let forces = case.wanted.deepest() >= Stage::Reactions;
     let routes: Vec<Route> = match forces && options.route.is_none() {
         true => engine.routes().to_vec(),
-        false => vec![defaults.route],
+        false => vec![route],
     };
-    let substeps = match (options.substeps, defaults.substeps) {
+    let substeps = match (options.substeps, substeps) {
         (None, 1..) if !engine.controls_error() => SUBSTEPS.to_vec(),
-        _ => vec![defaults.substeps],
+        (Some(_), _) | (None, _) => vec![substeps],
     };
     let extrapolated = match options.extrapolated {
         None if !engine.controls_error() => vec![true, false],
-        _ => vec![defaults.extrapolated],
+        Some(_) | None => vec![extrapolated],
     };
     let mut ways = Vec::new();
     for &extrapolated in &extrapolated {
         for &route in &routes {
             for &substeps in &substeps {
-                ways.push(Settings { substeps, route, extrapolated, ..defaults });
+                ways.push(Settings { resolution, sweeps, substeps, route, extrapolated });
             }
         }
     }

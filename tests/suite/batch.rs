@@ -5,7 +5,7 @@ use std::cell::Cell;
 use std::f64::consts::TAU;
 
 use crate::common::random::{for_each, within};
-use crate::common::shipped;
+use crate::common::{assert_within, shipped};
 use analytic::PoseSolver;
 use analytic::assur::batch::{Batch, Poses};
 use linkage::Result;
@@ -98,7 +98,7 @@ fn poses_are_those_of_the_pose_solver() {
         outcome.unwrap();
         assert_eq!(poses.len(), 500);
         let found = differences(&rows(case, &poses), &states);
-        assert!(found.iter().all(|&found| found <= ROUNDING), "{name}: {found:?}");
+        found.iter().for_each(|&found| assert_within!(found, ROUNDING, "{name}: {found:?}"));
     }
 }
 

@@ -10,8 +10,8 @@ mod pendulum;
 mod prismatic;
 mod substeps;
 
-use crate::common::shipped;
 use crate::common::spec::four_bar;
+use crate::common::{assert_within, shipped};
 use analytic::AssurSolver;
 use linkage::case::Case;
 use linkage::engine::{Engine, Settings};
@@ -71,7 +71,7 @@ fn has_formal_order(case: &Case, engines: impl Iterator<Item = Box<dyn Engine>>,
             for pair in [[&runs[0], &runs[1]], [&runs[1], &runs[2]]] {
                 let order = observed_order(&reference, pair, &residual.channel).unwrap().unwrap();
                 let formal = engine.formal_order(case, kind);
-                assert!((order - formal).abs() <= 0.1, "{} {}: order {order}", engine.name(), residual.channel);
+                assert_within!((order - formal).abs(), 0.1, "{} {}: order {order}", engine.name(), residual.channel);
             }
         }
         // Cranks are exact, and in a Scotch yoke all angles and speeds; in single precision nearly all is rounding.
@@ -130,11 +130,11 @@ fn regress_01_the_motor_holds_its_speed_over_many_turns() {
             for (angle, crank) in angles.iter().zip(run.cranks()) {
                 // Half a unit in the last place of the largest angle a step.
                 let bound = 0.5 * epsilon(engine.as_ref()) * 128.0 * steps;
-                assert!((angle - crank).abs() <= bound, "{}: {angle} at {crank}", engine.name());
+                assert_within!((angle - crank).abs(), bound, "{}: {angle} at {crank}", engine.name());
             }
             let speeds = run.column(&Channel::named("link.crank.omega_rad_s").unwrap()).unwrap();
             let bound = 4096.0 * epsilon(engine.as_ref()) * speed.abs();
-            assert!(speeds.iter().all(|omega| (omega - speed).abs() <= bound), "{}", engine.name());
+            speeds.iter().for_each(|omega| assert_within!((omega - speed).abs(), bound, "{}", engine.name()));
         }
     }
 }
@@ -157,7 +157,7 @@ fn regress_02_the_driven_joint_may_name_the_crank_first() {
             let scale = a.iter().fold(0.0, |max: f64, v| max.larger(v.abs()));
             let bound = share * scale + 2.0 * engine.noise(case, channel.kind);
             for (a, b) in a.iter().zip(b) {
-                assert!((a - sign * b).abs() <= bound, "{} {channel}: {a} {b}", engine.name());
+                assert_within!((a - sign * b).abs(), bound, "{} {channel}: {a} {b}", engine.name());
             }
         }
     }
@@ -176,11 +176,11 @@ fn regress_03_massless_links_move_alike_and_carry_no_force() {
         let (with, without) = (solve(engine.as_ref(), &with), solve(engine.as_ref(), &without));
         for (channel, values) in without.iter() {
             // The mass centre of a massless link is its frame's origin, another point.
-            let centre = channel.kind.subject == Subject::Link && channel.kind.unit.starts_with('m');
+            let centre = channel.kind.subject == Subject::Link && channel.kind.unit.symbol().starts_with('m');
             if channel.kind.stage >= Stage::Reactions {
                 // Where stand-ins are carried by applied forces, what is left is rounding.
                 let left = if engine.controls_error() { engine.noise(case, channel.kind) } else { 0.0 };
-                assert!(values.iter().all(|value| value.abs() <= left), "{} {channel}", engine.name());
+                values.iter().for_each(|value| assert_within!(value.abs(), left, "{} {channel}", engine.name()));
             } else if !centre {
                 // Places hang on the tree, and the loop's small gap is shared out by mass: accelerations see it first.
                 // In the impulse build they are of second order, as everything is.
@@ -193,7 +193,7 @@ fn regress_03_massless_links_move_alike_and_carry_no_force() {
                 let scale = other.iter().fold(0.0, |max: f64, v| max.larger(v.abs()));
                 let worst = values.iter().zip(other).map(|(a, b)| (a - b).abs()).fold(0.0, f64::larger);
                 let bound = bound * scale + 2.0 * engine.noise(case, channel.kind);
-                assert!(worst <= bound, "{} {channel}: {worst:e} of {scale:e}", engine.name());
+                assert_within!(worst, bound, "{} {channel}: {worst:e} of {scale:e}", engine.name());
             }
         }
     }

@@ -2,6 +2,7 @@
 
 mod model;
 
+use crate::common::assert_within;
 use analytic::AssurSolver;
 use linkage::ErrorKind;
 use linkage::case::Case;
@@ -94,7 +95,12 @@ fn the_file_holds_the_start_pose_and_its_speeds() {
                 let motion = document.motion_of(&motions, owner);
                 let there = case.start.0[side.link].point(side.local);
                 assert_eq!(local, side.local);
-                assert!((motion.place(local) - there).norm() <= 1e-14 * (size + there.norm()), "{}", scenario.name);
+                assert_within!(
+                    (motion.place(local) - there).norm(),
+                    1e-14 * (size + there.norm()),
+                    "{}",
+                    scenario.name
+                );
                 (motion, local)
             });
             let gap = second.0.speed(second.1) - first.0.speed(first.1);
@@ -109,13 +115,13 @@ fn the_file_holds_the_start_pose_and_its_speeds() {
                 }
             };
             let bound = 1e-12 * fastest * size;
-            assert!(off.abs() <= bound, "{}: {} {off:e}", scenario.name, joint.name);
-            assert!(turning.abs() <= 1e-12 * fastest, "{}: {} {turning:e}", scenario.name, joint.name);
+            assert_within!(off.abs(), bound, "{}: {} {off:e}", scenario.name, joint.name);
+            assert_within!(turning.abs(), 1e-12 * fastest, "{}: {} {turning:e}", scenario.name, joint.name);
         }
         for drive in &case.drives {
             let link = &mechanism.links()[drive.link].name;
             let omega = document.motion_of(&motions, Some(link)).omega;
-            assert!((omega - drive.at(0.0).omega).abs() <= 1e-14 * speed, "{}: {omega}", scenario.name);
+            assert_within!((omega - drive.at(0.0).omega).abs(), 1e-14 * speed, "{}: {omega}", scenario.name);
         }
     }
 }
@@ -137,11 +143,12 @@ fn a_slide_counts_as_its_channel_whichever_link_hangs_on_the_other() {
     let swapped = case.with(|parts| parts.mechanism = mechanism).unwrap();
     let backward = Document::read(&exported(&swapped, "backward"));
     let [a, b] = [&forward, &backward].map(|document| document.body(&piston).reference);
-    assert!((a - slide[0]).abs() <= 1e-15 && (a + b).abs() <= 1e-15, "{a} {b}");
+    assert_within!((a - slide[0]).abs(), 1e-15, "{a} {b}");
+    assert_within!((a + b).abs(), 1e-15, "{a} {b}");
     let axes = [&forward, &backward].map(|document| document.body(&piston).axis);
     assert_eq!(axes[0], -axes[1]);
     let rates = [&forward, &backward].map(|document| document.rate_of(&piston));
-    assert!((rates[0] + rates[1]).abs() <= 1e-12, "{rates:?}");
+    assert_within!((rates[0] + rates[1]).abs(), 1e-12, "{rates:?}");
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! The figures the project stands for, measured on the two published mechanisms.
 
+use crate::common::assert_within;
 use std::path::Path;
 
 use analytic::{AssurSolver, NewtonSolver, witness::power};
@@ -73,7 +74,7 @@ fn the_two_analytic_sides_agree_to_rounding_over_a_turn() {
                 Stage::Velocities | Stage::Accelerations => 1e-11,
                 Stage::Reactions | Stage::BalancingMoment => 1e-10,
             };
-            assert!(residual.max <= bound * residual.scale, "{name} {}: {:e}", residual.channel, residual.share());
+            assert_within!(residual.max, bound * residual.scale, "{name} {}: {:e}", residual.channel, residual.share());
         }
     }
 }
@@ -90,7 +91,7 @@ fn balancing_moment_from_equilibrium_and_from_powers() {
                 Ok(())
             };
             solver.sweep(&case, &mut visit, &mut |_| {}).unwrap();
-            assert!(worst <= 1e-11 * amplitude, "{name} {}: {:e}", solver.name(), worst / amplitude);
+            assert_within!(worst, 1e-11 * amplitude, "{name} {}: {:e}", solver.name(), worst / amplitude);
         }
     }
 }
@@ -172,8 +173,9 @@ fn rapier_on_the_crank_rocker_is_within_a_thousandth_and_a_hundred_times_less() 
         worst_share(&reference, &solve(linkproof::engines::named("rapier", step).unwrap().as_ref(), &case), &stages)
     };
     let [coarse, fine] = [1e-3, 1e-4].map(error);
-    assert!(coarse <= 1e-3, "{coarse:e}");
-    assert!(fine <= 1e-5 && fine <= coarse / 95.0, "{fine:e} against {coarse:e}");
+    assert_within!(coarse, 1e-3, "{coarse:e}");
+    assert_within!(fine, 1e-5, "{fine:e} against {coarse:e}");
+    assert_within!(fine, coarse / 95.0, "{fine:e} against {coarse:e}");
 }
 
 #[test]
@@ -196,7 +198,7 @@ fn rapier_shows_second_order_in_every_channel_of_both_mechanisms() {
             proof.engine().channels.len()
         );
         for (channel, order) in orders {
-            assert!((order - 2.0).abs() <= 0.1, "{name} {channel}: {order}");
+            assert_within!((order - 2.0).abs(), 0.1, "{name} {channel}: {order}");
         }
     }
 }
@@ -210,12 +212,14 @@ fn val_crank_rocker_steady_speed() {
     let speed = |resistance: f64| (a - resistance / ratio) / (b * ratio);
     for solver in analytic::all() {
         let mean = analytic::reduced::means::means_over_turn(&scenario.case, solver).unwrap().resistance;
-        assert!((speed(mean) - 14.33204).abs() < 0.5e-5 && (ratio * speed(mean) - 302.6266).abs() < 0.5e-4, "{mean}");
+        assert_within!((speed(mean) - 14.33204).abs(), 0.5e-5, "{mean}");
+        assert_within!((ratio * speed(mean) - 302.6266).abs(), 0.5e-4, "{mean}");
     }
     // As printed: the ratio rounded to 21.14 there, and the motor's speed from the rounded crank's.
     let printed = 21.14;
     let twice = (a - 17.76 / (printed * printed)) / (b * printed);
-    assert!((twice - 14.85).abs() < 0.005 && (14.85 * ratio - 313.6).abs() < 0.05, "{twice}");
+    assert_within!((twice - 14.85).abs(), 0.005, "{twice}");
+    assert_within!((14.85 * ratio - 313.6).abs(), 0.05, "{twice}");
 }
 
 /// The headings of the findings, as anchors.
@@ -342,6 +346,6 @@ fn val_fourth_class_branch_closes_after_a_turn() {
     for (channel, values) in turn.iter().filter(|(channel, _)| channel.of != "crank") {
         let (first, last) = (values[0], values[values.len() - 1]);
         let size = values.iter().fold(0.0f64, |max, v| max.larger(v.abs()));
-        assert!((first - last).abs() <= 1e-11 * size, "{channel}: {first} {last}");
+        assert_within!((first - last).abs(), 1e-11 * size, "{channel}: {first} {last}");
     }
 }

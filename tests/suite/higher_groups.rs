@@ -1,6 +1,7 @@
 //! Random higher groups, with sliders and without, alone and among dyads: both analytic sides, by contours, angles and slides here, by
 //! absolute coordinates there, must agree.
 
+use crate::common::assert_within;
 use crate::common::higher::{Among, FAMILIES, Family, mechanism};
 use crate::common::sketch::Random;
 use analytic::{AssurSolver, NewtonSolver};
@@ -45,7 +46,7 @@ fn worst(family: &Family, among: Among, tries: usize) -> ([f64; 5], usize, usize
         let case = &scenario.case;
         let group = case.structure.groups.iter().find(|group| group.links.len() > 2).expect("a higher group");
         assert_eq!((group.links.len(), group.class), (family.topology.links, family.topology.class));
-        assert!(case.start.closure(&case.mechanism) < 1e-12, "{}", spec.toml());
+        assert_within!(case.start.closure(&case.mechanism), 1e-12, "{}", spec.toml());
         let off = |(a, b): (&linkage::mechanism::LinkPose, &linkage::mechanism::LinkPose)| {
             (a.origin - b.origin).norm() < 1e-6
         };
@@ -81,7 +82,7 @@ fn agree(among: Among, tries: usize) {
                 Stage::Velocities | Stage::Accelerations => 1e-11,
                 Stage::Reactions | Stage::BalancingMoment => 1e-10,
             };
-            assert!(worst[stage as usize] <= bound, "{what}: {} {worst:?} of {solved}", stage.name());
+            assert_within!(worst[stage as usize], bound, "{what}: {} {worst:?} of {solved}", stage.name());
         }
     }
 }

@@ -11,7 +11,7 @@ use linkproof::proof::{Options, prove};
 use linkproof::scenario::Scenario;
 use workshop::export;
 
-use crate::common::{shipped, states};
+use crate::common::{assert_within, shipped, states};
 
 /// The shipped swing with another law and grid.
 fn swing(law: &str, grid: &str) -> Scenario {
@@ -45,19 +45,20 @@ fn both_sides_agree_and_balance_powers_and_momentum() {
         };
         for residual in residuals(&a, &b).unwrap() {
             let share = residual.max / largest(residual.channel.kind.stage);
-            assert!(share < 1e-12, "{law} {}: {share:e}", residual.channel);
+            assert_within!(share, 1e-12, "{law} {}: {share:e}", residual.channel);
         }
         let moment = largest(Stage::BalancingMoment);
         for solver in analytic::all() {
             for (state, &t) in states(solver, case, &case.grid.times).unwrap().iter().zip(&case.grid.times) {
                 let crank = state.motions[case.crank().link];
                 let law = case.crank().at(t);
-                assert!((crank.omega - law.omega).abs() < 1e-12 && (crank.alpha - law.alpha).abs() < 1e-9, "{t}");
+                assert_within!((crank.omega - law.omega).abs(), 1e-12, "{t}");
+                assert_within!((crank.alpha - law.alpha).abs(), 1e-9, "{t}");
                 let power = power::of_known_forces(case, state) + state.torques[0] * crank.omega;
                 let scale = moment * case.crank().top_speed().abs();
-                assert!(power.abs() < 1e-12 * scale, "{} {t}: {:e}", solver.name(), power / scale);
+                assert_within!(power.abs(), 1e-12 * scale, "{} {t}: {:e}", solver.name(), power / scale);
                 let ((force, _), (other, _)) = (state.shaking(case), momentum::shaking(case, state));
-                assert!((force - other).norm() < 1e-12 * largest(Stage::Reactions), "{} {t}", solver.name());
+                assert_within!((force - other).norm(), 1e-12 * largest(Stage::Reactions), "{} {t}", solver.name());
             }
         }
     }
@@ -74,8 +75,8 @@ fn rates_are_derivatives_under_every_law() {
             for link in 1..found[0].motions.len() {
                 let [back, here, ahead] = [0, 1, 2].map(|k| (found[k].angles[link], found[k].motions[link]));
                 let (omega, alpha) = ((ahead.0 - back.0) / (2.0 * h), (ahead.1.omega - back.1.omega) / (2.0 * h));
-                assert!((omega - here.1.omega).abs() < 1e-5, "{law} {t} {link}: {omega} {}", here.1.omega);
-                assert!((alpha - here.1.alpha).abs() < 1e-3, "{law} {t} {link}: {alpha} {}", here.1.alpha);
+                assert_within!((omega - here.1.omega).abs(), 1e-5, "{law} {t} {link}: {omega} {}", here.1.omega);
+                assert_within!((alpha - here.1.alpha).abs(), 1e-3, "{law} {t} {link}: {alpha} {}", here.1.alpha);
             }
         }
     }

@@ -125,7 +125,10 @@ fn every_form_of_a_text_is_seen() {
         mod hidden;
         const NONE: [&str; 3] = ["a -- b", "--", "linkproof 0.1"];
         #[cfg(test)]
-        mod tests { const HIDDEN: &str = "--hidden"; fn take_hook() {} }
+        mod tests {
+            const HIDDEN: &str = "--hidden";
+            fn take_hook() {}
+        }
     "##
     .replace("\n        ", "\n");
     let (found, code_alone) = literals(without_tests(&code));

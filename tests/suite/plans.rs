@@ -6,6 +6,7 @@ mod graphs;
 mod motion;
 mod sliders;
 
+use crate::common::assert_within;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::path::Path;
@@ -118,7 +119,7 @@ fn every_contour_of_every_plan_closes() {
                 // Each moving loop of links gives one at least: crank, coupler and rocker at the very least.
                 assert!(count >= 1, "{name}: nothing closes");
                 // Eleven digits of velocities and accelerations are what the solvers promise.
-                assert!(gap <= 1e-11 * longest(plan), "{name} at {degrees}: {:e}", gap / longest(plan));
+                assert_within!(gap, 1e-11 * longest(plan), "{name} at {degrees}: {:e}", gap / longest(plan));
             }
         }
     }
@@ -149,12 +150,14 @@ fn the_image_of_a_link_is_similar_to_it() {
                     let turned = rotated(unit(PI / 2.0 * omega.signum()), side) * omega.abs();
                     let size = (alpha * alpha + omega.powi(4)).sqrt();
                     let spun = rotated(unit(PI - alpha.atan2(omega * omega)), side) * size;
-                    assert!(
-                        (image(&plans.velocity) - turned).norm() <= 1e-11 * longest(&plans.velocity),
+                    assert_within!(
+                        (image(&plans.velocity) - turned).norm(),
+                        1e-11 * longest(&plans.velocity),
                         "{name} {a}{b}"
                     );
-                    assert!(
-                        (image(&plans.acceleration) - spun).norm() <= 1e-11 * longest(&plans.acceleration),
+                    assert_within!(
+                        (image(&plans.acceleration) - spun).norm(),
+                        1e-11 * longest(&plans.acceleration),
                         "{name} {a}{b}"
                     );
                     compared += 1;
@@ -179,16 +182,16 @@ fn parts_stand_as_their_names_say() {
         let share = vector.value.dot(&line) / (vector.value.norm() * line.norm());
         // Rounding of a product of unit vectors.
         let want = if vector.part == Part::Normal { -1.0 } else { 0.0 };
-        assert!((share - want).abs() < 1e-12, "{}: {share}", vector.name);
+        assert_within!((share - want).abs(), 1e-12, "{}: {share}", vector.name);
         seen += 1;
     }
     assert_eq!(seen, 17);
     // a_EC = a_EC^n + a_EC^t, omega^2 l and alpha l with the published magnitudes to their printed digits.
     let size = |name: &str| plan.vector(name).unwrap().value.norm();
-    assert!((size("a_EC^n") - 31.87948f64.powi(2) * 0.04).abs() < 2.0 * 31.88 * 0.04 * 0.5e-5);
-    assert!((size("a_EC^t") - 48.4440 * 0.04).abs() < 0.5e-4 * 0.04);
+    assert_within!((size("a_EC^n") - 31.87948f64.powi(2) * 0.04).abs(), 2.0 * 31.88 * 0.04 * 0.5e-5);
+    assert_within!((size("a_EC^t") - 48.4440 * 0.04).abs(), 0.5e-4 * 0.04);
     let sum = plan.vector("a_EC^n").unwrap().value + plan.vector("a_EC^t").unwrap().value;
-    assert!((sum - plan.vector("a_EC").unwrap().value).norm() < 1e-12);
+    assert_within!((sum - plan.vector("a_EC").unwrap().value).norm(), 1e-12);
     // The crank turns uniformly: its normal part is the whole.
     assert_eq!(plan.vector("a_AO^n").unwrap().to, "a");
     assert!(plan.vector("a_AO^t").is_none());
@@ -217,7 +220,7 @@ fn both_solvers_draw_the_same_plans() {
             assert_eq!(a.vectors.len(), b.vectors.len());
             for (x, y) in a.vectors.iter().zip(&b.vectors) {
                 assert_eq!(x.name, y.name);
-                assert!((x.value - y.value).norm() <= 1e-11 * longest(a), "{name} {}", x.name);
+                assert_within!((x.value - y.value).norm(), 1e-11 * longest(a), "{name} {}", x.name);
             }
         }
     }
@@ -238,16 +241,24 @@ fn the_singular_point_gives_the_solvers_velocities_and_accelerations() {
             let far = 1.0 + point.at.norm() / 0.1;
             for (link, omega, alpha) in point.links {
                 let motion = &state.motions[link];
-                assert!((omega - motion.omega).abs() <= 1e-12 * 100.0 * far, "{degrees}: {omega} {}", motion.omega);
-                assert!((alpha - motion.alpha).abs() <= 1e-12 * 1e4 * far, "{degrees}: {alpha} {}", motion.alpha);
+                assert_within!(
+                    (omega - motion.omega).abs(),
+                    1e-12 * 100.0 * far,
+                    "{degrees}: {omega} {}",
+                    motion.omega
+                );
+                assert_within!((alpha - motion.alpha).abs(), 1e-12 * 1e4 * far, "{degrees}: {alpha} {}", motion.alpha);
             }
             for (side, link) in [point.links[0].0, point.links[1].0].into_iter().enumerate() {
                 let motion = &state.motions[link];
                 let local = rotated(Vec2::new(motion.direction.x, -motion.direction.y), point.at - motion.origin);
                 let speed = point.velocity.norm().larger(1.0);
-                assert!((motion.point_velocity(local) - point.velocity).norm() <= 1e-12 * speed * far);
+                assert_within!((motion.point_velocity(local) - point.velocity).norm(), 1e-12 * speed * far);
                 let strong = point.accelerations[side].norm().larger(100.0);
-                assert!((motion.point_acceleration(local) - point.accelerations[side]).norm() <= 1e-12 * strong * far);
+                assert_within!(
+                    (motion.point_acceleration(local) - point.accelerations[side]).norm(),
+                    1e-12 * strong * far
+                );
             }
         }
     }
@@ -278,7 +289,7 @@ fn val_fourth_class_published_graphical_figures() {
             let graphical: f64 = cells[1].parse().unwrap();
             let error = (graphical / exact - 1.0).abs() * 100.0;
             // The authors' own criterion: agreement of 95 %.
-            assert!(error < 5.0);
+            assert_within!(error, 5.0);
             if shown(error, &cells[2]) != cells[2] {
                 wrong.push(format!("{what}{} printed {} is {error:.2}", row[0], cells[2]));
             }

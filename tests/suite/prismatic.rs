@@ -1,7 +1,7 @@
 //! Prismatic pairs on the analytic side: against closed forms, differences, and the laws of momentum and power.
 
 use crate::common::sliders::{self, SPEED, Sample};
-use crate::common::{centre, centre_acceleration, states};
+use crate::common::{assert_within, centre, centre_acceleration, states};
 use analytic::{self, witness::power};
 use linkage::case::Case;
 use linkage::math::{KeepNan, Vec2, cross};
@@ -41,7 +41,7 @@ fn motion_is_that_of_the_closed_forms() {
                 let bound = 1e-14 * SPEED.powi(order as i32) * 10.0;
                 let errors = [slide[order] - exact.slide[order], angle[order] - exact.angle[order]];
                 let what = format!("{} at {crank}: {errors:?}, order {order}", sample.name);
-                assert!(errors.iter().all(|error| error.abs() <= bound), "{what}");
+                errors.iter().for_each(|error| assert_within!(error.abs(), bound, "{what}"));
             }
         }
     });
@@ -74,7 +74,7 @@ fn velocities_and_accelerations_are_derivatives() {
                 ];
                 for (by_differences, value) in pairs {
                     let error = (by_differences - value).abs();
-                    assert!(error <= 1e-9 * SPEED, "{} link {link} at {time}: {error:e}", sample.name);
+                    assert_within!(error, 1e-9 * SPEED, "{} link {link} at {time}: {error:e}", sample.name);
                 }
             }
         }
@@ -108,11 +108,8 @@ fn every_link_is_in_equilibrium() {
                 }
                 // Rounding of a linear system of nine equations in units of the largest force; lengths are below a metre.
                 let bound = 1e-13 * largest;
-                assert!(
-                    force.norm() <= bound && moment.abs() <= bound,
-                    "{} {index} {time}: {force} {moment}",
-                    sample.name
-                );
+                assert_within!(force.norm(), bound, "{} {index} {time}: {force} {moment}", sample.name);
+                assert_within!(moment.abs(), bound, "{} {index} {time}: {force} {moment}", sample.name);
             }
         }
     });
@@ -127,7 +124,13 @@ fn sliders_are_not_pushed_along_their_guides() {
             for (joint, force) in sample.case.mechanism.joints().iter().zip(&state.forces) {
                 let Some(axis) = joint.axis_on(joint.first.link) else { continue };
                 let along = state.motions[joint.first.link].arm(axis).dot(force);
-                assert!(along.abs() <= 1e-14 * largest, "{} {}: {along:e} of {largest}", solver.name(), sample.name);
+                assert_within!(
+                    along.abs(),
+                    1e-14 * largest,
+                    "{} {}: {along:e} of {largest}",
+                    solver.name(),
+                    sample.name
+                );
             }
         }
     });
@@ -142,7 +145,7 @@ fn drive_and_frame_agree_with_power_and_momentum() {
         let size = states.iter().fold(0.0, |max: f64, (_, _, state)| max.larger(state.torques[0].abs()));
         for (time, _, state) in &states {
             let error = (state.torques[0] - power::balancing_moment(case, state)).abs();
-            assert!(error <= 1e-11 * size, "{} at {time}: {error:e} of {size}", sample.name);
+            assert_within!(error, 1e-11 * size, "{} at {time}: {error:e} of {size}", sample.name);
             let (mut force, mut moment, mut weight) = (Vec2::zeros(), 0.0, 0.0);
             for (index, link) in case.mechanism.links().iter().enumerate().skip(1) {
                 let inertial = (case.gravity - centre_acceleration(case, state, index)) * link.mass;
@@ -152,7 +155,9 @@ fn drive_and_frame_agree_with_power_and_momentum() {
             }
             let shaking = state.shaking(case);
             let errors = [(shaking.0 - force).norm(), (shaking.1 - moment).abs()];
-            assert!(errors.iter().all(|error| *error <= 1e-12 * weight), "{} {time}: {errors:?}", sample.name);
+            errors
+                .iter()
+                .for_each(|error| assert_within!(*error, 1e-12 * weight, "{} {time}: {errors:?}", sample.name));
         }
     });
 }
@@ -170,7 +175,9 @@ fn order_of_a_joints_links_does_not_matter() {
                 let moment =
                     if joint.slides() { one.moments[index] + cross(second - first, one.forces[index]) } else { 0.0 };
                 let errors = [(two.forces[index] + one.forces[index]).norm(), (two.moments[index] + moment).abs()];
-                assert!(errors.iter().all(|error| *error <= 1e-12 * size), "{} {time}: {errors:?}", sample.name);
+                errors
+                    .iter()
+                    .for_each(|error| assert_within!(*error, 1e-12 * size, "{} {time}: {errors:?}", sample.name));
             }
         }
     });

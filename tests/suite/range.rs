@@ -3,10 +3,10 @@
 use linkage::math::KeepNan;
 use std::f64::consts::{PI, TAU};
 
-use crate::common::four_link;
 use crate::common::random;
 use crate::common::shipped;
 use crate::common::spec::{Dyad, Pin, Spec, four_bar};
+use crate::common::{assert_within, four_link};
 use analytic::range::{Extent, FourBarType, Kind, Range, Singularity, explained};
 use analytic::{AssurSolver, NewtonSolver, PoseSolver, all, modes};
 use linkage::ErrorKind;
@@ -86,7 +86,7 @@ fn limits_of_random_four_bars_are_those_of_the_law_of_cosines() {
         }
     }
     assert!(limited > 150 && full > 30, "{limited} {full}");
-    assert!(worst <= EXACT, "{worst:e}");
+    assert_within!(worst, EXACT, "{worst:e}");
 }
 
 /// Which joints turn fully is found by following the linkage with each pair of neighbouring links as frame and driving link.
@@ -148,16 +148,16 @@ fn val_crank_rocker_extreme_positions() {
     };
     let [first, second] = rocker.extremes[..] else { panic!("{:?}", rocker.extremes) };
     for (found, angle, crank, greatest) in [(first, 50.0, line(50.0), false), (second, 82.0, line(82.0) + PI, true)] {
-        assert!((found.angle - f64::to_radians(angle)).abs() <= EXACT, "{}", found.angle.to_degrees());
-        assert!((found.crank - crank).abs() <= EXACT, "{}", found.crank.to_degrees());
+        assert_within!((found.angle - f64::to_radians(angle)).abs(), EXACT, "{}", found.angle.to_degrees());
+        assert_within!((found.crank - crank).abs(), EXACT, "{}", found.crank.to_degrees());
         assert_eq!(found.is_greatest, greatest);
     }
     assert_eq!([rocker.angles[0].value, rocker.angles[1].value], [first.angle, second.angle]);
     // Smallest transmission angle of a crank-rocker: where A lies on the line of the pivots (Alt 1932).
     let base = 0.015f64.atan2(0.15);
-    assert!((range.groups[0].determinant.crank - base).abs() < 1e-8, "{:?}", range.groups[0]);
+    assert_within!((range.groups[0].determinant.crank - base).abs(), 1e-8, "{:?}", range.groups[0]);
     let mu = range.groups[0].determinant.value.asin();
-    assert!((range.groups[0].condition.unwrap().value - 1.0 / (mu / 2.0).tan()).abs() < 1e-9);
+    assert_within!((range.groups[0].condition.unwrap().value - 1.0 / (mu / 2.0).tan()).abs(), 1e-9);
 }
 
 /// Every limit and extreme of random chains of dyads, by the closed forms of the solver: on one side of a limit it solves, on the other it cannot;
@@ -204,11 +204,12 @@ fn a_parallelogram_has_change_points_at_0_and_180_degrees() {
         let range = range(&parallelogram(0.1, left));
         let [from, to] = limits(&range).unwrap();
         assert_eq!([from.kind, to.kind], [Kind::ChangePoint; 2]);
-        assert!(from.crank.abs() <= EXACT && (to.crank - PI).abs() <= EXACT, "{:e} {:e}", from.crank, to.crank - PI);
+        assert_within!(from.crank.abs(), EXACT, "{:e} {:e}", from.crank, to.crank - PI);
+        assert_within!((to.crank - PI).abs(), EXACT, "{:e} {:e}", from.crank, to.crank - PI);
         assert_eq!(range.four_bar.unwrap().of_type, FourBarType::ChangePoint);
         let [coupler, rocker] = [1, 2].map(|k| range.links[k].angles[1].value - range.links[k].angles[0].value);
         // The rocker goes from one line with the frame to the other; the coupler stays parallel to the frame or rocks.
-        assert!((rocker - PI).abs() <= EXACT, "{rocker}");
+        assert_within!((rocker - PI).abs(), EXACT, "{rocker}");
         assert_eq!(coupler <= EXACT, left, "{coupler}");
         assert_eq!(range.links[1].extremes.len(), usize::from(!left));
     }
@@ -237,7 +238,7 @@ fn near_a_parallelogram_branches_touch_or_end() {
         for (limit, expected) in ended.iter().zip(expected) {
             // The closed form itself: rounding of the lengths over the sine of the crank angle.
             let bound = EXACT.larger(4.0 * f64::EPSILON / expected.sin().abs());
-            assert!((limit.crank - expected).abs() <= bound, "{off:e}: {} for {expected}", limit.crank);
+            assert_within!((limit.crank - expected).abs(), bound, "{off:e}: {} for {expected}", limit.crank);
         }
     }
 }
@@ -265,7 +266,7 @@ fn two_groups_with_one_dead_point() {
     let expected = closed_form(lengths, spec.start).unwrap();
     for (limit, expected) in limits(&found).unwrap().iter().zip(expected) {
         assert_eq!(limit.kind, Kind::DeadPoint);
-        assert!((limit.crank - expected).abs() <= EXACT, "{} for {expected}", limit.crank);
+        assert_within!((limit.crank - expected).abs(), EXACT, "{} for {expected}", limit.crank);
     }
 }
 
@@ -401,5 +402,5 @@ fn loss_of_digits_near_a_dead_point_is_that_of_the_condition_number() {
         }
         worst = [0, 1, 2].map(|stage| worst[stage].larger(of_angle[stage]));
     }
-    assert!(worst.iter().all(|&factor| factor <= 13.0), "{worst:?}");
+    worst.iter().for_each(|&factor| assert_within!(factor, 13.0, "{worst:?}"));
 }

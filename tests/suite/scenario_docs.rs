@@ -1,5 +1,6 @@
 //! The worked example of docs/scenario.md is a scenario, and the repository's scenarios can be read.
 
+use crate::common::assert_within;
 use std::path::Path;
 
 use linkproof::scenario::Scenario;
@@ -14,7 +15,10 @@ fn the_worked_example_is_a_scenario() {
     assert_eq!((scenario.name.as_str(), scenario.case.grid.len(), scenario.dt), ("four_bar", 73, 1e-3));
     // The rocker of the example's oracle, by the law of cosines.
     let value = scenario.oracles[0].series[0].points[0].value;
-    assert!((value - (std::f64::consts::PI - 0.6f64.acos())).abs() <= scenario.oracles[0].series[0].points[0].bound);
+    assert_within!(
+        (value - (std::f64::consts::PI - 0.6f64.acos())).abs(),
+        scenario.oracles[0].series[0].points[0].bound
+    );
 }
 
 #[test]

@@ -5,14 +5,14 @@ use crate::common::random::for_each;
 use crate::common::sketch::Random;
 use crate::common::sliders;
 use crate::common::spec::{Spec, four_bar};
-use crate::common::{shipped, states};
+use crate::common::{assert_within, shipped, states};
 use analytic::{AssurSolver, NewtonSolver};
 use linkage::ErrorKind;
 use linkage::case::{Case, Grid};
-use linkage::engine::{self, Engine};
+use linkage::engine::Engine;
 use linkage::math::{KeepNan, Vec2};
 use linkage::solver::Solver;
-use linkage::trajectory::{Channel, Stage, Trajectory};
+use linkage::trajectory::{Channel, Stage, Trajectory, Unit};
 use linkproof::compare::{Verdict, residuals};
 use linkproof::proof::{Options, prove};
 use simbody_twin::Simbody;
@@ -47,10 +47,10 @@ fn agree(case: &Case, engine: &Simbody, reference: &dyn Solver, condition: f64) 
     for residual in found {
         let kind = residual.channel.kind;
         let bound = condition * engine.noise(case, kind);
-        assert!(residual.max <= bound, "{}: {:e} is beyond {bound:e}", residual.channel, residual.max);
+        assert_within!(residual.max, bound, "{}: {:e} is beyond {bound:e}", residual.channel, residual.max);
         let share = residual.share();
         match kind.stage {
-            Stage::Positions if kind.unit == "rad" => worst[0] = worst[0].larger(share),
+            Stage::Positions if kind.unit == Unit::Radian => worst[0] = worst[0].larger(share),
             Stage::Reactions | Stage::BalancingMoment => worst[1] = worst[1].larger(share),
             _ => {}
         }
@@ -67,7 +67,8 @@ fn all_scenarios_agree_with_the_reference() {
         for accuracy in [1e-2, Simbody::ACCURACY, 1e-12] {
             let [angles, reactions] = agree(&case, &Simbody::new(accuracy), &AssurSolver, 1.0);
             println!("{name:24} {accuracy:e}: angles {angles:.1e}, reactions and moments {reactions:.1e}");
-            assert!(angles <= 1e-8 && reactions <= 1e-7, "{name}: {angles:e} {reactions:e}");
+            assert_within!(angles, 1e-8, "{name}: {angles:e} {reactions:e}");
+            assert_within!(reactions, 1e-7, "{name}: {angles:e} {reactions:e}");
         }
     }
 }
@@ -296,7 +297,7 @@ fn a_dead_point_is_an_error_with_time_crank_angle_and_joint() {
             let (_, rest) = error.message().split_once("crank angle ").expect("the crank angle is told");
             let crank: f64 = rest.split_once(" deg").unwrap().0.parse().unwrap();
             let dead = (0.0475_f64 / 0.24).acos().to_degrees();
-            assert!((crank - dead).abs() <= 0.01, "{crank} instead of {dead}: {error}");
+            assert_within!((crank - dead).abs(), 0.01, "{crank} instead of {dead}: {error}");
             assert!(error.message().contains("t = ") && error.message().contains("joint \"B\""), "{error}");
             assert!(error.way_out().is_some_and(|way| way.contains("assembled")), "{error}");
             assert!(!error.message().contains(".cpp"), "{error}");
@@ -342,7 +343,7 @@ fn run_ups_and_pendulums_are_those_of_the_reference() {
         let all = residuals(&reference, &found).unwrap();
         let worst = all.iter().map(|r| r.share()).fold(0.0, f64::larger);
         println!("{name}: {worst:.1e} of the scale");
-        assert!(worst < 1e-6, "{name}: {worst:e}");
+        assert_within!(worst, 1e-6, "{name}: {worst:e}");
         let proof = prove(&shipped(&format!("{name}.toml")), &Options::of_engine("simbody"), &mut |_| {}).unwrap();
         // The compressor's pistons have channels of a thousandth of what is natural, of which its accuracy proves nothing.
         assert!(!matches!(proof.verdict, Verdict::Disagree { .. }), "{name}: {:?}", proof.verdict);

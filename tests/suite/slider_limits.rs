@@ -3,8 +3,8 @@
 use std::f64::consts::FRAC_PI_2;
 use std::path::Path;
 
-use crate::common::shipped;
 use crate::common::sliders::short_rod;
+use crate::common::{assert_within, shipped};
 use analytic::range::{Extent, Kind, Range};
 use analytic::{self, AssurSolver};
 use linkage::ErrorKind;
@@ -24,7 +24,7 @@ fn regress_a_slide_that_goes_to_infinity_ends_the_range() {
     for (limit, expected) in limits.iter().zip([-FRAC_PI_2, FRAC_PI_2]) {
         assert_eq!((limit.kind, limit.group), (Kind::ParallelAxes, 0));
         // To what limits are promised.
-        assert!((limit.crank - expected).abs() <= 1e-9, "{:e}", limit.crank - expected);
+        assert_within!((limit.crank - expected).abs(), 1e-9, "{:e}", limit.crank - expected);
     }
     // Poses, not seconds: the curve without an end took as many as there may be.
     println!("{} poses", range.samples.len());
@@ -54,7 +54,7 @@ fn a_start_at_a_dead_point_of_a_slider_says_so() {
     let case = short_rod();
     let range = Range::of(&case).unwrap();
     let Extent::Limited([_, to]) = range.extent else { panic!("{:?}", range.extent) };
-    assert!((to.crank.to_degrees() - 261.347).abs() < 1e-3, "{}", to.crank.to_degrees());
+    assert_within!((to.crank.to_degrees() - 261.347).abs(), 1e-3, "{}", to.crank.to_degrees());
     let end = on_cranks(&case, &[case.crank().start.to_degrees(), (to.crank - 1e-12).to_degrees()]);
     let states = crate::common::states(&AssurSolver, &end, &end.grid.times).unwrap();
     let last = &states[1];
@@ -102,7 +102,7 @@ fn a_short_rod_limits_the_crank_where_it_stands_across_the_guide() {
         for (found, expected) in [from, to].into_iter().zip(expected) {
             // Where one side of the guide is out of reach, the crank goes round to the same angle on the other side.
             if let Some(expected) = expected {
-                assert!((found.crank - expected).abs() < 1e-9, "{rod}, {offset}: {found:?}, {expected}");
+                assert_within!((found.crank - expected).abs(), 1e-9, "{rod}, {offset}: {found:?}, {expected}");
             }
             assert_eq!(found.kind, Kind::DeadPoint);
         }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use crate::common::{shipped, states};
+use crate::common::{assert_within, shipped, states};
 use analytic::all;
 use analytic::range::Range;
 use linkage::case::{Case, Grid};
@@ -62,7 +62,7 @@ fn val_compressor_printed_rates_are_derivatives() {
                 (COMPRESSOR_SPEED * (8.0 * (c - b) - (d - a)) / (12.0 * h), at(phi)[rate])
             });
             let error = relative(pairs);
-            assert!(error <= 1e-11, "{of} {rate}: {error:e}");
+            assert_within!(error, 1e-11, "{of} {rate}: {error:e}");
         }
     }
 }
@@ -85,7 +85,7 @@ fn val_compressor_closed_form() {
                     (found[quantity], cylinder(l1, l2, FRAC_PI_2 - crank + delta, COMPRESSOR_SPEED)[quantity])
                 };
                 let error = relative(rows.iter().map(pair));
-                assert!(error <= 1e-13, "{rod} {quantity}: {error:e}");
+                assert_within!(error, 1e-13, "{rod} {quantity}: {error:e}");
             }
         }
     }
@@ -113,7 +113,7 @@ fn val_six_bar_slider_stands_highest_where_the_rocker_is_upright() {
     // The scenario's own oracles stand at these angles, to the digits that a file takes.
     for (oracle, crank) in scenario.oracles.iter().zip(&cranks) {
         for series in &oracle.series {
-            assert!((series.points[0].crank - crank).abs() <= 1e-14 * TAU, "{}", oracle.name);
+            assert_within!((series.points[0].crank - crank).abs(), 1e-14 * TAU, "{}", oracle.name);
         }
     }
     assert_eq!(scenario.oracles.len(), 2);
@@ -126,7 +126,7 @@ fn val_six_bar_slider_stands_highest_where_the_rocker_is_upright() {
             let [at, velocity, _] = place(case, &state, "D");
             // O2C + CD; rounding of lengths below a metre and of a speed below 3 m/s.
             let errors = [rocker - FRAC_PI_2, at.y - 0.7, velocity.norm()];
-            assert!(errors.iter().all(|error| error.abs() <= 1e-14), "{crank}: {errors:?}");
+            errors.iter().for_each(|error| assert_within!(error.abs(), 1e-14, "{crank}: {errors:?}"));
             assert!(at.y >= highest, "{crank}: {} below {highest}", at.y);
         }
     }
@@ -140,13 +140,14 @@ fn assert_closed_form(name: &str, point: &str, axis: usize, other: f64, form: im
             let pair = |(crank, state): &(f64, State)| (place(&case, state, point)[order][axis], form(*crank)[order]);
             let error = relative(rows.iter().map(pair));
             // Rounding of a few products, and of the crank angle itself.
-            assert!(error <= 1e-14, "{name} {order}: {error:e}");
+            assert_within!(error, 1e-14, "{name} {order}: {error:e}");
         }
         for (crank, state) in &rows {
             let [at, velocity, acceleration] = place(&case, state, point).map(|v| v[1 - axis]);
-            assert!((at - other).abs() <= 1e-16, "{name} at {crank}: {at}");
+            assert_within!((at - other).abs(), 1e-16, "{name} at {crank}: {at}");
             let sizes = form(*crank).map(|value| 1.0 + value.abs());
-            assert!(velocity.abs() <= 1e-14 * sizes[1] && acceleration.abs() <= 1e-14 * sizes[2], "{name} at {crank}");
+            assert_within!(velocity.abs(), 1e-14 * sizes[1], "{name} at {crank}");
+            assert_within!(acceleration.abs(), 1e-14 * sizes[2], "{name} at {crank}");
         }
     }
 }
@@ -182,18 +183,18 @@ fn val_quick_return_time_ratio() {
     let between = (second.crank - first.crank).rem_euclid(TAU);
     let found = between.smaller(TAU - between);
     // Extremes are promised to 1e-9 rad each.
-    assert!((found - quick).abs() <= 2e-9, "{found} for {quick}");
+    assert_within!((found - quick).abs(), 2e-9, "{found} for {quick}");
     let ratio = (TAU - found) / found;
-    assert!((ratio - (TAU - quick) / quick).abs() <= 1e-8, "{ratio}");
+    assert_within!((ratio - (TAU - quick) / quick).abs(), 1e-8, "{ratio}");
     let swing = (first.angle - second.angle).abs();
-    assert!((swing - 2.0 * (0.1f64 / 0.3).asin()).abs() <= 1e-9, "{swing}");
+    assert_within!((swing - 2.0 * (0.1f64 / 0.3).asin()).abs(), 1e-9, "{swing}");
     // The ram turns about there too: its speed, below 3 m/s elsewhere, is that of 1e-9 rad.
     let mut cranks = vec![first.crank, second.crank];
     cranks.sort_by(f64::total_cmp);
     for rows in solved(&case.on(Grid::of_cranks(case.crank(), cranks)).unwrap()) {
         for (crank, state) in rows {
             let speed = place(&case, &state, "C")[1].norm();
-            assert!(speed <= 1e-7, "{crank}: {speed:e}");
+            assert_within!(speed, 1e-7, "{crank}: {speed:e}");
         }
     }
 }
@@ -230,7 +231,7 @@ fn val_class3_group_contours_close() {
             let first = unit(a1) * LEADS[0] + unit(a4) * BASE[0] - (FRAME_B - FRAME_A) - unit(a2) * LEADS[1];
             let second = unit(a1) * LEADS[0] + unit(a4 + beta()) * BASE[1] - (c - FRAME_A) - unit(a3) * LEADS[2];
             // Rounding of vectors shorter than half a metre.
-            assert!(first.norm().larger(second.norm()) <= 1e-15, "{crank}: {first} {second}");
+            assert_within!(first.norm().larger(second.norm()), 1e-15, "{crank}: {first} {second}");
         }
     }
 }
@@ -284,8 +285,8 @@ fn val_class3_group_transfer_functions() {
         for (link, pairs) in pairs.into_iter().enumerate() {
             let errors = pairs.map(|pairs| relative(pairs.into_iter()));
             // Rounding for Cramer's rule; h^4 / 30 of harmonics up to the sixth and rounding 1e-16 / h for differences.
-            assert!(errors[0] <= 1e-13, "{} alpha{}: {errors:?}", solver.name(), link + 1);
-            assert!(errors[1].larger(errors[2]) <= 1e-9, "{} alpha{}: {errors:?}", solver.name(), link + 1);
+            assert_within!(errors[0], 1e-13, "{} alpha{}: {errors:?}", solver.name(), link + 1);
+            assert_within!(errors[1].larger(errors[2]), 1e-9, "{} alpha{}: {errors:?}", solver.name(), link + 1);
         }
     }
 }

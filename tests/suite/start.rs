@@ -1,8 +1,9 @@
 //! First poses of mechanisms with prismatic joints, from their files, against hand computation.
 
+use crate::common::assert_within;
 use std::path::Path;
 
-use linkage::math::Vec2;
+use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::AssemblyMode;
 use linkproof::scenario::Scenario;
 
@@ -21,13 +22,13 @@ fn parse(ground: &str, body: &str, crank: f64, start: &str) -> linkage::Result<S
 /// Place of a point (mm) in the first pose, which must hold together.
 fn place(scenario: &Scenario, name: &str) -> Vec2 {
     let case = &scenario.case;
-    assert!(case.start.closure(&case.mechanism) < 1e-15);
+    assert_within!(case.start.closure(&case.mechanism), 1e-15);
     let (_, side) = case.mechanism.moving_points().find(|&(point, _)| point == name).unwrap();
     case.start.0[side.link].point(side.local) * 1e3
 }
 
 fn assert_at(found: Vec2, x: f64, y: f64) {
-    assert!((found - Vec2::new(x, y)).norm() < 1e-10, "{found:?} for {x}, {y}");
+    assert_within!((found - Vec2::new(x, y)).norm(), 1e-10, "{found:?} for {x}, {y}");
 }
 
 const SLIDER: &str = r#"
@@ -73,7 +74,8 @@ fn a_slider_lies_ahead_of_the_crank_pin_or_behind_it() {
     let near = slider_crank(FORWARD, &start("near = { point = \"B\", x_mm = -200, y_mm = 30 }")).unwrap();
     assert_at(place(&near, "B"), -240.0, 0.0);
     let [nearest, next] = [near.choices[0].nearest_m, near.choices[0].next_m].map(Option::unwrap);
-    assert!((nearest - 0.05).abs() < 1e-15 && (next - 0.44f64.hypot(0.03)).abs() < 1e-15, "{nearest} {next}");
+    assert_within!((nearest - 0.05).abs(), 1e-15, "{nearest} {next}");
+    assert_within!((next - 0.44f64.hypot(0.03)).abs(), 1e-15, "{nearest} {next}");
 }
 
 #[test]
@@ -177,4 +179,23 @@ axis_deg = 90
 "#;
     let scenario = parse("G = { x_mm = 300, y_mm = 0 }", tangent, 30.0, "").unwrap();
     assert_at(place(&scenario, "P"), 300.0, 300.0 / 3f64.sqrt());
+}
+
+/// What is left of closure in a start pose is rounding, far below what [`linkage::case::Case::new`] lets pass.
+#[test]
+fn start_poses_of_all_scenarios_close_to_rounding() {
+    let (mut worst, mut count) = (0.0f64, 0);
+    for folder in ["scenarios", "scenarios/variants60"] {
+        let files = std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join(folder)).unwrap();
+        for path in files.map(|file| file.unwrap().path()).filter(|path| path.extension().is_some_and(|e| e == "toml"))
+        {
+            let case = Scenario::load(&path).unwrap().case;
+            let reach = case.start.0.iter().fold(case.mechanism.size(), |most, pose| most.larger(pose.origin.norm()));
+            let open = case.start.closure(&case.mechanism) / reach;
+            assert!(open <= 1e-12, "{}: {open:e}", path.display());
+            (worst, count) = (worst.larger(open), count + 1);
+        }
+    }
+    println!("largest opening over reach in {count} scenarios: {worst:.1e}");
+    assert!(count > 70, "{count}");
 }

@@ -1,59 +1,18 @@
 //! `tune` against an exhaustive search, and its promise.
 
 mod exhaustive;
+mod near;
 mod prices;
 
 use linkage::engine::Engine;
 use linkproof::proof::Options;
-use linkproof::scenario::Scenario;
-use linkproof::tune::{Tuning, Wish, tune};
+use linkproof::tune::{Wish, tune};
 
 use crate::common::shipped;
-use exhaustive::{REFERENCES, Space, cheaper, error_of, thinned, truth};
-use prices::price_of;
+use exhaustive::{REFERENCES, Space, thinned};
+use near::{FACTOR, near_the_cheapest, tuned};
 
-/// Within this factor of the cheapest.
-const FACTOR: f64 = 1.5;
-
-fn tuned(scenario: &Scenario, within: f64, channels: &[&str], options: &Options) -> linkage::Result<Tuning> {
-    let wish = Wish { within, channels: channels.iter().map(|name| name.to_string()).collect() };
-    let mut price = |engine: &dyn Engine, run: &mut dyn FnMut() -> linkage::Result<()>| {
-        run()?;
-        Ok(price_of(&scenario.case, engine))
-    };
-    tune(scenario, &wish, options, &mut price, &mut |_| {})
-}
-
-/// Tunes all Rapier engines on some of the reference mechanisms; what is found must keep its promise where it is checked from outside, with
-/// the other analytic side, and nothing in the space may be cheaper than what was found over `below`.
-fn near_the_cheapest(names: &[&str], every: usize, within: f64, below: f64, space: &Space) {
-    for name in names {
-        let scenario = thinned(shipped(&format!("{name}.toml")), every);
-        let engines = ["rapier", "rapier-f32", "impulse", "impulse-f32"].map(String::from);
-        let options = Options { engines: engines.into(), ..Options::default() };
-        let found = tuned(&scenario, within, &[], &options).unwrap_or_else(|error| panic!("{name}: {error}"));
-        let best = linkproof::engines::named(found.best.engine, 1e-3).unwrap().with(found.best.settings);
-        let verified = error_of(&scenario, &truth(&scenario), best.as_ref());
-        assert!(verified <= within, "{name}: {verified:e} with {:?}", found.best);
-        let promised = found.best.verified;
-        assert!((verified - promised).abs() <= 1e-6 * within, "{name}: {verified:e}, promised {promised:e}");
-        let expected = price_of(&scenario.case, best.as_ref());
-        assert!((found.best.price / expected - 1.0).abs() <= 1e-12, "{name}: {:?}, {expected}", found.best);
-
-        let mut price = |engine: &dyn Engine| price_of(&scenario.case, engine);
-        let (met, runs) = cheaper(&scenario, within, found.best.price / below, space, &mut price);
-        let cheapest = met.last().map_or(found.best.price / below, |met| met.price);
-        let ratio = found.best.price / cheapest;
-        println!(
-            "{name} within {within:e}: {ratio:.2} of the cheapest or less, {:?}, {} runs and {runs}, expected {:.1e}",
-            found.best, found.runs, found.predicted
-        );
-        let told = met.last().map(|met| (met.engine.name(), met.engine.settings(), met.error));
-        assert!(ratio <= FACTOR, "{name}: {ratio} times the cheapest: {:?}, cheapest {told:?}", found.best);
-    }
-}
-
-/// A part of what the test below looks at: only what would make it fail is run, sweeps lie a factor 4 apart and steps 1.2.
+/// A part of what `cargo bench --bench tune -- whole` looks at: only what would make it fail is run, sweeps lie a factor 4 apart and steps 1.2.
 const SMALL: Space = Space { sweeps: &[4, 16, 64, 256], factor: 1.2 };
 
 #[test]
@@ -61,24 +20,9 @@ fn tune_comes_near_the_cheapest_of_an_exhaustive_search_and_keeps_its_promise() 
     let (one, other) = REFERENCES.split_at(4);
     std::thread::scope(|scope| {
         for names in [one, other] {
-            scope.spawn(|| near_the_cheapest(names, 24, 1e-3, FACTOR, &SMALL));
-        }
-    });
-}
-
-/// The whole space, and three wishes: `cargo test --release --test suite tune:: -- --ignored --nocapture`. It takes minutes.
-#[test]
-#[ignore = "minutes"]
-fn tune_comes_near_the_cheapest_of_the_whole_space() {
-    let space =
-        Space { sweeps: &[1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 512, 1024], factor: 1.1 };
-    let space = &space;
-    let (one, other) = REFERENCES.split_at(4);
-    std::thread::scope(|scope| {
-        for names in [one, other] {
             scope.spawn(move || {
-                for within in [1e-2, 1e-3, 1e-4] {
-                    near_the_cheapest(names, 8, within, 1.0, space);
+                for name in names {
+                    near_the_cheapest(&thinned(shipped(&format!("{name}.toml")), 24), 1e-3, FACTOR, &SMALL);
                 }
             });
         }

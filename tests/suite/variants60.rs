@@ -7,6 +7,7 @@ mod geometry;
 mod page;
 mod plan;
 
+use crate::common::assert_within;
 use std::path::{Path, PathBuf};
 
 use analytic::range::{Extent, Kind, Range};
@@ -70,13 +71,13 @@ fn ranges_are_those_of_the_curves_that_are_followed() {
                 let least = &plan.least[2 - range.groups.len()..];
                 for (group, least) in range.groups.iter().zip(least) {
                     let found = group.determinant.value.abs().asin().to_degrees();
-                    assert!((found - least).abs() <= BOUND, "{number}: {found} for {least}");
+                    assert_within!((found - least).abs(), BOUND, "{number}: {found} for {least}");
                 }
             }
             (Extent::Limited(found), Some(expected)) => {
                 for (found, expected) in found.iter().zip(expected) {
                     let error = (found.crank.to_degrees() - expected).abs();
-                    assert!(error <= BOUND, "{number}: {error:e}, {found:?}");
+                    assert_within!(error, BOUND, "{number}: {error:e}, {found:?}");
                     if found.kind != Kind::DeadPoint {
                         crossed.push((number, found.kind));
                     }
@@ -112,7 +113,7 @@ fn the_given_pose_is_a_pose_of_the_file() {
         pose.push(rocker);
         // Places in the file are rounded to 1e-12 m, so that x and y together are off by half of that times the root of two.
         let closure = Pose(pose).closure(&case.mechanism);
-        assert!(closure <= 1e-12, "{}: {closure:e}", v.number);
+        assert_within!(closure, 1e-12, "{}: {closure:e}", v.number);
         if plan.given < 1e-4 {
             singular += 1;
             continue;
@@ -138,7 +139,7 @@ fn the_given_pose_is_a_pose_of_the_file() {
             } else {
                 errors.push(off(a - b, o2 - b, v.gamma));
             }
-            assert!(errors.iter().all(|&error| error <= 1e-9), "{} {}: {errors:?}", v.number, solver.name());
+            errors.iter().for_each(|&error| assert_within!(error, 1e-9, "{} {}: {errors:?}", v.number, solver.name()));
         }
     }
     assert_eq!(singular, 3);
@@ -161,6 +162,6 @@ fn structure_and_masses_are_those_of_the_reading() {
         let slider = if v.rocker.is_some() { 1.0 } else { 0.0 };
         let mass: f64 = mechanism.links().iter().map(|link| link.mass).sum();
         // Five decimal numbers, each to its last bit.
-        assert!((mass - 10.0 * lengths - slider).abs() <= 1e-12, "{}: {mass}", v.number);
+        assert_within!((mass - 10.0 * lengths - slider).abs(), 1e-12, "{}: {mass}", v.number);
     }
 }

@@ -10,6 +10,7 @@ other: MuJoCo's own error, estimated without the solution it is compared with. T
 Their errors are judged by MuJoCo's own, but nothing is promised of their size, and a mass has to be farther off to be found.
 """
 
+import contextlib
 import csv
 import io
 import math
@@ -17,6 +18,8 @@ import subprocess
 import sys
 import tempfile
 import tomllib
+from concurrent.futures import ProcessPoolExecutor
+from functools import partial
 from pathlib import Path
 
 import mujoco
@@ -295,6 +298,14 @@ def check_scenario(linkproof, path, singular):
         check(f"a mass off by {WRONG_MASS:g} is found", caught, f"{len(caught)} channels")
 
 
+def told_of(linkproof, singular, path):
+    """What the checks of a scenario print, and their results: for a process of its own."""
+    del results[:]
+    with contextlib.redirect_stdout(io.StringIO()) as text:
+        check_scenario(linkproof, path, singular)
+    return text.getvalue(), list(results)
+
+
 def check_promises(judgement):
     """Size and order of errors."""
     for order, what in ((POSITION, "positions"), (FORCE, "forces")):
@@ -316,8 +327,10 @@ def main(arguments):
     if not paths:
         sys.exit(__doc__)
     print(f"MuJoCo {mujoco.__version__}")
-    for path in paths:
-        check_scenario(linkproof, path, singular)
+    with ProcessPoolExecutor() as processes:
+        for text, found in processes.map(partial(told_of, linkproof, singular), paths):
+            print(text, end="", flush=True)
+            results.extend(found)
     failed = results.count(False)
     print(f"{results.count(True)} passed, {failed} failed")
     sys.exit(1 if failed else 0)

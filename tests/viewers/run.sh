@@ -3,12 +3,11 @@
 #
 # Recordings (*.mcap) go to their readers, scenarios (*.toml) to MuJoCo. Default: recordings/*.mcap, a recording made for the purpose of a mechanism with
 # sliders (scenarios/compressor.toml), and all scenarios that can be exported.
-# Python packages go into target/viewers-venv.
+# Python packages go into target/viewers-venv. LINKPROOF names a command that is built already.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 top=$(cd "$here/../.." && pwd)
 environment="$top/target/viewers-venv"
-linkproof="${CARGO_TARGET_DIR:-$top/target}/release/linkproof"
 
 everything=
 if [ $# -eq 0 ]; then
@@ -19,7 +18,12 @@ if [ $# -eq 0 ]; then
         exit 1
     fi
 fi
-cargo build --quiet --release --manifest-path "$top/Cargo.toml"
+if [ -n "${LINKPROOF:-}" ]; then
+    linkproof=$(realpath "$LINKPROOF")
+else
+    cargo build --quiet --release --manifest-path "$top/Cargo.toml"
+    linkproof="${CARGO_TARGET_DIR:-$top/target}/release/linkproof"
+fi
 if [ "$everything" ]; then
     fresh="$top/target/viewers-recordings"
     "$linkproof" run --record "$fresh" "$top/scenarios/compressor.toml" >/dev/null
@@ -62,8 +66,13 @@ sorted() {
     fi
 }
 failed=0
-if [ "$count" -gt "$scenarios" ]; then sorted other "$@" || failed=1; fi
+# The readers of recordings wait for each other more than for a processor: they go beside MuJoCo.
+if [ "$count" -gt "$scenarios" ]; then
+    sorted other "$@" &
+    readers=$!
+fi
 if [ "$scenarios" -gt 0 ]; then sorted toml "$@" || failed=1; fi
+if [ -n "${readers:-}" ]; then wait "$readers" || failed=1; fi
 if [ "$everything" ]; then
     python "$here/mujoco_check.py" "$linkproof" --singular "$top"/scenarios/variants60/*.toml || failed=1
 fi

@@ -4,7 +4,9 @@ use crate::case::{Case, Wanted};
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::{Motion, Vec2, cross, unit};
 use crate::mechanism::{GROUND, Joint, Side};
-use crate::trajectory::{Channel, Stage, Trajectory};
+use crate::trajectory::channel::rows;
+use crate::trajectory::{Channel, OfDrive, OfFrame, OfJoint, OfLink, OfPoint, OfSlider, Stage, Trajectory};
+use std::cell::LazyCell;
 
 /// How a solver comes by a channel.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -192,33 +194,53 @@ impl Sampler {
         if case.is_free() {
             self.cranks[row] = state.angles[case.crank().link] - case.crank().zero;
         }
-        let has = |stage| self.wanted.has(stage);
-        let wanted = [has(Stage::Positions), has(Stage::Velocities), has(Stage::Accelerations)];
-        let mut out = Row { values: &mut self.block[at * width..][..width], wanted, all: wanted == [true; 3] };
+        let wanted =
+            Stage::ALL.into_iter().filter(|&stage| self.wanted.has(stage)).fold(0, |all, stage| all | bit(stage));
+        let mut out = Row { values: &mut self.block[at * width..][..width], wanted };
         for (index, link) in case.mechanism.links().iter().enumerate().skip(1) {
             let motion = &state.motions[index];
-            out.put_wanted([state.angles[index], motion.omega, motion.alpha]);
-            out.put_point(motion, link.mass_centre);
+            let centre = BodyPoint::of(motion, link.mass_centre);
+            out.put(&rows::LINK, |of| match of {
+                OfLink::Angle => state.angles[index],
+                OfLink::Omega => motion.omega,
+                OfLink::Alpha => motion.alpha,
+                OfLink::Centre(of) => centre.read(of),
+            });
         }
         for side in &self.points {
-            out.put_point(&state.motions[side.link], side.local);
+            let point = BodyPoint::of(&state.motions[side.link], side.local);
+            out.put(&rows::POINT, |of| point.read(of));
         }
-        if has(Stage::Reactions) {
-            for force in &state.forces {
-                out.put([force.x, force.y]);
-            }
+        for force in &state.forces {
+            out.put(&rows::JOINT, |of| match of {
+                OfJoint::ForceX => force.x,
+                OfJoint::ForceY => force.y,
+            });
         }
         for (index, joint) in case.mechanism.joints().iter().enumerate() {
-            let Some(slide) = state.slide(joint) else { continue };
-            out.put_wanted(slide);
-            if has(Stage::Reactions) {
-                out.put([state.moments[index]]);
-            }
+            let Some([slide, speed, acceleration]) = state.slide(joint) else { continue };
+            out.put(&rows::SLIDER, |of| match of {
+                OfSlider::Slide => slide,
+                OfSlider::Speed => speed,
+                OfSlider::Acceleration => acceleration,
+                OfSlider::Moment => state.moments[index],
+            });
         }
-        if has(Stage::BalancingMoment) {
-            let (force, moment) = state.shaking(case);
-            out.put([force.x, force.y, moment]);
-            case.drives.with_moment().for_each(|(index, _)| out.put([state.torques[index]]));
+        // Summed up once, and only if a row that is wanted reads it.
+        let shaking = LazyCell::new(|| state.shaking(case));
+        out.put(&rows::FRAME, |of| match of {
+            OfFrame::ForceX => shaking.0.x,
+            OfFrame::ForceY => shaking.0.y,
+            OfFrame::Moment => shaking.1,
+        });
+        for (index, _) in case.drives.with_moment() {
+            let read = |of| match of {
+                OfDrive::Torque => state.torques[index],
+            };
+            match index {
+                0 => out.put(&rows::DRIVE, read),
+                _ => out.put(&rows::MOTOR, read),
+            }
         }
         debug_assert!(out.values.is_empty(), "as many values as channels");
     }
@@ -261,41 +283,66 @@ impl Sampler {
 /// What is left of a row, filled in the order of channels.
 struct Row<'a> {
     values: &'a mut [f64],
-    /// Whether positions, velocities and accelerations are wanted, and whether all of them are.
-    wanted: [bool; 3],
-    all: bool,
+    /// The stages that are wanted, a [`bit`] each.
+    wanted: u8,
+}
+
+const fn bit(stage: Stage) -> u8 {
+    1 << stage as u8
 }
 
 impl Row<'_> {
-    #[inline]
-    fn put<const N: usize>(&mut self, values: [f64; N]) {
-        let (own, rest) = std::mem::take(&mut self.values).split_first_chunk_mut().expect("as many values as channels");
-        *own = values;
-        self.values = rest;
-    }
-
-    /// A number, its rate and its second derivative, as far as they are wanted.
-    #[inline]
-    fn put_wanted(&mut self, values: [f64; 3]) {
-        if self.all {
-            return self.put(values);
+    /// What `rows` read by `read`, as far as their stages are wanted.
+    #[inline(always)]
+    fn put<Of: Copy, const N: usize>(&mut self, rows: &[(Of, Stage); N], read: impl Fn(Of) -> f64) {
+        let needed = rows.iter().fold(0, |all, &(_, stage)| all | bit(stage));
+        if self.wanted & needed == needed {
+            let (own, rest) =
+                std::mem::take(&mut self.values).split_first_chunk_mut::<N>().expect("as many values as channels");
+            // Written out, not a loop: every reading then is a constant, and nothing is left of the match on it.
+            macro_rules! each {
+                ($($row:literal)*) => {{
+                    const { assert!(N <= [$($row),*].len(), "every row of a subject is put") };
+                    $(if $row < N {
+                        own[$row] = read(rows[$row].0);
+                    })*
+                }};
+            }
+            each!(0 1 2 3 4 5 6 7 8 9 10 11);
+            self.values = rest;
+            return;
         }
-        for (value, _) in values.into_iter().zip(self.wanted).filter(|(_, wanted)| *wanted) {
-            self.put([value]);
+        for &(of, stage) in rows {
+            if self.wanted & bit(stage) != 0 {
+                let (own, rest) =
+                    std::mem::take(&mut self.values).split_first_mut().expect("as many values as channels");
+                *own = read(of);
+                self.values = rest;
+            }
         }
     }
+}
 
-    /// Position, velocity and acceleration of a body point, as far as they are wanted.
+/// Position (m), velocity (m/s) and acceleration (m/s^2) of a body point.
+struct BodyPoint([Vec2; 3]);
+
+impl BodyPoint {
     #[inline]
-    fn put_point(&mut self, motion: &Motion, local: Vec2) {
+    fn of(motion: &Motion, local: Vec2) -> Self {
         let arm = motion.arm(local);
-        let vectors = [motion.origin + arm, motion.velocity_beyond(arm), motion.acceleration_beyond(arm)];
-        if self.all {
-            let [position, velocity, acceleration] = vectors;
-            return self.put([position.x, position.y, velocity.x, velocity.y, acceleration.x, acceleration.y]);
-        }
-        for (vector, _) in vectors.into_iter().zip(self.wanted).filter(|(_, wanted)| *wanted) {
-            self.put([vector.x, vector.y]);
+        BodyPoint([motion.origin + arm, motion.velocity_beyond(arm), motion.acceleration_beyond(arm)])
+    }
+
+    #[inline]
+    fn read(&self, of: OfPoint) -> f64 {
+        let BodyPoint([position, velocity, acceleration]) = self;
+        match of {
+            OfPoint::X => position.x,
+            OfPoint::Y => position.y,
+            OfPoint::VelocityX => velocity.x,
+            OfPoint::VelocityY => velocity.y,
+            OfPoint::AccelerationX => acceleration.x,
+            OfPoint::AccelerationY => acceleration.y,
         }
     }
 }

@@ -46,6 +46,8 @@ impl Engine for Rapier {
     }
 
     fn told(&self) -> Vec<(&'static str, String)> {
+        // The resolution stands beside the engine's name, the route in how reactions come about; extrapolation is not known here.
+        let Settings { resolution: _, sweeps, substeps, route: _, extrapolated: _ } = self.settings;
         let build = match self.build {
             Build::Multibody => "spanning tree as multibody, loops closed by impulse joints",
             Build::Impulse => "bodies of their own, every joint an impulse joint",
@@ -58,8 +60,8 @@ impl Engine for Rapier {
             ("build", build.into()),
             ("drive", drive.into()),
             ("flywheel", "on driving links: all masses times the square of the largest length".into()),
-            ("sweeps", self.settings.sweeps.to_string()),
-            ("substeps", self.settings.substeps.to_string()),
+            ("sweeps", sweeps.to_string()),
+            ("substeps", substeps.to_string()),
             ("reactions", self.how().into()),
         ]
     }

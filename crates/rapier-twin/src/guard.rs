@@ -157,7 +157,7 @@ impl<'a> Guard<'a> {
         let (links, joints) = (case.mechanism.links(), case.mechanism.joints());
         // Said in the words of the frames before the step.
         let place =
-            |before: &[LinkFrame]| Instant::of(case.crank(), before[case.crank().link].angle() - case.crank().zero, t);
+            |before: &[LinkFrame]| Moment::of(case.crank(), before[case.crank().link].angle() - case.crank().zero, t);
         guarded(|| world.step()).map_err(|cause| panicked(place(before), cause.as_ref()))?;
         let frames = world.frames();
         let mut twice_energy = 0.0;
@@ -227,17 +227,17 @@ impl<'a> Guard<'a> {
 
 /// When and where a step went wrong.
 #[derive(Clone, Copy)]
-struct Instant {
+struct Moment {
     /// Time (s).
     t: f64,
     /// Crank angle (rad, as the scenario states it).
     crank: f64,
 }
 
-impl Instant {
+impl Moment {
     /// A free crank is where it was `before` the step.
     fn of(drive: &Drive, before: f64, t: f64) -> Self {
-        Instant { t, crank: if drive.is_free() { before } else { drive.at(t).angle } }
+        Moment { t, crank: if drive.is_free() { before } else { drive.at(t).angle } }
     }
 
     fn error(self, message: String) -> Error {
@@ -250,13 +250,13 @@ impl Instant {
     }
 }
 
-impl fmt::Display for Instant {
+impl fmt::Display for Moment {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "t = {:.6} s, crank angle {:.4} deg", self.t, self.crank.to_degrees())
     }
 }
 
-fn panicked(place: Instant, cause: &(dyn std::any::Any + Send)) -> Error {
+fn panicked(place: Moment, cause: &(dyn std::any::Any + Send)) -> Error {
     let words = cause.downcast_ref::<&str>().copied().or_else(|| cause.downcast_ref::<String>().map(String::as_str));
     let words = words.unwrap_or("no message");
     place.error(format!("the engine has panicked (\"{words}\"), {place}")).or_help(Advice::OtherEngine)

@@ -8,7 +8,7 @@ use linkage::case::Case;
 use linkage::engine::Route;
 use linkage::math::KeepNan;
 use linkage::math::interpolate::lagrange_weights;
-use linkage::trajectory::{ChannelKind, Stage, Subject};
+use linkage::trajectory::{ChannelKind, Stage, Subject, Unit};
 
 /// Rounding of a speed in the solver's sweeps, in units of the last place; 12 were measured on the crank-rocker, 2 on `ov7_base`.
 const SPEED_ULPS: f64 = 20.0;
@@ -61,16 +61,18 @@ pub(super) fn bound(case: &Case, engine: &Rapier, channel: &ChannelKind) -> f64 
     };
     let linear = second * size + DIFFERENCE_ULPS * place / (step * step);
     match channel.unit {
-        "rad" => angle,
-        "rad/s" => rate,
-        "rad/s^2" => second,
-        "m" => angle * size + place,
-        "m/s" => rate * size + rate_of_place,
-        "m/s^2" => linear,
-        "N" => linear * mass,
-        // The impulse of a drive is read off a flywheel of the mechanism's size.
-        _ if engine.settings.route != Route::Differences => linear * mass * reach,
-        _ => linear * mass * lever(case, reach, channel.subject),
+        Unit::Radian => angle,
+        Unit::RadianPerSecond => rate,
+        Unit::RadianPerSecondSquared => second,
+        Unit::Metre => angle * size + place,
+        Unit::MetrePerSecond => rate * size + rate_of_place,
+        Unit::MetrePerSecondSquared => linear,
+        Unit::Newton => linear * mass,
+        Unit::NewtonMetre => match engine.settings.route {
+            Route::Differences => linear * mass * lever(case, reach, channel.subject),
+            // The impulse of a drive is read off a flywheel of the mechanism's size.
+            Route::Native | Route::Probe => linear * mass * reach,
+        },
     }
 }
 
@@ -83,7 +85,7 @@ fn lever(case: &Case, reach: f64, subject: Subject) -> f64 {
             case.drives.iter().fold(0.0, |most: f64, drive| most.larger(case.mechanism.links()[drive.link].size()))
         }
         Subject::Frame => reach,
-        _ => case.mechanism.size(),
+        Subject::Link | Subject::Point | Subject::Joint | Subject::Slider => case.mechanism.size(),
     }
 }
 

@@ -244,7 +244,7 @@ impl<'a> Run<'a> {
 
 fn check(settings: &Settings, steps: f64) -> Result<()> {
     let wrong = |message: String, help: &str| Err(Error::new(ErrorKind::Input, message).help(help));
-    let Settings { resolution: step, sweeps, substeps, .. } = *settings;
+    let Settings { resolution: step, sweeps, substeps, route: _, extrapolated: _ } = *settings;
     if !(step > 0.0 && step.is_finite()) {
         return wrong(format!("the engine's time step is {step} s"), "give a time step greater than zero");
     }

@@ -90,7 +90,9 @@ impl Engine for Simbody {
     }
 
     fn with(&self, settings: Settings) -> Box<dyn Engine> {
-        Box::new(Simbody { accuracy: settings.resolution })
+        // It has no sweeps and no substeps, one route, and nothing to extrapolate.
+        let Settings { resolution: accuracy, sweeps: _, substeps: _, route: _, extrapolated: _ } = settings;
+        Box::new(Simbody { accuracy })
     }
 
     fn controls_error(&self) -> bool {
@@ -197,7 +199,7 @@ fn other_loads(case: &Case) -> Vec<Load> {
     match case.is_free() {
         // Then all of them act all the time.
         true => Vec::new(),
-        false => case.loads.iter().filter(|load| !matches!(load, Load::Resistance { .. })).cloned().collect(),
+        false => case.loads.iter().filter(|load| load.resistance().is_none()).cloned().collect(),
     }
 }
 

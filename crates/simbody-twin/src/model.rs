@@ -158,9 +158,7 @@ pub(super) fn inertia(case: &Case, link: usize) -> Inertia {
 
 /// Moment against a link's rotation (N m).
 fn resistance(case: &Case, link: usize) -> f64 {
-    let on_link = case.loads.iter().map(|load| match *load {
-        Load::Resistance { link: loaded, moment } if loaded == link => moment,
-        _ => 0.0,
-    });
-    on_link.sum()
+    let on_link =
+        |load: &Load| load.resistance().map_or(0.0, |(loaded, moment)| if loaded == link { moment } else { 0.0 });
+    case.loads.iter().map(on_link).sum()
 }

@@ -6,7 +6,7 @@
 use super::model::inertia;
 use linkage::case::Case;
 use linkage::math::KeepNan;
-use linkage::trajectory::{ChannelKind, Subject};
+use linkage::trajectory::{ChannelKind, Subject, Unit};
 
 /// What poses make of an error in a constraint: 1 / sin of the angle at which two links meet, which is 10 at 6 degrees.
 const POSE: f64 = 10.0;
@@ -38,14 +38,18 @@ pub(super) fn bound(case: &Case, [tolerance, accuracy]: [f64; 2], channel: &Chan
     let gravity = case.gravity.norm();
     let force = mass * (linear * speed * speed + angle * gravity);
     match channel.unit {
-        "rad" => angle,
-        "rad/s" => angle * speed,
-        "rad/s^2" => angle * speed * speed,
-        "m" => linear,
-        "m/s" => linear * speed,
-        "m/s^2" => linear * speed * speed,
-        "N" => force,
-        _ if channel.subject == Subject::Frame => force * reach,
-        _ => force * size,
+        Unit::Radian => angle,
+        Unit::RadianPerSecond => angle * speed,
+        Unit::RadianPerSecondSquared => angle * speed * speed,
+        Unit::Metre => linear,
+        Unit::MetrePerSecond => linear * speed,
+        Unit::MetrePerSecondSquared => linear * speed * speed,
+        Unit::Newton => force,
+        Unit::NewtonMetre => match channel.subject {
+            Subject::Frame => force * reach,
+            Subject::Link | Subject::Point | Subject::Joint | Subject::Slider | Subject::Drive | Subject::Motor => {
+                force * size
+            }
+        },
     }
 }

@@ -131,7 +131,7 @@ pub(super) fn diagram(story: &Story) -> TimingDiagram {
         rests: phase.sense == Sense::Dwell,
         figure: match phase.sense {
             Sense::Dwell => format!("moves {:.2} %", 100.0 * done.motion),
-            _ => format!("{:+.1} %", 100.0 * done.displacement),
+            Sense::Forward | Sense::Back => format!("{:+.1} %", 100.0 * done.displacement),
         },
     };
     TimingDiagram {

@@ -30,7 +30,7 @@ impl Sign {
             Sign::Positive if value <= 0.0 => Some(("must be positive", "give a number greater than zero")),
             Sign::Negative if value >= 0.0 => Some(("must be negative", "give a number less than zero")),
             Sign::NotZero if value == 0.0 => Some(("must not be zero", "give a positive or a negative number")),
-            _ => None,
+            Sign::Any | Sign::NotNegative | Sign::Positive | Sign::Negative | Sign::NotZero => None,
         }
     }
 }

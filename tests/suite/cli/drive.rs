@@ -3,10 +3,11 @@
 use serde_json::Value;
 
 use super::tools::Place;
+use crate::common::assert_within;
 
 fn near(value: &Value, expected: f64, within: f64) {
     let found = value.as_f64().unwrap_or_else(|| panic!("no number: {value}"));
-    assert!((found - expected).abs() <= within, "{found} {expected}");
+    assert_within!((found - expected).abs(), within, "{found} {expected}");
 }
 
 #[test]
@@ -43,7 +44,7 @@ fn a_run_up_as_csv() {
     let (shaft, torque) =
         ["shaft_N_m", "drive.torque_N_m"].map(|name| header.iter().position(|h| *h == name).unwrap()).into();
     for row in &rows {
-        assert!((row[shaft] - row[torque]).abs() < 1e-9, "{row:?}");
+        assert_within!((row[shaft] - row[torque]).abs(), 1e-9, "{row:?}");
     }
     assert!(rows[0][2] == 0.0 && rows[10][2] > 10.0);
 }

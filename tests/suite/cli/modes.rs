@@ -5,6 +5,7 @@ use std::fs;
 use serde_json::{Value, json};
 
 use super::tools::{Place, Table};
+use crate::common::assert_within;
 
 const FOURTH: &str = "link_2,link_3,link_4,link_5";
 
@@ -24,7 +25,7 @@ fn a_dyad_starts_in_the_mode_asked_for() {
     let mirrored = |angle: f64| 2.0 * axis - angle;
     let away = |a: f64, b: f64| ((a - b).sin()).abs() + (1.0 - (a - b).cos());
     let right = rocker(&place, "--mode coupler,rocker=right");
-    assert!(away(right, mirrored(left)) < 1e-12, "{right} {left}");
+    assert_within!(away(right, mirrored(left)), 1e-12, "{right} {left}");
     // In the other order of links left and right change places; ranks count as `inspect --modes` does.
     assert_eq!(rocker(&place, "--mode rocker,coupler=left"), right);
     assert_eq!(rocker(&place, "--mode coupler,rocker=2"), right);
@@ -49,7 +50,7 @@ fn a_higher_group_starts_in_the_configuration_of_that_number() {
                 let name = link["name"].as_str().unwrap();
                 let angle = table.column(&format!("link.{name}.angle_rad"))[0];
                 let away = (angle - link["angle_rad"].as_f64().unwrap()).abs();
-                assert!(away < 1e-12, "{solver} {number} {name}: {away}");
+                assert_within!(away, 1e-12, "{solver} {number} {name}: {away}");
             }
         }
     }
@@ -109,8 +110,8 @@ fn inspect_tells_how_clear_the_start_is() {
         (e["x_m"].as_f64().unwrap() - 58.6e-3).hypot(e["y_m"].as_f64().unwrap() + 0.7e-3)
     };
     let group = &found["groups"][0];
-    assert!((group["from_rough_place_m"].as_f64().unwrap() - at(0)).abs() < 1e-12, "{group}");
-    assert!((group["next_from_rough_place_m"].as_f64().unwrap() - at(1)).abs() < 1e-12, "{group}");
+    assert_within!((group["from_rough_place_m"].as_f64().unwrap() - at(0)).abs(), 1e-12, "{group}");
+    assert_within!((group["next_from_rough_place_m"].as_f64().unwrap() - at(1)).abs(), 1e-12, "{group}");
     let text = place.ok("inspect scenarios/fourth_class.toml");
     let words = format!("{:.1} mm from the rough place, the next configuration {:.0} mm", at(0) * 1e3, at(1) * 1e3);
     assert!(text.contains(&words), "`{words}` is not in:\n{text}");
@@ -206,9 +207,9 @@ fn a_group_of_six_links_starts_from_a_rough_drawing() {
         for (axis, drawn) in [("x", x), ("y", y)] {
             let name = format!("point.{point}.{axis}_m");
             let (own, other) = (assur.column(&name), newton.column(&name));
-            assert!(own.iter().zip(&other).all(|(a, b)| (a - b).abs() < 1e-12), "{name}");
+            own.iter().zip(&other).for_each(|(a, b)| assert_within!((a - b).abs(), 1e-12, "{name}"));
             // Half the shortest link, as promised.
-            assert!((own[0] * 1e3 - drawn).abs() < 45.0, "{name}: {} for {drawn}", own[0]);
+            assert_within!((own[0] * 1e3 - drawn).abs(), 45.0, "{name}: {} for {drawn}", own[0]);
         }
     }
     // Three points are enough, as docs/scenario.md says: the other links follow from their joints.
@@ -216,7 +217,10 @@ fn a_group_of_six_links_starts_from_a_rough_drawing() {
     let few = Table::of(&place.ok("solve scenarios/six.toml --with assur --crank-deg 0:10:5"));
     for point in ["B", "D", "F"] {
         let name = format!("point.{point}.x_m");
-        assert!(few.column(&name).iter().zip(assur.column(&name)).all(|(a, b)| (a - b).abs() < 1e-12), "{name}");
+        few.column(&name)
+            .iter()
+            .zip(assur.column(&name))
+            .for_each(|(a, b)| assert_within!((a - b).abs(), 1e-12, "{name}"));
     }
 }
 
@@ -239,7 +243,7 @@ fn of_a_group_of_six_links_the_followed_configuration_is_listed() {
             let name = format!("link.{}.{column}", link["name"].as_str().unwrap());
             let (own, newton) = (link[key].as_f64().unwrap(), table.column(&name)[0]);
             // Rounding of angular velocities up to ten times the crank's.
-            assert!((own - newton).abs() < 1e-10, "{name}: {own} {newton}");
+            assert_within!((own - newton).abs(), 1e-10, "{name}: {own} {newton}");
         }
     }
     let dyad = place.ok("inspect scenarios/crank_rocker.toml --modes --json -");

@@ -3,6 +3,7 @@
 use std::fs;
 
 use super::tools::Place;
+use crate::common::assert_within;
 
 #[test]
 fn plans_as_text_json_and_drawing() {
@@ -15,7 +16,7 @@ fn plans_as_text_json_and_drawing() {
     let json = place.run("plan scenarios/fourth_class.toml --crank-deg 70 --with newton --json -").json();
     assert_eq!(json["velocity"]["scale_per_mm"], 0.02);
     let omega = json["singular_points"][0]["links"][0]["omega_rad_s"].as_f64().unwrap();
-    assert!((omega - 2.03890).abs() < 0.5e-5, "{omega}");
+    assert_within!((omega - 2.03890).abs(), 0.5e-5, "{omega}");
     assert_eq!(place.ok("plan scenarios/ov7_base.toml --crank-deg -30 --svg plans.svg"), "");
     let drawing = fs::read_to_string(place.path("plans.svg")).unwrap();
     assert!(roxmltree::Document::parse(&drawing).is_ok());

@@ -1,6 +1,7 @@
 //! `linkproof inspect --range`, and what commands say about crank angles out of reach.
 
 use super::tools::Place;
+use crate::common::assert_within;
 
 #[test]
 fn a_crank_rocker_is_told_with_its_extreme_positions() {
@@ -45,10 +46,8 @@ fn a_crank_that_does_not_turn_fully_is_told_with_its_limits() {
     let (a, d, reach) = (0.15f64, 0.15f64.hypot(0.015), 0.347_071_931_891_81 - 0.25);
     let half = ((a * a + d * d - reach * reach) / (2.0 * a * d)).acos();
     let base = 0.015f64.atan2(0.15);
-    assert!(
-        (from - (base + half)).abs() < 1e-9 && (to - (base - half + std::f64::consts::TAU)).abs() < 1e-9,
-        "{from} {to}"
-    );
+    assert_within!((from - (base + half)).abs(), 1e-9, "{from} {to}");
+    assert_within!((to - (base - half + std::f64::consts::TAU)).abs(), 1e-9, "{from} {to}");
     // Rounded inwards at the sixth decimal: the third is the same.
     let interval = format!("from {:.3}", from.to_degrees());
     for command in [

@@ -6,6 +6,7 @@ use std::fs;
 use serde_json::Value;
 
 use super::tools::{Place, texts};
+use crate::common::assert_within;
 
 const BOTH: &str = "scenarios/crank_rocker.toml scenarios/ov7_base.toml";
 
@@ -255,7 +256,11 @@ fn a_finer_step_agrees_within_finer_bounds() {
         torque["bound"].as_f64().unwrap()
     };
     let quotient = bound("2e-3") / bound("5e-4");
-    assert!((quotient - 16.0).abs() < 0.8, "second order: a quarter of the step, a sixteenth of the bound: {quotient}");
+    assert_within!(
+        (quotient - 16.0).abs(),
+        0.8,
+        "second order: a quarter of the step, a sixteenth of the bound: {quotient}"
+    );
 }
 
 #[test]
@@ -309,4 +314,27 @@ fn channels_that_are_not_wanted_are_neither_compared_nor_checked() {
             .iter()
             .any(|name| name.contains("moment from"))
     );
+}
+
+/// The dial on all bounds: stricter bounds disagree, and at zero every channel and check is printed beside its bound, judged as ever.
+#[test]
+fn one_dial_scales_every_bound() {
+    let place = Place::new();
+    let command = "run scenarios/crank_rocker.toml --dt 2e-3 --no-record --tolerance-scale";
+    let document = place.run(&format!("{command} 1e-9 --json -")).json();
+    let run = &document["runs"][0];
+    assert_eq!(run["verdict"], "disagree");
+    let (bound, plain) = (
+        |run: &Value| run["engines"][0]["channels"][3]["bound"].as_f64().unwrap(),
+        place.run(&command.replace("--tolerance-scale", "--json -")).json(),
+    );
+    assert_within!((bound(run) / bound(&plain["runs"][0]) - 1e-9).abs(), 1e-20);
+    let listed = place.ok(&format!("{command} 0"));
+    let names = [texts(&run["engines"][0]["channels"], "channel"), all_checks(run)].concat();
+    for name in names {
+        assert!(listed.contains(name), "{name}: {listed}");
+    }
+    assert!(listed.contains("AGREE: "), "{listed}");
+    place.refused(&format!("{command} -1"), &["unexpected"]);
+    place.refused(&format!("{command} x"), &["invalid"]);
 }

@@ -5,6 +5,7 @@ use std::fs;
 use serde_json::Value;
 
 use super::tools::Place;
+use crate::common::assert_within;
 
 const ROCKER: &str = "synthesize crank-rocker --pivot-mm 150,15 --rocker-mm 250 --extreme-deg 50 --swing-deg 32";
 const SINKER: &str = "scenarios/ov7_drives/sinker_task.toml";
@@ -21,8 +22,8 @@ fn a_crank_rocker_is_found_written_and_proven() {
     assert!(proof.contains("AGREE"), "{proof}");
     assert!(fs::read_to_string(place.path("rocker.toml")).unwrap().starts_with("# linkproof synthesize crank-rocker"));
     let json: Value = serde_json::from_str(&place.ok(&format!("{ROCKER} --json -"))).unwrap();
-    assert!((json["crank_m"].as_f64().unwrap() - 0.025_995_627_740_337).abs() < 1e-12);
-    assert!((json["coupler_m"].as_f64().unwrap() - 0.347_071_931_891_81).abs() < 1e-12);
+    assert_within!((json["crank_m"].as_f64().unwrap() - 0.025_995_627_740_337).abs(), 1e-12);
+    assert_within!((json["coupler_m"].as_f64().unwrap() - 0.347_071_931_891_81).abs(), 1e-12);
 }
 
 #[test]

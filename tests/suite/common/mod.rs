@@ -1,5 +1,6 @@
 //! Mechanisms for the integration tests: written as scenario text, so that tests enter where a user does.
 
+pub mod dial;
 pub mod four_link;
 pub mod higher;
 pub mod random;
@@ -7,6 +8,7 @@ pub mod sketch;
 pub mod sliders;
 pub mod spec;
 
+pub(crate) use dial::assert_within;
 use linkage::case::{Case, Grid};
 use linkage::math::Vec2;
 use linkage::solver::{Solver, State};
@@ -16,6 +18,12 @@ use linkproof::scenario::Scenario;
 pub fn shipped(name: &str) -> Scenario {
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios").join(name);
     Scenario::load(&path).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Names of the Rapier engines, the ones in single precision only where the feature `f32` has them built.
+pub fn rapiers() -> Vec<&'static str> {
+    let single = |name: &&str| cfg!(feature = "f32") || !name.ends_with("-f32");
+    ["rapier", "rapier-f32", "impulse", "impulse-f32"].into_iter().filter(single).collect()
 }
 
 /// The states that a solver finds at the given times (s), in their order.

@@ -9,6 +9,8 @@ use linkage::mechanism::{Group, GroupKind, LinkPose, Pose, StartGroup, first_pos
 use linkproof::scenario::Scenario;
 use proptest::test_runner::TestCaseError;
 
+use super::assert_within;
+use super::dial::accepts;
 use super::sketch::{Random, Sketch};
 use super::spec::{Ask, Dyad, Spec, Start};
 
@@ -143,7 +145,7 @@ fn starts_as_drawn(sample: &Sample, drawn: &[LinkPose]) {
         let turn = linkage::math::angle::wrapped(found.angle - drawn.angle);
         let off = (found.origin - drawn.origin).norm().larger(turn.abs());
         // Rounding through the dyads, as between the solvers.
-        assert!(off <= 1e-13 * sample.condition.powi(2), "{off:e}\n{}", sample.spec.toml());
+        assert_within!(off, 1e-13 * sample.condition.powi(2), "{off:e}\n{}", sample.spec.toml());
     }
 }
 
@@ -195,5 +197,9 @@ pub fn within(what: &str, value: f64, bound: f64) -> Result<(), TestCaseError> {
         let most = worst.entry(what.into()).or_insert(0.0f64);
         *most = most.larger(value / bound);
     });
-    if value <= bound { Ok(()) } else { Err(TestCaseError::fail(format!("{what}: {value:.3e} is beyond {bound:.3e}"))) }
+    if accepts(value, bound) {
+        Ok(())
+    } else {
+        Err(TestCaseError::fail(format!("{what}: {value:.3e} is beyond {bound:.3e}")))
+    }
 }

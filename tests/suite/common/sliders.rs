@@ -3,6 +3,7 @@
 
 pub mod double;
 
+use super::assert_within;
 use double::{oldham, scotch_yoke, slotted_crank};
 use linkage::case::{Case, CaseParts, Grid, Wanted};
 use linkage::drive::{Drive, MotionLaw};
@@ -90,7 +91,7 @@ fn case(links: Vec<Link>, joints: Vec<Joint>, mode: AssemblyMode, start: f64, to
     });
     let case = case.unwrap();
     let closure = case.start.closure(&case.mechanism);
-    assert!(closure < 1e-15, "the start pose is off by {closure:e} m");
+    assert_within!(closure, 1e-15, "the start pose is off by {closure:e} m");
     case
 }
 

@@ -1,5 +1,6 @@
 //! A crank alone: everything has a closed form.
 
+use crate::common::assert_within;
 use linkage::math::KeepNan;
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
@@ -48,15 +49,16 @@ fn constant_coefficients_have_their_closed_form() {
     let case = case.with_motor(Some(motor)).unwrap();
     let model = Model::of(&case).unwrap();
     let whole = 0.05 + 1.5e-3 * 100.0 + 2e-2 * 9.0 + 0.1;
-    assert!((model.added_inertia() + 0.05 - whole).abs() < 1e-15);
+    assert_within!((model.added_inertia() + 0.05 - whole).abs(), 1e-15);
     let (moment, damping) = (40.0, 2.0);
     let rate = damping / whole;
     let (found, _) = motion(&model, 0.0, &evenly(1.5, 300), ACCURACY).unwrap();
     for at in &found {
         let omega = moment / damping * (1.0 - (-rate * at.t).exp());
         let crank = moment / damping * (at.t + ((-rate * at.t).exp() - 1.0) / rate);
-        assert!((at.omega - omega).abs() < 1e-11 && (at.crank - crank).abs() < 1e-11, "{at:?} {omega} {crank}");
-        assert!((at.alpha - (moment - damping * omega) / whole).abs() < 1e-9);
+        assert_within!((at.omega - omega).abs(), 1e-11, "{at:?} {omega} {crank}");
+        assert_within!((at.crank - crank).abs(), 1e-11, "{at:?} {omega} {crank}");
+        assert_within!((at.alpha - (moment - damping * omega) / whole).abs(), 1e-9);
     }
 }
 
@@ -77,8 +79,8 @@ fn the_averaged_model_is_exact_for_constant_coefficients() {
         let means = means::means_over_turn(&case, &AssurSolver).unwrap();
         let averaged = Averaged::of(&motor, means.inertia + model.added_inertia(), speed * means.resistance).unwrap();
         // 40 N m and 2 N m s on the crank without losses.
-        assert!((averaged.time_constant - 0.48 / (2.0 * efficiency)).abs() < 1e-15, "{averaged:?}");
-        assert!((averaged.steady_speed - (40.0 * efficiency - 6.0) / (2.0 * efficiency)).abs() < 1e-13);
+        assert_within!((averaged.time_constant - 0.48 / (2.0 * efficiency)).abs(), 1e-15, "{averaged:?}");
+        assert_within!((averaged.steady_speed - (40.0 * efficiency - 6.0) / (2.0 * efficiency)).abs(), 1e-13);
         let (found, end) = motion(&model, 0.0, &evenly(1.5, 300), 1e-13).unwrap();
         assert_eq!((found.len(), end), (301, End::Reached));
         let mut most = [0.0f64; 2];
@@ -90,7 +92,7 @@ fn the_averaged_model_is_exact_for_constant_coefficients() {
             let off = [omega + steady_speed * gone, angle - steady_speed * (at.t + time_constant * gone)];
             most = [0, 1].map(|k| most[k].larger(off[k].abs()));
         }
-        assert!(most.iter().all(|off| *off < 1e-12), "{most:?}");
+        most.iter().for_each(|off| assert_within!(*off, 1e-12, "{most:?}"));
     }
 }
 
@@ -100,10 +102,10 @@ fn the_averaged_model_is_closed_on_one_straight_line_only() {
     let lossy = Motor { efficiency: 0.9, ..linear.clone() };
     // Without resistance both come to 200 rad/s of the motor, slower with losses.
     let free = [&linear, &lossy].map(|motor| Averaged::of(motor, 0.5, 0.0).unwrap());
-    assert!(free.iter().all(|free| (free.steady_speed - 20.0).abs() < 1e-12), "{free:?}");
-    assert!((free[1].time_constant / free[0].time_constant - 1.0 / 0.9).abs() < 1e-14);
+    free.iter().for_each(|free| assert_within!((free.steady_speed - 20.0).abs(), 1e-12, "{free:?}"));
+    assert_within!((free[1].time_constant / free[0].time_constant - 1.0 / 0.9).abs(), 1e-14);
     // A resistance that drives: beyond 20 rad/s losses change their side.
-    assert!((Averaged::of(&linear, 0.5, -2.0).unwrap().steady_speed - 21.0).abs() < 1e-12);
+    assert_within!((Averaged::of(&linear, 0.5, -2.0).unwrap().steady_speed - 21.0).abs(), 1e-12);
     assert_eq!(Averaged::of(&lossy, 0.5, -2.0), None);
     // More than the starting moment, no mass, no slope, no line.
     assert_eq!(Averaged::of(&linear, 0.5, 40.1), None);
@@ -129,7 +131,7 @@ fn kloss_runs_up_in_its_known_time() {
     let times = slips.map(time);
     let (found, _) = motion(&Model::of(&case).unwrap(), 0.0, &times, ACCURACY).unwrap();
     for (at, slip) in found.iter().zip(slips) {
-        assert!((at.omega - synchronous * (1.0 - slip)).abs() < 1e-8, "{at:?} {slip}");
+        assert_within!((at.omega - synchronous * (1.0 - slip)).abs(), 1e-8, "{at:?} {slip}");
     }
 }
 
@@ -148,13 +150,13 @@ fn a_pendulum_swings_in_its_known_time() {
             let side = if half % 2 == 0 { 1.0 } else { -1.0 };
             let expected = (-90.0f64).to_radians() + side * degrees.to_radians();
             // At a turning point the angle is flat in time: this proves the amplitude, the quarter below the period.
-            assert!((at.crank - expected).abs() < 1e-11, "{degrees} {half}: {at:?}");
+            assert_within!((at.crank - expected).abs(), 1e-11, "{degrees} {half}: {at:?}");
         }
         let quarters: Vec<f64> = (0..10).map(|k| period * (f64::from(k) + 0.25)).collect();
         let (found, _) = motion(&model, 0.0, &quarters, 1e-13).unwrap();
         for at in &found {
             // What is asked of run-ups.
-            assert!((at.crank + PI / 2.0).abs() < 1e-10, "{degrees}: {at:?}");
+            assert_within!((at.crank + PI / 2.0).abs(), 1e-10, "{degrees}: {at:?}");
         }
     }
 }
@@ -173,7 +175,7 @@ fn a_pendulum_turns_in_its_known_time() {
             let (found, _) = motion(&model, way * omega, &times, 1e-13).unwrap();
             for (k, at) in (1..).zip(&found) {
                 let expected = case.crank().start + way * TAU * f64::from(k);
-                assert!((at.crank - expected).abs() < 1e-10, "{factor} {k}: {}", at.crank - expected);
+                assert_within!((at.crank - expected).abs(), 1e-10, "{factor} {k}: {}", at.crank - expected);
             }
         }
     }
@@ -195,10 +197,11 @@ fn reactions_follow_the_true_motion() {
         let along = -0.3 * at.omega * at.omega;
         let across = 0.3 * at.alpha;
         let [x, y] = [along * cos - across * sin, along * sin + across * cos];
-        assert!((fx[row] - 2.0 * x).abs() < 1e-11 && (fy[row] - 2.0 * (y + 9.81)).abs() < 1e-11, "{row}");
+        assert_within!((fx[row] - 2.0 * x).abs(), 1e-11, "{row}");
+        assert_within!((fy[row] - 2.0 * (y + 9.81)).abs(), 1e-11, "{row}");
         // Energy: the fall of the mass centre.
         let energy = 0.5 * (0.05 + 0.18) * at.omega * at.omega + 2.0 * 9.81 * 0.3 * sin;
-        assert!(energy.abs() < 1e-11, "{energy:e}");
+        assert_within!(energy.abs(), 1e-11, "{energy:e}");
     }
-    assert!(run_up.power_residual().unwrap() < 1e-10);
+    assert_within!(run_up.power_residual().unwrap(), 1e-10);
 }

@@ -3,7 +3,7 @@
 use linkage::math::KeepNan;
 use std::f64::consts::TAU;
 
-use crate::common::{centre, centre_velocity, shipped};
+use crate::common::{assert_within, centre, centre_velocity, shipped};
 use analytic::PoseSolver;
 use analytic::reduced::{CrankState, End, Model, motion};
 use linkage::case::Case;
@@ -46,7 +46,7 @@ fn conservative_mechanisms_keep_their_energy() {
             worst = worst.larger((kinetic + potential - first).abs());
             scale = scale.larger(kinetic);
         }
-        assert!(worst / scale < 1e-12, "{name}: {:e}", worst / scale);
+        assert_within!(worst / scale, 1e-12, "{name}: {:e}", worst / scale);
         println!("{name}: energy kept to {:.1e} over 100 turns", worst / scale);
     }
 }
@@ -85,7 +85,13 @@ fn a_resistance_takes_its_work() {
         };
         let left: f64 = energy(&case, &mut other, at).iter().sum();
         // The extreme angles are those of the published problem, to twelve digits.
-        assert!((first - left - 100.0 * way).abs() < 1e-8 * first.abs(), "{at:?}: {} {}", first - left, 100.0 * way);
+        assert_within!(
+            (first - left - 100.0 * way).abs(),
+            1e-8 * first.abs(),
+            "{at:?}: {} {}",
+            first - left,
+            100.0 * way
+        );
         (last, previous) = (now, *at);
     }
 }

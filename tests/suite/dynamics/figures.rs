@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::common::shipped;
+use crate::common::{assert_within, shipped};
 use analytic::reduced::means;
 use analytic::reduced::{ACCURACY, End, Model, RunUp, motion};
 use linkage::drive::{Load, Motor, MotorLaw};
@@ -19,10 +19,10 @@ fn val_crank_rocker_reduced_means_and_maximum() {
     let case = shipped("crank_rocker.toml").case;
     for solver in analytic::all() {
         let means = means::means_over_turn(&case, solver).unwrap();
-        assert!((means.inertia - 0.164_846_013).abs() < 5.1e-10, "{}: {}", solver.name(), means.inertia);
+        assert_within!((means.inertia - 0.164_846_013).abs(), 5.1e-10, "{}: {}", solver.name(), means.inertia);
         // Over a turn gravity does no work and the rocker goes through its swing of 32 deg twice.
         let closed = 100.0 * 2.0 * 32.0 / 360.0;
-        assert!((means.resistance - closed).abs() < 1e-11, "{}: {:e}", solver.name(), means.resistance - closed);
+        assert_within!((means.resistance - closed).abs(), 1e-11, "{}: {:e}", solver.name(), means.resistance - closed);
     }
     // The published reduced moment leaves out the crank's weight: its mass is moved to the pivot, its moment of inertia about it kept.
     let mut links = case.mechanism.links().to_vec();
@@ -32,9 +32,10 @@ fn val_crank_rocker_reduced_means_and_maximum() {
     let mechanism = linkage::mechanism::Mechanism::new(links, case.mechanism.joints().to_vec()).unwrap();
     let weightless = case.with(|parts| parts.mechanism = mechanism).unwrap();
     let [inertia, resistance] = Model::of(&weightless).unwrap().extremes().unwrap();
-    assert!((resistance.greatest.1 - 37.016_264_0).abs() < 5.1e-8, "{resistance:?}");
+    assert_within!((resistance.greatest.1 - 37.016_264_0).abs(), 5.1e-8, "{resistance:?}");
     let [own, _] = Model::of(&case).unwrap().extremes().unwrap();
-    assert!((inertia.greatest.1 - own.greatest.1).abs() < 1e-13 && (inertia.least.1 - own.least.1).abs() < 1e-13);
+    assert_within!((inertia.greatest.1 - own.greatest.1).abs(), 1e-13);
+    assert_within!((inertia.least.1 - own.least.1).abs(), 1e-13);
 }
 
 #[test]
@@ -43,13 +44,15 @@ fn val_crank_rocker_steady_motion() {
     let model = Model::of(&case).unwrap();
     assert_eq!(model.added_inertia(), 0.0);
     let regime = model.regime(&[], ACCURACY).unwrap();
-    assert!((regime.mean_speed - 14.263_883_878_5).abs() < 1e-9, "{}", regime.mean_speed);
-    assert!((regime.period - 0.440_496_106_159_4).abs() < 1e-12, "{}", regime.period);
-    assert!((regime.start_speed - 16.679_930_049_7).abs() < 1e-9, "{}", regime.start_speed);
-    assert!(regime.multiplier < 1e-90 && regime.turns == 1.0);
+    assert_within!((regime.mean_speed - 14.263_883_878_5).abs(), 1e-9, "{}", regime.mean_speed);
+    assert_within!((regime.period - 0.440_496_106_159_4).abs(), 1e-12, "{}", regime.period);
+    assert_within!((regime.start_speed - 16.679_930_049_7).abs(), 1e-9, "{}", regime.start_speed);
+    assert!(regime.turns == 1.0);
+    assert_within!(regime.multiplier, 1e-90);
     let motor = case.crank().motor().unwrap();
     let steady = motor.steady_speed(100.0 * 64.0 / 360.0).unwrap();
-    assert!((steady - 14.33204).abs() < 5e-6 && (steady * motor.ratio - 302.6266).abs() < 5e-5);
+    assert_within!((steady - 14.33204).abs(), 5e-6);
+    assert_within!((steady * motor.ratio - 302.6266).abs(), 5e-5);
 }
 
 /// The run-up, integrated in time with dI*/dphi, ends in the steady motion, found over the crank angle without it.
@@ -65,13 +68,13 @@ fn run_up_in_time_and_steady_motion_over_the_angle_are_one() {
     let cranks: Vec<f64> = late.iter().map(|at| at.crank).collect();
     let regime = model.regime(&cranks, ACCURACY).unwrap();
     for (at, steady) in late.iter().zip(&regime.samples) {
-        assert!((at.omega - steady.omega).abs() < 1e-10, "{at:?} {steady:?}");
-        assert!((at.alpha - steady.alpha).abs() < 1e-7, "{at:?} {steady:?}");
+        assert_within!((at.omega - steady.omega).abs(), 1e-10, "{at:?} {steady:?}");
+        assert_within!((at.alpha - steady.alpha).abs(), 1e-7, "{at:?} {steady:?}");
     }
     // A period later the crank is a turn farther.
     let pair = [0.2, 0.2 + regime.period];
     let (found, _) = motion(&model, 0.0, &pair, ACCURACY).unwrap();
-    assert!((found[1].crank - found[0].crank - TAU).abs() < 1e-11, "{:e}", found[1].crank - found[0].crank - TAU);
+    assert_within!((found[1].crank - found[0].crank - TAU).abs(), 1e-11, "{:e}", found[1].crank - found[0].crank - TAU);
 }
 
 /// The default accuracy against one a hundred times as tight, and on a grid ten times as fine, so that all steps differ.
@@ -84,10 +87,10 @@ fn run_up_is_exact_to_1e_10() {
     let (tight, _) = motion(&model, 0.0, &fine, ACCURACY / 100.0).unwrap();
     for (row, at) in run_up.motion.iter().enumerate() {
         let exact = &tight[10 * row];
-        assert!((at.t - exact.t).abs() < 1e-15);
-        assert!((at.crank - exact.crank).abs() < 1e-10, "{at:?} {exact:?}");
+        assert_within!((at.t - exact.t).abs(), 1e-15);
+        assert_within!((at.crank - exact.crank).abs(), 1e-10, "{at:?} {exact:?}");
     }
-    assert!(run_up.power_residual().unwrap() < 1e-10, "{:?}", run_up.power_residual());
+    assert_within!(run_up.power_residual().unwrap(), 1e-10, "{:?}", run_up.power_residual());
     // All reactions are there.
     let reactions = run_up.trajectory.channels().iter().filter(|c| c.to_string().ends_with("fx_N"));
     assert!(reactions.count() >= 4);
@@ -105,8 +108,9 @@ fn slope_of_the_inertia_is_its_derivative() {
             let rows = model.rows(&[crank - step, crank, crank + step]).unwrap();
             let slope = (rows[2].inertia - rows[0].inertia) / (2.0 * step);
             // Central differences err by the third derivative, some hundred times the inertia, times 1e-10 / 6, and by rounding over 2e-5.
-            assert!(
-                (slope - rows[1].slope).abs() < 1e-6 * rows[1].inertia.larger(1e-9),
+            assert_within!(
+                (slope - rows[1].slope).abs(),
+                1e-6 * rows[1].inertia.larger(1e-9),
                 "{name} {k}: {slope} {rows:?}"
             );
         }
@@ -120,7 +124,7 @@ fn a_flywheel_does_what_is_asked() {
     for wanted in [0.2, 0.02, 1e-3] {
         let found = Flywheel::of(&model, wanted, ACCURACY).unwrap();
         let again = model.with_flywheel(found.inertia).regime(&[], ACCURACY).unwrap();
-        assert!((again.non_uniformity() / wanted - 1.0).abs() < 1e-10, "{wanted}");
+        assert_within!((again.non_uniformity() / wanted - 1.0).abs(), 1e-10, "{wanted}");
     }
     // Uniform enough without.
     assert_eq!(Flywheel::of(&model, 0.5, ACCURACY).unwrap().inertia, 0.0);
@@ -140,7 +144,7 @@ fn a_flywheel_does_what_is_asked() {
     let textbook = (most - least) / (wanted * speed * speed);
     let found = Flywheel::of(&model, wanted, ACCURACY).unwrap();
     // What the changes of I* and of the motor's moment do is of the order of I* / J.
-    assert!((found.inertia / textbook - 1.0).abs() < 1e-3, "{} {textbook}", found.inertia);
+    assert_within!((found.inertia / textbook - 1.0).abs(), 1e-3, "{} {textbook}", found.inertia);
 }
 
 #[test]
@@ -153,10 +157,11 @@ fn a_table_of_a_straight_line_is_the_line() {
     let tabled = case.with_motor(Some(motor)).unwrap();
     let both = [&case, &tabled].map(|case| motion(&Model::of(case).unwrap(), 0.0, &times(), ACCURACY).unwrap().0);
     for (line, table) in both[0].iter().zip(&both[1]) {
-        assert!((line.crank - table.crank).abs() < 1e-11 && (line.omega - table.omega).abs() < 1e-10);
+        assert_within!((line.crank - table.crank).abs(), 1e-11);
+        assert_within!((line.omega - table.omega).abs(), 1e-10);
     }
     let regimes = [&case, &tabled].map(|case| Model::of(case).unwrap().regime(&[], ACCURACY).unwrap());
-    assert!((regimes[0].period - regimes[1].period).abs() < 1e-13);
+    assert_within!((regimes[0].period - regimes[1].period).abs(), 1e-13);
 }
 
 #[test]
@@ -172,11 +177,11 @@ fn losses_of_the_reducer_cost_their_share() {
     for at in &run_up.motion[1..] {
         let own = motor.ratio * motor.law.torque(motor.ratio * at.omega);
         let expected = if own > 0.0 { own * 0.9 } else { own / 0.9 };
-        assert!((at.motor - expected).abs() < 1e-9, "{at:?}");
+        assert_within!((at.motor - expected).abs(), 1e-9, "{at:?}");
         *(if own > 0.0 { &mut drives } else { &mut driven }) += 1;
     }
     assert!(drives > 100 && driven > 20, "{drives} {driven}");
-    assert!(run_up.power_residual().unwrap() < 1e-10);
+    assert_within!(run_up.power_residual().unwrap(), 1e-10);
 }
 
 #[test]

@@ -8,12 +8,12 @@ use linkage::error::Advice;
 use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::Mechanism;
 use linkage::solver::Solver;
-use linkage::trajectory::{Channel, Stage, Trajectory};
+use linkage::trajectory::{Channel, Stage, Trajectory, Unit};
 use linkproof::compare::{Verdict, residuals};
 use linkproof::proof::{Options, prove};
 use linkproof::scenario::Scenario;
 
-use crate::common::shipped;
+use crate::common::{assert_within, shipped};
 
 fn solve(solver: &dyn Solver, case: &Case) -> Trajectory {
     solver.solve(case, &mut |_| {}).unwrap_or_else(|error| panic!("{}: {error}", solver.name()))
@@ -40,7 +40,7 @@ fn both_sides_agree_in_every_channel() {
         let case = shipped(&format!("{name}.toml")).case;
         let found = worst(&solve(&AssurSolver, &case), &solve(&NewtonSolver, &case), |_| true);
         println!("{name}: {found:.1e}");
-        assert!(found < 1e-10, "{name}: {found:e}");
+        assert_within!(found, 1e-10, "{name}: {found:e}");
     }
 }
 
@@ -52,7 +52,7 @@ fn two_ways_of_side_1_agree() {
         let damper = linkage::drive::Load::TorsionDamper { links: [0, 1], damping: 0.0 };
         let damped = case.with(|parts| parts.loads.push(damper)).unwrap();
         let found = worst(&solve(&AssurSolver, &case), &solve(&AssurSolver, &damped), |_| true);
-        assert!(found < 1e-10, "{name}: {found:e}");
+        assert_within!(found, 1e-10, "{name}: {found:e}");
     }
 }
 
@@ -92,9 +92,9 @@ fn the_double_pendulum_moves_as_lagrange_has_it() {
             y = std::array::from_fn(|i| y[i] + h / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]));
         }
     }
-    assert!((energy(y) - begun).abs() < 1e-10, "the textbook's side: {:e}", energy(y) - begun);
+    assert_within!((energy(y) - begun).abs(), 1e-10, "the textbook's side: {:e}", energy(y) - begun);
     println!("double pendulum: {farthest:.1e} rad");
-    assert!(farthest < 1e-9, "{farthest:e}");
+    assert_within!(farthest, 1e-9, "{farthest:e}");
 }
 
 /// Kinetic and potential energy (J) of every instant, from the channels alone.
@@ -124,7 +124,7 @@ fn several_freedoms_keep_their_energy() {
         let drift = energies.iter().map(|energy| (energy - energies[0]).abs()).fold(0.0, f64::larger);
         let drift = drift / (1.5 * 9.80665);
         println!("{}: energy kept to {drift:.1e}", solver.name());
-        assert!(drift < 1e-9, "{}: {drift:e}", solver.name());
+        assert_within!(drift, 1e-9, "{}: {drift:e}", solver.name());
     }
 }
 
@@ -139,7 +139,7 @@ fn the_twin_runs_up_with_order_one_and_extrapolated_exactly() {
     let scenario = shipped("crank_rocker_runup.toml");
     let begun = (0..=100).map(|k| f64::from(k) * 1e-3).collect();
     let begun = scenario.case.on(Grid::of_times(scenario.case.crank(), begun)).unwrap();
-    let angle = |channel: &Channel| channel.kind.unit == "rad";
+    let angle = |channel: &Channel| channel.kind.unit == Unit::Radian;
     let force = |channel: &Channel| channel.kind.stage >= Stage::Reactions;
     // The impulse build needs its thousands of sweeps: a fifth of the time will do for it.
     for (name, route, case) in [
@@ -155,14 +155,15 @@ fn the_twin_runs_up_with_order_one_and_extrapolated_exactly() {
         let [coarse, fine] = [2e-4, 1e-4].map(|step| at(step, false));
         for picked in [&angle as &dyn Fn(&Channel) -> bool, &force] {
             let ratio = worst(&reference, &coarse, picked) / worst(&reference, &fine, picked);
-            assert!((ratio.log2() - 1.0).abs() < 0.05, "{name} {}: order {}", route.name(), ratio.log2());
+            assert_within!((ratio.log2() - 1.0).abs(), 0.05, "{name} {}: order {}", route.name(), ratio.log2());
         }
         let best = at(1e-4, true);
         let crank = residuals(&reference, &best).unwrap();
         let most = crank.iter().filter(|r| angle(&r.channel)).map(|r| r.max).fold(0.0, f64::larger);
         let forces = worst(&reference, &best, force);
         println!("{name} {}: {most:.1e} rad, {forces:.1e} of the range of forces", route.name());
-        assert!(most < 1e-6 && forces < 1e-5, "{name} {}: {most:e} rad, {forces:e}", route.name());
+        assert_within!(most, 1e-6, "{name} {}: {most:e} rad, {forces:e}", route.name());
+        assert_within!(forces, 1e-5, "{name} {}: {most:e} rad, {forces:e}", route.name());
     }
 }
 
@@ -195,13 +196,13 @@ fn the_twin_starts_at_a_speed() {
     scenario.case = case.unwrap();
     let case = scenario.case.on(Grid::of_times(scenario.case.crank(), vec![0.0, 0.002, 0.05, 0.1])).unwrap();
     let reference = solve(&AssurSolver, &case);
-    assert!((column(&reference, "link.crank.omega_rad_s")[0] - 9.0).abs() < 1e-14);
+    assert_within!((column(&reference, "link.crank.omega_rad_s")[0] - 9.0).abs(), 1e-14);
     // Measured: 8.5e-6 and 3.1e-4. Bodies of their own begin with a gap in every joint, which costs the impulse build more than it gains by extrapolation.
     for (name, bound) in [("rapier", 2e-5), ("impulse", 1e-3)] {
         let engine = twin(name, &scenario, |settings| Settings { extrapolated: true, ..settings });
         let found = worst(&reference, &solve(engine.as_ref(), &case), |_| true);
         println!("{name} from a speed: {found:.1e}");
-        assert!(found < bound, "{name}: {found:e}");
+        assert_within!(found, bound, "{name}: {found:e}");
     }
 }
 

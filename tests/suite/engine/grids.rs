@@ -7,6 +7,7 @@ use linkage::trajectory::Trajectory;
 use linkproof::compare::residuals;
 
 use super::{double, solve, stepping};
+use crate::common::assert_within;
 use crate::common::spec::four_bar;
 
 const DT: f64 = 1e-3;
@@ -65,7 +66,7 @@ fn regress_21_samples_between_steps_are_as_good_as_samples_on_steps() {
                 let found = residuals(&truth, &solve(engine.as_ref(), &case)).unwrap();
                 found.iter().map(|r| r.share()).fold(0.0, f64::larger)
             });
-            assert!(worst[1] <= 1.01 * worst[0], "{shift}: {worst:?}");
+            assert_within!(worst[1], 1.01 * worst[0], "{shift}: {worst:?}");
         }
     }
 }
@@ -84,12 +85,12 @@ fn regress_22_instants_before_the_start_are_as_good_as_others() {
         for (channel, values) in half.iter() {
             let (noise, whole_values) = (engine.noise(&whole, channel.kind), run.column(channel).unwrap());
             for (a, b) in values.iter().zip(&whole_values[300..]) {
-                assert!((a - b).abs() <= 2.0 * noise, "{} {channel}: {a} {b}, noise {noise:e}", engine.name());
+                assert_within!((a - b).abs(), 2.0 * noise, "{} {channel}: {a} {b}, noise {noise:e}", engine.name());
             }
         }
         for residual in residuals(&truth, &run).unwrap() {
             let limit = 1e-3 * residual.scale + engine.noise(&whole, residual.channel.kind);
-            assert!(residual.max <= limit, "{} {}: {:e}", engine.name(), residual.channel, residual.max);
+            assert_within!(residual.max, limit, "{} {}: {:e}", engine.name(), residual.channel, residual.max);
         }
     }
 }

@@ -1,6 +1,7 @@
 //! The engine's recipe on a free compound pendulum, whose period is known in closed form. There is no drive here, so that
 //! what the multibody itself does in free motion is seen: order one, and the damping that nobody asked for.
 
+use crate::common::assert_within;
 use linkage::math::KeepNan;
 use rapier2d_f64::parry::mass_properties::MassProperties;
 use rapier2d_f64::prelude::*;
@@ -83,7 +84,7 @@ impl Pendulum {
                 passages.push(dt * (steps - angle / (angle - last)));
             }
             last = angle;
-            assert!(steps * dt < 100.0, "the pendulum stands still");
+            assert_within!(steps * dt, 100.0, "the pendulum stands still");
         }
         (passages[turns] - passages[0]) / turns as f64
     }
@@ -97,11 +98,11 @@ fn val_elliptic_integral_period_of_a_compound_pendulum() {
     let errors = [4e-3, 2e-3, 1e-3, 5e-4].map(|dt| pendulum(dt, false).period(dt, 5) / exact - 1.0);
     for pair in errors.windows(2) {
         let order = (pair[0] / pair[1]).log2();
-        assert!((order - 2.0).abs() <= 0.01, "order {order}: {errors:?}");
+        assert_within!((order - 2.0).abs(), 0.01, "order {order}: {errors:?}");
         let extrapolated = (4.0 * pair[1] - pair[0]) / 3.0;
-        assert!(extrapolated.abs() <= 1e-2 * pair[1].abs(), "{extrapolated:e} of {errors:?}");
+        assert_within!(extrapolated.abs(), 1e-2 * pair[1].abs(), "{extrapolated:e} of {errors:?}");
     }
-    assert!(errors[3].abs() <= 2e-7, "{errors:?}");
+    assert_within!(errors[3].abs(), 2e-7, "{errors:?}");
 }
 
 /// Story 31. Symptom: free motion is far less accurate than driven motion with the same step. Cause: it is of first order;
@@ -115,9 +116,9 @@ fn regress_31_free_motion_is_of_first_order() {
     });
     for pair in errors.windows(2) {
         let order = (pair[0] / pair[1]).log2();
-        assert!((order - 1.0).abs() <= 0.01, "order {order}: {errors:?}");
+        assert_within!((order - 1.0).abs(), 0.01, "order {order}: {errors:?}");
         let extrapolated = 2.0 * pair[1] - pair[0];
-        assert!(extrapolated.abs() <= 1e-2 * pair[1].abs(), "{extrapolated:e} of {errors:?}");
+        assert_within!(extrapolated.abs(), 1e-2 * pair[1].abs(), "{extrapolated:e} of {errors:?}");
     }
 }
 
@@ -131,7 +132,7 @@ fn regress_32_the_default_damping_must_be_taken_off() {
         let angles: Vec<f64> = (0..8000).map(|_| swinging.step().abs()).collect();
         angles[6000..].iter().fold(0.0, |max: f64, angle| max.larger(*angle))
     });
-    assert!((free / AMPLITUDE - 1.0).abs() <= 1e-4, "{free}");
+    assert_within!((free / AMPLITUDE - 1.0).abs(), 1e-4, "{free}");
     // Between 6 and 8 s the largest swing is the first after 6 s: exp(-0.1 * 6 / (2 * 0.23)) = 0.27.
-    assert!(damped <= 0.3 * AMPLITUDE, "{damped}");
+    assert_within!(damped, 0.3 * AMPLITUDE, "{damped}");
 }

@@ -4,10 +4,11 @@ use analytic::AssurSolver;
 use linkage::case::{Case, Grid};
 use linkage::engine::{Engine, Route, Settings};
 use linkage::math::KeepNan;
-use linkage::trajectory::{Channel, Stage};
+use linkage::trajectory::{Channel, Stage, Unit};
 use linkproof::compare::residuals;
 
 use super::{epsilon, has_formal_order, solve};
+use crate::common::assert_within;
 use crate::common::spec::four_bar;
 
 /// Enough for this four-bar in either build.
@@ -51,10 +52,10 @@ fn regress_66_the_motor_holds_its_speed_with_substeps() {
         let steps = case.grid.times.last().unwrap() / engine.settings().resolution;
         for (angle, crank) in angles.iter().zip(run.cranks()) {
             let off = (angle - crank).abs();
-            assert!(off <= 2.0 * epsilon(engine.as_ref()) * steps, "{name}: {off:e} at {crank}");
+            assert_within!(off, 2.0 * epsilon(engine.as_ref()) * steps, "{name}: {off:e} at {crank}");
         }
         let speeds = run.column(&Channel::named("link.crank.omega_rad_s").unwrap()).unwrap();
-        assert!(speeds.iter().all(|omega| (omega - 10.0).abs() <= 1e-11), "{name}: {speeds:?}");
+        speeds.iter().for_each(|omega| assert_within!((omega - 10.0).abs(), 1e-11, "{name}: {speeds:?}"));
     }
 }
 
@@ -70,14 +71,14 @@ fn regress_67_two_substeps_are_nearly_as_good_as_half_the_step() {
         let most = |wanted: &dyn Fn(&linkproof::compare::Residual) -> bool| {
             found.iter().filter(|r| wanted(r)).map(|r| r.share()).fold(0.0, f64::larger)
         };
-        [most(&|r| r.channel.kind.unit == "rad"), most(&|r| r.channel.kind.stage >= Stage::Reactions)]
+        [most(&|r| r.channel.kind.unit == Unit::Radian), most(&|r| r.channel.kind.stage >= Stage::Reactions)]
     };
     for name in ["rapier", "impulse"] {
         for (route, shares) in [(Route::Native, [0.3, 0.7]), (Route::Probe, [0.3, 1.1])] {
             let [one, two] = [1, 2].map(|substeps| worst(name, route, substeps));
             eprintln!("{name} {route:?}: one substep {one:?}, two {two:?}");
             for k in 0..2 {
-                assert!(two[k] <= shares[k] * one[k], "{name} {route:?}: {one:?}, two substeps {two:?}");
+                assert_within!(two[k], shares[k] * one[k], "{name} {route:?}: {one:?}, two substeps {two:?}");
             }
         }
     }

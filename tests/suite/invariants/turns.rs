@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use linkage::case::Grid;
 
 use crate::common::spec::four_bar;
-use crate::common::states;
+use crate::common::{assert_within, states};
 
 /// Base, crank, coupler and rocker of mechanisms whose crank turns fully, and the turns that coupler and rocker make with
 /// each turn of the crank.
@@ -45,18 +45,18 @@ fn three_turns(lengths: [f64; 4], turning: [f64; 2], left: bool, speed: f64, ste
             for (link, turns) in [(1, 1.0), (2, turning[0]), (3, turning[1])] {
                 let gone = second.angles[link] - first.angles[link];
                 let wrong = (gone - TAU * turns * speed.signum()).abs();
-                assert!(wrong <= 1e-12, "{} {lengths:?} link {link}: {gone} in a turn", solver.name());
+                assert_within!(wrong, 1e-12, "{} {lengths:?} link {link}: {gone} in a turn", solver.name());
             }
             for (a, b) in first.forces.iter().zip(&second.forces) {
                 let bound = 1e-11 * first.forces.iter().map(|f| f.norm()).fold(0.0, f64::larger);
-                assert!((a - b).norm() <= bound, "{} {lengths:?}", solver.name());
+                assert_within!((a - b).norm(), bound, "{} {lengths:?}", solver.name());
             }
         }
         for pair in found.windows(2) {
             // No link of these turns more than eight times as fast as the crank: more is a slip of a turn.
             let limit = (8.0 * step_deg.to_radians()).smaller(TAU * 0.75);
             let jumps = (1..4).map(|link| (pair[1].angles[link] - pair[0].angles[link]).abs());
-            assert!(jumps.fold(0.0, f64::larger) <= limit, "{} {lengths:?}", solver.name());
+            assert_within!(jumps.fold(0.0, f64::larger), limit, "{} {lengths:?}", solver.name());
         }
     }
 }

@@ -7,7 +7,7 @@ use linkage::case::Case;
 use linkage::math::quadrature;
 use linkproof::scenario::Scenario;
 
-use crate::common::states;
+use crate::common::{assert_within, states};
 
 const R: f64 = 0.1;
 const L: f64 = 0.35;
@@ -52,7 +52,7 @@ fn balances(loads: &str, size: f64, moment: impl Fn(f64) -> f64) {
         let found = states(solver, case, &case.grid.times).unwrap();
         for (state, &phi) in found.iter().zip(&case.grid.cranks) {
             let (found, expected) = (state.torques[0], moment(phi));
-            assert!((found - expected).abs() < 1e-12 * size, "{} {phi}: {found} {expected}", solver.name());
+            assert_within!((found - expected).abs(), 1e-12 * size, "{} {phi}: {found} {expected}", solver.name());
         }
     }
 }
@@ -158,6 +158,6 @@ fn the_work_of_the_crank_is_the_energy_of_the_springs() {
     };
     for (from, to) in [(0.2, 1.7), (0.2, 4.0), (1.0, 9.0)] {
         let (found, expected) = (work(case, from, to), energy(to) - energy(from));
-        assert!((found - expected).abs() < 1e-11 * energy(to).larger(1.0), "{from} {to}: {found} {expected}");
+        assert_within!((found - expected).abs(), 1e-11 * energy(to).larger(1.0), "{from} {to}: {found} {expected}");
     }
 }

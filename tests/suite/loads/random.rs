@@ -11,7 +11,7 @@ use linkproof::scenario::Scenario;
 
 use crate::common::random::{for_each, within};
 use crate::common::sketch::Random;
-use crate::common::{shipped, states};
+use crate::common::{assert_within, shipped, states};
 
 /// Six loads of random sorts, as text.
 pub fn loads(random: &mut Random, case: &Case) -> String {
@@ -148,8 +148,9 @@ fn higher_groups_bear_loads_too() {
                     let drives = case.drives.iter().zip(&state.torques);
                     let driving: f64 = drives.map(|(drive, torque)| torque * state.motions[drive.link].omega).sum();
                     let power = driving + power::of_known_forces(case, &state);
-                    assert!(
-                        power.abs() < 1e-11 * scale * case.drives.top_speed(),
+                    assert_within!(
+                        power.abs(),
+                        1e-11 * scale * case.drives.top_speed(),
                         "{name} {}: {power:e}",
                         solver.name()
                     );

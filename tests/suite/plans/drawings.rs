@@ -4,6 +4,7 @@ use linkage::math::Vec2;
 use workshop::diagram::draw;
 
 use super::{Named, REVOLUTE, SLIDERS, all, degrees_of, plans};
+use crate::common::assert_within;
 
 #[test]
 fn drawings_are_well_formed_and_hold_every_vector() {
@@ -104,7 +105,7 @@ fn drawings_are_true_to_scale() {
         let tip: Vec<f64> = head[1..].split('L').next().unwrap().split(' ').map(|part| part.parse().unwrap()).collect();
         let drawn = Vec2::new(tip[0] - number(line, "x1"), number(line, "y1") - tip[1]);
         let vector = plan.vector(name).unwrap();
-        assert!((drawn - vector.value / plan.scale).norm() < 0.015, "{name}: {drawn:?}");
+        assert_within!((drawn - vector.value / plan.scale).norm(), 0.015, "{name}: {drawn:?}");
         checked += 1;
     }
     assert!(checked > 20);

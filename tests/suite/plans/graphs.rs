@@ -1,5 +1,6 @@
 //! Graphs over the crank angle, as drawn.
 
+use crate::common::assert_within;
 use std::f64::consts::TAU;
 
 use workshop::diagram::{Graph, Graphs, Mark, draw};
@@ -37,8 +38,9 @@ fn curves_are_true_to_scale_and_marks_lie_on_them() {
         let [curve] = paths.filter(|path| !path.ends_with('Z')).map(numbers).collect::<Vec<_>>().try_into().unwrap();
         // The curve starts and ends high, is lowest in the middle, and is 180 mm long.
         let [first, middle, last] = [curve[0], curve[180], curve[360]];
-        assert!((last[0] - first[0] - 180.0).abs() < 0.011 && first[1] == last[1]);
-        assert!(((middle[1] - first[1]) * scale - 2.0 * amplitude).abs() < 0.011 * scale, "{scale} {amplitude}");
+        assert!(first[1] == last[1]);
+        assert_within!((last[0] - first[0] - 180.0).abs(), 0.011);
+        assert_within!(((middle[1] - first[1]) * scale - 2.0 * amplitude).abs(), 0.011 * scale, "{scale} {amplitude}");
         let circles = document.descendants().filter(|node| node.has_tag_name("circle"));
         let centres: Vec<[f64; 2]> =
             circles.map(|node| ["cx", "cy"].map(|key| node.attribute(key).unwrap().parse().unwrap())).collect();

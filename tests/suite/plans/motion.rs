@@ -9,6 +9,7 @@ use workshop::diagram::plan::state_at;
 use workshop::diagram::{Course, MotionDiagram, draw};
 
 use super::scenario;
+use crate::common::assert_within;
 
 fn motion(name: &str, channel: &str, divisions: usize) -> MotionDiagram {
     let case = scenario(name).case;
@@ -29,7 +30,7 @@ fn the_chord_method_on_the_crank_pin_has_its_known_factor() {
             for (&row, value) in found.rows.iter().zip(&found.values) {
                 // Rounding of positions (1e-15 of their range) over the interval, once or twice.
                 let bound = 1e-15 * (n * n) as f64 * diagram.half_range(method.gives());
-                assert!((value - factor * exact[row]).abs() <= bound, "{n} {method:?}");
+                assert_within!((value - factor * exact[row]).abs(), bound, "{n} {method:?}");
             }
         }
     }
@@ -47,13 +48,13 @@ fn the_error_of_all_four_methods_is_of_second_order() {
     ] {
         for found in &motion(name, channel, divisions).found {
             for order in found.orders {
-                assert!((order.unwrap() - 2.0).abs() <= 0.05, "{name} {channel} {:?}: {order:?}", found.method);
+                assert_within!((order.unwrap() - 2.0).abs(), 0.05, "{name} {channel} {:?}: {order:?}", found.method);
             }
         }
     }
     // What a draughtsman takes: 12 divisions, then 24 and 48.
     for found in &motion("crank_rocker", "link.coupler.angle_rad", 12).found {
-        assert!((found.orders[1].unwrap() - 2.0).abs() <= 0.05, "{:?}", found.orders);
+        assert_within!((found.orders[1].unwrap() - 2.0).abs(), 0.05, "{:?}", found.orders);
     }
 }
 
@@ -79,7 +80,7 @@ fn a_piston_by_chords_errs_as_its_closed_form_says() {
             let gap = |row: usize| (diagram.exact[which][row] - at(angle(row))[which]).abs();
             let worst = (0..diagram.cranks.len()).map(gap).fold(0.0, f64::larger);
             // Rounding of lengths of 0.3 m and of what follows from them.
-            assert!(worst <= 1e-12 * scale(which), "{worst:e}");
+            assert_within!(worst, 1e-12 * scale(which), "{worst:e}");
         }
         let h = TAU / n as f64;
         let step = h / omega;
@@ -98,7 +99,7 @@ fn a_piston_by_chords_errs_as_its_closed_form_says() {
                 for (k, value) in found.values.iter().enumerate() {
                     // Rounding of displacements (1e-16 of 0.3 m) over the square of the step, at most.
                     let bound = 1e-12 * scale(found.method.gives());
-                    assert!((value - by_hand(found.method, k)).abs() <= bound, "{:?} {k}", found.method);
+                    assert_within!((value - by_hand(found.method, k)).abs(), bound, "{:?} {k}", found.method);
                 }
                 found.share
             })
@@ -117,7 +118,9 @@ fn a_link_that_turns_uniformly_has_no_error() {
     let diagram = motion("crank_rocker", "link.crank.angle_rad", 12);
     for found in &diagram.found {
         // The angle grows by 2 pi: rounding of it over the interval, once or twice.
-        assert!(found.largest <= 1e-11 && found.share <= 1e-11 && found.orders == [None; 2], "{found:?}");
+        assert!(found.orders == [None; 2], "{found:?}");
+        assert_within!(found.largest, 1e-11, "{found:?}");
+        assert_within!(found.share, 1e-11, "{found:?}");
     }
 }
 

@@ -10,6 +10,7 @@ use workshop::diagram::plan::state_at;
 use workshop::diagram::{Part, TipKind, draw};
 
 use super::{Named, SLIDERS, angles, contours, degrees_of, longest, plans, plans_of, plans_with, scenario};
+use crate::common::assert_within;
 
 /// Joint, sliding point and the name of what lies under it on a moving guide.
 const MOVING: [(&str, &str, &str, &str); 3] =
@@ -36,7 +37,7 @@ fn points_in_fixed_guides_move_along_them() {
                 let vector = plan.vector(&format!("{}_{point}", plan.quantity.symbol())).unwrap();
                 assert!(vector.meaning.contains(", along the guide "), "{}", vector.meaning);
                 // What the solvers promise of velocities and accelerations.
-                assert!(cross(axis, vector.value).abs() <= 1e-11 * longest(plan), "{name} {point} at {degrees}");
+                assert_within!(cross(axis, vector.value).abs(), 1e-11 * longest(plan), "{name} {point} at {degrees}");
             }
         }
     }
@@ -81,7 +82,7 @@ fn parts_along_and_across_a_moving_guide_are_those_of_numerical_differentiation(
             }
         }
     }
-    assert!(worst <= 1e-8, "{worst:e}");
+    assert_within!(worst, 1e-8, "{worst:e}");
 }
 
 /// A contour holds the sliding pair: without its relative vectors fewer close.
@@ -97,7 +98,7 @@ fn sliding_pairs_close_contours_of_their_own() {
                 let (tip, letter) = (plan.tip(&under.to_lowercase()).unwrap(), point.to_lowercase());
                 let parts = plan.vectors.iter().filter(|vector| matches!(vector.part, Part::Sliding | Part::Coriolis));
                 let sum: Vec2 = parts.map(|vector| vector.value).sum();
-                assert!((tip + sum - plan.tip(&letter).unwrap()).norm() <= 1e-11 * longest(plan), "{name}");
+                assert_within!((tip + sum - plan.tip(&letter).unwrap()).norm(), 1e-11 * longest(plan), "{name}");
             }
         }
     }
@@ -182,7 +183,8 @@ step_deg = 0.5
         let plans = plans_of(&scenario.case, &AssurSolver, degrees).unwrap();
         for plan in [&plans.velocity, &plans.acceleration] {
             let (count, gap) = contours(plan);
-            assert!(count > 0 && gap <= 1e-11 * longest(plan), "{degrees}: {gap:e}");
+            assert!(count > 0, "{degrees}: {gap:e}");
+            assert_within!(gap, 1e-11 * longest(plan), "{degrees}: {gap:e}");
             let under = plan.tips.iter().find(|tip| tip.kind == TipKind::Coincident).unwrap();
             assert_eq!(under.letter, "k2'");
         }
@@ -190,7 +192,7 @@ step_deg = 0.5
         let rod = scenario.case.mechanism.link_named("rod").unwrap();
         let along = state(&scenario.case, degrees).motions[rod].direction;
         let under = plans.velocity.vector("v_K2'").unwrap().value;
-        assert!(cross(along, under).abs() <= 1e-11 * longest(&plans.velocity));
+        assert_within!(cross(along, under).abs(), 1e-11 * longest(&plans.velocity));
         assert!(!draw::plans(&plans, "swinging_block", "").is_empty());
     }
 }
@@ -212,7 +214,7 @@ fn guides_in_the_diagram_span_the_travel() {
             // The angle asked for may lie between two of the grid, a degree of the crank apart: a ten-thousandth of the travel at its end.
             let near = |end: Vec2, way: f64| ((end - guide.origin).dot(&guide.axis) - way).abs() <= 1e-4 * (high - low);
             assert!(near(guide.ends[0], low) && near(guide.ends[1], high), "{name} {}", joint.name);
-            assert!(cross(guide.axis, guide.at - guide.origin).abs() <= 1e-12);
+            assert_within!(cross(guide.axis, guide.at - guide.origin).abs(), 1e-12);
         }
     }
 }

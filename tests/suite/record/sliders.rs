@@ -1,5 +1,6 @@
 //! Recordings of mechanisms with sliders: one topic a joint, guides and blocks in the picture.
 
+use crate::common::assert_within;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
@@ -94,7 +95,7 @@ fn rails_span_the_slide_and_guide_points_are_no_pivots() {
                 assert!(slide.iter().all(|s| ways[0] < *s && *s < ways[1]), "{name} {}", joint.name);
             }
             // Single precision of half a metre.
-            assert!((cross(axis, ends(0)[0]) + cross(axis, ends(1)[0])).abs() < 1e-6);
+            assert_within!((cross(axis, ends(0)[0]) + cross(axis, ends(1)[0])).abs(), 1e-6);
             assert!(cross(axis, ends(0)[0]) > 0.01 * case.mechanism.size());
         }
     }
@@ -124,7 +125,8 @@ fn blocks_are_rectangles_and_moving_guides_lines_along_their_axes() {
             let (_, corners) = rectangle.unwrap_or_else(|| panic!("{name}: no block at {}", joint.name));
             let sides = [corners[1] - corners[0], corners[2] - corners[1]];
             // Single precision of the corners.
-            assert!(cross(sides[0], axis).abs() < 1e-6 && sides[1].dot(&axis).abs() < 1e-6, "{name} {}", joint.name);
+            assert_within!(cross(sides[0], axis).abs(), 1e-6, "{name} {}", joint.name);
+            assert_within!(sides[1].dot(&axis).abs(), 1e-6, "{name} {}", joint.name);
             assert!(sides[0].norm() > sides[1].norm());
             if guide.link == GROUND {
                 continue;

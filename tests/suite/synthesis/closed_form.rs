@@ -12,7 +12,7 @@ use workshop::synthesis::Sheet;
 use workshop::synthesis::crank_rocker::{CrankRocker, Wish};
 use workshop::synthesis::slider_crank::{Given, SliderCrank};
 
-use crate::common::{shipped, states};
+use crate::common::{assert_within, shipped, states};
 
 fn sheet() -> Sheet {
     Sheet { name: "found".into(), title: "Found".into(), comment: "two\nlines".into(), speed: 6.0, bar: 2.0 }
@@ -44,7 +44,8 @@ fn the_published_crank_rocker_is_the_scenario_of_the_repository() {
     let (own, shipped) = (case(&found.scenario(&sheet())), shipped("crank_rocker.toml").case);
     for (a, b) in own.mechanism.joints().iter().zip(shipped.mechanism.joints()) {
         assert_eq!(a.name, b.name);
-        assert!((a.second.local - b.second.local).norm() < 1e-12 && (a.first.local - b.first.local).norm() < 1e-12);
+        assert_within!((a.second.local - b.second.local).norm(), 1e-12);
+        assert_within!((a.first.local - b.first.local).norm(), 1e-12);
     }
     assert_eq!(own.modes, shipped.modes);
 }
@@ -81,12 +82,12 @@ fn crank_rockers_have_their_extreme_positions() {
             assert!(near, "{extreme:?} {found:?}");
         }
         let least = range.groups[0].determinant;
-        assert!((least.value.abs().asin() - found.transmission).abs() < 1e-6, "{least:?} {found:?}");
+        assert_within!((least.value.abs().asin() - found.transmission).abs(), 1e-6, "{least:?} {found:?}");
         assert!(same_angle(least.crank, found.transmission_at, 1e-6));
         // From extreme to extreme the crank turns through pi + theta one way, pi - theta the other.
         let way = (rocker.extremes[0].crank - rocker.extremes[1].crank).abs();
         let slower = way.larger(TAU - way);
-        assert!((slower / (TAU - slower) - found.time_ratio).abs() < 1e-7);
+        assert_within!((slower / (TAU - slower) - found.time_ratio).abs(), 1e-7);
         proven += 1;
     }
     assert!(proven > 40, "{proven}");
@@ -112,8 +113,8 @@ fn slider_cranks_have_their_stroke() {
         let assur = states(&AssurSolver, &case, &times[..2]).unwrap();
         for (row, [_, x]) in [found.far, found.near].into_iter().enumerate() {
             for state in [&newton[row], &assur[row]] {
-                assert!((state.motions[place].origin - Vec2::new(x, offset)).norm() < 1e-13, "{found:?}");
-                assert!(state.motions[place].velocity.norm() < 1e-13, "{found:?}");
+                assert_within!((state.motions[place].origin - Vec2::new(x, offset)).norm(), 1e-13, "{found:?}");
+                assert_within!(state.motions[place].velocity.norm(), 1e-13, "{found:?}");
             }
         }
         // Nowhere else does it go beyond.
@@ -123,7 +124,7 @@ fn slider_cranks_have_their_stroke() {
         }));
         let way = (found.far[0] - found.near[0]).abs();
         let slower = way.larger(TAU - way);
-        assert!((slower / (TAU - slower) - found.time_ratio).abs() < 1e-12, "{found:?}");
+        assert_within!((slower / (TAU - slower) - found.time_ratio).abs(), 1e-12, "{found:?}");
         let steepest = newton.iter().map(|state| state.motions[2].direction.y.abs()).fold(0.0, f64::larger);
         assert!((steepest.asin() - found.pressure).abs() < 1e-5 && found.pressure < PI / 2.0);
     }

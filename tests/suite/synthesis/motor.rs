@@ -5,7 +5,7 @@ use std::path::Path;
 use linkproof::scenario::catalogue;
 use workshop::motor::Choice;
 
-use crate::common::shipped;
+use crate::common::{assert_within, shipped};
 
 fn motors() -> Vec<workshop::motor::CatalogueMotor> {
     catalogue::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("catalogues/motors.toml")).unwrap()
@@ -24,7 +24,7 @@ fn the_peak_without_the_weight_of_the_crank() {
     // Published masses of this scenario are an oracle and not needed here.
     let scenario = linkproof::scenario::Scenario::parse(&text, Path::new("x.toml")).unwrap();
     let choice = Choice::of(&scenario.case, &motors(), 0.92).unwrap();
-    assert!((choice.peak.1 - 37.016).abs() < 5e-4, "{}", choice.peak.1);
+    assert_within!((choice.peak.1 - 37.016).abs(), 5e-4, "{}", choice.peak.1);
     assert_eq!(choice.motor.power, 550.0);
 }
 
@@ -34,18 +34,19 @@ fn the_published_motor_comes_out() {
     let choice = Choice::of(&scenario.case, &motors(), 0.92).unwrap();
     eprintln!("{choice:?}");
     // Printed: 36.98 N m * 13.61 1/s = 0.503 kW, over 0.92 it is 0.547 kW.
-    assert!((choice.power / 1e3 - 0.503).abs() < 0.01, "{}", choice.power);
-    assert!((choice.asked / 1e3 - 0.547).abs() < 0.01, "{}", choice.asked);
+    assert_within!((choice.power / 1e3 - 0.503).abs(), 0.01, "{}", choice.power);
+    assert_within!((choice.asked / 1e3 - 0.547).abs(), 0.01, "{}", choice.asked);
     let rpm = 60.0 / std::f64::consts::TAU;
     assert_eq!([choice.motor.power, (choice.motor.rated_speed * rpm).round()], [550.0, 2745.0]);
-    assert!((choice.motor.rated_torque() - 1.913).abs() < 5e-4);
-    assert!((choice.geared.ratio - 2745.0 / 130.0).abs() < 1e-12);
+    assert_within!((choice.motor.rated_torque() - 1.913).abs(), 5e-4);
+    assert_within!((choice.geared.ratio - 2745.0 / 130.0).abs(), 1e-12);
     // Printed to three digits, and kept to them.
     assert!((choice.power - 503.0).abs() < 1.0 && (choice.asked - 547.0).abs() < 1.0);
     // The balance of the means with the losses left out, as published: 14.332 rad/s with the law rounded to 22.51 - 0.0716 omega, 14.322 with its digits.
     let lossless = linkage::drive::Motor { efficiency: 1.0, ..choice.geared.clone() };
-    assert!(
-        (lossless.steady_speed(choice.mean).unwrap() - 14.3217).abs() < 1e-4,
+    assert_within!(
+        (lossless.steady_speed(choice.mean).unwrap() - 14.3217).abs(),
+        1e-4,
         "{:?}",
         lossless.steady_speed(choice.mean)
     );

@@ -12,7 +12,7 @@ use workshop::synthesis::crank_rocker::{CrankRocker, Wish};
 use workshop::synthesis::{Achieved, search};
 use workshop::task::{Effort, Task};
 
-use crate::common::shipped;
+use crate::common::{assert_within, shipped};
 
 /// The published crank-rocker's problem without its closed form: pivots and rocker fixed, crank and coupler free, swing and timing wanted.
 const TASK: &str = r#"
@@ -76,7 +76,7 @@ fn the_search_finds_the_lengths_of_the_closed_form() {
     // extreme positions, and the refinement ends where costs are that small.
     let expected = [known.crank, known.coupler, known.stretched.crank];
     for ((value, expected), within) in found.values.iter().zip(expected).zip([1e-3, 4e-3, 2e-2]) {
-        assert!((value - expected).abs() < within, "{found:?} {known:?}");
+        assert_within!((value - expected).abs(), within, "{found:?} {known:?}");
     }
 }
 
@@ -110,12 +110,11 @@ fn the_scenario_written_has_the_values_found() {
     let scenario = Scenario::parse(&text, "recovered.toml".as_ref()).unwrap();
     let links = scenario.case.mechanism.links();
     let length = |link: usize| (links[link].points[1].local - links[link].points[0].local).norm();
-    assert!((length(1) - 0.031_235).abs() < 1e-15 && (length(2) - 0.345_679).abs() < 1e-15);
-    assert!((scenario.case.crank().zero.to_degrees() - 70.7355).abs() < 1e-9);
-    assert!(
-        (links[2].mass - 3.0 * 0.345_679).abs() < 1e-6
-            && (links[2].inertia / links[2].mass - 0.345_679f64.powi(2) / 12.0).abs() < 1e-7
-    );
+    assert_within!((length(1) - 0.031_235).abs(), 1e-15);
+    assert_within!((length(2) - 0.345_679).abs(), 1e-15);
+    assert_within!((scenario.case.crank().zero.to_degrees() - 70.7355).abs(), 1e-9);
+    assert_within!((links[2].mass - 3.0 * 0.345_679).abs(), 1e-6);
+    assert_within!((links[2].inertia / links[2].mass - 0.345_679f64.powi(2) / 12.0).abs(), 1e-7);
     // What the file says beside dimensions stays.
     assert_eq!(scenario.case.loads, drawing.case.loads);
     assert_eq!(scenario.case.mechanism.links()[0], drawing.case.mechanism.links()[0]);
@@ -134,12 +133,14 @@ fn what_is_measured_are_the_extreme_positions() {
     });
     let case = case.unwrap();
     let found = Achieved::of(&Task { case, ..task.clone() }, 1.0).unwrap();
-    assert!((found.stroke.to_degrees() - 32.0).abs() < 1e-4, "{}", found.stroke.to_degrees());
+    assert_within!((found.stroke.to_degrees() - 32.0).abs(), 1e-4, "{}", found.stroke.to_degrees());
     for (done, phase) in found.phases.iter().zip(task.timing.phases()) {
-        assert!((done.end.unwrap() - phase.to).abs().to_degrees() < 0.01, "{done:?}");
-        assert!(done.wrong < 1e-6 && (done.displacement.abs() - 1.0).abs() < 1e-6);
+        assert_within!((done.end.unwrap() - phase.to).abs().to_degrees(), 0.01, "{done:?}");
+        assert_within!(done.wrong, 1e-6);
+        assert_within!((done.displacement.abs() - 1.0).abs(), 1e-6);
     }
-    assert!(found.late(&task) < 0.01 / 360.0 * TAU && found.unrest(&task) == 0.0);
+    assert!(found.unrest(&task) == 0.0);
+    assert_within!(found.late(&task), 0.01 / 360.0 * TAU);
     // The other sense of the output, or another zero, is far from it.
     assert!(Achieved::of(&task, -1.0).unwrap().wrong() > 0.2);
     assert!(Achieved::of(&task, 1.0).unwrap().late(&task) > 0.1);

@@ -178,10 +178,10 @@ pub(crate) fn one_step<const N: usize, F: Flow<N>>(flow: &F, x: f64, y: &[f64; N
     checked(flow, begun, x)?;
     let taken = method.step(flow);
     checked(flow, taken, x)?;
-    match method.status() {
-        Status::RejectedStep => Err(lost(x, "a step onto a kink was refused")),
-        _ => Ok(*method.y()),
+    if matches!(method.status(), Status::RejectedStep) {
+        return Err(lost(x, "a step onto a kink was refused"));
     }
+    Ok(*method.y())
 }
 
 /// The flow's own fault before the library's. A fault in a trial step that was taken again does not count.

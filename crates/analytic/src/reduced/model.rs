@@ -276,7 +276,7 @@ fn check_loads(case: &Case, kinks: &Kinks) -> Result<()> {
             let why = "depends on the size of speeds, which this reduction to the crank does not know";
             return refuse(load, why, "leave it out, or take its part into the motor's law");
         }
-        if let (&Load::TorsionSpring { links, .. }, Some(period)) = (load, kinks.period) {
+        if let (Some(links), Some(period)) = (load.nature().twist, kinks.period) {
             let (mut poses, start) = (PoseSolver::new(case)?, case.crank().start);
             let mut twist = |crank: f64| -> Result<f64> {
                 poses.solve(crank, 1.0, 0.0, Stage::Positions)?;

@@ -1,14 +1,14 @@
 //! What must hold between the parts of a case.
 
-use super::{CaseParts, Grid};
+use super::grid::Grid;
+use super::parts::CaseParts;
 use crate::drive::{Course, Drive, DriveMotion, Load, MotionLaw, Motor, MotorLaw};
 use crate::error::{Error, ErrorKind, Result};
-use crate::math::KeepNan;
-use crate::math::unit;
+use crate::math::{KeepNan, unit};
 use crate::mechanism::{AssemblyMode, GROUND, GroupKind, JointKind, LinkPose, Side, Structure};
 
-/// Largest opening of a joint in a start pose, as a share of the farthest place in it: what closed forms and Newton's method leave by rounding
-/// lies a thousand times below, a pose of another mechanism far above.
+/// Largest opening of a joint in a start pose, as a share of the farthest place in it: what closed forms and Newton's
+/// method leave by rounding lies a thousand times below, a pose of another mechanism far above.
 const LARGEST_OPENING: f64 = 1e-9;
 
 /// Checks all parts.
@@ -209,7 +209,7 @@ fn start(parts: &CaseParts) -> Result<()> {
         // Written so that NaN is refused.
         if !(gap <= LARGEST_OPENING * reach && turn <= LARGEST_OPENING) {
             let message = format!(
-                "joint \"{}\" is open in the start pose, crank angle {crank:.4} deg: by {gap:.3e} m and, in a guide, by {turn:.3e} rad",
+                "joint \"{}\" is open in the start pose, crank angle {crank:.4} deg: by {gap:.3e} m and {turn:.3e} rad",
                 joint.name
             );
             return Err(Error::new(ErrorKind::Geometry, message).key("start").help(CLOSED));

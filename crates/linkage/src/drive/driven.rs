@@ -16,8 +16,8 @@ pub enum DriveMotion {
     Free {
         /// Speed at t = 0 (rad/s), counter-clockwise positive.
         initial_speed: f64,
-        /// Speed of the nominal motion (rad/s, not zero), counter-clockwise positive: the motor drives in its sense, speeds are measured by its
-        /// size, and questions about crank angles are answered in it.
+        /// Speed of the nominal motion (rad/s, not zero), counter-clockwise positive. The motor drives in its sense,
+        /// speeds are measured by its size, and questions about crank angles are answered in the nominal motion.
         nominal_speed: f64,
         /// The motor that moves the link.
         motor: Option<Motor>,
@@ -31,7 +31,8 @@ pub struct Drive {
     pub joint: usize,
     /// Driving link.
     pub link: usize,
-    /// World direction from which the crank angle is measured: the angle of the link's x axis at crank angle zero (rad).
+    /// World direction from which the crank angle is measured: the angle of the link's x axis at crank angle zero
+    /// (rad).
     pub zero: f64,
     /// Crank angle at t = 0 (rad).
     pub start: f64,
@@ -62,16 +63,16 @@ impl Drive {
         self.by_law(|law| law.at(self.start, t))
     }
 
-    /// Time (s) at which the crank angle is `angle` (rad, as the scenario states it), as [`MotionLaw::time_of`]; of a free link, in the nominal
-    /// motion.
+    /// Time (s) at which the crank angle is `angle` (rad, as the scenario states it), as [`MotionLaw::time_of`]; of a
+    /// free link, in the nominal motion.
     #[inline]
     #[must_use]
     pub fn time_of(&self, angle: f64) -> f64 {
         self.by_law(|law| law.time_of(angle - self.start))
     }
 
-    /// Constant speed (rad/s) that takes the driving link in a step from where the law is at the time `from` (s) to where it is at `to`, in a
-    /// time as long as the step; negative of the law's sense if `to` lies before `from`.
+    /// Constant speed (rad/s) that takes the driving link in a step from where the law is at the time `from` (s) to
+    /// where it is at `to`, in a time as long as the step; negative of the law's sense if `to` lies before `from`.
     #[inline]
     #[must_use]
     pub fn step_speed(&self, from: f64, to: f64) -> f64 {
@@ -87,7 +88,8 @@ impl Drive {
         self.by_law(MotionLaw::top_speed)
     }
 
-    /// Sense in which the law goes: +1 counter-clockwise, -1 clockwise. A law that goes to and fro has the sense of its top speed.
+    /// Sense in which the law goes: +1 counter-clockwise, -1 clockwise. A law that goes to and fro has the sense of
+    /// its top speed.
     #[must_use]
     pub fn sense(&self) -> f64 {
         self.top_speed().signum()
@@ -163,7 +165,7 @@ impl Drive {
         }
     }
 
-    /// Moment of inertia of rotor and reducer that turn with a free link (kg m^2). A law carries its motor, so that there it does not count.
+    /// Moment of inertia of rotor and reducer that turn with a free link (kg m^2); 0 where a law prescribes the motion.
     #[must_use]
     pub fn moving_inertia(&self) -> f64 {
         self.moving_motor().map_or(0.0, Motor::inertia_on_crank)
@@ -193,7 +195,8 @@ impl Drive {
         Drive { motion, ..*self }
     }
 
-    /// The same drive with the law's top speed all the time. A free link stays free: its nominal motion is that already.
+    /// The same drive with the law's top speed all the time. A free link stays free: its nominal motion is that
+    /// already.
     #[must_use]
     pub fn at_top_speed(&self) -> Drive {
         let motion = match &self.motion {

@@ -5,7 +5,8 @@ use std::ops::Deref;
 
 use super::Drive;
 
-/// The driving links of a mechanism, the crank first: the one by whose angle instants are told. At least one; in the order of
+/// The driving links of a mechanism, the crank first: the one by whose angle instants are told. At least one; in the
+/// order of
 /// [`Structure::drivers`](crate::mechanism::Structure::drivers).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drives(Vec<Drive>);
@@ -60,7 +61,8 @@ impl Drives {
         Drives(self.0.iter().map(change).collect())
     }
 
-    /// World angles of the driving links' x axes (rad) where the crank angle is `crank` (rad, as the scenario states it).
+    /// World angles of the driving links' x axes (rad) where the crank angle is `crank` (rad, as the scenario states
+    /// it).
     #[must_use]
     pub fn world_angles(&self, crank: f64) -> Vec<f64> {
         let t = self.crank().time_of(crank);

@@ -86,6 +86,32 @@ pub enum Load {
     },
 }
 
+/// On whose sense of motion a load depends, so that it jumps where that turns about.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Senses {
+    /// On nobody's.
+    Nothing,
+    /// On the sense of rotation of a link.
+    Link(usize),
+    /// On the sense of motion of a point.
+    Point(Side),
+}
+
+/// What sort of load it is and what it reads: see [`Load::nature`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Nature<'a> {
+    /// The sort, as scenario files call it.
+    pub sort: &'static str,
+    /// On whose sense of motion it depends.
+    pub senses: Senses,
+    /// Whether it depends on the size of speeds, not on their senses only.
+    pub is_viscous: bool,
+    /// The two links whose [`Setting::twist`] it reads.
+    pub twist: Option<[usize; 2]>,
+    /// Its numbers that may depend on the crank angle.
+    pub courses: &'a [Course],
+}
+
 /// What loads depend on. Slices have one entry a link.
 #[derive(Clone, Copy, Debug)]
 pub struct Setting<'a> {
@@ -206,22 +232,47 @@ impl Load {
         }
     }
 
+    /// What sort of load it is and what it reads. Whoever must know a load's variant asks this: the one match on them besides [`Load::act`].
+    #[inline]
+    #[must_use]
+    pub fn nature(&self) -> Nature<'_> {
+        let plain = |sort| Nature { sort, senses: Senses::Nothing, is_viscous: false, twist: None, courses: &[] };
+        match self {
+            &Load::Resistance { link, moment: _ } => Nature { senses: Senses::Link(link), ..plain("resistance") },
+            Load::Moment { link, moment, acts } => {
+                let senses = match acts {
+                    Acts::Always => Senses::Nothing,
+                    Acts::CounterClockwise | Acts::Clockwise => Senses::Link(*link),
+                };
+                Nature { senses, courses: std::slice::from_ref(moment), ..plain("moment") }
+            }
+            Load::Force { at: _, force, follows: _ } => Nature { courses: force, ..plain("force") },
+            &Load::ResistingForce { at, force: _ } => Nature { senses: Senses::Point(at), ..plain("resisting_force") },
+            Load::Spring { ends: _, stiffness: _, free_length: _ } => plain("spring"),
+            Load::Damper { ends: _, damping: _ } => Nature { is_viscous: true, ..plain("damper") },
+            &Load::TorsionSpring { links, stiffness: _, free_angle: _ } => {
+                Nature { twist: Some(links), ..plain("torsion_spring") }
+            }
+            Load::TorsionDamper { links: _, damping: _ } => Nature { is_viscous: true, ..plain("torsion_damper") },
+        }
+    }
+
     /// The link on whose sense of rotation the load depends, so that it jumps where that link turns about.
+    #[inline]
     #[must_use]
     pub fn sensed_link(&self) -> Option<usize> {
-        match *self {
-            Load::Resistance { link, .. } => Some(link),
-            Load::Moment { link, acts, .. } if acts != Acts::Always => Some(link),
-            _ => None,
+        match self.nature().senses {
+            Senses::Link(link) => Some(link),
+            Senses::Nothing | Senses::Point(_) => None,
         }
     }
 
     /// The point on whose sense of motion the load depends, so that it jumps where that point turns back.
     #[must_use]
     pub fn sensed_point(&self) -> Option<Side> {
-        match *self {
-            Load::ResistingForce { at, .. } => Some(at),
-            _ => None,
+        match self.nature().senses {
+            Senses::Point(at) => Some(at),
+            Senses::Nothing | Senses::Link(_) => None,
         }
     }
 
@@ -230,50 +281,53 @@ impl Load {
     #[inline]
     #[must_use]
     pub fn moment_in(&self, omega: f64, crank: f64) -> f64 {
+        let [turns_forward, turns_back] = [omega > 0.0, omega < 0.0];
         match self {
-            Load::Resistance { moment, .. } if omega > 0.0 => -moment,
-            Load::Resistance { moment, .. } if omega < 0.0 => *moment,
-            Load::Moment { moment, acts: Acts::CounterClockwise, .. } if omega > 0.0 => moment.at(crank),
-            Load::Moment { moment, acts: Acts::Clockwise, .. } if omega < 0.0 => moment.at(crank),
-            _ => 0.0,
+            Load::Resistance { moment, .. } if turns_forward => -moment,
+            Load::Resistance { moment, .. } if turns_back => *moment,
+            Load::Moment { moment, acts: Acts::CounterClockwise, .. } if turns_forward => moment.at(crank),
+            Load::Moment { moment, acts: Acts::Clockwise, .. } if turns_back => moment.at(crank),
+            Load::Resistance { .. } | Load::Moment { .. } => 0.0,
+            Load::Force { .. } | Load::ResistingForce { .. } => 0.0,
+            Load::Spring { .. } | Load::Damper { .. } => 0.0,
+            Load::TorsionSpring { .. } | Load::TorsionDamper { .. } => 0.0,
+        }
+    }
+
+    /// The loaded link and the size of the moment (N m) of a [resistance](Load::Resistance), the one load that some engines and formats have of
+    /// their own.
+    #[inline]
+    #[must_use]
+    pub fn resistance(&self) -> Option<(usize, f64)> {
+        match *self {
+            Load::Resistance { link, moment } => Some((link, moment)),
+            Load::Moment { .. } | Load::Force { .. } | Load::ResistingForce { .. } => None,
+            Load::Spring { .. } | Load::Damper { .. } => None,
+            Load::TorsionSpring { .. } | Load::TorsionDamper { .. } => None,
         }
     }
 
     /// Whether the load depends on the size of speeds, not on their senses only.
     #[must_use]
     pub fn is_viscous(&self) -> bool {
-        matches!(self, Load::Damper { .. } | Load::TorsionDamper { .. })
+        self.nature().is_viscous
     }
 
     /// Whether [`Setting::angles`] or [`Setting::crank`] is read.
     #[must_use]
     pub fn needs_angles(&self) -> bool {
-        matches!(self, Load::TorsionSpring { .. }) || self.courses().any(|course| course.knots().is_some())
+        self.nature().twist.is_some() || self.courses().any(|course| course.knots().is_some())
     }
 
     /// Numbers that may depend on the crank angle.
     pub fn courses(&self) -> impl Iterator<Item = &Course> {
-        let courses: &[Course] = match self {
-            Load::Moment { moment, .. } => std::slice::from_ref(moment),
-            Load::Force { force, .. } => force,
-            _ => &[],
-        };
-        courses.iter()
+        self.nature().courses.iter()
     }
 
     /// What sort of load it is, as scenario files call it.
     #[must_use]
     pub fn sort(&self) -> &'static str {
-        match self {
-            Load::Resistance { .. } => "resistance",
-            Load::Moment { .. } => "moment",
-            Load::Force { .. } => "force",
-            Load::ResistingForce { .. } => "resisting_force",
-            Load::Spring { .. } => "spring",
-            Load::Damper { .. } => "damper",
-            Load::TorsionSpring { .. } => "torsion_spring",
-            Load::TorsionDamper { .. } => "torsion_damper",
-        }
+        self.nature().sort
     }
 }
 

@@ -29,15 +29,17 @@ pub enum MotionLaw {
         /// Time in which it is reached (s), positive.
         time: f64,
     },
-    /// Cycloidal motion from rest to rest: rise (s - sin(2 pi s) / 2 pi) with s = t / time. Its acceleration, 2 pi rise / time^2 sin(2 pi s),
-    /// begins and ends with zero. Artobolevsky, "Theory of mechanisms and machines", laws of motion of followers.
+    /// Cycloidal motion from rest to rest: rise (s - sin(2 pi s) / 2 pi) with s = t / time. Its acceleration, 2 pi
+    /// rise / time^2 sin(2 pi s), begins and ends with zero. Artobolevsky, "Theory of mechanisms and machines", laws
+    /// of motion of followers.
     Cycloidal {
         /// Angle gone through (rad, not zero), counter-clockwise positive.
         rise: f64,
         /// Time that it takes (s), positive.
         time: f64,
     },
-    /// Angle gone through (rad) as a function of time (s) that has two continuous derivatives, from its first knot, 0, to its last.
+    /// Angle gone through (rad) as a function of time (s) that has two continuous derivatives, from its first knot, 0,
+    /// to its last.
     Table(Arc<Piecewise>),
 }
 
@@ -82,8 +84,8 @@ impl MotionLaw {
         }
     }
 
-    /// Angle, speed and acceleration at time `t` (s) of a motion that begins with the crank angle `start` (rad) at t = 0. Times beyond the
-    /// law's are meant, for what runs up to it: the formula goes on smoothly.
+    /// Angle, speed and acceleration at time `t` (s) of a motion that begins with the crank angle `start` (rad) at t =
+    /// 0. Times beyond the law's are meant, for what runs up to it: the formula goes on smoothly.
     #[inline]
     #[must_use]
     pub fn at(&self, start: f64, t: f64) -> DriveState {
@@ -112,7 +114,8 @@ impl MotionLaw {
         }
     }
 
-    /// The speed that the law reaches (rad/s), counter-clockwise positive: the constant one, or that of largest size. Not zero.
+    /// The speed that the law reaches (rad/s), counter-clockwise positive: the constant one, or that of largest size.
+    /// Not zero.
     #[must_use]
     pub fn top_speed(&self) -> f64 {
         match self {
@@ -125,8 +128,8 @@ impl MotionLaw {
         }
     }
 
-    /// Time (s) at which the angle `gone` (rad) has been gone through: the first one. Not a number if the law never comes there, and for
-    /// tables, which may come there more than once.
+    /// Time (s) at which the angle `gone` (rad) has been gone through: the first one. Not a number if the law never
+    /// comes there, and for tables, which may come there more than once.
     #[inline]
     #[must_use]
     pub fn time_of(&self, gone: f64) -> f64 {

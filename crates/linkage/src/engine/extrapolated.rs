@@ -98,7 +98,7 @@ impl Solver for Extrapolated {
     fn provides(&self, channel: &Channel) -> Provision {
         match self.inner.provides(channel) {
             Provision::Computed => Provision::Derived("extrapolated from runs at the step and at half of it"),
-            other => other,
+            other @ Provision::Derived(_) => other,
         }
     }
 

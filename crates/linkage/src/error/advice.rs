@@ -6,7 +6,6 @@ use std::fmt;
 ///
 /// The variants are what a program can act on; advice about the text of a description is [`Advice::Text`].
 #[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
 pub enum Advice {
     /// Words that are the same for every reader, such as the name of a scenario key.
     Text(String),
@@ -80,6 +79,7 @@ impl Advice {
     /// The same advice with a number to try, from the present `resolution` of an engine (time step in s, or relative
     /// accuracy if it `controls_error`) and its present number of `sweeps`.
     #[must_use]
+    #[expect(clippy::wildcard_enum_match_arm, reason = "advice without a number stays as it is")]
     pub fn from_settings(self, resolution: f64, controls_error: bool, sweeps: usize) -> Self {
         let (half, double) = (rounded(resolution / 2.0), rounded(resolution * 2.0));
         match self {
@@ -92,7 +92,22 @@ impl Advice {
             Advice::SmallerStep { .. } => Advice::SmallerStep { to: Some(half) },
             Advice::LargerStep { .. } => Advice::LargerStep { to: Some(double) },
             Advice::MoreSweeps { .. } => Advice::MoreSweeps { to: Some(2 * sweeps) },
-            other => other,
+            // Nothing in them is a number of an engine's settings.
+            other @ (Advice::Text(_)
+            | Advice::TighterAccuracy { .. }
+            | Advice::LooserAccuracy { .. }
+            | Advice::DoublePrecision
+            | Advice::OtherEngine
+            | Advice::OtherRoute { .. }
+            | Advice::OtherReference { .. }
+            | Advice::OtherSolver { .. }
+            | Advice::ShortenGrid
+            | Advice::LookAtRange
+            | Advice::Configuration { .. }
+            | Advice::SolutionTable
+            | Advice::OtherChannel { .. }
+            | Advice::WeakerWish
+            | Advice::AllResults) => other,
         }
     }
 

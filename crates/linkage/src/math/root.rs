@@ -3,7 +3,7 @@
 //! Each function says what it needs of the one it searches, and where it ends. Functions may fail (`E`): the first error ends a search.
 //! What is not a number is never taken for a zero.
 
-use crate::math::KeepNan;
+use super::KeepNan;
 
 /// Whether the values at two places have different signs, or one of them is zero. What is not a number has no sign.
 #[inline]

@@ -2,6 +2,9 @@
 
 use std::fmt;
 
+use super::reading::{OfDrive, OfFrame, OfJoint, OfLink, OfPoint, OfSlider, Reading};
+use super::unit::Unit;
+
 /// What a channel belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Subject {
@@ -25,7 +28,10 @@ impl Subject {
     /// Whether there is one of it in a mechanism, so that it needs no name.
     #[must_use]
     pub fn is_whole(self) -> bool {
-        matches!(self, Subject::Frame | Subject::Drive)
+        match self {
+            Subject::Frame | Subject::Drive => true,
+            Subject::Link | Subject::Point | Subject::Joint | Subject::Slider | Subject::Motor => false,
+        }
     }
 
     /// Word that channel names start with.
@@ -77,28 +83,24 @@ impl Stage {
 /// One row of the table of channels.
 #[derive(Debug, PartialEq)]
 pub struct ChannelKind {
-    /// What it belongs to.
+    /// What it belongs to: the subject of what it reads.
     pub subject: Subject,
+    /// What it reads.
+    pub reading: Reading,
     /// Last part of the channel's name, unit included.
     pub suffix: &'static str,
     /// Plain words for people.
     pub quantity: &'static str,
     /// SI unit.
-    pub unit: &'static str,
+    pub unit: Unit,
     /// Whether values one turn apart are the same pose.
     pub periodic: bool,
     /// What must be computed for it.
     pub stage: Stage,
 }
 
-const fn row(
-    subject: Subject,
-    suffix: &'static str,
-    quantity: &'static str,
-    unit: &'static str,
-    stage: Stage,
-) -> ChannelKind {
-    ChannelKind { subject, suffix, quantity, unit, periodic: false, stage }
+const fn row(reading: Reading, suffix: &'static str, quantity: &'static str, unit: Unit, stage: Stage) -> ChannelKind {
+    ChannelKind { subject: reading.subject(), reading, suffix, quantity, unit, periodic: false, stage }
 }
 
 /// Every channel there is, in the order of columns. All vectors are in world axes; angles count counter-clockwise
@@ -106,38 +108,91 @@ const fn row(
 /// way along its axis from the place on its first link to that on its second, its moment that of the first link on the
 /// second about the place on the second; what acts on the frame is the sum over its joints and the drive, its
 /// moment about the origin; the drive's torque acts on the driving link. Moments are counter-clockwise positive.
-pub static CHANNELS: [ChannelKind; 26] = {
+pub static CHANNELS: [ChannelKind; 26] = TABLE;
+
+const TABLE: [ChannelKind; 26] = {
+    use OfPoint::{AccelerationX, AccelerationY, VelocityX, VelocityY, X, Y};
+    use Reading::{Drive, Frame, Joint, Link, Motor, Point, Slider};
     use Stage::{Accelerations, BalancingMoment, Positions, Reactions, Velocities};
-    use Subject::{Drive, Frame, Joint, Link, Motor, Point, Slider};
+    use Unit::{Metre, MetrePerSecond, MetrePerSecondSquared, Newton, NewtonMetre};
+    use Unit::{Radian, RadianPerSecond, RadianPerSecondSquared};
+    const fn centre(of: OfPoint) -> Reading {
+        Link(OfLink::Centre(of))
+    }
     [
-        ChannelKind { periodic: true, ..row(Link, "angle_rad", "angle", "rad", Positions) },
-        row(Link, "omega_rad_s", "angular velocity", "rad/s", Velocities),
-        row(Link, "alpha_rad_s2", "angular acceleration", "rad/s^2", Accelerations),
-        row(Link, "x_m", "mass centre position", "m", Positions),
-        row(Link, "y_m", "mass centre position", "m", Positions),
-        row(Link, "vx_m_s", "mass centre velocity", "m/s", Velocities),
-        row(Link, "vy_m_s", "mass centre velocity", "m/s", Velocities),
-        row(Link, "ax_m_s2", "mass centre acceleration", "m/s^2", Accelerations),
-        row(Link, "ay_m_s2", "mass centre acceleration", "m/s^2", Accelerations),
-        row(Point, "x_m", "point position", "m", Positions),
-        row(Point, "y_m", "point position", "m", Positions),
-        row(Point, "vx_m_s", "point velocity", "m/s", Velocities),
-        row(Point, "vy_m_s", "point velocity", "m/s", Velocities),
-        row(Point, "ax_m_s2", "point acceleration", "m/s^2", Accelerations),
-        row(Point, "ay_m_s2", "point acceleration", "m/s^2", Accelerations),
-        row(Joint, "fx_N", "reaction", "N", Reactions),
-        row(Joint, "fy_N", "reaction", "N", Reactions),
-        row(Slider, "slide_m", "slide", "m", Positions),
-        row(Slider, "slide_speed_m_s", "slide speed", "m/s", Velocities),
-        row(Slider, "slide_acceleration_m_s2", "slide acceleration", "m/s^2", Accelerations),
-        row(Slider, "moment_N_m", "reaction moment", "N m", Reactions),
-        row(Frame, "fx_N", "shaking force", "N", BalancingMoment),
-        row(Frame, "fy_N", "shaking force", "N", BalancingMoment),
-        row(Frame, "moment_N_m", "shaking moment", "N m", BalancingMoment),
-        row(Drive, "torque_N_m", "balancing moment", "N m", BalancingMoment),
-        row(Motor, "torque_N_m", "balancing moment", "N m", BalancingMoment),
+        ChannelKind { periodic: true, ..row(Link(OfLink::Angle), "angle_rad", "angle", Radian, Positions) },
+        row(Link(OfLink::Omega), "omega_rad_s", "angular velocity", RadianPerSecond, Velocities),
+        row(Link(OfLink::Alpha), "alpha_rad_s2", "angular acceleration", RadianPerSecondSquared, Accelerations),
+        row(centre(X), "x_m", "mass centre position", Metre, Positions),
+        row(centre(Y), "y_m", "mass centre position", Metre, Positions),
+        row(centre(VelocityX), "vx_m_s", "mass centre velocity", MetrePerSecond, Velocities),
+        row(centre(VelocityY), "vy_m_s", "mass centre velocity", MetrePerSecond, Velocities),
+        row(centre(AccelerationX), "ax_m_s2", "mass centre acceleration", MetrePerSecondSquared, Accelerations),
+        row(centre(AccelerationY), "ay_m_s2", "mass centre acceleration", MetrePerSecondSquared, Accelerations),
+        row(Point(X), "x_m", "point position", Metre, Positions),
+        row(Point(Y), "y_m", "point position", Metre, Positions),
+        row(Point(VelocityX), "vx_m_s", "point velocity", MetrePerSecond, Velocities),
+        row(Point(VelocityY), "vy_m_s", "point velocity", MetrePerSecond, Velocities),
+        row(Point(AccelerationX), "ax_m_s2", "point acceleration", MetrePerSecondSquared, Accelerations),
+        row(Point(AccelerationY), "ay_m_s2", "point acceleration", MetrePerSecondSquared, Accelerations),
+        row(Joint(OfJoint::ForceX), "fx_N", "reaction", Newton, Reactions),
+        row(Joint(OfJoint::ForceY), "fy_N", "reaction", Newton, Reactions),
+        row(Slider(OfSlider::Slide), "slide_m", "slide", Metre, Positions),
+        row(Slider(OfSlider::Speed), "slide_speed_m_s", "slide speed", MetrePerSecond, Velocities),
+        row(
+            Slider(OfSlider::Acceleration),
+            "slide_acceleration_m_s2",
+            "slide acceleration",
+            MetrePerSecondSquared,
+            Accelerations,
+        ),
+        row(Slider(OfSlider::Moment), "moment_N_m", "reaction moment", NewtonMetre, Reactions),
+        row(Frame(OfFrame::ForceX), "fx_N", "shaking force", Newton, BalancingMoment),
+        row(Frame(OfFrame::ForceY), "fy_N", "shaking force", Newton, BalancingMoment),
+        row(Frame(OfFrame::Moment), "moment_N_m", "shaking moment", NewtonMetre, BalancingMoment),
+        row(Drive(OfDrive::Torque), "torque_N_m", "balancing moment", NewtonMetre, BalancingMoment),
+        row(Motor(OfDrive::Torque), "torque_N_m", "balancing moment", NewtonMetre, BalancingMoment),
     ]
 };
+
+/// How many rows of the table belong to a subject.
+const fn count(subject: Subject) -> usize {
+    let (mut rows, mut index) = (0, 0);
+    while index < TABLE.len() {
+        rows += (TABLE[index].subject as usize == subject as usize) as usize;
+        index += 1;
+    }
+    rows
+}
+
+/// What the rows of one subject read, with their stages, in the order of columns. `$any` is only there to begin with.
+macro_rules! rows_of {
+    ($subject:ident, $of:ty, $any:expr) => {{
+        let mut rows: [($of, Stage); count(Subject::$subject)] = [($any, Stage::Positions); count(Subject::$subject)];
+        let (mut found, mut index) = (0, 0);
+        while index < TABLE.len() {
+            if let Reading::$subject(of) = TABLE[index].reading {
+                rows[found] = (of, TABLE[index].stage);
+                found += 1;
+            }
+            index += 1;
+        }
+        rows
+    }};
+}
+
+/// The table once more, by subjects: constants, so that what reads a whole subject needs no look at the table while it runs.
+pub(crate) mod rows {
+    use super::{OfDrive, OfFrame, OfJoint, OfLink, OfPoint, OfSlider, Reading, Stage, Subject, TABLE, count};
+
+    pub(crate) const LINK: [(OfLink, Stage); count(Subject::Link)] = rows_of!(Link, OfLink, OfLink::Angle);
+    pub(crate) const POINT: [(OfPoint, Stage); count(Subject::Point)] = rows_of!(Point, OfPoint, OfPoint::X);
+    pub(crate) const JOINT: [(OfJoint, Stage); count(Subject::Joint)] = rows_of!(Joint, OfJoint, OfJoint::ForceX);
+    pub(crate) const SLIDER: [(OfSlider, Stage); count(Subject::Slider)] = rows_of!(Slider, OfSlider, OfSlider::Slide);
+    pub(crate) const FRAME: [(OfFrame, Stage); count(Subject::Frame)] = rows_of!(Frame, OfFrame, OfFrame::ForceX);
+    pub(crate) const DRIVE: [(OfDrive, Stage); count(Subject::Drive)] = rows_of!(Drive, OfDrive, OfDrive::Torque);
+    pub(crate) const MOTOR: [(OfDrive, Stage); count(Subject::Motor)] = rows_of!(Motor, OfDrive, OfDrive::Torque);
+}
 
 /// One channel of a trajectory: a row of [`CHANNELS`] for one link, point, joint or drive.
 #[derive(Clone, Debug)]
@@ -199,8 +254,9 @@ mod tests {
     #[test]
     fn names_carry_their_unit() {
         for kind in &CHANNELS {
-            let unit = kind.unit.replace("/s^2", "_s2").replace(['/', ' '], "_");
-            assert!(kind.suffix.ends_with(&unit), "{} does not end with {unit}", kind.suffix);
+            let unit = kind.unit.symbol().replace("/s^2", "_s2").replace(['/', ' '], "_");
+            assert_eq!(kind.unit.suffix(), unit);
+            assert!(kind.suffix.ends_with(&format!("_{unit}")), "{} does not end with {unit}", kind.suffix);
         }
     }
 }

@@ -1,8 +1,12 @@
 //! What every solver answers with: channels over a grid of times. A trajectory holds finite numbers only.
 
 pub mod channel;
+mod reading;
+mod unit;
 
 pub use channel::{CHANNELS, Channel, ChannelKind, Stage, Subject};
+pub use reading::{OfDrive, OfFrame, OfJoint, OfLink, OfPoint, OfSlider, Reading};
+pub use unit::Unit;
 
 use crate::error::{Error, ErrorKind, Result};
 

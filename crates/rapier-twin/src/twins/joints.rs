@@ -51,12 +51,14 @@ pub(super) fn body(link: &Link, [mass, inertia]: [f64; 2]) -> RigidBodyBuilder {
 
 /// Parameters of a run.
 pub(super) fn parameters(settings: &Settings) -> IntegrationParameters {
+    // The way to reactions is a matter of reading, and extrapolation one of several runs.
+    let &Settings { resolution, sweeps, substeps, route: _, extrapolated: _ } = settings;
     IntegrationParameters {
-        dt: real(settings.resolution),
+        dt: real(resolution),
         // These are substeps: each restarts the sweeps from nothing.
-        num_solver_iterations: settings.substeps,
-        num_internal_pgs_iterations: settings.sweeps,
-        num_internal_stabilization_iterations: settings.sweeps,
+        num_solver_iterations: substeps,
+        num_internal_pgs_iterations: sweeps,
+        num_internal_stabilization_iterations: sweeps,
         max_ccd_substeps: 0,
         normalized_max_linear_velocity: Real::MAX,
         normalized_max_corrective_velocity: Real::MAX,

@@ -93,7 +93,7 @@ impl<'a> Rater<'a> {
         for (index, (phase, &to)) in phases.iter().zip(&self.ends).enumerate() {
             cost += match phase.sense {
                 Sense::Dwell => unrest((from..=to).map(at)),
-                sense => {
+                sense @ (Sense::Forward | Sense::Back) => {
                     let sign = sense.sign();
                     let way = |row: usize| sign * (at(row + 1) - at(row));
                     let back: f64 = (from..to).map(|row| (-way(row)).larger(0.0)).sum();

@@ -167,7 +167,7 @@ fn levels(phases: &[Phase]) -> Option<Vec<f64>> {
         .map(|phase| match phase.sense {
             Sense::Forward if simple => Some(1.0),
             Sense::Back if simple => Some(0.0),
-            _ => phase.level,
+            Sense::Forward | Sense::Back | Sense::Dwell => phase.level,
         })
         .collect();
     let count = phases.len();

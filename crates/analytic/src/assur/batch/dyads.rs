@@ -79,7 +79,7 @@ impl Dyads {
     /// and other links is left to poses one by one.
     pub(super) fn of(case: &Case, layout: Layout) -> Option<Self> {
         let groups = &case.structure.groups;
-        let simple = |load: &Load| matches!(load, Load::Resistance { .. });
+        let simple = |load: &Load| load.resistance().is_some();
         let hinged = |&(link, joint): &(usize, usize)| case.mechanism.joints()[joint].other(link).link == GROUND;
         let known = groups.iter().all(|group| group.kind == GroupKind::Rrr) && case.loads.iter().all(simple);
         if !(known && case.structure.drivers.iter().all(hinged)) {

@@ -44,7 +44,9 @@ impl Kinetostatics {
             parts.push(match &plan.steps()[step] {
                 Step::Chain(chain) => Part::Higher(Higher::of(case, step, chain, &settled)),
                 Step::Rrr(_) => Part::Pinned(Pinned::of(case, step, group, &settled)),
-                _ => Part::Sliding(Sliding::of(case, group, &settled)),
+                Step::Rrp(_) | Step::Rpr(_) | Step::Rpp(_) | Step::Prp(_) => {
+                    Part::Sliding(Sliding::of(case, group, &settled))
+                }
             });
             group.inner.iter().chain(&group.outer).for_each(|&joint| settled[joint] = true);
         }

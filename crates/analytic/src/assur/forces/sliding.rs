@@ -34,7 +34,7 @@ impl Sliding {
         let swapped = match group.kind {
             GroupKind::Rrp | GroupKind::Rpp => joints[group.outer[0]].slides(),
             GroupKind::Rpr => inner.first.link == group.links[1],
-            _ => false,
+            GroupKind::Rrr | GroupKind::Prp | GroupKind::Higher => false,
         };
         if swapped {
             order = [1, 0];
@@ -49,7 +49,7 @@ impl Sliding {
         let (axis, other) = match group.kind {
             GroupKind::Rrp | GroupKind::Rpp => (axis(outer[1]), axis(group.inner[0])),
             GroupKind::Prp => (axis(outer[0]), axis(outer[1])),
-            _ => (axis(group.inner[0]), axis(group.inner[0])),
+            GroupKind::Rrr | GroupKind::Rpr | GroupKind::Higher => (axis(group.inner[0]), axis(group.inner[0])),
         };
         Sliding {
             kind: group.kind,

@@ -58,7 +58,7 @@ fn nothing_asked(group: &Group) -> Error {
     let modes = match group.kind {
         GroupKind::Rrr => Some([AssemblyMode::Left, AssemblyMode::Right]),
         GroupKind::Rrp | GroupKind::Rpr => Some([AssemblyMode::Ahead, AssemblyMode::Behind]),
-        _ => None,
+        GroupKind::Rpp | GroupKind::Prp | GroupKind::Higher => None,
     };
     match modes {
         Some([one, other]) => {

@@ -14,7 +14,9 @@ use crate::mechanism::{Group, GroupKind, Mechanism, Pose};
 pub fn configurations(mechanism: &Mechanism, group: &Group, pose: &Pose) -> Result<Vec<Configuration>> {
     match group.kind {
         GroupKind::Higher => four_link::configurations(mechanism, group, pose),
-        _ => dyads::configurations(mechanism, group, pose),
+        GroupKind::Rrr | GroupKind::Rrp | GroupKind::Rpr | GroupKind::Rpp | GroupKind::Prp => {
+            dyads::configurations(mechanism, group, pose)
+        }
     }
 }
 

@@ -87,7 +87,8 @@ pub(super) fn configurations(mechanism: &Mechanism, group: &Group, pose: &Pose) 
         GroupKind::Rrp => rrp(&members),
         GroupKind::Rpr => rpr(&members),
         GroupKind::Rpp => rpp(&members),
-        _ => prp(&members),
+        GroupKind::Prp => prp(&members),
+        GroupKind::Higher => unreachable!("a dyad has two links"),
     }
 }
 
@@ -116,7 +117,8 @@ pub(super) fn transmission_sine(mechanism: &Mechanism, group: &Group, pose: &Pos
             let axis = rotated(unit(pose.0[swivel.link].angle), swivel.axis_of(swivel.inner));
             cross(axis, slider.guide())
         }
-        _ => cross(members[0].guide(), members[1].guide()),
+        GroupKind::Prp => cross(members[0].guide(), members[1].guide()),
+        GroupKind::Higher => unreachable!("a dyad has two links"),
     }
 }
 

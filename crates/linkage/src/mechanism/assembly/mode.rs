@@ -29,7 +29,7 @@ impl AssemblyMode {
         match self {
             AssemblyMode::Left => AssemblyMode::Right,
             AssemblyMode::Right => AssemblyMode::Left,
-            other => other,
+            AssemblyMode::Ahead | AssemblyMode::Behind | AssemblyMode::Only | AssemblyMode::Followed => self,
         }
     }
 

@@ -48,7 +48,7 @@ impl Conditions {
             .iter()
             .filter_map(|one| match one {
                 Condition::Angle(angle) => Some(*angle),
-                _ => None,
+                Condition::Circle { .. } | Condition::FrameLine { .. } | Condition::BaseLine { .. } => None,
             })
             .collect();
         let found = match given[..] {

@@ -66,7 +66,7 @@ fn panel(diagram: &MotionDiagram, which: usize) -> Figure {
     }
     let channel = &diagram.course.0[which];
     let symbol = ["s", "v", "a"][which];
-    let unit = channel.kind.unit.replace("s^2", "s²");
+    let unit = channel.kind.unit.symbol().replace("s^2", "s²");
     let per = if unit.contains('/') { format!("({unit})/mm") } else { format!("{unit}/mm") };
     let heading = format!("{channel}, scale factor μ{} = {scale} {per}", sub(symbol));
     figure.text(Vec2::new(0.0, height + 3.0), heading, Type { bold: true, ..words(3.6) });

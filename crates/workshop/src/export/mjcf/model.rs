@@ -67,7 +67,7 @@ impl<'a> Model<'a> {
                 format!("a drive with the law \"{}\" cannot be written to a model for MuJoCo", drive.law_name());
             return Err(Error::new(ErrorKind::Unsupported, message).help("give the drive a constant speed"));
         }
-        if let Some(load) = case.loads.iter().find(|load| !matches!(load, Load::Resistance { .. })) {
+        if let Some(load) = case.loads.iter().find(|load| load.resistance().is_none()) {
             let message = format!("a load of type \"{}\" cannot be written to a model for MuJoCo", load.sort());
             return Err(Error::new(ErrorKind::Unsupported, message).help(
                 "leave it out of the scenario, and add it to the model by hand: only moments of resistance are written",
@@ -165,10 +165,8 @@ impl<'a> Model<'a> {
     /// One friction for each link that is resisted; a link that cannot turn is not.
     fn frictions(&self) -> Vec<Friction> {
         let mut moments = vec![0.0; self.case.mechanism.links().len()];
-        for load in &self.case.loads {
-            if let Load::Resistance { link, moment } = *load {
-                moments[link] += moment;
-            }
+        for (link, moment) in self.case.loads.iter().filter_map(Load::resistance) {
+            moments[link] += moment;
         }
         let resisted = moments.into_iter().enumerate().filter(|&(_, moment)| moment > 0.0);
         let frictions = resisted.map(|(link, moment)| {

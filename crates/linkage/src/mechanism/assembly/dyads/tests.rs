@@ -107,7 +107,7 @@ impl Case {
                 let (a, b) = (f0 - mean, (f1 - f2) / 3f64.sqrt());
                 a.hypot(b) - mean.abs()
             }
-            _ => f64::INFINITY,
+            GroupKind::Rpp | GroupKind::Prp | GroupKind::Higher => f64::INFINITY,
         }
     }
 
@@ -127,7 +127,7 @@ impl Case {
                 let base = if self.joint(1).first.link == 3 { c - a } else { a - c };
                 ahead(self.axis(pose, 1).dot(&base) > 0.0)
             }
-            _ => AssemblyMode::Only,
+            GroupKind::Rpp | GroupKind::Prp | GroupKind::Higher => AssemblyMode::Only,
         }
     }
 }

@@ -1,0 +1,81 @@
+//! Instants at which a solution is wanted.
+
+use std::f64::consts::TAU;
+
+use crate::drive::Drive;
+use crate::math::KeepNan;
+use crate::math::statistics::ascending;
+
+/// Instants at which a solution is wanted.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Grid {
+    /// Times (s), in any order.
+    pub times: Vec<f64>,
+    /// Crank angles at those times (rad, as the scenario states them).
+    pub cranks: Vec<f64>,
+}
+
+impl Grid {
+    /// Grid of the given times.
+    #[must_use]
+    pub fn of_times(drive: &Drive, times: Vec<f64>) -> Self {
+        let cranks = times.iter().map(|&t| drive.at(t).angle).collect();
+        Grid { times, cranks }
+    }
+
+    /// Grid of the given crank angles (rad, as the scenario states them).
+    #[must_use]
+    pub fn of_cranks(drive: &Drive, cranks: Vec<f64>) -> Self {
+        let times = cranks.iter().map(|&angle| drive.time_of(angle)).collect();
+        Grid { times, cranks }
+    }
+
+    /// Number of instants.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.times.len()
+    }
+
+    /// Whether there is no instant.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.times.is_empty()
+    }
+
+    /// Largest number of turns of the crank, from its zero, that a grid may lead away: solvers follow the branch all the way, and
+    /// an angle of more turns has lost its last digits.
+    pub const MOST_TURNS: f64 = 1e5;
+
+    /// Checks that all times and angles are finite and within [`Grid::MOST_TURNS`], and that the law of the drive holds at all of them.
+    ///
+    /// # Errors
+    /// A message that says how far the grid leads, or where the law ends.
+    pub fn check(&self, drive: &Drive) -> std::result::Result<(), String> {
+        if drive.constant_speed().is_none() {
+            let name = drive.law_name();
+            if self.times.iter().any(|t| t.is_nan()) && self.cranks.iter().all(|crank| crank.is_finite()) {
+                return Err(format!(
+                    "the drive's law, \"{name}\", does not come to a crank angle of the grid at one time"
+                ));
+            }
+            // The rounding of the last instant belongs to it.
+            let end = drive.end().unwrap_or(f64::INFINITY);
+            if let Some(t) = self.times.iter().find(|&&t| t < 0.0 || t > end * (1.0 + 1e-12)) {
+                return Err(format!(
+                    "the grid leads to {t} s, but the drive's law, \"{name}\", goes from 0 to {end} s"
+                ));
+            }
+        }
+        let most = self.cranks.iter().fold(0.0, |most: f64, crank| most.larger(crank.abs())) / TAU;
+        if most <= Self::MOST_TURNS && self.times.iter().chain(&self.cranks).all(|value| value.is_finite()) {
+            return Ok(());
+        }
+        Err(format!("the grid leads {most:.1e} turns away, the limit is {:e}", Self::MOST_TURNS))
+    }
+
+    /// Rows of the grid in ascending order of time.
+    #[must_use]
+    pub fn ascending(&self) -> Vec<usize> {
+        ascending(&self.times)
+    }
+}

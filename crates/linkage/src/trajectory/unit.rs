@@ -1,0 +1,62 @@
+//! The units of channels.
+
+use std::fmt;
+
+/// SI unit of a channel. Whoever asks what a quantity is measured in matches on it, so that a new unit is a compile error there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Unit {
+    /// Angles (rad).
+    Radian,
+    /// Angular velocities (rad/s).
+    RadianPerSecond,
+    /// Angular accelerations (rad/s^2).
+    RadianPerSecondSquared,
+    /// Lengths and coordinates (m).
+    Metre,
+    /// Velocities (m/s).
+    MetrePerSecond,
+    /// Accelerations (m/s^2).
+    MetrePerSecondSquared,
+    /// Forces (N).
+    Newton,
+    /// Moments (N m).
+    NewtonMetre,
+}
+
+impl Unit {
+    /// How the unit is written, for example `rad/s^2`.
+    #[must_use]
+    pub const fn symbol(self) -> &'static str {
+        match self {
+            Unit::Radian => "rad",
+            Unit::RadianPerSecond => "rad/s",
+            Unit::RadianPerSecondSquared => "rad/s^2",
+            Unit::Metre => "m",
+            Unit::MetrePerSecond => "m/s",
+            Unit::MetrePerSecondSquared => "m/s^2",
+            Unit::Newton => "N",
+            Unit::NewtonMetre => "N m",
+        }
+    }
+
+    /// How names end in the unit, for example `rad_s2`.
+    #[must_use]
+    pub const fn suffix(self) -> &'static str {
+        match self {
+            Unit::Radian => "rad",
+            Unit::RadianPerSecond => "rad_s",
+            Unit::RadianPerSecondSquared => "rad_s2",
+            Unit::Metre => "m",
+            Unit::MetrePerSecond => "m_s",
+            Unit::MetrePerSecondSquared => "m_s2",
+            Unit::Newton => "N",
+            Unit::NewtonMetre => "N_m",
+        }
+    }
+}
+
+impl fmt::Display for Unit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.symbol())
+    }
+}

@@ -1,0 +1,75 @@
+//! One dial on every bound, for looking at a proof from outside.
+
+use super::{Proof, parties};
+use crate::compare::{Check, Verdict, overall};
+
+impl Proof {
+    /// The same proof, judged with every bound multiplied by `dial`: below 1 stricter than the bounds are, at 0 nothing but an exact zero agrees.
+    ///
+    /// Residuals are left as they are, and so is what proved nothing either way: its bound says nothing, whatever it is multiplied by.
+    #[must_use]
+    pub fn with_bounds_scaled(mut self, dial: f64) -> Self {
+        for engine in &mut self.engines {
+            for channel in &mut engine.channels {
+                judge(&mut channel.verdict, channel.residual.max, &mut channel.bound, dial);
+            }
+            engine.checks.iter_mut().for_each(|check| scale(check, dial));
+            let channels = engine.channels.iter().map(|channel| &channel.verdict);
+            if engine.failure.is_none() {
+                engine.verdict = overall(channels.chain(engine.checks.iter().map(|check| &check.verdict)));
+            }
+        }
+        self.checks.iter_mut().for_each(|check| scale(check, dial));
+        if self.engines.len() > 1 {
+            self.disputes = parties::disputes(self.reference, &self.reference_trajectory, &self.engines);
+        }
+        let analytic = overall(self.checks.iter().map(|check| &check.verdict));
+        self.verdict = overall([&analytic].into_iter().chain(self.engines.iter().map(|engine| &engine.verdict)));
+        self
+    }
+}
+
+fn scale(check: &mut Check, dial: f64) {
+    judge(&mut check.verdict, check.value, &mut check.bound, dial);
+}
+
+/// Judges again what was judged by its bound. What disagrees although it is within its bound does so for another reason: a finding calls it
+/// wrong.
+fn judge(verdict: &mut Verdict, value: f64, bound: &mut f64, dial: f64) {
+    let beyond = !(value <= *bound);
+    *bound *= dial;
+    let again = Verdict::of(value, *bound, || format!("{value:.3e} beyond the scaled bound {bound:.3e}"));
+    match (&*verdict, &again) {
+        (Verdict::Agree { .. }, _) => *verdict = again,
+        (Verdict::Disagree { .. }, _) if beyond => *verdict = again,
+        // What is right instead of a printed number is no longer met.
+        (Verdict::Expected { .. }, Verdict::Disagree { .. }) => *verdict = again,
+        (Verdict::Disagree { .. } | Verdict::Expected { .. } | Verdict::Inconclusive { .. }, _) => {}
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn judged(verdict: Verdict, value: f64, dial: f64) -> (&'static str, f64) {
+        let (mut verdict, mut bound) = (verdict, 2.0);
+        judge(&mut verdict, value, &mut bound, dial);
+        (verdict.word(), bound)
+    }
+
+    #[test]
+    fn bounds_follow_the_dial_and_what_was_not_judged_by_them_stays() {
+        let agree = || Verdict::Agree { margin: 2.0 };
+        let disagree = || Verdict::Disagree { place: String::new() };
+        assert_eq!(judged(agree(), 1.0, 0.5), ("agree", 1.0));
+        assert_eq!(judged(agree(), 1.0, 0.4), ("disagree", 0.8));
+        assert_eq!(judged(disagree(), 3.0, 2.0), ("agree", 4.0));
+        assert_eq!(judged(disagree(), f64::NAN, 2.0).0, "disagree");
+        assert_eq!(judged(disagree(), 1.0, 2.0).0, "disagree");
+        let expected = || Verdict::Expected { finding: String::new(), off: 5.0 };
+        assert_eq!(judged(expected(), 1.0, 0.5).0, "expected");
+        assert_eq!(judged(expected(), 1.0, 0.4).0, "disagree");
+        assert_eq!(judged(Verdict::open("why"), 1.0, 2.0).0, "inconclusive");
+    }
+}

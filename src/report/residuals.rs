@@ -1,0 +1,26 @@
+//! Every residual of a proof beside its bound, for whoever looks at the bounds themselves.
+
+use super::cells::table;
+use crate::proof::Proof;
+
+/// One line for every channel of every engine, and for every check.
+#[must_use]
+pub fn all(proof: &Proof) -> String {
+    let mut table = table(["channel or check", "side", "residual", "bound", "unit", "used", "verdict"], &[2, 3, 5]);
+    let mut add = |name: String, side: &str, [value, bound]: [f64; 2], unit: &str, verdict: &str| {
+        let used = if value == 0.0 { 0.0 } else { value / bound };
+        let [value, bound] = [value, bound].map(|number| format!("{number:.3e}"));
+        table.add_row([name, side.into(), value, bound, unit.into(), format!("{used:.3}"), verdict.into()]);
+    };
+    for engine in &proof.engines {
+        for channel in &engine.channels {
+            let (residual, verdict) = (&channel.residual, channel.verdict.word());
+            let numbers = [residual.max, channel.bound];
+            add(residual.channel.to_string(), engine.info.name, numbers, residual.channel.kind.unit.symbol(), verdict);
+        }
+    }
+    for check in proof.all_checks() {
+        add(check.name(), "", [check.value, check.bound], check.unit, check.verdict.word());
+    }
+    format!("\n{table}\n")
+}

@@ -1,0 +1,50 @@
+//! What `tune` finds against all of a space of settings, by the price model: for the tests, and with the whole space for `benches/tune.rs`.
+
+use linkage::engine::Engine;
+use linkproof::proof::Options;
+use linkproof::scenario::Scenario;
+use linkproof::tune::{Tuning, Wish, tune};
+
+use super::exhaustive::{Space, cheaper, error_of, truth};
+use super::prices::price_of;
+
+/// Within this factor of the cheapest.
+pub const FACTOR: f64 = 1.5;
+
+/// Tunes by the price model.
+pub fn tuned(scenario: &Scenario, within: f64, channels: &[&str], options: &Options) -> linkage::Result<Tuning> {
+    let wish = Wish { within, channels: channels.iter().map(|name| name.to_string()).collect() };
+    let mut price = |engine: &dyn Engine, run: &mut dyn FnMut() -> linkage::Result<()>| {
+        run()?;
+        Ok(price_of(&scenario.case, engine))
+    };
+    tune(scenario, &wish, options, &mut price, &mut |_| {})
+}
+
+/// Tunes all Rapier engines; what is found must keep its promise where it is checked from outside, with the other analytic side, and nothing in
+/// the space may be cheaper than what was found over `below`.
+pub fn near_the_cheapest(scenario: &Scenario, within: f64, below: f64, space: &Space) {
+    let name = &scenario.name;
+    let engines = linkproof::engines::all(1e-3).into_iter().filter(|engine| !engine.controls_error());
+    let engines = engines.map(|engine| engine.name().to_string()).collect();
+    let options = Options { engines, ..Options::default() };
+    let found = tuned(scenario, within, &[], &options).unwrap_or_else(|error| panic!("{name}: {error}"));
+    let best = linkproof::engines::named(found.best.engine, 1e-3).unwrap().with(found.best.settings);
+    let verified = error_of(scenario, &truth(scenario), best.as_ref());
+    assert!(verified <= within, "{name}: {verified:e} with {:?}", found.best);
+    let promised = found.best.verified;
+    assert!((verified - promised).abs() <= 1e-6 * within, "{name}: {verified:e}, promised {promised:e}");
+    let expected = price_of(&scenario.case, best.as_ref());
+    assert!((found.best.price / expected - 1.0).abs() <= 1e-12, "{name}: {:?}, {expected}", found.best);
+
+    let mut price = |engine: &dyn Engine| price_of(&scenario.case, engine);
+    let (met, runs) = cheaper(scenario, within, found.best.price / below, space, &mut price);
+    let cheapest = met.last().map_or(found.best.price / below, |met| met.price);
+    let ratio = found.best.price / cheapest;
+    println!(
+        "{name} within {within:e}: {ratio:.2} of the cheapest or less, {:?}, {} runs and {runs}, expected {:.1e}",
+        found.best, found.runs, found.predicted
+    );
+    let told = met.last().map(|met| (met.engine.name(), met.engine.settings(), met.error));
+    assert!(ratio <= FACTOR, "{name}: {ratio} times the cheapest: {:?}, cheapest {told:?}", found.best);
+}
