@@ -76,7 +76,8 @@ pub fn class_four(side_b: f64, side_d: f64) -> Mechanism {
     mechanism(links, &pins).unwrap()
 }
 
-/// A mechanism of dyads, all in mode left, whose joint 0 drives its link 1 from angle zero with 1 rad/s; no gravity, no loads, no grid.
+/// A case of a mechanism of dyads, all in mode left. Joint 0 drives link 1 from angle zero with 1 rad/s; no gravity,
+/// no loads, no grid.
 pub fn turning(mechanism: Mechanism) -> Case {
     let drives = Drives::from(Drive::prescribed(0, 1, 0.0, 0.0, MotionLaw::ConstantSpeed(1.0)));
     let structure = Structure::of(&mechanism, &drives.joints()).unwrap();
