@@ -19,7 +19,7 @@ pub use piecewise::Piecewise;
 /// Vector in the plane XOY.
 pub type Vec2 = nalgebra::Vector2<f64>;
 
-/// Matrix of any size, for what is computed once and not in every pose.
+/// Matrix of any size, for quantities that are not computed in every pose.
 pub type Matrix = nalgebra::DMatrix<f64>;
 
 /// Column of any length.
