@@ -177,8 +177,7 @@ impl Case {
     }
 
     /// Writes to `out` the resultant of all loads on every link, the ground included: force at the mass centre and
-    /// moment
-    /// about it.
+    /// moment about it.
     /// Arguments as in [`Case::each_load`]; `out` has one entry per link.
     #[inline]
     pub fn loads_on(&self, motions: &[Motion], angles: &[f64], out: &mut [Wrench]) {

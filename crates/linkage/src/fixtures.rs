@@ -52,8 +52,8 @@ pub fn four_bar() -> Mechanism {
     mechanism(links, &pins).unwrap()
 }
 
-/// Reference 7: crank 1 = OA, triangles 2 = A-C-B and 5 = K-E-D, links 3 = BD and 4 = CE. B is C turned by +60 deg about A
-/// (`side_b` = 1) or by -60 deg (-1), D is E turned about K likewise.
+/// Reference 7: crank 1 = OA, triangles 2 = A-C-B and 5 = K-E-D, links 3 = BD and 4 = CE.
+/// B is C turned by +60 deg about A (`side_b` = 1) or by -60 deg (-1), D is E turned about K likewise.
 pub fn class_four(side_b: f64, side_d: f64) -> Mechanism {
     let (x, y) = (15e-3, 30e-3 * 0.75f64.sqrt());
     let links = vec![

@@ -96,7 +96,8 @@ pub struct State {
     /// Moment of the first link on the second in every joint, about the joint's place on the second (N m). 0 in
     /// revolute joints.
     pub moments: Vec<f64>,
-    /// Balancing moment on every driving link (N m), in the order of [`CaseParts::drives`](crate::case::CaseParts::drives).
+    /// Balancing moment on every driving link (N m), in the order of
+    /// [`CaseParts::drives`](crate::case::CaseParts::drives).
     pub torques: Vec<f64>,
 }
 
@@ -130,8 +131,7 @@ impl State {
 
     /// Shaking force (N) and shaking moment about the origin (N m).
     /// They are the sum of what the joints with the ground, the drives, and the springs and dampers fastened to the
-    /// ground
-    /// exert on the frame.
+    /// ground exert on the frame.
     #[must_use]
     pub fn shaking(&self, case: &Case) -> (Vec2, f64) {
         // Drives stand on the frame, so their reactions there are opposite to the balancing moments.

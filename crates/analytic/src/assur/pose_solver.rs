@@ -62,8 +62,7 @@ impl<'a> PoseSolver<'a> {
     }
 
     /// The state at the crank angle `crank` (rad, as the scenario states it) for the crank's angular velocity
-    /// `omega` (rad/s)
-    /// and acceleration `alpha` (rad/s^2).
+    /// `omega` (rad/s) and acceleration `alpha` (rad/s^2).
     /// Further drives have the speed ratios of that instant.
     /// Only stages up to `deepest` are computed. Later stages keep old values, and so do the angles: see
     /// [`PoseSolver::with_angles`].

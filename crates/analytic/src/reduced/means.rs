@@ -1,4 +1,5 @@
-//! The mechanism reduced to its driving link: moment of inertia and moment of resistance as functions of the crank angle.
+//! The mechanism reduced to its driving link: moment of inertia and moment of resistance
+//! as functions of the crank angle.
 
 use std::f64::consts::{PI, TAU};
 
@@ -60,8 +61,8 @@ const POLISHING: usize = 3;
 /// Kinks of the reduced quantities of a case.
 ///
 /// # Errors
-/// Those of [`Range::of`]; [`ErrorKind::Unsupported`] for loads against the motion of a point, and for tables that repeat together only after more than
-/// a thousand turns.
+/// Those of [`Range::of`]; [`ErrorKind::Unsupported`] for loads against the motion of a point, and for tables that
+/// repeat together only after more than a thousand turns.
 pub fn kinks(case: &Case) -> Result<Kinks> {
     if let Some(load) = case.loads.iter().find(|load| load.sensed_point().is_some()) {
         let message = format!(

@@ -227,7 +227,8 @@ pub struct RunUp {
 }
 
 impl RunUp {
-    /// Motion of the case's mechanism at the given times, with the case's wanted channels: kinetostatics with the true speed and acceleration.
+    /// Motion of the case's mechanism at the given times, with the case's wanted channels.
+    /// Kinetostatics with the true speed and acceleration.
     ///
     /// # Errors
     /// Those of [`motion`].

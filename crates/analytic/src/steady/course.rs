@@ -50,7 +50,7 @@ impl Model<'_> {
         Ok(Row { crank, inertia: found.inertia, slope: found.slope, resistance })
     }
 
-    /// Extremes over one period of the reduced moment of inertia and of the reduced moment of resistance, refined between samples.
+    /// Extremes over one period of the reduced moments of inertia and of resistance, refined between samples.
     ///
     /// # Errors
     /// [`ErrorKind::Geometry`](linkage::error::ErrorKind::Geometry) for a crank that does not turn fully.

@@ -203,7 +203,7 @@ mod tests {
             let steady = kloss.steady_speed(resistance).unwrap();
             assert!((kloss.moment_on_crank(steady) - resistance).abs() < 1e-10, "{resistance}");
         }
-        // Without resistance the motor runs at its synchronous speed, 22.51 / 0.0716 = 314.385 1/s.
+        // Its breakdown torque on the crank is 10 * 0.9 * 5 N m.
         assert_eq!(kloss.steady_speed(45.1), None);
         assert_eq!(Motor::ideal(MotorLaw::Constant { torque: 3.0 }, 1.0).steady_speed(2.0), None);
     }

@@ -24,8 +24,9 @@ impl Piecewise {
         Piecewise { knots, pieces, periodic: true }
     }
 
-    /// The periodic cubic spline through `(x, y)`, whose first two derivatives are continuous everywhere. De Boor, "A practical guide to
-    /// splines", 1978, chapter IV. The x must ascend, at least one of them, within one period.
+    /// The periodic cubic spline through `(x, y)`, whose first two derivatives are continuous everywhere.
+    /// De Boor, "A practical guide to splines", 1978, chapter IV.
+    /// The x must ascend, at least one of them, within one period.
     #[must_use]
     pub fn periodic_spline(points: &[(f64, f64)], period: f64) -> Self {
         let (knots, values) = closed(points, period);

@@ -11,7 +11,8 @@ pub const NODES: usize = 8;
 
 /// Nodes in -1 to 1 and weights of Gauss and Legendre's rule of [`NODES`] nodes, exact for polynomials of degree 15.
 ///
-/// Nodes by Newton's method on the Legendre polynomial from its asymptotic roots; weights 2 / ((1 - x^2) P'(x)^2). Abramowitz and Stegun 25.4.29.
+/// Nodes by Newton's method on the Legendre polynomial from its asymptotic roots; weights 2 / ((1 - x^2) P'(x)^2).
+/// Abramowitz and Stegun 25.4.29.
 #[must_use]
 pub fn gauss_legendre() -> [(f64, f64); NODES] {
     let n = NODES as f64;

@@ -2,7 +2,8 @@
 
 use crate::math::KeepNan;
 
-/// Quantile `q` (0 to 1) of values sorted in ascending order, linear between neighbours (type 7 of Hyndman and Fan 1996).
+/// Quantile `q` (0 to 1) of values sorted in ascending order, linear between neighbours
+/// (type 7 of Hyndman and Fan 1996).
 ///
 /// Returns 0 for an empty slice.
 #[must_use]

@@ -1,8 +1,7 @@
 //! Spanning tree of a linkage: which joint carries which link, and which joints are cut.
 //!
 //! In the tree that a run uses, prismatic joints are never cut. They close no loop by themselves, because structural
-//! analysis
-//! refuses that. So all of them fit into the tree, where they hold exactly.
+//! analysis refuses that. So all of them fit into the tree, where they hold exactly.
 //! Prismatic joints also work as cuts, with order 2.
 //! Largest error over the half range in any channel at a step of 1e-3 s, with prismatic joints kept and with the
 //! innermost joint cut whatever its kind:

@@ -207,8 +207,7 @@ mod tests {
     }
 
     /// Each error is at most one unit in the last place of 1. The standard library's part of it is at most half a
-    /// unit; the rest
-    /// is that of the vector functions.
+    /// unit; the rest is that of the vector functions.
     #[test]
     fn units_are_those_of_the_standard_library() {
         for k in -400_000..400_000 {

@@ -7,8 +7,7 @@ use linkage::mechanism::GROUND;
 use linkage::solver::State;
 
 /// Columns of one link's motion, in this order: two each for origin, direction, velocity and acceleration, one
-/// each for
-/// angular velocity and angular acceleration.
+/// each for angular velocity and angular acceleration.
 const OF_LINK: usize = 10;
 /// Places of these in a link's columns.
 pub(super) const ORIGIN: usize = 0;
@@ -123,15 +122,15 @@ impl Poses {
         if self.layout.has_moments { self.get(row, self.layout.moment(joint)) } else { 0.0 }
     }
 
-    /// Balancing moment on the driving link of the drive `drive` of [`drives`](linkage::case::CaseParts::drives) (N m), in the pose `row`.
+    /// Balancing moment on the driving link of the drive `drive` (N m), in the pose `row`.
+    /// `drive` is an index of [`drives`](linkage::case::CaseParts::drives).
     #[must_use]
     pub fn torque(&self, row: usize, drive: usize) -> f64 {
         self.get(row, self.layout.torque(drive))
     }
 
     /// Copies the pose `row` to a state of the same case. The state's angles, which count turns, stay unchanged,
-    /// as with
-    /// [`PoseSolver::solve`](crate::PoseSolver::solve).
+    /// as with [`PoseSolver::solve`](crate::PoseSolver::solve).
     pub fn copy_to(&self, row: usize, state: &mut State) {
         for (link, motion) in state.motions.iter_mut().enumerate() {
             *motion = self.motion(row, link);

@@ -1,8 +1,7 @@
 //! Joint reactions group by group, last group first, and the balancing moment from the driving link's equilibrium.
 //!
 //! D'Alembert: every link carries m (g - a) at its mass centre, the moment -J alpha, its loads, and the forces of
-//! the
-//! groups attached to it. There is one file per kind of group.
+//! the groups attached to it. There is one file per kind of group.
 
 mod body;
 mod higher;

@@ -64,8 +64,7 @@ impl Rrr {
     }
 
     /// World vectors from the outer joints of the group's first and second link to the inner joint (m), and the
-    /// inverse of their vector
-    /// product (1/m^2). Positions and velocities must be known.
+    /// inverse of their vector product (1/m^2). Positions and velocities must be known.
     #[inline]
     #[must_use]
     pub fn spans(&self) -> ([Vec2; 2], f64) {

@@ -36,8 +36,7 @@ impl Structure {
     ///
     /// # Errors
     /// [`ErrorKind::Input`] if links have no connection to the ground, if the mobility is not the number of drives, or
-    /// if a
-    /// part is over-constrained while another is free.
+    /// if a part is over-constrained while another is free.
     /// [`ErrorKind::Unsupported`] if a drive does not act on a link hinged to the ground.
     pub fn of(mechanism: &Mechanism, drives: &[usize]) -> Result<Self> {
         check_connected(mechanism)?;
@@ -139,8 +138,7 @@ fn check_connected(mechanism: &Mechanism) -> Result<()> {
 }
 
 /// Refuses closed loops of prismatic pairs alone: such a loop fixes the angle between its links twice and leaves it
-/// free
-/// to slide.
+/// free to slide.
 fn check_sliders(mechanism: &Mechanism) -> Result<()> {
     let mut part: Vec<usize> = (0..mechanism.links().len()).collect();
     for joint in mechanism.joints().iter().filter(|joint| joint.keeps_angle()) {

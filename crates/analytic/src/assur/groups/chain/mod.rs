@@ -91,8 +91,7 @@ pub struct Chain {
     size: f64,
     is_sliding: bool,
     /// Changes of the unknowns in the last steps, the newest first; how many of these steps had the same size; and
-    /// that size
-    /// (rad of the driving angle).
+    /// that size (rad of the driving angle).
     turned: Vec<[f64; MEMORY]>,
     equal_steps: usize,
     last_step: f64,

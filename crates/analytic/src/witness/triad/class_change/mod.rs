@@ -84,7 +84,8 @@ pub struct ClassChange {
     /// Head of lead 3 in the base link's frame, and its length (m).
     third: Vec2,
     length: f64,
-    /// Vectors from foot to head in the frames of the triad's leads, and between the heads of the ground leads in that of the base link.
+    /// Vectors from foot to head in the frames of the triad's leads, then the vector between the heads of the ground leads
+    /// in the frame of the base link.
     locals: [Vec2; 4],
     crank: f64,
     /// World vectors from foot to head of the ground leads.
@@ -204,7 +205,8 @@ impl ClassChange {
         let turn = zero(gap, expected)?;
         let place = chain.place(rotated(unit(turn), before.driver))?;
         let found = self.transfer(driver, &place, closing(&place), pin);
-        // q . F' times the first dyad's area is the determinant of the group; exchanging the ground leads exchanges two columns.
+        // q . F' times the first dyad's area is the determinant of the group.
+        // Exchanging the ground leads exchanges two columns.
         let sense = if driver == 0 { 1.0 } else { -1.0 };
         let branch = (closing(&place).dot(&place.slopes().third[0]) * place.sine() * sense).signum();
         let near = |k: usize| {

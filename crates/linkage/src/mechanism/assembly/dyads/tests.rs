@@ -72,7 +72,8 @@ impl Case {
                 (a + b - c).smaller(a + c - b).smaller(b + c - a)
             }
             GroupKind::Rrp => {
-                // Squared distance of the inner joint from the outer pin as a function of the slide, a parabola by three values.
+                // Squared distance of the inner joint from the outer pin as a function of the slide:
+                // a parabola through three values.
                 let (slider, outer, rod, pin) = if self.joint(0).slides() { (3, 0, 4, 2) } else { (4, 2, 3, 0) };
                 let mut pose = self.with_turned(self.pose.clone(), outer, slider);
                 let axis = self.axis(&pose, outer);
@@ -91,7 +92,8 @@ impl Case {
                 rod.norm() - least.larger(0.0).sqrt()
             }
             GroupKind::Rpr => {
-                // Distance from the line as a function of the common angle: a harmonic plus a constant, by three values.
+                // Distance from the line as a function of the common angle: a harmonic plus a constant,
+                // from three values.
                 let off = |angle: f64| {
                     let mut pose = self.pose.clone();
                     pose.0[3].angle = angle;
