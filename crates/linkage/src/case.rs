@@ -45,7 +45,8 @@ impl Case {
     /// # Errors
     /// All errors name the part at fault as key.
     /// [`ErrorKind::Input`](crate::ErrorKind::Input) if drives, loads, start pose or modes do not belong to the
-    /// mechanism, if one of their numbers is NaN or infinite, or if the structure is not that of mechanism and drives.
+    /// mechanism, or if one of their numbers is NaN or infinite.
+    /// The same if the structure is not that of mechanism and drives.
     /// [`ErrorKind::Geometry`](crate::ErrorKind::Geometry) if the start pose leaves a joint open or a driving link off
     /// its angle.
     /// [`ErrorKind::Unsupported`](crate::ErrorKind::Unsupported) for a combination of drives that this version does not

@@ -147,8 +147,8 @@ impl<'a> Model<'a> {
     }
 
     /// Angle (rad) to subtract so that the crank angle stays small. Small angles keep their last digits.
-    /// It is the period if `crank` is the end of the last piece going up, minus the period if it is the beginning of
-    /// the first piece going down, and otherwise zero.
+    /// Going up, it is the period if `crank` is at the end of the last piece.
+    /// Going down, it is minus the period if `crank` is at the beginning of the first piece. Otherwise it is zero.
     pub(crate) fn wrap(&self, crank: f64, way: f64) -> f64 {
         let first = self.boundaries[0];
         match self.kinks.period {

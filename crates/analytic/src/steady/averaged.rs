@@ -24,9 +24,10 @@ impl Averaged {
     /// The model of a motor with a moment of inertia on the crank (kg m^2, including rotor, reducer and flywheel) and a
     /// moment of resistance (N m, positive where the motor must work against it).
     ///
-    /// `None` where this closed form does not exist: the law is not linear, the motor does not start against the
-    /// resistance, or the resistance drives the motor beyond its no-load speed through a reducer with losses, where the
-    /// line has a bend.
+    /// `None` where this closed form does not exist: the law is not linear, or the motor does not start against
+    /// the resistance.
+    /// Also `None` where the resistance drives the motor beyond its no-load speed through a reducer with losses: the line
+    /// has a bend there.
     #[must_use]
     pub fn of(motor: &Motor, inertia: f64, resistance: f64) -> Option<Self> {
         let MotorLaw::Linear { .. } = motor.law else { return None };

@@ -1,7 +1,7 @@
 //! The equations of driving links and RRR dyads for several poses at once.
 //!
-//! They are those of [`crate::assur::groups::Rrr`] for motions and of the module `reference::kinetostatics` for
-//! forces, where their sources are named. Arms of forces start at the pole in the link's frame, so that places in the
+//! They are those of [`crate::assur::groups::Rrr`] for motions and of the module `assur::forces` for forces,
+//! where their sources are named. Arms of forces start at the pole in the link's frame, so that places in the
 //! world are not needed.
 
 use pulp::Simd;

@@ -1,6 +1,6 @@
 //! First transfer functions and angular accelerations of the group's links by Cramer's rule.
 //!
-//! The two vector contours A_1 B_1 B_k A_k, k = 2, 3, of leads and base link are
+//! Leads and base link have the two vector contours A_1 B_1 B_k A_k, k = 2, 3:
 //! `l_1 e(alpha_1) + b_k e(alpha_4 + beta_k) = A_1 A_k + l_k e(alpha_k)`.
 //! Differentiated by the crank angle (or by time), they give four linear equations for alpha_1' .. alpha_4', with the
 //! velocities of the feet on the right.

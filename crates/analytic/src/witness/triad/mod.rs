@@ -100,8 +100,8 @@ impl Triad {
     }
 
     /// The known forces on each link before the group's reactions.
-    /// They are gravity and inertia m (g - a) at the mass centre, the moment -J alpha, loads, and the forces in the
-    /// joints with later groups, taken from the state.
+    /// They are gravity and inertia m (g - a) at the mass centre, the moment -J alpha, and loads.
+    /// The forces in the joints with later groups are taken from the state.
     #[must_use]
     pub fn known(&self, case: &Case, state: &State) -> [Known; 4] {
         let (motions, forces) = (&state.motions, &state.forces);
