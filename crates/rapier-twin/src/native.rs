@@ -33,7 +33,7 @@ pub(super) struct Native {
     reporters: Vec<usize>,
     ghost: Option<Ghost>,
     row: Vec<f64>,
-    /// Lowest step at or before which a reading may be interpolated.
+    /// Lowest step from which a reading may be interpolated: the one at or before its instant.
     lowest: i64,
 }
 
