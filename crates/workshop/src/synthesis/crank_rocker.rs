@@ -142,7 +142,8 @@ fn check(wish: &Wish) -> Result<()> {
 }
 
 /// Smallest transmission angle (rad) of a four-bar (frame, crank, coupler, rocker), and its crank angle (rad).
-/// It has its extremes where the crank is on the line of the pivots (Alt 1932): A is then nearest to C, or farthest from it.
+/// It has its extremes where the crank is on the line of the pivots (Alt 1932).
+/// A is then nearest to C, or farthest from it.
 fn transmission([frame, crank, coupler, rocker]: [f64; 4], line: Vec2) -> (f64, f64) {
     let at = |distance: f64| {
         let cos = (coupler.powi(2) + rocker.powi(2) - distance * distance) / (2.0 * coupler * rocker);

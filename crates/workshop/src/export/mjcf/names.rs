@@ -20,7 +20,8 @@ impl Names {
     /// Checks that all names are unique in MuJoCo.
     ///
     /// # Errors
-    /// [`ErrorKind::Unsupported`] for a link with MuJoCo's name for the ground, two sites with the same name, or an empty name.
+    /// [`ErrorKind::Unsupported`] in these cases:
+    /// a link has MuJoCo's name for the ground, two sites have the same name, or a name is empty or has control characters.
     pub fn check(mechanism: &Mechanism) -> Result<()> {
         let unsupported = |message: String, key: String| {
             let error = Error::new(ErrorKind::Unsupported, message).key(key);

@@ -29,7 +29,8 @@ pub(super) fn of_share(share: f64, variable: &Variable) -> f64 {
     low + share * (high - low)
 }
 
-/// The variable that is the crank's zero, if it is unbounded. It is then periodic and shifts the motion in time.
+/// The variable that is the crank's zero, if its bounds span a full turn and no group is a higher one.
+/// It is then periodic, and shifts the motion along the crank angle.
 pub(super) fn free_zero(task: &Task) -> Option<usize> {
     let Entry::Free(index) = task.zero else { return None };
     let [low, high] = task.variables[index].bounds;
