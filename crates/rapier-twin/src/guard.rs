@@ -110,7 +110,7 @@ impl<'a> Guard<'a> {
 
     /// Sets all drives for a step between two times (s).
     /// Links with prescribed motion get their speed over the step.
-    /// Free ones get `motor`: target speed (rad/s) and damping (N m s/rad).
+    /// A free crank gets `motor`: target speed (rad/s) and damping (N m s/rad). Other free links get no motor.
     pub(super) fn drive_freely(&mut self, [from, to]: [f64; 2], motor: [f64; 2]) {
         for (index, drive) in self.case.drives.iter().enumerate() {
             match (&drive.motion, index) {

@@ -28,7 +28,7 @@ const MEAN_HALF_ULP: f64 = 0.25;
 /// Rounding of the speed change that an impulse makes, in units in the last place.
 /// It is the rounding of a speed times the condition number of the loop it is read from.
 /// On the crank-rocker in f32, 3100 and 3570 were measured at 1e-3 s and 2.5e-4 s (in the impulse build 557 and 570).
-/// The bound is twice that.
+/// The bound is about twice that.
 const IMPULSE_ULPS: f64 = 8000.0;
 /// The same for a probe, which subtracts one reading from twice another: 4450 and 7080 were measured, doubled.
 const PROBE_ULPS: f64 = 16000.0;

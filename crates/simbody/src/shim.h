@@ -18,7 +18,7 @@ typedef struct linkproof_body {
     int slides;            /* 0: pin, its coordinate is the angle of the child relative to its parent; else: slider. */
     double on_parent[2];   /* Position of the joint on the parent, then on the child. */
     double on_child[2];
-    double axis_parent[2]; /* Unit vectors of a slider's axis; its coordinate is measured from the parent's point. */
+    double axis_parent[2]; /* Unit vectors of a slider's axis; its coordinate is the distance along it from the parent's point. */
     double axis_child[2];
     double mass;
     double centre[2];
