@@ -16,7 +16,7 @@ pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         .map(|(_, candidate)| candidate)
 }
 
-/// `a, b or c`, each word between the marks `quote`, and escaped as in Rust if `quote` is a quotation mark.
+/// `a, b or c`, each word between two marks `quote`.
 #[must_use]
 pub fn choice<'a>(words: impl IntoIterator<Item = &'a str>, quote: &str) -> String {
     let words: Vec<String> = words.into_iter().map(|word| format!("{quote}{word}{quote}")).collect();
