@@ -67,7 +67,8 @@ impl EngineName {
     /// engine that controls its error at an accuracy of its own.
     ///
     /// # Errors
-    /// [`ErrorKind::Unsupported`](linkage::ErrorKind::Unsupported) if this build does not have it, with the feature that it needs.
+    /// [`ErrorKind::Unsupported`](linkage::ErrorKind::Unsupported) if this build does not have it, with the feature
+    /// that it needs.
     pub fn with_step(self, step: f64) -> Result<Box<dyn Engine>> {
         let rapier =
             |build, precision| -> Result<Box<dyn Engine>> { Ok(Box::new(Rapier::new(build, precision, step))) };

@@ -66,7 +66,8 @@ pub(super) struct Args {
     /// Speed of the crank at the start of the run-up, in turns per minute, counter-clockwise positive
     #[arg(long, value_name = "RPM", default_value = "0", allow_hyphen_values = true, requires = "run_up")]
     from_rpm: f64,
-    /// Draw the reduced quantities and the steady motion over the crank angle to a file, or to standard output instead of the text with `-`
+    /// Draw the reduced quantities and the steady motion over the crank angle to a file, or to standard output instead
+    /// of the text with `-`
     #[arg(long, value_name = "FILE", value_parser = output::target)]
     svg: Option<PathBuf>,
     /// Write everything as JSON to a file, or to standard output instead of the text with `-`

@@ -12,7 +12,8 @@ const ALL: &str = "all";
 /// The engines and their settings.
 #[derive(Clone, Debug, clap::Args)]
 pub(super) struct EngineArgs {
-    /// Engine, or `all` to run every one side by side. May be given several times [default: the scenario's, else the first]
+    /// Engine, or `all` to run every one side by side. May be given several times [default: the scenario's, else the
+    /// first]
     #[arg(long, value_name = "ENGINE", value_parser = PossibleValuesParser::new(names_and_all()))]
     pub(super) engine: Vec<String>,
     /// Time step of the engine in seconds [default: the scenario's]

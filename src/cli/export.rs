@@ -24,7 +24,8 @@ pub(super) struct Args {
     /// Scenario file
     #[arg(value_name = "FILE")]
     file: PathBuf,
-    /// Write MJCF to a file, to standard output with `-`, to NAME.xml in this directory without a value; NAME is the scenario's
+    /// Write MJCF to a file, to standard output with `-`, to NAME.xml in this directory without a value; NAME is the
+    /// scenario's
     #[arg(long, value_name = "PATH", required = true, num_args = 0..=1, value_parser = output::target)]
     mjcf: Option<Option<PathBuf>>,
     /// Time step in seconds that the file starts with [default: the scenario's]

@@ -56,7 +56,8 @@ enum Command {
     Solve(solve::Args),
     /// Find the cheapest settings of an engine that meet a wanted error, by measurement
     Tune(tune::Args),
-    /// Show the structure of a mechanism: links, joints, mobility, driving link and Assur groups; its configurations; its range of motion
+    /// Show the structure of a mechanism: links, joints, mobility, driving link and Assur groups; its configurations;
+    /// its range of motion
     Inspect(inspect::Args),
     /// Largest reactions over the range of the grid, and the smallest journals that carry them
     Bearings(bearings::Args),

@@ -150,7 +150,8 @@ impl Scenario {
     /// scenario's own pose.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] if a group, its mode or its number is not known; those of [`first_choices`] for the groups after it.
+    /// [`ErrorKind::Input`] if a group, its mode or its number is not known; those of [`first_choices`] for the groups
+    /// after it.
     pub fn with_modes(&self, asked: &[String]) -> Result<Scenario> {
         let mut changed = self.clone();
         let case = &self.case;

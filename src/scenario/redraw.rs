@@ -15,7 +15,8 @@ fn rounded(value: f64, parts: f64) -> f64 {
     (value * parts).round() / parts
 }
 
-/// Values of a task's variables (SI), rounded as [`redrawn`] writes them: to a micrometre and a ten thousandth of a degree.
+/// Values of a task's variables (SI), rounded as [`redrawn`] writes them: to a micrometre and a ten thousandth of a
+/// degree.
 #[must_use]
 pub fn round_values(task: &Task, values: &[f64]) -> Vec<f64> {
     let round = |(value, variable): (&f64, &workshop::task::Variable)| match variable.is_angle {

@@ -30,7 +30,8 @@ impl TaskFile {
     /// Reads the synthesis file at `path` and the scenario that it names, which is searched in the same directory.
     ///
     /// # Errors
-    /// [`ErrorKind::Io`] if a file cannot be read, [`ErrorKind::Input`] for anything wrong in it, and those of [`Scenario::load`] and [`Task::check`].
+    /// [`ErrorKind::Io`] if a file cannot be read, [`ErrorKind::Input`] for anything wrong in it, and those of
+    /// [`Scenario::load`] and [`Task::check`].
     pub fn load(path: &Path) -> Result<Self> {
         let text = std::fs::read_to_string(path).map_err(|error| {
             Error::new(ErrorKind::Io, format!("the synthesis file {} cannot be read: {error}", path.display()))

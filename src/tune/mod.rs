@@ -51,11 +51,12 @@ pub struct Tuning {
     pub runs: usize,
 }
 
-/// Finds the cheapest settings of the engines in `options` that meet the wish. Settings that the options fix stay as they are.
+/// Finds the cheapest settings of the engines in `options` that meet the wish. Settings that the options fix stay as
+/// they are.
 ///
 /// # Errors
-/// [`ErrorKind::Input`] if the wish or a channel makes no sense; [`ErrorKind::Numeric`] if no engine meets the wish, with how far each
-/// comes; those of the analytic solver.
+/// [`ErrorKind::Input`] if the wish or a channel makes no sense; [`ErrorKind::Numeric`] if no engine meets the wish,
+/// with how far each comes; those of the analytic solver.
 pub fn tune(
     scenario: &Scenario,
     wish: &Wish,

@@ -42,7 +42,8 @@ fn val_ov7_base_every_printed_number_by_both_sides() {
     let scenario = scenario("ov7_base");
     let cells: Vec<usize> =
         scenario.oracles.iter().map(|oracle| oracle.series.iter().map(|series| series.points.len()).sum()).collect();
-    // Positions, velocities, accelerations of five points in two directions, and three tables of seven angles, at 13 angles.
+    // Positions, velocities, accelerations of five points in two directions, and three tables of seven angles, at 13
+    // angles.
     assert_eq!(cells, [130, 130, 130, 91, 91, 91]);
     assert!(
         scenario.oracles.iter().all(|oracle| oracle.series.iter().all(|s| s.expected.is_empty() && s.wrong.is_none()))

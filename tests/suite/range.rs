@@ -41,7 +41,8 @@ fn crank_at(d: f64, a: f64, reach: f64) -> Option<f64> {
     (0.0..=1.0).contains(&square).then(|| 2.0 * square.sqrt().asin())
 }
 
-/// The interval of crank angles around `start` (in the upper half plane or symmetrical about 0 or 180 deg) in which |b - c| <= |AC| <= b + c.
+/// The interval of crank angles around `start` (in the upper half plane or symmetrical about 0 or 180 deg) in which |b
+/// - c| <= |AC| <= b + c.
 fn closed_form([d, a, b, c]: [f64; 4], start: f64) -> Option<[f64; 2]> {
     let (stretched, folded) = (crank_at(d, a, b + c), crank_at(d, a, (b - c).abs()));
     match (folded, stretched) {
@@ -53,7 +54,8 @@ fn closed_form([d, a, b, c]: [f64; 4], start: f64) -> Option<[f64; 2]> {
     }
 }
 
-/// A crank angle in [0, 180] deg at which the four-bar can be assembled and is far from any dead point, if there is one.
+/// A crank angle in [0, 180] deg at which the four-bar can be assembled and is far from any dead point, if there is
+/// one.
 fn start_of(lengths: [f64; 4]) -> Option<f64> {
     let [d, a, b, c] = lengths;
     let cosine = |phi: f64| (b * b + c * c - a * a - d * d + 2.0 * a * d * phi.cos()) / (2.0 * b * c);

@@ -133,7 +133,8 @@ fn val_six_bar_slider_stands_highest_where_the_rocker_is_upright() {
     }
 }
 
-/// x, v, a of a point by both solvers against a closed form, each relative to its largest value, and the other coordinate constant.
+/// x, v, a of a point by both solvers against a closed form, each relative to its largest value, and the other
+/// coordinate constant.
 fn assert_closed_form(name: &str, point: &str, axis: usize, other: f64, form: impl Fn(f64) -> [f64; 3]) {
     let case = shipped(name).case;
     for rows in solved(&case) {
@@ -255,7 +256,8 @@ fn by_cramer([a1, a2, a3, a4]: [f64; 4], crank: f64) -> [f64; 4] {
     })
 }
 
-/// First and second transfer functions by Cramer's rule and by fourth-order central differences of angles and of first transfer functions.
+/// First and second transfer functions by Cramer's rule and by fourth-order central differences of angles and of first
+/// transfer functions.
 #[test]
 fn val_class3_group_transfer_functions() {
     let (h, speed) = (1e-3, 10.0);

@@ -1,7 +1,8 @@
 //! Sixty study variants: the files of scenarios/variants60 are the output of this generator, and their statements are
 //! true.
 //!
-//! `LINKPROOF_WRITE=1 cargo test --release --test suite variants60::` writes the files and the table of docs/variants60.md.
+//! `LINKPROOF_WRITE=1 cargo test --release --test suite variants60::` writes the files and the table of
+//! docs/variants60.md.
 
 mod file;
 mod geometry;

@@ -116,8 +116,8 @@ const SLIDER_PLACE: Vec2 = Vec2::new(0.02, 0.015);
 
 /// RRP: crank 0.1 m, rod 0.35 m, slider whose pin moves on a line 0.02 m beside the crank's pivot.
 ///
-/// With the crank at phi from the guide and sin(beta) = (e - a sin(phi)) / l: s = a cos(phi) + l cos(beta); both derived twice
-/// (the formulas of a piston compressor, here with an offset).
+/// With the crank at phi from the guide and sin(beta) = (e - a sin(phi)) / l: s = a cos(phi) + l cos(beta); both
+/// derived twice (the formulas of a piston compressor, here with an offset).
 pub fn slider_crank() -> Sample {
     // The place on the slider and the place on the guide are both off the pin's path.
     let from_pin = rotated(unit(-SLIDER_AXIS), SLIDER_PLACE);
@@ -182,8 +182,8 @@ const BLOCK_PLACE: Vec2 = Vec2::new(-0.01, 0.02);
 
 /// RPR: crank 0.1 m, block on its pin, sliding on a rocker about (0.25, 0.05).
 ///
-/// With the guide at eta, A = C + t e + h n (h constant): v . n = t eta', v . e = t' - h eta', a . n = t eta'' + 2 t' eta' - h eta'^2,
-/// a . e = t'' - t eta'^2 - h eta''.
+/// With the guide at eta, A = C + t e + h n (h constant): v . n = t eta', v . e = t' - h eta', a . n = t eta'' + 2 t'
+/// eta' - h eta'^2, a . e = t'' - t eta'^2 - h eta''.
 pub fn swinging_guide() -> Sample {
     let links = vec![
         link("ground", &[("O", Vec2::zeros()), ("C", PIVOT)], [0.0; 4]),

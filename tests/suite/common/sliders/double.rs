@@ -15,8 +15,8 @@ const SLOT: Vec2 = Vec2::new(0.03, -0.02);
 
 /// RPP: crank 0.1 m, block on its pin, sliding in the oblique slot of a yoke that slides on the ground.
 ///
-/// The block's place Q = A + const stays on the slot: with the slot's normal m, s = m . (Q - G - slot) / m . g; both derivatives are
-/// those of A.
+/// The block's place Q = A + const stays on the slot: with the slot's normal m, s = m . (Q - G - slot) / m . g; both
+/// derivatives are those of A.
 pub fn scotch_yoke() -> Sample {
     let links = vec![
         link("ground", &[("O", Vec2::zeros()), ("G", YOKE_GUIDE)], [0.0; 4]),
@@ -56,8 +56,8 @@ const CRANK_PLACE: Vec2 = Vec2::new(0.05, 0.02);
 
 /// PRP: block sliding on the crank, pinned to a slider on the ground.
 ///
-/// The pin B = L + s g lies h beside the crank's axis e: n . (L + s g) = h, so s = (h - n . L) / n . g; with n' = -w e and s' from n . B = h:
-/// s' n . g = w e . B and s'' n . g = 2 w s' e . g + w^2 n . B.
+/// The pin B = L + s g lies h beside the crank's axis e: n . (L + s g) = h, so s = (h - n . L) / n . g; with n' = -w e
+/// and s' from n . B = h: s' n . g = w e . B and s'' n . g = 2 w s' e . g + w^2 n . B.
 pub fn slotted_crank() -> Sample {
     let links = vec![
         link("ground", &[("O", Vec2::zeros()), ("L", LINE)], [0.0; 4]),
