@@ -41,8 +41,8 @@ fn crank_at(d: f64, a: f64, reach: f64) -> Option<f64> {
     (0.0..=1.0).contains(&square).then(|| 2.0 * square.sqrt().asin())
 }
 
-/// The interval of crank angles around `start` (in the upper half plane or symmetrical about 0 or 180 deg) in which |b
-/// - c| <= |AC| <= b + c.
+/// The interval of crank angles around `start` in which |b - c| <= |AC| <= b + c. `start` is in the upper half plane,
+/// or the interval is symmetrical about 0 or 180 deg.
 fn closed_form([d, a, b, c]: [f64; 4], start: f64) -> Option<[f64; 2]> {
     let (stretched, folded) = (crank_at(d, a, b + c), crank_at(d, a, (b - c).abs()));
     match (folded, stretched) {

@@ -217,8 +217,8 @@ impl Spec {
     }
 }
 
-/// A four-bar O-A-B-C with links along their x axes: crank, coupler and rocker of the given lengths on pivots O = (0,
-/// 0) and C = (`base`, 0); slender rods of 10 kg/m.
+/// A four-bar O-A-B-C with links along their x axes: crank, coupler and rocker of the given lengths.
+/// Pivots O = (0, 0) and C = (`base`, 0); slender rods of 10 kg/m.
 pub fn four_bar([base, crank, coupler, rocker]: [f64; 4], left: bool) -> Spec {
     let rod = |name: &str, [from, to]: [&str; 2], length: f64| Body {
         name: name.into(),
