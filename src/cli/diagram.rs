@@ -32,7 +32,7 @@ pub(super) struct Args {
     /// Position or angle, named as in `linkproof list --channels`
     #[arg(long, value_name = "NAME")]
     channel: String,
-    /// Equal divisions of the crank's turn
+    /// Number of equal divisions of one crank turn
     #[arg(long, value_name = "N", default_value_t = 12)]
     divisions: usize,
     /// Analytic solver
@@ -101,7 +101,7 @@ fn as_text(scenario: &Scenario, diagram: &MotionDiagram) -> String {
     text
 }
 
-/// One row a point: which method, where, what it found and what is true; 17 significant digits.
+/// One row per point: the method, the place, the value it found and the true value; 17 significant digits.
 fn as_csv(diagram: &MotionDiagram) -> String {
     let mut text = String::from("method,channel,crank_rad,t_s,value,exact\n");
     for found in &diagram.found {
@@ -116,7 +116,7 @@ fn as_csv(diagram: &MotionDiagram) -> String {
     text
 }
 
-/// A name of the scenario's own choice as a CSV cell.
+/// A name chosen in the scenario, quoted as a CSV cell.
 fn quoted(name: &str) -> String {
     if name.contains([',', '"', '\n', '\r']) { format!("\"{}\"", name.replace('"', "\"\"")) } else { name.into() }
 }

@@ -42,7 +42,7 @@ pub(super) struct Args {
     /// Scenario file
     #[arg(value_name = "FILE")]
     file: PathBuf,
-    /// Start a group in another mode than the file says, as in `linkproof run`
+    /// Start a group in another assembly mode than the file states, as in `linkproof run`
     #[arg(long, value_name = "LINK,LINK=MODE")]
     mode: Vec<String>,
     /// Find the flywheel on the crank's shaft for this coefficient of non-uniformity
@@ -60,13 +60,14 @@ pub(super) struct Args {
     /// Duration of the run-up
     #[arg(long, value_name = "S", default_value = "0.5", allow_hyphen_values = true, requires = "run_up")]
     seconds: f64,
-    /// Equal parts of the run-up, at whose ends it is written
+    /// Number of equal time intervals of the run-up; a row is written at both ends of each
     #[arg(long, value_name = "N", default_value = "500", requires = "run_up")]
     points: usize,
-    /// Speed of the crank at its start, in turns a minute, counter-clockwise positive
+    /// Speed of the crank at the start of the run-up, in turns per minute, counter-clockwise positive
     #[arg(long, value_name = "RPM", default_value = "0", allow_hyphen_values = true, requires = "run_up")]
     from_rpm: f64,
-    /// Draw the reduced quantities and the steady motion over the crank angle to a file, or to standard output instead of the text with `-`
+    /// Draw the reduced quantities and the steady motion over the crank angle to a file, or to standard output instead
+    /// of the text with `-`
     #[arg(long, value_name = "FILE", value_parser = output::target)]
     svg: Option<PathBuf>,
     /// Write everything as JSON to a file, or to standard output instead of the text with `-`
@@ -76,19 +77,19 @@ pub(super) struct Args {
     choice: motor_choice::Args,
 }
 
-/// Most rows of a table or a run-up.
+/// Largest number of rows of a table or a run-up.
 const MOST_ROWS: f64 = 1e6;
 
-/// What is known of a drive.
+/// What is known about a drive.
 struct Found {
     means: Means,
     extremes: [Extremes; 2],
-    /// Inertia of motor and reducer on the crank (kg m^2).
+    /// Moment of inertia that motor and reducer add to the crank (kg m^2).
     added: f64,
     rows: Vec<Row>,
-    /// Speeds of crank and motor of the averaged model, and the steady motion; where there is a motor.
+    /// Speeds of crank and motor by the averaged model, and the steady motion; `None` without a motor.
     steady: Option<([f64; 2], Regime)>,
-    /// The averaged model in closed form, where it has one.
+    /// The averaged model, if it has a closed form.
     averaged: Option<Averaged>,
     flywheel: Option<Flywheel>,
 }

@@ -9,10 +9,11 @@ use linkage::error::Result;
 use linkage::math::KeepNan;
 use workshop::diagram::{Graph, Graphs, Mark, draw};
 
-/// Equal parts of the period, at whose ends graphs have points: half a degree over one turn.
+/// Number of equal intervals between the points of a graph over the period: half a degree each over one turn.
 const PARTS: u32 = 720;
 
-/// The graphs as an SVG document. `extremes`: of inertia and resistance; `steady`: the steady motion, where there is a motor.
+/// The graphs as an SVG document. `extremes`: of inertia and resistance. `steady`: the steady motion, if there is a
+/// motor.
 pub(super) fn draw(
     scenario: &Scenario,
     model: &Model,
@@ -39,9 +40,9 @@ pub(super) fn draw(
     let mut graphs = vec![
         reduced(["reduced moment of inertia", "I*", "kg m^2"], |row| row.inertia, means.inertia, &extremes[0]),
         Graph {
-            // A constant inertia has a derivative of roundings.
+            // If the inertia is constant, its derivative is only rounding.
             size: extremes[0].greatest.1.larger(slope.greatest.1),
-            // After a period the inertia is what it was.
+            // The inertia is periodic, so the mean of its derivative is zero.
             ..reduced(["derivative of the reduced moment of inertia", "dI*/dφ", "kg m^2"], |row| row.slope, 0.0, &slope)
         },
         reduced(
@@ -59,7 +60,7 @@ pub(super) fn draw(
         let regime = model.regime_at(steady, &even, ACCURACY)?;
         let mut marks = [("slowest", regime.slowest), ("fastest", regime.fastest)]
             .map(|(word, at)| Mark { at: [at.crank, at.omega], word });
-        // The lower one on paper comes first.
+        // The lower mark in the drawing comes first.
         marks.sort_by(|a, b| a.at[1].total_cmp(&b.at[1]));
         graphs.push(Graph {
             name: "angular velocity of the crank in the steady motion",

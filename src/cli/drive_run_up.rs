@@ -5,7 +5,7 @@ use std::fmt::Write;
 use analytic::reduced::{End, RunUp};
 use linkage::error::{Error, ErrorKind, Result};
 
-/// How a run-up ended.
+/// Describes how a run-up ended.
 pub(super) fn told(run_up: &RunUp) -> String {
     let mut text = match run_up.end {
         End::Reached => "run-up followed to its end".to_string(),
@@ -21,7 +21,7 @@ pub(super) fn told(run_up: &RunUp) -> String {
     text
 }
 
-/// One row an instant: the crank, the motor's moment, then all wanted channels; 17 significant digits.
+/// One row per instant: the crank, the motor's moment, then all wanted channels; 17 significant digits.
 pub(super) fn csv(run_up: &RunUp) -> Result<String> {
     let failed = |error: csv::Error| Error::new(ErrorKind::Io, format!("the table cannot be written: {error}"));
     let mut writer = csv::Writer::from_writer(Vec::new());

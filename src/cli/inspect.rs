@@ -29,7 +29,8 @@ pub(super) struct Args {
     /// List all real configurations of every group, with angles, angular velocities and places of points
     #[arg(long)]
     modes: bool,
-    /// Show over which crank angles the mechanism can be followed, its singular and extreme positions, and its transmission angles
+    /// Show the crank angles over which the mechanism can be followed, its singular and extreme positions, and its
+    /// transmission angles
     #[arg(long, conflicts_with = "modes")]
     range: bool,
     /// Crank angle for --modes in degrees, as the scenario states it [default: that of the start]
@@ -126,7 +127,7 @@ fn as_text(scenario: &Scenario) -> String {
     text
 }
 
-/// How far the configuration lies from the rough places, and how far the next one.
+/// How far the configuration is from the rough places given in the file, and how far the next one is.
 fn from_rough_place(choice: &Choice) -> String {
     let mm = |distance: f64| format!("{:.*} mm", if distance < 0.01 { 1 } else { 0 }, distance * 1e3);
     match (choice.nearest_m, choice.next_m) {

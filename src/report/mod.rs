@@ -1,4 +1,4 @@
-//! What a proof looks like: pure functions of a [`crate::proof::Proof`].
+//! Presentation of a proof: pure functions of a [`crate::proof::Proof`].
 
 mod cells;
 mod engines;

@@ -34,12 +34,6 @@ impl Deref for Case {
 }
 
 impl Case {
-    /// Starts a case that is written in code, link by link.
-    #[must_use]
-    pub fn builder() -> CaseBuilder {
-        CaseBuilder::new()
-    }
-
     /// The case of these parts.
     ///
     /// # Errors

@@ -1,4 +1,4 @@
-//! What is told of a motion and its timing: text, JSON, picture.
+//! Reports on a motion and its timing: text, JSON, picture.
 
 use std::fmt::Write;
 
@@ -26,7 +26,7 @@ fn stroke(task: &Task, achieved: &Achieved) -> String {
     }
 }
 
-/// The figures that count, in two lines.
+/// The main figures, in two lines.
 pub(super) fn summary(task: &Task, achieved: &Achieved) -> String {
     format!(
         "Stroke {}{}. Largest motion in a dwell {:.3} % of the stroke,\n\
@@ -120,7 +120,7 @@ pub(super) fn json(story: &Story) -> Value {
     })
 }
 
-/// The picture's data: a point every degree and the wanted curve, where it is known.
+/// Data of the picture: a point every degree, and the wanted curve where it is known.
 pub(super) fn diagram(story: &Story) -> TimingDiagram {
     let (task, achieved) = (story.task, story.achieved);
     let rows = (0..achieved.turns.len()).step_by((achieved.turns.len() / 720).max(1));

@@ -3,49 +3,8 @@
 use std::fmt;
 
 use super::reading::{OfDrive, OfFrame, OfJoint, OfLink, OfPoint, OfSlider, Reading};
+use super::subject::Subject;
 use super::unit::Unit;
-
-/// What a channel belongs to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Subject {
-    /// A link; positions are those of its mass centre.
-    Link,
-    /// A named point.
-    Point,
-    /// A joint.
-    Joint,
-    /// A prismatic joint: the additional rows besides those of any joint.
-    Slider,
-    /// The frame. All joints with the ground and the drive act on it.
-    Frame,
-    /// The drive.
-    Drive,
-    /// A further drive, named after its joint.
-    Motor,
-}
-
-impl Subject {
-    /// Whether a mechanism has exactly one of it, so that it needs no name.
-    #[must_use]
-    pub fn is_whole(self) -> bool {
-        match self {
-            Subject::Frame | Subject::Drive => true,
-            Subject::Link | Subject::Point | Subject::Joint | Subject::Slider | Subject::Motor => false,
-        }
-    }
-
-    /// First word of the channel names.
-    #[must_use]
-    pub fn word(self) -> &'static str {
-        match self {
-            Subject::Link => "link",
-            Subject::Point => "point",
-            Subject::Joint | Subject::Slider => "joint",
-            Subject::Frame => "frame",
-            Subject::Drive | Subject::Motor => "drive",
-        }
-    }
-}
 
 /// How far a solver must compute for a channel. Each stage needs the ones before it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

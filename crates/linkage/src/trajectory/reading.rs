@@ -1,6 +1,6 @@
 //! The quantities of a state that the rows of the table of channels read.
 
-use super::channel::Subject;
+use super::subject::Subject;
 
 /// The quantity that a row of the table reads, one variant per subject.
 /// The [sampler](crate::solver::Sampler) matches on the variants, so that a row without a reader does not compile.
