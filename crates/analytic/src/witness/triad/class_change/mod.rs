@@ -84,8 +84,8 @@ pub struct ClassChange {
     /// Head of lead 3 in the base link's frame, and its length (m).
     third: Vec2,
     length: f64,
-    /// Vectors from foot to head in the frames of the triad's leads, then the vector between the heads of the ground leads
-    /// in the frame of the base link.
+    /// Vectors from foot to head in the frames of the triad's leads, then the vector between the heads of the ground
+    /// leads in the frame of the base link.
     locals: [Vec2; 4],
     crank: f64,
     /// World vectors from foot to head of the ground leads.
