@@ -1,4 +1,4 @@
-//! `linkproof drive --svg`: the reduced quantities and the steady motion as graphs.
+//! The reduced quantities and the steady motion of a mechanism as graphs.
 
 use crate::scenario::Scenario;
 use analytic::reduced::means::Means;
@@ -13,7 +13,7 @@ use workshop::diagram::{Graph, Graphs, Mark, draw};
 const PARTS: u32 = 720;
 
 /// The graphs as an SVG document. `extremes`: of inertia and resistance; `steady`: the steady motion, where there is a motor.
-pub(super) fn draw(
+pub(crate) fn draw(
     scenario: &Scenario,
     model: &Model,
     means: &Means,
