@@ -6,7 +6,8 @@ use super::load::load;
 use super::motor_choice;
 use super::output;
 use crate::report::drive::{self as report, Found};
-use crate::report::{drive_graphs, run_up, table_csv};
+use crate::report::drive_graphs::{self, Curves};
+use crate::report::{run_up, table_csv};
 use crate::scenario::Scenario;
 use analytic::AssurSolver;
 use analytic::range::explained;
@@ -71,6 +72,9 @@ pub(super) struct Args {
     choice: motor_choice::Args,
 }
 
+/// Equal parts of the period, at whose ends graphs have points: half a degree over one turn.
+const PARTS: u32 = 720;
+
 /// Most rows of a table or a run-up.
 const MOST_ROWS: f64 = 1e6;
 
@@ -99,8 +103,7 @@ fn driven(args: &Args, scenario: &Scenario) -> Result<()> {
     }
     let found = find(args, scenario, &model)?;
     if let Some(to) = &args.svg {
-        let steady = found.steady.as_ref().map(|(_, regime)| regime);
-        output::write(&drive_graphs::draw(scenario, &model, &found.means, &found.extremes, steady)?, to)?;
+        output::write(&drive_graphs::draw(scenario, &found, &curves(scenario, &model, &found)?), to)?;
     }
     match &args.json {
         Some(to) => output::write(&report::json(scenario, &found), to),
@@ -157,6 +160,20 @@ fn find(args: &Args, scenario: &Scenario, model: &Model) -> Result<Found> {
     };
     let (extremes, rows) = (model.extremes()?, model.rows(&cranks)?);
     Ok(Found { means, extremes, added: model.added_inertia(), rows, steady, averaged, flywheel })
+}
+
+/// The quantities of the graphs: at equal distances, and where the reduced quantities have kinks.
+fn curves(scenario: &Scenario, model: &Model, found: &Found) -> Result<Curves> {
+    let (start, sense) = (scenario.case.crank().start, scenario.case.crank().sense());
+    let period = model.kinks().period.unwrap_or(std::f64::consts::TAU);
+    let even: Vec<f64> = (0..=PARTS).map(|k| start + sense * period * (f64::from(k) / f64::from(PARTS))).collect();
+    let kinks = model.kinks().cranks.iter().map(|kink| start + sense * (sense * (kink - start)).rem_euclid(period));
+    let mut cranks: Vec<f64> = even.iter().copied().chain(kinks).collect();
+    cranks.sort_by(|a, b| (sense * a).total_cmp(&(sense * b)));
+    let (rows, slope) = (model.rows(&cranks)?, model.slope_extremes()?);
+    let steady = found.steady.as_ref();
+    let steady = steady.map(|(_, regime)| model.regime_at(regime, &even, ACCURACY)).transpose()?;
+    Ok(Curves { period, rows, slope, steady })
 }
 
 fn run_up(args: &Args, model: &Model) -> Result<RunUp> {
