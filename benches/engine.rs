@@ -1,5 +1,5 @@
-//! Cost of the harness: a run of an engine as a ratio to a bare loop of the same Rapier world with the same settings, timed in turns in the
-//! same run. `cargo bench --bench engine [-- SCENARIO|BUILD|SWEEPS...]`.
+//! Cost of the harness: an engine's run as a ratio to a bare loop of the same Rapier world with the same settings.
+//! Both are timed in turns in the same process. `cargo bench --bench engine [-- SCENARIO|BUILD|SWEEPS...]`.
 
 use linkage::math::KeepNan;
 use std::hint::black_box;
@@ -13,9 +13,9 @@ use linkproof::scenario::Scenario;
 use rapier_twin::tree::Tree;
 use rapier_twin::{Build, Precision, Rapier};
 
-/// Steps a run: short runs fit between whatever else the machine does.
+/// Steps per run. Short runs fit between other activity of the machine.
 const STEPS: usize = 500;
-/// Timings, of which the shortest counts: whatever else the machine does only adds.
+/// Timings, of which the shortest counts: other activity of the machine only adds time.
 const REPEATS: usize = 40;
 
 fn scenario(name: &str) -> Scenario {
@@ -29,7 +29,7 @@ fn seconds(run: impl FnOnce()) -> f64 {
     since.elapsed().as_secs_f64()
 }
 
-/// What anybody would write who wants nothing but steps.
+/// The shortest program that only does the steps.
 fn bare(engine: &Rapier, build: Build, case: &Case, steps: usize) {
     let tree = if build == Build::Impulse { Tree::none(&case.mechanism) } else { Tree::of(&case.mechanism) };
     let mut world = engine.world(case, tree, false).expect("Rapier takes the mechanism");
@@ -65,7 +65,7 @@ fn main() {
                 let engine = Rapier::new(build, Precision::Double, step);
                 let engine = engine.set(Settings { sweeps, ..engine.settings() });
                 let last = STEPS as f64 * step;
-                // Ten steps come before the start and after the end: the same work for both.
+                // Ten steps come before the start and after the end, so both do the same work.
                 let none = base.on(Grid::of_times(base.crank(), vec![last])).unwrap().wanting(Wanted::of(&[]));
                 let all = |every: usize| {
                     let times = (0..=STEPS / every).map(|k| every as f64 * step * k as f64).collect();

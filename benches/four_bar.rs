@@ -1,6 +1,6 @@
-//! A four-bar written out by hand: what a special-purpose program would do, as the measure for the general solver.
+//! A four-bar written out by hand, as in a special-purpose program. It is the measure for the general solver.
 
-/// Lengths, pivots and masses of one four-bar; SI units, mass centres on the links' lines.
+/// Lengths, pivots and masses of one four-bar; SI units, mass centres on the links' centre lines.
 #[derive(Clone, Copy)]
 pub struct FourBar {
     /// Length of the crank.
@@ -27,7 +27,7 @@ pub struct FourBar {
 pub type Forces = [f64; 9];
 
 impl FourBar {
-    /// Positions alone: vectors OA, AB, CB. A frame of each link, as the general solver gives, would come on top.
+    /// Positions alone: vectors OA, AB, CB. The general solver also gives a frame of each link.
     #[inline(never)]
     pub fn positions(&self, angle: f64) -> [f64; 6] {
         let (s, c) = angle.sin_cos();
@@ -40,7 +40,7 @@ impl FourBar {
         [ax, ay, px, py, px - dx, py - dy]
     }
 
-    /// Positions, velocities, accelerations, all reactions and the moment at one crank angle (constant speed).
+    /// Positions, velocities, accelerations, all reactions and the balancing moment at one crank angle (constant speed).
     #[inline(never)]
     pub fn solve(&self, angle: f64, w1: f64) -> Forces {
         let (s, c) = angle.sin_cos();

@@ -1,5 +1,5 @@
-//! Cost of one pose: positions, velocities, accelerations, all reactions and the balancing moment, as a ratio to a
-//! four-bar written out by hand and timed in the same run. `cargo bench --bench pose`.
+//! Cost of one pose: positions, velocities, accelerations, all reactions and the balancing moment.
+//! It is given as a ratio to a four-bar written out by hand and timed in the same process. `cargo bench --bench pose`.
 
 mod four_bar;
 
@@ -14,9 +14,9 @@ use four_bar::FourBar;
 use linkage::trajectory::Stage;
 use linkproof::scenario::Scenario;
 
-/// Poses a timing; one turn in as many steps.
+/// Poses per timing: one turn in as many steps.
 const POSES: usize = 3600;
-/// Timings, of which the shortest counts: whatever else the machine does only adds.
+/// Timings, of which the shortest counts: other activity of the machine only adds time.
 const REPEATS: usize = 200;
 
 fn scenario(name: &str) -> Scenario {
@@ -24,7 +24,7 @@ fn scenario(name: &str) -> Scenario {
     Scenario::load(&path).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Shortest time of a turn, a pose (ns).
+/// Shortest time of a turn, per pose (ns).
 fn shortest(mut turn: impl FnMut()) -> f64 {
     let time = |_| {
         let since = Instant::now();
@@ -55,7 +55,7 @@ fn by_hand(scenario: &Scenario) -> FourBar {
     }
 }
 
-/// The two must compute the same, or the ratio means nothing.
+/// Both must compute the same, or the ratio means nothing.
 fn check(scenario: &Scenario, hand: &FourBar) {
     let omega = scenario.case.crank().at(0.0).omega;
     let mut poses = PoseSolver::new(&scenario.case).unwrap();

@@ -1,5 +1,5 @@
-//! Cost of a run-up: half a second of `crank_rocker`, 500 output points with all channels, against the accuracy of the crank angle; and of the steady
-//! motion. `cargo bench --bench run_up`.
+//! Cost of a run-up against the accuracy of the crank angle, and cost of the steady motion.
+//! The run-up is half a second of `crank_rocker`, 500 output points with all channels. `cargo bench --bench run_up`.
 
 use linkage::math::KeepNan;
 use std::hint::black_box;
@@ -9,7 +9,7 @@ use std::time::Instant;
 use analytic::reduced::{ACCURACY, Model, RunUp, motion};
 use linkproof::scenario::Scenario;
 
-/// Timings, of which the shortest counts: whatever else the machine does only adds.
+/// Timings, of which the shortest counts: other activity of the machine only adds time.
 const REPEATS: usize = 100;
 
 fn shortest(mut run: impl FnMut()) -> f64 {

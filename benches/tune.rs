@@ -1,6 +1,10 @@
-//! `tune` by the clock: its choice against the cheapest settings of an exhaustive search over engines, routes, extrapolation, substeps, sweeps and
-//! steps, both timed in turns. `cargo bench --bench tune [-- SCENARIO...]`; with `-- prices` what the price model of `tests/suite/tune/prices.rs`
-//! needs; with `-- whole` the price model's own whole space is searched for three wishes, which fails where `tune` misses its promise.
+//! Time of the settings that `tune` chooses, against the cheapest settings of an exhaustive search.
+//! Both are timed in turns.
+//! The search covers engines, routes, extrapolation, substeps, sweeps and steps.
+//! `cargo bench --bench tune [-- SCENARIO...]`.
+//! With `-- prices` it measures what the price model of `tests/suite/tune/prices.rs` needs.
+//! With `-- whole` it searches the whole space of the price model for three required accuracies.
+//! That fails where `tune` misses its promise.
 
 use linkage::math::KeepNan;
 use std::hint::black_box;
@@ -26,12 +30,12 @@ use exhaustive::{Met, REFERENCES, Space, cheaper, error_of, thinned, truth};
 use near::near_the_cheapest;
 
 const WITHIN: f64 = 1e-3;
-/// Every how many instants of a scenario's grid are looked at.
+/// Only every so many instants of a scenario's grid are compared.
 const EVERY: usize = 8;
 const SPACE: Space = Space { sweeps: &[4, 8, 16, 32, 64, 128, 256], factor: 1.15 };
-/// Timings in turns, of which the shortest counts: whatever else the machine does only adds.
+/// Timings in turns, of which the shortest counts: other activity of the machine only adds time.
 const REPEATS: usize = 7;
-/// So many of the cheapest of the exhaustive search are timed again.
+/// Number of cheapest settings of the exhaustive search that are timed again.
 const FINALISTS: usize = 5;
 
 fn scenario(name: &str) -> Scenario {
@@ -39,7 +43,7 @@ fn scenario(name: &str) -> Scenario {
     Scenario::load(&path).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Seconds of a run, the shortest of `repeats`; infinite if it fails.
+/// Seconds per run, the shortest of `repeats`; infinite if it fails.
 fn seconds(engine: &dyn Engine, case: &Case, repeats: usize) -> f64 {
     let mut shortest = f64::INFINITY;
     for _ in 0..repeats {
@@ -52,7 +56,7 @@ fn seconds(engine: &dyn Engine, case: &Case, repeats: usize) -> f64 {
     shortest
 }
 
-/// The price of a row's settings: a constant and a part in proportion to the number of steps, from runs at two steps.
+/// The price of a row's settings: a constant plus a part proportional to the number of steps, fitted to runs at two steps.
 struct Clock<'a> {
     case: &'a Case,
     row: Option<(Settings, &'static str)>,
@@ -71,7 +75,7 @@ impl Clock<'_> {
             let slope = (b - a) / (1.0 / fine - 1.0 / coarse);
             self.fit = [b - slope / fine, slope];
         }
-        // Where a run of a degree a step already fails nothing is known, and nothing would be met.
+        // If a run of one degree per step fails, nothing is known, and no requirement would be met.
         let price = self.fit[0] + self.fit[1] / own.resolution;
         if price.is_finite() { price } else { f64::INFINITY }
     }
@@ -177,7 +181,7 @@ fn measure_prices() {
     println!("unit: {:.2} us", unit * 1e6);
 }
 
-/// Three wishes on the whole space, by the price model: no clock, but minutes.
+/// Three required accuracies on the whole space, by the price model: no timing, but minutes of run time.
 fn whole(names: &[&str]) {
     const SWEEPS: &[usize] = &[1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 512, 1024];
     const WHOLE: Space = Space { sweeps: SWEEPS, factor: 1.1 };
@@ -197,7 +201,7 @@ fn main() {
     let named = |name: &&str| words.len() == usize::from(of_model) || words.iter().any(|word| word == name);
     let names: Vec<&str> = REFERENCES.into_iter().filter(named).collect();
     if of_model {
-        // The searches have no clock: both halves at once.
+        // The searches are not timed, so both halves run at the same time.
         let (one, other) = names.split_at(names.len() / 2);
         return std::thread::scope(|scope| {
             scope.spawn(|| whole(one));

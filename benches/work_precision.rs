@@ -1,4 +1,4 @@
-//! Error against time of every engine, by every route, raw and extrapolated: a table in Markdown for docs/engines.md.
+//! Error against time of every engine, by every route, raw and extrapolated: a Markdown table for docs/engines.md.
 //! `cargo bench --bench work_precision [-- SCENARIO]`, with `--features simbody` for that engine too.
 
 use linkage::math::KeepNan;
@@ -17,9 +17,9 @@ use rapier_twin::Rapier;
 const STEPS: [f64; 3] = [0.8, 0.24, 0.08];
 /// Accuracies of engines that control their error.
 const ACCURACIES: [f64; 2] = [1e-4, 1e-10];
-/// Timings, of which the shortest counts; of runs longer than a second one is enough.
+/// Timings, of which the shortest counts. Runs longer than a second are timed once.
 const REPEATS: usize = 3;
-/// Sweeps of the multibody build: enough here, thanks to the flywheel. The impulse build needs all of its default.
+/// Sweeps of the multibody build: enough here, because of the flywheel. The impulse build needs all of its default.
 const SWEEPS: usize = 256;
 
 struct Row {
@@ -30,7 +30,7 @@ struct Row {
     seconds: f64,
 }
 
-/// Largest error over the scale in the channels of some stages.
+/// Largest error divided by the scale, over the channels of some stages.
 fn error(reference: &Trajectory, found: &Trajectory, stages: &[Stage]) -> f64 {
     let residuals = residuals(reference, found).expect("both stand on one grid");
     let own = residuals.iter().filter(|r| stages.contains(&r.channel.kind.stage));

@@ -1,4 +1,4 @@
-//! A four-bar built in code, its reactions as slices, and its proof.
+//! Builds a four-bar in code, reads its reactions as slices, and proves it.
 //!
 //! `cargo run --release --example four_bar`
 

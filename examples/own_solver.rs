@@ -1,6 +1,6 @@
-//! A solver of one's own against both analytic sides: a crank-rocker by Freudenstein's equation, written as a user would.
+//! Compares a user's own solver with both analytic sides: a crank-rocker by Freudenstein's equation.
 //!
-//! It takes geometry from the case, knows angles and angular velocities only, and is compared in these.
+//! It takes the geometry from the case, finds only angles and angular velocities, and is compared in these.
 //!
 //! `cargo run --release --example own_solver`
 
@@ -33,8 +33,8 @@ impl Freudenstein {
         Freudenstein { lengths, base: ground.y.atan2(ground.x) }
     }
 
-    /// Angles of coupler and rocker (rad) at the crank angle `crank` from the line of the pivots, the joint between them
-    /// to the left.
+    /// Angles of coupler and rocker (rad). `crank` is the crank angle from the line of the pivots (rad).
+    /// The joint between coupler and rocker is on the left of the line from crank pin to rocker pivot.
     fn angles(&self, crank: f64) -> [f64; 2] {
         let [r1, r2, r3, r4] = self.lengths;
         let (x, y) = (r4 - r1 * crank.cos(), -r1 * crank.sin());

@@ -1,4 +1,4 @@
-//! Prove a scenario file, and say which channel uses most of its bound.
+//! Proves a scenario file, and prints which channel uses most of its bound.
 //!
 //! `cargo run --release --example prove_file -- scenarios/ov7_base.toml`
 

@@ -1,7 +1,9 @@
 //! Errors and orders of Rapier's builds and routes against the reference, as `docs/rapier.md` shows them.
 //!
-//! `cargo run --release --example rapier_orders -- SCENARIO DEG [ENGINE,..] [ROUTE,..] [plain|extrapolated] [SWEEPS]`: largest error of any
-//! channel of a stage over half its range at a step of DEG degrees of the crank, and the order seen between that step and half of it.
+//! `cargo run --release --example rapier_orders -- SCENARIO DEG [ENGINE,..] [ROUTE,..] [plain|extrapolated] [SWEEPS]`
+//!
+//! It prints the largest error of any channel of a stage over half its range at a step of DEG degrees of the crank.
+//! It also prints the order observed between that step and half of it.
 
 use std::path::Path;
 use std::time::Instant;

@@ -1,4 +1,4 @@
-//! Ten thousand poses of a mechanism by the batch call, as dense as one likes: the largest balancing moment of a turn.
+//! A sweep of ten thousand poses by the batch call, as dense as needed: the largest balancing moment of a turn.
 //!
 //! `cargo run --release --example sweep -- scenarios/ov7_base.toml`
 

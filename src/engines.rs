@@ -1,4 +1,4 @@
-//! All engines: one variant and one line each.
+//! All engines: one variant and one line for each.
 
 use linkage::engine::Engine;
 use linkage::error::Result;
@@ -8,11 +8,11 @@ use rapier_twin::{Build, Precision, Rapier};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum EngineName {
-    /// Rapier, a spanning tree as a multibody, loops closed by impulse joints, f64: the default.
+    /// Rapier in f64, the default: a spanning tree as a multibody, loops closed by impulse joints.
     Rapier,
     /// The same in single precision; needs the feature `f32`.
     RapierF32,
-    /// Rapier, every link a body of its own, f64.
+    /// Rapier in f64, every link a body of its own.
     Impulse,
     /// The same in single precision; needs the feature `f32`.
     ImpulseF32,
@@ -25,7 +25,7 @@ impl EngineName {
     pub const ALL: [EngineName; 5] =
         [EngineName::Rapier, EngineName::RapierF32, EngineName::Impulse, EngineName::ImpulseF32, EngineName::Simbody];
 
-    /// Name, as on the command line and in scenario files.
+    /// Name of the engine, as on the command line and in scenario files.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -43,7 +43,7 @@ impl EngineName {
         EngineName::ALL.into_iter().find(|engine| engine.name() == name)
     }
 
-    /// Cargo feature without which a build does not have the engine.
+    /// Cargo feature that a build needs to have the engine; `None` if it always has it.
     #[must_use]
     pub fn feature(self) -> Option<&'static str> {
         match self {
@@ -63,11 +63,12 @@ impl EngineName {
         }
     }
 
-    /// The engine with its own default settings: at the time step `step` (s) if it has a fixed one, at an accuracy of
-    /// its own if it controls its error.
+    /// The engine with its own default settings. An engine with a fixed step runs at the time step `step` (s), an
+    /// engine that controls its error at an accuracy of its own.
     ///
     /// # Errors
-    /// [`ErrorKind::Unsupported`](linkage::ErrorKind::Unsupported) if this build does not have it, with the feature that it needs.
+    /// [`ErrorKind::Unsupported`](linkage::ErrorKind::Unsupported) if this build does not have it, with the feature
+    /// that it needs.
     pub fn with_step(self, step: f64) -> Result<Box<dyn Engine>> {
         let rapier =
             |build, precision| -> Result<Box<dyn Engine>> { Ok(Box::new(Rapier::new(build, precision, step))) };
@@ -108,8 +109,8 @@ pub fn named(name: &str, step: f64) -> Option<Box<dyn Engine>> {
     EngineName::named(name)?.with_step(step).ok()
 }
 
-/// Whether the current thread is inside a step of an engine whose panic is caught and becomes an error: for the panic
-/// hook of a program, which may stay silent then.
+/// Whether the current thread is inside an engine step whose panic is caught and becomes an error. The panic hook of a
+/// program may stay silent then.
 #[must_use]
 pub fn panic_is_caught() -> bool {
     rapier_twin::is_guarded()

@@ -1,4 +1,4 @@
-//! The `linkproof` command; everything it does stands in [`linkproof::cli`].
+//! The `linkproof` command. All its work is done in [`linkproof::cli`].
 
 fn main() -> std::process::ExitCode {
     linkproof::cli::main()

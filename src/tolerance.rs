@@ -1,20 +1,20 @@
-//! Bounds and what they rest on.
+//! Bounds and their justification.
 
 use std::fmt;
 
-/// How a bound, or the number that is compared with, is known.
+/// How a bound, or the number compared with, is known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Origin {
-    /// Follows from given data by a formula.
+    /// Derived from given data by a formula.
     Derived,
     /// Estimated from an engine's own runs at several resolutions.
     Estimated,
-    /// Measured on cases like this one, and written down with some room to spare.
+    /// Measured on cases like this one, with a margin added.
     Measured,
-    /// Chosen: what is wanted of the number.
+    /// Chosen: the wanted size of the number.
     Wanted,
-    /// Computed anew with this project's own solvers, from data that somebody else has published.
+    /// Recomputed with this project's own solvers, from data published by others.
     Recomputed,
     /// Printed in a source.
     Published,
@@ -38,11 +38,12 @@ impl Origin {
 /// Why a bound is what it is.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Basis {
-    /// Chosen: what is wanted of a number that only rounding should keep from zero. The text says why rounding allows it.
+    /// Chosen: wanted of a number that only rounding should keep from zero. The text says why rounding allows this
+    /// bound.
     Wanted(&'static str),
     /// Error of the engine, estimated from its own runs at three resolutions and with half the sweeps.
     Truncation {
-        /// Order of convergence observed between the runs; NaN where the differences are rounding.
+        /// Order of convergence observed between the runs; NaN where the differences are only rounding.
         observed: f64,
         /// Order that the method should have.
         formal: f64,
@@ -50,26 +51,26 @@ pub enum Basis {
         resolution: f64,
         /// Safety factor on the estimate of the discretisation error.
         safety: f64,
-        /// What the bound is made of, safety factors included, in the channel's unit.
+        /// The parts of the bound, safety factors included, in the channel's unit.
         parts: Parts,
-        /// How the rounding part is known: the other two are estimated.
+        /// How the rounding part is known. The other two parts are estimated.
         noise: Origin,
     },
-    /// Half a unit of the last digit of a number, and the error that the number is known to have.
+    /// Half a unit of the last digit of a number, plus the known error of the number.
     Digits {
         /// How the number is known: published, recomputed or derived.
         origin: Origin,
         /// Number of decimals.
         digits: i32,
-        /// Where it stands.
+        /// Source of the number.
         source: String,
     },
-    /// A basis with something to be said of the check that rests on it.
+    /// A basis with a note on the check that uses it.
     Noted(Box<Basis>, &'static str),
 }
 
 impl Basis {
-    /// How the bound, or the number that is compared with, is known.
+    /// How the bound, or the number compared with, is known.
     #[must_use]
     pub fn origin(&self) -> Origin {
         match self {
@@ -87,11 +88,11 @@ impl Basis {
 /// The parts of a bound on an engine's error, safety factors included.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Parts {
-    /// Discretisation: what a finer step makes smaller.
+    /// Discretisation: reduced by a finer step.
     pub discretisation: f64,
-    /// Iteration: what more sweeps make smaller.
+    /// Iteration: reduced by more sweeps.
     pub iteration: f64,
-    /// Rounding: what neither makes smaller.
+    /// Rounding: reduced by neither.
     pub rounding: f64,
 }
 
@@ -107,7 +108,7 @@ pub enum Part {
 }
 
 impl Parts {
-    /// The bound.
+    /// The bound: the sum of its parts.
     #[must_use]
     pub fn sum(&self) -> f64 {
         self.discretisation + self.iteration + self.rounding
@@ -157,7 +158,7 @@ impl fmt::Display for Basis {
 /// A bound with its basis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tolerance {
-    /// The bound, in the unit of the number that it holds.
+    /// The bound, in the unit of the checked number.
     pub bound: f64,
     /// What the bound rests on.
     pub basis: Basis,

@@ -1,4 +1,4 @@
-//! Compiles the shim and links Simbody, which the system's package brings.
+//! Compiles the shim and links Simbody, which the system's package provides.
 
 use std::env;
 use std::path::{Path, PathBuf};
@@ -9,7 +9,7 @@ fn main() {
     for file in ["src/shim.cpp", "src/shim.h"] {
         println!("cargo::rerun-if-changed={file}");
     }
-    // The variable that Simbody's own build files read; then where Debian and where a build from source put it.
+    // First the variable that Simbody's own build files read; then the prefixes of Debian and of a build from source.
     let home = env::var_os("SIMBODY_HOME").map(PathBuf::from);
     let prefixes: Vec<PathBuf> = match &home {
         Some(home) => vec![home.clone()],
@@ -29,12 +29,12 @@ fn main() {
         .cpp(true)
         .std("c++11")
         .file("src/shim.cpp")
-        // Simbody's headers are not free of warnings; as system headers they are silent.
+        // Simbody's headers cause warnings; as system headers they cause none.
         .flag("-isystem")
         .flag(headers(prefix))
         .warnings_into_errors(false)
         .extra_warnings(true)
-        // The library is built this way, and its headers hold assertions.
+        // The library is built with this definition, and its headers contain assertions.
         .define("NDEBUG", None)
         .compile("linkproof_simbody_shim");
     if home.is_some() {

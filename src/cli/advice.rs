@@ -1,8 +1,8 @@
-//! Advice in the words of the command line: with its options and commands.
+//! Advice in the words of the command line: it names the options and commands.
 
 use linkage::error::Advice;
 
-/// What a user of the command line is told.
+/// Advice as text for a user of the command line.
 pub(super) fn told(advice: &Advice) -> String {
     match advice {
         Advice::SmallerStep { to } => format!("choose a smaller time step{}", option("--dt", *to)),
@@ -34,7 +34,7 @@ pub(super) fn told(advice: &Advice) -> String {
     }
 }
 
-/// An option with a number to try, or the option alone.
+/// An option with a value to try, or the option alone.
 fn option(name: &str, to: Option<f64>) -> String {
     match to {
         Some(to) => format!(", such as {name} {to:e}"),

@@ -30,7 +30,7 @@ pub(super) struct Args {
     /// Position or angle, named as in `linkproof list --channels`
     #[arg(long, value_name = "NAME")]
     channel: String,
-    /// Equal divisions of the crank's turn
+    /// Number of equal divisions of one crank turn
     #[arg(long, value_name = "N", default_value_t = 12)]
     divisions: usize,
     /// Analytic solver

@@ -38,7 +38,7 @@ pub(super) struct Args {
     /// Scenario file
     #[arg(value_name = "FILE")]
     file: PathBuf,
-    /// Start a group in another mode than the file says, as in `linkproof run`
+    /// Start a group in another assembly mode than the file states, as in `linkproof run`
     #[arg(long, value_name = "LINK,LINK=MODE")]
     mode: Vec<String>,
     /// Find the flywheel on the crank's shaft for this coefficient of non-uniformity
@@ -56,13 +56,14 @@ pub(super) struct Args {
     /// Duration of the run-up
     #[arg(long, value_name = "S", default_value = "0.5", allow_hyphen_values = true, requires = "run_up")]
     seconds: f64,
-    /// Equal parts of the run-up, at whose ends it is written
+    /// Number of equal time intervals of the run-up; a row is written at both ends of each
     #[arg(long, value_name = "N", default_value = "500", requires = "run_up")]
     points: usize,
-    /// Speed of the crank at its start, in turns a minute, counter-clockwise positive
+    /// Speed of the crank at the start of the run-up, in turns per minute, counter-clockwise positive
     #[arg(long, value_name = "RPM", default_value = "0", allow_hyphen_values = true, requires = "run_up")]
     from_rpm: f64,
-    /// Draw the reduced quantities and the steady motion over the crank angle to a file, or to standard output instead of the text with `-`
+    /// Draw the reduced quantities and the steady motion over the crank angle to a file, or to standard output instead
+    /// of the text with `-`
     #[arg(long, value_name = "FILE", value_parser = output::target)]
     svg: Option<PathBuf>,
     /// Write everything as JSON to a file, or to standard output instead of the text with `-`
@@ -72,10 +73,10 @@ pub(super) struct Args {
     choice: motor_choice::Args,
 }
 
-/// Equal parts of the period, at whose ends graphs have points: half a degree over one turn.
+/// Number of equal intervals between the points of a graph over the period: half a degree each over one turn.
 const PARTS: u32 = 720;
 
-/// Most rows of a table or a run-up.
+/// Largest number of rows of a table or a run-up.
 const MOST_ROWS: f64 = 1e6;
 
 pub(super) fn drive(args: &Args) -> Result<()> {
@@ -162,7 +163,7 @@ fn find(args: &Args, scenario: &Scenario, model: &Model) -> Result<Found> {
     Ok(Found { means, extremes, added: model.added_inertia(), rows, steady, averaged, flywheel })
 }
 
-/// The quantities of the graphs: at equal distances, and where the reduced quantities have kinks.
+/// Data of the graphs: at equal intervals, and at the kinks of the reduced quantities.
 fn curves(scenario: &Scenario, model: &Model, found: &Found) -> Result<Curves> {
     let (start, sense) = (scenario.case.crank().start, scenario.case.crank().sense());
     let period = model.kinks().period.unwrap_or(std::f64::consts::TAU);

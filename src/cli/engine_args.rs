@@ -6,13 +6,14 @@ use crate::engines::EngineName;
 use crate::proof::{Options, Reference};
 use linkage::engine::Route;
 
-/// Every engine of this build, in place of a name.
+/// Stands for every engine of this build, in place of a name.
 const ALL: &str = "all";
 
-/// Which engines, and how they are set.
+/// The engines and their settings.
 #[derive(Clone, Debug, clap::Args)]
 pub(super) struct EngineArgs {
-    /// Engine, or `all` to run every one side by side. May be given several times [default: the scenario's, else the first]
+    /// Engine, or `all` to run every one side by side. May be given several times [default: the scenario's, else the
+    /// first]
     #[arg(long, value_name = "ENGINE", value_parser = PossibleValuesParser::new(names_and_all()))]
     pub(super) engine: Vec<String>,
     /// Time step of the engine in seconds [default: the scenario's]
@@ -24,13 +25,13 @@ pub(super) struct EngineArgs {
     /// Sweeps of the engine's iteration in a step [default: the scenario's, else the engine's]
     #[arg(long, value_name = "N")]
     sweeps: Option<usize>,
-    /// Parts that the engine itself divides a step into
+    /// Number of substeps into which the engine divides a step
     #[arg(long, value_name = "N")]
     substeps: Option<usize>,
-    /// The way to reactions and balancing moment
+    /// Route by which reactions and balancing moment are computed
     #[arg(long, value_name = "ROUTE", value_parser = PossibleValuesParser::new(Route::ALL.map(Route::name)))]
     route: Option<String>,
-    /// Combine the runs at the step and at half of it, so that the leading error drops out
+    /// Combine the runs at the step and at half of it, so that the leading error cancels
     #[arg(long)]
     extrapolate: bool,
 }
@@ -53,7 +54,7 @@ impl EngineArgs {
     }
 }
 
-/// Names of all engines. The build may lack some: asked for, they say what they need.
+/// Names of all engines. An engine that this build lacks reports the feature it needs.
 pub(super) fn engine_names() -> Vec<&'static str> {
     EngineName::ALL.map(EngineName::name).to_vec()
 }

@@ -24,14 +24,15 @@ pub(super) struct Args {
     /// Scenario file
     #[arg(value_name = "FILE")]
     file: PathBuf,
-    /// Write MJCF to a file, to standard output with `-`, to NAME.xml in this directory without a value; NAME is the scenario's
+    /// Write MJCF to a file, to standard output with `-`, to NAME.xml in this directory without a value; NAME is the
+    /// scenario's
     #[arg(long, value_name = "PATH", required = true, num_args = 0..=1, value_parser = output::target)]
     mjcf: Option<Option<PathBuf>>,
     /// Time step in seconds that the file starts with [default: the scenario's]
     #[arg(long, value_name = "S", allow_hyphen_values = true)]
     dt: Option<f64>,
-    /// Start a group in another mode than the file says, or in the configuration of that number in `inspect --modes`. May be
-    /// given for several groups
+    /// Start a group in another assembly mode than the file states, or in the configuration with that number in
+    /// `inspect --modes`. May be given for several groups
     #[arg(long, value_name = "LINK,LINK=MODE")]
     mode: Vec<String>,
 }
@@ -43,7 +44,7 @@ pub(super) fn export(args: &Args) -> Result<()> {
     match args.mjcf.as_ref().and_then(Option::as_ref) {
         Some(to) => output::write(&text, to),
         None => {
-            // The name was not the user's choice: it is told.
+            // The user did not choose this name, so it is printed.
             let name = format!("{}.xml", scenario.name);
             output::write(&text, Path::new(&name))?;
             output::print(&format!("{name}\n"))

@@ -25,7 +25,8 @@ pub(super) struct Args {
     /// List all real configurations of every group, with angles, angular velocities and places of points
     #[arg(long)]
     modes: bool,
-    /// Show over which crank angles the mechanism can be followed, its singular and extreme positions, and its transmission angles
+    /// Show the crank angles over which the mechanism can be followed, its singular and extreme positions, and its
+    /// transmission angles
     #[arg(long, conflicts_with = "modes")]
     range: bool,
     /// Crank angle for --modes in degrees, as the scenario states it [default: that of the start]

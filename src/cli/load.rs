@@ -1,11 +1,11 @@
-//! What every command begins with: a scenario from a file, and names to choose from.
+//! The common first step of every command: a scenario from a file, and names to choose from.
 
 use std::path::Path;
 
 use crate::scenario::Scenario;
 use linkage::error::Result;
 
-/// Reads a scenario and starts its groups as `modes` say.
+/// Reads a scenario and starts its groups in the given `modes`.
 pub(super) fn load(file: &Path, modes: &[String]) -> Result<Scenario> {
     let scenario = Scenario::load(file)?;
     if modes.is_empty() { Ok(scenario) } else { scenario.with_modes(modes).map_err(|error| error.key("--mode")) }

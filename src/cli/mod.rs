@@ -1,4 +1,4 @@
-//! The command line: the only part with standard output, paths, the clock, the environment and exit codes.
+//! The command line. Only this part uses standard output, paths, the clock, the environment and exit codes.
 
 mod advice;
 mod bearings;
@@ -48,11 +48,12 @@ struct Cli {
 enum Command {
     /// Solve scenarios both ways, compare, check, record, and say whether the two sides agree
     Run(run::Args),
-    /// Solve a scenario one way and write the solution as CSV, one row an instant
+    /// Solve a scenario with one solver and write the solution as CSV, one row per instant
     Solve(solve::Args),
     /// Find the cheapest settings of an engine that meet a wanted error, by measurement
     Tune(tune::Args),
-    /// Show the structure of a mechanism: links, joints, mobility, driving link and Assur groups; its configurations; its range of motion
+    /// Show the structure of a mechanism: links, joints, mobility, driving link and Assur groups; its configurations;
+    /// its range of motion
     Inspect(inspect::Args),
     /// Largest reactions over the range of the grid, and the smallest journals that carry them
     Bearings(bearings::Args),
@@ -66,7 +67,7 @@ enum Command {
     Synthesize(synthesize::Args),
     /// Write a mechanism as a model of another program: MuJoCo's MJCF
     Export(export::Args),
-    /// List scenarios, or the channels and solvers there are
+    /// List scenarios, or the available channels and solvers
     List(list::Args),
 }
 

@@ -11,18 +11,18 @@ use workshop::motor::Choice;
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
-    /// Choose a motor from this catalogue by the peak of the resistance and the scenario's speed, instead of all else
+    /// Only choose a motor from this catalogue, by the peak of the resistance and the scenario's speed
     #[arg(long, value_name = "FILE", conflicts_with_all = ["non_uniformity", "run_up", "svg", "table"])]
     pub(super) catalogue: Option<PathBuf>,
     /// Efficiency between motor and crank, for the choice [default: that of the scenario's motor, else 1]
     #[arg(long, value_name = "SHARE", allow_hyphen_values = true, requires = "catalogue")]
     efficiency: Option<f64>,
-    /// Choose among motors of this synchronous speed only, in turns a minute
+    /// Choose only among motors of this synchronous speed, in turns per minute
     #[arg(long, value_name = "RPM", requires = "catalogue")]
     synchronous_rpm: Option<f64>,
 }
 
-/// Chooses and tells.
+/// Chooses a motor and reports it.
 pub(super) fn choose(args: &Args, file: &Path, scenario: &Scenario, json_to: Option<&Path>) -> Result<()> {
     let mut motors = catalogue::load(file)?;
     if let Some(rpm) = args.synchronous_rpm {

@@ -8,8 +8,8 @@ use super::advice;
 use crate::report::errors;
 use linkage::error::{Error, ErrorKind, Result};
 
-/// Path that results may be written to, `-` for standard output. Scenarios are refused: `--json scenarios/*.toml` would
-/// take the first of them for the target.
+/// Path that results may be written to, `-` for standard output. Scenario files are refused: in `--json
+/// scenarios/*.toml` the first of them would become the target.
 pub(super) fn target(text: &str) -> std::result::Result<PathBuf, String> {
     let path = PathBuf::from(text);
     if path.extension().is_some_and(|extension| extension == "toml") {
@@ -29,7 +29,7 @@ pub(super) fn write(text: &str, to: &Path) -> Result<()> {
     })
 }
 
-/// Writes text to standard output. A reader that went away (`| head`) is no error.
+/// Writes text to standard output. A reader that has closed the pipe (`| head`) is not an error.
 pub(super) fn print(text: &str) -> Result<()> {
     let mut out = io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
@@ -40,7 +40,7 @@ pub(super) fn print(text: &str) -> Result<()> {
     }
 }
 
-/// Exit code of a command, its error shown.
+/// Shows the error of a command and returns its exit code.
 pub(super) fn exit(result: Result<()>) -> u8 {
     match result {
         Ok(()) => super::exit_code::AGREE,
@@ -51,9 +51,9 @@ pub(super) fn exit(result: Result<()>) -> u8 {
     }
 }
 
-/// Shows an error on standard error: the line of the file it is about, what was found there, and the way out.
+/// Shows an error on standard error: the line of the file concerned, what was found there, and the way out.
 pub(super) fn show(error: &Error) {
     let text = errors::text(error, advice::told);
-    // Nothing is left to do if standard error is closed.
+    // If standard error is closed, nothing can be done.
     let _ = writeln!(io::stderr(), "{text}");
 }

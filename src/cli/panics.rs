@@ -1,9 +1,9 @@
-//! The process's panic hook. Panics that are caught and become an error say nothing on the terminal.
+//! The panic hook of the process. Panics that are caught and become an error print nothing on the terminal.
 
 use std::panic::{set_hook, take_hook};
 
-/// Sets a hook that passes on to the present one all panics but those that `is_caught` tells. To be called once, at the
-/// start of the process. A hook runs on the thread that panics.
+/// Sets a hook that passes every panic on to the present hook, except those for which `is_caught` returns true. Call it
+/// once, at the start of the process. A hook runs on the thread that panics.
 pub(super) fn silence(is_caught: fn() -> bool) {
     let previous = take_hook();
     set_hook(Box::new(move |info| {
@@ -29,7 +29,7 @@ mod tests {
         static CAUGHT: Cell<bool> = const { Cell::new(false) };
     }
 
-    /// Hooks belong to the process: the test runs again in one of its own.
+    /// A hook belongs to the whole process, so the test runs again in a process of its own.
     #[test]
     fn only_caught_panics_are_kept_from_the_hook() {
         static HEARD: AtomicUsize = AtomicUsize::new(0);

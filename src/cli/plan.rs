@@ -34,7 +34,8 @@ pub(super) struct Args {
     /// Analytic solver
     #[arg(long, value_name = "SOLVER", default_value = "assur", value_parser = PossibleValuesParser::new(reference_names()))]
     with: String,
-    /// Draw kinematic diagram, velocity and acceleration plan to a file, or to standard output instead of the text with `-`
+    /// Draw kinematic diagram, velocity and acceleration plan to a file, or to standard output instead of the text with
+    /// `-`
     #[arg(long, value_name = "FILE", value_parser = output::target, conflicts_with = "json")]
     svg: Option<PathBuf>,
     /// Write the plans as JSON to a file, or to standard output instead of the text with `-`

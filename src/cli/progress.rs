@@ -1,4 +1,4 @@
-//! A progress bar that appears only when there is something to wait for.
+//! A progress bar that appears only when the work takes long enough.
 
 use std::time::{Duration, Instant};
 
@@ -21,7 +21,7 @@ impl Bar {
         Bar { what: what.into(), since: Instant::now(), bar: None }
     }
 
-    /// Tells how far the work is.
+    /// Sets the finished share of the work.
     pub(super) fn at(&mut self, part: f64) {
         if self.bar.is_none() && self.since.elapsed() > PATIENCE {
             let style = ProgressStyle::with_template("{msg} {wide_bar} {percent:>3} % {eta:>4}");

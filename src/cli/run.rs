@@ -40,11 +40,13 @@ pub(super) struct Args {
     reference: String,
     #[command(flatten)]
     engine: EngineArgs,
-    /// Start a group in another mode than the file says, or in the configuration of that number in `inspect --modes`;
-    /// published numbers, which belong to the file's own modes, are left out then. May be given for several groups
+    /// Start a group in another assembly mode than the file states, or in the configuration with that number in
+    /// `inspect --modes`; published numbers belong to the file's own modes and are then left out. May be given for
+    /// several groups
     #[arg(long, value_name = "LINK,LINK=MODE")]
     mode: Vec<String>,
-    /// Multiply every bound by this, to see how far a proof is from its bounds; 0 judges as ever and prints every residual beside its bound
+    /// Multiply every bound by this factor, to see how close a proof is to its bounds; 0 judges as usual and prints
+    /// every residual beside its bound
     #[arg(long, hide = true, value_name = "FACTOR", value_parser = dial)]
     tolerance_scale: Option<f64>,
     /// Directory that the recordings (MCAP) are written to
@@ -58,7 +60,7 @@ pub(super) struct Args {
     json: Option<PathBuf>,
 }
 
-/// Proves every file; one that is bad does not keep the others from being proven.
+/// Proves every file. A bad file does not stop the others from being proven.
 pub(super) fn run(args: &Args) -> u8 {
     let mut document = json::Document::told_by(advice::told);
     let mut worst = exit_code::AGREE;
@@ -77,13 +79,13 @@ pub(super) fn run(args: &Args) -> u8 {
                 continue;
             }
         };
-        // A proof stands whether or not it can be recorded.
+        // A proof is valid whether or not it can be recorded.
         let recording = record(args, &scenario, &proof, quiet, &mut written).unwrap_or_else(|error| {
             failed(&error);
             None
         });
         worst = graver(worst, exit_code(&proof.verdict));
-        // One engine's failure beside others is told in the report; alone, it is the outcome.
+        // With several engines, the report states the failure of one. With a single engine, its failure is the outcome.
         if let [EngineProof { failure: Some(error), .. }] = proof.engines.as_slice() {
             output::show(error);
             worst = exit_code::BAD_INPUT;
@@ -99,7 +101,7 @@ pub(super) fn run(args: &Args) -> u8 {
     worst
 }
 
-/// A factor for all bounds.
+/// Reads a factor for all bounds.
 fn dial(text: &str) -> std::result::Result<f64, String> {
     let factor: f64 = text.parse().map_err(|error| format!("{error}"))?;
     if factor.is_finite() && factor >= 0.0 { Ok(factor) } else { Err("a factor is 0 or greater".into()) }
@@ -124,7 +126,7 @@ fn prove_file(args: &Args, file: &Path, quiet: bool) -> Result<(Scenario, Proof)
     Ok((scenario, proof))
 }
 
-/// Records a proof unless that is switched off. `written` holds the recordings of this command: path and scenario.
+/// Records a proof, unless recording is off. `written` holds the recordings of this command: path and scenario.
 fn record(
     args: &Args,
     scenario: &Scenario,
@@ -158,7 +160,7 @@ fn write_recording(scenario: &Scenario, proof: &Proof, args: &Args, path: &Path)
     })?;
     let mut metadata = recorded::metadata(proof);
     if !args.mode.is_empty() {
-        // The text of the scenario in the recording does not say so.
+        // The scenario text in the recording does not contain the modes asked for.
         metadata.insert("modes".into(), args.mode.join(" "));
     }
     let mut sides = vec![Side { name: "reference", trajectory: &proof.reference_trajectory }];
@@ -187,7 +189,7 @@ fn exit_code(verdict: &Verdict) -> u8 {
     }
 }
 
-/// The graver of two exit codes: bad input before disagreement before no proof.
+/// The graver of two exit codes. Bad input is graver than disagreement, and disagreement graver than no proof.
 fn graver(a: u8, b: u8) -> u8 {
     let rank = |code: u8| match code {
         exit_code::BAD_INPUT => 3,

@@ -33,14 +33,14 @@ pub(super) struct Args {
     /// Solver: an analytic one or an engine
     #[arg(long, value_name = "SOLVER", value_parser = PossibleValuesParser::new(solver_names()))]
     with: String,
-    /// Crank angles in degrees, measured as the scenario states them, instead of its grid
+    /// Crank angles in degrees, measured as in the scenario, instead of its grid
     #[arg(long, value_name = "FROM:TO:STEP", allow_hyphen_values = true, conflicts_with = "times")]
     crank_deg: Option<Range>,
     /// Times in seconds, instead of the scenario's grid
     #[arg(long, value_name = "FROM:TO:STEP", allow_hyphen_values = true)]
     times: Option<Range>,
-    /// Start a group in another mode than the file says, or in the configuration of that number in `inspect --modes`. May be
-    /// given for several groups
+    /// Start a group in another assembly mode than the file states, or in the configuration with that number in
+    /// `inspect --modes`. May be given for several groups
     #[arg(long, value_name = "LINK,LINK=MODE")]
     mode: Vec<String>,
     /// Time step of an engine in seconds [default: the scenario's]
@@ -73,7 +73,7 @@ pub(super) fn solve(args: &Args) -> Result<()> {
     output::write(&table_csv::solution(&trajectory)?, &args.csv)
 }
 
-/// A step given to a solver that takes none is a misunderstanding, not a detail.
+/// The error for a time step given to a solver that takes none: it shows a misunderstanding, so it is not ignored.
 fn no_step(solver: &str) -> Error {
     Error::new(ErrorKind::Input, format!("--dt is the time step of an engine, but {solver} is analytic and has none"))
         .help(format!("leave --dt out, or solve --with one of: {}", engine_names().join(", ")))

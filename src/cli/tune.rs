@@ -25,9 +25,9 @@ Examples:
 The error is a share of each channel's scale, half its range over the run. Prices are times on this machine, so they, and with them a close
 choice, may differ from run to run; the errors do not.";
 
-/// Runs that are timed, of which the shortest counts: whatever else the machine does only adds.
+/// Number of timed runs. The shortest counts, because other work on the machine only adds time.
 const REPEATS: usize = 2;
-/// What takes longer than this (s) is timed once.
+/// A run longer than this (s) is timed once.
 const LONG: f64 = 0.1;
 
 #[derive(Debug, clap::Args)]
@@ -91,7 +91,7 @@ pub(super) fn run(args: &Args) -> Result<()> {
     }
 }
 
-/// Names the argument that asked for a channel which there is not.
+/// Names the argument that asked for an unknown channel.
 fn of_argument(error: Error) -> Error {
     match error.advice() {
         [Advice::OtherChannel { .. }] => error.key("--channel"),
@@ -99,10 +99,10 @@ fn of_argument(error: Error) -> Error {
     }
 }
 
-/// What the scenario must say to run a candidate: its step (s), and its other keys.
+/// What the scenario must state to run a candidate: its step (s), and its other keys.
 fn keys(scenario: &Scenario, best: &Candidate) -> (f64, EngineKeys) {
     let Settings { resolution, sweeps, substeps, route, extrapolated } = best.settings;
-    // An engine that chooses its own steps leaves the scenario's as it is: it belongs to the others.
+    // For an engine that chooses its own steps, the scenario's step stays: it belongs to the other engines.
     let step = if best.controls_error { scenario.dt } else { resolution };
     let keys = EngineKeys {
         name: Some(best.engine.into()),

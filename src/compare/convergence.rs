@@ -1,13 +1,15 @@
-//! Error of an engine, from its own runs: at three resolutions, and with half the sweeps.
+//! Error of an engine, estimated from its own runs: at three resolutions, and with half the sweeps.
 //!
-//! With differences e1 = y(2h) - y(h) and e2 = y(h) - y(h/2), the observed order is p = log2(|e1| / |e2|), and the error
-//! of the run at h is estimated as |e2| 2^p / (2^p - 1) (Richardson), times a safety factor: 1.25 with the formal order where
-//! the observed one is as good as that, else 3 with the smaller of the two (Oberkampf and Roy, "Verification and
-//! validation in scientific computing", 2010, section 8.7; grid convergence index of Roache and ASME V&V 20). They allow a
-//! tenth of the order for 1.25; here it is a fiftieth, because errors of two orders can cancel in the differences.
+//! Let e1 = y(2h) - y(h) and e2 = y(h) - y(h/2). The observed order is p = log2(|e1| / |e2|). The error of the run at h
+//! is estimated as |e2| 2^p / (2^p - 1) (Richardson), times a safety factor. The factor is 1.25 with the formal order
+//! where the observed one agrees with it, else 3 with the smaller of the two (Oberkampf and Roy, "Verification and
+//! validation in scientific computing", 2010, section 8.7; grid convergence index of Roache and ASME V&V 20). For 1.25,
+//! they let the observed order differ by a tenth of the formal one. Here it is a fiftieth, because errors of two orders
+//! can cancel in the differences.
 //!
-//! Sweeps converge geometrically: if half of them leave q of the error of none, all leave q^2, and the two runs differ by q - q^2. What is
-//! left is q / (1 - q) of the difference; the factor 3 covers q up to 3/4 (ASME V&V 20 counts iteration apart as well).
+//! Sweeps converge geometrically. Half of the sweeps leave a share q of the initial error, all of them leave q^2, and
+//! the two runs differ by q - q^2. The remaining error is q / (1 - q) of this difference. The factor 3 covers q up to
+//! 3/4 (ASME V&V 20 also counts the iteration error separately).
 
 use super::residual::{differences, largest_difference};
 use crate::tolerance::{Basis, Origin, Parts, Tolerance};
@@ -16,29 +18,29 @@ use linkage::math::largest_size;
 use linkage::math::statistics::rms;
 use linkage::trajectory::{Channel, Trajectory};
 
-/// Share of the formal order within which the observed one is as good. With a tenth, random chains with an order of 1.91 had
-/// errors 1.1 times the bound.
+/// Share of the formal order by which the observed order may differ for the smaller safety factor. With a tenth, random
+/// chains with an order of 1.91 had errors 1.1 times the bound.
 const AS_GOOD: f64 = 0.02;
 
-/// Share of the formal order within which the runs have a limit that can be told.
+/// Share of the formal order by which the observed order may differ for the limit of the runs to be estimated.
 const BEARS_OUT: f64 = 0.1;
 
 /// Runs of one engine on one grid.
 #[derive(Clone, Copy, Debug)]
 pub struct Ladder<'a> {
-    /// At double, single and half the step (or accuracy).
+    /// Runs at double, single and half the step (or accuracy).
     pub resolutions: [&'a Trajectory; 3],
-    /// At the single one, with half the sweeps; `None` for an engine that does not iterate.
+    /// Run at the single step with half the sweeps; `None` for an engine that does not iterate.
     pub fewer_sweeps: Option<&'a Trajectory>,
 }
 
-/// Factor on the difference that half the sweeps make: see above.
+/// Safety factor on the difference between all and half the sweeps: see the module's text.
 const SWEEPS_SAFETY: f64 = 3.0;
 
-/// What the runs say about the error of the middle one, in one channel.
+/// What the runs show about the error of the middle run, in one channel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Convergence {
-    /// Observed order; NaN where the differences are rounding.
+    /// Observed order; NaN where the differences are only rounding.
     pub observed: f64,
     /// Order that the method should have.
     pub formal: f64,
@@ -46,13 +48,14 @@ pub struct Convergence {
     pub error: f64,
     /// Safety factor.
     pub safety: f64,
-    /// Largest difference that half the sweeps make, in the channel's unit; 0 for an engine that does not iterate.
+    /// Largest difference between all and half the sweeps, in the channel's unit; 0 for an engine that does not
+    /// iterate.
     pub iteration: f64,
 }
 
 impl Convergence {
-    /// From the values of one channel at double, single and half step. Differences below `noise` (in the channel's unit)
-    /// are rounding and show no order.
+    /// The estimate from the values of one channel at double, single and half step. Differences below `noise` (in the
+    /// channel's unit) are rounding and show no order.
     #[must_use]
     pub fn of(double: &[f64], single: &[f64], half: &[f64], periodic: bool, formal: f64, noise: f64) -> Self {
         let coarse = differences(double, single, periodic);
@@ -60,7 +63,7 @@ impl Convergence {
         let largest = largest_size(fine.iter().copied());
         let (before, after) = (rms(coarse), rms(fine));
         let quotient = (before / after).log2();
-        // NaN stands for differences that are rounding, and for nothing else: what is not a number shows no convergence.
+        // NaN stands only for differences that are rounding. Other values that are not a number show no convergence.
         let observed = match quotient.is_nan() {
             _ if after <= noise => f64::NAN,
             true => f64::NEG_INFINITY,
@@ -77,8 +80,8 @@ impl Convergence {
         Convergence { observed, formal, error, safety, iteration: 0.0 }
     }
 
-    /// The same for a channel of three trajectories on one grid, and of a fourth with half the sweeps of the middle one; `None` if one of
-    /// them does not have it.
+    /// The estimate for one channel of three trajectories on one grid, and of a fourth one with half the sweeps of the
+    /// middle run. `None` if one of them does not have the channel.
     #[must_use]
     pub fn of_channel(runs: Ladder<'_>, channel: &Channel, formal: f64, noise: f64) -> Option<Self> {
         let [double, single, half] = runs.resolutions.map(|run| run.column(channel));
@@ -91,15 +94,15 @@ impl Convergence {
         Some(found.with_fewer_sweeps(single, fewer, periodic))
     }
 
-    /// The same with the difference that half the sweeps make to the middle run, if there is such a run.
+    /// Adds the difference between all and half the sweeps of the middle run, if there is a run with half of them.
     #[must_use]
     pub fn with_fewer_sweeps(self, single: &[f64], fewer: Option<&[f64]>, periodic: bool) -> Self {
         let iteration = fewer.map_or(0.0, |fewer| largest_difference(fewer, single, periodic));
         Convergence { iteration, ..self }
     }
 
-    /// The value that the runs tend to, from the middle and the finest: y(h/2) + (y(h/2) - y(h)) / (2^p - 1) with the formal order p. `None`
-    /// where the observed order does not bear it out.
+    /// Limit of the runs, from the middle and the finest one: y(h/2) + (y(h/2) - y(h)) / (2^p - 1) with the formal
+    /// order p. `None` where the observed order is too far from the formal one.
     #[must_use]
     pub fn limit(&self, single: &[f64], half: &[f64], periodic: bool) -> Option<Vec<f64>> {
         if !((self.observed - self.formal).abs() <= BEARS_OUT * self.formal) {
@@ -110,19 +113,21 @@ impl Convergence {
         Some(half.iter().zip(steps).map(|(value, step)| value + step * share).collect())
     }
 
-    /// Whether the runs converge as they should, so that the estimate can be trusted.
+    /// Whether the runs converge as expected, so that the estimate can be trusted.
     #[must_use]
     pub fn is_trusted(&self) -> bool {
         self.observed.is_nan() || self.observed >= 0.5 * self.formal
     }
 
-    /// What the bound on the error of the middle run is made of; `noise` is the rounding added to it, in the channel's unit.
+    /// The parts of the bound on the error of the middle run; `noise` is the rounding added to it, in the channel's
+    /// unit.
     #[must_use]
     pub fn parts(&self, noise: f64) -> Parts {
         Parts { discretisation: self.safety * self.error, iteration: SWEEPS_SAFETY * self.iteration, rounding: noise }
     }
 
-    /// Bound on the error of the middle run at `resolution`, made of `parts`; `noise` says how their rounding is known.
+    /// Bound on the error of the middle run at `resolution`, the sum of `parts`; `noise` says how their rounding is
+    /// known.
     #[must_use]
     pub fn tolerance(&self, resolution: f64, parts: Parts, noise: Origin) -> Tolerance {
         let Convergence { observed, formal, safety, .. } = *self;
@@ -188,7 +193,7 @@ mod tests {
             Trajectory::new(times.clone(), times, channels, vec![values.to_vec()]).unwrap()
         };
         let [double, single, half] = runs(2, 7.0).map(|values| of(&values));
-        // Half the sweeps leave 0.1 of 1, all leave 0.01: that much the bound must allow besides the step's error.
+        // Half the sweeps leave 0.1 of 1, all leave 0.01: the bound must allow this besides the step's error.
         let values = single.column(&single.channels()[0]).unwrap();
         let fewer = of(&[values[0] + 0.09, values[1]]);
         let ladder = Ladder { resolutions: [&double, &single, &half], fewer_sweeps: Some(&fewer) };
@@ -203,7 +208,7 @@ mod tests {
             let mut runs = [2.0f64, 1.0, 0.5].map(|h| vec![h * h, 2.0 * h * h]);
             runs[place][0] = f64::NAN;
             let found = Convergence::of(&runs[0], &runs[1], &runs[2], false, 2.0, 0.0);
-            // The double step is not part of the estimate, but it makes the order.
+            // The double step is not part of the estimate, but it determines the order.
             let bound = found.parts(0.0).sum();
             assert!(bound.is_nan() || !found.is_trusted(), "{place}: {found:?}");
             assert!(found.limit(&runs[1], &runs[2], false).is_none(), "{place}: {found:?}");

@@ -1,4 +1,4 @@
-//! What is left when one trajectory is taken from another, channel by channel.
+//! Differences between two trajectories, channel by channel.
 
 use linkage::math::{KeepNan, largest_size};
 use std::f64::consts::TAU;
@@ -7,8 +7,8 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::statistics::{half_range, quantile, rms, share};
 use linkage::trajectory::{Channel, Trajectory, Unit};
 
-/// A channel that moves less than this share of what is natural for its quantity is measured by that share: its errors come
-/// from its neighbours, not from its own motion (a nearly constant coordinate).
+/// Smallest scale of a channel, as a share of the natural size of its quantity. The errors of a nearly constant
+/// coordinate come from its neighbours, not from its own motion.
 const SMALLEST_SHARE: f64 = 1e-3;
 
 /// Distribution of the absolute differences in one channel.
@@ -22,9 +22,9 @@ pub struct Residual {
     pub max: f64,
     /// Root of the mean square of the differences.
     pub rms: f64,
-    /// Three quarters of the absolute differences are below.
+    /// Three quarters of the absolute differences are below this value.
     pub q75: f64,
-    /// 99 of 100 absolute differences are below.
+    /// 99 of 100 absolute differences are below this value.
     pub q99: f64,
     /// Time of the largest difference (s).
     pub worst_time: f64,
@@ -33,16 +33,17 @@ pub struct Residual {
 }
 
 impl Residual {
-    /// Largest absolute difference as a share of the channel's scale; 0 where there is none.
+    /// Largest absolute difference as a share of the channel's scale; 0 if there is no difference.
     #[must_use]
     pub fn share(&self) -> f64 {
         share(self.max, self.scale)
     }
 }
 
-/// Scale of every channel: half the range of its values over the run, but at least a thousandth of what is natural for its
-/// quantity: the widest such half range among the quantity's channels, or what the crank's motion and the widest half ranges of
-/// places and forces make of it. So a quantity that vanishes in the whole mechanism is measured too.
+/// Scale of every channel: half the range of its values over the run, but at least a thousandth of the natural size of
+/// its quantity. The natural size is the widest such half range among the quantity's channels, or, if larger, the value
+/// that follows from the crank's motion and the widest half ranges of places and forces. So a quantity that vanishes in
+/// the whole mechanism is measured too.
 #[must_use]
 pub fn scales(trajectory: &Trajectory) -> Vec<f64> {
     let halves: Vec<f64> = trajectory.iter().map(|(_, values)| half_range(values)).collect();
@@ -50,16 +51,17 @@ pub fn scales(trajectory: &Trajectory) -> Vec<f64> {
     halves.iter().zip(natural).map(|(half, natural)| half.larger(SMALLEST_SHARE * natural)).collect()
 }
 
-/// Size of the numbers in every channel, which its rounding is proportional to: the largest absolute value among the
-/// channels of its quantity, or what a turn of one radian, the largest coordinates and forces make of it.
+/// Size of the numbers in every channel, which its rounding is proportional to. It is the largest absolute value among
+/// the channels of its quantity, or, if larger, the value that follows from a turn of one radian and the largest
+/// coordinates and forces.
 #[must_use]
 pub fn magnitudes(trajectory: &Trajectory) -> Vec<f64> {
     let largest: Vec<f64> = trajectory.iter().map(|(_, values)| largest_size(values.iter().copied())).collect();
     natural(trajectory, &largest, 1.0)
 }
 
-/// For every channel, the largest of `sizes` among the channels of its quantity, but at least what follows from the crank's
-/// speed, its `turn` (rad) and the sizes of places and forces.
+/// For every channel, the largest of `sizes` among the channels of its quantity, but at least the value that follows
+/// from the crank's speed, its `turn` (rad) and the sizes of places and forces.
 fn natural(trajectory: &Trajectory, sizes: &[f64], turn: f64) -> Vec<f64> {
     let all = || trajectory.channels().iter().zip(sizes);
     let of_unit = |unit: Unit| all().filter(|(c, _)| c.kind.unit == unit).fold(0.0, |max: f64, (_, &s)| max.larger(s));
@@ -77,7 +79,7 @@ fn natural(trajectory: &Trajectory, sizes: &[f64], turn: f64) -> Vec<f64> {
             Unit::Metre => length,
             Unit::MetrePerSecond => speed * length,
             Unit::MetrePerSecondSquared => speed * speed * length,
-            // What forces come from is not known here: the widest of their own is all there is.
+            // The causes of forces are not known here: only the widest range among the forces themselves can be used.
             Unit::Newton => 0.0,
             Unit::NewtonMetre => force * length,
         };
@@ -86,8 +88,8 @@ fn natural(trajectory: &Trajectory, sizes: &[f64], turn: f64) -> Vec<f64> {
     trajectory.channels().iter().map(natural).collect()
 }
 
-/// Channel by channel `other` minus `reference`, for the channels that both have. Angles that differ by whole turns throughout are
-/// the same motion: the turns between the first samples are taken off.
+/// Channel by channel `other` minus `reference`, for the channels that both have. Angles that always differ by the same
+/// whole turns are the same motion: the whole turns between the first samples are subtracted.
 ///
 /// # Errors
 /// If the grids differ.
@@ -114,7 +116,8 @@ pub(super) fn differences(ours: &[f64], theirs: &[f64], periodic: bool) -> Vec<f
     ours.iter().zip(theirs).map(|(a, b)| b - a - turns).collect()
 }
 
-/// Largest absolute difference between two columns of one channel; of angles, but for whole turns between the first samples.
+/// Largest absolute difference between two columns of one channel. For angles, whole turns between the first samples
+/// are subtracted.
 #[must_use]
 pub fn largest_difference(ours: &[f64], theirs: &[f64], periodic: bool) -> f64 {
     largest_size(differences(ours, theirs, periodic))
@@ -178,7 +181,7 @@ mod tests {
 
     #[test]
     fn quantities_that_vanish_everywhere_are_measured_by_the_crank_and_by_forces() {
-        // One radian a second over two seconds: the half range of the crank angle is 1.
+        // One radian per second over two seconds: the half range of the crank angle is 1.
         let a = trajectory(&[
             ("link.a.alpha_rad_s2", vec![0.0, 0.0, 0.0]),
             ("joint.A.fx_N", vec![-500.0, 500.0, 0.0]),

@@ -1,4 +1,4 @@
-//! Agree, disagree, or not decided.
+//! The verdict: agree, disagree, expected or inconclusive.
 
 use super::{Convergence, Residual};
 use crate::tolerance::{Basis, Part, Parts, Tolerance};
@@ -16,14 +16,14 @@ pub enum Verdict {
     },
     /// The residual is beyond its bound.
     Disagree {
-        /// Where it is worst, in words.
+        /// The place of the largest residual, in words.
         place: String,
     },
-    /// A printed number disagrees as a finding says it must, and the number that is right instead agrees.
+    /// A printed number disagrees as a finding says it must, and the corrected number agrees.
     Expected {
         /// Anchor of the finding in `docs/findings.md`.
         finding: String,
-        /// How far the printed number is off, in the unit of the check.
+        /// Difference between the printed number and the solution, in the unit of the check.
         off: f64,
     },
     /// Nothing is proven either way.
@@ -47,13 +47,13 @@ impl Verdict {
         }
     }
 
-    /// Nothing is proven, and no way out is known.
+    /// An inconclusive verdict without advice.
     #[must_use]
     pub fn open(reason: impl Into<String>) -> Self {
         Verdict::Inconclusive { reason: reason.into(), advice: Vec::new() }
     }
 
-    /// Reason of a verdict that is not agreement, with what would decide it, told by `tell`.
+    /// Reason of a verdict other than agreement, with the advice worded by `tell`.
     #[must_use]
     pub fn reason(&self, tell: impl Fn(&Advice) -> String) -> Option<String> {
         match self {
@@ -67,7 +67,8 @@ impl Verdict {
         }
     }
 
-    /// The same, with numbers to try in its advice, from the settings of the engine: see [`Advice::from_settings`].
+    /// The same verdict, with values to try in its advice, from the settings of the engine: see
+    /// [`Advice::from_settings`].
     #[must_use]
     pub fn from_settings(mut self, resolution: f64, controls_error: bool, sweeps: usize) -> Self {
         if let Verdict::Inconclusive { advice, .. } = &mut self {
@@ -78,7 +79,7 @@ impl Verdict {
         self
     }
 
-    /// A residual against its bound, written so that NaN disagrees.
+    /// Compares a residual with its bound. The comparison is written so that NaN disagrees.
     #[must_use]
     pub fn of(residual: f64, bound: f64, place: impl FnOnce() -> String) -> Self {
         if residual <= bound {
@@ -88,8 +89,8 @@ impl Verdict {
         }
     }
 
-    /// Verdict on an engine's channel. Where the engine does not converge, or its error may be larger than the share
-    /// `wanted` of the channel's scale, a small residual proves nothing.
+    /// Verdict on an engine's channel. A small residual proves nothing where the engine does not converge, or where its
+    /// error may exceed the share `wanted` of the channel's scale.
     #[must_use]
     pub fn of_engine(residual: &Residual, convergence: &Convergence, parts: Parts, wanted: f64) -> Self {
         let place = || {
@@ -100,8 +101,9 @@ impl Verdict {
         Verdict::of_estimate(residual.max, residual.scale, convergence, parts, wanted, place)
     }
 
-    /// Verdict on a number that an engine's own runs bound by `parts`, on the channel's `scale`. A bound that the runs do not bear out, or
-    /// that is larger than the share `wanted` of the scale, proves nothing.
+    /// Verdict on a number whose bound, the sum of `parts`, comes from an engine's own runs; `scale` is the channel's
+    /// scale. The verdict is inconclusive where the runs do not confirm the bound, or where it exceeds the share
+    /// `wanted` of the scale.
     #[must_use]
     pub fn of_estimate(
         value: f64,
@@ -141,7 +143,7 @@ impl Verdict {
     }
 }
 
-/// Where the largest part of an engine's error comes from, to be added to a reason, and how to make it smaller.
+/// The largest part of an engine's error, to be added to a reason, and how to make it smaller.
 fn way_out(parts: Parts) -> (&'static str, Vec<Advice>) {
     match parts.largest() {
         Part::Rounding => ("; most of it is rounding", vec![Advice::LargerStep { to: None }, Advice::DoublePrecision]),
@@ -155,7 +157,7 @@ fn way_out(parts: Parts) -> (&'static str, Vec<Advice>) {
 pub struct Check {
     /// What is checked. Checks of one family are one line in a report.
     pub family: String,
-    /// Which of the family; empty if there is only one.
+    /// Which check of the family; empty if there is only one.
     pub detail: String,
     /// The number.
     pub value: f64,
@@ -178,8 +180,8 @@ impl Check {
         Check { family: family.into(), detail: String::new(), value, bound, unit, basis, verdict }
     }
 
-    /// A check of a relative number that an engine's own runs bound: where they do not bear the bound out, or where it is larger than the
-    /// share `wanted`, it proves nothing, as with channels.
+    /// A check of a relative number whose bound comes from an engine's own runs. As with channels, it is inconclusive
+    /// where the runs do not confirm the bound, or where the bound exceeds the share `wanted`.
     #[must_use]
     pub fn estimated(
         family: impl Into<String>,
@@ -195,14 +197,14 @@ impl Check {
         Check { family: family.into(), detail: String::new(), value, bound, unit: "", basis, verdict }
     }
 
-    /// Says which of its family the check is.
+    /// States which check of its family this is.
     #[must_use]
     pub fn of(mut self, detail: impl Into<String>) -> Self {
         self.detail = detail.into();
         self
     }
 
-    /// Adds to the reason of a disagreement where it is worst.
+    /// Adds the place of the largest residual to the reason of a disagreement.
     #[must_use]
     pub fn located(mut self, place: impl FnOnce() -> String) -> Self {
         if let Verdict::Disagree { place: reason } = &mut self.verdict {
@@ -211,8 +213,8 @@ impl Check {
         self
     }
 
-    /// Makes of the check against the number that is right, and of that against the printed one, `printed`, which a finding calls wrong, the
-    /// check of both: the printed one must disagree, and the right one agree. NaN and any third number disagree.
+    /// Joins this check against the correct number with `printed`, the check against the printed number that a finding
+    /// calls wrong. The printed number must disagree, and the correct one agree. NaN and any third number disagree.
     #[must_use]
     pub fn expected(mut self, finding: &str, printed: &Check) -> Self {
         self.verdict = match (self.verdict, &printed.verdict) {
@@ -238,7 +240,7 @@ impl Check {
         if self.detail.is_empty() { self.family.clone() } else { format!("{}, {}", self.family, self.detail) }
     }
 
-    /// Share of the bound that is used up; infinite for NaN, so that it counts as the worst.
+    /// Share of the bound that is used; infinite for NaN, so that NaN counts as the worst.
     #[must_use]
     pub fn used(&self) -> f64 {
         let used = share(self.value, self.bound);
@@ -246,13 +248,13 @@ impl Check {
     }
 }
 
-/// What a disagreement says of the number and its bound.
+/// Text of a disagreement: the number and its bound.
 fn beyond(value: f64, bound: f64, unit: &str) -> String {
     let space = if unit.is_empty() { "" } else { " " };
     format!("{value:.3e}{space}{unit} is beyond the bound {bound:.3e}")
 }
 
-/// Verdict on the whole: one disagreement is one, otherwise one open question leaves it open.
+/// Verdict on the whole. One disagreement makes it disagree; otherwise one inconclusive verdict leaves it inconclusive.
 #[must_use]
 pub fn overall<'a>(verdicts: impl IntoIterator<Item = &'a Verdict>) -> Verdict {
     let mut margin = f64::INFINITY;
@@ -348,7 +350,7 @@ mod tests {
         assert_eq!(check(1e-4, 2.0, 5e-2).word(), "inconclusive");
     }
 
-    /// A number of which 5 is printed and 7 is right, each to half a unit.
+    /// A number of which 5 is printed and 7 is correct, each to half a unit.
     fn known_wrong(found: f64) -> Verdict {
         let against = |number: f64| {
             Check::new("f", (found - number).abs(), Tolerance { bound: 0.5, basis: Basis::Wanted("test") }, "N")

@@ -11,13 +11,14 @@ use linkage::math::KeepNan;
 use linkage::math::statistics::share;
 use linkage::trajectory::{Channel, ChannelKind, Stage};
 
-/// Wanted of an analytic side: closure of the joints, relative to the mechanism's size or its distance from the origin,; the shipped mechanisms have 5e-16 at most.
+/// Wanted of an analytic side: closure of the joints, relative to the mechanism's size or its distance from the origin.
+/// The shipped mechanisms have 5e-16 at most.
 const CLOSURE: f64 = 1e-13;
-/// Wanted of an analytic side: balancing moment two ways, relative to the moments that make it up.
+/// Wanted of an analytic side: balancing moment computed in two ways, relative to the moments in its balance.
 const TWO_WAYS: f64 = 1e-11;
 
-/// Wanted: relative difference between the two analytic sides. Each derivative, and each linear solve for
-/// forces, multiplies the rounding of what it starts from by the condition of the pose, here at most a hundred.
+/// Wanted: relative difference between the two analytic sides. Each derivative, and each linear solve for forces,
+/// multiplies the rounding of its input by the condition of the pose, here at most a hundred.
 fn side_bound(stage: Stage) -> f64 {
     match stage {
         Stage::Positions => 1e-12,
@@ -92,8 +93,8 @@ pub(super) fn of_engine(scenario: &Scenario, engine: &dyn Engine, runs: &Runs) -
     checks
 }
 
-/// How far the engine's loops open. A closed loop is open by nothing: the opening is an error itself, and must vanish with the step as the
-/// runs say that it does.
+/// Opening of the engine's loops. In a closed loop it is zero, so the opening is itself an error. It must vanish with
+/// the step at the rate that the runs show.
 fn closure(scenario: &Scenario, engine: &dyn Engine, runs: &Runs) -> Check {
     let size = scenario.case.mechanism.size();
     let kind = Channel::named("point.A.x_m").expect("the table has positions of points").kind;
@@ -108,8 +109,8 @@ fn closure(scenario: &Scenario, engine: &dyn Engine, runs: &Runs) -> Check {
     .check(scenario, engine, runs)
 }
 
-/// The engine's driving moment against the balance of powers of its own motion: both belong to one motion, and must come together as the
-/// step goes to zero.
+/// The engine's driving moment against the balance of powers of its own motion. Both belong to one motion, so their
+/// difference must vanish with the step.
 fn power_balance(scenario: &Scenario, engine: &dyn Engine, runs: &Runs) -> Check {
     let kind = Channel::named("drive.torque_N_m").expect("the table has the moment").kind;
     let scale = runs.single().moment;
@@ -119,7 +120,7 @@ fn power_balance(scenario: &Scenario, engine: &dyn Engine, runs: &Runs) -> Check
         of: &|run: &Observed| run.moment_gap().map(|gap| share(gap, scale)).collect(),
         value: runs.single().two_ways(),
         kind,
-        // Either of the two may be off by as much.
+        // Each of the two may have this error.
         noise: if scale == 0.0 { 0.0 } else { 2.0 / scale },
         note: match by_differences {
             true => {
@@ -132,24 +133,24 @@ fn power_balance(scenario: &Scenario, engine: &dyn Engine, runs: &Runs) -> Check
     .check(scenario, engine, runs)
 }
 
-/// A relative number of an engine's runs that a perfect engine would have as zero.
+/// A relative number of an engine's runs that would be zero for a perfect engine.
 struct Vanishing<'a> {
     family: String,
     /// The number at every instant of a run.
     of: &'a dyn Fn(&Observed) -> Vec<f64>,
     /// Its largest size in the run that is judged.
     value: f64,
-    /// The channel whose order and rounding it has.
+    /// The channel that gives its order and its rounding.
     kind: &'static ChannelKind,
     /// Rounding of the number over that of the channel.
     noise: f64,
-    /// What the check holds.
+    /// Note on what the check shows.
     note: &'static str,
 }
 
 impl Vanishing<'_> {
-    /// The number must be no larger than what the runs say that is left of it: what does not vanish with the step is found, as soon as it
-    /// exceeds the safety factor's share of what does.
+    /// The number must not exceed the size that the runs predict for it. A part that does not vanish with the step is
+    /// found as soon as it exceeds the safety factor's share of the part that does.
     fn check(self, scenario: &Scenario, engine: &dyn Engine, runs: &Runs) -> Check {
         let (case, resolution) = (&scenario.case, engine.settings().resolution);
         let noise = |engine: &dyn Engine| self.noise * engine.noise(case, self.kind);

@@ -1,12 +1,13 @@
-//! One dial on every bound, for looking at a proof from outside.
+//! One factor on every bound, to see how close a proof is to its bounds.
 
 use super::{Proof, parties};
 use crate::compare::{Check, Verdict, overall};
 
 impl Proof {
-    /// The same proof, judged with every bound multiplied by `dial`: below 1 stricter than the bounds are, at 0 nothing but an exact zero agrees.
+    /// The same proof, judged with every bound multiplied by `dial`. A value below 1 is stricter; at 0 only an exact
+    /// zero agrees.
     ///
-    /// Residuals are left as they are, and so is what proved nothing either way: its bound says nothing, whatever it is multiplied by.
+    /// Residuals stay as they are. Inconclusive verdicts stay too: their bounds decide nothing, with any factor.
     #[must_use]
     pub fn with_bounds_scaled(mut self, dial: f64) -> Self {
         for engine in &mut self.engines {
@@ -33,8 +34,8 @@ fn scale(check: &mut Check, dial: f64) {
     judge(&mut check.verdict, check.value, &mut check.bound, dial);
 }
 
-/// Judges again what was judged by its bound. What disagrees although it is within its bound does so for another reason: a finding calls it
-/// wrong.
+/// Judges again a verdict that came from a bound. A number that disagrees although it is within its bound disagrees for
+/// another reason: a finding calls it wrong.
 fn judge(verdict: &mut Verdict, value: f64, bound: &mut f64, dial: f64) {
     let beyond = !(value <= *bound);
     *bound *= dial;
@@ -42,7 +43,7 @@ fn judge(verdict: &mut Verdict, value: f64, bound: &mut f64, dial: f64) {
     match (&*verdict, &again) {
         (Verdict::Agree { .. }, _) => *verdict = again,
         (Verdict::Disagree { .. }, _) if beyond => *verdict = again,
-        // What is right instead of a printed number is no longer met.
+        // The corrected value of a printed number is no longer within its bound.
         (Verdict::Expected { .. }, Verdict::Disagree { .. }) => *verdict = again,
         (Verdict::Disagree { .. } | Verdict::Expected { .. } | Verdict::Inconclusive { .. }, _) => {}
     }

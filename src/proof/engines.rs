@@ -1,4 +1,4 @@
-//! One engine against the reference: its runs, the error they estimate, and the verdict channel by channel.
+//! One engine against the reference: its runs, the estimate of their error, and the verdict channel by channel.
 
 use std::fmt::Write;
 
@@ -16,7 +16,7 @@ use linkage::error::{Advice, Error, Result};
 use linkage::solver::Provision;
 use linkage::trajectory::{CHANNELS, Channel, Stage, Trajectory};
 
-/// What is known of an engine that was run.
+/// What is known about an engine that was run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EngineInfo {
     /// Name, as on the command line.
@@ -27,9 +27,9 @@ pub struct EngineInfo {
     pub settings: Settings,
     /// Whether its resolution is an accuracy, not a step.
     pub controls_error: bool,
-    /// Settings that influence the result, by name, for people.
+    /// Settings that influence the result, by name, as text.
     pub told: Vec<(&'static str, String)>,
-    /// How it comes by each sort of channel: stage and provision.
+    /// How it provides each sort of channel: stage and provision.
     pub provides: Vec<(&'static str, Provision)>,
 }
 
@@ -44,10 +44,11 @@ pub struct ChannelProof {
     pub parts: Parts,
     /// Convergence of the engine in this channel.
     pub convergence: Convergence,
-    /// Largest difference between the limit of the engine's runs and the reference, in the channel's unit; `None` where the runs have no
-    /// limit that can be told.
+    /// Largest difference between the limit of the engine's runs and the reference, in the channel's unit; `None` where
+    /// the runs have no limit that can be estimated.
     pub limit: Option<f64>,
-    /// Of a free motion: largest change over the run, as a share of the scale, per share of change in gravity and motor torque.
+    /// For a free motion: largest change over the run, as a share of the scale, per share of change in gravity and
+    /// motor torque.
     pub sensitivity: Option<f64>,
     /// What the bound rests on.
     pub basis: Basis,
@@ -64,9 +65,9 @@ pub struct EngineProof {
     pub channels: Vec<ChannelProof>,
     /// Checks on the engine alone.
     pub checks: Vec<Check>,
-    /// Verdict on all of these.
+    /// Verdict on channels and checks together.
     pub verdict: Verdict,
-    /// What it computed: all instants, or as many as there are before it failed.
+    /// Its trajectory: all instants, or those before it failed.
     pub trajectory: Option<Trajectory>,
     /// Engine minus reference; `None` if the engine failed.
     pub errors: Option<Trajectory>,
@@ -115,9 +116,9 @@ pub(super) fn prove(
 
 /// An engine's runs.
 pub(super) struct Runs {
-    /// At double, single and half the resolution.
+    /// Runs at double, single and half the resolution.
     pub(super) resolutions: [Observed; 3],
-    /// At the single one with half the sweeps; `None` for an engine that does not iterate.
+    /// Run at the single resolution with half the sweeps; `None` for an engine that does not iterate.
     pub(super) fewer_sweeps: Option<Observed>,
 }
 
@@ -134,15 +135,15 @@ impl Runs {
     }
 }
 
-/// The engine at double, single and half the resolution, and with half the sweeps.
+/// Runs the engine at double, single and half the resolution, and with half the sweeps.
 fn run_ladder(case: &Case, engine: &dyn Engine, progress: &mut dyn FnMut(f64)) -> std::result::Result<Runs, Stopped> {
     let settings = engine.settings();
     let iterates = settings.sweeps > 1;
-    // The finest run costs as much as two of the single step, the coarsest half of one.
+    // The finest run costs twice the single step, the coarsest half of it.
     let whole = if iterates { 4.0 } else { 3.5 };
     let (asked, sweeps) = (settings.resolution, settings.sweeps / 2);
     let at = |factor: f64| Settings { resolution: asked * factor, ..settings };
-    // The single step first: if it fails, its own message is the one that helps.
+    // The single step runs first: if it fails, its message is the useful one.
     let mut rungs = vec![settings, at(0.5), at(2.0)];
     if iterates {
         rungs.push(Settings { sweeps, ..settings });
@@ -166,13 +167,13 @@ fn run_ladder(case: &Case, engine: &dyn Engine, progress: &mut dyn FnMut(f64)) -
     Ok(Runs { resolutions: [double, single, half], fewer_sweeps })
 }
 
-/// The same stop, told as that of a run which nobody asked for.
+/// The same failure, with a message that says which auxiliary run failed: the user did not ask for that run.
 fn in_ladder(stopped: Stopped, what: &str, engine: &dyn Engine) -> Stopped {
     let Settings { resolution, sweeps, .. } = engine.settings();
     let told = |message: &str| {
         format!("the run {what}, from which the error of the run asked for is estimated, failed: {message}")
     };
-    // Numbers to try start from what was asked for.
+    // Values to try start from the settings that the user asked for.
     let advised = |advice: Advice| advice.from_settings(resolution, engine.controls_error(), sweeps);
     Stopped { error: stopped.error.map_message(told).map_advice(advised), kept: None }
 }
@@ -201,7 +202,8 @@ fn judge(scenario: &Scenario, engine: &dyn Engine, reference: &Trajectory, runs:
     Ok(judged.collect())
 }
 
-/// Adds to what proves nothing how much the motion itself depends on the forces that make it: `sensitivity`, channel by channel of the reference.
+/// Adds to an inconclusive verdict how strongly the motion depends on the forces that cause it: `sensitivity`, channel
+/// by channel of the reference.
 pub(super) fn tell_sensitivity(proof: &mut EngineProof, reference: &Trajectory, sensitivity: &[f64]) {
     for (channel, &change) in reference.channels().iter().zip(sensitivity) {
         let own = proof.channels.iter_mut().find(|own| own.residual.channel == *channel);
@@ -220,10 +222,11 @@ pub(super) fn tell_sensitivity(proof: &mut EngineProof, reference: &Trajectory, 
     }
 }
 
-/// Steps about a jump of the drive's acceleration in which what an engine reads is doubtful.
+/// Number of steps around a jump of the drive's acceleration in which the engine's values are doubtful.
 const JUMP_STEPS: f64 = 8.0;
 
-/// A disagreement in a force where a load jumps proves nothing, nor does one where the drive's acceleration jumps.
+/// A disagreement in a force is inconclusive where a load jumps. So is one in a velocity, an acceleration or a force
+/// where the drive's acceleration jumps.
 fn unless_turning_about(
     case: &Case,
     sides: [&Trajectory; 2],
@@ -234,7 +237,7 @@ fn unless_turning_about(
     if residual.channel.kind.stage < Stage::Velocities {
         return verdict;
     }
-    // Differences and impulses reach over a few steps to either side.
+    // Differences and impulses extend over a few steps to either side.
     let jump = case.crank().jump().filter(|jump| (residual.worst_time - jump).abs() <= JUMP_STEPS * resolution);
     if let (Verdict::Disagree { place }, Some(jump)) = (&verdict, jump) {
         let reason = format!(
@@ -253,8 +256,9 @@ fn unless_turning_about(
     }
 }
 
-/// The link whose load turns about at an instant: it, or its loaded point, moves one way on one side and the other way on the other. The load
-/// jumps there, so that the smallest error of the engine makes a difference of twice the load.
+/// The link whose load changes sign at an instant: the link, or its loaded point, moves one way on one side and the
+/// opposite way on the other. The load jumps there, so the smallest error of the engine causes a difference of twice
+/// the load.
 fn turning_about<'a>(case: &'a Case, sides: [&Trajectory; 2], time: f64) -> Option<&'a str> {
     let row = sides[0].times().iter().position(|&t| t == time)?;
     let value = |side: &Trajectory, name: &str| Some(side.column(&Channel::named(name)?)?[row]);

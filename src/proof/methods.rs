@@ -12,11 +12,11 @@ use linkage::math::{KeepNan, Vec2, cross};
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
 
-/// Largest difference, relative to the largest value of the quantity, that rounding allows: that of forces between the two analytic
-/// sides, which passes through as many linear equations.
+/// Largest difference that rounding allows, relative to the largest value of the quantity. It is the bound on forces
+/// between the two analytic sides, which also need as many linear equations.
 const BOUND: f64 = 1e-10;
 
-/// What is compared: directions, angular velocities, angular accelerations, forces.
+/// The compared quantities: directions, angular velocities, angular accelerations, forces.
 #[derive(Clone, Copy)]
 enum Quantity {
     Angle,
@@ -25,7 +25,7 @@ enum Quantity {
     Force,
 }
 
-/// Largest difference of one method in every quantity, with the crank angle (rad).
+/// Largest difference of one method in every quantity, with its crank angle (rad).
 #[derive(Default)]
 struct Worst {
     differences: [(f64, f64); 4],
@@ -35,13 +35,13 @@ struct Worst {
 impl Worst {
     fn put(&mut self, quantity: Quantity, difference: f64, crank: f64) {
         let worst = &mut self.differences[quantity as usize];
-        // Written so that NaN comes in and stays.
+        // Written so that NaN is taken in and kept.
         if !(difference <= worst.0) && !worst.0.is_nan() {
             *worst = (difference, crank);
         }
     }
 
-    /// What the method answers; its first error is kept.
+    /// The method's answer; its first error is kept.
     fn answer<T>(&mut self, answer: Result<T>) -> Option<T> {
         match answer {
             Ok(answer) => Some(answer),
@@ -66,12 +66,12 @@ impl Worst {
     }
 }
 
-/// One group with the methods that are watched on it.
+/// One group with the methods that are checked on it.
 struct Watch {
     triad: Triad,
     scales: [f64; 4],
     cramer: Worst,
-    /// Only where the group's layout allows it.
+    /// `None` where the group's layout does not allow it.
     change: Option<(ClassChange, Worst)>,
     assur_point: Worst,
     linear: Worst,
@@ -129,7 +129,7 @@ impl Watch {
             }
             rates(worst, found.rates(drive.omega, drive.alpha));
         }
-        // At the very instant of setting off loads act already against a motion that the state does not show yet.
+        // In the instant of starting, loads already act against a motion that the state does not show yet.
         let setting_off = case.is_free() && drive.omega == 0.0;
         if deepest >= Stage::Reactions && !setting_off {
             let known = self.triad.known(case, state);
@@ -173,8 +173,8 @@ impl Watch {
     }
 }
 
-/// Checks of the reference by the published methods, for every class III group of order 3 with revolute pairs; none if there is no such
-/// group.
+/// Checks of the reference by the published methods, for every class III group of order 3 with revolute joints; empty
+/// if there is no such group.
 pub(super) fn checks(case: &Case, reference: &dyn Solver) -> Result<Vec<Check>> {
     let watches: Result<Vec<Watch>> = Triad::all(case).into_iter().map(|triad| Watch::of(case, triad)).collect();
     let mut watches = watches?;
@@ -194,7 +194,7 @@ pub(super) fn checks(case: &Case, reference: &dyn Solver) -> Result<Vec<Check>> 
     Ok(watches.into_iter().flat_map(of_one).collect())
 }
 
-/// The crank at an instant: by its law, or as the state has it where forces decide the motion.
+/// The crank at an instant: by its law, or from the state if forces decide the motion.
 fn crank_of(case: &Case, row: usize, state: &State) -> DriveState {
     let drive = case.crank();
     if !case.is_free() {

@@ -1,4 +1,4 @@
-//! The join: a scenario solved by both analytic sides and by engines, compared, checked, and judged.
+//! The proof: a scenario solved by both analytic sides and by engines, compared, checked, and judged.
 
 mod checks;
 mod dial;
@@ -25,7 +25,7 @@ use linkage::solver::Solver;
 use linkage::trajectory::Trajectory;
 use observe::observe;
 
-/// Everything that one proof found out.
+/// All results of one proof.
 ///
 /// ```
 /// use linkproof::{Options, Scenario, prove};
@@ -54,7 +54,8 @@ pub struct Proof {
     pub checks: Vec<Check>,
     /// The engines, in the order asked for.
     pub engines: Vec<EngineProof>,
-    /// Channels in which reference and engines do not all agree; empty with a single engine, whose own verdicts say it.
+    /// Channels in which reference and engines do not all agree; empty with a single engine, whose own verdicts state
+    /// it.
     pub disputes: Vec<Dispute>,
     /// Verdict on the whole.
     pub verdict: Verdict,
@@ -63,7 +64,7 @@ pub struct Proof {
 }
 
 impl Proof {
-    /// The first engine, which recordings and short reports are about.
+    /// The first engine. Recordings and short reports are about this engine.
     #[must_use]
     pub fn engine(&self) -> &EngineProof {
         &self.engines[0]
@@ -75,7 +76,7 @@ impl Proof {
     }
 }
 
-/// Solves a scenario with both analytic sides and engines, each engine at three resolutions, and judges what comes out.
+/// Solves a scenario with both analytic sides and engines, each engine at three resolutions, and judges the results.
 ///
 /// ```
 /// use linkproof::{Options, Scenario, Verdict, prove};
@@ -88,13 +89,14 @@ impl Proof {
 /// ```
 ///
 /// # Errors
-/// If an analytic side cannot solve the case, with the crank angle; if a solver is not known; if the only engine cannot
-/// even begin. An engine that fails later, or beside others, is part of the proof, with what it had computed until then.
+/// If an analytic side cannot solve the case, with the crank angle. If a solver is not known. If the only engine cannot
+/// start. An engine that fails later, or that fails beside others, is part of the proof, with its trajectory up to the
+/// failure.
 pub fn prove(scenario: &Scenario, options: &Options) -> Result<Proof> {
     prove_with(scenario, options, &mut |_| {})
 }
 
-/// As [`prove`]; `progress` is told which share of the work is done, from 0 to 1.
+/// As [`prove`]; `progress` is called with the finished share of the work, from 0 to 1.
 ///
 /// # Errors
 /// Those of [`prove`].
@@ -102,8 +104,8 @@ pub fn prove_with(scenario: &Scenario, options: &Options, progress: &mut dyn FnM
     joined(scenario, &scenario.case, options, progress).map_err(|error| explained(&scenario.case, error))
 }
 
-/// As [`prove`], with engines that are given a case of their own, on the scenario's instants. With a fault planted in
-/// it, what a proof can find is seen.
+/// As [`prove`], but the engines get a case of their own, on the scenario's instants. A fault planted in that case
+/// shows what a proof can find.
 ///
 /// # Errors
 /// Those of [`prove`].
@@ -111,7 +113,7 @@ pub fn prove_against(scenario: &Scenario, engine_case: &Case, options: &Options)
     joined(scenario, engine_case, options, &mut |_| {}).map_err(|error| explained(&scenario.case, error))
 }
 
-/// Solves a case with side 1: all its wanted channels on its grid, to rounding.
+/// Solves a case with side 1: all its wanted channels on its grid, accurate to rounding.
 ///
 /// ```
 /// use linkproof::{Scenario, solve};
@@ -123,14 +125,13 @@ pub fn prove_against(scenario: &Scenario, engine_case: &Case, options: &Options)
 /// assert_eq!(moment.len(), solution.times().len());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-///
 /// # Errors
-/// Whatever keeps the mechanism from staying on its branch, with the crank angle and the interval that can be reached.
+/// Any reason why the mechanism cannot stay on its branch, with the crank angle and the interval that can be reached.
 pub fn solve(case: &Case) -> Result<Trajectory> {
     Reference::Assur.solver().solve(case).map_err(|error| explained(case, error))
 }
 
-/// The same with the errors of solvers as they come.
+/// The same, with the solvers' errors unchanged.
 fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: &mut dyn FnMut(f64)) -> Result<Proof> {
     let case = &scenario.case;
     let main = options.reference.solver();

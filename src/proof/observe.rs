@@ -1,4 +1,4 @@
-//! One solver over one case, with everything that is watched on the way.
+//! One solver over one case, with the quantities that are observed during the run.
 
 use analytic::witness::{momentum, power};
 use linkage::case::Case;
@@ -8,7 +8,7 @@ use linkage::math::{KeepNan, largest_size};
 use linkage::solver::{Sampler, Solver, State};
 use linkage::trajectory::{Stage, Trajectory};
 
-/// A trajectory and what was watched while it was made.
+/// A trajectory and the quantities observed while it was computed.
 #[derive(Clone, Debug)]
 pub(super) struct Observed {
     pub(super) trajectory: Trajectory,
@@ -16,15 +16,17 @@ pub(super) struct Observed {
     pub(super) opening: Vec<f64>,
     /// Largest distance of a joint from the origin (m).
     pub(super) reach: f64,
-    /// Balancing moment from the balance of powers (N m) at every instant; empty if no balancing moment is wanted. Of a crank whose speed changes,
-    /// times its speed over its top speed.
+    /// Balancing moment from the balance of powers (N m) at every instant; empty if no balancing moment is wanted. For
+    /// a crank whose speed changes, it is multiplied by the crank's speed over its top speed.
     pub(super) power: Vec<f64>,
-    /// Balancing moments reduced to the crank (N m) at every instant, likewise.
+    /// Balancing moments of the trajectory, reduced to the crank (N m), at every instant; multiplied in the same way.
     pub(super) torque: Vec<f64>,
-    /// Largest difference at any instant between the shaking force from reactions and from momentum, over the largest force in
-    /// a joint, or the same of the shaking moment, over the largest moment of such a force about the origin.
+    /// The larger of two ratios over the run. One is the largest difference between the shaking force from reactions
+    /// and from momentum, over the largest force in a joint. The other is the same for the shaking moment, over the
+    /// largest moment of such a force about the origin.
     pub(super) unbalance: Option<f64>,
-    /// Largest moment on the driving link (N m): the balancing one, or that of a joint's force at the link's length.
+    /// Largest moment on the driving link (N m): the balancing moment, or the moment of a joint's force at the link's
+    /// length.
     pub(super) moment: f64,
 }
 
@@ -34,19 +36,20 @@ impl Observed {
         largest_size(self.opening.iter().copied())
     }
 
-    /// Largest difference between the balancing moment of the trajectory and that of the powers, over the moments that make it up: where it vanishes they balance,
-    /// and their rounding is left.
+    /// Largest difference between the balancing moment of the trajectory and that of the powers, over the moments in
+    /// the balance. Where the balancing moment vanishes, these moments balance each other, and only their rounding is
+    /// left.
     pub(super) fn two_ways(&self) -> f64 {
         share(largest_size(self.moment_gap()), self.moment)
     }
 
-    /// Balancing moment of the trajectory less that of the powers (N m) at every instant.
+    /// Balancing moment of the trajectory minus that of the powers (N m) at every instant.
     pub(super) fn moment_gap(&self) -> impl Iterator<Item = f64> {
         self.torque.iter().zip(&self.power).map(|(torque, power)| torque - power)
     }
 }
 
-/// A run that failed, and what it had computed until then.
+/// A run that failed, and its results up to the failure.
 #[derive(Clone, Debug)]
 pub(super) struct Stopped {
     pub(super) error: Error,
@@ -65,7 +68,7 @@ impl From<Stopped> for Error {
     }
 }
 
-/// Solves `case` with `solver`, watching the closure of all joints and the balance of powers.
+/// Solves `case` with `solver` and observes the closure of all joints and the balance of powers.
 pub(super) fn observe(
     case: &Case,
     solver: &dyn Solver,
@@ -89,7 +92,8 @@ pub(super) fn observe(
             reach = reach.larger(places[0].norm());
         }
         if with_power {
-            // A crank at rest has no power: where its speed changes, powers are compared, over the top speed.
+            // A crank at rest has no power. Where the crank's speed changes, powers are compared, divided by the top
+            // speed.
             (power[row], torque[row]) = match steady {
                 true => (power::balancing_moment(case, state), reduced_torque(case, state)),
                 false => {
@@ -100,7 +104,7 @@ pub(super) fn observe(
             let forces = state.forces.iter().map(|force| force.norm() * arm);
             moment =
                 forces.fold(state.torques.iter().fold(moment, |most, torque| most.larger(torque.abs())), f64::larger);
-            // At the very instant of setting off loads act already against a motion that the state does not show yet.
+            // In the instant of starting, loads already act against a motion that the state does not show yet.
             let setting_off = case.is_free() && case.drives.iter().all(|drive| state.motions[drive.link].omega == 0.0);
             if !setting_off {
                 unbalance.add(case, state);
@@ -137,7 +141,7 @@ fn reduced_torque(case: &Case, state: &State) -> f64 {
     state.torques[0] + further.sum::<f64>()
 }
 
-/// Equilibrium of the whole mechanism, watched over a run.
+/// Equilibrium of the whole mechanism, observed over a run.
 #[derive(Default)]
 struct Unbalance {
     force: f64,
@@ -155,7 +159,7 @@ impl Unbalance {
             let place = state.motions[joint.second.link].point(joint.second.local);
             let own = state.forces[index].norm();
             self.largest_force = self.largest_force.larger(own);
-            // Of a joint in the origin, its force at the mechanism's size.
+            // For a joint at the origin, the lever of its force is the mechanism's size.
             let lever = place.norm().larger(case.mechanism.size());
             self.largest_moment = self.largest_moment.larger(own * lever).larger(state.moments[index].abs());
         }

@@ -1,4 +1,4 @@
-//! What to prove a scenario with.
+//! Options of a proof.
 
 use super::unknown;
 use crate::engines::EngineName;
@@ -33,7 +33,7 @@ impl Reference {
         Reference::ALL.into_iter().find(|side| side.name() == name)
     }
 
-    /// The side as a solver.
+    /// The solver of this side.
     #[must_use]
     pub fn solver(self) -> &'static dyn Solver {
         match self {
@@ -43,10 +43,10 @@ impl Reference {
     }
 }
 
-/// What to prove a scenario with.
+/// Options of a proof.
 ///
-/// What is not given is the scenario's own, and what that does not say is the engine's default.
-/// Numbers are checked when the proof begins.
+/// An option that is not given is taken from the scenario; if the scenario does not state it, the engine's default
+/// applies. Numbers are checked when the proof begins.
 ///
 /// ```
 /// use linkproof::Options;
@@ -63,9 +63,9 @@ impl Reference {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Options {
-    /// Analytic side whose trajectory is the reference; the other one checks it.
+    /// Analytic side whose trajectory is the reference; the other side checks it.
     pub reference: Reference,
-    /// Engines; the scenario's, or the default one, if there is none.
+    /// Engines. If empty: the scenario's engine, or else the default one.
     pub engines: Vec<EngineName>,
     /// Time step (s) of engines with a fixed step.
     pub step: Option<f64>,
@@ -73,11 +73,11 @@ pub struct Options {
     pub accuracy: Option<f64>,
     /// Sweeps of the iteration in a step.
     pub sweeps: Option<usize>,
-    /// Parts that an engine itself divides a step into.
+    /// Number of substeps into which an engine divides a step.
     pub substeps: Option<usize>,
-    /// The way to reactions and balancing moment.
+    /// Route by which reactions and balancing moment are computed.
     pub route: Option<Route>,
-    /// Whether the engine's state is combined from two steps, so that the leading error drops out.
+    /// Whether the engine's state is combined from two steps, so that the leading error cancels.
     pub extrapolated: Option<bool>,
 }
 
@@ -89,56 +89,56 @@ impl Options {
         self
     }
 
-    /// Every engine that this build has, side by side.
+    /// Adds every engine that this build has; they run side by side.
     #[must_use]
     pub fn every_engine(mut self) -> Self {
         self.engines = EngineName::ALL.into_iter().filter(|engine| engine.is_built()).collect();
         self
     }
 
-    /// The analytic side whose trajectory is the reference.
+    /// Sets the analytic side whose trajectory is the reference.
     #[must_use]
     pub fn reference(mut self, side: Reference) -> Self {
         self.reference = side;
         self
     }
 
-    /// Time step (s) of engines with a fixed step.
+    /// Sets the time step (s) of engines with a fixed step.
     #[must_use]
     pub fn step(mut self, step: f64) -> Self {
         self.step = Some(step);
         self
     }
 
-    /// Relative accuracy of engines that control their error.
+    /// Sets the relative accuracy of engines that control their error.
     #[must_use]
     pub fn accuracy(mut self, accuracy: f64) -> Self {
         self.accuracy = Some(accuracy);
         self
     }
 
-    /// Sweeps of the iteration in a step.
+    /// Sets the sweeps of the iteration in a step.
     #[must_use]
     pub fn sweeps(mut self, sweeps: usize) -> Self {
         self.sweeps = Some(sweeps);
         self
     }
 
-    /// Parts that an engine itself divides a step into.
+    /// Sets the number of substeps into which an engine divides a step.
     #[must_use]
     pub fn substeps(mut self, substeps: usize) -> Self {
         self.substeps = Some(substeps);
         self
     }
 
-    /// The way to reactions and balancing moment.
+    /// Sets the route by which reactions and balancing moment are computed.
     #[must_use]
     pub fn route(mut self, route: Route) -> Self {
         self.route = Some(route);
         self
     }
 
-    /// Whether the engine's state is combined from two steps.
+    /// Sets whether the engine's state is combined from two steps.
     #[must_use]
     pub fn extrapolated(mut self, extrapolated: bool) -> Self {
         self.extrapolated = Some(extrapolated);
@@ -162,8 +162,8 @@ impl Options {
         chosen.into_iter().map(|engine| self.set(engine, scenario, several)).collect()
     }
 
-    /// An engine with the settings asked for. Of `several` engines side by side those that do not know a route keep
-    /// their own.
+    /// An engine with the settings asked for. With `several` engines side by side, an engine that does not know a route
+    /// keeps its own.
     fn set(&self, engine: Box<dyn Engine>, scenario: &Scenario, several: bool) -> Result<Box<dyn Engine>> {
         let (own, defaults) = (&scenario.engine, engine.settings());
         let resolution = match engine.controls_error() {
@@ -173,7 +173,7 @@ impl Options {
         let count = |asked: Option<usize>, own: Option<usize>, default: usize, what: &str| match asked.or(own) {
             Some(0) => Err(Error::new(ErrorKind::Input, format!("found 0 {what}, but an engine needs at least one"))
                 .help("give a whole number greater than zero")),
-            // An engine that does not iterate has no use for them.
+            // An engine that does not iterate does not use sweeps.
             Some(_) if default == 0 => Ok(0),
             Some(number) => Ok(number),
             None => Ok(default),
@@ -202,7 +202,7 @@ fn route_named(name: &str) -> Result<Route> {
     Route::named(name).ok_or_else(|| unknown("route to reactions", name, Route::ALL.iter().map(|route| route.name())))
 }
 
-/// The engine of a scenario file.
+/// The engine named in a scenario file.
 fn named(name: &str, step: f64) -> Result<Box<dyn Engine>> {
     match EngineName::named(name) {
         Some(engine) => engine.with_step(step),

@@ -1,4 +1,4 @@
-//! Numbers from elsewhere against both analytic sides.
+//! Numbers of other sources against both analytic sides.
 
 use crate::compare::{Check, Verdict};
 use crate::scenario::{ExpectedCell, Figure, FigureValue, Oracle, OracleBasis, OraclePoint, OracleSeries, Scenario};
@@ -11,9 +11,9 @@ use linkage::mechanism::Side;
 use linkage::solver::{Solver, State};
 use linkage::trajectory::{Channel, Stage, Trajectory};
 
-/// One check for every series and figure of an oracle and each analytic side.
+/// One check for every series and figure of an oracle and for each analytic side.
 pub(super) fn checks(scenario: &Scenario) -> Result<Vec<Check>> {
-    // Numbers at crank angles are of the nominal motion, where forces decide the true one.
+    // Where forces decide the true motion, numbers at crank angles belong to the nominal motion.
     let scenario = &scenario.clone().nominal();
     let mut checks = Vec::new();
     for solver in analytic::all() {
@@ -47,7 +47,8 @@ fn of_series(scenario: &Scenario, solver: &dyn Solver) -> Result<Vec<Check>> {
     Ok(checks)
 }
 
-/// The checks of one series: one of all its values, and one of each value that is known to be wrong; one of all where all are.
+/// The checks of one series: one for all correct values together, and one for each value that is known to be wrong. If
+/// all values are known to be wrong, they have one check together.
 fn of_one(oracle: &Oracle, series: &OracleSeries, solved: &Trajectory, side: &str) -> Result<Vec<Check>> {
     let values = column(oracle, series, solved)?;
     let against = |family: &str, point: &OraclePoint, origin: Origin| {
@@ -64,7 +65,7 @@ fn of_one(oracle: &Oracle, series: &OracleSeries, solved: &Trajectory, side: &st
         let printed = against(&wrong, &cell.point, origin(oracle));
         against(&wrong, &cell.right, Origin::Recomputed).expected(&cell.finding, &printed)
     };
-    // Each cell has its own bound: the worst is the one that uses most of it.
+    // Each cell has its own bound: the worst cell is the one that uses the largest share of it.
     let all = series.points.iter().map(|point| against(&family, point, origin(oracle)).of(&series.name));
     let worst = all.max_by(|a, b| a.used().total_cmp(&b.used()));
     let expected = series.expected.iter().map(|cell| {
@@ -76,7 +77,8 @@ fn of_one(oracle: &Oracle, series: &OracleSeries, solved: &Trajectory, side: &st
     Ok(worst.into_iter().chain(expected).chain(column).collect())
 }
 
-/// Of checks of printed numbers that are all known to be wrong, the first that is not as expected, else the one that uses most of its bound.
+/// The worst check of printed numbers that are all known to be wrong: the first that is not as expected, else the one
+/// that uses the largest share of its bound.
 fn worst_of(checks: impl Iterator<Item = Check>) -> Option<Check> {
     let rank = |check: &Check| (!matches!(check.verdict, Verdict::Expected { .. }), check.used());
     checks.reduce(|worst, check| {
@@ -85,7 +87,7 @@ fn worst_of(checks: impl Iterator<Item = Check>) -> Option<Check> {
     })
 }
 
-/// Bound of a number: half a unit of its last digit, and the error it is known to have.
+/// Bound of a number: half a unit of its last digit, plus the known error of the number.
 fn tolerance(oracle: &Oracle, origin: Origin, bound: f64, digits: i32) -> Tolerance {
     Tolerance { bound, basis: Basis::Digits { origin, digits, source: oracle.source.clone() } }
 }
@@ -99,7 +101,7 @@ fn origin(oracle: &Oracle) -> Origin {
     }
 }
 
-/// Values of a series' channel, or sizes of its vector.
+/// Values of a series' channel, or magnitudes of its vector.
 fn column(oracle: &Oracle, series: &OracleSeries, solved: &Trajectory) -> Result<Vec<f64>> {
     let named = |channel: &Channel| {
         solved.column(channel).ok_or_else(|| {
@@ -137,7 +139,7 @@ fn of_figures(scenario: &Scenario, solver: &dyn Solver) -> Result<Vec<Check>> {
     Ok(checks)
 }
 
-/// Figures as one analytic side finds them; the means over a turn once, where one is asked for.
+/// Figures computed by one analytic side. The means over a turn are computed once, if one is asked for.
 struct Measured<'a> {
     scenario: &'a Scenario,
     solver: &'a dyn Solver,
@@ -168,7 +170,7 @@ impl Measured<'_> {
     fn steady(&mut self) -> Result<[f64; 2]> {
         let case = &self.scenario.case;
         let motor = case.crank().motor().expect("a scenario with this figure has a motor");
-        // The motor works in the sense in which the crank is driven.
+        // The motor acts in the direction in which the crank is driven.
         let sense = case.crank().sense();
         let resistance = sense * self.means()?.resistance;
         let Some(speed) = motor.steady_speed(resistance) else {
@@ -178,7 +180,7 @@ impl Measured<'_> {
         Ok([crank, crank * motor.ratio])
     }
 
-    /// Distance of two points as the side places them at t = 0 (m).
+    /// Distance of two points at t = 0 by this side (m).
     fn distance(&self, ends: [Side; 2]) -> Result<f64> {
         let base = &self.scenario.case;
         let grid = Grid::of_times(base.crank(), vec![0.0]);

@@ -1,29 +1,29 @@
-//! Reference and engines as equals: who stands against all others.
+//! Reference and engines as equals: which one disagrees with all others.
 
 use super::engines::EngineProof;
 use crate::compare::largest_difference;
 use linkage::trajectory::{Channel, Trajectory};
 
-/// A channel in which not all agree.
+/// A channel in which not all sides agree.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Dispute {
     /// The channel.
     pub channel: String,
     /// Pairs that differ by more than the bounds of both.
     pub pairs: Vec<[&'static str; 2]>,
-    /// The one without which all others agree; `None` if there is no single one, or if there are only two.
+    /// The side without which all others agree; `None` if there is no single one, or if there are only two sides.
     pub odd: Option<&'static str>,
 }
 
-/// One side: its values, and how wrong they may be.
+/// One side: its values and the bound on their error.
 struct Party<'a> {
     name: &'static str,
     values: &'a [f64],
     bound: f64,
 }
 
-/// Every channel in which two sides differ by more than both may be wrong. The reference's own error is rounding; an engine without
-/// a bound that it can be held to takes no part.
+/// Every channel in which two sides differ by more than the sum of their bounds. The reference's own error is rounding.
+/// An engine without a trusted bound takes no part.
 #[must_use]
 pub fn disputes(name: &'static str, reference: &Trajectory, engines: &[EngineProof]) -> Vec<Dispute> {
     reference.iter().filter_map(|(channel, values)| dispute(name, channel, values, engines)).collect()
@@ -43,11 +43,12 @@ fn dispute(name: &'static str, channel: &Channel, values: &[f64], engines: &[Eng
     Some(Dispute { channel: channel.to_string(), pairs, odd })
 }
 
-/// Pairs that differ by more than both may be wrong, and who stands alone; `None` if there are no such pairs.
+/// Pairs that differ by more than the sum of their bounds, and the single side that differs from all others; `None` if
+/// there are no such pairs.
 fn apart(parties: &[Party], periodic: bool) -> Option<(Vec<[&'static str; 2]>, Option<&'static str>)> {
     let differ = |a: &Party, b: &Party| {
         let largest = largest_difference(a.values, b.values, periodic);
-        // Written so that NaN is a difference.
+        // Written so that NaN counts as a difference.
         !(largest <= a.bound + b.bound)
     };
     let mut pairs = Vec::new();

@@ -1,4 +1,5 @@
-//! Faults planted in solvers: for every check the smallest that it must find, and one below its bound that it must pass.
+//! Faults planted in solvers. For every check there is the smallest fault that it must find, and one below its bound
+//! that it must pass.
 
 use std::path::Path;
 
@@ -17,7 +18,7 @@ use linkage::solver::{Progress, Provision, Solver, State, Visit};
 use linkage::trajectory::{Channel, ChannelKind};
 use rapier_twin::Rapier;
 
-/// What a fault of a size does to every state.
+/// Effect of a fault of a given size on every state.
 type Fault = fn(&mut State, f64);
 
 fn text(name: &str) -> String {
@@ -32,7 +33,7 @@ fn parsed(name: &str, text: &str) -> Scenario {
     Scenario::parse(text, &path(name)).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// A solver, or an engine, whose states are all wrong by as much.
+/// A solver, or an engine, whose states all have the same fault.
 struct Planted<S: ?Sized> {
     fault: Fault,
     size: f64,
@@ -100,7 +101,7 @@ fn assur(fault: Fault, size: f64) -> Planted<dyn Solver> {
     Planted { fault, size, inner: Box::new(AssurSolver) }
 }
 
-/// The check whose name begins so.
+/// The check whose name begins with `name`.
 fn named<'a>(checks: &'a [Check], name: &str) -> &'a Check {
     let names: Vec<String> = checks.iter().map(Check::name).collect();
     checks.iter().find(|check| check.name().starts_with(name)).unwrap_or_else(|| panic!("{name}: {names:?}"))
@@ -139,7 +140,7 @@ fn every_check_of_the_two_sides_finds_three_times_its_bound_and_passes_a_fifth()
         ("assur against newton, reactions", force, 1e-10 * largest("joint.O.fx_N")),
         ("assur against newton, balancing_moment", torque, 1e-10 * largest("drive.torque_N_m")),
         ("balancing moment from equilibrium and from powers (assur)", torque, 1e-11 * truth.moment),
-        // Where a force of the frame's joint is off, the shaking force is off by as much.
+        // An error in the force of the frame's joint is the same error in the shaking force.
         ("shaking force and moment from reactions and from momentum (assur)", force, 1e-11 * largest("joint.O.fx_N")),
     ];
     for (name, fault, bound) in planted {
@@ -152,7 +153,7 @@ fn every_check_of_the_two_sides_finds_three_times_its_bound_and_passes_a_fifth()
     }
 }
 
-/// Numbers that are none, on the way from what was watched to the bound.
+/// NaN on the way from the observed quantities to the bound.
 #[test]
 fn what_is_not_a_number_at_one_instant_disagrees() {
     let case = parsed("crank_rocker", &text("crank_rocker")).case;
@@ -171,7 +172,7 @@ fn what_is_not_a_number_at_one_instant_disagrees() {
         let found = checks::of_sides(&case, &[("assur", side), ("newton", other.clone())]);
         assert_eq!(named(&found, name).verdict.word(), "disagree", "{name}");
     }
-    // Where no channel has it, it reaches the closure.
+    // A NaN that is in no channel still reaches the closure.
     let second: Fault = |state, _| state.motions[3].origin.y = f64::NAN;
     let positions = case.wanting(Wanted::of(&[]));
     assert!(seen(&positions, &assur(second, 0.0)).closure().is_nan());
@@ -190,7 +191,8 @@ fn every_class_three_method_finds_a_wrong_group_and_stands_in_the_proof() {
     let right = methods::checks(case, &AssurSolver).unwrap();
     assert_eq!(right.len(), all.len());
     assert!(right.iter().all(|check| check.verdict.word() == "agree"), "{right:?}");
-    // Rates and forces of one link, or joint, of the group by 1e-9 of themselves: ten times the bound where it is largest.
+    // Rates and forces of one link, or joint, of the group are changed by 1e-9 of themselves: ten times the largest
+    // bound.
     let [first, ..] = Triad::all(case)[0].links();
     assert_ne!(first, GROUND);
     let rates: Fault = |state, size| state.motions.iter_mut().skip(2).for_each(|motion| motion.omega *= 1.0 + size);
@@ -220,7 +222,8 @@ fn engine_proof(scenario: &Scenario, fault: Fault, size: f64) -> EngineProof {
     engines::prove(scenario, &scenario.case, &engine, &reference, &mut |_| {}).unwrap()
 }
 
-/// An opening that does not vanish with the step, and a moment that its powers do not bear out: both far below 1 % of the size.
+/// An opening that does not vanish with the step, and a moment that disagrees with its powers. Both are far below 1 %
+/// of the size.
 #[test]
 fn the_engine_s_own_checks_find_what_does_not_vanish_with_the_step() {
     let scenario = parsed("crank_rocker", &text("crank_rocker"));
@@ -228,7 +231,7 @@ fn the_engine_s_own_checks_find_what_does_not_vanish_with_the_step() {
     assert_eq!(true_one.verdict.word(), "agree");
     let [closure, powers] =
         ["closure of all joints", "driving moment"].map(|name| named(&true_one.checks, name).clone());
-    // Its own runs bound the opening at a quarter more than it is.
+    // The engine's own runs bound the opening at a quarter more than its value.
     assert!(closure.bound <= 1.3 * closure.value && closure.bound < 2e-5, "{closure:?}");
     assert!(powers.bound < 1e-9, "{powers:?}");
     let moved: Fault = |state, size| state.motions[3].origin.x += size;
@@ -248,7 +251,7 @@ fn the_engine_s_own_checks_find_what_does_not_vanish_with_the_step() {
     }
 }
 
-/// What is recorded as error is the engine less the reference: a fault that adds is an error above zero.
+/// The recorded error is the engine minus the reference: a fault that adds gives a positive error.
 #[test]
 fn errors_of_an_engine_have_the_sign_of_its_fault() {
     let scenario = parsed("crank_rocker", &text("crank_rocker"));
@@ -259,7 +262,7 @@ fn errors_of_an_engine_have_the_sign_of_its_fault() {
     assert!(errors.column(&torque).unwrap().iter().all(|error| (error - 100.0).abs() < 1.0));
 }
 
-/// Every figure, moved by a unit of its last digit.
+/// Every figure is moved by one unit of its last digit.
 #[test]
 fn an_oracle_finds_a_unit_of_its_last_digit() {
     let name = "crank_rocker";

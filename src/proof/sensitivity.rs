@@ -1,4 +1,5 @@
-//! How much a free motion depends on the forces that make it: the condition of the problem itself, whoever solves it.
+//! How strongly a free motion depends on the forces that cause it. This is the condition of the problem, whatever the
+//! solver.
 
 use crate::compare::largest_difference;
 use linkage::case::Case;
@@ -7,11 +8,12 @@ use linkage::error::Result;
 use linkage::solver::Solver;
 use linkage::trajectory::Trajectory;
 
-/// Share by which gravity and the motor's torque are changed: small beside the motion, large beside rounding.
+/// Share by which gravity and the motor's torque are changed: small compared with the motion, large compared with
+/// rounding.
 const CHANGE: f64 = 1e-6;
 
-/// For every channel of `reference`, in its order: the largest change of its values over the run, per share of change in gravity and motor torque, in the
-/// channel's unit. Empty for a motion that no forces decide.
+/// For every channel of `reference`, in its order: the largest change of its values over the run, per share of change
+/// in gravity and motor torque, in the channel's unit. Empty for a motion that does not depend on forces.
 ///
 /// # Errors
 /// Those of the solver.

@@ -7,9 +7,9 @@ use foxglove::messages::{ArrowPrimitive, SceneEntity, SceneUpdate};
 use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::Joint;
 
-/// Length of the largest arrow against the size of the mechanism.
+/// Length of the longest arrow, as a share of the mechanism's size.
 const LONGEST: f64 = 0.4;
-/// Length of the shortest arrow against the size of the mechanism; viewers choke on arrows without length.
+/// Length of the shortest arrow, as a share of the mechanism's size; viewers fail on arrows of zero length.
 const SHORTEST: f64 = 0.01;
 
 /// The arrows of all sides that have reactions.
@@ -17,12 +17,12 @@ pub struct Forces<'a> {
     scene: &'a Scene<'a>,
     /// Sides with the components of each joint's force.
     sides: Vec<(&'a Placed<'a>, Vec<[&'a [f64]; 2]>)>,
-    /// Length of an arrow for each newton (m/N).
+    /// Length of an arrow per newton (m/N).
     pub scale: f64,
 }
 
 impl<'a> Forces<'a> {
-    /// The arrows of a scene; none if no side has reactions.
+    /// The arrows of a scene; `None` if no side has reactions.
     pub fn new(scene: &'a Scene<'a>) -> Option<Self> {
         let of_side = |side: &'a Placed<'a>| {
             let column = |joint: &Joint, suffix| column(side.trajectory, &format!("joint.{}.{suffix}", joint.name));
@@ -38,7 +38,7 @@ impl<'a> Forces<'a> {
         (!sides.is_empty()).then_some(Forces { scene, sides, scale })
     }
 
-    /// Every arrow at a time, always with the same identities.
+    /// Every arrow at a time, always with the same identifiers.
     pub fn arrows(&self, time: f64, nanoseconds: u64) -> SceneUpdate {
         let mechanism = self.scene.mechanism;
         let mut entities = Vec::new();
@@ -62,10 +62,10 @@ impl<'a> Forces<'a> {
         let size = self.scene.size;
         let length = (self.scale * force.norm()).larger(SHORTEST * size);
         let head = (0.3 * length).smaller(0.06 * size);
-        // Arrows are round: a thinner one must be lifted out of the broader one.
+        // Arrows are round: a thinner arrow must lie higher to be visible on a broader one.
         let (broad, z) = (side.paint.broad.sqrt(), (8.0 + 4.0 * side.paint.layer) * self.scene.layer());
         let mut color = side.paint.colour();
-        // Lighter than the links that the arrows lie on.
+        // Lighter than the links below the arrows.
         color.a = 0.8;
         ArrowPrimitive {
             pose: pose(at, z, force.y.atan2(force.x)),

@@ -4,11 +4,11 @@ use super::placed::Placed;
 use linkage::math::{KeepNan, Vec2, turned};
 use linkage::mechanism::{GROUND, Mechanism, Side};
 
-/// Half length and half width of a block in a fixed guide against the size of the mechanism, and of one on a moving guide: where both sit
-/// on one pin, both are seen.
+/// Half length and half width of a block, as shares of the mechanism's size: here in a fixed guide, below on a moving
+/// guide. They differ so that two blocks on one pin are both visible.
 const FIXED: [f64; 2] = [0.055, 0.035];
 const MOVING: [f64; 2] = [0.042, 0.022];
-/// Distance of a rail from the block beside it, against the size of the mechanism: half the lines' thickness, and air.
+/// Distance of a rail from the block beside it, as a share of the mechanism's size: half the line thickness, and a gap.
 const PLAY: f64 = 0.015;
 
 /// A guide and its block.
@@ -17,7 +17,7 @@ pub struct Guide {
     block: Side,
     /// Unit vectors along the guide, in the frame of its link and in that of the block.
     axes: [Vec2; 2],
-    /// Least and largest way of the block's place from the guide's along the axis (m), in all sides.
+    /// Least and largest distance of the block's place from the guide's place along the axis (m), over all sides.
     ways: [f64; 2],
     /// Half length and half width of the block (m).
     half: [f64; 2],
@@ -28,12 +28,12 @@ pub struct Guide {
 pub struct Strip {
     /// Its points (m).
     pub points: Vec<Vec2>,
-    /// Whether the last is joined with the first.
+    /// Whether the last point is joined to the first.
     pub closed: bool,
 }
 
 impl Guide {
-    /// All guides of a mechanism of this size (m), as long as its blocks travel in the sides.
+    /// All guides of a mechanism of this size (m), as long as the travel of their blocks in all sides.
     pub fn all(mechanism: &Mechanism, sides: &[Placed], size: f64) -> Vec<Guide> {
         let guide = |joint| {
             let [guide, block] = mechanism.guide_and_block(joint)?;
@@ -52,13 +52,13 @@ impl Guide {
         mechanism.joints().iter().filter_map(guide).collect()
     }
 
-    /// What a link shows of this guide: its line or rails, the block's outline, or nothing.
+    /// The parts of this guide that belong to a link: its line or rails, the block's outline, or nothing.
     pub fn strips(&self, link: usize) -> Vec<Strip> {
         let [long, wide] = self.half;
         let mut strips = Vec::new();
         if link == self.guide.link {
             let (from, to) = (self.ways[0] - long, self.ways[1] + long);
-            // The line of a moving guide begins at its place on the link, wherever the block is.
+            // The line of a moving guide begins at the guide's place on the link, wherever the block is.
             let (from, to) = if link == GROUND { (from, to) } else { (from.smaller(0.0), to.larger(0.0)) };
             let ends = [from, to].map(|way| self.guide.local + self.axes[0] * way);
             let aside = turned(self.axes[0]) * (wide + self.play);

@@ -1,4 +1,4 @@
-//! Recordings: what a run computed, as one MCAP file that ordinary viewers replay and that this crate reads back.
+//! Recordings: the results of a run as one MCAP file. Ordinary viewers replay it, and this crate reads it back.
 //!
 //! | topic | schema | when |
 //! |---|---|---|
@@ -10,13 +10,14 @@
 //! | `/mechanism/outline` | `foxglove.PointCloud`, for viewers without scenes | every frame |
 //! | `/log` | `foxglove.Log` | verdicts and warnings |
 //!
-//! Log times are simulated nanoseconds from the first instant of the recording, so nothing depends on a clock: equal
-//! runs give equal files. A message's sequence number is that of its sample in ascending order of time and ties the
-//! topics of one side together. The scenario is attached as `scenario.toml`; versions, settings and the scale of the
-//! force arrows stand in the metadata record `linkproof`.
+//! Log times are simulated nanoseconds from the first instant of the recording. Nothing depends on a clock, so equal
+//! runs give equal files. The sequence number of a message is that of its sample in ascending order of time; it
+//! connects the topics of one side. The scenario is attached as `scenario.toml`. Versions, settings and the scale of
+//! the force arrows are in the metadata record `linkproof`.
 //!
-//! Another program's recording can be read too: it needs `/<side>/grid` and the topics above in protobuf, with fields
-//! named like the suffixes of [`CHANNELS`](linkage::trajectory::CHANNELS); their numbers are looked up in the file.
+//! A recording of another program can be read too. It needs `/<side>/grid` and the topics above in protobuf, with
+//! fields named like the suffixes of [`CHANNELS`](linkage::trajectory::CHANNELS). The field numbers are looked up in
+//! the file.
 
 mod forces;
 mod guides;
@@ -36,7 +37,7 @@ use linkage::error::Result;
 use linkage::trajectory::Trajectory;
 use std::path::Path;
 
-/// Writes a recording to `path`, by way of `<path>.partial`: an older recording is replaced only by a complete one.
+/// Writes a recording to `path`, by way of `<path>.partial`. So only a complete recording replaces an older one.
 ///
 /// # Errors
 /// [`ErrorKind::Io`](linkage::ErrorKind::Io) with the path if a file cannot be written;
@@ -48,8 +49,8 @@ pub fn write(recording: &Recording, path: &Path) -> Result<()> {
 
 /// Reads every side of a recording, in the order in which they were recorded.
 ///
-/// Times, crank angles and values come back bit for bit, rows in the order in which the solver gave them. Columns
-/// stand in the order of subjects in the recording, and of [`CHANNELS`](linkage::trajectory::CHANNELS) within a subject.
+/// Times, crank angles and values are read back bit for bit, with the rows in the solver's order. Columns are in the
+/// order of subjects in the recording, and of [`CHANNELS`](linkage::trajectory::CHANNELS) within a subject.
 ///
 /// # Errors
 /// [`ErrorKind::Io`](linkage::ErrorKind::Io) with the path if the file cannot be read, is cut off or damaged;

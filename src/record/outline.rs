@@ -1,4 +1,4 @@
-//! The links as clouds of points, for viewers that draw no scenes.
+//! The links as point clouds, for viewers that draw no scenes.
 
 use super::scene::Scene;
 use super::shapes::{GREY, outline, pose, stamp};
@@ -7,14 +7,15 @@ use foxglove::messages::{PackedElementField, PointCloud};
 use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::GROUND;
 
-/// Points in one mechanism size along a segment of the first side; closer ones would only fill the disk.
+/// Points per mechanism size along a segment of the first side; closer points would only fill the disk.
 const POINTS: f64 = 64.0;
-/// Steps of the grid that points are rounded to, in one mechanism size: round numbers compress, and nobody sees it.
+/// Grid steps per mechanism size to which points are rounded: round numbers compress well, and the rounding is
+/// invisible.
 const STEPS: f64 = 1024.0;
 /// Bytes of one point: three single precision coordinates and four bytes of colour.
 const STRIDE: u32 = 16;
 
-/// The outlines of all sides' links as points in their own frames, made once and placed at each time.
+/// The outlines of all sides' links as points in their own frames. They are made once and placed at each time.
 pub struct Outline<'a> {
     scene: &'a Scene<'a>,
     /// Points of each link, in its frame.
@@ -31,7 +32,7 @@ impl<'a> Outline<'a> {
         Outline { scene, links, quantum }
     }
 
-    /// The cloud at a time.
+    /// The point cloud at a time.
     pub fn cloud(&self, time: f64, nanoseconds: u64) -> PointCloud {
         let mut data: Vec<u8> = Vec::new();
         let mut put = |at: Vec2, z: f64, rgba: [u8; 4]| {
@@ -46,7 +47,7 @@ impl<'a> Outline<'a> {
         }
         for (number, side) in self.scene.sides.iter().enumerate() {
             let row = side.row_at(time);
-            // Later sides are drawn as dots over the first one's line, so that both are seen where they agree.
+            // Later sides are drawn as dots over the line of the first side, so that both are visible where they agree.
             let (stride, z) = (if number == 0 { 1 } else { 4 }, self.scene.layer() * side.paint.layer);
             for (link, places) in self.links.iter().enumerate().skip(1) {
                 let pose = side.pose(self.scene.mechanism, link, row);
@@ -79,7 +80,7 @@ fn fields() -> Vec<PackedElementField> {
     fields
 }
 
-/// Points along a link's outline, its guides and its blocks; the ground is no more than its pivots and rails.
+/// Points along a link's outline, its guides and its blocks. The ground has only its pivots and rails.
 fn of_link(scene: &Scene, link: usize) -> Vec<Vec2> {
     let mut points = if link == GROUND {
         outline(&scene.pivots()).0
@@ -91,7 +92,7 @@ fn of_link(scene: &Scene, link: usize) -> Vec<Vec2> {
     points
 }
 
-/// Points along a line; a line of one corner is that corner.
+/// Points along a line; a line with one corner is that corner.
 fn along(corners: &[Vec2], closed: bool, size: f64) -> Vec<Vec2> {
     let segments = if closed { corners.len() } else { corners.len().saturating_sub(1) };
     let mut points = Vec::new();

@@ -18,9 +18,9 @@ const CHUNK: u64 = 768 * 1024;
 /// The file being written.
 pub struct Output {
     writer: Writer<NoSeek<BufWriter<File>>>,
-    /// Second of the last flush.
+    /// Last flush, in whole seconds of log time.
     flushed: u64,
-    /// Bytes since then.
+    /// Bytes written since the last flush.
     pending: usize,
 }
 
@@ -31,15 +31,16 @@ impl Output {
             .profile("")
             .library(concat!("linkproof ", env!("CARGO_PKG_VERSION")))
             .chunk_size(Some(CHUNK))
-            // Several threads would cut chunks by the number of cores.
+            // Several threads would cut chunks depending on the number of cores.
             .compression_threads(0)
-            // A seeking writer mends the chunk's length afterwards; killed before, it leaves a file nobody opens.
+            // A seeking writer corrects the chunk's length afterwards. If it were killed before that, no program could
+            // open the file.
             .disable_seeking(true)
             .create(NoSeek::new(BufWriter::new(file)))?;
         Ok(Output { writer, flushed: 0, pending: 0 })
     }
 
-    /// Metadata record and scenario, first of all, so that a file cut off has them too.
+    /// Writes the metadata record and the scenario first, so that a file that is cut off has them too.
     pub fn describe(&mut self, recording: &Recording, start: f64, force_scale: Option<f64>) -> McapResult<()> {
         let mut metadata = recording.metadata.clone();
         metadata.entry("scenario".into()).or_insert_with(|| recording.name.into());
@@ -70,9 +71,9 @@ impl Output {
         self.writer.add_channel(schema, name, &M::get_message_encoding(), &BTreeMap::new())
     }
 
-    /// One message at a time (ns).
+    /// Writes one message at a time (ns).
     pub fn put(&mut self, topic: u16, sequence: u32, time: u64, data: &[u8]) -> McapResult<()> {
-        // A chunk for each second bounds what a killed run loses; chunks of a few samples would not compress.
+        // A chunk per second limits the loss of a killed run. Chunks of a few samples would not compress.
         if time / SECOND > self.flushed && self.pending > CHUNK as usize / 8 {
             self.writer.flush()?;
             (self.flushed, self.pending) = (time / SECOND, 0);
@@ -82,7 +83,7 @@ impl Output {
         self.writer.write_to_known_channel(&header, data)
     }
 
-    /// Indexes and the end of the file, safe on the disk.
+    /// Writes the indexes and the end of the file, and syncs it to the disk.
     pub fn finish(mut self) -> McapResult<()> {
         self.writer.finish()?;
         let file =

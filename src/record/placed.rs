@@ -11,11 +11,11 @@ pub struct Placed<'a> {
     pub name: &'a str,
     /// Its values.
     pub trajectory: &'a Trajectory,
-    /// How it is drawn.
+    /// Colour, thickness and height of the side in drawings.
     pub paint: Paint,
     /// Rows in ascending order of time.
     pub(super) rows: Vec<usize>,
-    /// Angle and mass centre of each moving link.
+    /// Columns for each moving link: angle and coordinates of the mass centre.
     pub(super) links: Vec<[&'a [f64]; 3]>,
 }
 
@@ -27,7 +27,7 @@ impl Placed<'_> {
         self.rows[after.max(1) - 1]
     }
 
-    /// Pose of a link's frame; the trajectory tells where its mass centre is.
+    /// Pose of a link's frame, from the mass centre in the trajectory.
     pub fn pose(&self, mechanism: &Mechanism, link: usize, row: usize) -> LinkPose {
         if link == GROUND {
             return LinkPose::GROUND;

@@ -12,17 +12,17 @@ use std::path::Path;
 /// Values with the sequence numbers of their samples.
 type Numbered = Vec<(u32, f64)>;
 
-/// What is done with the messages of one MCAP channel.
+/// How the messages of one MCAP channel are used.
 enum Topic {
-    /// The grid of a side; names of the fields by number.
+    /// The grid of a side, with the names of the fields by number.
     Grid(String, BTreeMap<u32, String>),
-    /// Values of a side; the channels by field number.
+    /// Values of a side, with the channels by field number.
     Values(String, BTreeMap<u32, Channel>),
-    /// Not for us.
+    /// Not a topic of this format.
     Other,
 }
 
-/// What was found of one side. Keys order sides and columns as they were recorded: MCAP channel, then field.
+/// The data found of one side. Keys keep sides and columns in the order of recording: MCAP channel, then field.
 #[derive(Default)]
 struct Found {
     grid: BTreeMap<String, Numbered>,
@@ -58,7 +58,7 @@ pub(super) fn read(path: &Path) -> Result<Vec<(String, Trajectory)>> {
     sides.into_iter().map(|(name, found)| assemble(&name, found, path).map(|trajectory| (name, trajectory))).collect()
 }
 
-/// What the topic of a message holds, from its name and from the descriptor that the file carries.
+/// Content of a message's topic, from its name and from the descriptor in the file.
 fn topic(message: &Message) -> std::result::Result<Topic, prost::DecodeError> {
     let channel = &message.channel;
     let parts = channel.topic.strip_prefix('/').and_then(|rest| rest.split_once('/'));
@@ -129,7 +129,7 @@ fn assemble(name: &str, mut found: Found, path: &Path) -> Result<Trajectory> {
     if times.is_empty() || !same(&cranks) {
         return Err(incomplete(&"its grid"));
     }
-    // Without row numbers (other programs have no use for them) the order of the samples stands.
+    // Without row numbers (other programs do not write them) the order of the samples applies.
     let mut order: Vec<usize> = (0..times.len()).collect();
     if same(&rows) {
         order.sort_by(|&a, &b| rows[a].1.total_cmp(&rows[b].1));

@@ -1,24 +1,24 @@
-//! What a recording holds.
+//! Content of a recording.
 
 use std::collections::BTreeMap;
 
 use linkage::mechanism::Mechanism;
 use linkage::trajectory::Trajectory;
 
-/// Everything that goes into one recording.
+/// All data of one recording.
 #[derive(Clone, Copy, Debug)]
 pub struct Recording<'a> {
     /// Name of the scenario.
     pub name: &'a str,
     /// Text of the scenario file, attached as `scenario.toml`.
     pub scenario_text: &'a str,
-    /// Versions, settings, verdict: whatever tells where the numbers come from.
+    /// Versions, settings, verdict: the origin of the numbers.
     pub metadata: &'a BTreeMap<String, String>,
     /// The mechanism that is drawn.
     pub mechanism: &'a Mechanism,
-    /// The trajectories, the reference first, then the engines. A side without samples leaves no trace.
+    /// The trajectories: the reference first, then the engines. A side without samples is left out.
     pub sides: &'a [Side<'a>],
-    /// Engine minus reference, channel by channel, in SI units. Written for people, not read back.
+    /// Engine minus reference, channel by channel, in SI units. Written for people; not read back.
     pub errors: Option<&'a Trajectory>,
     /// Verdicts and warnings.
     pub log: &'a [LogEntry],
@@ -27,7 +27,7 @@ pub struct Recording<'a> {
 /// One trajectory of a recording.
 #[derive(Clone, Copy, Debug)]
 pub struct Side<'a> {
-    /// First part of its topics and frames: "reference", "engine". Not empty, without `/`, unique.
+    /// First part of its topics and frames: "reference", "engine". It must be unique, not empty, and without `/`.
     pub name: &'a str,
     /// Its values.
     pub trajectory: &'a Trajectory,
@@ -38,18 +38,18 @@ pub struct Side<'a> {
 pub struct LogEntry {
     /// Time on the trajectories' clock (s).
     pub time: f64,
-    /// How much it matters.
+    /// Importance of the entry.
     pub level: Level,
     /// The message.
     pub text: String,
 }
 
-/// How much a log entry matters.
+/// Importance of a log entry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Level {
-    /// Worth knowing.
+    /// For information.
     Info,
-    /// To be looked at.
+    /// To be examined.
     Warning,
     /// Something failed.
     Error,

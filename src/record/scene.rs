@@ -1,4 +1,4 @@
-//! The moving mechanism: where each side's links are, their frames, and what they look like.
+//! The moving mechanism: the positions, the frames and the drawing of each side's links.
 
 use super::guides::{Guide, Strip};
 use super::placed::{Placed, column};
@@ -13,9 +13,9 @@ use linkage::math::statistics::ascending;
 use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{GROUND, Link, Mechanism};
 
-/// Frames of a recording, at most, unless it is so long that they would be fewer than [`FRAMES_PER_SECOND`].
+/// Largest number of frames in a recording, unless it is so long that there would be fewer than [`FRAMES_PER_SECOND`].
 const FRAMES: f64 = 400.0;
-/// Frames in a simulated second, at least, where there are as many samples.
+/// Least number of frames per simulated second, if there are as many samples.
 const FRAMES_PER_SECOND: f64 = 50.0;
 
 /// Everything that can be drawn of a recording.
@@ -24,14 +24,14 @@ pub struct Scene<'a> {
     pub mechanism: &'a Mechanism,
     /// The sides that have positions.
     pub sides: Vec<Placed<'a>>,
-    /// Length that all drawing is proportional to (m).
+    /// Length to which all drawing is proportional (m).
     pub size: f64,
     /// Guides and blocks.
     guides: Vec<Guide>,
 }
 
 impl<'a> Scene<'a> {
-    /// The scene of the sides that have samples and all positions; none if there is no such side.
+    /// The scene of the sides that have samples and all positions; `None` if there is no such side.
     pub fn new(mechanism: &'a Mechanism, sides: &[Side<'a>]) -> Option<Self> {
         let placed = |(number, side): (usize, &Side<'a>)| {
             let column = |link: &Link, suffix| column(side.trajectory, &format!("link.{}.{suffix}", link.name));
@@ -57,13 +57,13 @@ impl<'a> Scene<'a> {
         (!sides.is_empty()).then_some(Scene { mechanism, sides, size, guides })
     }
 
-    /// Distance between the sides above each other (m): enough to be told apart by a viewer's depth, not by the eye,
-    /// to which a gap would look like a disagreement.
+    /// Height between the sides in the drawing (m). A viewer's depth test can separate them, but the eye must not: a
+    /// visible gap would look like a disagreement.
     pub fn layer(&self) -> f64 {
         0.002 * self.size
     }
 
-    /// Times at which the scene is drawn (s), ascending: those of the first side, thinned.
+    /// Times at which the scene is drawn (s), ascending: a selection from the times of the first side.
     pub fn times(&self) -> Vec<f64> {
         let side = &self.sides[0];
         let time = |&row: &usize| side.trajectory.times()[row];
@@ -79,7 +79,7 @@ impl<'a> Scene<'a> {
         times
     }
 
-    /// Frames of all links at a time, all sides in one message: viewers that jump look at the last message only.
+    /// Frames of all links at a time, all sides in one message: viewers that jump in time use only the last message.
     pub fn frames(&self, time: f64, nanoseconds: u64) -> FrameTransforms {
         let mut transforms = Vec::new();
         for side in &self.sides {
@@ -98,7 +98,7 @@ impl<'a> Scene<'a> {
         FrameTransforms { transforms }
     }
 
-    /// What the links look like, each in its own frame, and the ground.
+    /// The drawing of all links, each in its own frame, and of the ground.
     pub fn links(&self) -> SceneUpdate {
         let mut entities = vec![self.ground()];
         for (number, side) in self.sides.iter().enumerate() {
@@ -109,7 +109,7 @@ impl<'a> Scene<'a> {
         SceneUpdate { deletions: Vec::new(), entities }
     }
 
-    /// Places of a link that are drawn: its points, then joints that have no named point there (m, link frame).
+    /// Places of a link that are drawn: its points, then its joints that have no named point (m, link frame).
     pub fn places(&self, link: usize) -> Vec<Vec2> {
         let mut places: Vec<Vec2> = self.mechanism.links()[link].points.iter().map(|point| point.local).collect();
         for joint in self.mechanism.joints() {
@@ -119,7 +119,7 @@ impl<'a> Scene<'a> {
         places
     }
 
-    /// Places of the ground that are drawn as pivots: all but those that only lie on a guide.
+    /// Places of the ground that are drawn as pivots: all except those that only lie on a guide.
     pub fn pivots(&self) -> Vec<Vec2> {
         let joints = |at: Vec2| self.mechanism.joints().iter().filter(move |joint| joint.on(GROUND) == Some(at));
         let pivot = |at: &Vec2| joints(*at).count() == 0 || joints(*at).any(|joint| joint.is_pin());
@@ -181,7 +181,7 @@ impl<'a> Scene<'a> {
         }
     }
 
-    /// The first link that carries a point of this name; it alone is lettered.
+    /// The first link that has a point of this name; only this link shows the name.
     fn owner(&self, name: &str) -> usize {
         let carries = |link: &Link| link.points.iter().any(|point| point.name == name);
         self.mechanism.links().iter().position(carries).unwrap_or(GROUND)
@@ -198,7 +198,7 @@ impl<'a> Scene<'a> {
         }
     }
 
-    /// Pivots as triangles standing below their points, as textbooks draw them, and the rails of fixed guides.
+    /// Pivots as triangles below their points, as in textbooks, and the rails of fixed guides.
     fn ground(&self) -> SceneEntity {
         let (half, down) = (0.03 * self.size, -0.05 * self.size);
         let below = -0.01 * self.size;

@@ -1,6 +1,6 @@
-//! Our own messages: flat protobuf, one number a field, made from the table of channels.
+//! Our own messages: flat protobuf, one number per field, made from the table of channels.
 //!
-//! Every field has presence (proto3 `optional`): a channel that was not computed is absent, which is not zero.
+//! Every field has presence (proto3 `optional`): a channel that was not computed is absent, which differs from zero.
 
 use linkage::trajectory::{CHANNELS, ChannelKind, Subject, Unit};
 use prost::Message;
@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 /// Fields of the grid message: time (s), crank angle (rad), number of the row in the solver's order.
 pub const GRID_FIELDS: [&str; 3] = ["t_s", "crank_rad", "row"];
 
-/// A message type as viewers must know it.
+/// A message type as viewers need it.
 pub struct Schema {
     /// Full name.
     pub name: String,
@@ -22,17 +22,17 @@ pub struct Schema {
     pub descriptor: Vec<u8>,
 }
 
-/// The grid message.
+/// The schema of the grid message.
 pub fn grid() -> Schema {
     schema("Grid", GRID_FIELDS.into_iter().map(str::to_string), Type::Double)
 }
 
-/// The message of a subject's values.
+/// The schema of a subject's values.
 pub fn values(subject: Subject) -> Schema {
     schema(&type_name(subject), kinds(subject).map(|kind| kind.suffix.to_string()), Type::Double)
 }
 
-/// The message of a subject's errors, in small units. Single precision: they are for people, who read three digits.
+/// The schema of a subject's errors, in small units. Single precision is enough: people read three digits.
 pub fn errors(subject: Subject) -> Schema {
     schema(&format!("{}Error", type_name(subject)), kinds(subject).map(|kind| small_unit(kind).0), Type::Float)
 }
@@ -43,7 +43,7 @@ pub fn tag(kind: &ChannelKind) -> u32 {
     place.expect("every kind is a row of the table") as u32 + 1
 }
 
-/// Name of a channel's error with its small unit, and how many of these units the SI unit has.
+/// Name of a channel's error with its small unit, and the number of these units in the SI unit.
 pub fn small_unit(kind: &ChannelKind) -> (String, f64) {
     let (prefix, factor) = match kind.unit {
         Unit::Radian | Unit::RadianPerSecond | Unit::RadianPerSecondSquared => ("u", 1e6),
@@ -55,18 +55,18 @@ pub fn small_unit(kind: &ChannelKind) -> (String, f64) {
     (format!("{stem}{prefix}{unit}"), factor)
 }
 
-/// Appends a double field, zero or not.
+/// Appends a double field, also if it is zero.
 pub fn put(buffer: &mut Vec<u8>, tag: u32, value: f64) {
     double::encode(tag, &value, buffer);
 }
 
-/// Appends a single precision field, zero or not.
+/// Appends a single precision field, also if it is zero.
 pub fn put_small(buffer: &mut Vec<u8>, tag: u32, value: f32) {
     encode_key(tag, WireType::ThirtyTwoBit, buffer);
     buffer.extend(value.to_le_bytes());
 }
 
-/// The double fields of a message in the order of the wire; other fields are passed over.
+/// The double fields of a message in the order of the wire; other fields are skipped.
 pub fn doubles(mut data: &[u8]) -> Result<Vec<(u32, f64)>, prost::DecodeError> {
     let mut fields = Vec::new();
     while !data.is_empty() {
@@ -99,14 +99,14 @@ pub fn field_names(descriptor: &[u8], full_name: &str) -> Result<BTreeMap<u32, S
     Ok(names)
 }
 
-/// What the message of a subject holds; that of a sliding joint all that any joint has, and more.
+/// Channels in the message of a subject. The message of a sliding joint has those of any joint, and more.
 fn kinds(subject: Subject) -> impl Iterator<Item = &'static ChannelKind> {
     let joint = subject == Subject::Slider;
     CHANNELS.iter().filter(move |kind| kind.subject == subject || joint && kind.subject == Subject::Joint)
 }
 
 fn type_name(subject: Subject) -> String {
-    // A name of its own: two messages of one name with different fields confuse viewers.
+    // It needs its own name: two messages of one name with different fields confuse viewers.
     let word = if subject == Subject::Slider { "slider" } else { subject.word() };
     word[..1].to_uppercase() + &word[1..]
 }
@@ -125,7 +125,7 @@ fn schema(name: &str, fields: impl Iterator<Item = String>, kind: Type) -> Schem
             ..Default::default()
         })
         .collect();
-    // Presence in proto3 is told by a oneof of a single field, as protoc writes it.
+    // In proto3, presence is written as a oneof of a single field, as protoc does.
     let oneof_decl =
         field.iter().map(|f| OneofDescriptorProto { name: Some(format!("_{}", f.name())), options: None }).collect();
     let message = DescriptorProto { name: Some(name.into()), field, oneof_decl, ..Default::default() };

@@ -1,30 +1,31 @@
-//! Small makers of the viewers' messages, and the colours of the sides.
+//! Small constructors of the viewers' messages, and the colours of the sides.
 
 use foxglove::messages::{Color, Point3, Pose, Quaternion, Timestamp, Vector3};
 
 use linkage::math::Vec2;
 
-/// How one side is drawn. Sides lie over each other: the first broad and pale, each later one thinner and before it,
-/// so that two that agree show both colours and two that do not come apart.
+/// How one side is drawn. Sides lie over each other. The first is broad and pale, each later one is thinner and in
+/// front of it. So two sides that agree show both colours, and two that differ separate.
 #[derive(Clone, Copy)]
 pub struct Paint {
     /// Red, green, blue, opacity, each 0 to 255.
     pub rgba: [u8; 4],
-    /// Thickness against that of the first side.
+    /// Thickness relative to the first side.
     pub broad: f64,
     /// Height above the plane of motion, in layers.
     pub layer: f64,
 }
 
 impl Paint {
-    /// Paint of the side number `side`. Colours of Okabe and Ito, which colour-blind people tell apart.
+    /// Paint of the side with number `side`. The colours are those of Okabe and Ito, which colour-blind people can
+    /// distinguish.
     pub fn of(side: usize) -> Paint {
         const COLOURS: [[u8; 3]; 4] = [[86, 180, 233], [230, 120, 0], [0, 158, 115], [204, 121, 167]];
         let [red, green, blue] = COLOURS[side % COLOURS.len()];
         Paint { rgba: [red, green, blue, 255], broad: 0.4f64.powi(side.min(3) as i32), layer: side as f64 }
     }
 
-    /// The colour as messages want it.
+    /// The colour as messages need it.
     pub fn colour(self) -> Color {
         let [r, g, b, a] = self.rgba.map(|part| f64::from(part) / 255.0);
         Color { r, g, b, a }
@@ -39,13 +40,13 @@ pub fn grey() -> Color {
     Color { r: 0.5, g: 0.5, b: 0.5, a: 1.0 }
 }
 
-/// Log time as the viewers' stamp.
+/// Log time as a time stamp of the viewers.
 pub fn stamp(nanoseconds: u64) -> Option<Timestamp> {
     let seconds = u32::try_from(nanoseconds / 1_000_000_000).unwrap_or(u32::MAX);
     Some(Timestamp::new(seconds, (nanoseconds % 1_000_000_000) as u32))
 }
 
-/// Pictures need no more than single precision, and numbers with an empty tail compress to half.
+/// Rounds to single precision, which is enough for pictures. Numbers with an empty tail compress to half.
 pub fn short(value: f64) -> f64 {
     f64::from(value as f32)
 }
@@ -60,7 +61,7 @@ pub fn vector(at: Vec2, z: f64) -> Vector3 {
     Vector3 { x: short(at.x), y: short(at.y), z: short(z) }
 }
 
-/// A box of equal sides in the plane.
+/// A box with a square base in the plane.
 pub fn extent(width: f64, height: f64) -> Option<Vector3> {
     Some(Vector3 { x: short(width), y: short(width), z: short(height) })
 }

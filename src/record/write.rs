@@ -19,7 +19,7 @@ use std::fmt::Display;
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 
-/// Number of clouds from which on only every second is written.
+/// Number of point clouds above which only every second one is written.
 const CLOUDS: usize = 200;
 
 pub(super) fn write(recording: &Recording, path: &Path) -> Result<()> {
@@ -31,7 +31,7 @@ pub(super) fn write(recording: &Recording, path: &Path) -> Result<()> {
     };
     let file = File::create(&partial).map_err(|error| failed(&error))?;
     if let Err(error) = fill(recording, file) {
-        // The error at hand matters more than a leftover.
+        // The first error matters more than a leftover file.
         let _ = fs::remove_file(&partial);
         return Err(failed(&error));
     }
@@ -60,7 +60,7 @@ fn check(recording: &Recording) -> Result<()> {
     Ok(())
 }
 
-/// Something to be written at its time.
+/// An event to be written at its time.
 enum Event<'a> {
     Frame(f64),
     Cloud(f64),
@@ -91,7 +91,7 @@ fn fill(recording: &Recording, file: File) -> McapResult<()> {
         output.put(topic, 0, 0, &scene.links().encode_to_vec())?;
         let times = scene.times();
         events.extend(times.iter().map(|&time| (nanoseconds(time), Event::Frame(time))));
-        // Clouds weigh most of all: half as many do for the eye.
+        // Point clouds take the most space: half of them are enough for the eye.
         let clouds = times.iter().step_by(if times.len() > CLOUDS { 2 } else { 1 });
         events.extend(clouds.map(|&time| (nanoseconds(time), Event::Cloud(time))));
     }
@@ -136,7 +136,7 @@ fn fill(recording: &Recording, file: File) -> McapResult<()> {
     output.finish()
 }
 
-/// Smallest time of the recording (s), from which log times count.
+/// Smallest time of the recording (s), where log times start.
 fn start(recording: &Recording) -> f64 {
     let trajectories = recording.sides.iter().map(|side| side.trajectory).chain(recording.errors);
     let first = trajectories.flat_map(Trajectory::times).copied().fold(f64::INFINITY, f64::smaller);
@@ -158,13 +158,13 @@ fn line(entry: &LogEntry, name: &str, nanoseconds: u64) -> Log {
     }
 }
 
-/// A trajectory with the topics that its columns go to.
+/// A trajectory with the topics of its columns.
 struct Table<'a> {
     times: &'a [f64],
     topics: Vec<Topic<'a>>,
 }
 
-/// One message a row.
+/// One message per row.
 struct Topic<'a> {
     id: u16,
     fields: Vec<Field<'a>>,
@@ -227,7 +227,8 @@ fn topic_name(side: &str, subject: Subject, of: &str) -> String {
 
 type Columns<'a> = Vec<(&'static ChannelKind, &'a [f64])>;
 
-/// The columns of each link, point, joint (all of a sliding one together) and of frame and drive, in the order of their first column.
+/// The columns of each link, point, joint (all columns of a sliding joint together), of frame and drive, in the order
+/// of their first column.
 fn by_subject(trajectory: &Trajectory) -> Vec<(Subject, &str, Columns<'_>)> {
     let mut subjects: Vec<(Subject, &str, Columns)> = Vec::new();
     for (channel, column) in trajectory.iter() {

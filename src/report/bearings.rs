@@ -9,12 +9,12 @@ use super::pretty::pretty;
 use crate::scenario::Scenario;
 use workshop::bearings::{Peak, Peaks, journal_diameter};
 
-/// What journals are chosen for.
+/// Lever and stress for which the journals are chosen.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Journals {
     /// Lever of the reaction on its journal (mm).
     pub(crate) lever_mm: f64,
-    /// Bending stress that they may carry (MPa).
+    /// Bending stress that the journals may carry (MPa).
     pub(crate) stress_mpa: f64,
 }
 
@@ -22,7 +22,7 @@ fn diameter(journals: Journals, peak: Peak) -> f64 {
     journal_diameter(peak.value, journals.lever_mm * 1e-3, journals.stress_mpa * 1e6)
 }
 
-/// As text.
+/// The largest reactions as text.
 pub(crate) fn text(journals: Journals, scenario: &Scenario, peaks: &Peaks) -> String {
     let header = ["joint", "largest reaction", "at crank deg", "smallest journal", "largest moment", "at crank deg"];
     let mut table = table(header, &[1, 2, 3, 4, 5]);
@@ -47,7 +47,7 @@ pub(crate) fn text(journals: Journals, scenario: &Scenario, peaks: &Peaks) -> St
     text
 }
 
-/// As JSON, schema 1.
+/// The largest reactions as JSON, schema 1.
 pub(crate) fn json(journals: Journals, scenario: &Scenario, peaks: &Peaks) -> String {
     let whole = |peak: Peak, unit: &str| json!({unit: peak.value, "crank_rad": peak.crank});
     let joints = scenario.case.mechanism.joints().iter().enumerate().map(|(index, joint)| {

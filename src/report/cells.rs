@@ -1,11 +1,11 @@
-//! Tables and cells that several reports share.
+//! Tables and cells that several reports use.
 
 use comfy_table::{CellAlignment, Table, presets};
 
 use crate::compare::Verdict;
 use crate::proof::ChannelProof;
 
-/// An empty table without lines; the columns of `numbers` are set flush right.
+/// An empty table without lines; the columns in `numbers` are aligned right.
 pub(super) fn table<const N: usize>(header: [&str; N], numbers: &[usize]) -> Table {
     let mut table = Table::new();
     table.load_style(presets::NOTHING).set_header(header);
@@ -17,7 +17,7 @@ pub(super) fn table<const N: usize>(header: [&str; N], numbers: &[usize]) -> Tab
     table
 }
 
-/// Share of its bound that a channel uses; a verdict that is not agreement counts more than any share.
+/// Share of its bound that a channel uses. A verdict other than agreement counts more than any share.
 pub(super) fn used(channel: &ChannelProof) -> f64 {
     let share = if channel.residual.max == 0.0 { 0.0 } else { channel.residual.max / channel.bound };
     match channel.verdict {

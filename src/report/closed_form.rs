@@ -1,4 +1,4 @@
-//! Mechanisms that were found in closed form.
+//! Mechanisms found in closed form.
 
 use std::fmt::Write;
 
@@ -8,7 +8,7 @@ use super::pretty::pretty;
 use workshop::synthesis::crank_rocker::{CrankRocker, Extreme};
 use workshop::synthesis::slider_crank::SliderCrank;
 
-/// A result in both forms.
+/// A result as text and as JSON.
 #[derive(Debug)]
 pub(crate) struct Told {
     /// As text.

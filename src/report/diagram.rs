@@ -9,7 +9,7 @@ use crate::scenario::Scenario;
 use workshop::diagram::MotionDiagram;
 use workshop::diagram::draw::significant;
 
-/// As text: the largest and the mean error of every method.
+/// The diagram as text: the largest and the mean error of every method.
 pub(crate) fn text(scenario: &Scenario, diagram: &MotionDiagram) -> String {
     let mut text = String::new();
     let _ =
@@ -40,7 +40,8 @@ pub(crate) fn text(scenario: &Scenario, diagram: &MotionDiagram) -> String {
     text
 }
 
-/// As CSV, one row a point: which method, where, what it found and what is true; 17 significant digits.
+/// The points as CSV, one row per point: the method, the place, the value it found and the true value; 17 significant
+/// digits.
 pub(crate) fn points(diagram: &MotionDiagram) -> String {
     let mut text = String::from("method,channel,crank_rad,t_s,value,exact\n");
     for found in &diagram.found {
@@ -55,12 +56,12 @@ pub(crate) fn points(diagram: &MotionDiagram) -> String {
     text
 }
 
-/// A name of the scenario's own choice as a CSV cell.
+/// A name chosen in the scenario, quoted as a CSV cell.
 fn quoted(name: &str) -> String {
     if name.contains([',', '"', '\n', '\r']) { format!("\"{}\"", name.replace('"', "\"\"")) } else { name.into() }
 }
 
-/// As JSON, schema 1.
+/// The diagram as JSON, schema 1.
 pub(crate) fn json(scenario: &Scenario, diagram: &MotionDiagram) -> String {
     let found = diagram.found.iter().map(|found| {
         let which = found.method.gives();

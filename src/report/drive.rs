@@ -13,26 +13,26 @@ use analytic::steady::regime::At;
 use analytic::steady::{Averaged, Regime};
 use workshop::flywheel::Flywheel;
 
-/// What is known of a drive.
+/// What is known about a drive.
 #[derive(Debug)]
 pub(crate) struct Found {
     /// Means over a turn of the crank.
     pub(crate) means: Means,
     /// Extremes of the reduced moments: of inertia, of resistance.
     pub(crate) extremes: [Extremes; 2],
-    /// Inertia of motor and reducer on the crank (kg m^2).
+    /// Moment of inertia that motor and reducer add to the crank (kg m^2).
     pub(crate) added: f64,
     /// The reduced quantities at the crank angles of the table.
     pub(crate) rows: Vec<Row>,
-    /// Speeds of crank and motor of the averaged model, and the steady motion; where there is a motor.
+    /// Speeds of crank and motor by the averaged model, and the steady motion; `None` without a motor.
     pub(crate) steady: Option<([f64; 2], Regime)>,
-    /// The averaged model in closed form, where it has one.
+    /// The averaged model, if it has a closed form.
     pub(crate) averaged: Option<Averaged>,
     /// The coefficient of non-uniformity that was wanted, and its flywheel.
     pub(crate) flywheel: Option<(f64, Flywheel)>,
 }
 
-/// As text; with `by_angle` also the table by crank angle.
+/// The drive as text; with `by_angle` also the table by crank angle.
 pub(crate) fn text(scenario: &Scenario, found: &Found, by_angle: bool) -> String {
     let mut text = String::new();
     let _ = writeln!(text, "{}: {}\n", scenario.name, scenario.title);
@@ -97,7 +97,7 @@ fn angles(found: &Found) -> String {
     table.to_string()
 }
 
-/// As JSON, schema 1.
+/// The drive as JSON, schema 1.
 pub(crate) fn json(scenario: &Scenario, found: &Found) -> String {
     let sense = scenario.case.crank().sense();
     let extremes = |extremes: &Extremes, mean: f64| {

@@ -7,7 +7,7 @@ use analytic::steady::course::{Extremes, Row};
 use linkage::math::KeepNan;
 use workshop::diagram::{Graph, Graphs, Mark, draw};
 
-/// What the curves are drawn from.
+/// Data of the curves.
 #[derive(Debug)]
 pub(crate) struct Curves {
     /// The crank angle after which the reduced quantities repeat (rad).
@@ -16,7 +16,7 @@ pub(crate) struct Curves {
     pub(crate) rows: Vec<Row>,
     /// Extremes of dI*/dphi.
     pub(crate) slope: Extremes,
-    /// The steady motion with samples over one period, where there is a motor.
+    /// The steady motion with samples over one period, if there is a motor.
     pub(crate) steady: Option<Regime>,
 }
 
@@ -39,9 +39,9 @@ pub(crate) fn draw(scenario: &Scenario, found: &Found, curves: &Curves) -> Strin
             &found.extremes[0],
         ),
         Graph {
-            // A constant inertia has a derivative of roundings.
+            // If the inertia is constant, its derivative is only rounding.
             size: found.extremes[0].greatest.1.larger(slope.greatest.1),
-            // After a period the inertia is what it was.
+            // The inertia is periodic, so the mean of its derivative is zero.
             ..reduced(["derivative of the reduced moment of inertia", "dI*/dφ", "kg m^2"], |row| row.slope, 0.0, slope)
         },
         reduced(
@@ -58,7 +58,7 @@ pub(crate) fn draw(scenario: &Scenario, found: &Found, curves: &Curves) -> Strin
     if let Some(regime) = steady {
         let mut marks = [("slowest", regime.slowest), ("fastest", regime.fastest)]
             .map(|(word, at)| Mark { at: [at.crank, at.omega], word });
-        // The lower one on paper comes first.
+        // The lower mark in the drawing comes first.
         marks.sort_by(|a, b| a.at[1].total_cmp(&b.at[1]));
         graphs.push(Graph {
             name: "angular velocity of the crank in the steady motion",

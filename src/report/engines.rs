@@ -1,4 +1,4 @@
-//! Several engines side by side, and who stands alone.
+//! Several engines side by side, and the one that disagrees with all others.
 
 use std::fmt::Write;
 
@@ -9,7 +9,7 @@ use crate::compare::overall;
 use crate::proof::{EngineProof, Proof};
 use linkage::trajectory::Stage;
 
-/// One row an engine, one column a stage: the channel that uses most of its bound.
+/// One row per engine, one column per stage: the channel that uses the largest share of its bound.
 pub(super) fn table(engines: &[EngineProof]) -> Table {
     let stages = Stage::ALL.map(Stage::name);
     let header = ["engine", stages[0], stages[1], stages[2], stages[3], stages[4], "verdict"];
@@ -26,7 +26,7 @@ pub(super) fn table(engines: &[EngineProof]) -> Table {
     table
 }
 
-/// Error and bound of the worst channel of a stage, over its scale, and the verdict where it is not agreement.
+/// Error and bound of the worst channel of a stage, over its scale, and the verdict if it is not agreement.
 fn worst(engine: &EngineProof, stage: Stage) -> String {
     let own = || engine.channels.iter().filter(|channel| channel.residual.channel.kind.stage == stage);
     let Some(worst) = own().max_by(|a, b| used(a).total_cmp(&used(b))) else { return "-".into() };
@@ -39,7 +39,7 @@ fn worst(engine: &EngineProof, stage: Stage) -> String {
     format!("{} ({}){mark}", share(residual.max, residual.scale), share(worst.bound, residual.scale))
 }
 
-/// Who disagrees with whom, and the odd one out.
+/// Which sides disagree with each other, and the one that disagrees with all others.
 pub(super) fn disputes(proof: &Proof) -> String {
     let mut text = String::new();
     for engine in &proof.engines {

@@ -1,11 +1,11 @@
-//! An error: the line of the file it is about, what was found there, and the way out.
+//! An error: the line of the file concerned, what was found there, and the way out.
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
 use super::tell::Tell;
 use linkage::error::Error;
 
-/// As text, without a newline at its end; advice is told by `tell`.
+/// An error as text, without a newline at its end; advice is worded by `tell`.
 pub(crate) fn text(error: &Error, tell: Tell) -> String {
     let title = match error.scenario_key() {
         Some(key) => format!("`{key}`: {}", error.message()),
@@ -13,7 +13,7 @@ pub(crate) fn text(error: &Error, tell: Tell) -> String {
     };
     let help = error.way_out_by(tell);
     let Some(place) = error.place() else {
-        // The renderer would draw a margin for lines that are not there.
+        // The renderer would draw a margin for lines that do not exist.
         let help = help.map(|help| format!("\n  = help: {help}")).unwrap_or_default();
         return format!("error: {title}{help}");
     };

@@ -12,7 +12,7 @@ use analytic::range::Range;
 use linkage::mechanism::assembly::{Choice, transmission_sine};
 use linkage::mechanism::{GROUND, Joint, Mechanism};
 
-/// As text.
+/// The structure as text.
 pub(crate) fn text(scenario: &Scenario) -> String {
     let case = &scenario.case;
     let (mechanism, structure) = (&case.mechanism, &case.structure);
@@ -62,7 +62,7 @@ pub(crate) fn text(scenario: &Scenario) -> String {
     text
 }
 
-/// How far the configuration lies from the rough places, and how far the next one.
+/// How far the configuration is from the rough places given in the file, and how far the next one is.
 fn from_rough_place(choice: &Choice) -> String {
     let mm = |distance: f64| format!("{:.*} mm", if distance < 0.01 { 1 } else { 0 }, distance * 1e3);
     match (choice.nearest_m, choice.next_m) {
@@ -74,7 +74,8 @@ fn from_rough_place(choice: &Choice) -> String {
     }
 }
 
-/// As JSON, schema 1. `modes`: configurations at a crank angle (rad); `range`: the range of motion; each only where it was asked for.
+/// The structure as JSON, schema 1. `modes`: crank angle (rad) and the configurations there; `range`: the range of
+/// motion. Both are shown only if they are given.
 pub(crate) fn json(scenario: &Scenario, modes: Option<(f64, &[Modes])>, range: Option<&Range>) -> String {
     let mut value = structure(scenario);
     if let Some((crank, all)) = modes {
@@ -86,6 +87,7 @@ pub(crate) fn json(scenario: &Scenario, modes: Option<(f64, &[Modes])>, range: O
     pretty(&value)
 }
 
+/// The structure alone.
 fn structure(scenario: &Scenario) -> Value {
     let case = &scenario.case;
     let (mechanism, structure) = (&case.mechanism, &case.structure);

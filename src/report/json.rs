@@ -1,4 +1,4 @@
-//! Proofs as JSON, schema 2. Numbers that are not finite (an order that rounding hides) are `null`.
+//! Proofs as JSON, schema 2. Numbers that are not finite (an order that is hidden by rounding) are `null`.
 
 use serde::Serialize;
 
@@ -27,7 +27,7 @@ struct Run {
     reason: Option<String>,
     structure: String,
     reference: Reference,
-    /// On the analytic sides.
+    /// Checks on the analytic sides.
     checks: Vec<CheckRow>,
     engines: Vec<Engine>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -82,7 +82,7 @@ struct Channel {
     discretisation: f64,
     iteration: f64,
     rounding: f64,
-    /// How the bound is known, in one word, and on what it rests.
+    /// How the bound is known, in one word, and its justification.
     origin: &'static str,
     basis: String,
     verdict: &'static str,
@@ -99,14 +99,14 @@ struct CheckRow {
     value: f64,
     bound: f64,
     unit: &'static str,
-    /// How the bound is known, in one word, and on what it rests.
+    /// How the bound is known, in one word, and its justification.
     origin: &'static str,
     basis: String,
     verdict: &'static str,
     reason: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     finding: Option<String>,
-    /// How far the printed number is off that the finding calls wrong; `value` is how far the right one is off.
+    /// Residual of the printed number that the finding calls wrong; `value` is the residual of the correct one.
     #[serde(skip_serializing_if = "Option::is_none")]
     printed_off: Option<f64>,
 }
@@ -121,13 +121,13 @@ struct Failure {
 }
 
 impl Document {
-    /// An empty document, whose advice names no options.
+    /// An empty document whose advice names no options.
     #[must_use]
     pub fn new() -> Self {
         Document::told_by(Advice::to_string)
     }
 
-    /// An empty document, whose advice is told by `tell`.
+    /// An empty document whose advice is worded by `tell`.
     #[must_use]
     pub fn told_by(tell: Tell) -> Self {
         Document { schema: 2, runs: Vec::new(), errors: Vec::new(), tell }
@@ -138,7 +138,7 @@ impl Document {
         self.runs.push(run(proof, recording, self.tell));
     }
 
-    /// Adds a scenario that could not be proven at all.
+    /// Adds a scenario that could not be proven.
     pub fn add_failure(&mut self, scenario: &str, error: &Error) {
         self.errors.push(Failure {
             scenario: scenario.into(),
@@ -251,7 +251,7 @@ fn check(check: &Check, tell: Tell) -> CheckRow {
     }
 }
 
-/// How a channel is come by, in words.
+/// How a channel is provided, in words.
 #[must_use]
 pub fn provision(provision: &Provision) -> String {
     match provision {

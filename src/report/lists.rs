@@ -8,7 +8,7 @@ use crate::scenario::Scenario;
 use linkage::error::Result;
 use linkage::trajectory::{CHANNELS, Channel};
 
-/// The scenario files of a directory with title and structure, or with the reason why one cannot be read.
+/// The scenario files of a directory with title and structure, or the reason why a file cannot be read.
 pub(crate) fn scenarios(directory: &Path, all: &[(Result<Scenario>, PathBuf)], tell: Tell) -> String {
     let mut text = String::new();
     for (scenario, file) in all {

@@ -1,4 +1,5 @@
-//! What the results of every command look like, as text and as JSON: pure functions of data, without files, clock or terminal.
+//! Presentation of the results of every command, as text and as JSON: pure functions of data, without files, clock or
+//! terminal.
 
 pub(crate) mod bearings;
 mod cells;

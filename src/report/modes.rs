@@ -11,7 +11,7 @@ use linkage::mechanism::AssemblyMode;
 /// Why a configuration has no angular velocities.
 const SINGULAR: &str = "the configuration is singular: angular velocities are not determined";
 
-/// As text.
+/// The configurations as text.
 pub(crate) fn text(scenario: &Scenario, crank: f64, all: &[Modes]) -> String {
     let mechanism = &scenario.case.mechanism;
     let mut text = String::new();
@@ -44,7 +44,7 @@ pub(crate) fn text(scenario: &Scenario, crank: f64, all: &[Modes]) -> String {
     text
 }
 
-/// As JSON.
+/// The configurations as JSON.
 pub(super) fn json(scenario: &Scenario, crank: f64, all: &[Modes]) -> Value {
     let mechanism = &scenario.case.mechanism;
     let groups = scenario.case.structure.groups.iter().zip(all).map(|(group, found)| {

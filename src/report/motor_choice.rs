@@ -14,7 +14,7 @@ fn rpm(omega: f64) -> f64 {
     omega * 60.0 / TAU
 }
 
-/// Torque at rest and slope of the chosen law.
+/// Torque at rest and slope of the chosen motor law.
 fn line(choice: &Choice) -> [f64; 2] {
     match choice.geared.law {
         MotorLaw::Linear { at_rest, slope } => [at_rest, slope],
@@ -22,7 +22,7 @@ fn line(choice: &Choice) -> [f64; 2] {
     }
 }
 
-/// As text, with the `[motor]` section for the scenario.
+/// The choice as text, with the `[motor]` section for the scenario.
 pub(crate) fn text(scenario: &Scenario, choice: &Choice) -> String {
     let (motor, geared) = (&choice.motor, &choice.geared);
     let [at_rest, slope] = line(choice);
@@ -87,7 +87,7 @@ pub(crate) fn text(scenario: &Scenario, choice: &Choice) -> String {
     text
 }
 
-/// As JSON, schema 1.
+/// The choice as JSON, schema 1.
 pub(crate) fn json(scenario: &Scenario, choice: &Choice) -> String {
     let (motor, geared) = (&choice.motor, &choice.geared);
     let [at_rest, slope] = line(choice);

@@ -12,7 +12,8 @@ use linkage::error::Result;
 use workshop::diagram::draw::significant;
 use workshop::diagram::{Plan, Plans, SingularPoint};
 
-/// As text. `singular`: the singular points of groups of class IV, or why there is none; advice is told by `tell`.
+/// The plans as text. `singular`: the singular points of groups of class IV, or the reason why one was not found.
+/// Advice is worded by `tell`.
 pub(crate) fn text(scenario: &Scenario, plans: &Plans, singular: &[Result<SingularPoint>], tell: Tell) -> String {
     let mut text = String::new();
     let _ = writeln!(text, "{} at crank angle {:.4} deg", scenario.name, plans.crank.to_degrees());
@@ -72,7 +73,7 @@ fn singular_text(text: &mut String, case: &Case, point: &SingularPoint) -> std::
     Ok(())
 }
 
-/// As JSON, schema 1, of the same.
+/// The plans as JSON, schema 1. Arguments as in [`text`].
 pub(crate) fn json(scenario: &Scenario, plans: &Plans, singular: &[Result<SingularPoint>], tell: Tell) -> String {
     let plan = |plan: &Plan| {
         let vectors = plan.vectors.iter().map(|vector| {

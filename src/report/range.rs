@@ -9,10 +9,10 @@ use super::cells::table;
 use crate::scenario::Scenario;
 use analytic::range::{At, Extent, Extreme, LinkRange, Measure, Range, Singularity};
 
-/// Extreme positions of one link shown in full before the rest is only counted.
+/// Number of extreme positions of one link that are shown in full; the others are only counted.
 const EXTREMES: usize = 8;
 
-/// As text.
+/// The range as text.
 pub(crate) fn text(scenario: &Scenario, range: &Range) -> String {
     let mut text = String::new();
     let _ = writeln!(text, "{}: {}", scenario.name, scenario.title);
@@ -44,14 +44,14 @@ fn extent(range: &Range) -> String {
     }
 }
 
-/// An angle of the crank in degrees: of one that comes round, in the first turn.
+/// A crank angle in degrees. If the crank rotates fully, the angle is reduced to the first turn.
 fn degrees(crank: f64, range: &Range) -> String {
     format!("{:.6}", in_turn(crank, range).to_degrees())
 }
 
 fn in_turn(crank: f64, range: &Range) -> f64 {
     match range.extent {
-        // What lies a rounding below a whole turn is zero.
+        // An angle that is below a whole turn by rounding only is shown as zero.
         Extent::FullTurn(1) => (crank + 1e-12).rem_euclid(TAU) - 1e-12,
         Extent::FullTurn(_) | Extent::Limited(_) => crank,
     }
@@ -104,7 +104,7 @@ fn groups(scenario: &Scenario, range: &Range) -> String {
 fn links(scenario: &Scenario, range: &Range) -> String {
     let mut table = table(["link", "motion", "from deg", "to deg", "extreme positions, at crank deg"], &[2, 3]);
     for link in &range.links {
-        // Between which angles a link lies that comes round says nothing.
+        // For a link that rotates fully, the interval of its angle has no meaning.
         let end = |at: At| if link.turns == 0 { format!("{:.6}", at.value.to_degrees()) } else { "-".into() };
         let [least, most] = link.angles.map(end);
         table.add_row([
@@ -140,7 +140,7 @@ fn positions(extremes: &[Extreme], range: &Range) -> String {
     shown.join("\n")
 }
 
-/// As JSON.
+/// The range as JSON.
 pub(super) fn json(scenario: &Scenario, range: &Range) -> Value {
     let at = |at: &At, key: &str| json!({"crank_rad": at.crank, key: at.value});
     let extent = match range.extent {

@@ -1,4 +1,4 @@
-//! What a recording says of a proof besides its numbers: metadata and log.
+//! Metadata and log of the recording of a proof.
 
 use std::collections::BTreeMap;
 
@@ -32,7 +32,7 @@ pub(crate) fn metadata(proof: &Proof) -> BTreeMap<String, String> {
     metadata
 }
 
-/// The verdict at the start, and every disagreement where it is worst.
+/// The verdict at the start, and every disagreement at its worst instant.
 pub(crate) fn log(proof: &Proof, tell: Tell) -> Vec<LogEntry> {
     let start = proof.reference_trajectory.times().iter().copied().fold(f64::INFINITY, f64::smaller);
     let level = |verdict: &Verdict| match verdict {

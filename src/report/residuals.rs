@@ -1,4 +1,4 @@
-//! Every residual of a proof beside its bound, for whoever looks at the bounds themselves.
+//! Every residual of a proof beside its bound, for readers who examine the bounds.
 
 use super::cells::table;
 use crate::proof::Proof;

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use analytic::reduced::{End, RunUp};
 
-/// As text, with an empty line after it.
+/// The end of a run-up as text, with an empty line after it.
 pub(crate) fn text(run_up: &RunUp) -> String {
     let mut text = match run_up.end {
         End::Reached => "run-up followed to its end".to_string(),

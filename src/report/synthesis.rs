@@ -1,4 +1,4 @@
-//! A motion and the timing that it was asked for: text, JSON, picture.
+//! Reports on a motion and its timing: text, JSON, picture.
 
 use std::fmt::Write;
 
@@ -30,7 +30,7 @@ fn stroke(task: &Task, achieved: &Achieved) -> String {
     }
 }
 
-/// The figures that count, in two lines.
+/// The main figures, in two lines.
 pub(crate) fn summary(task: &Task, achieved: &Achieved) -> String {
     format!(
         "Stroke {}{}. Largest motion in a dwell {:.3} % of the stroke,\n\
@@ -46,7 +46,7 @@ pub(crate) fn summary(task: &Task, achieved: &Achieved) -> String {
     )
 }
 
-/// As text.
+/// The motion and its timing as text.
 pub(crate) fn text(story: &Story) -> String {
     let (task, achieved) = (story.task, story.achieved);
     let mut text = String::new();
@@ -99,7 +99,7 @@ pub(crate) fn text(story: &Story) -> String {
     text
 }
 
-/// As JSON, schema 1.
+/// The motion and its timing as JSON, schema 1.
 pub(crate) fn json(story: &Story) -> String {
     let (task, achieved) = (story.task, story.achieved);
     let phases = task.timing.phases().iter().zip(&achieved.phases).map(|(phase, done)| {
@@ -127,7 +127,7 @@ pub(crate) fn json(story: &Story) -> String {
     pretty(&value)
 }
 
-/// The picture's data: a point every degree and the wanted curve, where it is known.
+/// Data of the picture: a point every degree, and the wanted curve where it is known.
 pub(crate) fn diagram(story: &Story) -> TimingDiagram {
     let (task, achieved) = (story.task, story.achieved);
     let rows = (0..achieved.turns.len()).step_by((achieved.turns.len() / 720).max(1));

@@ -1,4 +1,4 @@
-//! Solutions as CSV, one row an instant, 17 significant digits: every double is read back as the one that was written.
+//! Solutions as CSV, one row per instant, with 17 significant digits, so that every double is read back exactly.
 
 use analytic::reduced::RunUp;
 use linkage::error::{Error, ErrorKind, Result};

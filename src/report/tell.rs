@@ -1,6 +1,6 @@
-//! How advice is worded in a report.
+//! Wording of advice in a report.
 
 use linkage::error::Advice;
 
-/// How advice is told: a program with options names them, [`Advice::to_string`] names none.
+/// Function that words an advice. A program with options names them; [`Advice::to_string`] names none.
 pub type Tell = fn(&Advice) -> String;

@@ -11,10 +11,10 @@ use crate::compare::{Check, Verdict};
 use crate::proof::{ChannelProof, EngineInfo, EngineProof, Proof};
 use linkage::error::Advice;
 
-/// Reasons shown in full before the rest is only counted.
+/// Number of reasons that are shown in full; the others are only counted.
 const REASONS: usize = 5;
 
-/// The whole report of one proof, with its advice told by `tell`.
+/// The whole report of one proof, with its advice worded by `tell`.
 #[must_use]
 pub fn proof(proof: &Proof, tell: Tell) -> String {
     let mut text = String::new();
@@ -47,7 +47,7 @@ pub fn proof(proof: &Proof, tell: Tell) -> String {
     text
 }
 
-/// An engine, its resolution and what its own error comes from.
+/// An engine, its resolution and the sources of its own error.
 fn described(info: &EngineInfo) -> String {
     let resolution = info.settings.resolution;
     let [at, coarse, fine] = [resolution, 2.0 * resolution, resolution / 2.0].map(seconds);
@@ -58,7 +58,7 @@ fn described(info: &EngineInfo) -> String {
     }
 }
 
-/// A step with five significant digits at most; the JSON has all of them.
+/// A step with at most five significant digits; the JSON has all digits.
 fn seconds(step: f64) -> String {
     let rounded: f64 = format!("{step:.4e}").parse().unwrap_or(step);
     format!("{rounded:e}")
@@ -115,14 +115,14 @@ fn reasons(proof: &Proof, tell: Tell, text: &mut String) {
     }
 }
 
-/// Verdict on a family of checks; `expected` where all that is wrong is known to be.
+/// Verdict on a family of checks; `expected` if all wrong numbers are known to be wrong.
 fn family_word<'a>(family: impl Iterator<Item = &'a Check> + Clone) -> &'static str {
     let word = crate::compare::overall(family.clone().map(|check| &check.verdict)).word();
     let known = family.clone().any(|check| matches!(check.verdict, Verdict::Expected { .. }));
     if known && word == "agree" { "expected" } else { word }
 }
 
-/// Which published numbers are wrong as expected, finding by finding.
+/// The published numbers that are wrong as expected, by finding.
 fn expected(proof: &Proof, text: &mut String) {
     let mut findings: Vec<(&str, usize)> = Vec::new();
     for check in proof.all_checks() {

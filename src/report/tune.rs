@@ -18,11 +18,11 @@ pub(crate) struct Section<'a> {
     pub(crate) text: &'a str,
     /// The scenario's file.
     pub(crate) file: &'a Path,
-    /// Whether it stands there by now.
+    /// Whether the section has been written to that file.
     pub(crate) is_written: bool,
 }
 
-/// As text. `within`: the largest error that was wanted, as a share of each channel's scale.
+/// The settings as text. `within`: the largest error that was wanted, as a share of each channel's scale.
 pub(crate) fn text(scenario: &Scenario, found: &Tuning, within: f64, section: &Section) -> String {
     let header = ["engine", "step", "sweeps", "substeps", "extrapolated", "route", "error", "worst channel", "price"];
     let mut table = table(header, &[1, 2, 3, 6, 8]);
@@ -68,7 +68,7 @@ pub(crate) fn text(scenario: &Scenario, found: &Tuning, within: f64, section: &S
     text
 }
 
-/// As JSON, schema 1.
+/// The settings as JSON, schema 1.
 pub(crate) fn json(scenario: &Scenario, found: &Tuning, within: f64) -> String {
     let candidate = |candidate: &Candidate| {
         let Settings { resolution, sweeps, substeps, route, extrapolated } = candidate.settings;

@@ -1,12 +1,12 @@
-//! Changing a scenario file without touching what people wrote in it.
+//! Changes a scenario file without touching what people wrote in it.
 
 use toml_edit::{DocumentMut, Item, Table, value};
 
 use super::settings::EngineKeys;
 use linkage::error::{Error, ErrorKind, Result};
 
-/// The text of a scenario with another `[engine]` section: its step (s) and the keys that are given. Comments, order and everything else stay as
-/// they are.
+/// The text of a scenario with another `[engine]` section: its step (s) and the given keys. Comments, order and
+/// everything else stay.
 ///
 /// # Errors
 /// [`ErrorKind::Input`] if the text is not TOML or has no `[engine]` section.

@@ -1,4 +1,4 @@
-//! Figures of a mechanism: lengths as solved, and what it comes to over a turn.
+//! Figures of a mechanism: lengths as solved, and quantities over a turn.
 
 use super::oracle::{Correction, number};
 use super::printed::Printed;
@@ -14,11 +14,11 @@ use linkage::mechanism::Side;
 pub struct OracleFigure {
     /// Which figure.
     pub figure: Figure,
-    /// Its name in reports: that in scenario files, and of what.
+    /// Its name in reports: the name in scenario files, and the subject of the figure.
     pub name: String,
     /// The number as printed.
     pub printed: FigureValue,
-    /// Of a number known to be wrong: the finding that says so, and the number that is right instead.
+    /// For a number known to be wrong: the finding that says so, and the correct number.
     pub wrong: Option<(String, FigureValue)>,
 }
 
@@ -41,9 +41,9 @@ pub enum Figure {
     ReducedInertiaMean,
     /// Mean over the turn of the moment of resistance reduced to the crank (N m).
     ReducedResistanceMean,
-    /// Speed of the crank (rad/s) at which the motor's moment on it is the mean resistance.
+    /// Speed of the crank (rad/s) at which the motor's moment on it equals the mean resistance.
     SteadyCrankSpeed,
-    /// Speed of the motor (rad/s) then.
+    /// Speed of the motor (rad/s) at that speed of the crank.
     SteadyMotorSpeed,
     /// Distance between two points at t = 0 (m).
     Distance([Side; 2]),
@@ -62,7 +62,7 @@ impl Figure {
     }
 }
 
-/// How a figure is read that carries a name in scenario files.
+/// Reads a figure that has a name in scenario files.
 type Reader = fn(&mut Table, &Case) -> Result<(Figure, String)>;
 
 /// Every figure: its name in scenario files, unit included, and its reader.
@@ -122,7 +122,8 @@ fn distance(entry: &mut Table, case: &Case) -> Result<(Figure, String)> {
         return Err(entry.wrong(ErrorKind::Input, "points", message).help("write `points = [\"A\", \"B\"]`"));
     };
     let places = [places(entry, case, first)?, places(entry, case, second)?];
-    // On one link a distance is what the file says. It is measured where the solver has to bring the two points together.
+    // On one link a distance is only what the file states. So it is measured between two links, where the solver must
+    // bring the two points together.
     let has = |link: usize, of: &[Side]| of.iter().any(|side| side.link == link);
     let measured = |this: usize| places[this].iter().find(|side| !has(side.link, &places[1 - this])).copied();
     let (Some(first), Some(second)) = (measured(0), measured(1)) else {

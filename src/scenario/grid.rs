@@ -9,12 +9,12 @@ use linkage::error::{ErrorKind, Result};
 /// Largest number of points of a range.
 pub const MOST: usize = 1_000_000;
 
-/// Points `from + k * step` (k = 0, 1, ...) up to `to`, which is included if it lies within 1e-9 of a step of a point.
-/// The step may be negative.
+/// Points `from + k * step` (k = 0, 1, ...) up to `to`. `to` itself is included if it lies within 1e-9 of a step of a
+/// point. The step may be negative.
 ///
 /// # Errors
-/// A message if a number is not finite, if the step is zero or leads away from `to`, or if there would be more than
-/// a million points.
+/// A message if a number is not finite, if the step is zero or leads away from `to`, or if there would be more than a
+/// million points.
 pub fn range(from: f64, to: f64, step: f64) -> std::result::Result<Vec<f64>, String> {
     if ![from, to, step].into_iter().all(f64::is_finite) {
         return Err(format!("the range from {from} to {to} by {step} is not finite"));

@@ -71,7 +71,7 @@ fn joint(mut table: Table, links: &[Link], before: &[Joint]) -> Result<Joint> {
 /// Names of the points that a joint lies at, on its first and its second link.
 struct Places {
     names: [String; 2],
-    /// Key that they come from.
+    /// Key in the file that states them.
     key: &'static str,
     rule: &'static str,
 }
@@ -117,7 +117,8 @@ fn kind(table: &mut Table) -> Result<JointKind> {
     }
 }
 
-/// Unit vector at `angle` (rad); along the axes of the frame without the rounding of pi, so that a vertical guide is vertical.
+/// Unit vector at `angle` (rad). Along the axes of the frame it has no rounding of pi, so that a vertical guide is
+/// exactly vertical.
 fn direction(angle: f64) -> Vec2 {
     let quarters = angle / FRAC_PI_2;
     if (quarters - quarters.round()).abs() > 4.0 * f64::EPSILON * quarters.abs() {
@@ -131,7 +132,7 @@ fn direction(angle: f64) -> Vec2 {
     }
 }
 
-/// Index of the link called `name`; unknown names are errors of the key `links` or `link` of `table`.
+/// Index of the link called `name`. An unknown name is an error of the key `links` or `link` of `table`.
 pub fn link(table: &Table, name: &str, links: &[Link]) -> Result<usize> {
     let key = if table.has("links") { "links" } else { "link" };
     links.iter().position(|link| link.name == name).ok_or_else(|| {

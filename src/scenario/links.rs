@@ -68,7 +68,7 @@ fn points(mut table: Table) -> Result<Vec<Point>> {
     Ok(points)
 }
 
-/// A place: coordinates, or a distance and an angle from one of the points known so far.
+/// A place: coordinates, or a distance and an angle from one of the points read before.
 fn place(mut table: Table, known: &[Point]) -> Result<Vec2> {
     let place = match table.optional_string("from")? {
         None => Vec2::new(table.quantity("x", &LENGTH, Sign::Any)?, table.quantity("y", &LENGTH, Sign::Any)?),
@@ -94,11 +94,11 @@ fn check_name(table: &Table, what: &str) -> Result<()> {
     Err(table.fault(format!("\"{}\" cannot be the name of a {what}", table.name())).help(NAME_HELP))
 }
 
-/// Help for names that are not sound.
+/// Help for names that are not allowed.
 pub const NAME_HELP: &str = "names consist of letters, digits, `_`, `-` and `'`";
 
-/// Whether a link, point or joint may be called so: dots, blanks and commas would break the names of channels and
-/// the headers of tables.
+/// Whether the name is allowed for a link, point or joint. Dots, blanks and commas would break the names of channels
+/// and the headers of tables.
 pub fn sound_name(name: &str) -> bool {
     !name.is_empty() && name.chars().all(|letter| letter.is_alphanumeric() || "_-'".contains(letter))
 }

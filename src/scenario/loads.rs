@@ -23,7 +23,7 @@ const SORTS: [Sort; 8] = [
     ("torsion_damper", torsion_damper),
 ];
 
-/// Most turns of the crank after which a table may repeat.
+/// Largest number of crank turns after which a table may repeat.
 const MOST_TURNS: i64 = 1000;
 
 /// All loads.
@@ -85,7 +85,7 @@ fn force(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
 fn resisting_force(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
     let at = loaded_point(table, mechanism)?;
     let force = table.quantity("force", &FORCE, Sign::NotNegative)?;
-    // Its velocity would be the rounding of zero, and so would the direction of the force.
+    // The velocity of such a point would be the rounding of zero, and so would the direction of the force.
     let mut pins = mechanism.joints().iter().filter(|joint| joint.is_pin() && joint.on(GROUND).is_some());
     if pins.any(|joint| joint.on(at.link) == Some(at.local)) {
         let message = "the point does not move: it is hinged to the ground";
@@ -159,7 +159,7 @@ fn courses<const N: usize>(table: &mut Table, names: [&str; N], family: &'static
     Ok(points.map(|points| Course::table(&points, turns, smooth)))
 }
 
-/// That the last point lies behind the one before it, and within the table's period.
+/// Checks that the last point is after the one before it, and within the table's period.
 fn check_crank(row: &Table, points: &[(f64, f64)], turns: u32) -> Result<()> {
     let (&[(first, _), ..], &[.., (last, _)]) = (points, points) else { return Ok(()) };
     let before = points.len().checked_sub(2).map(|index| points[index].0);
@@ -167,7 +167,7 @@ fn check_crank(row: &Table, points: &[(f64, f64)], turns: u32) -> Result<()> {
         let message = "the crank angles of the table do not ascend";
         return Err(row.fault(message).help("write the points in ascending order of the crank angle, each angle once"));
     }
-    // The rounding of degrees into radians does not make an end of the period a point of the next.
+    // The rounding of degrees into radians must not move a point at the end of the period into the next period.
     if last - first > TAU * f64::from(turns) * (1.0 - 1e-12) {
         let message = format!("the table is longer than its period, {} deg", 360 * u64::from(turns));
         return Err(row.fault(message).help(
@@ -219,7 +219,7 @@ fn turning(table: &Table, name: &str, mechanism: &Mechanism) -> Result<usize> {
     if link == GROUND {
         return Err(table.wrong(ErrorKind::Input, "link", "the ground does not turn").help("name a moving link"));
     }
-    // Its angular velocity would be the rounding of zero, and so would the sense of the moment.
+    // The angular velocity of such a link would be the rounding of zero, and so would the sense of the moment.
     if !mechanism.can_turn(link) {
         let message = format!("link \"{name}\" does not turn: prismatic joints alone connect it with the ground");
         return Err(table.wrong(ErrorKind::Input, "link", message).help("name a link that turns"));

@@ -1,5 +1,5 @@
-//! Scenario files: TOML in, a [`Case`] out. The only place where units are converted; docs/scenario.md describes the
-//! format. Every error points at file, line and key, says what was found, and the way out.
+//! Scenario files: TOML in, a [`Case`] out. Only this module converts units; docs/scenario.md describes the format.
+//! Every error names file, line and key, what was found, and the way out.
 
 pub mod catalogue;
 pub mod edit;
@@ -40,7 +40,7 @@ use linkage::mechanism::{Mechanism, StartGroup, Structure};
 /// Version of the file format that this crate reads.
 pub const FORMAT: i64 = 1;
 
-/// A scenario: the problem, the engine's settings, and the published numbers it is judged by.
+/// A scenario: the problem, the engine's settings, and the published numbers that it is compared with.
 ///
 /// ```
 /// use linkproof::Scenario;
@@ -54,7 +54,7 @@ pub const FORMAT: i64 = 1;
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Scenario {
-    /// Short name, fit for file names: lower-case letters, digits and `_`.
+    /// Short name, usable in file names: lower-case letters, digits and `_`.
     pub name: String,
     /// One line for people.
     pub title: String,
@@ -68,14 +68,14 @@ pub struct Scenario {
     pub case: Case,
     /// Step of the engine (s).
     pub dt: f64,
-    /// What else it says of the engine.
+    /// The other keys of the engine.
     pub engine: EngineKeys,
-    /// Largest discretisation error of the engine, as a share of a channel's scale, with which agreement still proves
-    /// something.
+    /// Largest discretisation error of the engine, as a share of a channel's scale, at which agreement is still a
+    /// proof.
     pub engine_rel: f64,
     /// Published numbers.
     pub oracles: Vec<Oracle>,
-    /// What is asked of each group at the start, in the order of the structure.
+    /// The start asked for in the file for each group, in the order of the structure.
     pub starts: Vec<StartGroup>,
     /// How each group was placed at the start, in the order of the structure.
     pub choices: Vec<Choice>,
@@ -110,7 +110,7 @@ impl Scenario {
         Scenario::parse(&text, path)
     }
 
-    /// Reads a scenario from its text. Tables of published numbers are looked for beside `path`.
+    /// Reads a scenario from its text. Tables of published numbers are searched in the directory of `path`.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for anything wrong in the text, [`ErrorKind::Geometry`] if the first pose cannot be
@@ -122,12 +122,12 @@ impl Scenario {
         read(&mut Table::root(&source, &tree)).map_err(|error| source.located(tree.get_ref(), error))
     }
 
-    /// The scenario of a case that was built in code: without a file, without published numbers, at the engine's own
-    /// settings. `name` is fit for file names; `step` is the engine's time step (s).
+    /// The scenario of a case that was built in code: without a file, without published numbers, with the engine's own
+    /// settings. `name` must be usable in file names; `step` is the engine's time step (s).
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] for a name that is not of lower-case letters, digits and `_`, and for a step that is not
-    /// above zero.
+    /// [`ErrorKind::Input`] for a name with other characters than lower-case letters, digits and `_`, and for a step
+    /// that is not above zero.
     pub fn of_case(name: &str, case: Case, step: f64) -> Result<Scenario> {
         if !is_name(name) {
             let message = format!("\"{name}\" cannot be the name of a scenario");
@@ -153,19 +153,21 @@ impl Scenario {
         })
     }
 
-    /// The same scenario with every drive in its nominal motion: for questions about crank angles.
+    /// The same scenario with every drive in its nominal motion, for questions about crank angles.
     #[must_use]
     pub fn nominal(self) -> Scenario {
         Scenario { case: self.case.nominal(), ..self }
     }
 
-    /// The same scenario with some groups started otherwise. Each of `asked` is `LINK,LINK=MODE` or `LINK,LINK=NUMBER`: the links
-    /// of a group and its mode, by name as in the file (of links in another order, left and right change places), or by its number in
-    /// the list of [`configurations`](linkage::mechanism::assembly::configurations), counted from 1. If that leads to another
-    /// start pose, the published numbers are left out: they belong to the scenario's own.
+    /// The same scenario with other starts for some groups. Each of `asked` is `LINK,LINK=MODE` or `LINK,LINK=NUMBER`.
+    /// The links of a group and its mode are named as in the file; in another order of the links, left and right are
+    /// exchanged. NUMBER is the place in the list of [`configurations`](linkage::mechanism::assembly::configurations),
+    /// counted from 1. If the start pose changes, the published numbers are left out, because they belong to the
+    /// scenario's own pose.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] if a group, its mode or its number is not known; those of [`first_choices`] for the groups after it.
+    /// [`ErrorKind::Input`] if a group, its mode or its number is not known; those of [`first_choices`] for the groups
+    /// after it.
     pub fn with_modes(&self, asked: &[String]) -> Result<Scenario> {
         let mut changed = self.clone();
         let case = &self.case;
@@ -192,7 +194,7 @@ fn read(root: &mut Table) -> Result<Scenario> {
     let name = name(root)?;
     let title = root.string("title")?;
     let cited = root.optional_string("source")?;
-    // All sections are fetched before any is read: a misspelt section is the cause of whatever else is wrong.
+    // All sections are fetched before any is read: a misspelt section is the cause of other errors.
     let (ground, links, joints) = (root.table("ground")?, root.table("links")?, root.tables("joints")?);
     let (drives, motor) = (root.needed_tables("drive")?, root.optional_table("motor")?);
     let (gravity, loads) = (root.optional_table("gravity")?, root.tables("loads")?);
@@ -246,7 +248,7 @@ fn check_format(root: &mut Table) -> Result<()> {
     }
 }
 
-/// Whether a name is fit for file names.
+/// Whether a name can be used in file names.
 fn is_name(name: &str) -> bool {
     !name.is_empty() && name.bytes().all(|byte| matches!(byte, b'a'..=b'z' | b'0'..=b'9' | b'_'))
 }

@@ -11,8 +11,8 @@ use linkage::error::{ErrorKind, Result};
 use linkage::math::{Piecewise, Vec2};
 use linkage::mechanism::{GROUND, Mechanism, Side};
 
-/// What moves the mechanism: the crank, with `start` as its angle at t = 0 (rad) and with the motor, and further drives, which say their
-/// own start.
+/// The drives of the mechanism: the crank, with `start` as its angle at t = 0 (rad) and with the motor, and further
+/// drives, which state their own start.
 pub fn drives(tables: Vec<Table>, motor: Option<Table>, mechanism: &Mechanism, start: f64) -> Result<Drives> {
     let mut drives: Vec<Drive> = Vec::new();
     for mut table in tables {
@@ -21,7 +21,7 @@ pub fn drives(tables: Vec<Table>, motor: Option<Table>, mechanism: &Mechanism, s
             false => table.quantity("start", &ANGLE, Sign::Any)?,
         };
         let drive = drive(&mut table, mechanism, &drives, start)?;
-        // Several drives are geared to each other by the crank angle, which tells the time at constant speeds only.
+        // Several drives are coupled by the crank angle, which determines the time only at constant speeds.
         let changing = drives.iter().chain([&drive]).any(|drive| drive.constant_speed().is_none());
         if changing && !drives.is_empty() {
             let message = "one of several drives has a speed that changes";
@@ -33,7 +33,7 @@ pub fn drives(tables: Vec<Table>, motor: Option<Table>, mechanism: &Mechanism, s
     Ok(Drives::new(crank, drives))
 }
 
-/// A drive, after the drives `before` it.
+/// A drive; `before` are the drives already read.
 fn drive(table: &mut Table, mechanism: &Mechanism, before: &[Drive], start: f64) -> Result<Drive> {
     let name = table.string("joint")?;
     let law = law(table, start)?;
@@ -78,7 +78,7 @@ fn drive(table: &mut Table, mechanism: &Mechanism, before: &[Drive], start: f64)
     Ok(drive)
 }
 
-/// Whether the link follows `law`, or is free from t = 0 on and has it as its nominal motion.
+/// Whether the link follows `law`, or is free from t = 0 on with `law` as its nominal motion.
 fn motion(table: &mut Table, law: MotionLaw) -> Result<DriveMotion> {
     let initial = table.optional_quantity("initial_speed", &ANGULAR_SPEED, Sign::Any)?;
     match table.optional_string("motion")?.as_deref() {
@@ -102,7 +102,7 @@ fn motion(table: &mut Table, law: MotionLaw) -> Result<DriveMotion> {
     }
 }
 
-/// A law: its name in scenario files, and its reader, which is given the crank angle at t = 0 (rad).
+/// A law: its name in scenario files, and its reader, which gets the crank angle at t = 0 (rad).
 type Law = (&'static str, fn(&mut Table, f64) -> Result<MotionLaw>);
 
 const LAWS: [Law; 4] = [("constant", constant), ("ramp", ramp), ("cycloidal", cycloidal), ("table", points)];
@@ -165,7 +165,7 @@ fn points(table: &mut Table, start: f64) -> Result<MotionLaw> {
     Ok(MotionLaw::Table(Arc::new(Piecewise::clamped_spline(&points, [0.0; 2]))))
 }
 
-/// Acceleration of gravity (m/s^2); none without a table.
+/// Acceleration of gravity (m/s^2); zero without a table.
 pub fn gravity(table: Option<Table>) -> Result<Vec2> {
     let Some(mut table) = table else { return Ok(Vec2::zeros()) };
     let (x, y) = (table.quantity("x", &ACCELERATION, Sign::Any)?, table.quantity("y", &ACCELERATION, Sign::Any)?);

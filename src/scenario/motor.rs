@@ -43,7 +43,7 @@ fn linear(table: &mut Table) -> Result<MotorLaw> {
     Ok(MotorLaw::Linear { at_rest, slope: table.quantity("slope", &MOMENT_PER_SPEED, Sign::Negative)? })
 }
 
-/// Breakdown is told by its slip or by its speed, whichever the catalogue has.
+/// The breakdown point is given by its slip or by its speed, whichever the catalogue has.
 fn kloss(table: &mut Table) -> Result<MotorLaw> {
     let breakdown_torque = table.quantity("breakdown_torque", &MOMENT, Sign::Positive)?;
     let synchronous_speed = table.quantity("synchronous_speed", &ANGULAR_SPEED, Sign::Positive)?;
@@ -95,7 +95,7 @@ fn points(table: &mut Table) -> Result<MotorLaw> {
     Ok(MotorLaw::Table { speeds, torques })
 }
 
-/// What turns with the motor and the reducer; nothing without a table.
+/// Moments of inertia that turn with the motor and the reducer; zero without a table.
 fn inertia(table: &mut Table) -> Result<ShaftInertia> {
     let mut shaft =
         |name: &str| -> Result<f64> { Ok(table.optional_quantity(name, &INERTIA, Sign::NotNegative)?.unwrap_or(0.0)) };

@@ -1,4 +1,4 @@
-//! `[[oracle]]`: numbers that the mechanism must reproduce, each with the bound its digits give.
+//! `[[oracle]]`: numbers that the mechanism must reproduce, each with the bound that its digits give.
 
 use super::figure::{self, OracleFigure};
 use super::printed::{self, MOST_DIGITS, Printed, PrintedChannel};
@@ -13,10 +13,10 @@ use linkage::trajectory::{CHANNELS, Channel};
 /// Numbers of one source.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Oracle {
-    /// The scenario's own name for it, else the file name of the table (`positions.csv`), or `inline 1`, `inline 2`, ... for
-    /// numbers in the scenario itself.
+    /// The scenario's name for it, else the file name of the table (`positions.csv`). For numbers in the scenario
+    /// itself it is `inline 1`, `inline 2`, ...
     pub name: String,
-    /// Where the numbers stand, and why they have an error of their own if they have.
+    /// Source of the numbers, and the reason for their own error if they have one.
     pub source: String,
     /// How they are known.
     pub basis: OracleBasis,
@@ -31,9 +31,9 @@ pub struct Oracle {
 pub enum OracleBasis {
     /// Printed in the source.
     Published,
-    /// Computed anew by this project from what the source gives.
+    /// Recomputed by this project from the data in the source.
     Recomputed,
-    /// Follow from given data by a formula.
+    /// Derived from given data by a formula.
     Derived,
 }
 
@@ -48,7 +48,7 @@ impl OracleBasis {
         }
     }
 
-    /// Under the key `basis`; published where it is missing.
+    /// Reads the key `basis`; published if the key is missing.
     fn read(table: &mut Table) -> Result<Self> {
         let Some(word) = table.optional_string("basis")? else { return Ok(OracleBasis::Published) };
         Self::ALL.into_iter().find(|basis| basis.word() == word).ok_or_else(|| {
@@ -65,13 +65,13 @@ pub struct OracleSeries {
     pub name: String,
     /// The channel.
     pub channel: Channel,
-    /// Whether the value is the size of the vector whose x component the channel is.
+    /// Whether the value is the magnitude of a vector; `channel` is then the x component of the vector.
     pub magnitude: bool,
     /// Values that must be reproduced, in the order of the table.
     pub points: Vec<OraclePoint>,
-    /// Values known to be wrong, each by a finding of its own.
+    /// Values known to be wrong, each with its own finding.
     pub expected: Vec<ExpectedCell>,
-    /// Finding that says why all values are wrong, which then stand here and not in the two lists above.
+    /// Finding that says why all values are wrong. They are then listed here and not in the two lists above.
     pub wrong: Option<(String, Vec<ExpectedCell>)>,
 }
 
@@ -82,20 +82,20 @@ pub struct OraclePoint {
     pub crank: f64,
     /// Value in the channel's SI unit.
     pub value: f64,
-    /// Half a unit of the last printed digit, and the error that the numbers are known to have, in the channel's SI unit.
+    /// Half a unit of the last printed digit, plus the known error of the numbers, in the channel's SI unit.
     pub bound: f64,
     /// Number of printed decimals, in the printed unit.
     pub digits: i32,
 }
 
-/// A printed value that is known to be wrong: it must not be reproduced, and the right one must.
+/// A printed value that is known to be wrong. It must not be reproduced; the correct value must.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ExpectedCell {
     /// The value as printed.
     pub point: OraclePoint,
-    /// The value that is right instead.
+    /// The correct value.
     pub right: OraclePoint,
-    /// Anchor of the finding that says so, in `docs/findings.md`.
+    /// Anchor of its finding in `docs/findings.md`.
     pub finding: String,
 }
 
@@ -144,14 +144,15 @@ pub(super) fn read(tables: Vec<Table>, case: &Case) -> Result<Vec<Oracle>> {
 pub(super) struct Known<'a> {
     channels: &'a [Channel],
     wanted: Wanted,
-    /// Decimals that a table has, where zeros at the end are not printed.
+    /// Number of decimals in a table that does not print zeros at the end.
     pub digits: Option<i32>,
-    /// Error that the published numbers are known to have, in the printed unit.
+    /// Known error of the published numbers, in the printed unit.
     pub slack: f64,
 }
 
 impl Known<'_> {
-    /// The same for a table with so many decimals, of which zeros at the end are not printed, and with such an error.
+    /// The same for a table with this number of decimals, which does not print zeros at the end, and with this known
+    /// error.
     pub fn of_table(self, digits: Option<i32>, slack: f64) -> Self {
         Known { digits, slack, ..self }
     }
@@ -227,21 +228,21 @@ fn values(table: &mut Table, known: &Known) -> Result<Vec<OracleSeries>> {
 
 const VALUE_HELP: &str = "write `values = [{ channel = \"link.rocker.angle_deg\", value = 82, digits = 3 }]`";
 
-/// `value` and `digits` of a number in the scenario itself, where TOML does not keep the printed text.
+/// `value` and `digits` of a number in the scenario itself. TOML does not keep the printed text.
 pub(super) fn number(entry: &mut Table) -> Result<Printed> {
     let value = entry.number("value")?;
     let digits = digits(entry)?;
     Ok(Printed { value, digits })
 }
 
-/// Why a printed number is wrong, and the one that is right instead, in the printed unit.
+/// Why a printed number is wrong, and the correct number, in the printed unit.
 pub(super) struct Correction {
     pub finding: String,
     pub right: Printed,
 }
 
 impl Correction {
-    /// Under the keys `finding` and `right`, which belong together; `None` without them.
+    /// Reads the keys `finding` and `right`, which belong together; `None` without them.
     pub fn read(entry: &mut Table, printed: &Printed) -> Result<Option<Self>> {
         let Some(finding) = finding(entry)? else { return Ok(None) };
         let mut table = entry.table("right")?;
@@ -252,7 +253,7 @@ impl Correction {
     }
 }
 
-/// The anchor under the key `finding`, which goes with the key `right` and never alone.
+/// Reads the anchor under the key `finding`, which needs the key `right` beside it.
 pub(super) fn finding(entry: &mut Table) -> Result<Option<String>> {
     let finding = entry.optional_string("finding")?;
     let help = "a number known to be wrong has a `finding`, which says why, and the number that is `right` instead: \
@@ -265,7 +266,7 @@ pub(super) fn finding(entry: &mut Table) -> Result<Option<String>> {
     }
 }
 
-/// Refuses a right number that the printed one, or one number between the two, might be as well.
+/// Refuses a correct number so close to the printed one that one number could agree with both.
 pub(super) fn check_apart(entry: &Table, printed: &Printed, right: &Printed) -> Result<()> {
     if (printed.value - right.value).abs() > printed.half_unit() + right.half_unit() {
         return Ok(());

@@ -1,4 +1,4 @@
-//! Printed numbers: their value, and how far the true value may be away.
+//! Printed numbers: their value, and how far the true value may be from it.
 
 use super::unit::{ANGLE, Family, LENGTH, Unit};
 use linkage::trajectory::{self, CHANNELS, Channel, ChannelKind};
@@ -13,7 +13,7 @@ pub struct Printed {
 }
 
 impl Printed {
-    /// Reads a decimal number with an optional exponent; nothing else is a printed number.
+    /// Reads a decimal number with an optional exponent; any other text is refused.
     #[must_use]
     pub fn parse(text: &str) -> Option<Printed> {
         let (mantissa, exponent) = match text.split_once(['e', 'E']) {
@@ -31,7 +31,7 @@ impl Printed {
         (value.is_finite() && digits.abs() <= MOST_DIGITS).then_some(Printed { value, digits })
     }
 
-    /// The same number with so many decimals, the last of which were dropped in print because they are zero.
+    /// The same number with this count of decimals, of which zeros at the end were not printed.
     #[must_use]
     pub fn with_zeros(self, digits: Option<i32>) -> Printed {
         Printed { digits: digits.map_or(self.digits, |all| all.max(self.digits)), ..self }
@@ -40,7 +40,7 @@ impl Printed {
     /// Half a unit of the last printed digit, in the printed unit.
     #[must_use]
     pub fn half_unit(&self) -> f64 {
-        // The printed decimal is rounded once more to binary; the excess is that rounding and nothing else.
+        // The printed decimal is rounded once more to binary; the excess covers only that rounding.
         0.5 * 10f64.powi(-self.digits) * (1.0 + 1e-9)
     }
 }
@@ -48,13 +48,13 @@ impl Printed {
 /// Largest count of decimals that makes sense in double precision.
 pub const MOST_DIGITS: i32 = 20;
 
-/// Ending of a joint's name that stands for the size of its reaction.
+/// Ending of a joint's name that stands for the magnitude of its reaction.
 const MAGNITUDE: &str = "f_N";
 
-/// Ending of the row that a joint's magnitude is read from.
+/// Ending of the channel of the x component, which stands for the magnitude.
 const X_OF_MAGNITUDE: &str = "fx_N";
 
-/// The units that a channel is printed in; `None` where print knows the SI unit only.
+/// The units that a channel is printed in; `None` if only the SI unit is printed.
 fn family(unit: trajectory::Unit) -> Option<&'static Family> {
     match unit {
         trajectory::Unit::Radian => Some(&ANGLE),
@@ -65,7 +65,7 @@ fn family(unit: trajectory::Unit) -> Option<&'static Family> {
     }
 }
 
-/// The endings that names of channels of a kind may have, one a printed unit.
+/// The endings that names of channels of a kind may have, one per printed unit.
 #[must_use]
 pub fn endings(kind: &ChannelKind) -> Vec<String> {
     let si = format!("_{}", kind.unit.suffix());
@@ -84,16 +84,16 @@ pub fn endings(kind: &ChannelKind) -> Vec<String> {
 pub struct PrintedChannel {
     /// The channel, in SI.
     pub channel: Channel,
-    /// Family of the printed unit, where other units than SI are known; without one the numbers are SI.
+    /// Family of the printed unit, if units other than SI are known; without one the numbers are SI.
     pub family: Option<&'static Family>,
-    /// Whether the printed number is the size of the vector whose x component the channel is.
+    /// Whether the printed number is the magnitude of a vector; `channel` is then the x component of the vector.
     pub magnitude: bool,
     unit: Option<&'static Unit>,
 }
 
 impl PrintedChannel {
-    /// Channel called `name` with the printed unit as its ending: `x_mm` for `x_m`, `angle_deg` for `angle_rad`,
-    /// else the name in SI.
+    /// Channel called `name` with the printed unit as its ending: `x_mm` for `x_m`, `angle_deg` for `angle_rad`, else
+    /// the name in SI.
     #[must_use]
     pub fn named(name: &str) -> Option<PrintedChannel> {
         if let Some(base) = name.strip_suffix(&format!(".{MAGNITUDE}")) {

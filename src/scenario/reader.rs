@@ -1,5 +1,5 @@
-//! Typed reading of a spanned TOML table. A reader knows its dotted path, hands out typed values, remembers which
-//! keys it was asked for, and in the end refuses the keys that nobody asked for.
+//! Typed reading of a spanned TOML table. A reader knows its dotted path, returns typed values, remembers the keys that
+//! were asked for, and at the end refuses the keys that nobody asked for.
 
 mod quantity;
 
@@ -42,7 +42,7 @@ impl<'a> Table<'a> {
             .iter()
             .map(|(key, value)| Entry { key: key.get_ref().as_ref(), key_span: key.span(), value })
             .collect();
-        // The parser moves tables about whose header comes after one of their children.
+        // The parser moves a table if its header comes after one of its children.
         entries.sort_by_key(|entry| entry.key_span.start);
         Table { source, name, path, span, entries, used: Vec::new(), asked: Vec::new() }
     }
@@ -57,12 +57,12 @@ impl<'a> Table<'a> {
         self.source
     }
 
-    /// Whether `key` is there, spelt exactly so.
+    /// Whether `key` is there, with exactly this spelling.
     pub fn has(&self, key: &str) -> bool {
         self.entries.iter().any(|entry| entry.key == key)
     }
 
-    /// Whether the table holds nothing.
+    /// Whether the table is empty.
     pub fn is_empty(&self) -> bool {
         self.entries.is_empty()
     }
@@ -83,7 +83,7 @@ impl<'a> Table<'a> {
         if self.path.is_empty() { error } else { error.key(self.path.clone()) }
     }
 
-    /// An error of a kind about the value of `key`: its exact spelling, or a quantity's name without the unit.
+    /// An error of a kind about the value of `key`. `key` is the exact spelling, or a quantity's name without the unit.
     pub fn wrong(&self, kind: ErrorKind, key: &str, message: impl Into<String>) -> Error {
         let with_unit = |entry: &&Entry| {
             self.used.contains(&entry.key) && entry.key.strip_prefix(key).is_some_and(|rest| rest.starts_with('_'))
@@ -115,7 +115,7 @@ impl<'a> Table<'a> {
 
     fn missing(&self, spellings: &[String]) -> Error {
         let wanted = choice(spellings.iter().map(String::as_str), "`");
-        // At the top there is no table to name.
+        // At the top level there is no table to name.
         let error = self.fault(format!("{wanted} is missing")).key(spellings[0].clone());
         let spelling = |key: &str| nearest(key, spellings.iter().map(String::as_str));
         let unread = self.entries.iter().filter(|entry| entry.key.len() > 3 && !self.used.contains(&entry.key));
@@ -129,7 +129,7 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// Value of `key`, remembered as asked for.
+    /// Value of `key`, which is recorded as asked for.
     fn take(&mut self, key: &str) -> Option<&'a Spanned<DeValue<'a>>> {
         self.asked.push(key.to_string());
         let entry = self.entries.iter().find(|entry| entry.key == key)?;
@@ -220,8 +220,8 @@ impl<'a> Table<'a> {
         self.required(key, value)
     }
 
-    /// Elements of an array of tables; none if the key is not there. Their paths carry their name where they have
-    /// one (`joints.A`), else their number, counted from 1 (`oracle[2]`).
+    /// Elements of an array of tables; empty if the key is missing. Their paths contain their name if they have one
+    /// (`joints.A`), else their number, counted from 1 (`oracle[2]`).
     pub fn tables(&mut self, key: &str) -> Result<Vec<Table<'a>>> {
         let Some(value) = self.take(key) else { return Ok(Vec::new()) };
         let array = value.get_ref().as_array().ok_or_else(|| self.mistyped(key, value, "an array of tables"))?;
@@ -235,7 +235,7 @@ impl<'a> Table<'a> {
         array.iter().enumerate().map(child).collect()
     }
 
-    /// A table or an array of tables; none if the key is not there.
+    /// A table or an array of tables; empty if the key is missing.
     pub fn table_or_tables(&mut self, key: &str) -> Result<Vec<Table<'a>>> {
         match self.entries.iter().find(|entry| entry.key == key).map(|entry| entry.value.get_ref()) {
             Some(DeValue::Array(_)) => self.tables(key),
@@ -276,7 +276,7 @@ impl<'a> Table<'a> {
         if number.is_finite() { Ok(number) } else { Err(self.mistyped(key, value, "a finite number")) }
     }
 
-    /// Ends the reading: a key that nobody asked for is an error with the nearest known key.
+    /// Ends the reading. A key that nobody asked for is an error that names the nearest known key.
     pub fn finish(&self) -> Result<()> {
         let Some(entry) = self.entries.iter().find(|entry| !self.used.contains(&entry.key)) else { return Ok(()) };
         let asked = || self.asked.iter().map(String::as_str);
@@ -291,7 +291,7 @@ impl<'a> Table<'a> {
     }
 }
 
-/// A value as it stands in the file, for messages.
+/// A value as written in the file, for messages.
 #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the TOML parser")]
 fn found(source: &Source, value: &Spanned<DeValue>) -> String {
     match value.get_ref() {

@@ -1,4 +1,4 @@
-//! A drawing with other dimensions: the text of its scenario, changed where dimensions stand and nowhere else.
+//! A drawing with other dimensions: the text of its scenario, changed only where dimensions are.
 
 use toml_edit::{DocumentMut, InlineTable, Item, TableLike, value};
 
@@ -7,15 +7,16 @@ use linkage::math::Vec2;
 use linkage::mechanism::{GROUND, Link};
 use workshop::task::{Entry, Task};
 
-/// Decimals that are kept of millimetres and of degrees: what a workshop can use.
+/// Decimals kept of millimetres and of degrees: the accuracy of a workshop.
 const DECIMALS: [f64; 2] = [1e3, 1e4];
 
-/// A number rounded to so many parts of one.
+/// A number rounded to a multiple of 1 / `parts`.
 fn rounded(value: f64, parts: f64) -> f64 {
     (value * parts).round() / parts
 }
 
-/// Values of a task's variables (SI), rounded as [`redrawn`] writes them: to a micrometre and a ten thousandth of a degree.
+/// Values of a task's variables (SI), rounded as [`redrawn`] writes them: to a micrometre and a ten thousandth of a
+/// degree.
 #[must_use]
 pub fn round_values(task: &Task, values: &[f64]) -> Vec<f64> {
     let round = |(value, variable): (&f64, &workshop::task::Variable)| match variable.is_angle {
@@ -25,11 +26,12 @@ pub fn round_values(task: &Task, values: &[f64]) -> Vec<f64> {
     values.iter().zip(&task.variables).map(round).collect()
 }
 
-/// The text of the drawing `text` with the dimensions that `values` (SI) give the task, under the task's name, with `comment` on top. Where the task says how heavy bars
-/// are, every link gets the masses of slender bars from its first point to each of the others.
+/// The text of the drawing `text` with the dimensions that `values` (SI) give the task, under the task's name, with
+/// `comment` at the top. If the task states the mass of bars, every link gets the masses of slender bars from its first
+/// point to each of the others.
 ///
 /// # Errors
-/// [`ErrorKind::Input`] if the text is not the scenario that the task was read from.
+/// [`ErrorKind::Input`] if the text is not the scenario from which the task was read.
 #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the TOML parser")]
 pub fn redrawn(task: &Task, text: &str, values: &[f64], comment: &str) -> Result<String> {
     let mut document: DocumentMut =
@@ -80,7 +82,7 @@ fn foreign(name: &str) -> Error {
         .help("give the text of the scenario that the task names")
 }
 
-/// The table of a link; the ground has one of its own.
+/// The table of a link; the ground has its own table.
 fn link_table<'a>(document: &'a mut DocumentMut, link: usize, name: &str) -> Result<&'a mut dyn TableLike> {
     let item = match link {
         GROUND => document.get_mut("ground"),
@@ -111,7 +113,7 @@ fn weigh(table: &mut dyn TableLike, body: &Link, bar: f64) {
         table.remove(key);
     }
     table.insert("mass_kg", value(rounded(mass, 1e6)));
-    // Six digits of it, whatever its size.
+    // Six significant digits.
     let digits = 10f64.powi(5 - inertia.log10().floor() as i32);
     table.insert("inertia_kg_m2", value(rounded(inertia, digits)));
     table.insert("mass_centre", value(place));

@@ -1,4 +1,4 @@
-//! `[channels]`, `[engine]` and `[tolerances]`: what a run wants and how it judges.
+//! `[channels]`, `[engine]` and `[tolerances]`: the wanted channels, the engine's settings and the limits of judgement.
 
 use super::reader::{Sign, Table};
 use super::unit::{ANGLE, TIME};
@@ -8,7 +8,7 @@ use linkage::drive::Drive;
 use linkage::error::{ErrorKind, Result};
 use linkage::trajectory::Stage;
 
-/// Stages of channels that are wanted; all without a table.
+/// Stages of channels that are wanted; all stages without a table.
 pub fn wanted(table: Option<Table>) -> Result<Wanted> {
     let Some(mut table) = table else { return Ok(Wanted::ALL) };
     let names = table.strings("want")?;
@@ -28,23 +28,23 @@ pub fn wanted(table: Option<Table>) -> Result<Wanted> {
     Ok(Wanted::of(&stages))
 }
 
-/// What a scenario says of the engine besides its step; what it leaves out is the engine's default. The format knows no engine: names
-/// are looked up where engines are known.
+/// Settings of the engine in a scenario, besides its step. A missing key means the engine's default. The format itself
+/// knows no engine: names are looked up where engines are known.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct EngineKeys {
     /// Name of the engine.
     pub name: Option<String>,
     /// Sweeps of the iteration in a step.
     pub sweeps: Option<usize>,
-    /// Parts that the engine itself divides a step into.
+    /// Number of substeps into which the engine divides a step.
     pub substeps: Option<usize>,
-    /// The way to reactions and balancing moment.
+    /// Route by which reactions and balancing moment are computed.
     pub route: Option<String>,
-    /// Whether runs at the step and at half of it are combined.
+    /// Whether runs at the step and at half the step are combined.
     pub extrapolated: Option<bool>,
 }
 
-/// Step of the engine (s), and what else is said of it.
+/// Step of the engine (s), and its other keys.
 pub fn engine(mut table: Table, drive: &Drive) -> Result<(f64, EngineKeys)> {
     let keys = EngineKeys {
         name: table.optional_string("name")?,
@@ -91,11 +91,10 @@ fn engine_step(mut table: Table, drive: &Drive) -> Result<f64> {
     }
 }
 
-/// The share that [`engine_rel`] is if a scenario does not say: chosen, not derived.
+/// Default share for [`engine_rel`]: chosen, not derived.
 pub const ENGINE_REL: f64 = 1e-2;
 
-/// Largest bound on the error of the engine, as a share of a channel's scale, with which agreement still proves
-/// something.
+/// Largest bound on the error of the engine, as a share of a channel's scale, at which agreement is still a proof.
 pub fn engine_rel(table: Option<Table>) -> Result<f64> {
     let Some(mut table) = table else { return Ok(ENGINE_REL) };
     let share = table.optional_number("engine_rel")?.unwrap_or(ENGINE_REL);

@@ -1,4 +1,5 @@
-//! The file behind a scenario: places in it, its spanned tree, and where in it a key of the trunk's errors stands.
+//! The file of a scenario: places in it, its spanned tree, and the place of a key that an error of the `linkage` crate
+//! names.
 
 use std::ops::Range;
 use std::path::Path;
@@ -8,7 +9,7 @@ use toml::de::{DeTable, DeValue};
 
 use linkage::error::{Error, ErrorKind, Place, Result};
 
-/// Text of a file and the path that messages call it by.
+/// Text of a file and the path that messages use for it.
 pub struct Source<'a> {
     /// Path as the user gave it.
     pub path: &'a Path,
@@ -42,8 +43,8 @@ impl<'a> Source<'a> {
     }
 }
 
-/// Where the dotted `key` stands, or else the nearest parent that exists. Elements of an array are found by their
-/// name (`joints.A`), Assur groups by their links (`start.groups (coupler, rocker)`).
+/// Place of the dotted `key`, or else of the nearest existing parent. Elements of an array are found by their name
+/// (`joints.A`), Assur groups by their links (`start.groups (coupler, rocker)`).
 #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the TOML parser")]
 pub fn locate(tree: &DeTable, key: &str) -> Range<usize> {
     let (path, links) = match key.split_once(" (") {

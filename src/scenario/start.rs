@@ -1,4 +1,4 @@
-//! `[[start.groups]]`: in which assembly mode each Assur group starts, and the same asked for on the command line.
+//! `[[start.groups]]`: the assembly mode in which each Assur group starts, and the same from the command line.
 
 use super::joints::link;
 use super::reader::{Sign, Table};
@@ -9,7 +9,7 @@ use linkage::math::Vec2;
 use linkage::mechanism::pose::SidePoint;
 use linkage::mechanism::{AssemblyMode, Group, GroupKind, Mechanism, Side, StartGroup, Structure};
 
-/// What is asked of each group, in the order of the structure. `start` is the table the groups stand in.
+/// The start asked for each group, in the order of the structure. `start` is the table that contains the groups.
 pub fn groups(
     start: &Table,
     tables: Vec<Table>,
@@ -23,7 +23,7 @@ pub fn groups(
     }
     let missing: Vec<&Group> =
         structure.groups.iter().zip(&wanted).filter(|(_, wanted)| wanted.is_none()).map(|(group, _)| group).collect();
-    // A group that no version of the file could start is left to the first pose, which says so.
+    // A group that no version of the file could start is left to the first pose, which reports it.
     match missing.iter().find(|group| !modes_of(group.kind).is_empty()) {
         None => Ok(wanted.into_iter().map(Option::unwrap_or_default).collect()),
         Some(first) => Err(start
@@ -68,10 +68,10 @@ fn group_of(links: &[usize], structure: &Structure) -> Option<usize> {
     structure.groups.iter().position(|group| group.links == sorted)
 }
 
-/// What `LINK,LINK=MODE` or `LINK,LINK=NUMBER` asks of which group.
+/// The group and the start that `LINK,LINK=MODE` or `LINK,LINK=NUMBER` asks for.
 ///
 /// # Errors
-/// [`ErrorKind::Input`] if there is no such group, or the mode is none of its own.
+/// [`ErrorKind::Input`] if there is no such group, or if the group does not have the mode.
 pub fn asked(text: &str, mechanism: &Mechanism, structure: &Structure) -> Result<(usize, StartGroup)> {
     let examples = || {
         let example = |group: &Group| {
@@ -119,7 +119,7 @@ fn mode(table: &mut Table) -> Result<Option<AssemblyMode>> {
     }
 }
 
-/// The assembly modes that a group of this sort can be asked for by name.
+/// The assembly modes of a group of this kind that can be asked for by name.
 fn modes_of(kind: GroupKind) -> &'static [AssemblyMode] {
     match kind {
         GroupKind::Rrr => &[AssemblyMode::Left, AssemblyMode::Right],

@@ -1,4 +1,4 @@
-//! Tables of published numbers: CSV files with a header, read as text because the printed digits count.
+//! Tables of published numbers: CSV files with a header, read as text because the printed digits matter.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -11,7 +11,7 @@ use super::unit::ANGLE;
 use super::words::suggestion;
 use linkage::error::{Error, ErrorKind, Result};
 
-/// Crank angles (rad) nearer than this are the same row.
+/// Crank angles (rad) that differ by less than this belong to the same row.
 const SAME_CRANK: f64 = 1e-9;
 
 /// Name and series of the table that an oracle with the key `file` describes.
@@ -77,7 +77,7 @@ fn series(mut table: Table, rows: &Rows, cranks: &[f64], known: &Known) -> Resul
         bound: channel.to_si(number.half_unit() + slack),
         digits: number.digits,
     };
-    // What is printed may be off by the slack; what is right instead is not.
+    // The printed value may be off by the slack; the correct value may not.
     let corrected = |row: usize, finding: &str, right: &Printed| ExpectedCell {
         point: point(row, &printed[row], known.slack),
         right: point(row, right, 0.0),
@@ -99,7 +99,7 @@ fn series(mut table: Table, rows: &Rows, cranks: &[f64], known: &Known) -> Resul
     Ok(OracleSeries { name, channel, magnitude, points, expected, wrong })
 }
 
-/// The cells under `expect`: their rows, and what is right there.
+/// The cells under `expect`: their rows, and the correct values there.
 fn single_cells(table: &mut Table, cranks: &[f64], printed: &[Printed]) -> Result<Vec<(usize, Correction)>> {
     let mut cells = Vec::new();
     for mut expect in table.tables("expect")? {
@@ -117,7 +117,7 @@ fn single_cells(table: &mut Table, cranks: &[f64], printed: &[Printed]) -> Resul
     Ok(cells)
 }
 
-/// The finding of a whole column and what is right in every row: under the keys `finding` and `right`.
+/// The finding for a whole column and the correct value in every row: under the keys `finding` and `right`.
 fn whole_column(table: &mut Table, printed: &[Printed]) -> Result<Option<(String, Vec<Printed>)>> {
     let Some(finding) = finding(table)? else { return Ok(None) };
     let mut right = table.table("right")?;
@@ -135,7 +135,7 @@ fn whole_column(table: &mut Table, printed: &[Printed]) -> Result<Option<(String
     Ok(Some((finding, right)))
 }
 
-/// The error that the published numbers are known to have, in the printed unit; it must be explained.
+/// Known error of the published numbers, in the printed unit; the file must explain it.
 fn slack(oracle: &mut Table) -> Result<f64> {
     let Some(slack) = oracle.optional_number("slack")? else { return Ok(0.0) };
     let why = oracle.string("why")?;
@@ -147,7 +147,7 @@ fn slack(oracle: &mut Table) -> Result<f64> {
         .help("give a positive number and the reason why the published numbers are as far off"))
 }
 
-/// What the printed values exceed the channel by, in SI; zero if it is not given.
+/// Printed values minus the channel, in SI; zero if it is not given.
 fn offset(table: &mut Table, channel: &PrintedChannel) -> Result<f64> {
     match channel.family {
         Some(family) => Ok(table.optional_quantity("offset", family, Sign::Any)?.unwrap_or(0.0)),
@@ -222,7 +222,7 @@ impl Cell<'_> {
     }
 }
 
-/// The first line with something on it from byte `start` on.
+/// The first line that is not blank, from byte `start` on.
 fn line_from(text: &str, start: usize) -> Range<usize> {
     let rest = text.get(start..).unwrap_or("");
     let start = start + (rest.len() - rest.trim_start_matches(['\r', '\n']).len());

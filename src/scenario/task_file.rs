@@ -1,4 +1,5 @@
-//! Synthesis files: which dimensions of a drawing may vary, and what its output shall do. docs/synthesis.md describes the format.
+//! Synthesis files: the dimensions of a drawing that may vary, and the wanted motion of its output. docs/synthesis.md
+//! describes the format.
 
 use std::path::Path;
 
@@ -13,10 +14,10 @@ use linkage::math::{Vec2, unit};
 use linkage::mechanism::{GROUND, Mechanism};
 use workshop::task::{Effort, Entry, Output, Phase, Place, Sense, Task, Timing, Variable};
 
-/// Least displacement of a moving phase (share of the stroke), unless the file says otherwise.
+/// Least displacement of a moving phase (share of the stroke), unless the file states another one.
 const LEAST: f64 = 0.1;
 
-/// A task, and the drawing that it starts from.
+/// A task, and the drawing from which it starts.
 #[derive(Clone, Debug)]
 pub struct TaskFile {
     /// The task.
@@ -26,10 +27,11 @@ pub struct TaskFile {
 }
 
 impl TaskFile {
-    /// Reads the synthesis file at `path` and the scenario that it names, which is looked for beside it.
+    /// Reads the synthesis file at `path` and the scenario that it names, which is searched in the same directory.
     ///
     /// # Errors
-    /// [`ErrorKind::Io`] if a file cannot be read, [`ErrorKind::Input`] for anything wrong in it, and those of [`Scenario::load`] and [`Task::check`].
+    /// [`ErrorKind::Io`] if a file cannot be read, [`ErrorKind::Input`] for anything wrong in it, and those of
+    /// [`Scenario::load`] and [`Task::check`].
     pub fn load(path: &Path) -> Result<Self> {
         let text = std::fs::read_to_string(path).map_err(|error| {
             Error::new(ErrorKind::Io, format!("the synthesis file {} cannot be read: {error}", path.display()))
@@ -53,7 +55,7 @@ fn read(root: &mut Table) -> Result<TaskFile> {
 
     let beside = root.source().path.parent().unwrap_or(Path::new("")).join(&file);
     let drawing = Scenario::load(&beside).map_err(|error| {
-        // A drawing that is not there is a mistake of this file; one that is wrong has a place of its own.
+        // A missing drawing is an error of this file; an error in the drawing has its own place.
         if error.place().is_some() {
             error
         } else {
@@ -122,7 +124,7 @@ fn timing(tables: Vec<Table>, follow: bool) -> Result<Timing> {
     })
 }
 
-/// Output, the sense that is forward, and whether it is an angle.
+/// Output, the sense of forward motion, and whether the output is an angle.
 fn read_output(mut table: Table, mechanism: &Mechanism) -> Result<(Output, Option<f64>, bool)> {
     let forward = match table.optional_string("forward")?.as_deref() {
         None => None,
@@ -221,7 +223,7 @@ fn free(variables: &mut Vec<Variable>, name: String, bounds: [f64; 2], is_angle:
     Entry::Free(variables.len() - 1)
 }
 
-/// One `[[vary]]`: a point, by its coordinates or from another point of its link.
+/// One `[[vary]]`: a point, by its coordinates or relative to another point of its link.
 fn place(mut table: Table, mechanism: &Mechanism, variables: &mut Vec<Variable>, before: &[Place]) -> Result<Place> {
     let (link_name, point_name) = (table.string("link")?, table.string("point")?);
     let own = link(&table, &link_name, mechanism.links())?;

@@ -100,7 +100,8 @@ fn crank_rocker_starts_where_two_circles_meet() {
     let (finding, right) = printed[0].wrong.as_ref().unwrap();
     assert!(finding.starts_with("crank_rocker") && right.digits == 12 && right.value == 0.025_995_627_740);
     assert!(printed[2].wrong.is_none());
-    // O stands on the ground and the crank, A on the crank and the coupler: measured from the one to the other.
+    // O is on the ground and the crank, A on the crank and the coupler: the distance is measured from the ground to the
+    // coupler.
     let [ground, coupler] =
         [0, 2].map(|link| Side { link, local: scenario.case.mechanism.links()[link].points[0].local });
     assert_eq!(printed[0].figure, Figure::Distance([ground, coupler]));
@@ -165,7 +166,7 @@ fn links_keep_the_order_of_the_file_when_their_points_come_first() {
     let tree = source.tree().unwrap();
     let links = Table::root(&source, &tree).table("links").unwrap().all_tables().unwrap();
     let names: Vec<&str> = links.iter().map(Table::name).collect();
-    // The header counts, as for a reader of the file.
+    // The order of the headers counts, as for a reader of the file.
     assert_eq!(names, ["a", "b", "c"]);
 }
 

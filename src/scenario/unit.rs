@@ -1,4 +1,4 @@
-//! Units of scenario files. Every key that holds a physical quantity ends in its unit; inside, everything is SI.
+//! Units of scenario files. Every key of a physical quantity ends in its unit; inside the program everything is SI.
 
 use std::f64::consts::{PI, TAU};
 
@@ -8,7 +8,7 @@ pub struct Unit {
     /// Ending of keys in this unit, without the underscore that joins it.
     pub suffix: &'static str,
     factor: f64,
-    // Kept apart from the factor: 150 / 1000 is the double nearest to 0.15, 150 * 0.001 need not be.
+    // Kept apart from the factor: 150 / 1000 is the double nearest to 0.15, but 150 * 0.001 need not be.
     divisor: f64,
 }
 
@@ -56,7 +56,7 @@ const fn si(suffix: &'static str) -> Unit {
 pub static LENGTH: Family = Family { noun: "a length", units: &[si("m"), Unit::new("mm", 1.0, 1e3)] };
 /// Angles.
 pub static ANGLE: Family = Family { noun: "an angle", units: &[si("rad"), Unit::new("deg", PI / 180.0, 1.0)] };
-/// Angular velocities; rpm are turns a minute.
+/// Angular velocities; rpm are turns per minute.
 pub static ANGULAR_SPEED: Family =
     Family { noun: "an angular velocity", units: &[si("rad_s"), Unit::new("rpm", TAU, 60.0)] };
 /// Times.
@@ -69,18 +69,18 @@ pub static INERTIA: Family = Family { noun: "a moment of inertia", units: &[si("
 pub static ACCELERATION: Family = Family { noun: "an acceleration", units: &[si("m_s2")] };
 /// Moments of forces.
 pub static MOMENT: Family = Family { noun: "a moment", units: &[si("N_m")] };
-/// Changes of a moment with an angular velocity.
+/// Moments per angular velocity.
 pub static MOMENT_PER_SPEED: Family =
     Family { noun: "a change of a moment with an angular velocity", units: &[si("N_m_s")] };
 /// Forces.
 pub static FORCE: Family = Family { noun: "a force", units: &[si("N"), Unit::new("kN", 1e3, 1.0)] };
-/// Changes of a force with a length.
+/// Forces per length.
 pub static STIFFNESS: Family = Family { noun: "a stiffness", units: &[si("N_m"), Unit::new("N_mm", 1e3, 1.0)] };
-/// Changes of a force with a velocity.
+/// Forces per velocity.
 pub static DAMPING: Family = Family { noun: "a damping", units: &[si("N_s_m")] };
-/// Changes of a moment with an angle.
+/// Moments per angle.
 pub static TORSIONAL_STIFFNESS: Family = Family { noun: "a torsional stiffness", units: &[si("N_m_rad")] };
-/// Masses of bars a length.
+/// Masses of bars per length.
 pub static MASS_PER_LENGTH: Family = Family { noun: "a mass per length", units: &[si("kg_per_m")] };
 /// Powers.
 pub static POWER: Family = Family { noun: "a power", units: &[si("W"), Unit::new("kW", 1e3, 1.0)] };

@@ -1,11 +1,11 @@
-//! Words for messages: lists, and the nearest known name to a misspelt one.
+//! Words for messages: lists, and the known name nearest to a misspelt one.
 
 use strsim::osa_distance;
 
-/// The candidate that `word` most probably stands for, if one is near enough.
+/// The candidate nearest to `word`, if one is near enough.
 #[must_use]
 pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    // In names of one or two letters one letter is no slip but another name.
+    // In names of one or two letters, another letter makes another name, not a misspelling.
     let length = word.chars().count();
     let allowed = if length < 3 { 0 } else { ((length + 1) / 3).min(3) };
     candidates
@@ -16,7 +16,7 @@ pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         .map(|(_, candidate)| candidate)
 }
 
-/// `a, b or c`, each as Rust would quote it if `quote` is a quotation mark.
+/// `a, b or c`, each word between two marks `quote`.
 #[must_use]
 pub fn choice<'a>(words: impl IntoIterator<Item = &'a str>, quote: &str) -> String {
     let words: Vec<String> = words.into_iter().map(|word| format!("{quote}{word}{quote}")).collect();
@@ -27,7 +27,7 @@ pub fn choice<'a>(words: impl IntoIterator<Item = &'a str>, quote: &str) -> Stri
     }
 }
 
-/// "did you mean" with the nearest candidate, or else the list of all.
+/// "did you mean" with the nearest candidate, or else the list of all candidates.
 #[must_use]
 pub fn suggestion<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>, quote: &str) -> String {
     let candidates: Vec<&str> = candidates.into_iter().collect();
@@ -42,7 +42,7 @@ pub fn suggestion<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>,
 mod tests {
     use super::*;
 
-    /// A letter too few, one too many, another one, and two that are swapped are one slip each.
+    /// One letter missing, one extra, one wrong, or two swapped: each is one slip.
     #[test]
     fn single_slips_are_known() {
         for slip in ["mas_kg", "masss_kg", "mess_kg", "amss_kg"] {

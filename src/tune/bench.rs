@@ -13,26 +13,28 @@ use linkage::engine::{Engine, Settings};
 use linkage::error::{ErrorKind, Result};
 use linkage::trajectory::{Channel, Trajectory};
 
-/// Coarsest accuracy that is tried of an engine that controls its error: less is none.
+/// Coarsest accuracy that is tried for an engine that controls its error.
 const COARSEST: f64 = 0.1;
-/// So many sweeps are tried first.
+/// Number of sweeps that is tried first.
 const ENOUGH: usize = 64;
-/// The first step that is tried, as a multiple of the one asked for: a coarse one costs little and tells the price of others.
+/// First step that is tried, as a multiple of the step asked for. A coarse step is cheap, and its price predicts that
+/// of other steps.
 const COARSE_START: f64 = 4.0;
-/// Factor from the step of some sweeps to the first one tried with twice as many.
+/// Factor from the step found with some number of sweeps to the first step tried with twice as many.
 const COARSER: f64 = 1.4;
-/// What costs more than this share of the cheapest known is not looked for.
+/// Settings are of interest only if they cost less than this share of the cheapest known price.
 const GAIN: f64 = 0.95;
-/// Turns of the fastest driving link (rad) in steps so coarse that a run costs little but what is read; the first with which the engine runs counts.
+/// Turns of the fastest driving link (rad) in one step. The steps are so coarse that a run costs little more than its
+/// readings. The first step at which the engine runs is used.
 const ROUGH: [f64; 3] = [PI / 6.0, PI / 18.0, PI / 54.0];
 
-/// What comes of one engine.
+/// Result of the search with one engine.
 pub(super) enum Outcome {
-    /// The cheapest.
+    /// The cheapest settings.
     Met(Candidate),
-    /// The smallest error seen.
+    /// The smallest error found.
     TooCoarse(f64),
-    /// It would meet the wish, but at a higher price than another engine.
+    /// The engine could meet the wish, but at a higher price than another engine.
     TooDear,
 }
 
@@ -43,16 +45,16 @@ pub(super) struct Bench<'a> {
     pub(super) wanted: &'a [Channel],
     pub(super) price: Price<'a>,
     pub(super) runs: usize,
-    /// Whether the engine has refused the last way of setting it: no step and no sweeps change that.
+    /// Whether the engine has refused the last way of setting it. No step and no number of sweeps can change that.
     pub(super) refused: bool,
 }
 
-/// What a run costs at least, however coarse its step: instants are read, some routes work at each of them with all sweeps. Known for some numbers of
-/// sweeps, from few to many.
+/// Least price of a run, however coarse its step: instants are read, and some routes do all sweeps at each of them.
+/// Known for some numbers of sweeps, in ascending order.
 struct Floor(Vec<(usize, f64)>);
 
 impl Floor {
-    /// With `sweeps` a run costs a constant and a part in proportion to them, neither of them negative.
+    /// With `sweeps`, a run costs a constant and a part proportional to the sweeps; neither is negative.
     fn at(&self, sweeps: usize) -> f64 {
         let sweeps = sweeps.max(1) as f64;
         let of = |&(many, price): &(usize, f64)| price * (sweeps / many.max(1) as f64).smaller(1.0);
@@ -62,30 +64,30 @@ impl Floor {
     }
 }
 
-/// Where the search through the sweeps of one way stands.
+/// State of the search through the numbers of sweeps of one way.
 struct Row {
-    /// The step to begin with.
+    /// The first step to try.
     start: f64,
-    /// Error of the last number of sweeps within the price of the cheapest, and how often it has risen in a row.
+    /// Error with the last number of sweeps within the cheapest price, and how often in a row it has risen.
     last: f64,
     rising: usize,
 }
 
-/// The cheapest of one engine so far.
+/// The cheapest settings of one engine so far.
 struct Search<'e> {
     engine: &'e dyn Engine,
     within: f64,
-    /// Price of the cheapest of other engines.
+    /// Lowest price of the other engines.
     others: f64,
     best: Option<Candidate>,
-    /// Smallest error of what does not meet the wish at any price.
+    /// Smallest error of the settings that do not meet the wish at any price.
     least: f64,
-    /// Whether something would meet the wish, or might, at a higher price.
+    /// Whether some settings would, or might, meet the wish at a higher price.
     dear: bool,
 }
 
 impl Search<'_> {
-    /// Price that is worth a run.
+    /// Highest price at which a run is still of interest.
     fn limit(&self) -> f64 {
         self.best.as_ref().map_or(self.others, |best| best.price.smaller(self.others)) * GAIN
     }
@@ -114,13 +116,13 @@ impl Bench<'_> {
         }
     }
 
-    /// One way of setting an engine with all numbers of sweeps that may be worth it. From few to many, within the price of the cheapest, the error
-    /// falls, and rises again once they are more than needed.
+    /// One way of setting an engine, with all numbers of sweeps that may be of interest, in ascending order. Within the
+    /// cheapest price, the error first falls with more sweeps; beyond the needed number it rises again.
     fn through_sweeps(&mut self, search: &mut Search, way: &Settings, sweeps: &[usize]) {
         let unlimited = search.limit().is_infinite();
         self.refused = false;
         let floor = if unlimited { Floor(Vec::new()) } else { self.floor(search.engine, way, sweeps, search.limit()) };
-        // Without a limit few sweeps would be searched down to the finest steps.
+        // Without a limit, a small number of sweeps would be searched down to the finest steps.
         let first = sweeps.iter().copied().find(|&sweeps| sweeps >= ENOUGH && unlimited);
         let start = if search.engine.controls_error() { way.resolution } else { COARSE_START * way.resolution };
         let mut row = Row { start, last: f64::INFINITY, rising: 0 };
@@ -134,7 +136,7 @@ impl Bench<'_> {
             }
             let error = self.largest_step(search, &mut row, Settings { sweeps, ..*way });
             if !search.engine.controls_error() {
-                // More sweeps cost more, and so afford a larger step only.
+                // More sweeps cost more, so only a larger step stays within the price.
                 row.start *= COARSER;
             }
             row.rising = if error > row.last { row.rising + 1 } else { 0 };
@@ -145,7 +147,7 @@ impl Bench<'_> {
         }
     }
 
-    /// Looks for the largest step with which settings meet the wish, and says what error they have within the price of the cheapest.
+    /// Searches the largest step at which the settings meet the wish. Returns their error within the cheapest price.
     fn largest_step(&mut self, search: &mut Search, row: &mut Row, settings: Settings) -> f64 {
         let Search { engine, within, .. } = *search;
         let limit = search.limit();
@@ -179,8 +181,8 @@ impl Bench<'_> {
         }
     }
 
-    /// The least price of a way of setting an engine, from runs so coarse that hardly anything but the reading is left; no more runs than
-    /// it takes to see that it is above `limit`.
+    /// Least price of one way of setting an engine, from runs so coarse that they cost little more than their readings.
+    /// It stops as soon as the price is known to exceed `limit`.
     fn floor(&mut self, engine: &dyn Engine, way: &Settings, sweeps: &[usize], limit: f64) -> Floor {
         let rough = match engine.controls_error() {
             true => vec![COARSEST],
@@ -230,17 +232,17 @@ impl Bench<'_> {
                 (error, worst) = (own, residual.channel.to_string());
             }
         }
-        // A channel that the engine does not have is not within anything.
+        // An engine without a wanted channel does not meet the wish.
         if seen < self.wanted.len() { failed(price) } else { Measured { error, worst, price } }
     }
 
-    /// Error that an engine's own runs let expect.
+    /// Error that is expected from the engine's own runs.
     pub(super) fn predicted(&mut self, engine: &dyn Engine) -> Result<f64> {
         let settings = engine.settings();
         let at = |factor: f64| Settings { resolution: settings.resolution * factor, ..settings };
         let mut rungs = vec![at(2.0), settings, at(0.5)];
-        // Against twice the sweeps: what is left then is little beside what is left now, so that the difference is the error itself. (A
-        // proof takes half of them, which costs a quarter and errs on the safe side.)
+        // Compared with twice the sweeps. The error left then is small against the present one, so the difference is
+        // the error itself. (A proof uses half of the sweeps, which costs a quarter and errs on the safe side.)
         if settings.sweeps > 0 {
             rungs.push(Settings { sweeps: settings.sweeps * 2, ..settings });
         }

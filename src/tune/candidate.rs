@@ -1,26 +1,26 @@
-//! Settings that were tried, and what they cost.
+//! Settings that were tried, and their cost.
 
 use linkage::engine::{Engine, Settings};
 use linkage::error::Result;
 
-/// One way of setting an engine, at the largest step with which it meets the wish.
+/// One way of setting an engine, at the largest step that meets the wish.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Candidate {
     /// Name of the engine.
     pub engine: &'static str,
     /// Its settings.
     pub settings: Settings,
-    /// Whether the resolution among them is an accuracy, not a step.
+    /// Whether the resolution in the settings is an accuracy, not a step.
     pub controls_error: bool,
     /// Largest error against the reference, over the channel's scale.
     pub verified: f64,
-    /// Channel with that error.
+    /// Channel with the largest error.
     pub worst: String,
     /// Price of the run, in the unit of the price given to [`tune`](super::tune).
     pub price: f64,
 }
 
-/// What a run costs: it is given the engine and the run, which it must call at least once.
+/// Measures the cost of a run. It gets the engine and the run, which it must call at least once.
 pub type Price<'a> = &'a mut dyn FnMut(&dyn Engine, &mut dyn FnMut() -> Result<()>) -> Result<f64>;
 
 /// Error and price of one run.
@@ -28,8 +28,8 @@ pub type Price<'a> = &'a mut dyn FnMut(&dyn Engine, &mut dyn FnMut() -> Result<(
 pub(super) struct Measured {
     /// Largest error over the channel's scale; infinite if the run failed.
     pub(super) error: f64,
-    /// Channel with that error.
+    /// Channel with the largest error.
     pub(super) worst: String,
-    /// Infinite if the run failed.
+    /// Price of the run; infinite if the run failed.
     pub(super) price: f64,
 }

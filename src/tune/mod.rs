@@ -1,9 +1,10 @@
 //! The cheapest settings of an engine that meet a wanted error, found by measurement.
 //!
-//! An engine's error depends on its step, its sweeps, its substeps, whether it is extrapolated, and the way to its reactions. For every way of setting
-//! all but the step, the largest step that meets the wanted error is found from runs against the reference (the error falls with a
-//! power of the step, so few runs are enough), and priced. The cheapest wins. What it promises without the reference, from its own
-//! runs at three steps, stands beside what was measured.
+//! An engine's error depends on its step, its sweeps, its substeps, its extrapolation, and the route to its reactions.
+//! For every setting of all but the step, runs against the reference find the largest step that meets the wanted error.
+//! The error falls with a power of the step, so a few runs are enough. The step is then priced, and the cheapest
+//! settings win. The error that the engine's own runs at three steps predict, without the reference, is given beside
+//! the measured one.
 
 mod bench;
 mod candidate;
@@ -23,38 +24,39 @@ use linkage::math::KeepNan;
 use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Stage};
 
-/// What is wanted.
+/// The wanted accuracy.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wish {
     /// Largest error, as a share of each channel's scale (half its range over the run).
     pub within: f64,
-    /// Channels by name, or stages (`positions`, `reactions`, ...); all that the scenario wants, if there is none.
+    /// Channels by name, or stages (`positions`, `reactions`, ...). If empty: all channels that the scenario wants.
     pub channels: Vec<String>,
 }
 
-/// What tuning found.
+/// Result of tuning.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tuning {
     /// The cheapest candidate.
     pub best: Candidate,
-    /// Largest error of the cheapest that its own runs at three steps and with twice the sweeps let expect, over the channel's scale; no
-    /// reference in it.
+    /// Largest error of the cheapest candidate over the channel's scale, predicted by its own runs at three steps and
+    /// with twice the sweeps, without the reference.
     pub predicted: f64,
-    /// The cheapest of every engine that meets the wish, the cheapest first.
+    /// The cheapest settings of every engine that meets the wish, the cheapest first.
     pub by_engine: Vec<Candidate>,
-    /// Engines that do not meet it, and how far they come: the smallest error seen, infinite if none of their runs ended.
+    /// Engines that do not meet the wish, with the smallest error found; infinite if no run of the engine finished.
     pub too_coarse: Vec<(&'static str, f64)>,
-    /// Engines that cost more than another one before they meet it.
+    /// Engines that would cost more than another engine before they meet the wish.
     pub too_dear: Vec<&'static str>,
-    /// Number of runs that it took.
+    /// Number of runs in the search.
     pub runs: usize,
 }
 
-/// Finds the cheapest settings of the engines in `options` that meet the wish. Settings that the options fix stay as they are.
+/// Finds the cheapest settings of the engines in `options` that meet the wish. Settings that the options fix stay as
+/// they are.
 ///
 /// # Errors
-/// [`ErrorKind::Input`] if the wish or a channel makes no sense; [`ErrorKind::Numeric`] if no engine meets the wish, with how far each
-/// comes; those of the analytic solver.
+/// [`ErrorKind::Input`] if the wish or a channel makes no sense; [`ErrorKind::Numeric`] if no engine meets the wish,
+/// with how far each comes; those of the analytic solver.
 pub fn tune(
     scenario: &Scenario,
     wish: &Wish,

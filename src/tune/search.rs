@@ -3,21 +3,22 @@
 use super::candidate::Measured;
 use linkage::math::KeepNan;
 
-/// Runs that one search may take.
+/// Largest number of runs in one search.
 const MOST_RUNS: usize = 9;
-/// An error of at least this share of the wanted one is near enough: a larger step would save less than an eighth at order 2.
+/// An error of at least this share of the wanted one is close enough: a larger step would save less than an eighth at
+/// order 2.
 const NEAR_ENOUGH: f64 = 0.8;
-/// What is aimed at, as a share of the wanted error.
+/// Target of the search, as a share of the wanted error.
 const AIM: f64 = 0.92;
-/// A step that is known to be too large by no more than this factor is not worth another run.
+/// If a step is known to be too large by at most this factor, no further run is made.
 const CLOSE: f64 = 1.06;
-/// Order below which an error does not fall with the step: something else makes it.
+/// Below this order, the error does not fall with the step: it has another cause.
 const FLAT: f64 = 0.3;
 /// Largest factor from one step to the next.
 const LEAP: f64 = 16.0;
-/// Highest order that is believed to be possible: extrapolated accelerations were seen to fall with order 4.
+/// Highest order that is assumed possible: extrapolated accelerations were observed to fall with order 4.
 const STEEPEST: f64 = 6.0;
-/// A run of this share of the limit has the finest step that can be afforded.
+/// A run that costs this share of the limit has the finest affordable step.
 const AT_THE_LIMIT: f64 = 0.9;
 
 /// Outcome of a search.
@@ -30,19 +31,19 @@ pub(super) enum Found {
         /// Its run.
         measured: Measured,
     },
-    /// It would cost more than the limit: the step that this affords, and the error there, run or expected.
+    /// The wish would cost more than the limit: the finest affordable step, and the error there, measured or expected.
     TooDear {
         /// The step.
         resolution: f64,
         /// Its error.
         error: f64,
     },
-    /// No step meets the error; the smallest error seen.
+    /// No step meets the error; the smallest error found.
     TooCoarse(f64),
 }
 
-/// Searches from `start` for the largest step, up to `most`, whose error is at most `within`; `order` is that of the method. No step is run that is
-/// expected to cost more than `limit`.
+/// Searches from `start` for the largest step, up to `most`, whose error is at most `within`; `order` is that of the
+/// method. No step is run if its expected price exceeds `limit`.
 pub(super) fn largest_step(
     [start, most]: [f64; 2],
     order: f64,
@@ -57,8 +58,8 @@ pub(super) fn largest_step(
     for _ in 0..MOST_RUNS {
         let measured = run(step);
         let (error, price) = (measured.error, measured.price);
-        // A price is a constant and a part that goes with the number of steps; after one run the constant counts as none.
-        // What a run that failed would have cost is not known.
+        // A price is a constant and a part proportional to the number of steps; after one run the constant is taken as
+        // zero. The price of a run that failed is not known.
         let mut affordable = if price.is_finite() { step * price / limit } else { 0.0 };
         if let Some([before, _, its_price]) = last {
             let per_step = (price - its_price) / (1.0 / step - 1.0 / before);
@@ -93,7 +94,7 @@ pub(super) fn largest_step(
         } else {
             missed = Some(missed.map_or(step, |known: f64| known.smaller(step)));
             if met.is_none() && error.is_finite() {
-                // Errors at the finest step that can be afforded, if they fall as fast as possible, and as they seem to.
+                // Errors at the finest affordable step: at the highest possible order, and at the present order.
                 let [at_best, expected] =
                     [STEEPEST, order].map(|order| error * (affordable / step).smaller(1.0).powf(order));
                 if price >= AT_THE_LIMIT * limit || at_best > within {
@@ -134,7 +135,7 @@ fn settled(met: Option<(f64, Measured)>, least: f64) -> Found {
 mod tests {
     use super::*;
 
-    /// An error that falls with a power of the step down to a floor; the price is one over the step.
+    /// An error that falls with a power of the step down to a floor; the price is 1 over the step.
     fn model(order: f64, floor: f64) -> impl FnMut(f64) -> Measured {
         move |step: f64| Measured { error: (step.powf(order)).larger(floor), worst: "x".into(), price: 1.0 / step }
     }

@@ -1,4 +1,4 @@
-//! What can be set on an engine besides its step.
+//! Settings of an engine besides its step.
 
 use crate::proof::Options;
 use linkage::case::Case;
@@ -10,8 +10,8 @@ const SWEEPS: [usize; 11] = [4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096];
 /// Numbers of substeps that are tried.
 const SUBSTEPS: [usize; 2] = [1, 2];
 
-/// All ways of setting an engine but for its sweeps and its resolution, the cheapest in most cases first: whatever costs more than what is known is
-/// given up soon.
+/// All ways of setting an engine, except its sweeps and its resolution. Those that are usually cheapest come first, so
+/// that ways above the known price are given up early.
 pub(super) fn ways(engine: &dyn Engine, case: &Case, options: &Options) -> Vec<Settings> {
     let Settings { resolution, sweeps, substeps, route, extrapolated } = engine.settings();
     let forces = case.wanted.deepest() >= Stage::Reactions;
@@ -38,7 +38,7 @@ pub(super) fn ways(engine: &dyn Engine, case: &Case, options: &Options) -> Vec<S
     ways
 }
 
-/// Numbers of sweeps that are tried, from few to many.
+/// Numbers of sweeps that are tried, in ascending order.
 pub(super) fn sweeps(engine: &dyn Engine, options: &Options) -> Vec<usize> {
     match (options.sweeps, engine.settings().sweeps) {
         (None, 1..) => SWEEPS.to_vec(),

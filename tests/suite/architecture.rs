@@ -1,5 +1,5 @@
-//! The architecture as a test: which crate and which room may know which, that no two files know each other in a circle,
-//! that the two analytic sides share nothing but their trunk, and a few rules for every file.
+//! The architecture as a test. It checks which crate and which room may use which, that no two files use each other in
+//! a circle, that the two analytic sides share only their common base, and a few rules for every file.
 
 mod graph;
 
@@ -9,8 +9,8 @@ use std::path::{Path, PathBuf};
 
 use graph::Graph;
 
-/// Every crate: name in code, directory, the other crates of the workspace that it may know, and the foreign ones.
-/// As tight as the manifests are: an entry that nothing uses fails too.
+/// Every crate: name in code, directory, the other crates of the workspace that it may use, and the foreign crates. The
+/// table is as tight as the manifests: an unused entry fails too.
 const CRATES: &[(&str, &str, &str, &str)] = &[
     ("linkage", "crates/linkage", "", "nalgebra petgraph"),
     ("analytic", "crates/analytic", "linkage", "differential-equations num-integer pulp wide"),
@@ -26,7 +26,7 @@ const CRATES: &[(&str, &str, &str, &str)] = &[
     ),
 ];
 
-/// Rooms of the crates that have walls inside, and what they may know of their own crate.
+/// Rooms of the crates that have inner walls, and what they may use of their own crate.
 const ROOMS: &[(&str, &str)] = &[
     ("linkage::case", "drive error math mechanism trajectory"),
     ("linkage::drive", "math mechanism"),
@@ -63,7 +63,7 @@ const ROOMS: &[(&str, &str)] = &[
     ("linkproof::tune", "compare proof scenario"),
 ];
 
-/// What rooms of the harness must not name of other crates, whatever Cargo would let them.
+/// Parts of other crates that rooms of the harness must not name, even where Cargo would allow it.
 const NEVER: &[(&str, &str)] = &[
     // Only trajectories are compared.
     (
@@ -72,25 +72,26 @@ const NEVER: &[(&str, &str)] = &[
     ),
     // A recording is a serialised trajectory.
     ("linkproof::record", "analytic rapier_twin simbody_twin workshop linkage::case linkage::solver"),
-    // It shows what was computed, also by design work, and computes no motion itself.
+    // Results of the analytic crate and of design work are shown here, but no motion is computed.
     (
         "linkproof::report",
         "analytic::assur analytic::assur_solver analytic::motion analytic::newton rapier_twin simbody_twin",
     ),
     ("linkproof::scenario", "analytic rapier_twin simbody_twin linkage::solver"),
     ("linkproof::tolerance", "analytic rapier_twin simbody_twin workshop linkage"),
-    // Engines come from one list.
+    // Engines come from one list only.
     ("linkproof::proof", "rapier_twin simbody_twin workshop"),
     ("linkproof::tune", "rapier_twin simbody_twin workshop"),
     ("linkproof::cli", "rapier_twin simbody_twin"),
-    // Any solver's states are drawn and exported.
+    // States of any solver can be drawn and exported.
     ("workshop::diagram", "analytic"),
     ("workshop::export", "analytic"),
     ("workshop::task", "analytic linkage::solver"),
 ];
 
-/// What only some rooms may name: other people's crates stay behind the room that wraps them, the clock and the terminal
-/// behind the command line, files behind the rooms that read and write them, and no result depends on the order of a hash.
+/// Names that only some rooms may use. Foreign crates stay behind the room that wraps them, the clock and the terminal
+/// behind the command line, and files behind the rooms that read or write them. No result depends on the order of a
+/// hash.
 const HOMES: &[(&str, &str)] = &[
     ("mcap", "linkproof::record"),
     ("foxglove", "linkproof::record"),
@@ -102,7 +103,7 @@ const HOMES: &[(&str, &str)] = &[
     ("serde", "linkproof::report"),
     ("strsim", "linkproof::scenario"),
     ("serde_json", "linkproof::report"),
-    // Tables of published numbers are read, those of solutions written.
+    // `scenario` reads tables of published numbers, `report` writes tables of solutions.
     ("csv", "linkproof::report linkproof::scenario"),
     ("clap", "linkproof::cli"),
     ("indicatif", "linkproof::cli"),
@@ -111,7 +112,7 @@ const HOMES: &[(&str, &str)] = &[
     ("SystemTime", "linkproof::cli"),
     ("stdout", "linkproof::cli"),
     ("stderr", "linkproof::cli"),
-    // The command line writes files, recordings are written and read; scenarios, tables, tasks and catalogues are read.
+    // The command line only writes files; `record` and `scenario` read them.
     ("fs", "linkproof::cli linkproof::record linkproof::scenario"),
     ("File", "linkproof::record"),
     ("OpenOptions", ""),
@@ -135,13 +136,14 @@ const HOMES: &[(&str, &str)] = &[
     ("HashSet", ""),
 ];
 
-/// Files and directories of side 1 and side 2. What both may use is the mechanism, and the integrator with what it asks of a side.
+/// Files and directories of side 1 and side 2. Both may use the mechanism, and the integrator with the interface that
+/// it needs from a side.
 const SIDES: [&[&str]; 2] = [&["assur", "assur_solver.rs"], &["newton"]];
 
-/// Files longer than this have more than one purpose.
+/// A longer file has more than one purpose.
 const MOST_LINES: usize = 600;
 
-/// Words that no code may hold.
+/// Words that no code may contain.
 const BANNED: [&str; 4] = ["unsafe", "todo!", "unimplemented!", "dbg!"];
 
 fn top() -> &'static Path {
@@ -178,7 +180,7 @@ fn rust_files(directory: &Path) -> Vec<PathBuf> {
     files
 }
 
-/// Edges between rooms of different name: from, to, and a sentence that says which file makes it by which path.
+/// Edges between rooms of different names: from, to, and a sentence that states the file and the path of the edge.
 fn room_edges() -> BTreeMap<(String, String), String> {
     let mut edges = BTreeMap::new();
     for ((from, to), path) in Graph::of(&roots()).edges() {
@@ -192,12 +194,12 @@ fn room_edges() -> BTreeMap<(String, String), String> {
     edges
 }
 
-/// Rows of a table, taken apart.
+/// Rows of a table as pairs.
 fn pairs(table: &'static [(&str, &str)]) -> impl Iterator<Item = (&'static str, &'static str)> {
     table.iter().flat_map(|(from, all)| all.split_whitespace().map(|to| (*from, to)))
 }
 
-/// All that is wrong, in one message.
+/// Reports all errors in one message.
 fn nothing(wrong: Vec<String>) {
     assert!(wrong.is_empty(), "\n{}\n", wrong.join("\n"));
 }
@@ -276,7 +278,8 @@ fn what_must_never_be_seen_is_not() {
     nothing(wrong);
 }
 
-/// Files of the analytic crate that both sides reach, directly or through others; a side that reaches the other shares its files.
+/// Files of the analytic crate that both sides reach, directly or through others. A side that reaches the other side
+/// shares its files.
 fn shared_by_the_sides(root: &Path) -> Vec<String> {
     let mut next: BTreeMap<PathBuf, BTreeSet<PathBuf>> = BTreeMap::new();
     for (from, to) in Graph::of(&[("analytic", root.join("lib.rs"))]).edges().into_keys() {
@@ -335,7 +338,7 @@ fn copy_of_analytic() -> tempfile::TempDir {
 #[test]
 fn no_files_know_each_other_in_a_circle() {
     let edges = Graph::of(&roots()).edges();
-    // What is left after files that know nobody left are taken out again and again.
+    // Files that use no remaining file are removed again and again.
     let mut left: BTreeMap<&PathBuf, BTreeSet<&PathBuf>> = BTreeMap::new();
     for (from, to) in edges.keys() {
         left.entry(from).or_default().insert(to);
@@ -369,7 +372,7 @@ fn what_has_a_home_stays_there() {
     nothing(wrong);
 }
 
-/// The word that only one file of the repository may hold, and there with a reason at every place.
+/// This word may stand in one file of the repository only, and there with a reason at every place.
 #[test]
 fn unsafe_code_is_at_the_boundary_to_simbody_alone() {
     let word = BANNED[0];
@@ -391,7 +394,7 @@ fn files_are_short_and_free_of_stopgaps() {
             if lines >= MOST_LINES {
                 wrong.push(format!("{}: {lines} lines, fewer than {MOST_LINES} are allowed; split it", file.display()));
             }
-            // This file names the banned words, and the boundary to Simbody is held by a test of its own.
+            // This file names the banned words. The boundary to Simbody has its own test.
             let own = file.ends_with("suite/architecture.rs") || file.ends_with("simbody/src/ffi.rs");
             let told = |line: &str| line.trim_start().starts_with("//");
             let code: String = text.lines().filter(|line| !told(line)).collect::<Vec<_>>().join("\n");

@@ -1,5 +1,5 @@
-//! What goes wrong in a scenario file, and what the message says: each case is one edit of a good scenario, and asserts
-//! the sort of error, the line it points at, the key it names, and the words that help.
+//! Errors in a scenario file and their messages. Each case is one edit of a good scenario. It asserts the kind of
+//! error, the line, the key, and the words that help.
 
 use std::path::Path;
 
@@ -12,12 +12,12 @@ const TABLE: &str = "crank_deg,Bx_mm\n0,301.12\n90,298.5\n";
 
 /// One bad scenario.
 struct Bad<'a> {
-    /// Replacements in the good scenario, each of which must apply.
+    /// Replacements in the good scenario; each must apply.
     edits: &'a [(&'static str, &'static str)],
     kind: ErrorKind,
-    /// Text of the edited scenario on whose line the error must point; its first occurrence.
+    /// Text of the edited scenario; the error must point at the line of its first occurrence.
     at: &'static str,
-    /// Key the error names.
+    /// Key that the error names.
     key: &'static str,
     /// Words of the message or the help.
     words: &'a [&'static str],
@@ -34,7 +34,7 @@ fn line_of(text: &str, marker: &str) -> usize {
     text[..start].matches('\n').count() + 1
 }
 
-/// Applies the edits, parses, and asserts everything that is expected of the error.
+/// Applies the edits, parses, and asserts all expected properties of the error.
 fn assert_refused(good: &str, bad: &Bad) {
     let mut text = good.to_string();
     for (from, to) in bad.edits {
@@ -209,7 +209,7 @@ fn links_and_joints() {
 #[test]
 fn structure_and_drive() {
     assert_all_refused(&[
-        // A fourth bar between crank and rocker: one joint pair too many.
+        // A fourth bar between crank and rocker: one pair of joints too many.
         Bad {
             edits: &[
                 (
@@ -347,7 +347,7 @@ fn oracles() {
             "oracle[3].figures[1].points", ["between two points, found 1"]),
         bad!("\"reduced_inertia_mean_kg_m2\"" => "\"distance_mm\", points = [\"A\", \"X\"]", INPUT, at "figures =", key
             "oracle[3].figures[1].points", ["no point \"X\""]),
-        // What the file says of itself proves nothing: no masses, and no lengths of one link.
+        // Statements of the file about itself prove nothing: masses and lengths of one link are not allowed.
         bad!("\"reduced_inertia_mean_kg_m2\"" => "\"mass_kg\", link = \"crank\"", INPUT, at "figures =", key
             "oracle[3].figures[1].figure", ["no figure \"mass_kg\""]),
         bad!("\"reduced_inertia_mean_kg_m2\"" => "\"distance_mm\", points = [\"C\", \"C\"]", INPUT, at "figures =", key

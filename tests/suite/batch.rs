@@ -1,4 +1,5 @@
-//! Many poses in one call: the same numbers as pose by pose, the same errors, and the same bits wherever a row stands.
+//! Many poses in one call: the same numbers and the same errors as pose by pose, and the same bits at every place of a
+//! row.
 
 use linkage::math::KeepNan;
 use std::cell::Cell;
@@ -13,13 +14,13 @@ use linkage::case::Case;
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 
-/// Share of the largest value of its sort: a few hundred roundings of 1.1e-16 on the way from the crank to the last
-/// dyad and back.
+/// Share of the largest value of the same kind: a few hundred roundings of 1.1e-16 from the crank to the last dyad and
+/// back.
 const ROUNDING: f64 = 1e-13;
-/// Acceleration of the crank (rad/s^2), so that its terms count.
+/// Acceleration of the crank (rad/s^2), so that terms with it are tested.
 const ALPHA: f64 = 3.7;
 
-/// All numbers of a state, sort by sort: positions, directions, velocities, angular velocities, accelerations, angular
+/// All numbers of a state by kind: positions, directions, velocities, angular velocities, accelerations, angular
 /// accelerations, forces, moments, balancing moments.
 fn sorts(state: &State) -> [Vec<f64>; 9] {
     let motions = || state.motions.iter();
@@ -36,7 +37,7 @@ fn sorts(state: &State) -> [Vec<f64>; 9] {
     ]
 }
 
-/// One pose after the other, up to the first that fails.
+/// Solves one pose after the other, up to the first that fails.
 fn one_by_one(case: &Case, cranks: &[f64], deepest: Stage) -> (Vec<State>, Result<()>) {
     let (mut solver, omega) = (PoseSolver::new(case).unwrap(), case.crank().at(0.0).omega);
     let mut states = Vec::new();
@@ -65,14 +66,14 @@ fn rows(case: &Case, poses: &Poses) -> Vec<State> {
     (0..poses.len()).map(copied).collect()
 }
 
-/// Largest difference in each sort, as a share of the largest value of the sort.
+/// Largest difference of each kind, as a share of the largest value of the kind.
 fn differences(ours: &[State], theirs: &[State]) -> [f64; 9] {
     let (mut difference, mut scale) = ([0.0f64; 9], [f64::MIN_POSITIVE; 9]);
     for (ours, theirs) in ours.iter().zip(theirs) {
         for (sort, (ours, theirs)) in sorts(ours).iter().zip(sorts(theirs)).enumerate() {
             for (a, b) in ours.iter().zip(theirs) {
                 let apart = (a - b).abs();
-                // NaN counts as endless.
+                // NaN counts as infinite.
                 difference[sort] = difference[sort].larger(if apart.is_nan() { f64::INFINITY } else { apart });
                 scale[sort] = scale[sort].larger(b.abs());
             }
@@ -120,14 +121,14 @@ fn random_chains_agree_and_fail_alike() {
     let failed = Cell::new(0);
     for_each(60, |sample| {
         let case = &sample.scenario.case;
-        // On the grid, away from dead points; errors of one dyad grow in the next.
+        // On the grid, away from dead points; errors of one dyad grow in the next one.
         let (states, _) = one_by_one(case, &case.grid.cranks, Stage::BalancingMoment);
         let (poses, outcome) = at_once(case, &case.grid.cranks, Stage::BalancingMoment);
         within("poses lost", f64::from(outcome.is_err()), 0.0)?;
         for found in differences(&rows(case, &poses), &states) {
             within("difference", found, ROUNDING * sample.condition)?;
         }
-        // A whole turn, which most chains cannot make, in small steps and in wide ones.
+        // A whole turn in small and in large steps; most chains cannot make a whole turn.
         for count in [200, 5] {
             let cranks = turn(case, count);
             let (states, expected) = one_by_one(case, &cranks, Stage::Positions);

@@ -1,4 +1,5 @@
-//! Mechanisms in which whole quantities vanish: a proof must neither divide by their rounding nor give up on them.
+//! Mechanisms in which whole quantities vanish. A proof must neither divide by their rounding nor be inconclusive
+//! because of them.
 
 use crate::common::spec::{Spec, four_bar};
 use linkage::math::Vec2;
@@ -10,8 +11,8 @@ fn agrees(what: &str, spec: &Spec) {
     assert_eq!(proof.verdict.word(), "agree", "{what}: {:?}", proof.verdict);
 }
 
-/// A parallelogram between its change points: all angular speeds are equal, all angular accelerations vanish, and without gravity
-/// so does the balancing moment.
+/// A parallelogram between its change points. All angular speeds are equal, and all angular accelerations vanish;
+/// without gravity the balancing moment vanishes too.
 fn parallelogram() -> Spec {
     let mut spec = four_bar([0.4, 0.1, 0.4, 0.1], true);
     spec.start = 0.5;
@@ -28,8 +29,8 @@ fn crank_alone() -> Spec {
     spec
 }
 
-/// Symptom: a parallelogram disagreed by 150 % between the analytic sides, a crank alone by 110 % in its moment. Cause: rounding
-/// was measured by the range of channels that do not vary.
+/// Symptom: a parallelogram disagreed by 150 % between the analytic sides, a crank alone by 110 % in its moment. Cause:
+/// rounding was measured by the range of channels that do not vary.
 #[test]
 fn regress_what_vanishes_by_symmetry_agrees() {
     for (name, spec) in [("parallelogram", parallelogram()), ("crank", crank_alone())] {
@@ -42,8 +43,8 @@ fn regress_what_vanishes_by_symmetry_agrees() {
     }
 }
 
-/// Symptom: the analytic sides disagree in nearly constant coordinates, and everywhere far from the origin. Cause: rounding of
-/// a coordinate is a share of the coordinate, not of its range.
+/// Symptom: the analytic sides disagree in nearly constant coordinates, and in every mechanism far from the origin.
+/// Cause: rounding of a coordinate is a share of the coordinate, not of its range.
 #[test]
 fn regress_a_mechanism_far_from_the_origin_agrees() {
     let spec = four_bar([0.4, 0.1, 0.35, 0.3], true);

@@ -1,5 +1,5 @@
-//! What every engine must do, and what was once measured to go wrong: each trap is a story with a number, its symptom and
-//! its cause.
+//! Requirements on every engine, and errors that were once measured. Each of them is a story with a number, its symptom
+//! and its cause.
 
 mod accuracy;
 mod chains;
@@ -42,13 +42,13 @@ fn epsilon(engine: &dyn Engine) -> f64 {
     if single(engine) { f64::from(f32::EPSILON) } else { f64::EPSILON }
 }
 
-/// The engines that go by steps of their user's choice. One that controls its error has neither instants on its steps nor an order to be seen, and steps
-/// that are too large are not its user's.
+/// The engines whose step the user chooses. An engine that controls its error has neither instants on its steps nor a
+/// visible order, and its steps are not the user's.
 fn stepping(dt: f64) -> impl Iterator<Item = Box<dyn Engine>> {
     linkproof::engines::all(dt).into_iter().filter(|engine| !engine.controls_error())
 }
 
-/// Of these the ones that compute in double precision: in single precision, rounding hides orders (story 60).
+/// Those of them that compute in double precision: in single precision, rounding hides orders (story 60).
 fn double(dt: f64) -> impl Iterator<Item = Box<dyn Engine>> {
     stepping(dt).filter(|engine| !single(engine.as_ref()))
 }
@@ -62,7 +62,7 @@ fn has_formal_order(case: &Case, engines: impl Iterator<Item = Box<dyn Engine>>,
         let mut seen = 0;
         for residual in finest {
             let kind = residual.channel.kind;
-            // A hundredth of rounding in the error moves an order by less than 0.02.
+            // If rounding is a hundredth of the error, it changes an order by less than 0.02.
             let noise = engine.at(engine.settings().resolution / 4.0).noise(case, kind);
             if residual.rms <= 100.0 * noise {
                 continue;
@@ -74,7 +74,8 @@ fn has_formal_order(case: &Case, engines: impl Iterator<Item = Box<dyn Engine>>,
                 assert_within!((order - formal).abs(), 0.1, "{} {}: order {order}", engine.name(), residual.channel);
             }
         }
-        // Cranks are exact, and in a Scotch yoke all angles and speeds; in single precision nearly all is rounding.
+        // Cranks are exact, and in a Scotch yoke all angles and speeds. In single precision almost everything is
+        // rounding.
         assert!(
             single(engine.as_ref()) || seen > reference.channels().len() / 3,
             "only {seen} channels have more than rounding errors"
@@ -82,7 +83,8 @@ fn has_formal_order(case: &Case, engines: impl Iterator<Item = Box<dyn Engine>>,
     }
 }
 
-/// The rungs of a ladder share what they have in common, and are to the last bit what they are alone, as they are and extrapolated.
+/// The runs of a ladder share their common parts. They are equal to the last bit to single runs, plain and
+/// extrapolated.
 #[test]
 fn a_ladder_is_its_rungs() {
     let case = four_bar([0.4, 0.1, 0.35, 0.3], true).scenario().unwrap().case;
@@ -114,8 +116,8 @@ fn ov7_base_converges_with_the_formal_order() {
     has_formal_order(&scenario.case, double(scenario.dt), &AssurSolver);
 }
 
-/// Story 1. Symptom: the crank falls behind a little every step, so that all other errors look like errors of phase.
-/// Cause: a motor of finite damping, or an all-impulse build. Every engine must hold the prescribed angle to rounding.
+/// Story 1. Symptom: the crank lags a little more every step, so that all other errors look like phase errors. Cause: a
+/// motor with finite damping, or an all-impulse build. Every engine must hold the prescribed angle to rounding.
 #[test]
 fn regress_01_the_motor_holds_its_speed_over_many_turns() {
     for speed in [25.0, -25.0] {
@@ -128,7 +130,7 @@ fn regress_01_the_motor_holds_its_speed_over_many_turns() {
             let angles = run.column(&Channel::named("link.crank.angle_rad").unwrap()).unwrap();
             let steps = case.grid.times.last().unwrap() / engine.settings().resolution;
             for (angle, crank) in angles.iter().zip(run.cranks()) {
-                // Half a unit in the last place of the largest angle a step.
+                // Half a unit in the last place of the largest angle per step.
                 let bound = 0.5 * epsilon(engine.as_ref()) * 128.0 * steps;
                 assert_within!((angle - crank).abs(), bound, "{}: {angle} at {crank}", engine.name());
             }
@@ -139,8 +141,8 @@ fn regress_01_the_motor_holds_its_speed_over_many_turns() {
     }
 }
 
-/// Story 2. Symptom: the mechanism runs the wrong way round when the driven joint is written [crank, ground]. Cause: a
-/// motor turns the second body relative to the first.
+/// Story 2. Symptom: the mechanism runs in the wrong direction when the driven joint is written [crank, ground]. Cause:
+/// a motor turns the second body relative to the first.
 #[test]
 fn regress_02_the_driven_joint_may_name_the_crank_first() {
     let spec = four_bar([0.4, 0.1, 0.35, 0.3], true);
@@ -148,7 +150,8 @@ fn regress_02_the_driven_joint_may_name_the_crank_first() {
     other.pins.iter_mut().for_each(|pin| pin.links.reverse());
     let [one, two] = [&spec, &other].map(|spec| spec.scenario().unwrap().case);
     for engine in linkproof::engines::all(1e-3) {
-        // The impulse build corrects loops along the first body's axes: another way round is another error of second order.
+        // The impulse build corrects loops along the first body's axes, so another order of the links gives another
+        // error of second order.
         let share = if engine.name() == "rapier" { 1e-7 } else { 1e-3 };
         let case = &one;
         let (one, two) = (solve(engine.as_ref(), &one), solve(engine.as_ref(), &two));
@@ -163,8 +166,8 @@ fn regress_02_the_driven_joint_may_name_the_crank_first() {
     }
 }
 
-/// Story 3. Symptom: an engine refuses, or never moves, a link without mass. Cause: it needs inertia to integrate. The
-/// motion under a prescribed speed must not depend on the masses, and a massless link must carry no inertial force.
+/// Story 3. Symptom: an engine refuses a link without mass, or never moves it. Cause: it needs inertia to integrate.
+/// The motion under a prescribed speed must not depend on the masses, and a massless link must carry no inertial force.
 #[test]
 fn regress_03_massless_links_move_alike_and_carry_no_force() {
     let with = four_bar([0.4, 0.1, 0.35, 0.3], true);
@@ -175,15 +178,15 @@ fn regress_03_massless_links_move_alike_and_carry_no_force() {
         let case = &with;
         let (with, without) = (solve(engine.as_ref(), &with), solve(engine.as_ref(), &without));
         for (channel, values) in without.iter() {
-            // The mass centre of a massless link is its frame's origin, another point.
+            // The mass centre of a massless link is its frame's origin, which is another point.
             let centre = channel.kind.subject == Subject::Link && channel.kind.unit.symbol().starts_with('m');
             if channel.kind.stage >= Stage::Reactions {
-                // Where stand-ins are carried by applied forces, what is left is rounding.
+                // Where applied forces carry the stand-ins, only rounding is left.
                 let left = if engine.controls_error() { engine.noise(case, channel.kind) } else { 0.0 };
                 values.iter().for_each(|value| assert_within!(value.abs(), left, "{} {channel}", engine.name()));
             } else if !centre {
-                // Places hang on the tree, and the loop's small gap is shared out by mass: accelerations see it first.
-                // In the impulse build they are of second order, as everything is.
+                // Places follow from the tree, and the loop's small gap is distributed by mass: accelerations show it
+                // first. In the impulse build the differences are of second order, as all its errors.
                 let bound = match (engine.name(), channel.kind.stage) {
                     ("rapier", Stage::Accelerations) => 1e-4,
                     ("rapier", _) => 1e-11,

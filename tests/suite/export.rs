@@ -1,4 +1,4 @@
-//! Models for other programs, read back: what stands in the file is the mechanism, its start pose and its speeds.
+//! Models for other programs, read back: the file contains the mechanism, its start pose and its speeds.
 
 mod model;
 
@@ -37,7 +37,7 @@ fn all() -> Vec<Scenario> {
     let paths = [files(&top), files(&top.join("variants60"))].concat();
     let mut scenarios: Vec<Scenario> =
         paths.iter().map(|path| Scenario::load(path).unwrap_or_else(|error| panic!("{error}"))).collect();
-    // What is not exported is refused: tests/suite/loads.rs and tests/suite/laws.rs.
+    // Loads and laws that are not exported are refused: tests/suite/loads.rs and tests/suite/laws.rs.
     let known = |load: &Load| matches!(load, Load::Resistance { .. });
     scenarios.retain(|scenario| scenario.case.is_steady() && scenario.case.loads.iter().all(known));
     assert!(scenarios.len() >= 72, "{}", scenarios.len());
@@ -60,7 +60,7 @@ fn bodies_are_the_links_on_the_spanning_tree() {
             assert_eq!((body.parent.as_ref(), &body.joint), (parent.as_ref(), &joint.name), "{}", scenario.name);
             assert_eq!(body.kind == Kind::Slide, joint.slides());
             assert_eq!((body.mass, body.centre), (link.mass, link.mass_centre), "{}: {}", scenario.name, link.name);
-            // MuJoCo's condition on moments of inertia, and the one that counts in a plane.
+            // MuJoCo's condition on moments of inertia, and the moment that matters in a plane.
             let [x, y, z] = body.inertia;
             assert!(x + y >= z && y + z >= x && z + x >= y && x > 0.0);
             assert!(z == link.inertia || link.inertia == 0.0 && z > 0.0, "{}: {}", scenario.name, link.name);
@@ -78,7 +78,8 @@ fn bodies_are_the_links_on_the_spanning_tree() {
     }
 }
 
-/// Positions and speeds are laid out here from the file alone, along the bodies; all joints must close, loops too, and the pose must be the case's.
+/// Positions and speeds are computed here from the file alone, along the bodies. All joints must close, including
+/// loops, and the pose must be that of the case.
 #[test]
 fn the_file_holds_the_start_pose_and_its_speeds() {
     for scenario in all() {
@@ -161,7 +162,7 @@ fn resistance_is_dry_friction_on_the_angle_of_the_link() {
     let document = Document::read(&exported(&case, "loads"));
     assert_eq!(document.body("rocker").friction, 120.0);
     assert_eq!(document.body("coupler").friction, 0.0);
-    // The coupler hangs on the crank: its angle is the sum of both hinges'.
+    // The coupler follows the crank: its angle is the sum of the angles of both hinges.
     let path = vec![("O".to_string(), 1.0), ("A".to_string(), 1.0)];
     assert_eq!(document.tendons, [("coupler".to_string(), 7.0, path)]);
 
@@ -187,7 +188,7 @@ fn links_without_mass_are_lent_a_small_one() {
     let coupler = document.body("coupler");
     assert!(coupler.mass > 0.0 && coupler.mass <= 1e-5 * total && coupler.inertia[2] > 0.0, "{}", coupler.mass);
     assert_eq!(document.body("rocker").mass, links[3].mass);
-    // Without any mass there is still a motion to show.
+    // Even without any mass there is a motion to show.
     links.iter_mut().for_each(|link| (link.mass, link.inertia) = (0.0, 0.0));
     let none = of(&links);
     assert!(
@@ -212,7 +213,7 @@ fn the_rotor_outweighs_the_mechanism() {
     }
 }
 
-/// The crank-rocker with other names; its points are named only by their joints' places.
+/// The crank-rocker with other names; its points get their names only from their joints.
 fn renamed(names: [&str; 4], joint: &str) -> Case {
     let case = crate::common::shipped("crank_rocker.toml").case;
     let mut links = case.mechanism.links().to_vec();
@@ -246,7 +247,7 @@ fn names_that_mujoco_does_not_take_are_refused() {
     refused(&renamed(["ground", "crank", "world", "rocker"], "A"), &["world", "links.world"]);
     refused(&renamed(["ground", "crank", "", "rocker"], "A"), &["empty"]);
     refused(&renamed(["ground", "crank", "coupler", "rocker"], "a\nb"), &["control"]);
-    // A point called as the file calls a side of a joint.
+    // A point with the name that the file gives to a side of a joint.
     let case = crate::common::shipped("crank_rocker.toml").case;
     let mut links = case.mechanism.links().to_vec();
     links[2].points.push(linkage::mechanism::Point { name: "B.first".into(), local: Vec2::new(0.1, 0.0) });

@@ -1,5 +1,5 @@
-//! Planted faults: the reference solves the true case, the engine one that is a little wrong. Every fault must be found, in
-//! the channels where it shows and in no others; without one the two sides must agree.
+//! Planted faults: the reference solves the true case, the engine a slightly wrong one. Every fault must be found in
+//! the channels where it shows and in no others. Without a fault the two sides must agree.
 
 use std::path::Path;
 
@@ -31,7 +31,7 @@ fn found(proof: &Proof) -> Vec<(String, Stage)> {
     wrong.map(|channel| (channel.residual.channel.to_string(), channel.residual.channel.kind.stage)).collect()
 }
 
-/// Asserts that a fault is found, in channels that `may` allows only, and in all that `must` names.
+/// Asserts that a fault is found, only in channels that `may` allows, and in all that `must` names.
 fn is_found(wrong: &str, may: impl Fn(&str, Stage) -> bool, must: &[&str]) {
     let proof = against(wrong);
     assert_eq!(proof.verdict.word(), "disagree");
@@ -67,9 +67,9 @@ fn a_mass_wrong_by_one_percent() {
     );
 }
 
-/// The crank weighs little and turns evenly, so that its mass shows only in its bearing, on the frame and, by its weight, in the
-/// drive: one percent of it is 0.26 N where the engine's own error in the bearing is 1 N. The shaking force is that
-/// much smoother than the bearing's reaction that it sees it.
+/// The crank is light and turns uniformly. So its mass shows only in its bearing, on the frame and, by its weight, in
+/// the drive. One percent of it is 0.26 N, while the engine's own error in the bearing is 1 N. The shaking force is so
+/// much smoother than the bearing's reaction that it shows the fault.
 #[test]
 fn a_crank_mass_wrong_by_one_percent() {
     let own =
@@ -131,7 +131,8 @@ fn a_joint_read_the_other_way_round() {
     is_found(&wrong, |name, _| name.starts_with("joint.B."), &["joint.B.fx_N", "joint.B.fy_N"]);
 }
 
-/// The smallest faults that are found at the scenario's step of 1e-3 s: what a proof is worth. Halved until one is missed.
+/// The smallest faults that are found at the scenario's step of 1e-3 s, as a measure of a proof. Each fault is halved
+/// until it is missed.
 #[test]
 fn how_small_a_fault_is_found() {
     type Fault = (&'static str, f64, fn(f64) -> String, f64);
@@ -180,7 +181,8 @@ fn how_small_a_fault_is_found() {
     }
 }
 
-/// Two builds of the engine are given the fault, so that they agree with one another: then it is the reference that stands alone.
+/// Two builds of the engine get the same fault, so that they agree with each other. Then the reference is the one that
+/// disagrees with all others.
 #[test]
 fn engines_that_agree_against_the_reference_make_it_the_odd_one_out() {
     let options = Options::default().engine(EngineName::Rapier).engine(EngineName::Impulse);

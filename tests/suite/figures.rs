@@ -1,4 +1,4 @@
-//! The figures the project stands for, measured on the two published mechanisms.
+//! The figures that the project promises, measured on the two published mechanisms.
 
 use crate::common::assert_within;
 use std::path::Path;
@@ -42,7 +42,8 @@ fn val_ov7_base_every_printed_number_by_both_sides() {
     let scenario = scenario("ov7_base");
     let cells: Vec<usize> =
         scenario.oracles.iter().map(|oracle| oracle.series.iter().map(|series| series.points.len()).sum()).collect();
-    // Positions, velocities, accelerations of five points in two directions, and three tables of seven angles, at 13 angles.
+    // Positions, velocities, accelerations of five points in two directions, and three tables of seven angles, at 13
+    // angles.
     assert_eq!(cells, [130, 130, 130, 91, 91, 91]);
     assert!(
         scenario.oracles.iter().all(|oracle| oracle.series.iter().all(|s| s.expected.is_empty() && s.wrong.is_none()))
@@ -54,7 +55,7 @@ fn val_ov7_base_every_printed_number_by_both_sides() {
     assert_eq!(published.len(), 2 * 51);
     for check in published {
         assert!(matches!(check.verdict, Verdict::Agree { .. }), "{}: {:?}", check.name(), check.verdict);
-        // Half a unit of two printed decimals (positions in mm, angles in degrees), nothing looser.
+        // Half a unit of the second printed decimal (positions in mm, angles in degrees), nothing larger.
         let half_unit: f64 = match check.unit {
             "m" => 0.005e-3,
             "rad" => 0.005f64.to_radians(),
@@ -125,12 +126,13 @@ fn val_crank_rocker_mean_reduced_inertia_and_resistance() {
     for solver in [&AssurSolver as &dyn Solver, &NewtonSolver] {
         let means = analytic::reduced::means::means_over_turn(&case, solver).unwrap();
         assert_abs_diff_eq!(means.inertia, 0.164846013, epsilon = 0.5e-9);
-        // Exactly 100 N m times twice the swing over a turn; the rest is the mean's error at the two kinks.
+        // Exactly 100 N m times twice the swing over a turn; the difference is the mean's error at the two kinks.
         assert_abs_diff_eq!(means.resistance, 100.0 * 2.0 * 32.0 / 360.0, epsilon = 5e-5);
     }
 }
 
-/// What the crank's printed mass and inertia would make of the mean (docs/findings.md): no solver computes a mass, but this.
+/// Effect of the crank's printed mass and inertia on the mean (docs/findings.md): no solver computes a mass, but this
+/// mean depends on it.
 #[test]
 fn val_crank_rocker_printed_mass_and_inertia_show_in_the_mean_reduced_inertia() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/crank_rocker.toml");
@@ -155,7 +157,7 @@ fn val_crank_rocker_printed_mass_and_inertia_show_in_the_mean_reduced_inertia() 
     }
 }
 
-/// Largest error over half the range, of all channels of the given stages but those that stand still.
+/// Largest error over half the range, of all channels of the given stages that are not constant.
 fn worst_share(reference: &Trajectory, run: &Trajectory, wanted: &[Stage]) -> f64 {
     let errors = difference(reference, run).unwrap();
     let shares = errors.iter().zip(scales(reference)).filter(|((channel, _), _)| {
@@ -191,7 +193,7 @@ fn rapier_shows_second_order_in_every_channel_of_both_mechanisms() {
             .filter(|c| !c.convergence.observed.is_nan())
             .map(|c| (c.residual.channel.to_string(), c.convergence.observed))
             .collect();
-        // Only the crank's own motion, and that of points on it, is exact at any step.
+        // Only the crank's own motion, and that of points on it, is exact at every step.
         assert!(
             orders.len() * 10 > proof.engine().channels.len() * 7,
             "{name}: {} of {}",
@@ -204,7 +206,8 @@ fn rapier_shows_second_order_in_every_channel_of_both_mechanisms() {
     }
 }
 
-/// Motor law, gear ratio and resistance of the course; the printed speeds divide the resistance by the ratio twice.
+/// Motor law, gear ratio and resistance of the published course; the printed speeds divide the resistance by the ratio
+/// twice.
 #[test]
 fn val_crank_rocker_steady_speed() {
     let scenario = scenario("crank_rocker");
@@ -216,14 +219,14 @@ fn val_crank_rocker_steady_speed() {
         assert_within!((speed(mean) - 14.33204).abs(), 0.5e-5, "{mean}");
         assert_within!((ratio * speed(mean) - 302.6266).abs(), 0.5e-4, "{mean}");
     }
-    // As printed: the ratio rounded to 21.14 there, and the motor's speed from the rounded crank's.
+    // As printed: the ratio is rounded to 21.14 there, and the motor's speed follows from the rounded crank speed.
     let printed = 21.14;
     let twice = (a - 17.76 / (printed * printed)) / (b * printed);
     assert_within!((twice - 14.85).abs(), 0.005, "{twice}");
     assert_within!((14.85 * ratio - 313.6).abs(), 0.05, "{twice}");
 }
 
-/// The headings of the findings, as anchors.
+/// The headings of the findings as anchors.
 fn anchors() -> Vec<String> {
     let text = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/findings.md")).unwrap();
     let anchor = |heading: &str| {
@@ -254,7 +257,7 @@ fn every_expected_disagreement_has_its_finding() {
     }
 }
 
-/// The scenario with the rocker's angle of 50 deg replaced by an entry that calls the printed number wrong.
+/// The scenario with an entry in place of the rocker's angle of 50 deg; the entry calls the printed number wrong.
 fn with_correction(printed: f64, right: f64) -> Proof {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/crank_rocker.toml");
     let text = std::fs::read_to_string(&path).unwrap();
@@ -271,7 +274,8 @@ fn with_correction(printed: f64, right: f64) -> Proof {
 #[test]
 fn a_number_known_to_be_wrong_must_be_off_and_the_right_one_must_be_met() {
     assert_eq!(with_correction(51.0, 50.0).verdict.word(), "agree");
-    // The printed number agrees after all; neither of the two does, by two units of the last digit.
+    // In one case the printed number agrees after all; in the other neither number agrees, by two units of the last
+    // digit.
     for (printed, right, words) in
         [(50.0, 51.0, "but it agrees"), (51.0, 50.000_000_002, "neither the printed number nor the one")]
     {
@@ -282,7 +286,8 @@ fn a_number_known_to_be_wrong_must_be_off_and_the_right_one_must_be_met() {
     }
 }
 
-/// A length as solved, beside one that the file says: with a coupler longer by a unit of the twelfth digit the oracle of the length disagrees.
+/// A length as solved, beside one that the file states. If the coupler is longer by a unit of the twelfth digit, the
+/// oracle of the length disagrees.
 #[test]
 fn a_length_as_solved_is_held_to_its_last_digit() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/crank_rocker.toml");
@@ -302,7 +307,7 @@ fn a_length_as_solved_is_held_to_its_last_digit() {
     }
 }
 
-/// The authors' formula: on the crank acts only the component of the reaction at joint 2 that is perpendicular to link 2-3.
+/// The authors' formula: only the component of the reaction at joint 2 perpendicular to link 2-3 acts on the crank.
 #[test]
 fn val_ov7_new_printed_r1_and_moment_come_from_half_a_reaction() {
     let case = fine(&scenario("ov7_new_tabulated").case);
@@ -311,7 +316,7 @@ fn val_ov7_new_printed_r1_and_moment_come_from_half_a_reaction() {
     let mut visit = |row: usize, state: &State| {
         let mechanism = &case.mechanism;
         let (crank, lead) = (mechanism.link_named("crank").unwrap(), mechanism.link_named("lead_23").unwrap());
-        // Joint 2 goes from the crank to the lead: on the crank acts the opposite force.
+        // Joint 2 goes from the crank to the lead, so the opposite force acts on the crank.
         let whole = -state.forces[mechanism.joint_named("2").unwrap()];
         let along = state.motions[lead].direction;
         let half = whole - along * along.dot(&whole);
@@ -333,9 +338,9 @@ fn val_ov7_new_printed_r1_and_moment_come_from_half_a_reaction() {
         Ok(())
     };
     AssurSolver.each(&case, &mut visit).unwrap();
-    // Printed -5.831: the moment that the forces have on the crank, not the one that balances it.
+    // Printed -5.831: the moment of the forces on the crank, not the moment that balances it.
     assert_abs_diff_eq!(-first, -5.831, epsilon = 0.5e-3);
-    // Printed maxima over the turn, between the twelve angles of the table.
+    // Printed maxima over the turn; they lie between the twelve angles of the table.
     assert_abs_diff_eq!(largest, 6.34, epsilon = 5e-3);
     assert_abs_diff_eq!(largest_force, 232.74, epsilon = 0.02);
 }

@@ -1,5 +1,5 @@
-//! Random higher groups, with sliders and without, alone and among dyads: both analytic sides, by contours, angles and slides here, by
-//! absolute coordinates there, must agree.
+//! Random higher groups, with and without sliders, alone and together with dyads. Both analytic sides must agree: side
+//! 1 uses contours, angles and slides, side 2 absolute coordinates.
 
 use crate::common::assert_within;
 use crate::common::higher::{Among, FAMILIES, Family, mechanism};
@@ -11,11 +11,12 @@ use linkage::solver::Solver;
 use linkage::trajectory::{Stage, Trajectory};
 use linkproof::compare::{magnitudes, residuals};
 
-/// Mechanisms of each family.
+/// Number of mechanisms of each family.
 const TRIES: usize = 60;
 
-/// The largest of speed and root of acceleration, over the crank's speed: how near the pose is to a singular one. Rounding grows with its
-/// square. Accelerations are of the order of that square and tell where a speed happens to pass through zero. Lengths are about a metre.
+/// The largest of speed and square root of acceleration, over the crank's speed: a measure of how near the pose is to a
+/// singular one. Rounding grows with its square. Accelerations are of the order of that square, and also show it where
+/// a speed passes through zero. Lengths are about a metre.
 fn nearness(trajectory: &Trajectory, crank: f64) -> f64 {
     let of = |(channel, values): (&linkage::trajectory::Channel, &[f64])| {
         let most = values.iter().fold(0.0f64, |max, v| max.larger(v.abs()));
@@ -28,7 +29,8 @@ fn nearness(trajectory: &Trajectory, crank: f64) -> f64 {
     trajectory.iter().map(of).fold(1.0, f64::larger)
 }
 
-/// Largest share of the mechanism's size, for each stage, that both sides differ by; and how many were solved and began as drawn.
+/// Largest difference of the two sides for each stage, as a share of the mechanism's size; then the numbers of
+/// mechanisms that were solved and that began as drawn.
 fn worst(family: &Family, among: Among, tries: usize) -> ([f64; 5], usize, usize) {
     let mut random = Random::from_seed(7);
     let (mut worst, mut solved, mut as_drawn) = ([0.0f64; 5], 0, 0);
@@ -36,7 +38,7 @@ fn worst(family: &Family, among: Among, tries: usize) -> ([f64; 5], usize, usize
         let (spec, drawn) = mechanism(&mut random, family, among);
         let scenario = match spec.scenario() {
             Ok(scenario) => scenario,
-            // Rough places that fit two configurations, or lead to none, are refused; nothing else is.
+            // Rough places that fit two configurations, or lead to none, are refused. No other error is allowed.
             Err(error) => {
                 assert_eq!(error.kind(), ErrorKind::Geometry, "{error}\n{}", spec.toml());
                 assert!(error.message().contains("rough place"), "{error}\n{}", spec.toml());
@@ -52,7 +54,7 @@ fn worst(family: &Family, among: Among, tries: usize) -> ([f64; 5], usize, usize
         };
         as_drawn += usize::from(case.start.0.iter().zip(&drawn).all(off));
         let (assur, newton) = (AssurSolver.solve(case), NewtonSolver.solve(case));
-        // Beyond a dead point there is nothing to compare; the two sides must both say so.
+        // Beyond a dead point there is nothing to compare, but both sides must report it.
         let (Ok(assur), Ok(newton)) = (&assur, &newton) else {
             assert!(assur.is_err() && newton.is_err(), "{:?} {:?}\n{}", assur.err(), newton.err(), spec.toml());
             continue;
@@ -73,10 +75,10 @@ fn agree(among: Among, tries: usize) {
         let (worst, solved, as_drawn) = worst(family, among, tries);
         let what = format!("{}, sliding {:?}, {among:?}", family.topology.name, family.slides);
         println!("{what}: {solved} solved, {as_drawn} as drawn, {}", worst.map(|w| format!("{w:.1e}")).join(" "));
-        // Where many die at dead points, a tenth must be left to compare.
+        // Where many end at dead points, a tenth must remain for the comparison.
         assert!(solved * 10 > tries && as_drawn * 2 > tries, "{what}: only {solved}, {as_drawn} of {tries}");
         for stage in Stage::ALL {
-            // The bounds of the published mechanisms, times the square of the nearness.
+            // The bounds of the published mechanisms, times the square of the measure of nearness.
             let bound = match stage {
                 Stage::Positions => 1e-12,
                 Stage::Velocities | Stage::Accelerations => 1e-11,

@@ -1,5 +1,6 @@
-//! What holds for every mechanism, whatever its numbers, on random mechanisms of one to three dyads of all sorts. Nothing here knows a
-//! formula of the solvers: derivatives are taken by differences, forces are judged by the laws of momentum and energy.
+//! Properties of every mechanism, whatever its numbers, on random mechanisms of one to three dyads of all kinds. These
+//! tests use no formula of the solvers: derivatives come from differences, and forces are checked by the laws of
+//! momentum and energy.
 
 mod balance;
 mod symmetry;
@@ -13,13 +14,13 @@ use linkage::trajectory::Stage;
 use linkproof::compare::residuals;
 use proptest::test_runner::TestCaseError;
 
-/// Mechanisms that every invariant is tried on.
+/// Number of mechanisms on which every invariant is tested.
 const COUNT: u32 = 128;
 
 /// Crank angle (rad) of a difference quotient: a little above eps^(1/5), where truncation and rounding are equal.
 const TURN: f64 = 1e-3;
 /// Rounding of a value over the crank angle of the quotient, relative to the value's size and times the condition. Ten
-/// units in the last place; a quarter of the bounds is used up on these mechanisms.
+/// units in the last place; a quarter of the bounds is used on these mechanisms.
 const NOISE: f64 = 10.0 * f64::EPSILON / TURN;
 
 /// States around an instant: at -4, -2, -1, 0, 1, 2, 4 times the spacing.
@@ -42,8 +43,9 @@ impl Around {
         &self.states[3]
     }
 
-    /// That `rate` is the derivative of `of`, whose values are of size `scale`. The five-point rule at one and at two
-    /// spacings differ by 15 times the error of the finer, so that the difference bounds it without any guess.
+    /// Checks that `rate` is the derivative of `of`, whose values are of size `scale`. The five-point rules at one and
+    /// at two spacings differ by 15 times the error of the finer one, so the difference bounds that error without any
+    /// estimate.
     fn is_slope(&self, what: &str, scale: f64, of: impl Fn(&State) -> f64, rate: f64) -> Result<(), TestCaseError> {
         let y = self.states.each_ref().map(of);
         let fine = (8.0 * (y[4] - y[2]) - (y[5] - y[1])) / (12.0 * self.spacing);
@@ -105,8 +107,8 @@ fn both_solvers_agree_to_rounding() {
                     largest(Stage::Reactions).larger(largest(Stage::BalancingMoment))
                 }
             };
-            // Units in the last place, times the condition: each derivative and each solve for forces adds its own sums.
-            // Measured on these mechanisms: 13, 55, 230 and 200.
+            // Units in the last place, times the condition: each derivative and each linear solve for forces adds its
+            // own sums. Measured on these mechanisms: 13, 55, 230 and 200.
             let units = match stage {
                 Stage::Positions => 50.0,
                 Stage::Velocities => 200.0,

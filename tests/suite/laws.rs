@@ -25,7 +25,7 @@ fn swing(law: &str, grid: &str) -> Scenario {
 }
 
 const RAMP: &str = "law = \"ramp\"\nspeed_rpm = -300\ntime_s = 0.12";
-/// There, back by a part, and on.
+/// Forward, partly back, and forward again.
 const TABLE: &str = "law = \"table\"\npoints = [{ time_s = 0, angle_deg = 20 }, { time_ms = 60, angle_deg = 90 }, { time_s = 0.12, angle_deg = 50 }, { time_s = 0.2, angle_deg = 160 }]";
 const CYCLOIDAL: &str = "law = \"cycloidal\"\nto_deg = -150\ntime_s = 0.15";
 
@@ -64,7 +64,8 @@ fn both_sides_agree_and_balance_powers_and_momentum() {
     }
 }
 
-/// Velocities are the derivatives of positions, accelerations those of velocities: by differences of the solutions themselves.
+/// Velocities are the derivatives of positions, and accelerations those of velocities, by differences of the solutions
+/// themselves.
 #[test]
 fn rates_are_derivatives_under_every_law() {
     for (law, t) in [(RAMP, 0.07), (RAMP, 0.2), (TABLE, 0.05), (TABLE, 0.09), (CYCLOIDAL, 0.04)] {
@@ -88,13 +89,13 @@ fn val_the_engine_agrees_by_every_route() {
         (CYCLOIDAL, "from_s = 0\nto_s = 0.15\nstep_s = 0.01", 1.0),
         // From one point of the table to the next.
         (TABLE, "from_s = 0\nto_s = 0.05\nstep_s = 0.01", 0.5),
-        // Past the jump of the acceleration, at 0.12 s, and before it.
+        // After the jump of the acceleration at 0.12 s, and before it.
         (RAMP, "from_s = 0.13\nto_s = 0.2\nstep_s = 0.01", 1.0),
         (RAMP, "from_s = 0\nto_s = 0.1\nstep_s = 0.01", 1.0),
     ] {
         let mut scenario = swing(law, grid);
         for (route, dt) in [("differences", 5e-4), ("native", 5e-5), ("probe", 5e-4)] {
-            // Of first order, and slow: one law with a changing acceleration is enough.
+            // First order and slow: one law with a changing acceleration is enough.
             if route == "native" && law != CYCLOIDAL {
                 continue;
             }
@@ -109,13 +110,13 @@ fn val_the_engine_agrees_by_every_route() {
     }
 }
 
-/// The observed order of what is read by differences stays that of constant speeds.
+/// The observed order of values obtained by differences stays that of constant speeds.
 #[test]
 fn val_the_order_stays_two() {
     let scenario = shipped("cycloidal_start.toml");
     let proof = prove(&scenario, &Options::default()).unwrap();
     for channel in &proof.engine().channels {
-        // The crank itself lands on the law at every step: its angle has no error to see an order of.
+        // The crank itself meets the law at every step: its angle has no error, so no order is visible.
         let order = channel.convergence.observed;
         let name = channel.residual.channel.to_string();
         let exact = channel.residual.channel.kind.stage == Stage::Positions
@@ -124,7 +125,7 @@ fn val_the_order_stays_two() {
     }
 }
 
-/// At an instant where the drive's acceleration jumps nothing is called a disagreement.
+/// At an instant where the drive's acceleration jumps, no verdict is a disagreement.
 #[test]
 fn a_jump_of_the_acceleration_is_no_disagreement() {
     let scenario = swing(RAMP, "from_s = 0.1\nto_s = 0.14\nstep_s = 0.0005");

@@ -1,9 +1,9 @@
-//! What only the command line may do: name its options and commands, and set the process's panic hook.
+//! Rights of the command line alone: to name its options and commands, and to set the process's panic hook.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The command line's home, below the repository's root.
+/// Directory of the command line, below the repository's root.
 const COMMAND_LINE: &str = "src/cli";
 
 /// Source files of the library and of all its crates, without tests.
@@ -39,7 +39,7 @@ fn without_tests(code: &str) -> &str {
     &code[..module.unwrap_or(code.len())]
 }
 
-/// String literals of a code and all the rest of it without comments, line by line numbered from 1.
+/// String literals of a source text with their line numbers, counted from 1, and the rest of the text without comments.
 fn literals(code: &str) -> (Vec<(usize, String)>, String) {
     let (mut found, mut code_alone) = (Vec::new(), String::new());
     let mut rest = code;

@@ -1,4 +1,4 @@
-//! All integration tests, in one binary: what they share is compiled and linked once.
+//! All integration tests in one binary, so that their common parts are compiled and linked once.
 //!
 //! `cargo test --release --test suite` runs them all, `... --test suite figures::` one module of them.
 

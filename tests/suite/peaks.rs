@@ -17,14 +17,14 @@ fn a_bare_crank_pulls_hardest_where_its_mass_hangs() {
     let peaks = over_range(&Scenario::parse(text, Path::new("bare.toml")).unwrap().case).unwrap();
     let expected = 2.0 * (9.0 * 0.3 + 9.81);
     assert_within!((peaks.reactions[0].value - expected).abs(), 1e-14 * expected, "{peaks:?}");
-    // The value is flat at its top: the angle is good to the root of rounding.
+    // The value is stationary at its maximum: the angle is accurate to the square root of rounding.
     assert_within!((peaks.reactions[0].crank - 1.5 * std::f64::consts::PI).abs(), 1e-7, "{peaks:?}");
     assert_eq!(peaks.reactions[0].value, peaks.shaking_force.value);
     assert_within!((peaks.balancing_moment.value - 2.0 * 9.81 * 0.3).abs(), 1e-14 * 6.0);
 }
 
-/// Printed maxima of R2 to R7 and the journals made for them. The authors' maxima are those of samples, whose spacing they do not say, and may
-/// fall short of the true ones; the masses were fitted to their table to 0.015 N.
+/// Printed maxima of R2 to R7 and the journals designed for them. The authors' maxima are those of samples at an
+/// unstated spacing and may be below the true ones. The masses were fitted to their table to 0.015 N.
 #[test]
 fn val_ov7_new_largest_reactions_and_journals() {
     let scenario = crate::common::shipped("ov7_new_tabulated.toml");
@@ -45,14 +45,15 @@ fn val_ov7_new_largest_reactions_and_journals() {
         let found = 1e3 * journal_diameter(peak.value, 0.01, 200e6);
         assert_within!((found - diameter).abs(), 0.005, "joint {joint}: {found} mm, printed {diameter}");
     }
-    // Made for the authors' R1 of 232.74 N, the crank's journal of 4.91 mm carries a quarter of what it must.
+    // The crank's journal of 4.91 mm is designed for the authors' R1 of 232.74 N; that is about a quarter of the load
+    // that it must carry.
     assert_within!((1e3 * journal_diameter(232.74, 0.01, 200e6) - 4.91).abs(), 0.005);
     let crank = peaks.reactions[case.mechanism.joint_named("1").unwrap()];
     assert_within!((crank.value - 1020.66).abs(), 0.02);
     assert_within!((1e3 * journal_diameter(crank.value, 0.01, 200e6) - 8.04).abs(), 0.005);
 }
 
-/// The other analytic side has the same value at the refined angle, and none larger near by.
+/// The other analytic side has the same value at the refined angle, and no larger value near it.
 #[test]
 fn the_other_side_has_the_same_peaks() {
     for name in ["crank_rocker.toml", "fourth_class.toml", "class3_group.toml"] {

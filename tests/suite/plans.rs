@@ -1,5 +1,5 @@
-//! Graphical methods: plans close and are images of the links, drawings hold what they say, the chord method has its known error, and the
-//! published graphical figures are what they are.
+//! Graphical methods: plans close and are images of the links, drawings contain what they claim, the chord method has
+//! its known error, and the published graphical figures are reproduced.
 
 mod drawings;
 mod graphs;
@@ -22,7 +22,7 @@ use workshop::diagram::{Part, Plan, Plans, SingularPoint, TipKind, Vector};
 const REVOLUTE: [&str; 5] = ["crank_rocker", "ov7_base", "ov7_new", "ov7_new_tabulated", "fourth_class"];
 const SLIDERS: [&str; 5] = ["compressor", "six_bar_slider", "quick_return", "scotch_yoke", "tangent"];
 
-/// All scenarios with crank angles that they reach.
+/// All scenarios with crank angles that they can reach.
 fn all() -> impl Iterator<Item = (&'static str, f64)> {
     let names = REVOLUTE.into_iter().chain(SLIDERS);
     names.flat_map(|name| angles().map(move |degrees| (name, degrees_of(name, degrees))))
@@ -44,7 +44,7 @@ fn plans_of(case: &Case, solver: &dyn Solver, degrees: f64) -> linkage::Result<P
     Ok(Plans::of(case, solver, &state_at(case, solver, crank)?, crank))
 }
 
-/// What tests look for in a plan by its name.
+/// Access of the tests to a plan by names.
 trait Named {
     /// The vector called `name`.
     fn vector(&self, name: &str) -> Option<&Vector>;
@@ -71,7 +71,7 @@ fn plans(name: &str, degrees: f64) -> Plans {
     plans_with(name, &AssurSolver, degrees)
 }
 
-/// Crank angles all over the turn.
+/// Crank angles over the whole turn.
 fn angles() -> impl Iterator<Item = f64> {
     (0..12).map(|k| 7.0 + 30.0 * f64::from(k))
 }
@@ -80,8 +80,8 @@ fn longest(plan: &Plan) -> f64 {
     plan.vectors.iter().map(|vector| vector.value.norm()).fold(0.0, f64::larger)
 }
 
-/// Walks from the pole along vectors to every letter; each vector not needed for that closes a contour. Returns the number of contours
-/// and the largest gap.
+/// Walks from the pole along vectors to every letter. Each vector that is not needed for this closes a contour. Returns
+/// the number of contours and the largest gap.
 fn contours(plan: &Plan) -> (usize, f64) {
     let pole = |letter: &str| {
         let fixed = plan.tips.iter().any(|tip| tip.letter == letter && tip.kind == TipKind::Fixed);
@@ -116,23 +116,23 @@ fn every_contour_of_every_plan_closes() {
             let plans = plans_with(name, solver, degrees);
             for plan in [&plans.velocity, &plans.acceleration] {
                 let (count, gap) = contours(plan);
-                // Each moving loop of links gives one at least: crank, coupler and rocker at the very least.
+                // Each moving loop of links gives at least one contour; crank, coupler and rocker form such a loop.
                 assert!(count >= 1, "{name}: nothing closes");
-                // Eleven digits of velocities and accelerations are what the solvers promise.
+                // The solvers promise eleven digits of velocities and accelerations.
                 assert_within!(gap, 1e-11 * longest(plan), "{name} at {degrees}: {:e}", gap / longest(plan));
             }
         }
     }
 }
 
-/// Burmester and Mehmke: the image of a link is the link, turned and enlarged. Compares sides of drawn mechanism and plans, and omega and alpha
-/// as listed; the vectors themselves are not asked.
+/// Burmester and Mehmke: the image of a link is the link, turned and enlarged. Compares sides of the drawn mechanism
+/// and of the plans with the listed omega and alpha, without using the vectors themselves.
 #[test]
 fn the_image_of_a_link_is_similar_to_it() {
     for (name, degrees) in all() {
         let mechanism = scenario(name).case.mechanism.clone();
         let plans = plans(name, degrees);
-        // Points of the ground lie in the pole, and have no vector.
+        // Points of the ground are in the pole, and have no vector.
         let end = |plan: &Plan, name: &str| {
             let vector = plan.vector(&format!("{}_{name}", plan.quantity.symbol()));
             vector.map_or_else(Vec2::zeros, |vector| plan.tip(&vector.to).unwrap())
@@ -192,7 +192,7 @@ fn parts_stand_as_their_names_say() {
     assert_within!((size("a_EC^t") - 48.4440 * 0.04).abs(), 0.5e-4 * 0.04);
     let sum = plan.vector("a_EC^n").unwrap().value + plan.vector("a_EC^t").unwrap().value;
     assert_within!((sum - plan.vector("a_EC").unwrap().value).norm(), 1e-12);
-    // The crank turns uniformly: its normal part is the whole.
+    // The crank turns uniformly: its acceleration has only the normal part.
     assert_eq!(plan.vector("a_AO^n").unwrap().to, "a");
     assert!(plan.vector("a_AO^t").is_none());
 }
@@ -226,7 +226,7 @@ fn both_solvers_draw_the_same_plans() {
     }
 }
 
-/// The method through the singular point has no error of its own: it gives what both solvers give.
+/// The method through the singular point has no error of its own: it gives the same values as both solvers.
 #[test]
 fn the_singular_point_gives_the_solvers_velocities_and_accelerations() {
     let case = scenario("fourth_class").case;
@@ -237,7 +237,8 @@ fn the_singular_point_gives_the_solvers_velocities_and_accelerations() {
                 workshop::diagram::plan::state_at(&case, solver, (5.0 * f64::from(degrees)).to_radians()).unwrap();
             let point = SingularPoint::of(&case, group, &state.motions).unwrap().unwrap();
             assert_eq!(point.lines(), "BD x CE");
-            // The farther S is from the group, the more digits cancel; its distance over the size of the group measures that.
+            // The farther S is from the group, the more digits cancel. The measure is its distance over the size of the
+            // group.
             let far = 1.0 + point.at.norm() / 0.1;
             for (link, omega, alpha) in point.links {
                 let motion = &state.motions[link];
@@ -271,7 +272,8 @@ fn the_singular_point_gives_the_solvers_velocities_and_accelerations() {
     }
 }
 
-/// Magnitudes at 70 deg by the authors' analytic and graphical methods, and their percentages, beside the exact ones.
+/// Magnitudes at 70 deg by the authors' analytic and graphical methods, and their percentages, compared with the exact
+/// ones.
 #[test]
 fn val_fourth_class_published_graphical_figures() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/fourth_class/published.csv");

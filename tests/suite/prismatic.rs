@@ -1,4 +1,4 @@
-//! Prismatic pairs on the analytic side: against closed forms, differences, and the laws of momentum and power.
+//! Prismatic joints on the analytic side: against closed forms, differences, and the laws of momentum and power.
 
 use crate::common::sliders::{self, SPEED, Sample};
 use crate::common::{assert_within, centre, centre_acceleration, states};
@@ -37,7 +37,8 @@ fn motion_is_that_of_the_closed_forms() {
             let slide = state.slide(joint).unwrap();
             let angle = [state.angles[link], state.motions[link].omega, state.motions[link].alpha];
             for order in 0..3 {
-                // Rounding of the closed form and of Newton's last step, through a transmission angle of 30 degrees at least.
+                // Rounding of the closed form and of Newton's last step, at a transmission angle of at least 30
+                // degrees.
                 let bound = 1e-14 * SPEED.powi(order as i32) * 10.0;
                 let errors = [slide[order] - exact.slide[order], angle[order] - exact.angle[order]];
                 let what = format!("{} at {crank}: {errors:?}, order {order}", sample.name);
@@ -47,8 +48,8 @@ fn motion_is_that_of_the_closed_forms() {
     });
 }
 
-/// Fourth-order differences with steps h and 2h: errors (h w)^4 / 30 of a motion that has harmonics up to a few w, and rounding
-/// 1e-16 / h of a unit length.
+/// Fourth-order differences with steps h and 2h. Their errors are (h w)^4 / 30 for a motion with harmonics up to a few
+/// w, plus rounding 1e-16 / h of a unit length.
 #[test]
 fn velocities_and_accelerations_are_derivatives() {
     let h = 1e-4;
@@ -81,7 +82,7 @@ fn velocities_and_accelerations_are_derivatives() {
     });
 }
 
-/// Every link with the forces of its joints at the places on their second links, and their moments there.
+/// Every link with the forces of its joints at their places on the second links, and their moments about these places.
 #[test]
 fn every_link_is_in_equilibrium() {
     each(|sample, solver| {
@@ -106,7 +107,8 @@ fn every_link_is_in_equilibrium() {
                     force += reaction * sign;
                     moment += (cross(place - middle, *reaction) + own) * sign;
                 }
-                // Rounding of a linear system of nine equations in units of the largest force; lengths are below a metre.
+                // Rounding of a linear system of nine equations, in units of the largest force; lengths are below a
+                // metre.
                 let bound = 1e-13 * largest;
                 assert_within!(force.norm(), bound, "{} {index} {time}: {force} {moment}", sample.name);
                 assert_within!(moment.abs(), bound, "{} {index} {time}: {force} {moment}", sample.name);
@@ -115,7 +117,8 @@ fn every_link_is_in_equilibrium() {
     });
 }
 
-/// The force of a prismatic pair is across its axis, to the rounding of the forces that it comes from.
+/// The force of a prismatic joint is perpendicular to its axis, to the rounding of the forces from which it is
+/// computed.
 #[test]
 fn sliders_are_not_pushed_along_their_guides() {
     each(|sample, solver| {
@@ -136,7 +139,8 @@ fn sliders_are_not_pushed_along_their_guides() {
     });
 }
 
-/// Neither knows a joint's reaction: the balance of powers gives the drive, the momentum of all links the frame.
+/// Neither check uses a joint's reaction: the balance of powers gives the drive, the momentum of all links gives the
+/// frame.
 #[test]
 fn drive_and_frame_agree_with_power_and_momentum() {
     each(|sample, solver| {
@@ -162,8 +166,8 @@ fn drive_and_frame_agree_with_power_and_momentum() {
     });
 }
 
-/// With its links named the other way round a joint is the same joint: the force turns about, and so does the moment, now taken
-/// about the place on the other link.
+/// If its links are named in the other order, a joint is the same joint. The force changes its sign, and so does the
+/// moment, which is then taken about the place on the other link.
 #[test]
 fn order_of_a_joints_links_does_not_matter() {
     each(|sample, solver| {

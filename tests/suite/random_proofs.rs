@@ -1,4 +1,4 @@
-//! Whole proofs on random mechanisms and at awkward instants: nothing true may be called a disagreement.
+//! Whole proofs on random mechanisms and at unfavourable instants: a correct solution must never be a disagreement.
 
 use std::cell::Cell;
 use std::path::Path;
@@ -9,15 +9,16 @@ use crate::common::sketch::Random;
 use linkproof::proof::{Options, prove};
 use linkproof::scenario::Scenario;
 
-/// Symptom: true mechanisms disagree in their velocities, by up to twice the bound. Cause: too few sweeps leave an error of
-/// first order there, which cancels against the one of second order in the differences that the bound is made of. The run with half
-/// the sweeps shows it.
+/// Symptom: correct mechanisms disagree in their velocities, by up to twice the bound. Cause: too few sweeps leave an
+/// error of first order there. In the differences from which the bound is made, it cancels against the error of second
+/// order. The run with half the sweeps shows it.
 #[test]
 fn regress_random_chains_of_rrr_dyads_never_disagree() {
     never_disagree(&SORTS[..1], 3);
 }
 
-/// The same with all sorts. Of sixty chains of up to three, one keeps an error of first order in slide speeds that is gone with 8192 sweeps.
+/// The same with all kinds of dyads. Of sixty chains of up to three, one keeps an error of first order in slide speeds,
+/// which vanishes with 8192 sweeps.
 #[test]
 fn regress_random_mechanisms_with_sliders_never_disagree() {
     never_disagree(&SORTS, 3);
@@ -46,7 +47,7 @@ fn never_disagree(sorts: &[[bool; 3]], most: usize) {
                 let count = if word == "agree" { &proven } else { &open };
                 count.set(count.get() + 1);
             }
-            // The run-up of some leads beyond what can be assembled.
+            // The run-up leads some mechanisms beyond the poses that can be assembled.
             Err(error) => {
                 let says = |words| error.message().contains(words);
                 proptest::prop_assert!(
@@ -63,7 +64,8 @@ fn never_disagree(sorts: &[[bool; 3]], most: usize) {
     assert!(proven.get() >= 30, "only {} of 60 mechanisms are proven, {} are left open", proven.get(), open.get());
 }
 
-/// Of every family of higher groups a few in each surrounding. Of these, three disagreed falsely in velocities before the error of the sweeps was counted.
+/// A few of every family of higher groups in each surrounding. Before the error of the sweeps was counted, three of
+/// these disagreed falsely in velocities.
 #[test]
 fn regress_random_higher_groups_never_disagree() {
     let mut counts = std::collections::BTreeMap::new();
@@ -88,7 +90,7 @@ fn regress_random_higher_groups_never_disagree() {
                     }
                     proof.verdict.word()
                 }
-                // Out of reach, for the references or for the engine.
+                // The pose is out of reach, for the references or for the engine.
                 Err(_) => "refused",
             };
             *counts.entry(word).or_insert(0) += 1;
@@ -98,8 +100,9 @@ fn regress_random_higher_groups_never_disagree() {
     assert!(counts["agree"] >= FAMILIES.len(), "{counts:?}");
 }
 
-/// Symptom: reactions disagree by 80 % at an instant a ten-thousandth of a degree before the rocker turns about. Cause: the
-/// moment of resistance jumps there, and the engine's rocker turns about a moment earlier. That proves nothing.
+/// Symptom: reactions disagree by 80 % at an instant a ten-thousandth of a degree before the rocker reverses. Cause:
+/// the moment of resistance jumps there, and the engine's rocker reverses a moment earlier. The verdict must be
+/// inconclusive.
 #[test]
 fn regress_a_load_that_jumps_within_the_engines_error_is_no_disagreement() {
     let text = include_str!("../../scenarios/crank_rocker.toml");

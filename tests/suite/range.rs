@@ -1,4 +1,5 @@
-//! Over which crank angles mechanisms can be followed, and where they are singular: against closed forms, against solving and against counting.
+//! The crank angles over which mechanisms can be followed, and their singular positions: against closed forms, against
+//! solving and against counting.
 
 use linkage::math::KeepNan;
 use std::f64::consts::{PI, TAU};
@@ -18,7 +19,7 @@ use linkage::mechanism::{LinkPose, Pose};
 use linkage::solver::Solver;
 use linkage::trajectory::Stage;
 
-/// To what limits and extreme positions are promised (rad).
+/// Promised accuracy of limits and extreme positions (rad).
 const EXACT: f64 = 1e-9;
 
 fn range(spec: &Spec) -> Range {
@@ -32,14 +33,16 @@ fn limits(range: &Range) -> Option<[Singularity; 2]> {
     }
 }
 
-/// Crank angle in the upper half plane at which A is `reach` from C: law of cosines; `None` if it never is. Written with half angles,
-/// (reach - |d - a|)(reach + |d - a|) / 4 a d = sin^2(phi / 2), so that no digit is lost near 0.
+/// Crank angle in the upper half plane at which the distance from A to C is `reach`, by the law of cosines; `None` if
+/// there is none. It is written with half angles, (reach - |d - a|)(reach + |d - a|) / 4 a d = sin^2(phi / 2), so that
+/// no digit is lost near 0.
 fn crank_at(d: f64, a: f64, reach: f64) -> Option<f64> {
     let square = (reach - (d - a).abs()) * (reach + (d - a).abs()) / (4.0 * a * d);
     (0.0..=1.0).contains(&square).then(|| 2.0 * square.sqrt().asin())
 }
 
-/// The interval of crank angles around `start` (in the upper half plane or symmetrical about 0 or 180 deg) in which |b - c| <= |AC| <= b + c.
+/// The interval of crank angles around `start` in which |b - c| <= |AC| <= b + c. `start` is in the upper half plane,
+/// or the interval is symmetrical about 0 or 180 deg.
 fn closed_form([d, a, b, c]: [f64; 4], start: f64) -> Option<[f64; 2]> {
     let (stretched, folded) = (crank_at(d, a, b + c), crank_at(d, a, (b - c).abs()));
     match (folded, stretched) {
@@ -51,7 +54,8 @@ fn closed_form([d, a, b, c]: [f64; 4], start: f64) -> Option<[f64; 2]> {
     }
 }
 
-/// A crank angle in [0, 180] deg at which the four-bar can be assembled and is far from any dead point, if there is one.
+/// A crank angle in [0, 180] deg at which the four-bar can be assembled and is far from any dead point, if there is
+/// one.
 fn start_of(lengths: [f64; 4]) -> Option<f64> {
     let [d, a, b, c] = lengths;
     let cosine = |phi: f64| (b * b + c * c - a * a - d * d + 2.0 * a * d * phi.cos()) / (2.0 * b * c);
@@ -89,7 +93,8 @@ fn limits_of_random_four_bars_are_those_of_the_law_of_cosines() {
     assert_within!(worst, EXACT, "{worst:e}");
 }
 
-/// Which joints turn fully is found by following the linkage with each pair of neighbouring links as frame and driving link.
+/// Fully rotating joints are found by following the linkage with each pair of neighbouring links as frame and driving
+/// link.
 #[test]
 fn grashof_types_agree_with_turns_that_were_followed() {
     let mut random = four_link::Random::from_seed(12);
@@ -133,8 +138,8 @@ fn links_of_a_double_crank_and_of_a_crank_rocker_turn_as_their_names_say() {
     assert_eq!(turns([0.4, 0.1, 0.35, 0.3]), [1, 0, 0]);
 }
 
-/// Given data of the synthesis (scenarios/crank_rocker.toml): 50 deg with crank and coupler stretched, 82 deg folded. The crank's
-/// angles are those of the lines from O to B.
+/// Given data of the synthesis (scenarios/crank_rocker.toml): 50 deg with crank and coupler stretched, 82 deg folded.
+/// The crank's angles are those of the lines from O to B.
 #[test]
 fn val_crank_rocker_extreme_positions() {
     let range = Range::of(&shipped("crank_rocker.toml").case).unwrap();
@@ -153,15 +158,15 @@ fn val_crank_rocker_extreme_positions() {
         assert_eq!(found.is_greatest, greatest);
     }
     assert_eq!([rocker.angles[0].value, rocker.angles[1].value], [first.angle, second.angle]);
-    // Smallest transmission angle of a crank-rocker: where A lies on the line of the pivots (Alt 1932).
+    // Smallest transmission angle of a crank-rocker: where A is on the line of the pivots (Alt 1932).
     let base = 0.015f64.atan2(0.15);
     assert_within!((range.groups[0].determinant.crank - base).abs(), 1e-8, "{:?}", range.groups[0]);
     let mu = range.groups[0].determinant.value.asin();
     assert_within!((range.groups[0].condition.unwrap().value - 1.0 / (mu / 2.0).tan()).abs(), 1e-9);
 }
 
-/// Every limit and extreme of random chains of dyads, by the closed forms of the solver: on one side of a limit it solves, on the other it cannot;
-/// on the two sides of an extreme the link turns in different senses.
+/// Every limit and extreme position of random chains of dyads, by the closed forms of the solver. On one side of a
+/// limit it solves, on the other it cannot. On the two sides of an extreme position the link turns in different senses.
 #[test]
 fn limits_and_extremes_of_chains_lie_where_the_solver_finds_them() {
     let (limited, extremes) = (std::cell::Cell::new(0), std::cell::Cell::new(0));
@@ -208,15 +213,16 @@ fn a_parallelogram_has_change_points_at_0_and_180_degrees() {
         assert_within!((to.crank - PI).abs(), EXACT, "{:e} {:e}", from.crank, to.crank - PI);
         assert_eq!(range.four_bar.unwrap().of_type, FourBarType::ChangePoint);
         let [coupler, rocker] = [1, 2].map(|k| range.links[k].angles[1].value - range.links[k].angles[0].value);
-        // The rocker goes from one line with the frame to the other; the coupler stays parallel to the frame or rocks.
+        // The rocker moves from one line with the frame to the other; the coupler stays parallel to the frame or
+        // swings.
         assert_within!((rocker - PI).abs(), EXACT, "{rocker}");
         assert_eq!(coupler <= EXACT, left, "{coupler}");
         assert_eq!(range.links[1].extremes.len(), usize::from(!left));
     }
 }
 
-/// A rocker a little too long or too short parts the branches that cross in a parallelogram: it can be followed through a contact, or
-/// up to a limit.
+/// A rocker slightly too long or too short separates the branches that cross in a parallelogram. The mechanism can then
+/// be followed through a contact, or up to a limit.
 #[test]
 fn near_a_parallelogram_branches_touch_or_end() {
     for off in [1e-4, 1e-6, 1e-8] {
@@ -224,7 +230,7 @@ fn near_a_parallelogram_branches_touch_or_end() {
         assert_eq!(touching.extent, Extent::FullTurn(1), "{off:e}");
         let contacts: Vec<f64> =
             touching.singularities.iter().filter(|s| s.kind == Kind::BranchContact).map(|s| wrapped(s.crank)).collect();
-        // Transmission angle there: A on the line of the pivots, law of cosines for the triangle A B C.
+        // Transmission angle there: A is on the line of the pivots, law of cosines for the triangle A B C.
         let sine = |reach: f64| {
             let (b, c) = (0.4, 0.1 + off);
             let sixteen = (b + c + reach) * (b + c - reach) * (reach + b - c) * (reach - b + c);
@@ -236,14 +242,15 @@ fn near_a_parallelogram_branches_touch_or_end() {
         assert_eq!(ended.map(|limit| limit.kind), [Kind::DeadPoint; 2], "{off:e}");
         let expected = closed_form([0.4, 0.1, 0.4, 0.1 - off], 0.5).unwrap();
         for (limit, expected) in ended.iter().zip(expected) {
-            // The closed form itself: rounding of the lengths over the sine of the crank angle.
+            // Accuracy of the closed form itself: rounding of the lengths over the sine of the crank angle.
             let bound = EXACT.larger(4.0 * f64::EPSILON / expected.sin().abs());
             assert_within!((limit.crank - expected).abs(), bound, "{off:e}: {} for {expected}", limit.crank);
         }
     }
 }
 
-/// Two dyads of the same lengths on one crank reach their dead points together: four branches meet, the crank can go no further.
+/// Two dyads of the same lengths on one crank reach their dead points together: four branches meet, and the crank can
+/// go no further.
 #[test]
 fn two_groups_with_one_dead_point() {
     let lengths = [0.4, 0.35, 0.3, 0.2];
@@ -256,7 +263,7 @@ fn two_groups_with_one_dead_point() {
         spec.links.push(link);
     }
     spec.pins.push(Pin { name: copy("B"), links: [copy("coupler"), copy("rocker")] });
-    // The new joints at A and C lie at points that have given their names to joints already, which a spec cannot say.
+    // The new joints at A and C are at points whose names are already used by joints. A spec cannot express this.
     let more = "[[joints]]\nname = \"A_2\"\npoint = \"A\"\ntype = \"revolute\"\nlinks = [\"crank\", \"coupler_2\"]\n\
                 [[joints]]\nname = \"C_2\"\npoint = \"C\"\ntype = \"revolute\"\nlinks = [\"ground\", \"rocker_2\"]\n";
     spec.dyads.push(Dyad { links: [copy("coupler"), copy("rocker")], left: false });
@@ -270,7 +277,8 @@ fn two_groups_with_one_dead_point() {
     }
 }
 
-/// At a limit of rotation two real configurations of the group meet: a polynomial that misses none has two fewer beyond.
+/// At a limit of rotation two real configurations of the group meet. So a polynomial that finds all configurations has
+/// two fewer beyond the limit.
 #[test]
 fn groups_of_four_links_lose_two_configurations_at_their_limits() {
     let mut random = four_link::Random::from_seed(13);
@@ -292,7 +300,7 @@ fn groups_of_four_links_lose_two_configurations_at_their_limits() {
                 configurations(&case.mechanism, &case.structure.groups[0], &pose).map_or(0, |all| all.len() as i32)
             };
             for (limit, outwards) in [(from, -1.0), (to, 1.0)] {
-                // Near a double zero the polynomial's own zeros are uncertain by the root of rounding.
+                // Near a double zero the polynomial's own zeros have an error of the square root of rounding.
                 let [inside, outside] = [-1e-6, 1e-6].map(|d| count(limit.crank + outwards * d));
                 assert_eq!((limit.kind, inside - outside), (Kind::DeadPoint, 2), "{limit:?}: {inside}, {outside}");
                 limits_seen += 1;
@@ -316,7 +324,7 @@ fn asked(case: &Case, degrees: f64) -> Case {
     case.on(Grid::of_cranks(case.crank(), vec![degrees.to_radians()])).unwrap()
 }
 
-/// Both solvers and the list of configurations say what can be reached, to 1e-6 deg.
+/// Both solvers and the list of configurations state the crank angles that can be reached, to 1e-6 deg.
 #[test]
 fn an_angle_out_of_reach_is_answered_with_the_interval() {
     let lengths = [0.4, 0.35, 0.3, 0.2];
@@ -324,7 +332,7 @@ fn an_angle_out_of_reach_is_answered_with_the_interval() {
     let case = spec.scenario().unwrap().case;
     let [from, to] = closed_form(lengths, spec.start).unwrap().map(f64::to_degrees);
     let check = |error: linkage::Error, who: &str| {
-        // The solver says what it knows by itself; the range is told where both are joined.
+        // The solver reports only its own result; the range is added where both are joined.
         assert!(error.is_out_of_reach() && !error.to_string().contains("can be reached from"), "{who}: {error}");
         assert_eq!(error.advice()[0], Advice::ShortenGrid, "{who}");
         let crank = error.crank().unwrap().to_degrees();
@@ -367,10 +375,12 @@ fn configurations_that_meet_have_no_velocities() {
     assert!(near[0].modes.len() == 2 && near[0].modes.iter().all(|mode| mode.omegas.is_none()), "{near:?}");
 }
 
-/// Differences of the two analytic sides near a dead point. With the condition number k of the dyad: rounding of positions passes into angles with
-/// the factor k; velocities are divided by a determinant of the order of 1 / k, whose own relative error is k times that of the angles, and
-/// accelerations by it once more, but relative to their own size both lose the square of k. The factors measured are 2.5, 2.1 and 6.4, and
-/// nearly the same at 30 and at 0.3 degrees: the condition number is the whole reason. The bound leaves twice as much for other libraries of functions.
+/// Differences of the two analytic sides near a dead point, for the condition number k of the dyad. Rounding of
+/// positions enters angles with the factor k. Velocities are divided by a determinant of the order of 1 / k, whose own
+/// relative error is k times that of the angles, and accelerations are divided by it once more. But relative to their
+/// own size both lose the square of k. The factors measured are 2.5, 2.1 and 6.4, and are nearly the same at 30 and at
+/// 0.3 degrees, so the condition number is the whole cause. The bound allows twice as much for other mathematical
+/// libraries.
 #[test]
 fn loss_of_digits_near_a_dead_point_is_that_of_the_condition_number() {
     let lengths = [0.4, 0.35, 0.3, 0.2];
@@ -381,7 +391,7 @@ fn loss_of_digits_near_a_dead_point_is_that_of_the_condition_number() {
     for mu in [30.0, 10.0, 3.0, 1.0, 0.3] {
         let mut of_angle = [0.0f64; 3];
         for k in 0..40 {
-            // Coupler and rocker nearly stretched, the angle between them a little more each time.
+            // Coupler and rocker are nearly stretched; the angle between them is a little larger each time.
             let angle = f64::to_radians(mu * (1.0 + 0.01 * f64::from(k)));
             let reach = (b * b + c * c + 2.0 * b * c * angle.cos()).sqrt();
             let crank = crank_at(d, a, reach).unwrap();

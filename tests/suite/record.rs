@@ -1,4 +1,4 @@
-//! Recordings are read back bit for bit, are equal for equal runs, and never cost an older recording.
+//! Recordings are read back bit for bit, are equal for equal runs, and never destroy an older recording.
 
 mod sliders;
 
@@ -136,7 +136,7 @@ fn value(mechanism: &Mechanism, channel: &Channel, time: f64) -> f64 {
     }
 }
 
-/// Every channel of the mechanism that `wanted` lets through.
+/// Every channel of the mechanism that `wanted` accepts.
 fn channels(mechanism: &Mechanism, wanted: impl Fn(&Channel) -> bool) -> Vec<Channel> {
     let links = mechanism.links()[1..].iter().map(|link| (Subject::Link, link.name.clone()));
     let points = mechanism.moving_points().map(|(name, _)| (Subject::Point, name.to_string()));
@@ -166,7 +166,7 @@ fn turn(samples: usize) -> Vec<f64> {
     (0..samples).map(|k| TAU / OMEGA * k as f64 / (samples - 1) as f64).collect()
 }
 
-/// A reference, an engine that errs a little more with each row, and the difference.
+/// A reference, an engine whose error grows a little with each row, and the difference.
 struct Run {
     mechanism: Mechanism,
     metadata: BTreeMap<String, String>,
@@ -229,7 +229,7 @@ fn floats(data: &[u8]) -> Vec<f32> {
         .collect()
 }
 
-/// Engine less reference, sign and all, in micrometres, microradians and millinewtons.
+/// Engine minus reference, with its sign, in micrometres, microradians and millinewtons.
 #[test]
 fn errors_are_the_engine_less_the_reference_in_small_units() {
     let (_directory, path) = place("errors.mcap");
@@ -257,7 +257,7 @@ fn errors_are_the_engine_less_the_reference_in_small_units() {
     }
 }
 
-/// Place of a recording that vanishes with the test, or stays to be looked at in viewers.
+/// Place of a recording that is deleted after the test, or kept to be opened in viewers.
 fn place(name: &str) -> (tempfile::TempDir, PathBuf) {
     let directory = tempfile::tempdir().unwrap();
     let kept = std::env::var_os("LINKPROOF_RECORD_SAMPLE").map(PathBuf::from);
@@ -360,7 +360,7 @@ fn a_failed_run_leaves_the_older_recording_alone() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("old.mcap");
     fs::write(&path, "an older recording").unwrap();
-    // A directory in the way of the partial file stops even a superuser, whom permissions do not.
+    // A directory in the place of the partial file stops even a superuser; permissions do not.
     fs::create_dir(directory.path().join("old.mcap.partial")).unwrap();
     let run = Run::over(turn(5));
     let error = run.write(&path).unwrap_err();

@@ -1,4 +1,5 @@
-//! Simbody against the analytic reference: all mechanisms of the repository, random ones, other instants, and what must be an error.
+//! Simbody against the analytic reference: all mechanisms of the repository, random ones, other instants, and cases
+//! that must be an error.
 
 use crate::common::higher::{Among, FAMILIES, mechanism};
 use crate::common::random::for_each;
@@ -38,8 +39,8 @@ fn default() -> Simbody {
     Simbody::new(Simbody::ACCURACY)
 }
 
-/// That Simbody and the reference agree within the engine's own bound on its error, times `condition`, in every channel. Returns the largest
-/// errors of angles and of reactions with moments, relative to their scales.
+/// Checks that Simbody and the reference agree within the engine's own bound on its error, times `condition`, in every
+/// channel. Returns the largest errors of angles and of reactions with moments, relative to their scales.
 fn agree(case: &Case, engine: &Simbody, reference: &dyn Solver, condition: f64) -> [f64; 2] {
     let (truth, run) = (solve(reference, case), solve(engine, case));
     let mut worst = [0.0_f64; 2];
@@ -59,8 +60,9 @@ fn agree(case: &Case, engine: &Simbody, reference: &dyn Solver, condition: f64) 
     worst
 }
 
-/// The figures asked for, 1e-8 and 1e-7 of the half range, at the loosest accuracy that makes sense, the default and the tightest that does
-/// not take minutes. Under prescribed motion they do not differ: see the engine's `noise`.
+/// The wanted figures, 1e-8 and 1e-7 of the half range, at three accuracies: the loosest that makes sense, the default,
+/// and the tightest that does not take minutes. Under prescribed motion the results do not differ: see the engine's
+/// `noise`.
 #[test]
 fn all_scenarios_agree_with_the_reference() {
     for name in scenarios() {
@@ -81,7 +83,7 @@ fn the_other_analytic_side_agrees_too() {
     }
 }
 
-/// Between instants far apart the integrator chooses its steps alone, and the projection has more to do.
+/// Between distant instants the integrator chooses its steps alone, and the projection has more to correct.
 #[test]
 fn instants_far_apart_are_as_good() {
     for name in ["crank_rocker.toml", "ov7_base.toml", "fourth_class.toml", "compressor.toml", "five_bar.toml"] {
@@ -109,7 +111,7 @@ fn instants_may_come_in_any_order_on_both_sides_of_the_start() {
     assert_eq!(solve(&default(), &shipped("crank_rocker.toml").case.on(Grid::default()).unwrap()).times().len(), 0);
 }
 
-/// Names in the other order, the other place, the other sense, heavier and without masses: all of them loaded.
+/// Links named in the other order, another place, the other sense, heavier and without masses; all of them loaded.
 #[test]
 fn variants_of_a_four_bar_agree() {
     let mut base = four_bar([0.4, 0.1, 0.35, 0.3], true);
@@ -147,7 +149,7 @@ fn laws_other_than_constant_speeds_are_refused_by_name() {
     assert!(error.message().contains("law \"cycloidal\"") && error.way_out().is_some(), "{error}");
 }
 
-/// Before the start and after it, with all loads of the press, and with a force against the motion of its ram.
+/// Before and after the start, with all loads of the press, and with a force against the motion of its ram.
 #[test]
 fn loads_of_all_sorts_agree() {
     let case = shipped("loaded_slider.toml").case;
@@ -166,7 +168,7 @@ fn loads_of_all_sorts_agree() {
     println!("{:?}", agree(&case, &default(), &AssurSolver, 1.0));
 }
 
-/// All sorts of sliders, written in either order; in the Oldham coupling the crank could be reached by sliding alone.
+/// All kinds of sliders, written in either order. In the Oldham coupling the crank could be reached by sliding alone.
 #[test]
 fn sliders_agree_however_their_joints_are_written() {
     for sample in sliders::all() {
@@ -176,7 +178,7 @@ fn sliders_agree_however_their_joints_are_written() {
     }
 }
 
-/// The same case with its joints in the other order, so that the driven one stands last.
+/// The same case with its joints in the other order, so that the driven joint comes last.
 fn crank_last(case: &Case) -> Case {
     use linkage::mechanism::{AssemblyMode, Mechanism, Structure};
     let joints: Vec<_> = case.mechanism.joints().iter().rev().cloned().collect();
@@ -184,7 +186,7 @@ fn crank_last(case: &Case) -> Case {
     let mechanism = Mechanism::new(case.mechanism.links().to_vec(), joints).unwrap();
     let structure = Structure::of(&mechanism, &[driven]).unwrap();
     let drives = linkage::drive::Drive { joint: driven, ..case.crank().clone() }.into();
-    // One group a sample: its links may have changed places.
+    // One group per sample: its links may have changed their order.
     let turned = structure.groups[0].links != case.structure.groups[0].links;
     let mode = |&mode: &AssemblyMode| match mode {
         AssemblyMode::Ahead if turned => AssemblyMode::Behind,
@@ -198,7 +200,7 @@ fn crank_last(case: &Case) -> Case {
     .unwrap()
 }
 
-/// Chains of dyads magnify errors from dyad to dyad, in forces on the way back too.
+/// Chains of dyads magnify errors from dyad to dyad, and in forces on the way back too.
 #[test]
 fn random_mechanisms_agree() {
     for_each(40, |sample| {
@@ -207,8 +209,8 @@ fn random_mechanisms_agree() {
     });
 }
 
-/// How near to a singular pose a run comes: its largest speed or root of an acceleration, over the crank's (lengths are about a metre). What a
-/// small error becomes grows with its square.
+/// A measure of how near a run comes to a singular pose: its largest speed or square root of an acceleration, over the
+/// crank's (lengths are about a metre). The effect of a small error grows with its square.
 fn nearness(case: &Case, truth: &Trajectory) -> f64 {
     let crank = case.crank().at(0.0).omega.abs();
     let of = |(channel, values): (&Channel, &[f64])| {
@@ -252,7 +254,7 @@ fn the_same_run_gives_the_same_bits() {
     }
 }
 
-/// What is not asked for changes nothing in what is.
+/// Channels that are not wanted have no effect on the wanted ones.
 #[test]
 fn positions_alone_are_the_same_positions() {
     let case = shipped("six_bar_slider.toml").case;
@@ -283,7 +285,7 @@ fn it_is_listed_with_an_accuracy_instead_of_a_step() {
     assert!(engine.told().iter().any(|(name, value)| *name == "accuracy" && value == "1e-8"));
 }
 
-/// The links reach 0.45 m, which the outer joints of the dyad pass at acos(0.0475 / 0.24) = 78.5843 deg.
+/// The links reach 0.45 m; the outer joints of the dyad exceed that at acos(0.0475 / 0.24) = 78.5843 deg.
 #[test]
 fn a_dead_point_is_an_error_with_time_crank_angle_and_joint() {
     let mut spec = four_bar([0.4, 0.3, 0.25, 0.2], true);
@@ -313,7 +315,7 @@ fn a_slider_out_of_reach_is_an_error() {
     assert!(error.kind() == ErrorKind::Numeric && error.message().contains("crank angle 261.34"), "{error}");
 }
 
-/// Simbody would quietly assemble another pose nearby.
+/// Without this check Simbody would assemble another pose nearby without a message.
 #[test]
 fn a_start_pose_that_is_open_is_refused() {
     let mut parts = shipped("crank_rocker.toml").case.into_parts();
@@ -333,7 +335,8 @@ fn an_accuracy_that_is_none_is_refused() {
     }
 }
 
-/// Free motion, by a third solver that shares nothing with the two sides: motor and loads are forces that Simbody asks for, and it integrates by itself.
+/// Free motion by a third solver that shares nothing with the two sides. Motor and loads are forces that Simbody asks
+/// for, and it does its own integration.
 #[test]
 fn run_ups_and_pendulums_are_those_of_the_reference() {
     let mut agreed = 0;
@@ -346,7 +349,8 @@ fn run_ups_and_pendulums_are_those_of_the_reference() {
         println!("{name}: {worst:.1e} of the scale");
         assert_within!(worst, 1e-6, "{name}: {worst:e}");
         let proof = prove(&shipped(&format!("{name}.toml")), &Options::default().engine(EngineName::Simbody)).unwrap();
-        // The compressor's pistons have channels of a thousandth of what is natural, of which its accuracy proves nothing.
+        // The compressor's pistons have channels of a thousandth of their natural size; Simbody's accuracy proves
+        // nothing about them.
         assert!(!matches!(proof.verdict, Verdict::Disagree { .. }), "{name}: {:?}", proof.verdict);
         agreed += usize::from(matches!(proof.verdict, Verdict::Agree { .. }));
     }

@@ -1,4 +1,4 @@
-//! Mechanisms with sliders where they cannot go on: axes that become parallel, dead points.
+//! Limits of mechanisms with sliders: axes that become parallel, and dead points.
 
 use std::f64::consts::FRAC_PI_2;
 use std::path::Path;
@@ -15,18 +15,19 @@ fn on_cranks(case: &Case, cranks: &[f64]) -> Case {
     case.on(Grid::of_cranks(case.crank(), cranks.iter().map(|degrees| degrees.to_radians()).collect())).unwrap()
 }
 
-/// Symptom: the range of a mechanism whose slide goes to infinity is an error, and every message that names the range takes 20 s. Cause: its curve
-/// is infinitely long. The tangent mechanism's slide is h tan(phi): its limits are 90 deg to either side.
+/// Symptom: the range of a mechanism whose slide goes to infinity is an error, and every message that contains the
+/// range takes 20 s. Cause: its curve is infinitely long. The slide of the tangent mechanism is h tan(phi): its limits
+/// are 90 deg to either side.
 #[test]
 fn regress_a_slide_that_goes_to_infinity_ends_the_range() {
     let range = Range::of(&shipped("tangent.toml").case).unwrap();
     let Extent::Limited(limits) = range.extent else { panic!("{:?}", range.extent) };
     for (limit, expected) in limits.iter().zip([-FRAC_PI_2, FRAC_PI_2]) {
         assert_eq!((limit.kind, limit.group), (Kind::ParallelAxes, 0));
-        // To what limits are promised.
+        // Promised accuracy of limits.
         assert_within!((limit.crank - expected).abs(), 1e-9, "{:e}", limit.crank - expected);
     }
-    // Poses, not seconds: the curve without an end took as many as there may be.
+    // Counted in poses, not in seconds: the endless curve took the largest allowed number of them.
     println!("{} poses", range.samples.len());
     assert!(range.samples.len() < 10_000, "{}", range.samples.len());
 }
@@ -92,7 +93,7 @@ fn slider_crank(rod: f64, offset: f64) -> Case {
     Scenario::parse(&text, Path::new("t.toml")).unwrap().case
 }
 
-/// The rod just spans from the crank pin to the guide: 0.1 sin(phi) = offset +- rod.
+/// The rod just spans the distance from the crank pin to the guide: 0.1 sin(phi) = offset +- rod.
 #[test]
 fn a_short_rod_limits_the_crank_where_it_stands_across_the_guide() {
     for (rod, offset) in [(0.08, 0.0), (0.06, 0.01), (0.09, -0.03)] {
@@ -101,7 +102,7 @@ fn a_short_rod_limits_the_crank_where_it_stands_across_the_guide() {
         let limit = |sine: f64| if sine.abs() <= 1.0 { Some(sine.asin()) } else { None };
         let expected = [limit((offset - rod) / 0.1), limit((offset + rod) / 0.1)];
         for (found, expected) in [from, to].into_iter().zip(expected) {
-            // Where one side of the guide is out of reach, the crank goes round to the same angle on the other side.
+            // Where one side of the guide is out of reach, the crank turns to the same angle on the other side.
             if let Some(expected) = expected {
                 assert_within!((found.crank - expected).abs(), 1e-9, "{rod}, {offset}: {found:?}, {expected}");
             }

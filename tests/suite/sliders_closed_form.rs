@@ -1,4 +1,5 @@
-//! Shipped mechanisms with sliders, and the class III group of its own paper, against published and textbook closed forms.
+//! Shipped mechanisms with sliders, and the class III group of its own paper, against published and textbook closed
+//! forms.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -32,7 +33,7 @@ fn place(case: &Case, state: &State, name: &str) -> [Vec2; 3] {
     [motion.point(side.local), motion.point_velocity(side.local), motion.point_acceleration(side.local)]
 }
 
-/// One cylinder as its authors write it, angles clockwise from +y: phi2, l3, omega2, v3, eps2, a3.
+/// One cylinder as its authors write it, with angles clockwise from +y: phi2, l3, omega2, v3, eps2, a3.
 fn cylinder(l1: f64, l2: f64, phi1: f64, omega1: f64) -> [f64; 6] {
     let phi2 = -(l1 * phi1.sin() / l2).asin();
     let l3 = l1 * phi1.cos() + l2 * phi2.cos();
@@ -48,8 +49,8 @@ const CYLINDERS: [(f64, f64, f64, &str, &str); 2] =
     [(0.06, 0.24, 0.0, "rod_2", "B"), (0.05, 0.24, FRAC_PI_2, "rod_4", "D")];
 const COMPRESSOR_SPEED: f64 = 104.719_755_119_659_78;
 
-/// Each printed formula of a rate is the derivative of the one before it: fourth-order differences, errors (h)^4 / 30 of harmonics that the ratio
-/// 1 / 4 of the lengths makes small, and rounding 1e-16 / h.
+/// Each printed formula of a rate is the derivative of the one before it. Fourth-order differences have errors (h)^4 /
+/// 30 of harmonics, which are small for the ratio 1 / 4 of the lengths, and rounding 1e-16 / h.
 #[test]
 fn val_compressor_printed_rates_are_derivatives() {
     let h = 1e-3;
@@ -79,7 +80,7 @@ fn val_compressor_closed_form() {
                 let pair = |(crank, state): &(f64, State)| {
                     let [at, velocity, acceleration] = place(&case, state, pin);
                     let motion = &state.motions[link];
-                    // Clockwise from +y: 90 deg less the angle, and rates with the other sign.
+                    // Clockwise from +y: 90 deg minus the angle, and rates with the opposite sign.
                     let phi2 = linkage::math::angle::wrapped(FRAC_PI_2 - state.angles[link]);
                     let found = [phi2, at.y, -motion.omega, velocity.y, -motion.alpha, acceleration.y];
                     (found[quantity], cylinder(l1, l2, FRAC_PI_2 - crank + delta, COMPRESSOR_SPEED)[quantity])
@@ -91,7 +92,7 @@ fn val_compressor_closed_form() {
     }
 }
 
-/// Crank angles with B straight above O2: law of cosines in the triangle O1-A-B.
+/// Crank angles at which B is directly above O2: law of cosines in the triangle O1-A-B.
 fn upright() -> [f64; 2] {
     let (o1, b) = (Vec2::new(-0.26, 0.12), Vec2::new(0.0, 0.15));
     let reach = b - o1;
@@ -110,7 +111,7 @@ fn val_six_bar_slider_stands_highest_where_the_rocker_is_upright() {
     };
     assert_eq!((local("C") - local("O2")).norm(), 2.0 * (local("B") - local("O2")).norm());
     let mut cranks = upright().to_vec();
-    // The scenario's own oracles stand at these angles, to the digits that a file takes.
+    // The scenario's own oracles are at these angles, to the digits in the file.
     for (oracle, crank) in scenario.oracles.iter().zip(&cranks) {
         for series in &oracle.series {
             assert_within!((series.points[0].crank - crank).abs(), 1e-14 * TAU, "{}", oracle.name);
@@ -132,7 +133,8 @@ fn val_six_bar_slider_stands_highest_where_the_rocker_is_upright() {
     }
 }
 
-/// x, v, a of a point by both solvers against a closed form, each relative to its largest value, and the other coordinate constant.
+/// x, v, a of a point by both solvers against a closed form, each relative to its largest value, and the other
+/// coordinate constant.
 fn assert_closed_form(name: &str, point: &str, axis: usize, other: f64, form: impl Fn(f64) -> [f64; 3]) {
     let case = shipped(name).case;
     for rows in solved(&case) {
@@ -169,8 +171,8 @@ fn val_tangent_mechanism_is_a_tangent() {
     assert_closed_form("tangent.toml", "B", 1, h, form);
 }
 
-/// The guide is at its extremes where it is perpendicular to the crank: the angle at O1 between O1-O2 and the crank is acos(r / d), so that the
-/// quick stroke takes 2 acos(r / d) of the turn.
+/// The guide is at its extreme positions where it is perpendicular to the crank. The angle at O1 between O1-O2 and the
+/// crank is then acos(r / d), so the quick stroke takes 2 acos(r / d) of the turn.
 #[test]
 fn val_quick_return_time_ratio() {
     let case = shipped("quick_return.toml").case;
@@ -182,13 +184,13 @@ fn val_quick_return_time_ratio() {
     let quick = 2.0 * (0.1f64 / 0.3).acos();
     let between = (second.crank - first.crank).rem_euclid(TAU);
     let found = between.smaller(TAU - between);
-    // Extremes are promised to 1e-9 rad each.
+    // Extreme positions are promised to 1e-9 rad each.
     assert_within!((found - quick).abs(), 2e-9, "{found} for {quick}");
     let ratio = (TAU - found) / found;
     assert_within!((ratio - (TAU - quick) / quick).abs(), 1e-8, "{ratio}");
     let swing = (first.angle - second.angle).abs();
     assert_within!((swing - 2.0 * (0.1f64 / 0.3).asin()).abs(), 1e-9, "{swing}");
-    // The ram turns about there too: its speed, below 3 m/s elsewhere, is that of 1e-9 rad.
+    // The ram reverses there too: its speed, below 3 m/s elsewhere, is that of an angle of 1e-9 rad.
     let mut cranks = vec![first.crank, second.crank];
     cranks.sort_by(f64::total_cmp);
     for rows in solved(&case.on(Grid::of_cranks(case.crank(), cranks)).unwrap()) {
@@ -236,7 +238,7 @@ fn val_class3_group_contours_close() {
     }
 }
 
-/// First transfer functions by Cramer's rule from the contours, as the authors find them.
+/// First transfer functions by Cramer's rule from the contours, as the authors compute them.
 fn by_cramer([a1, a2, a3, a4]: [f64; 4], crank: f64) -> [f64; 4] {
     let slope = |length: f64, angle: f64| Vec2::new(-angle.sin(), angle.cos()) * length;
     let zero = Vec2::zeros();
@@ -254,7 +256,8 @@ fn by_cramer([a1, a2, a3, a4]: [f64; 4], crank: f64) -> [f64; 4] {
     })
 }
 
-/// First and second transfer functions by Cramer's rule and by fourth-order central differences of angles and of first transfer functions.
+/// First and second transfer functions by Cramer's rule and by fourth-order central differences of angles and of first
+/// transfer functions.
 #[test]
 fn val_class3_group_transfer_functions() {
     let (h, speed) = (1e-3, 10.0);
@@ -284,7 +287,8 @@ fn val_class3_group_transfer_functions() {
         }
         for (link, pairs) in pairs.into_iter().enumerate() {
             let errors = pairs.map(|pairs| relative(pairs.into_iter()));
-            // Rounding for Cramer's rule; h^4 / 30 of harmonics up to the sixth and rounding 1e-16 / h for differences.
+            // For Cramer's rule: rounding. For differences: h^4 / 30 of harmonics up to the sixth, and rounding 1e-16 /
+            // h.
             assert_within!(errors[0], 1e-13, "{} alpha{}: {errors:?}", solver.name(), link + 1);
             assert_within!(errors[1].larger(errors[2]), 1e-9, "{} alpha{}: {errors:?}", solver.name(), link + 1);
         }

@@ -7,7 +7,7 @@ use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::AssemblyMode;
 use linkproof::scenario::Scenario;
 
-/// A crank OA of 100 mm and the given links, joints and start; the crank stands at `crank` degrees.
+/// A crank OA of 100 mm and the given links, joints and start; the crank is at `crank` degrees.
 fn parse(ground: &str, body: &str, crank: f64, start: &str) -> linkage::Result<Scenario> {
     let text = format!(
         "format = 1\nname = \"start\"\ntitle = \"start\"\n[ground.points]\nO = {{ x_mm = 0, y_mm = 0 }}\n{ground}\n\
@@ -19,7 +19,7 @@ fn parse(ground: &str, body: &str, crank: f64, start: &str) -> linkage::Result<S
     Scenario::parse(&text, Path::new("start.toml"))
 }
 
-/// Place of a point (mm) in the first pose, which must hold together.
+/// Place of a point (mm) in the first pose; the pose must be closed.
 fn place(scenario: &Scenario, name: &str) -> Vec2 {
     let case = &scenario.case;
     assert_within!(case.start.closure(&case.mechanism), 1e-15);
@@ -66,7 +66,7 @@ fn a_slider_lies_ahead_of_the_crank_pin_or_behind_it() {
     assert_at(place(&ahead, "B"), 240.0, 0.0);
     assert_eq!(ahead.case.modes, [AssemblyMode::Ahead]);
     assert_at(place(&slider_crank(FORWARD, &start("mode = \"behind\"")).unwrap(), "B"), -240.0, 0.0);
-    // The same with the axis turned about, with the slider as first link, and with the rough place instead.
+    // The same with the axis reversed, with the slider as first link, and with the rough place instead.
     let backward = FORWARD.replace("axis_deg = 0", "axis_deg = 180");
     assert_at(place(&slider_crank(&backward, &start("mode = \"ahead\"")).unwrap(), "B"), -240.0, 0.0);
     let swapped = "links = [\"slider\", \"ground\"]\npoints = [\"B\", \"G\"]\naxis_deg = 0";
@@ -122,7 +122,8 @@ axis_deg = 0
     }
 }
 
-/// Scotch yoke (RPP) and its sister whose slider runs in a slot of the crank (PRP): one configuration, nothing to ask.
+/// Scotch yoke (RPP), and the mechanism whose slider runs in a slot of the crank (PRP): there is only one
+/// configuration, so no start is needed.
 #[test]
 fn dyads_of_two_sliders_need_no_start() {
     let yoke = r#"
@@ -150,7 +151,7 @@ axis_deg = 0
     let scenario = parse("G = { x_mm = 0, y_mm = 50 }", yoke, 60.0, "").unwrap();
     assert_at(place(&scenario, "S"), 50.0, 50.0);
     assert_eq!(scenario.case.modes, [AssemblyMode::Only]);
-    // Its slot along the guide: no place, or all.
+    // Its slot is parallel to the guide: there is no place, or any place.
     let error =
         parse("G = { x_mm = 0, y_mm = 50 }", &yoke.replace("axis_deg = 90", "axis_deg = 0"), 60.0, "").unwrap_err();
     assert!(error.to_string().contains("the axes of its two prismatic joints are parallel"), "{error}");
@@ -181,7 +182,7 @@ axis_deg = 90
     assert_at(place(&scenario, "P"), 300.0, 300.0 / 3f64.sqrt());
 }
 
-/// What is left of closure in a start pose is rounding, far below what [`linkage::case::Case::new`] lets pass.
+/// The remaining closure error in a start pose is rounding, far below the limit of [`linkage::case::Case::new`].
 #[test]
 fn start_poses_of_all_scenarios_close_to_rounding() {
     let (mut worst, mut count) = (0.0f64, 0);

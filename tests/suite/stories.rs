@@ -3,14 +3,14 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// Where a story is tested: file relative to `tests/`, and the function.
+/// Place of a story's test: file relative to `tests/`, and the function.
 type Place = (String, String);
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// All files below `directory` (relative to the package) with the given extension, with their texts.
+/// All files with the given extension below `directory` (relative to the package), with their texts.
 fn texts(directory: &str, extension: &str) -> Vec<(PathBuf, String)> {
     let (mut found, mut open) = (Vec::new(), vec![root().join(directory)]);
     while let Some(directory) = open.pop() {
@@ -27,7 +27,7 @@ fn texts(directory: &str, extension: &str) -> Vec<(PathBuf, String)> {
     found
 }
 
-/// Adds a story, which must not be there yet.
+/// Adds a story, which must not be present yet.
 fn add(stories: &mut BTreeMap<u32, Place>, number: u32, place: Place) {
     let other = stories.insert(number, place.clone());
     assert_eq!(other, None, "story {number} is told twice, the second time by {place:?}");
@@ -117,7 +117,7 @@ fn every_story_that_is_cited_is_listed() {
         [("docs", "md"), ("src", "rs"), ("crates", "rs"), ("tests", "rs"), ("benches", "rs"), ("examples", "rs")];
     let mut count = 0;
     for (path, text) in places.iter().flat_map(|(directory, extension)| texts(directory, extension)) {
-        // This file cites numbers that are none, to show how they are found.
+        // This file cites numbers of stories that do not exist, as examples.
         if path.ends_with("stories.rs") {
             continue;
         }

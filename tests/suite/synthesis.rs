@@ -1,4 +1,5 @@
-//! Synthesis against analysis: what is found in closed form or by search is followed by the machinery that knows nothing of it.
+//! Synthesis against analysis: results in closed form or by search are followed by the solvers, which know nothing of
+//! the synthesis.
 
 mod closed_form;
 mod drives;

@@ -1,5 +1,5 @@
-//! The published methods for class III groups of order 3 against both solvers: on the published mechanism over its turn, and on random
-//! ones.
+//! The published methods for class III groups of order 3 against both solvers, on the published mechanism over its turn
+//! and on random mechanisms.
 
 use std::cell::Cell;
 use std::fmt::Write;
@@ -20,7 +20,7 @@ use linkproof::scenario::Scenario;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
-/// Largest differences to a solver, relative to the largest value of the quantity.
+/// Largest differences from a solver, relative to the largest value of the quantity.
 #[derive(Clone, Copy, Debug, Default)]
 struct Differences {
     cramer: [f64; 2],
@@ -32,15 +32,15 @@ struct Differences {
     condition: f64,
     /// Largest condition of the chain of dyads.
     chain: f64,
-    /// How often the conditional driver was exchanged.
+    /// Number of exchanges of the conditional driver.
     exchanges: usize,
-    /// How often the first lead on the ground turned about.
+    /// Number of reversals of the first lead on the ground.
     limits: usize,
 }
 
 impl Differences {
-    /// Whether everything is within `rounding` times what the condition makes of it: it enters once into the solution of each linear system
-    /// and into the angles, and once more with every derivative that is taken of them.
+    /// Whether all differences are within `rounding` times a power of the condition. The condition enters once into the
+    /// solution of each linear system and into the angles, and once more with every derivative of them.
     fn are_within(&self, rounding: f64) -> bool {
         let (own, chain) = (self.condition, self.condition.larger(self.chain));
         self.cramer[0] <= rounding * own
@@ -55,8 +55,8 @@ fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
     values.into_iter().fold(0.0, |max, value| if max.is_nan() || value <= max { max } else { value })
 }
 
-/// Product of the lengths of the four columns of a group's equations over the size of their determinant, at least 1: by so much the rounding of
-/// the coefficients can grow in the unknowns.
+/// Product of the lengths of the four columns of a group's equations over the size of their determinant, at least 1. It
+/// is the factor by which rounding of the coefficients can grow in the unknowns.
 fn condition(contours: &Contours) -> f64 {
     let mut matrix = Matrix::zeros(4, 4);
     for (k, side) in contours.sides.into_iter().enumerate() {
@@ -134,11 +134,11 @@ fn all_methods_agree_with_both_solvers_over_the_turn_of_the_published_drive() {
         for solver in [&AssurSolver as &dyn Solver, &NewtonSolver] {
             let states = states(solver, case, &case.grid.times).unwrap();
             let found = differences(case, &only_triad(case), &states, &case.grid.times);
-            // Some two hundred operations lie between a pose and the accelerations: all their roundings (1.1e-16) in one sense would
-            // make 2e-14, and the solver has its own.
+            // Some two hundred operations lie between a pose and the accelerations. If all their roundings (1.1e-16)
+            // had the same sign, the sum would be 2e-14; the solver adds its own.
             assert!(found.are_within(1e-13), "{name} {} {found:?}", solver.name());
             assert!(found.condition < 2.0 && found.chain < 2.0, "{found:?}");
-            // Both limits of the ground lead are passed; base link and the other lead never come near to one line.
+            // Both limits of the ground lead are passed. Base link and the other lead never come close to one line.
             assert_eq!((found.limits, found.exchanges), (2, 0));
         }
     }
@@ -164,7 +164,7 @@ fn inline(place: Vec2) -> String {
     format!("{{ x_m = {:?}, y_m = {:?} }}", place.x, place.y)
 }
 
-/// A link through world points, in a frame of its own that lies anyhow.
+/// A link through world points, with an arbitrary frame.
 fn link(text: &mut String, draw: &mut Draw, name: &str, points: &[(&str, Vec2)]) {
     let (turn, origin) = (unit(draw.between(-3.1, 3.1)), draw.place());
     let local = |place: Vec2| inline(rotated(turn, place - origin));
@@ -177,8 +177,8 @@ fn link(text: &mut String, draw: &mut Draw, name: &str, points: &[(&str, Vec2)])
     }
 }
 
-/// A mechanism with one class III group, described in a pose it can take, and a dyad that hangs on the group. The feet of two leads
-/// are on the ground or, if `moving`, on coupler and rocker of a four-bar.
+/// A mechanism with one class III group, described in a pose that it can take, and a dyad joined to the group. The feet
+/// of two leads are on the ground or, if `moving`, on coupler and rocker of a four-bar.
 fn mechanism(draw: &mut Draw, moving: bool) -> Option<Scenario> {
     let mut text = String::from("format = 1\nname = \"random\"\ntitle = \"random\"\n");
     let [o, a, b, f, d, e] = [(); 6].map(|()| draw.place());
@@ -228,7 +228,7 @@ fn mechanism(draw: &mut Draw, moving: bool) -> Option<Scenario> {
     let _ = writeln!(text, "[drive]\njoint = \"O\"\nspeed_rad_s = {speed:?}\nzero_rad = {:?}", draw.between(-3.1, 3.1));
     let _ = writeln!(text, "[gravity]\nx_m_s2 = 1\ny_m_s2 = -9.8");
     let _ = writeln!(text, "[[loads]]\ntype = \"resistance\"\nlink = \"right\"\nmoment_N_m = 3");
-    // The crank's frame lies anyhow: the angle at which its pin is where it was drawn.
+    // The crank's frame is arbitrary: this is the crank angle at which its pin is where it was drawn.
     let own = text.split("[links.crank.points]").nth(1).unwrap_or_default().lines().skip(1).take(2).map(|line| {
         let number =
             |key: &str| line.split(key).nth(1)?.split([',', ' ', '}']).find(|word| !word.is_empty())?.parse().ok();
@@ -259,7 +259,7 @@ fn mechanism(draw: &mut Draw, moving: bool) -> Option<Scenario> {
     }
 }
 
-/// Whether the class change, too, says that the group cannot be followed to one of the times.
+/// Whether the class change also reports that the group cannot be followed to one of the times.
 fn class_change_is_lost(case: &Case, times: &[f64]) -> bool {
     match ClassChange::new(case, &only_triad(case)) {
         Ok(mut change) => times.iter().any(|&time| change.solve(case.crank().at(time).angle).is_err()),
@@ -267,13 +267,14 @@ fn class_change_is_lost(case: &Case, times: &[f64]) -> bool {
     }
 }
 
-/// Compares on `count` random mechanisms, and says how often a conditional driver was exchanged and how often a dead point was met.
+/// Compares on `count` random mechanisms. Returns how often a conditional driver was exchanged and how often a dead
+/// point was met.
 fn on_random_mechanisms(moving: bool, count: u32) -> [usize; 2] {
     let config = Config {
         cases: count,
         max_global_rejects: 50 * count,
         failure_persistence: None,
-        // Shrinking a mechanism leads to the edge of what fails, not to a simpler one.
+        // A smaller mechanism would be close to failure, not simpler.
         max_shrink_iters: 0,
         ..Config::default()
     };
@@ -290,7 +291,7 @@ fn on_random_mechanisms(moving: bool, count: u32) -> [usize; 2] {
             let states = match states(solver, case, &times) {
                 Ok(states) => states,
                 Err(error) => {
-                    // A higher group is followed, a dyad placed: this is the class III group.
+                    // A higher group is followed, a dyad is placed: so this error is of the class III group.
                     if error.message().contains("cannot be followed") && !moving {
                         prop_assert!(class_change_is_lost(case, &times), "{error}\n{text}");
                         seen.set([seen.get()[0], seen.get()[1] + 1]);
@@ -299,7 +300,7 @@ fn on_random_mechanisms(moving: bool, count: u32) -> [usize; 2] {
                 }
             };
             let found = differences(case, &only_triad(case), &states, &times);
-            // What is allowed between the two solvers themselves.
+            // The difference that is allowed between the two solvers themselves.
             prop_assert!(found.are_within(1e-11), "{} {found:?}\n{text}", solver.name());
             seen.set([seen.get()[0] + found.exchanges, seen.get()[1]]);
         }

@@ -1,4 +1,4 @@
-//! `tune` against an exhaustive search, and its promise.
+//! `tune` against an exhaustive search, and the accuracy of its prediction.
 
 mod exhaustive;
 mod near;
@@ -13,7 +13,8 @@ use crate::common::shipped;
 use exhaustive::{REFERENCES, Space, thinned};
 use near::{FACTOR, near_the_cheapest, tuned};
 
-/// A part of what `cargo bench --bench tune -- whole` looks at: only what would make it fail is run, sweeps lie a factor 4 apart and steps 1.2.
+/// A part of the space of `cargo bench --bench tune -- whole`. Only settings that would make the test fail are run;
+/// sweeps are a factor 4 apart and steps 1.2.
 const SMALL: Space = Space { sweeps: &[4, 16, 64, 256], factor: 1.2 };
 
 #[test]
@@ -61,7 +62,8 @@ fn only_the_channels_asked_for_decide() {
     assert!(positions.best.worst.contains("_m") || positions.best.worst.contains("angle"), "{:?}", positions.best);
 }
 
-/// In free motion probes are refused, whatever the step and the sweeps: that is not tried over and over, and a tune that may take nothing else says so.
+/// In free motion probes are refused, whatever the step and the sweeps. So they are not tried again and again, and a
+/// tuning that may use nothing else reports it.
 #[test]
 fn a_route_that_is_refused_is_given_up_at_once() {
     let scenario = shipped("pendulum.toml");

@@ -1,6 +1,8 @@
-//! Sixty study variants: the files of scenarios/variants60 are what this generator writes, and what they say is so.
+//! Sixty study variants: the files of scenarios/variants60 are the output of this generator, and their statements are
+//! true.
 //!
-//! `LINKPROOF_WRITE=1 cargo test --release --test suite variants60::` writes the files and the table of docs/variants60.md.
+//! `LINKPROOF_WRITE=1 cargo test --release --test suite variants60::` writes the files and the table of
+//! docs/variants60.md.
 
 mod file;
 mod geometry;
@@ -34,7 +36,7 @@ fn scenario(plan: &Plan) -> Scenario {
     Scenario::parse(&file::text(plan), Path::new("variant.toml")).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// With LINKPROOF_WRITE=1 the file is written, otherwise it must be what it would be.
+/// With LINKPROOF_WRITE=1 the file is written; otherwise it must equal the text that would be written.
 fn written(name: &str, text: &str) {
     let path = path(name);
     if std::env::var_os("LINKPROOF_WRITE").is_some_and(|value| value == "1") {
@@ -56,7 +58,8 @@ fn files_and_table_are_what_the_generator_writes() {
     written("docs/variants60.md", &page::renewed(&page, &plans, &scenarios));
 }
 
-/// Limits and smallest transmission angles of closed forms here, of curves followed there. The files carry 1e-12 m.
+/// Limits and smallest transmission angles: closed forms here, followed curves there. The files have an accuracy of
+/// 1e-12 m.
 #[test]
 fn ranges_are_those_of_the_curves_that_are_followed() {
     const BOUND: f64 = 1e-6;
@@ -67,7 +70,7 @@ fn ranges_are_those_of_the_curves_that_are_followed() {
         match (range.extent, plan.limits) {
             (Extent::FullTurn(1), None) => {
                 full += 1;
-                // The determinant of a dyad is the sine of its transmission angle; scheme 4 has the second only.
+                // The determinant of a dyad is the sine of its transmission angle; scheme 4 has only the second dyad.
                 let least = &plan.least[2 - range.groups.len()..];
                 for (group, least) in range.groups.iter().zip(least) {
                     let found = group.determinant.value.abs().asin().to_degrees();
@@ -90,12 +93,13 @@ fn ranges_are_those_of_the_curves_that_are_followed() {
     assert_eq!((full, crossed), (19, vec![(16, Kind::ChangePoint)]));
 }
 
-/// Angle (deg) from the direction `from` to the direction `to`, counter-clockwise, less `expected`.
+/// Angle (deg) from the direction `from` to the direction `to`, counter-clockwise, minus `expected`.
 fn off(from: Vec2, to: Vec2, expected: f64) -> f64 {
     wrapped(to.y.atan2(to.x) - from.y.atan2(from.x) - expected.to_radians()).abs()
 }
 
-/// The given pose, laid out by hand, closes all joints; where it is not singular both solvers find it, with its angles.
+/// The given pose, constructed by hand, closes all joints. Where it is not singular both solvers find it, with its
+/// angles.
 #[test]
 fn the_given_pose_is_a_pose_of_the_file() {
     let mut singular = 0;
@@ -111,7 +115,8 @@ fn the_given_pose_is_a_pose_of_the_file() {
             pose.extend([slider, along(linkage.c, linkage.d)]);
         }
         pose.push(rocker);
-        // Places in the file are rounded to 1e-12 m, so that x and y together are off by half of that times the root of two.
+        // Places in the file are rounded to 1e-12 m, so x and y together have an error of half of that times the square
+        // root of two.
         let closure = Pose(pose).closure(&case.mechanism);
         assert_within!(closure, 1e-12, "{}: {closure:e}", v.number);
         if plan.given < 1e-4 {
@@ -161,7 +166,7 @@ fn structure_and_masses_are_those_of_the_reading() {
         let lengths: f64 = v.lengths.iter().sum::<f64>() + v.rocker.unwrap_or(0.0);
         let slider = if v.rocker.is_some() { 1.0 } else { 0.0 };
         let mass: f64 = mechanism.links().iter().map(|link| link.mass).sum();
-        // Five decimal numbers, each to its last bit.
+        // Five decimal numbers, each accurate to its last bit.
         assert_within!((mass - 10.0 * lengths - slider).abs(), 1e-12, "{}: {mass}", v.number);
     }
 }

@@ -33,12 +33,6 @@ impl Deref for Case {
 }
 
 impl Case {
-    /// A case written down in code, link by link.
-    #[must_use]
-    pub fn builder() -> CaseBuilder {
-        CaseBuilder::new()
-    }
-
     /// The case of these parts.
     ///
     /// # Errors

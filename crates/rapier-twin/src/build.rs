@@ -1,15 +1,15 @@
-//! How a mechanism is put together in Rapier, and in which precision.
+//! How a mechanism is built in Rapier, and in which precision.
 
-/// How a mechanism is put together in Rapier.
+/// How a mechanism is built in Rapier.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Build {
-    /// A spanning tree as a multibody, loops closed by impulse joints.
+    /// The spanning tree is a multibody; impulse joints close the loops.
     Multibody,
-    /// Bodies of their own, every joint an impulse joint.
+    /// Every link is a separate rigid body, every joint an impulse joint.
     Impulse,
 }
 
-/// Length of Rapier's numbers.
+/// Precision of Rapier's floating-point numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Precision {
     /// f64: the crate `rapier2d-f64`.
@@ -20,7 +20,7 @@ pub enum Precision {
 }
 
 impl Precision {
-    /// Distance from one to the next number.
+    /// Machine epsilon: the distance from 1 to the next number.
     #[must_use]
     pub fn epsilon(self) -> f64 {
         match self {

@@ -1,17 +1,17 @@
-//! The worlds in double precision.
+//! Rapier worlds in double precision.
 
 pub(super) use parry2d_f64 as parry;
 pub(super) use rapier2d_f64 as rapier;
 
-/// The engine's number.
+/// The engine's floating-point type.
 type Real = f64;
 
-/// A number on its way into the engine.
+/// Converts a number for the engine.
 fn real(value: f64) -> Real {
     value
 }
 
-/// A number on its way out of the engine.
+/// Converts a number from the engine.
 fn wide(value: Real) -> f64 {
     value
 }

@@ -1,4 +1,4 @@
-//! What Rapier answers as an engine and as a solver.
+//! Rapier as an engine and as a solver: its answers to the two traits.
 
 use super::build::{Build, Precision};
 use super::rapier::Rapier;
@@ -33,7 +33,7 @@ impl Engine for Rapier {
 
     fn formal_order(&self, case: &Case, channel: &ChannelKind) -> f64 {
         let native = self.settings.route == Route::Native && channel.stage >= Stage::Reactions;
-        // Under forces each step takes what acts at its beginning for the whole of it.
+        // Under forces, each step applies the loads of its start to the whole step.
         if native || case.is_free() { 1.0 } else { 2.0 }
     }
 
@@ -46,7 +46,8 @@ impl Engine for Rapier {
     }
 
     fn told(&self) -> Vec<(&'static str, String)> {
-        // The resolution stands beside the engine's name, the route in how reactions come about; extrapolation is not known here.
+        // The engine's name states the resolution, and `how` states the route.
+        // Whether results are extrapolated is not known here.
         let Settings { resolution: _, sweeps, substeps, route: _, extrapolated: _ } = self.settings;
         let build = match self.build {
             Build::Multibody => "spanning tree as multibody, loops closed by impulse joints",
@@ -68,7 +69,7 @@ impl Engine for Rapier {
 }
 
 impl Rapier {
-    /// How reactions and moments come about.
+    /// Where reactions and moments come from.
     fn how(&self) -> &'static str {
         match (self.settings.route, self.build) {
             (Route::Differences, _) => "Newton-Euler on centred second differences of the engine's positions",

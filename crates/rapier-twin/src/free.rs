@@ -1,4 +1,4 @@
-//! What acts in a free motion: motor and loads, set anew before every step from the engine's own state.
+//! Motor and loads of a free motion. They are set again before every step, from the engine's own state.
 
 use super::guard::Guard;
 use super::window::Window;
@@ -11,16 +11,16 @@ use linkage::math::KeepNan;
 use linkage::mechanism::GROUND;
 use linkage::solver::State;
 
-/// Turn of the fastest free link (rad) in the tiny step that brings the velocities of a start in line.
+/// Rotation (rad) of the fastest free link in the tiny step that makes the start velocities consistent.
 const SETTLING_TURN: f64 = 1e-4;
 
 /// Motor and loads of a case in free motion.
 #[derive(Debug)]
 pub(super) struct Acting {
-    /// The engine's present state, and its angular velocities a step before.
+    /// The engine's present state, and its angular velocities one step before.
     state: State,
     before: Vec<f64>,
-    /// Speeds to which links at rest set off, where that was tried.
+    /// Speeds that links at rest reach in the trial step, where one was made.
     setting_off: Vec<f64>,
     loads: Vec<Wrench>,
     branch: Option<Branch>,
@@ -41,7 +41,8 @@ impl Acting {
         })
     }
 
-    /// Sets motor and loads of all worlds for the step between the instants `ends` (s), which begins with the newest state of the window.
+    /// Sets motor and loads of all worlds for the step between the times `ends` (s).
+    /// The step begins with the newest state of the window.
     pub(super) fn act(&mut self, case: &Case, window: &Window, worlds: &mut [Guard], ends: [f64; 2]) {
         for (before, motion) in self.before.iter_mut().zip(&self.state.motions) {
             *before = if window.newest() > 0 { motion.omega } else { f64::NAN };
@@ -49,7 +50,8 @@ impl Acting {
         window.newest_motion(case, &mut self.state);
         let State { motions, angles, .. } = &self.state;
         let (before, setting_off) = (&self.before, &self.setting_off);
-        // A link may turn about within the step: its load is what acts on either side of that instant, each for its share of the step.
+        // A link may reverse within the step.
+        // Its load is then the mean of the loads before and after the reversal, weighted with their shares of the step.
         let sensed = |_: usize, load: &linkage::drive::Load, link: usize, crank: f64| {
             let now = motions[link].omega;
             if now == 0.0 {
@@ -72,14 +74,14 @@ impl Acting {
         }
     }
 
-    /// Whether a load asks for the sense in which a link turns that stands at the beginning.
+    /// Whether a load depends on the sense of rotation of a link that is at rest at the beginning.
     fn must_try(&self, case: &Case) -> bool {
         let mut sensed = case.loads.iter().filter_map(linkage::drive::Load::sensed_link);
         sensed.any(|link| self.state.motions[link].omega == 0.0)
     }
 
-    /// Speed aimed at and damping of the motor that has the law's moment and slope at the crank's speed. Where the moment rises with the speed, or does
-    /// not depend on it, it goes to the loads instead.
+    /// Target speed and damping of a motor with the law's moment and slope at the crank's speed.
+    /// If the moment rises with the speed, or does not depend on it, the moment goes to the loads instead.
     fn motor(&mut self, case: &Case) -> [f64; 2] {
         let Some(motor) = case.crank().moving_motor() else { return [0.0; 2] };
         let sense = case.crank().sense();
@@ -98,8 +100,9 @@ impl Acting {
     }
 }
 
-/// Gives worlds at the start pose the velocities of the driving links there, and gives back the window of the motion that begins. Where a load asks for the
-/// sense of a link at rest, one step is tried without it, and taken back.
+/// Gives worlds at the start pose the velocities of the driving links there.
+/// Returns the window of the motion that begins.
+/// If a load depends on the sense of rotation of a link at rest, one step is tried without that load and then undone.
 ///
 /// # Errors
 /// Those of [`Guard::step`].
@@ -119,7 +122,8 @@ pub(super) fn begin(case: &Case, acting: &mut Acting, worlds: &mut [Guard], sett
     Ok(window)
 }
 
-/// Places worlds at the start with the velocities of the driving links there: a tiny step with rigid drives brings all others in line.
+/// Places worlds at the start with the velocities of the driving links there.
+/// A tiny step with rigid drives makes all other velocities consistent.
 fn settle(case: &Case, worlds: &mut [Guard], step: f64) -> Result<()> {
     let fastest = case.drives.iter().fold(0.0f64, |most, drive| most.larger(drive.initial_speed().abs()));
     for guard in worlds {

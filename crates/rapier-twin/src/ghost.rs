@@ -1,7 +1,9 @@
-//! What the engine's world has more or less than the case, and what that makes in reactions.
+//! How the engine's world differs from the case, and what that difference adds to the reactions.
 //!
-//! Rapier needs a mass and a moment of inertia on every link. Reactions and moment are linear in both, and in the loads, for a given
-//! motion, so that those of the differences alone, by Newton and Euler's equations on the engine's own accelerations, can be taken off.
+//! Rapier needs a mass and a moment of inertia on every link.
+//! For a given motion, reactions and driving moment are linear in masses, inertias and loads.
+//! The share of the differences alone is therefore computed and subtracted.
+//! It follows from the Newton-Euler equations with the engine's own accelerations.
 
 use super::newton_euler::NewtonEuler;
 use super::world::{masses, masses_with_flywheels};
@@ -17,21 +19,22 @@ pub(super) struct Ghost {
 }
 
 impl Ghost {
-    /// The stand-ins of a case, and its loads if the engine was not given them (`unloaded`); `None` if there is neither.
+    /// The stand-ins of a case, and its loads if the engine was not given them (`unloaded`).
+    /// `None` if there is neither.
     pub(super) fn of(case: &Case, unloaded: bool) -> Option<Self> {
-        // A flywheel has a moment where it is accelerated, and none where it is not.
+        // A flywheel adds a moment only while it is accelerated.
         let masses = if case.is_steady() { masses(case) } else { masses_with_flywheels(case) };
         let links = case.mechanism.links().iter().zip(masses);
         let extra: Vec<[f64; 2]> =
             links.map(|(link, [mass, inertia])| [mass - link.mass, inertia - link.inertia]).collect();
         let unloaded = unloaded && !case.loads.is_empty();
         let any = unloaded || extra.iter().flatten().any(|&extra| extra != 0.0);
-        // What is missing counts as a part to be taken off with the opposite sign.
+        // What the engine lacks is subtracted with the opposite sign.
         let load_share = if unloaded { -1.0 } else { 0.0 };
         any.then(|| Ghost { statics: NewtonEuler::of(case, extra, load_share), state: State::at_rest(case) })
     }
 
-    /// Takes their part off reactions and moments.
+    /// Subtracts the share of the stand-ins from reactions and moments.
     ///
     /// # Errors
     /// Those of [`NewtonEuler::solve`].

@@ -1,5 +1,5 @@
-//! A world that is watched: a loop that opens, a link that turns wildly, a number that is none, a panic inside the engine. All become an
-//! error that says when, at which crank angle and where.
+//! A world under supervision. Any of these becomes an error with its time, crank angle and place:
+//! a loop that opens, a link that turns too far in one step, NaN or infinity, or a panic inside the engine.
 
 use std::fmt;
 
@@ -12,35 +12,36 @@ use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{LinkPose, Side};
 use linkage::solver::State;
 
-/// Share of the mechanism's size to which a loop may open before the run is stopped.
+/// Largest opening of a loop before the run is stopped, as a share of the mechanism's size.
 const LARGEST_GAP: f64 = 0.05;
-/// Turn of a link in one step (rad) beyond which there is no trajectory left to speak of.
+/// Largest rotation of a link in one step (rad). Beyond it the trajectory is meaningless.
 const LARGEST_TURN: f64 = std::f64::consts::FRAC_PI_2;
-/// Growth of kinetic energy in one step beyond which a run has blown up: ten times the speeds. The drives put in and take out whatever
-/// their speeds need, so that energy is no constant to be watched; but it depends on the pose alone, and the pose changes little in a step.
+/// Growth of kinetic energy in one step beyond which a run has diverged: a factor of ten in the speeds.
+/// The drives supply and absorb whatever energy their speeds need, so energy is not conserved.
+/// But it depends on the pose alone, and the pose changes little in a step.
 const LARGEST_GROWTH: f64 = 100.0;
 
-/// A world and what is watched in it.
+/// A world and the quantities that are supervised.
 pub(super) struct Guard<'a> {
     case: &'a Case,
     world: Box<dyn World>,
     /// The mechanism's size (m).
     size: f64,
     largest_gap: f64,
-    /// Frames of all links after the last step, and their mass centres.
+    /// Frames of all links after the last step, and their mass centres (m).
     frames: Vec<LinkFrame>,
     centres: Vec<Vec2>,
     loads: Vec<Wrench>,
-    /// Mass and moment of inertia of all links.
+    /// Mass (kg) and moment of inertia (kg m^2) of all links.
     masses: Vec<[f64; 2]>,
     step: f64,
-    /// The largest kinetic energy so far (J), but at least that of all links at the mechanism's size from an axis about which they turn with the
-    /// fastest drive.
+    /// The largest kinetic energy so far (J).
+    /// Its lower limit is the energy of all links at one mechanism size from an axis, turning with the fastest drive.
     energy: f64,
 }
 
 impl<'a> Guard<'a> {
-    /// Watches a world in its start pose whose time step is `step` (s).
+    /// Supervises a world in its start pose with the time step `step` (s).
     pub(super) fn new(case: &'a Case, world: Box<dyn World>, step: f64) -> Self {
         let size = case.mechanism.size();
         let masses = masses(case);
@@ -61,7 +62,7 @@ impl<'a> Guard<'a> {
         guard
     }
 
-    /// Takes the world's frames as those after the last step.
+    /// Stores the world's frames as those after the last step.
     fn stand(&mut self) {
         self.frames.clear();
         self.frames.extend_from_slice(self.world.frames());
@@ -70,12 +71,12 @@ impl<'a> Guard<'a> {
         self.centres.extend(self.frames.iter().zip(links).map(|(frame, link)| frame.point(link.mass_centre)));
     }
 
-    /// Frames of all links after the last step or placing.
+    /// Frames of all links after the last step or placement.
     pub(super) fn frames(&self) -> &[LinkFrame] {
         &self.frames
     }
 
-    /// Mass centres of all links (m) after the last step or placing.
+    /// Mass centres of all links (m) after the last step or placement.
     pub(super) fn centres(&self) -> &[Vec2] {
         &self.centres
     }
@@ -91,22 +92,25 @@ impl<'a> Guard<'a> {
         }
     }
 
-    /// Sets all drives to the speeds that take them from where they are at the time `from` (s) to where they are at `to`, a step later or earlier.
+    /// Sets the speeds that take all drives from their angles at time `from` (s) to those at time `to` (s).
+    /// `to` is one step later or earlier.
     pub(super) fn drive_on(&mut self, from: f64, to: f64) {
         for (index, drive) in self.case.drives.iter().enumerate() {
             self.world.set_drive(index, drive.step_speed(from, to));
         }
     }
 
-    /// Sets all drives to their speeds at t = 0: those from which free links start, those of the laws for the others.
+    /// Sets all drives to their speeds at t = 0.
+    /// Free links get their initial speeds, the others those of their laws.
     pub(super) fn drive_from_start(&mut self) {
         for (index, drive) in self.case.drives.iter().enumerate() {
             self.world.set_drive(index, drive.initial_speed());
         }
     }
 
-    /// Sets the speed, over a step between two instants, of the links whose motion is prescribed, and for free ones what `motor` says: speed aimed at
-    /// (rad/s) and damping (N m s/rad).
+    /// Sets all drives for a step between two times (s).
+    /// Links with prescribed motion get their speed over the step.
+    /// A free crank gets `motor`: target speed (rad/s) and damping (N m s/rad). Other free links get no motor.
     pub(super) fn drive_freely(&mut self, [from, to]: [f64; 2], motor: [f64; 2]) {
         for (index, drive) in self.case.drives.iter().enumerate() {
             match (&drive.motion, index) {
@@ -124,7 +128,7 @@ impl<'a> Guard<'a> {
         }
     }
 
-    /// Sets the loads of all links as they are in a state.
+    /// Sets the loads that all links have in a state.
     pub(super) fn load(&mut self, state: &State) {
         if self.case.loads.is_empty() {
             return;
@@ -141,21 +145,21 @@ impl<'a> Guard<'a> {
         self.step = step;
     }
 
-    /// Puts all links into poses; velocities stay as they are.
+    /// Moves all links into the given poses; velocities stay as they are.
     pub(super) fn place(&mut self, poses: &[LinkPose]) {
         self.world.place(poses);
         self.stand();
     }
 
-    /// One time step, after which the time is `t` (s).
+    /// Does one time step; the time after it is `t` (s).
     ///
     /// # Errors
-    /// [`ErrorKind::Numeric`] if a loop has opened, a link has turned by more than a quarter turn, the kinetic energy has grown a hundredfold, a
-    /// number is not finite, or the engine has panicked.
+    /// [`ErrorKind::Numeric`] in any of these cases: a loop has opened, a link has turned by more than a quarter turn,
+    /// the kinetic energy has grown a hundredfold, a number is not finite, or the engine has panicked.
     pub(super) fn step(&mut self, t: f64) -> Result<()> {
         let Guard { case, world, frames: before, centres, masses, size, .. } = self;
         let (links, joints) = (case.mechanism.links(), case.mechanism.joints());
-        // Said in the words of the frames before the step.
+        // Uses the frames before the step.
         let place =
             |before: &[LinkFrame]| Moment::of(case.crank(), before[case.crank().link].angle() - case.crank().zero, t);
         guarded(|| world.step()).map_err(|cause| panicked(place(before), cause.as_ref()))?;
@@ -163,7 +167,7 @@ impl<'a> Guard<'a> {
         let mut twice_energy = 0.0;
         for (link, (frame, before_it)) in frames.iter().zip(before.iter()).enumerate().skip(1) {
             let turn = frame.turn_since(before_it);
-            // Written so that NaN stops the run too.
+            // Written so that NaN also stops the run.
             if !(turn <= LARGEST_TURN) {
                 let (name, degrees, place) = (&links[link].name, turn.to_degrees(), place(before));
                 let message =
@@ -195,17 +199,17 @@ impl<'a> Guard<'a> {
         Ok(())
     }
 
-    /// That the world stands in the case's start pose again, after it has driven itself away and back.
+    /// Checks that the world is in the case's start pose again, after it has driven itself backwards and returned.
     ///
     /// # Errors
-    /// [`ErrorKind::Numeric`] if a link is farther away than a loop may open: on the way it went past a dead point, into another
-    /// configuration.
+    /// [`ErrorKind::Numeric`] if a link is farther away than a loop may open.
+    /// It then passed a dead point on the way, into another assembly mode.
     pub(super) fn check_start(&self) -> Result<()> {
         let case = self.case;
         for (index, (link, pose)) in case.mechanism.links().iter().zip(&case.start.0).enumerate().skip(1) {
             let off = |local| (self.world.point(Side { link: index, local }) - pose.point(local)).norm();
             let far = link.points.iter().map(|point| off(point.local)).fold(off(link.mass_centre), f64::larger);
-            // Written so that NaN stops the run too.
+            // Written so that NaN also stops the run.
             if !(far <= self.largest_gap) {
                 let crank = case.crank().start.to_degrees();
                 let message = format!(
@@ -225,17 +229,17 @@ impl<'a> Guard<'a> {
     }
 }
 
-/// When and where a step went wrong.
+/// When and where a step failed.
 #[derive(Clone, Copy)]
 struct Moment {
     /// Time (s).
     t: f64,
-    /// Crank angle (rad, as the scenario states it).
+    /// Crank angle (rad), as the scenario defines it.
     crank: f64,
 }
 
 impl Moment {
-    /// A free crank is where it was `before` the step.
+    /// A free crank has the angle `before` the step.
     fn of(drive: &Drive, before: f64, t: f64) -> Self {
         Moment { t, crank: if drive.is_free() { before } else { drive.at(t).angle } }
     }
@@ -271,7 +275,7 @@ mod tests {
     use linkage::fixtures::{four_bar, turning};
     use linkage::math::{rotated, unit};
 
-    /// A world whose steps go wrong, after which it tells of places and angles that are off.
+    /// A world whose steps fail; afterwards it reports wrong positions and angles.
     struct Broken {
         world: Box<dyn World>,
         wrong: fn(&mut dyn World),
@@ -330,7 +334,7 @@ mod tests {
 
     const BUILDS: [Build; 2] = [Build::Multibody, Build::Impulse];
 
-    /// What a guard says of a step that goes wrong, after which all places and angles are off by `off`.
+    /// What a guard reports of a step that fails, after which all positions and angles are wrong by `off`.
     fn step(build: Build, wrong: fn(&mut dyn World), off: (Vec2, f64)) -> Result<()> {
         let case = turning(four_bar());
         let engine = Rapier::new(build, Precision::Double, 1e-3);
@@ -374,8 +378,9 @@ mod tests {
         }
     }
 
-    /// Nothing turns and no loop opens, but all links run away, as slides can. The links reach 5 m and the drive turns with 1 rad/s: a step of a millisecond
-    /// may move them by some 5 cm, ten times what a link at that distance does.
+    /// Nothing turns and no loop opens, but all links run away, as sliders can.
+    /// The links reach 5 m and the drive turns at 1 rad/s.
+    /// A step of a millisecond may move them by some 5 cm, ten times what a link at that distance moves.
     #[test]
     fn energy_out_of_nothing_stops_the_run() {
         for build in BUILDS {

@@ -1,8 +1,8 @@
-//! Rapier, in two builds and two precisions.
+//! Rapier as an engine, in two builds and two precisions.
 //!
-//! A world takes from the case its geometry, masses, drives and the pose at t = 0, nothing later. It first drives itself
-//! backwards to a little before the first instant wanted and then forwards, so that the transient of
-//! the first steps has died away before anything is read.
+//! A world takes only these from the case: geometry, masses, drives and the pose at t = 0, nothing later.
+//! It first drives itself backwards to shortly before the first output time, and then forwards.
+//! The transient of the first steps has therefore decayed before anything is read.
 
 mod build;
 mod double;

@@ -1,5 +1,6 @@
-//! Reactions and moments as the engine reports them on the way. Loads are left to Newton and Euler's equations: they jump where a link
-//! turns about, and what jumps cannot be read between steps.
+//! Reactions and moments as the engine reports them during the run.
+//! Loads are left to the Newton-Euler equations: they jump where a link reverses.
+//! A jump cannot be interpolated between steps.
 
 use super::ghost::Ghost;
 use super::guard::Guard;
@@ -10,18 +11,21 @@ use linkage::error::Result;
 use linkage::math::Vec2;
 use linkage::solver::State;
 
-/// How many substeps ago that was for which the engine's report of a step is best. The impulses of step n stand on the pose of step n - 1 and bring the
-/// velocities from those of step n - 2 to those of step n - 1: the error is of first order whichever instant they are given to. On `ov7_base` and
-/// `crank_rocker` the instants t_n, t_(n-1) and t_(n-2) gave 3.8e-2, 2.0e-2, 2.1e-2 and 1.7e-2, 5.8e-3, 6.6e-3 at 0.32 deg a step.
+/// Substeps between the instant that the engine's report of a step describes best and the end of that step.
+/// The impulses of step n belong to the pose of step n - 1.
+/// They change the velocities of step n - 2 into those of step n - 1.
+/// The error is of first order whichever instant the impulses are assigned to.
+/// On `ov7_base` and `crank_rocker` the instants t_n, t_(n-1) and t_(n-2) gave
+/// 3.8e-2, 2.0e-2, 2.1e-2 and 1.7e-2, 5.8e-3, 6.6e-3 at 0.32 deg a step.
 const LATE: f64 = 1.0;
 
-/// Which of several worlds reports a joint.
+/// For every joint, the index of the world that reports it.
 pub(super) fn reporters(case: &Case, cuts: &[&[usize]]) -> Vec<usize> {
     let of = |joint: usize| cuts.iter().position(|cut| cut.contains(&joint)).expect("the trees cover all joints");
     (0..case.mechanism.joints().len()).map(of).collect()
 }
 
-/// What the engine reports of the last steps.
+/// The engine's reports of the last steps.
 pub(super) struct Native {
     step: f64,
     late: f64,
@@ -29,7 +33,7 @@ pub(super) struct Native {
     reporters: Vec<usize>,
     ghost: Option<Ghost>,
     row: Vec<f64>,
-    /// First step at which a reading may be taken as standing.
+    /// Lowest step from which a reading may be interpolated: the one at or before its instant.
     lowest: i64,
 }
 
@@ -38,14 +42,14 @@ impl Native {
         let cuts: Vec<&[usize]> = worlds.iter().map(|guard| guard.world().tree().cut.as_slice()).collect();
         let width = 3 * case.mechanism.joints().len() + case.drives.len();
         let reporters = reporters(case, &cuts);
-        // In a free motion step 1 is the first that is reported.
+        // In a free motion step 1 is the first one reported.
         let lowest = if case.is_free() { 3 } else { i64::MIN / 2 };
         let (step, late) = (settings.resolution, LATE / settings.substeps as f64);
         let (ring, ghost, row) = (Ring::new(width, start), Ghost::of(case, !case.is_free()), vec![0.0; width]);
         Native { step, late, ring, reporters, ghost, row, lowest }
     }
 
-    /// Takes the reports of a step.
+    /// Stores the reports of a step.
     pub(super) fn push(&mut self, worlds: &[Guard]) {
         let row = self.ring.push();
         let drives = 3 * self.reporters.len();

@@ -1,13 +1,20 @@
-//! Reactions and driving moment from the engine's own motion: the equations of Newton and Euler, link by link along a spanning tree.
+//! Reactions and driving moment from the engine's own motion: the Newton-Euler equations, link by link along a spanning tree.
 //!
-//! For every link m (a - g) = sum of forces + loads and J alpha = sum of moments about the mass centre + those of the loads. A joint acts with two
-//! components: the force of a revolute joint; of a prismatic one the force across its axis, at the place on the second link, and the moment.
+//! For every link: m (a - g) = sum of joint forces + loads.
+//! J alpha = sum of their moments about the mass centre + moments of the loads.
+//! A joint has two unknown components.
+//! For a revolute joint they are the two components of its force.
+//! For a prismatic joint they are the force across its axis, at its point on the second link, and the moment.
 //!
-//! Unknown are the components in the joints that the tree cuts. What a joint of the tree must transmit follows from the motion of all links beyond it, the leaves
-//! first, as a linear function of them: a force and a moment on its outer link. Of the moment about a pin, or the force along a slide's axis, a joint
-//! transmits nothing: one equation for every joint of the tree (the composite bodies of Featherstone, "Rigid Body Dynamics Algorithms", 2008, ch. 8).
-//! Driven pins are in the tree, and what their equation leaves over is the driving moment. Left are as many equations as there are
-//! components in cut joints: two for a four-bar, where all links at once have nine.
+//! The unknowns are the components in the joints that the tree cuts.
+//! What a tree joint must transmit follows from the motion of all links beyond it, the leaves first.
+//! It is a linear function of the unknowns: a force and a moment on the joint's outer link.
+//! A revolute joint transmits no moment, and a prismatic joint no force along its axis.
+//! That gives one equation for every joint of the tree.
+//! These are the composite bodies of Featherstone, "Rigid Body Dynamics Algorithms", 2008, ch. 8.
+//! Driven joints are in the tree, and the remainder of their equation is the driving moment.
+//! As many equations remain as there are components in cut joints.
+//! A four-bar has two, where all links together have nine.
 
 mod seam;
 mod stages;
@@ -22,23 +29,24 @@ use linkage::solver::State;
 use seam::{Seam, Stand, Term};
 use stages::{Limb, Row, Stage, stages};
 
-/// The equations, reused from pose to pose.
+/// The equations, reused for every pose.
 #[derive(Debug)]
 pub struct NewtonEuler {
-    /// The tree from the ground outwards.
+    /// The links of the tree, from the ground outwards.
     tree: Vec<Limb>,
     cut: Vec<Seam>,
-    /// The joints of the tree and of the cuts in the present pose.
+    /// The joints of the tree, then the cut joints, in the present pose.
     stands: Vec<Stand>,
-    /// What every link of the tree needs from the joint that carries it: a term for every component of a cut joint, and the constant one.
+    /// What every link of the tree needs from the joint that carries it.
+    /// There is a term for every component of a cut joint, and a constant term.
     needs: Vec<Term>,
     stages: Vec<Stage>,
     /// The components in the cut joints.
     components: Vec<f64>,
-    /// Mass and moment of inertia of every link.
+    /// Mass (kg) and moment of inertia (kg m^2) of every link.
     masses: Vec<[f64; 2]>,
     loads: Vec<Wrench>,
-    /// Share of the loads that is counted.
+    /// Share of the loads that is included.
     load_share: f64,
 }
 
@@ -50,14 +58,14 @@ impl NewtonEuler {
         NewtonEuler::of(case, masses, 1.0)
     }
 
-    /// The equations with other masses and moments of inertia, and with a share of the loads.
+    /// The equations with other masses (kg) and moments of inertia (kg m^2), and with a share of the loads.
     #[must_use]
     pub fn of(case: &Case, masses: Vec<[f64; 2]>, load_share: f64) -> Self {
         let driven: Vec<usize> = case.drives.iter().map(|drive| drive.joint).collect();
         NewtonEuler::along(case, &Tree::with(&case.mechanism, &driven), masses, load_share)
     }
 
-    /// The same along any tree that has all links and all driven joints.
+    /// The same along any tree that contains all links and all driven joints.
     #[must_use]
     pub fn along(case: &Case, tree: &Tree, masses: Vec<[f64; 2]>, load_share: f64) -> Self {
         let driven: Vec<usize> = case.drives.iter().map(|drive| drive.joint).collect();
@@ -105,7 +113,7 @@ impl NewtonEuler {
         }
     }
 
-    /// Fills in the forces and the driving moment of a state whose motion is known.
+    /// Fills in the reactions and the driving moment of a state whose motion is known.
     ///
     /// # Errors
     /// [`ErrorKind::Numeric`] where they are not determined.
@@ -124,14 +132,14 @@ impl NewtonEuler {
         Ok(())
     }
 
-    /// Numbers of stages in which cut joints are solved: with two unknowns, and with more.
+    /// Numbers of stages in which cut joints are solved: those with two unknowns, and those with more.
     #[must_use]
     pub fn stages(&self) -> [usize; 2] {
         let pairs = self.stages.iter().filter(|stage| matches!(stage, Stage::Pair(..))).count();
         [pairs, self.stages.len() - pairs]
     }
 
-    /// Finds the components in the cut joints, stage by stage; false if they are not determined.
+    /// Finds the components in the cut joints, stage by stage. Returns false if they are not determined.
     fn find(&mut self) -> bool {
         let NewtonEuler { stages, stands, needs, components, .. } = self;
         let width = components.len() + 1;
@@ -178,7 +186,7 @@ impl NewtonEuler {
         }
     }
 
-    /// What every link needs for itself, and what cut joints give it.
+    /// Sets up what every link needs for itself, and what the cut joints contribute.
     fn begin(&mut self, case: &Case, state: &State) {
         let width = self.components.len() + 1;
         self.stands.clear();

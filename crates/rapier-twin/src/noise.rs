@@ -1,4 +1,4 @@
-//! How much rounding there is in what the engine answers.
+//! Bounds on the rounding noise in the engine's results.
 
 use super::build::Build;
 use super::probe::probe_turn;
@@ -10,27 +10,35 @@ use linkage::math::KeepNan;
 use linkage::math::interpolate::lagrange_weights;
 use linkage::trajectory::{ChannelKind, Stage, Subject, Unit};
 
-/// Rounding of a speed in the solver's sweeps, in units of the last place; 12 were measured on the crank-rocker, 2 on `ov7_base`.
+/// Rounding of a speed in the solver's sweeps, in units in the last place.
+/// 12 were measured on the crank-rocker, 2 on `ov7_base`.
 const SPEED_ULPS: f64 = 20.0;
-/// Rounding of a divided second difference, in units of epsilon times the largest angle: four half units come from the
-/// difference itself (12.6 epsilon over a turn; 11.7 were measured), doubled for the links behind the crank.
+/// Rounding of a divided second difference, in units of epsilon times the largest angle.
+/// Four half units come from the difference itself (12.6 epsilon over a turn; 11.7 were measured).
+/// They are doubled for the links behind the crank.
 const DIFFERENCE_ULPS: f64 = 4.0;
-/// Angle (rad) whose rounding a second difference has at least: unit vectors and places are rounded however little a link has turned. Over a quarter and
-/// over half a turn 12.6 epsilon were measured on the crank-rocker and on `quick_return`, 26 on `ov7_base`; 37 are allowed.
+/// Least angle (rad) whose rounding a second difference has.
+/// Unit vectors and positions are rounded however little a link has turned.
+/// Over a quarter and over half a turn, 12.6 epsilon were measured on the crank-rocker and on `quick_return`.
+/// 26 were measured on `ov7_base`; 37 are allowed.
 const LEAST_TURN: f64 = 3.0 * std::f64::consts::PI;
-/// Half a unit in the last place of an angle that grows to one, on average, in units of epsilon; rounding of a unit vector takes up to a whole one, however
-/// small the angle.
+/// Average of half a unit in the last place, in units of epsilon, while an angle grows to one.
+/// Rounding of a unit vector takes up to a whole epsilon, however small the angle.
 const MEAN_HALF_ULP: f64 = 0.25;
-/// Rounding of what an impulse changes a speed by, in units of the last place. It is a speed's, times the condition of the loop it is read
-/// from: 3100 and 3570 were measured on the crank-rocker in f32 at 1e-3 s and 2.5e-4 s (in the impulse build 557 and 570), doubled.
+/// Rounding of the speed change that an impulse makes, in units in the last place.
+/// It is the rounding of a speed times the condition number of the loop it is read from.
+/// On the crank-rocker in f32, 3100 and 3570 were measured at 1e-3 s and 2.5e-4 s (in the impulse build 557 and 570).
+/// The bound is about twice that.
 const IMPULSE_ULPS: f64 = 8000.0;
-/// The same of a probe, which takes one reading from twice another: 4450 and 7080 were measured, doubled.
+/// The same for a probe, which subtracts one reading from twice another: 4450 and 7080 were measured, doubled.
 const PROBE_ULPS: f64 = 16000.0;
 
 /// Bound on the rounding noise of a channel, in the channel's unit.
 ///
-/// Angles are sums of as many rounded increments as there are steps. Each is off by up to half a unit in the last place of the angle so far, in the same
-/// sense for as long as speed and exponent stay what they are; lengths, forces and moments follow with the mechanism's size and mass.
+/// Angles are sums of as many rounded increments as there are steps.
+/// Each increment is off by up to half a unit in the last place of the angle so far.
+/// The sign stays the same as long as speed and exponent do.
+/// Lengths, forces and moments follow with the mechanism's size and mass.
 pub(super) fn bound(case: &Case, engine: &Rapier, channel: &ChannelKind) -> f64 {
     let (step, epsilon) = (engine.settings.resolution, engine.precision.epsilon());
     let longest = case.grid.times.iter().fold(0.0, |max: f64, t| max.larger(t.abs()));
@@ -39,7 +47,7 @@ pub(super) fn bound(case: &Case, engine: &Rapier, channel: &ChannelKind) -> f64 
     let mass: f64 = case.mechanism.links().iter().map(|link| link.mass).sum();
     let turned = case.start.0.iter().fold(speed * longest, |max: f64, pose| max.larger(pose.angle.abs())).larger(1.0);
 
-    // Places are world coordinates: far from the origin they are coarser than the mechanism's size lets expect.
+    // Positions are world coordinates: far from the origin they are coarser than the mechanism's size suggests.
     let reach = case.start.0.iter().fold(size, |max: f64, pose| max.larger(pose.origin.norm() + size));
     let place = epsilon * reach;
     let angle = epsilon * (longest / step * (MEAN_HALF_ULP * turned).larger(1.0) + turned);
@@ -49,13 +57,13 @@ pub(super) fn bound(case: &Case, engine: &Rapier, channel: &ChannelKind) -> f64 
     let second = second * beginning(case, engine);
     let (rate, rate_of_place) = match case.is_steady() {
         true => (rate, 0.0),
-        // Centred differences of poses.
+        // Rates are centred differences of poses.
         false => (rate + DIFFERENCE_ULPS * epsilon * turned / step, DIFFERENCE_ULPS * place / step),
     };
     let second = match engine.settings.route {
         _ if channel.stage < Stage::Reactions => second,
         Route::Differences => second,
-        // Speeds a step apart, whose difference an impulse makes.
+        // An impulse makes the difference of two speeds one step apart.
         Route::Native => IMPULSE_ULPS * epsilon * speed / step,
         Route::Probe => PROBE_ULPS * epsilon * speed * speed / probe_turn(engine.precision),
     };
@@ -70,17 +78,18 @@ pub(super) fn bound(case: &Case, engine: &Rapier, channel: &ChannelKind) -> f64 
         Unit::Newton => linear * mass,
         Unit::NewtonMetre => match engine.settings.route {
             Route::Differences => linear * mass * lever(case, reach, channel.subject),
-            // The impulse of a drive is read off a flywheel of the mechanism's size.
+            // The impulse of a drive is read from a flywheel of the mechanism's size.
             Route::Native | Route::Probe => linear * mass * reach,
         },
     }
 }
 
-/// Lever (m) of the forces that make up a moment: on the driving link they act at its far end, in a prismatic joint anywhere in the
-/// mechanism, on the frame they are taken about the origin.
+/// Lever arm (m) of the forces that make up a moment.
+/// On the driving link they act at its far end, and in a prismatic joint anywhere in the mechanism.
+/// On the frame they are taken about the origin.
 fn lever(case: &Case, reach: f64, subject: Subject) -> f64 {
     match subject {
-        // The lever of a drive is that of the largest driving link.
+        // The lever arm of a drive is that of the largest driving link.
         Subject::Drive | Subject::Motor => {
             case.drives.iter().fold(0.0, |most: f64, drive| most.larger(case.mechanism.links()[drive.link].size()))
         }
@@ -89,8 +98,8 @@ fn lever(case: &Case, reach: f64, subject: Subject) -> f64 {
     }
 }
 
-/// How many times the rounding of a second difference those at the beginning of a free motion have that are carried back over its first steps: the sum of
-/// the sizes of Lagrange's weights there.
+/// Factor on the rounding of second differences at the beginning of a free motion.
+/// They are extrapolated back over its first steps, so the factor is the sum of the absolute Lagrange weights there.
 fn beginning(case: &Case, engine: &Rapier) -> f64 {
     let steps = first_steps(case, engine.build == Build::Impulse) as f64;
     let first = case.grid.times.iter().fold(f64::INFINITY, |least: f64, &t| least.smaller(t));

@@ -1,9 +1,11 @@
 //! Reactions and moments from tiny steps of the engine, started on its own trajectory.
 //!
-//! A world of its own is put into the pose at t - h, and a step makes the velocities fit that pose and the drives: all freedoms are driven, so
-//! that there is one answer. Then it is put into the pose at t with these velocities, and a step of h is done, whose impulses are the
-//! reactions at t but for an error in proportion to h; the same with h / 2 gives 2 y(h / 2) - y(h). Only poses come from the trajectory: no
-//! velocity, no acceleration.
+//! A separate world is placed in the pose at t - h, and one step makes the velocities consistent with pose and drives.
+//! All degrees of freedom are driven, so the answer is unique.
+//! Then the world is placed in the pose at t with these velocities, and a step of h is done.
+//! Its impulses are the reactions at t with an error proportional to h.
+//! The same with h / 2 gives 2 y(h / 2) - y(h).
+//! Only poses come from the trajectory: no velocity, no acceleration.
 
 use super::build::Precision;
 use super::ghost::Ghost;
@@ -17,7 +19,7 @@ use linkage::math::Vec2;
 use linkage::mechanism::LinkPose;
 use linkage::solver::State;
 
-/// Worlds that are probed.
+/// The worlds that are probed.
 pub(super) struct Probe<'a> {
     worlds: Vec<Guard<'a>>,
     /// The tiny step (s).
@@ -28,7 +30,7 @@ pub(super) struct Probe<'a> {
 }
 
 impl<'a> Probe<'a> {
-    /// Probes of worlds whose trees together cut every joint; the crank turns by `turn` (rad) in a tiny step.
+    /// Probes of worlds whose trees together cut every joint. The crank turns by `turn` (rad) in a tiny step.
     pub(super) fn new(case: &'a Case, worlds: Vec<Guard<'a>>, turn: f64) -> Self {
         let cuts: Vec<&[usize]> = worlds.iter().map(|guard| guard.world().tree().cut.as_slice()).collect();
         let reporters = reporters(case, &cuts);
@@ -37,7 +39,7 @@ impl<'a> Probe<'a> {
         Probe { reporters, step: turn / speed, ghost: Ghost::of(case, false), worlds, poses }
     }
 
-    /// Fills in the reactions and moments of a state, whose motion is that of the window at `t`.
+    /// Fills in the reactions and moments of a state. Its motion is that of the window at `t` (s).
     pub(super) fn solve(&mut self, case: &Case, window: &Window, state: &mut State, t: f64) -> Result<()> {
         state.forces.fill(Vec2::zeros());
         state.moments.fill(0.0);
@@ -78,7 +80,7 @@ impl<'a> Probe<'a> {
         guard.step(t)
     }
 
-    /// Adds `share` of what a world reports.
+    /// Adds `share` times the reports of a world.
     fn add(&self, index: usize, share: f64, state: &mut State) {
         let world: &dyn World = self.worlds[index].world();
         for joint in (0..self.reporters.len()).filter(|&joint| self.reporters[joint] == index) {
@@ -94,8 +96,9 @@ impl<'a> Probe<'a> {
     }
 }
 
-/// Turn of the fastest driving link in a tiny step (rad). After 2 y(h / 2) - y(h) the error is in proportion to its square, rounding to its
-/// inverse; the optimum is flat.
+/// Rotation of the fastest driving link in a tiny step (rad).
+/// After 2 y(h / 2) - y(h) the error is proportional to its square, and the rounding to its inverse.
+/// The optimum is flat.
 pub(super) fn probe_turn(precision: Precision) -> f64 {
     match precision {
         Precision::Double => 1e-4,

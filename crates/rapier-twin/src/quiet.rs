@@ -1,5 +1,6 @@
-//! Panics inside the engine are caught and become an error's message. The panic hook belongs to the process, not to a
-//! library: who owns the process asks here which panics need no words of its own.
+//! Panics inside the engine are caught and become an error's message.
+//! The panic hook belongs to the process, not to a library.
+//! A program can ask here which panics need no output of their own.
 
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -12,14 +13,15 @@ thread_local! {
 
 /// Whether the current thread is inside a step of the engine whose panic is caught and becomes an error.
 ///
-/// A program may ask this in its panic hook and stay silent then: the error says what the panic said. The hook runs on
-/// the thread that panics, before the panic is caught. This crate sets no hook.
+/// A program may ask this in its panic hook and print nothing then: the error contains the panic's message.
+/// The hook runs on the thread that panics, before the panic is caught.
+/// This crate sets no hook.
 #[must_use]
 pub fn is_guarded() -> bool {
     GUARDED.get()
 }
 
-/// Runs `action` and catches its panic. Inside of it [`is_guarded`] holds.
+/// Runs `action` and catches its panic. During the call [`is_guarded`] is true.
 pub(super) fn guarded<R>(action: impl FnOnce() -> R) -> thread::Result<R> {
     let before = GUARDED.replace(true);
     let outcome = catch_unwind(AssertUnwindSafe(action));
@@ -37,7 +39,7 @@ mod tests {
     const ALONE: &str = "LINKPROOF_TEST_OF_THE_PANIC_HOOK";
     const NAME: &str = "quiet::tests::the_hook_stays_the_process_own_and_can_tell_caught_panics";
 
-    /// Hooks belong to the process: the test runs again in one of its own.
+    /// Hooks belong to the process, so the test runs again in a separate one.
     #[test]
     fn the_hook_stays_the_process_own_and_can_tell_caught_panics() {
         static HEARD: AtomicUsize = AtomicUsize::new(0);
@@ -57,9 +59,9 @@ mod tests {
         assert_eq!(cause.downcast_ref(), Some(&"inside"));
         assert!(!is_guarded());
         assert!(guarded(is_guarded).unwrap());
-        // The hook was not changed: it hears every panic, and knows which are caught.
+        // The hook was not changed: it sees every panic, and knows which ones are caught.
         assert_eq!((HEARD.load(Ordering::SeqCst), CAUGHT.load(Ordering::SeqCst)), (1, 1));
-        // Another thread is guarded by its own steps only.
+        // Only its own steps guard another thread.
         let outside = guarded(|| thread::spawn(|| panic!("outside")).join()).unwrap();
         outside.unwrap_err();
         catch_unwind(|| panic!("outside")).unwrap_err();

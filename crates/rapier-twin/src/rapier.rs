@@ -1,4 +1,4 @@
-//! The engine: a build, a precision, settings.
+//! The engine: a build, a precision and settings.
 
 use super::build::{Build, Precision};
 use super::tree::Tree;
@@ -7,7 +7,7 @@ use linkage::case::Case;
 use linkage::engine::{Route, Settings};
 use linkage::error::Result;
 
-/// Rapier.
+/// The Rapier engine.
 #[derive(Clone, Copy, Debug)]
 pub struct Rapier {
     pub(super) build: Build,
@@ -16,14 +16,16 @@ pub struct Rapier {
 }
 
 impl Rapier {
-    /// Solver sweeps a step. With 256, random chains of three dyads keep a first-order error in their velocities that the ladder of
-    /// steps does not see; with 512 one in a hundred channels does, with 1024 none of those tried.
+    /// Solver sweeps per step.
+    /// With 256, random chains of three dyads keep a first-order error in their velocities.
+    /// Refining the step does not reveal it.
+    /// With 512, one channel in a hundred does; with 1024, none of those tried.
     pub const SWEEPS: usize = 1024;
-    /// Sweeps of the impulse build, whose errors go along the chain joint by joint: with 1024 `crank_rocker` keeps a first-order error in
-    /// its velocities, with 4096 none.
+    /// Sweeps of the impulse build, whose errors propagate along the chain joint by joint.
+    /// With 1024, `crank_rocker` keeps a first-order error in its velocities; with 4096, it does not.
     pub const IMPULSE_SWEEPS: usize = 4096;
 
-    /// The engine with the time step `step` (s) and else its default settings.
+    /// The engine with the time step `step` (s) and otherwise its default settings.
     #[must_use]
     pub fn new(build: Build, precision: Precision, step: f64) -> Self {
         let (substeps, route) = (1, Route::Differences);
@@ -44,7 +46,7 @@ impl Rapier {
         Rapier { settings: Settings { extrapolated: false, ..settings }, ..*self }
     }
 
-    /// Both builds in double precision, and in single where the feature `f32` is on; the default first.
+    /// Both builds in double precision, and in single precision if the feature `f32` is on. The default is first.
     #[must_use]
     pub fn all(step: f64) -> Vec<Self> {
         let of = |(build, precision)| Rapier::new(build, precision, step);
@@ -59,8 +61,8 @@ impl Rapier {
         kinds.map(of).to_vec()
     }
 
-    /// The bare world of a case in its start pose, at rest, with the tree given; `read` if its reactions will be read. For looking at
-    /// what Rapier itself does; a run is [`Solver::sweep`](linkage::solver::Solver::sweep).
+    /// The bare world of a case in its start pose, at rest, with the given tree; `read` if its reactions will be read.
+    /// Use it to look at what Rapier itself does; a run is [`Solver::sweep`](linkage::solver::Solver::sweep).
     ///
     /// # Errors
     /// [`ErrorKind::Unsupported`](linkage::ErrorKind::Unsupported) if Rapier refuses a joint.

@@ -1,17 +1,17 @@
-//! The last few steps of a run as rows of numbers, and values between them.
+//! The last steps of a run as rows of numbers, and interpolation between them.
 
 use std::ops::Range;
 
 use linkage::math::interpolate::{POINTS, lagrange_weights};
 
-/// Steps kept: six for the interpolation, one more on either side for second differences, room for readings that are stamped up to two steps late, and
-/// for the first steps of a free motion.
+/// Steps kept: six for the interpolation and one more on either side for second differences.
+/// There is also room for readings that are dated up to two steps late, and for the first steps of a free motion.
 pub(super) const NODES: usize = POINTS + 8;
 
-/// Instants within this many steps of a step are that step: grids and steps are computed differently.
+/// An instant within this share of a step from a step is that step: grids and steps are computed differently.
 const ON_A_STEP: f64 = 1e-9;
 
-/// A place between steps: the step at or before it, and how far behind that it is (0 to 1).
+/// A place between steps: the step at or before it, and the share of a step from there to the place (0 to 1).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place {
     pub(super) before: i64,
@@ -26,24 +26,24 @@ impl Place {
         Place { before: before as i64, share: if share < ON_A_STEP { 0.0 } else { share } }
     }
 
-    /// First step whose weight [`Place::weights`] gives.
+    /// First step that has a weight in [`Place::weights`].
     pub(super) fn first(self) -> i64 {
         self.before - 2
     }
 
-    /// The same place seen from no step before `lowest`: the share may then be negative.
+    /// The same place, counted from no step before `lowest`. The share may then be negative.
     pub(super) fn from(self, lowest: i64) -> Self {
         let before = self.before.max(lowest);
         Place { before, share: self.share + (self.before - before) as f64 }
     }
 
-    /// Weights of the six steps from [`Place::first`] on, for what lies `back` steps before this place.
+    /// Weights of the six steps from [`Place::first`] on, for the instant `back` steps before this place.
     pub(super) fn weights(self, back: f64) -> [f64; POINTS] {
         lagrange_weights(2.0 + self.share - back)
     }
 }
 
-/// Ring of the last steps.
+/// Ring buffer of the last steps.
 #[derive(Debug)]
 pub(super) struct Ring {
     width: usize,
@@ -52,7 +52,7 @@ pub(super) struct Ring {
 }
 
 impl Ring {
-    /// An empty ring of rows of `width` numbers; the first that is pushed is that of step `start`.
+    /// An empty ring of rows of `width` numbers. The first row pushed is that of step `start`.
     pub(super) fn new(width: usize, start: i64) -> Self {
         Ring { width, newest: start - 1, rows: vec![f64::NAN; NODES * width] }
     }
@@ -62,13 +62,13 @@ impl Ring {
         self.newest
     }
 
-    /// Makes room for the next step, and gives its row.
+    /// Makes room for the next step, and returns its row.
     pub(super) fn push(&mut self) -> &mut [f64] {
         self.newest += 1;
         self.row_mut(self.newest)
     }
 
-    /// Goes on to the next step without a row: what a row holds in its place is that of an earlier step.
+    /// Advances to the next step without a row: its place keeps the row of an earlier step.
     pub(super) fn skip(&mut self) {
         self.newest += 1;
     }
@@ -87,7 +87,7 @@ impl Ring {
         &mut self.rows[at..at + self.width]
     }
 
-    /// A part of the rows from step `first` on, weighed together.
+    /// Weighted sum of a part of the rows from step `first` on.
     pub(super) fn weigh(&self, first: i64, weights: &[f64], part: Range<usize>, into: &mut [f64]) {
         into.fill(0.0);
         for (k, weight) in weights.iter().enumerate().filter(|(_, weight)| **weight != 0.0) {

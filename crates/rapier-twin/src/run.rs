@@ -1,4 +1,4 @@
-//! One run: worlds side by side in time, and what is read of them.
+//! One run: worlds in parallel in simulated time, and what is read from them.
 
 use super::build::Build;
 use super::free::{self, Acting};
@@ -17,12 +17,12 @@ use linkage::math::KeepNan;
 use linkage::solver::{Progress, State, Visit, check_instants};
 use linkage::trajectory::Stage;
 
-/// Steps that the transient of a start or of a turn-about takes to fall below rounding (one does; the rest is margin).
+/// Steps until the transient of a start or of a reversal falls below rounding (one is enough; the rest is margin).
 const SETTLING_STEPS: i64 = 3;
 /// More steps than this are refused: they would take minutes, and most likely a unit is wrong.
 const MAX_STEPS: f64 = 2e7;
 
-/// What reactions and moments come from.
+/// Source of reactions and moments.
 enum Reader<'a> {
     Nothing,
     Differences(NewtonEuler),
@@ -77,7 +77,7 @@ pub(super) fn sweep(engine: &Rapier, case: &Case, visit: Visit, progress: Progre
     })
 }
 
-/// Says how far the run has come: what has been visited stands.
+/// Adds how far the run has come; the rows visited so far are valid.
 fn reached(error: Error, case: &Case, visited: Option<usize>) -> Error {
     let (Some(row), ErrorKind::Numeric) = (visited, error.kind()) else { return error };
     let until = match case.is_free() {
@@ -90,17 +90,17 @@ fn reached(error: Error, case: &Case, visited: Option<usize>) -> Error {
 struct Run<'a> {
     case: &'a Case,
     settings: Settings,
-    /// Whether all drives turn with constant speeds, which are set once.
+    /// Whether all drives turn with constant speeds, which are set only once.
     steady: bool,
     step: f64,
     start: i64,
-    /// The first moves the mechanism; the others only report joints that the first does not.
+    /// The first world moves the mechanism. The others only report joints that the first does not.
     worlds: Vec<Guard<'a>>,
     window: Window,
     /// First step that the window needs for the next sample.
     needed: i64,
     reader: Reader<'a>,
-    /// In a free motion.
+    /// Motor and loads, in a free motion.
     acting: Option<Acting>,
 }
 
@@ -137,8 +137,9 @@ impl<'a> Run<'a> {
             Some(Route::Differences) => Reader::Differences(NewtonEuler::new(case)),
             Some(Route::Native) => Reader::Native(Native::new(case, &worlds, settings, reports_from)),
             Some(Route::Probe) => {
-                // Put into a pose, a world has no gap to correct in its first substep and that of the first in its second, whose impulses would hold all
-                // of that correction: a tiny step is not divided.
+                // A world placed in a pose has no gap to correct in its first substep.
+                // In the second substep it corrects the gap of the first, and the impulses would contain all of that correction.
+                // So a tiny step is not divided.
                 let engine = engine.set(Settings { substeps: 1, ..*settings });
                 let probed: Result<Vec<Guard>> = reporting()
                     .into_iter()
@@ -162,7 +163,7 @@ impl<'a> Run<'a> {
         })
     }
 
-    /// Gives all worlds of a free motion their velocities at the start.
+    /// Gives all worlds of a free motion their start velocities.
     fn begin(&mut self) -> Result<()> {
         let Some(acting) = &mut self.acting else { return Ok(()) };
         self.window = free::begin(self.case, acting, &mut self.worlds, &self.settings)?;
@@ -171,7 +172,7 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// Drives all worlds backwards from the start to where they turn about.
+    /// Drives all worlds backwards from the start to where they reverse.
     fn back_up(&mut self) -> Result<()> {
         for guard in &mut self.worlds {
             guard.drive_on(0.0, -self.step);
@@ -207,15 +208,15 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// Looks ahead to a sample at `t`, and gives the last step that it needs.
+    /// Prepares for a sample at `t` (s), and returns the last step that it needs.
     fn aim(&mut self, t: f64) -> i64 {
         let [first, last] = self.window.needs(t);
-        // What acts in a free motion is found from every step.
+        // In a free motion every step is needed to find motor and loads.
         self.needed = if self.acting.is_some() { i64::MIN } else { first };
         last
     }
 
-    /// Takes what the worlds show after a step.
+    /// Stores the worlds' state after a step.
     fn take(&mut self) {
         if self.window.newest() + 1 < self.needed {
             self.window.skip();

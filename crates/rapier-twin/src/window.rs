@@ -1,4 +1,4 @@
-//! The last few steps of a run, and the motion between them.
+//! The last steps of a run, and the motion between them.
 
 use super::guard::Guard;
 use super::ring::{Place, Ring};
@@ -11,49 +11,53 @@ use linkage::mechanism::{JointKind, LinkPose};
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 
-/// Numbers a link: position of the mass centre and angle, or their rates. A row has those of all links, then the rates of all links.
+/// Numbers for each link: position of the mass centre and angle, or their rates.
+/// A row has those of all links, then the rates of all links.
 const WIDTH: usize = 3;
 
-/// Steps at the beginning of a free motion whose accelerations are not the motion's. Bodies of their own (`plain`) close the gaps of the first step in the
-/// second. In a multibody nothing is seen of that; but links that move at once have no step before the first, only a straight line that leads there, and the
-/// first step takes no account of how transfer functions change.
+/// Steps at the beginning of a free motion whose accelerations are not those of the motion.
+/// Separate bodies (`plain`) close the gaps of the first step in the second.
+/// A multibody does not show this.
+/// But links with an initial speed have no step before the first, only a straight line that leads to it.
+/// The first step also ignores how the transfer functions change.
 pub(super) fn first_steps(case: &Case, plain: bool) -> i64 {
     let moving = case.drives.iter().any(|drive| drive.initial_speed() != 0.0);
     if plain || moving { 2 } else { 0 }
 }
 
-/// The motion of the last steps, filled as the run goes on.
+/// The motion of the last steps, filled as the run proceeds.
 #[derive(Debug)]
 pub(super) struct Window {
     step: f64,
     substeps: usize,
-    /// Whether the engine's velocities are those at the start of a step: so they are where drives turn with constant speeds.
+    /// Whether the engine's velocities are those at the start of a step.
+    /// This holds if drives turn with constant speeds.
     steady: bool,
-    /// The deepest stage that is wanted: what lies beyond it is left out.
+    /// The deepest stage that is wanted; later stages are not computed.
     deepest: Stage,
     /// Whether the engine's velocities are read.
     rated: bool,
     ring: Ring,
-    /// Velocity and angular velocity of every link while they are carried along the tree.
+    /// Velocity and angular velocity of every link while they are propagated along the tree.
     rates: Vec<(Vec2, f64)>,
-    /// Steps before which interpolation between positions and between their second differences may not be centred: it reaches two and three steps
-    /// farther back.
+    /// Lowest steps about which interpolation may be centred, for positions and for their second differences.
+    /// It reaches two and three steps farther back.
     lowest: i64,
     settled: i64,
-    /// Mass centre and angle of every link at the instant that the velocities belong to, and directions of the links of the tree.
+    /// Mass centre and angle of every link at the instant that the velocities belong to, and directions of the tree's links.
     poses: Vec<[f64; WIDTH]>,
     directions: Vec<Vec2>,
-    /// Positions, rates and accelerations of a sample, a row each.
+    /// Positions, rates and accelerations of a sample, one row for each link.
     sample: [Vec<[f64; WIDTH]>; 3],
 }
 
 impl Window {
-    /// Steps that must lie before the one at or before an instant.
+    /// Steps needed before the step at or before an instant.
     pub(super) const BEHIND: i64 = 3;
-    /// Steps that must lie after it.
+    /// Steps needed after it.
     pub(super) const AHEAD: i64 = 4;
 
-    /// An empty window of a run whose first state, pushed next, is that of step `start`.
+    /// An empty window of a run. The first state, pushed next, is that of step `start`.
     pub(super) fn new(case: &Case, settings: &Settings, start: i64) -> Self {
         let links = case.mechanism.links().len();
         let (steady, deepest) = (case.is_steady(), case.wanted.deepest());
@@ -74,10 +78,11 @@ impl Window {
         }
     }
 
-    /// A window of a free motion, which begins at step 0 with the pose and the velocities of a world. Before it lies one step that leads there
-    /// without acceleration.
+    /// A window of a free motion. It begins at step 0 with the pose and the velocities of a world.
+    /// Before it lies one step that leads there without acceleration.
     pub(super) fn beginning(case: &Case, settings: &Settings, guard: &Guard) -> Self {
-        // There is nothing to interpolate before the beginning; of first order the velocities are wherever in the step they belong.
+        // There is nothing to interpolate before the beginning.
+        // To first order it does not matter where in the step the velocities belong.
         let mut window = Window::new(case, &Settings { substeps: 1, ..*settings }, -1);
         (window.lowest, window.settled) = (2, 2 + first_steps(case, guard.world().tree().branches.is_empty()));
         window.rated = true;
@@ -92,7 +97,7 @@ impl Window {
         window
     }
 
-    /// Steps that the start must lie farther back: with several substeps, poses between steps are needed for every step.
+    /// Additional steps before the start: with several substeps, every step needs poses between steps.
     pub(super) fn extra(substeps: usize) -> i64 {
         if substeps > 1 { POINTS as i64 - 2 } else { 0 }
     }
@@ -112,8 +117,9 @@ impl Window {
         [before - Self::BEHIND - Self::extra(self.substeps), before + Self::AHEAD]
     }
 
-    /// Takes the state after a step. Poses belong to this step, the engine's velocities to the start of its last substep: without substeps
-    /// to the step before.
+    /// Stores the state after a step.
+    /// Poses belong to this step, and the engine's velocities to the start of its last substep.
+    /// Without substeps that is the step before.
     pub(super) fn push(&mut self, guard: &Guard, case: &Case) {
         let (row, _) = self.ring.push().as_chunks_mut();
         for (own, (centre, frame)) in row.iter_mut().zip(guard.centres().iter().zip(guard.frames())).skip(1) {
@@ -124,12 +130,12 @@ impl Window {
         }
     }
 
-    /// Lets a step pass that no sample needs.
+    /// Passes over a step that no sample needs.
     pub(super) fn skip(&mut self) {
         self.ring.skip();
     }
 
-    /// Where all links were at the instant that the engine's velocities belong to.
+    /// Finds the poses of all links at the instant that the engine's velocities belong to.
     fn place_rates(&mut self) {
         let (newest, part) = (self.ring.newest(), 0..self.poses.len() * WIDTH);
         let poses = self.poses.as_flattened_mut();
@@ -141,7 +147,7 @@ impl Window {
         self.ring.weigh(newest + 1 - POINTS as i64, &weights, part, poses);
     }
 
-    /// Carries the joints' speeds from the ground along the tree, over the poses of the instant they belong to.
+    /// Propagates the joints' speeds from the ground along the tree, with the poses of the instant they belong to.
     fn carry_rates(&mut self, world: &dyn World, case: &Case) {
         let branches = &world.tree().branches;
         if !branches.is_empty() {
@@ -181,7 +187,7 @@ impl Window {
         }
     }
 
-    /// The newest pose, with the velocities that led there: differences of positions over a step.
+    /// The newest pose, with the velocities that led there: differences of positions over one step.
     pub(super) fn newest_motion(&self, case: &Case, state: &mut State) {
         let (now, before) = (self.ring.row(self.newest()), self.ring.row(self.newest() - 1));
         for (link, body) in case.mechanism.links().iter().enumerate().skip(1) {
@@ -214,9 +220,11 @@ impl Window {
         }
     }
 
-    /// The motion of all links at `t`: positions and rates interpolated between steps, accelerations from centred second
-    /// differences of the positions, as far as they are wanted. With drives whose speed changes, rates are centred first differences of the positions: the engine drives
-    /// through a step with the step's mean speed, but from the pose at its start.
+    /// The motion of all links at `t` (s), as far as it is wanted.
+    /// Positions and rates are interpolated between steps.
+    /// Accelerations come from centred second differences of the positions.
+    /// If drive speeds change, rates are centred first differences of the positions.
+    /// The engine then drives through a step with the step's mean speed, but from the pose at its start.
     pub(super) fn sample(&mut self, case: &Case, t: f64, state: &mut State) {
         let place = self.place(t);
         let weights = place.weights(0.0);
@@ -224,7 +232,7 @@ impl Window {
         let part = 0..positions.len();
         self.ring.weigh(place.first(), &weights, part.clone(), positions);
         if self.deepest >= Stage::Velocities && self.steady {
-            // The velocities of a row belong to an instant after its step, but for that without substeps.
+            // With several substeps the velocities of a row belong to an instant after its step.
             let late = 1.0 - 1.0 / self.substeps as f64;
             let weights = if self.substeps == 1 { weights } else { place.weights(late) };
             self.ring.weigh(place.first(), &weights, part.end..2 * part.end, rates);
@@ -237,7 +245,7 @@ impl Window {
             self.ring.weigh(place.before - Self::BEHIND, &first.map(|first| first / self.step), part.clone(), rates);
         }
         if self.deepest >= Stage::Accelerations {
-            // What the first steps of a free motion do to close gaps is left out of the second differences.
+            // The second differences leave out the first steps of a free motion, which close gaps.
             let settled = place.from(self.settled);
             let weights = if settled.before == place.before { weights } else { settled.weights(0.0) };
             let mut second = [0.0; POINTS + 2];

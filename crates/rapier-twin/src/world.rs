@@ -1,4 +1,4 @@
-//! A mechanism as a Rapier world, whatever its build and its precision.
+//! A mechanism as a Rapier world, independent of build and precision.
 
 use std::f64::consts::TAU;
 
@@ -12,14 +12,14 @@ use linkage::mechanism::{GROUND, Joint, JointKind, Link, LinkPose, Side};
 /// What is known of a link's angle (rad, counter-clockwise positive).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LinkAngle {
-    /// The angle itself, turns kept: of a link of the tree, the sum of the coordinates that lead there.
+    /// The angle itself, turns counted. For a link of the tree it is the sum of the coordinates that lead there.
     Whole(f64),
-    /// Whole turns (rad), to be added to the angle of the link's direction between -pi and pi: a body of its own has a direction only, whose arc
-    /// tangent is left to those who ask for it.
+    /// Whole turns (rad), to be added to the angle of the link's direction between -pi and pi.
+    /// A separate body has a direction only; the arc tangent is computed on demand.
     Turns(f64),
 }
 
-/// Frame of a link as the engine has it after a step.
+/// Frame of a link in the engine after a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinkFrame {
     /// World position of the frame's origin (m).
@@ -31,14 +31,15 @@ pub struct LinkFrame {
 }
 
 impl LinkFrame {
-    /// The ground's.
+    /// The ground's frame.
     pub const GROUND: LinkFrame =
         LinkFrame { origin: Vec2::new(0.0, 0.0), direction: Vec2::new(1.0, 0.0), angle: LinkAngle::Whole(0.0) };
 
-    /// Chord of a turn (rad) below which the chord is taken for the turn: it is less by the square of the turn over 24.
+    /// Chord of a rotation (rad) below which the chord is taken for the rotation.
+    /// The chord is less than the rotation by the square of the rotation over 24.
     const SMALL: f64 = 0.1;
 
-    /// Angle of the frame's x axis (rad), turns kept.
+    /// Angle of the frame's x axis (rad), turns counted.
     #[must_use]
     pub fn angle(&self) -> f64 {
         match self.angle {
@@ -54,8 +55,8 @@ impl LinkFrame {
         self.origin + rotated(self.direction, local)
     }
 
-    /// By how much the link has turned since it was `before` (rad, without sign), to within 4 parts in ten thousand; where only turns are
-    /// counted, at most half a turn.
+    /// Rotation of the link since the frame `before` (rad, without sign), to within 4 parts in ten thousand.
+    /// If only turns are counted, it is at most half a turn.
     #[inline]
     #[must_use]
     pub fn turn_since(&self, before: &LinkFrame) -> f64 {
@@ -69,13 +70,13 @@ impl LinkFrame {
         cross(before.direction, self.direction).atan2(before.direction.dot(&self.direction)).abs()
     }
 
-    /// Takes the place of a body of its own after a step, in which it has turned by less than half a turn.
+    /// Takes the position of a separate body after a step in which it has turned by less than half a turn.
     #[inline]
     pub(super) fn follow(&mut self, origin: Vec2, direction: Vec2) {
         if let LinkAngle::Turns(turns) = &mut self.angle
             && (self.direction.y < 0.0) != (direction.y < 0.0)
         {
-            // Across the x axis; to the left of the origin the direction's own angle jumps there by a turn.
+            // The direction crosses the x axis. On the negative side its own angle jumps there by a full turn.
             let turn = cross(self.direction, direction);
             if turn > 0.0 && direction.y < 0.0 {
                 *turns += TAU;
@@ -86,7 +87,7 @@ impl LinkFrame {
         (self.origin, self.direction) = (origin, direction);
     }
 
-    /// Takes a place whose angle is `angle` (rad) but for rounding.
+    /// Takes a position whose angle is `angle` (rad) except for rounding.
     pub(super) fn put(&mut self, origin: Vec2, direction: Vec2, angle: f64) {
         (self.origin, self.direction) = (origin, direction);
         self.angle = match self.angle {
@@ -96,43 +97,48 @@ impl LinkFrame {
     }
 }
 
-/// Angle of a direction (rad), from -pi to pi; exactly to the left it is pi, whatever the sign of its zero.
+/// Angle of a direction (rad), from -pi to pi. Along -x it is pi, whatever the sign of the zero y component.
 fn own_angle(direction: Vec2) -> f64 {
     (direction.y + 0.0).atan2(direction.x)
 }
 
-/// The Rapier world of a case: links in its tree as one multibody, the others as bodies of their own, joints that the tree cuts as impulse
-/// joints, every drive as a motor of its own so that its impulse can be read. All numbers are f64, SI, world axes.
+/// The Rapier world of a case.
+/// Links in its tree form one multibody, and the others are separate bodies.
+/// Joints that the tree cuts are impulse joints.
+/// Every drive has its own motor so that its impulse can be read.
+/// All numbers are f64, SI, world axes.
 pub trait World {
-    /// The spanning tree; without branches every link is a body of its own.
+    /// The spanning tree; without branches every link is a separate body.
     fn tree(&self) -> &Tree;
 
-    /// One time step of Rapier, after which frames can be read: it may fail to close loops, and may panic.
+    /// One time step of Rapier, after which frames can be read. It may fail to close loops, and may panic.
     fn step(&mut self);
 
-    /// Rapier's own step and nothing else: frames stay what they were.
+    /// Only Rapier's own step: frames are not updated.
     fn bare_step(&mut self);
 
     /// Sets the time step (s).
     fn set_step(&mut self, step: f64);
 
-    /// Sets the angular velocity (rad/s, counter-clockwise positive) that a drive, by its number in [`drives`](linkage::case::CaseParts::drives), gives its link.
+    /// Sets the angular velocity (rad/s, counter-clockwise positive) that a drive gives its link.
+    /// The drive is given by its index in [`drives`](linkage::case::CaseParts::drives).
     fn set_drive(&mut self, drive: usize, omega: f64);
 
-    /// Leaves a drive to a motor: moment (N m) on its link of `damping` (N m s/rad, not negative) times what `target` (rad/s) is ahead of the speed at the END of
-    /// the step.
+    /// Replaces a prescribed speed by a motor.
+    /// The moment on the link (N m) is `damping` (N m s/rad, not negative) times the speed that is missing to `target` (rad/s).
+    /// The speed that counts is the one at the END of the step.
     fn set_motor(&mut self, drive: usize, target: f64, damping: f64);
 
-    /// Sets the loads on a link, which stay until they are set again.
+    /// Sets the loads on a link. They stay until they are set again.
     fn set_load(&mut self, link: usize, load: Wrench);
 
-    /// Puts all links into poses; velocities stay as they are.
+    /// Moves all links into the given poses; velocities stay as they are.
     fn place(&mut self, poses: &[LinkPose]);
 
-    /// Frames of all links after the last step or placing, in the mechanism's order; the ground's first.
+    /// Frames of all links after the last step or placement, in the mechanism's order, the ground's first.
     fn frames(&self) -> &[LinkFrame];
 
-    /// Angle of a link's frame (rad), turns kept.
+    /// Angle of a link's frame (rad), turns counted.
     fn angle(&self, link: usize) -> f64 {
         self.frames()[link].angle()
     }
@@ -142,33 +148,39 @@ pub trait World {
         self.frames()[side.link].point(side.local)
     }
 
-    /// Speed of the joint of branch `index` of the tree, as it stood at the START of the last step (Rapier reports velocities
-    /// one step late): angular velocity of the child less that of its parent (rad/s), or of a prismatic joint, speed of the
-    /// child along the parent's axis (m/s).
+    /// Speed of the joint of branch `index` of the tree, as it was at the START of the last step.
+    /// (Rapier reports velocities one step late.)
+    /// It is the angular velocity of the child minus that of its parent (rad/s).
+    /// For a prismatic joint it is the speed of the child along the parent's axis (m/s).
     fn relative_speed(&self, index: usize) -> f64;
 
-    /// Velocity of the mass centre (m/s) and angular velocity (rad/s) of a link that is a body of its own, one step late likewise;
-    /// `None` for links of the tree.
+    /// Velocity of the mass centre (m/s) and angular velocity (rad/s) of a link that is a separate body.
+    /// They too are one step late. `None` for links of the tree.
     fn velocity(&self, link: usize) -> Option<(Vec2, f64)>;
 
-    /// Reaction in a joint that the tree cuts, from the impulses of the last step: force of the first link on the second (N) and
-    /// moment about the place on the second (N m); `None` for joints of the tree, which report none. Only in a world built to be read.
+    /// Reaction in a joint that the tree cuts, from the impulses of the last step.
+    /// It is the force of the first link on the second (N) and the moment about the point on the second (N m).
+    /// `None` for joints of the tree, which report none.
+    /// The world must have been built for reading reactions.
     fn reaction(&self, joint: usize) -> Option<(Vec2, f64)>;
 
-    /// Moment of a drive on its link (N m), from the motor's impulse in the last step.
+    /// Driving moment on the drive's link (N m), from the motor's impulse in the last step.
     fn torque(&self, drive: usize) -> f64;
 }
 
-/// Moment of inertia that driving links have on top of their own, in units of all masses times the square of the mechanism's size. A
-/// link whose speed is prescribed may have any moment of inertia: it enters neither motion nor reactions, and the drive's moment only where the
-/// speed changes, from which it is taken off again ([`Ghost`](super::ghost::Ghost)). With a
-/// heavy one, the drives' rows hardly feel those of the loops, and the sweeps converge: on a four-bar whose coupler is thirteen times as
-/// heavy as its crank, 32 of them do what 1024 do without. Ten times as much brings no more.
+/// Additional moment of inertia of driving links, in units of all masses times the square of the mechanism's size.
+/// A link with prescribed speed may have any moment of inertia: it affects neither motion nor reactions.
+/// It affects the driving moment only where the speed changes, and is subtracted there ([`Ghost`](super::ghost::Ghost)).
+/// With a large one, the drives' rows hardly depend on those of the loops, and the sweeps converge.
+/// On a four-bar whose coupler is thirteen times as heavy as its crank, 32 sweeps then do what 1024 do without it.
+/// Ten times as much gives no further gain.
 const FLYWHEEL: f64 = 1.0;
 
-/// Mass (kg) and moment of inertia (kg m^2) that every link is given in Rapier, which cannot move a body without them, flywheels left
-/// out. Under a prescribed speed the motion does not depend on the masses; what they add to reactions that are read is taken off
-/// again ([`Ghost`](super::ghost::Ghost)). In a free motion they are the links' own, and the crank carries rotor and reducer.
+/// Mass (kg) and moment of inertia (kg m^2) of every link in Rapier, without flywheels.
+/// Rapier cannot move a body without them.
+/// Under a prescribed speed the motion does not depend on the masses.
+/// What they add to the reactions is subtracted again ([`Ghost`](super::ghost::Ghost)).
+/// In a free motion they are the links' own, and the crank also carries rotor and gearbox.
 pub(super) fn masses(case: &Case) -> Vec<[f64; 2]> {
     let of = |(index, link): (usize, &Link)| {
         let [mass, inertia] = stand_in(case, index);
@@ -180,7 +192,7 @@ pub(super) fn masses(case: &Case) -> Vec<[f64; 2]> {
     masses
 }
 
-/// The same with flywheels on the driving links whose speed is prescribed.
+/// The same, with flywheels on the driving links whose speed is prescribed.
 pub(super) fn masses_with_flywheels(case: &Case) -> Vec<[f64; 2]> {
     let mut masses = masses(case);
     if case.is_free() {
@@ -194,8 +206,8 @@ pub(super) fn masses_with_flywheels(case: &Case) -> Vec<[f64; 2]> {
     masses
 }
 
-/// How far a joint is open (m) between links with the frames given; an angle between the axes of a prismatic joint counts at the mechanism's
-/// size `size` (m).
+/// Opening of a joint (m) between links with the given frames.
+/// An angle between the axes of a prismatic joint is multiplied by the mechanism's size `size` (m).
 #[inline]
 pub(super) fn opening(frames: &[LinkFrame], joint: &Joint, size: f64) -> f64 {
     let sides = [joint.first, joint.second];
@@ -216,7 +228,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// From anywhere, by steps of any size below half a turn either way.
+        /// From any angle, by steps of any size below half a turn in both senses.
         #[test]
         fn turns_are_counted(start in -20.0f64..20.0, steps in prop::collection::vec(-3.1f64..3.1, 1..40)) {
             let mut frame = LinkFrame { angle: LinkAngle::Turns(0.0), ..LinkFrame::GROUND };
@@ -234,7 +246,7 @@ mod tests {
         }
     }
 
-    /// Onto the axis from either side, with either zero, and off it again.
+    /// Onto the axis from either side, with a zero of either sign, and off it again.
     #[test]
     fn turns_are_counted_on_the_axis() {
         let back = |y: f64| Vec2::new(-1.0, y);

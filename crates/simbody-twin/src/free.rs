@@ -1,4 +1,4 @@
-//! A free motion: motor and loads as forces that Simbody asks for at every evaluation.
+//! A free motion: motor and loads as forces that Simbody requests at every evaluation.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -16,11 +16,11 @@ use linkage::solver::State;
 /// Starts the run of a free motion at t = 0.
 ///
 /// # Errors
-/// Those of [`check_inertias`], and whatever keeps Simbody from the start.
+/// Those of [`check_inertias`], and whatever prevents Simbody from starting.
 pub(super) fn start(case: &Case, settings: Settings) -> Result<(Linkage, Run)> {
     check_inertias(case, "Simbody")?;
     let wrong = |message: String| Error::new(ErrorKind::Input, format!("Simbody cannot take the mechanism: {message}"));
-    // Driven at the initial speeds, all other links show theirs.
+    // A model driven at the initial speeds gives the rates of all other links.
     let driven = Linkage::new(case, 1.0, None).map_err(wrong)?;
     let told = |failure| stopped(case, &driven, 1.0, &failure);
     let rates: Vec<f64> = {
@@ -39,7 +39,7 @@ pub(super) fn start(case: &Case, settings: Settings) -> Result<(Linkage, Run)> {
     if !case.loads.iter().any(|load| load.sensed_link().is_some()) {
         return Ok((linkage, run));
     }
-    // Links at rest set off where they are accelerated without the loads that ask for it.
+    // Links at rest start in the sense in which they are accelerated without the loads that need that sense.
     let mut state = State::at_rest(case);
     let found = run.read(false).map_err(|failure| stopped(case, &linkage, 1.0, &failure))?;
     linkage.motion(&found.bodies, &mut state);
@@ -51,7 +51,8 @@ pub(super) fn start(case: &Case, settings: Settings) -> Result<(Linkage, Run)> {
     Ok((linkage, run))
 }
 
-/// Motor and loads at positions and velocities of Simbody's; a link at rest has its load against the sense in which it sets off.
+/// Motor and loads at positions and velocities of Simbody.
+/// A link at rest gets its load against the sense in which it will start.
 fn acting(case: &Case, linkage: &Linkage, setting_off: Rc<RefCell<Vec<f64>>>) -> Act {
     let (case, linkage) = (case.clone(), linkage.clone());
     let mut state = State::at_rest(&case);

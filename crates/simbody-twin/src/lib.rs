@@ -1,8 +1,9 @@
-//! Simbody: bodies on mobilizers, loops closed by constraints, an integrator that controls its error. It shares no code with the
-//! other engines, and none of its numbers are derived here: motion, reactions and drives' moments are Simbody's own.
+//! Simbody as an engine: bodies on mobilizers, loops closed by constraints, an integrator that controls its error.
+//! It shares no code with the other engines.
+//! None of its results are derived here: motion, reactions and driving moments are Simbody's own.
 //!
-//! It takes from the case its geometry, masses, drive and the pose at t = 0, nothing later. Instants before t = 0 are reached by a second
-//! run whose time goes the other way.
+//! It takes only these from the case: geometry, masses, drive and the pose at t = 0, nothing later.
+//! A second run with reversed time covers the instants before t = 0.
 
 mod free;
 mod model;
@@ -21,27 +22,29 @@ use linkage::trajectory::{Channel, ChannelKind, Stage};
 use model::Linkage;
 use stopped::stopped;
 
-/// Constraint tolerance as a share of how far the mechanism reaches from the origin. Under prescribed motion the pose follows from the
-/// constraints alone, so nothing is won by a looser one. Projections aim at a tenth of it, and rounding keeps them from less: on
-/// `fourth_class` they fail at 1e-14.
+/// Constraint tolerance as a share of how far the mechanism extends from the origin.
+/// Under prescribed motion the pose follows from the constraints alone, so a looser tolerance has no benefit.
+/// Projections aim at a tenth of it, and rounding prevents a smaller one: on `fourth_class` they fail at 1e-14.
 const TOLERANCE: f64 = 1e-12;
-/// Share of the mechanism's size to which the start pose may be open: far more than rounding, less than anyone would notice.
+/// Largest opening of the start pose as a share of the mechanism's size.
+/// It is far more than rounding, and too small to matter.
 const LARGEST_GAP: f64 = 1e-9;
-/// Internal steps allowed for a radian of the crank, or between two instants nearer than that, at the default accuracy; `ov7_base` takes 200 of
-/// them, and 14 000 at 1e-14. Before a dead point the integrator would creep on for hours.
+/// Internal steps allowed per radian of crank angle, or between two closer instants, at the default accuracy.
+/// `ov7_base` takes 200 of them, and 14 000 at 1e-14.
+/// Without a limit the integrator would take hours in tiny steps near a dead point.
 const MAX_STEPS: f64 = 2000.0;
 
-/// Simbody 3.
+/// Simbody 3 as an engine.
 #[derive(Clone, Copy, Debug)]
 pub struct Simbody {
     accuracy: f64,
 }
 
 impl Simbody {
-    /// Accuracy if nothing else is asked for. Steps are then about a degree of the crank: projections start close to their branch.
+    /// Default accuracy. Steps are then about a degree of the crank, so projections start close to their assembly mode.
     pub const ACCURACY: f64 = 1e-8;
 
-    /// The engine with the given accuracy of its integrator (a share of what coordinates usually are: 1 rad or 1 m).
+    /// The engine with the given accuracy of its integrator (a share of the usual coordinates: 1 rad or 1 m).
     #[must_use]
     pub fn new(accuracy: f64) -> Self {
         Simbody { accuracy }
@@ -73,7 +76,7 @@ impl Simbody {
             accuracy: self.accuracy,
             tolerance: tolerance(case),
             time_scale: 1.0 / case.drives.top_speed(),
-            // An error of fourth order a step.
+            // The error of a step is of fourth order.
             steps: (MAX_STEPS * (Simbody::ACCURACY / self.accuracy).larger(1.0).powf(0.25)) as usize,
         }
     }
@@ -90,7 +93,7 @@ impl Engine for Simbody {
     }
 
     fn with(&self, settings: Settings) -> Box<dyn Engine> {
-        // It has no sweeps and no substeps, one route, and nothing to extrapolate.
+        // Simbody has no sweeps and no substeps, one route, and nothing to extrapolate.
         let Settings { resolution: accuracy, sweeps: _, substeps: _, route: _, extrapolated: _ } = settings;
         Box::new(Simbody { accuracy })
     }
@@ -104,7 +107,7 @@ impl Engine for Simbody {
     }
 
     fn formal_order(&self, _: &Case, _: &ChannelKind) -> f64 {
-        // Errors are held in proportion to the accuracy.
+        // Errors are proportional to the accuracy.
         1.0
     }
 
@@ -147,7 +150,7 @@ impl Solver for Simbody {
         let (total, mut done) = (ends[0] + ends[1], 0.0);
         let backwards: Vec<usize> = before.iter().rev().copied().collect();
         let mut state = State::at_rest(case);
-        // Resistances are forces of Simbody's own; the others are set wherever reactions are read.
+        // Resistances are forces inside Simbody; the other loads are set wherever reactions are read.
         let others = case.with(|parts| parts.loads = other_loads(case))?;
         let mut wrenches = vec![Wrench::ZERO; case.mechanism.links().len()];
         for (sense, rows, end) in [(-1.0, backwards.as_slice(), ends[0]), (1.0, after, ends[1])] {
@@ -166,10 +169,10 @@ impl Solver for Simbody {
                     run.load(&loads).map_err(|failure| stopped(case, &linkage, sense, &failure))?;
                 }
                 let found = run.read(reactions).map_err(|failure| stopped(case, &linkage, sense, &failure))?;
-                // Written so that NaN stops the run too.
+                // Written so that NaN also stops the run.
                 if !found.loops.iter().all(|closed| closed.gap <= 2.0 * tolerance(case)) {
                     let gaps: Vec<f64> = found.loops.iter().map(|closed| closed.gap).collect();
-                    // Written so that NaN is the largest.
+                    // Written so that NaN counts as the largest.
                     let widest = gaps
                         .iter()
                         .copied()
@@ -195,22 +198,22 @@ impl Solver for Simbody {
     }
 }
 
-/// Loads that are no forces of Simbody's own.
+/// Loads that are not forces inside Simbody.
 fn other_loads(case: &Case) -> Vec<Load> {
     match case.is_free() {
-        // Then all of them act all the time.
+        // In a free motion all loads act all the time.
         true => Vec::new(),
         false => case.loads.iter().filter(|load| load.resistance().is_none()).cloned().collect(),
     }
 }
 
-/// Largest error of a constraint (m).
+/// Largest constraint error (m).
 fn tolerance(case: &Case) -> f64 {
     let size = case.mechanism.size();
     TOLERANCE * case.start.0.iter().fold(size, |most: f64, pose| most.larger(pose.origin.norm()))
 }
 
-/// That the start pose is closed. Simbody would assemble another one nearby without a word.
+/// Checks that the start pose is closed. Simbody would silently assemble another one nearby.
 fn check_start(case: &Case) -> Result<()> {
     let closure = case.start.closure(&case.mechanism);
     if closure <= LARGEST_GAP * case.mechanism.size() {

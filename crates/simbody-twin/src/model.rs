@@ -1,4 +1,4 @@
-//! A mechanism in Simbody's terms: what hangs on what, which joints close loops, what is prescribed.
+//! A mechanism as a Simbody model: the tree of bodies, the joints that close loops, and the prescribed motion.
 
 use linkproof_simbody::{Body, BodyState, Closing, Inertia, Joint, Law, LoopState, Model};
 
@@ -10,33 +10,35 @@ use linkage::mechanism;
 use linkage::mechanism::spanning_tree::{Branch, Tree, coordinate};
 use linkage::solver::State;
 
-/// The model of a case, and what links its numbers with the mechanism's.
+/// The model of a case, and the mapping from its numbers to the mechanism's.
 #[derive(Clone, Debug)]
 pub(super) struct Linkage {
-    /// For Simbody: bodies in the order of the tree's branches, loops in that of its cuts.
+    /// Simbody's model: bodies in the order of the tree's branches, loops in the order of its cuts.
     pub(super) model: Model,
-    /// All drives are in it.
+    /// The spanning tree, which contains all drives.
     pub(super) tree: Tree,
     /// +1 forwards, -1 backwards in time.
     sense: f64,
-    /// Angle of the child less that of its parent (rad) of every branch whose joint keeps it.
+    /// Angle of the child minus that of its parent (rad), for every branch whose joint keeps it constant.
     twists: Vec<Option<f64>>,
 }
 
 impl Linkage {
-    /// The case's mechanism in its start pose. With `sense` -1 time runs backwards: drives turn the other way, resistance is with the
-    /// motion, and all else is the same.
+    /// The case's mechanism in its start pose.
+    /// With `sense` -1 time runs backwards.
+    /// Drives then turn the other way and resistance acts with the motion; all else is the same.
     ///
     /// # Errors
     /// The text of a number that Simbody cannot take.
     ///
-    /// In a free motion, `rates` are those of all bodies' coordinates at t = 0; without them, free links turn with their initial speeds, as prescribed ones do.
+    /// In a free motion, `rates` are those of all bodies' coordinates at t = 0.
+    /// Without them, free links turn with their initial speeds, like prescribed ones.
     pub(super) fn new(case: &Case, sense: f64, rates: Option<&[f64]>) -> Result<Self, String> {
         let mechanism = &case.mechanism;
         let driven: Vec<usize> = case.drives.iter().map(|drive| drive.joint).collect();
         let tree = Tree::with(mechanism, &driven);
         let mut model = Model::new(case.gravity.into());
-        // Bodies are numbered in the order of the branches, the ground is 0 on both sides.
+        // Bodies are numbered in the order of the branches; the ground is 0 on both sides.
         let mut numbers = vec![0; mechanism.links().len()];
         let mut twists = Vec::new();
         for (index, branch) in tree.branches.iter().enumerate() {
@@ -47,11 +49,11 @@ impl Linkage {
                 parent: numbers[branch.parent],
                 joint: joint(found, branch),
                 inertia: inertia(case, branch.link),
-                // Of a free motion all loads act together: see `acting`.
+                // In a free motion all loads act together: see `acting`.
                 resistance: if case.is_free() { 0.0 } else { sense * resistance(case, branch.link) },
                 coordinate: coordinate(found, branch, &case.start.0),
                 rate: rates.map_or(0.0, |rates| rates[index]),
-                // Other laws are refused before.
+                // Other laws have been refused before.
                 law: drive
                     .and_then(|drive| law(case, branch, drive, rates.is_some()))
                     .map(|rate| Law { rate: sense * rate }),
@@ -69,7 +71,7 @@ impl Linkage {
         Ok(Linkage { model, tree, sense, twists })
     }
 
-    /// Fills a state with the motion that was read, brought back to the sense of the case's time.
+    /// Fills a state with the motion that was read, with velocities in the sense of the case's time.
     pub(super) fn motion(&self, bodies: &[BodyState], state: &mut State) {
         for ((branch, body), twist) in self.tree.branches.iter().zip(bodies).zip(&self.twists) {
             let motion = &mut state.motions[branch.link];
@@ -83,7 +85,7 @@ impl Linkage {
         }
     }
 
-    /// Force at the mass centre and moment about it for every body of Simbody's, from the loads on the links.
+    /// Force at the mass centre (N) and moment about it (N m) for every Simbody body, from the loads on the links.
     pub(super) fn loads<'a>(&'a self, wrenches: &'a [Wrench]) -> impl Iterator<Item = [f64; 3]> + 'a {
         self.tree.branches.iter().map(|branch| {
             let Wrench { force, moment } = wrenches[branch.link];
@@ -97,7 +99,7 @@ impl Linkage {
             let joint = &case.mechanism.joints()[branch.joint];
             let force = Vec2::from(body.force);
             let places = [joint.first, joint.second].map(|side| state.motions[side.link].point(side.local));
-            // Simbody tells force and moment on the child, at the joint's place there.
+            // Simbody reports force and moment on the child, at the joint's point there.
             let (force, moment) = if joint.second.link == branch.link {
                 (force, body.moment)
             } else {
@@ -120,12 +122,12 @@ impl Linkage {
     }
 }
 
-/// Rate of a driven coordinate, unless it is left to forces.
+/// Rate of a driven coordinate, or `None` if forces move it.
 fn law(case: &Case, branch: &Branch, drive: &Drive, moving: bool) -> Option<f64> {
     if moving && drive.is_free() {
         return None;
     }
-    // Drives turn links in the world, coordinates against the parent.
+    // Drives define rotation in the world, coordinates relative to the parent.
     let parent = case.drives.iter().find(|other| other.link == branch.parent);
     Some(drive.initial_speed() - parent.map_or(0.0, Drive::initial_speed))
 }
@@ -147,8 +149,8 @@ fn joint(found: &mechanism::Joint, branch: &Branch) -> Joint {
     }
 }
 
-/// Mass and inertia of a link. Simbody cannot accelerate a free body without them: such a link carries some, which its reactions do not
-/// contain.
+/// Mass and inertia of a link. Simbody cannot accelerate a free body without them.
+/// Such a link carries additional ones, which its reactions do not contain.
 pub(super) fn inertia(case: &Case, link: usize) -> Inertia {
     let body = &case.mechanism.links()[link];
     let [extra_mass, extra_inertia] = stand_in(case, link);
@@ -156,7 +158,7 @@ pub(super) fn inertia(case: &Case, link: usize) -> Inertia {
     Inertia { mass: body.mass, centre: body.mass_centre.into(), inertia, extra_mass, extra_inertia }
 }
 
-/// Moment against a link's rotation (N m).
+/// Constant moment against a link's rotation (N m).
 fn resistance(case: &Case, link: usize) -> f64 {
     let on_link =
         |load: &Load| load.resistance().map_or(0.0, |(loaded, moment)| if loaded == link { moment } else { 0.0 });

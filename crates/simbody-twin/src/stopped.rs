@@ -1,4 +1,4 @@
-//! What stopped a run, in the case's terms.
+//! Converts the failure of a run to the case's time, crank angle and joint.
 
 use linkproof_simbody::Failure;
 
@@ -6,12 +6,12 @@ use super::model::Linkage;
 use linkage::case::Case;
 use linkage::error::{Error, ErrorKind};
 
-/// What stopped a run, in the case's terms.
+/// The failure of a run as an error with the case's time, crank angle and joint.
 pub(super) fn stopped(case: &Case, linkage: &Linkage, sense: f64, failure: &Failure) -> Error {
     let t = failure.time.unwrap_or(0.0) * sense;
     let crank = case.crank().at(t).angle;
     let degrees = crank.to_degrees();
-    // Written so that NaN is the largest.
+    // Written so that NaN counts as the largest.
     let widest = failure.gaps.iter().zip(&linkage.tree.cut).reduce(|a, b| if a.0 >= b.0 { a } else { b });
     let gap = widest.map_or(String::new(), |(gap, &joint)| {
         format!(", joint \"{}\" open by {gap:.3e} m", case.mechanism.joints()[joint].name)

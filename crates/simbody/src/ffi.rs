@@ -56,7 +56,7 @@ impl RawBody {
         }
     }
 
-    /// All floating-point numbers in it.
+    /// All its floating-point numbers.
     pub(crate) fn numbers(&self) -> impl Iterator<Item = f64> {
         let pairs = [self.on_parent, self.on_child, self.axis_parent, self.axis_child, self.centre];
         let masses = [self.mass, self.inertia, self.extra_mass, self.extra_inertia];
@@ -82,13 +82,13 @@ impl RawLoop {
     }
 }
 
-/// `linkproof_run`, which only C++ looks into.
+/// `linkproof_run`, whose contents only C++ uses.
 #[repr(C)]
 struct RawRun {
     private: [u8; 0],
 }
 
-// `safe` are those that cannot be called wrongly with the types given.
+// The `safe` functions cannot be misused with the given types.
 unsafe extern "C" {
     fn linkproof_simbody_new(
         bodies: *const RawBody,
@@ -147,7 +147,7 @@ fn told(call: impl FnOnce(*mut c_char, usize) -> c_int) -> Result<(), Failure> {
     Err(Failure::of(plain(&String::from_utf8_lossy(&text[..length]))))
 }
 
-/// Simbody's words in one line, without the places in its source that it threw them at.
+/// Simbody's message in one line, without the source locations of its exceptions.
 fn plain(words: &str) -> String {
     let line = words.split_whitespace().collect::<Vec<_>>().join(" ");
     let mut parts = line.split("SimTK Exception thrown at ");
@@ -155,20 +155,22 @@ fn plain(words: &str) -> String {
     parts.fold(first, |told, part| told + part.split_once(": ").map_or(part, |(_, rest)| rest))
 }
 
-/// What acts on the bodies besides gravity while time goes on: from positions and velocities of all bodies (accelerations and forces are 0), force at
-/// the mass centre (N, world axes) and moment about it (N m) of every body, which come in as 0.
+/// What acts on the bodies besides gravity during the run.
+/// The first argument has positions and velocities of all bodies; accelerations and forces are 0.
+/// The second argument takes the force at the mass centre (N, world axes) and the moment about it (N m) of every body.
+/// These are 0 on entry.
 pub type Act = Box<dyn FnMut(&[BodyState], &mut [[f64; 3]])>;
 
-/// What Simbody calls back with.
+/// The data for Simbody's callback.
 struct Acting {
     act: Act,
     count: usize,
 }
 
-/// Hands a call of Simbody's on to Rust. A panic becomes loads that are no numbers, which end the run.
+/// Passes a call from Simbody on to Rust. A panic becomes NaN loads, which end the run.
 unsafe extern "C" fn acting(user: *mut c_void, bodies: *const BodyState, loads: *mut f64) {
-    // SAFETY: `user` is the box that the run keeps as long as it lives, and Simbody calls from one thread at a time; there are as many bodies, and three loads for
-    // each, as the run was made of.
+    // SAFETY: `user` is the box that the run keeps as long as it lives, and Simbody calls from one thread at a time.
+    // There are as many bodies, and three loads for each, as the run was built from.
     let (acting, bodies, loads) = unsafe {
         let acting = &mut *user.cast::<Acting>();
         let count = acting.count;
@@ -183,11 +185,11 @@ unsafe extern "C" fn acting(user: *mut c_void, bodies: *const BodyState, loads: 
 /// A run of a linkage, forwards in time.
 pub struct Run {
     raw: NonNull<RawRun>,
-    /// Kept where Simbody finds it.
+    /// Kept at a fixed address for Simbody.
     _acting: Option<Box<Acting>>,
     state: State,
     time: f64,
-    /// Internal steps allowed in a time scale, and the time scale (s).
+    /// Internal steps allowed per time scale, and the time scale (s).
     pace: (usize, f64),
 }
 
@@ -208,9 +210,10 @@ impl Run {
         };
         told(|text, size| {
             let Settings { accuracy, tolerance, time_scale, .. } = settings;
-            // SAFETY: pointers and counts are those of slices that outlive the call, the shim copies what it keeps; the model has checked
-            // that bodies and loops refer only to bodies before them; what is called back is kept until the run is freed; the shim writes at most
-            // `size` bytes of text.
+            // SAFETY: pointers and counts are those of slices that outlive the call, and the shim copies what it keeps.
+            // The model has checked that bodies and loops refer only to bodies before them.
+            // The callback's data is kept until the run is freed.
+            // The shim writes at most `size` bytes of text.
             unsafe {
                 linkproof_simbody_new(
                     bodies.as_ptr(),
@@ -233,7 +236,7 @@ impl Run {
         let state =
             State { bodies: vec![BodyState::default(); bodies.len()], loops: vec![LoopState::default(); loops.len()] };
         let mut run = Run { raw, _acting: kept, state, time: 0.0, pace: (settings.steps, settings.time_scale) };
-        // A free mobilizer without inertia is no error of Simbody's, but gives no acceleration.
+        // A free mobilizer without inertia is not an error in Simbody, but it has no finite acceleration.
         run.read(false)?;
         Ok(run)
     }
@@ -244,16 +247,16 @@ impl Run {
         self.time
     }
 
-    /// Integrates on to `time` (s) exactly. After a failure the run is of no more use.
+    /// Integrates to exactly `time` (s). After a failure the run cannot be used any more.
     ///
     /// # Errors
-    /// A time before the one reached; whatever keeps Simbody from it, with its words, the time reached and all gaps there.
+    /// A time before the one reached; any failure in Simbody, with its message, the time reached and all gaps there.
     pub fn advance(&mut self, time: f64) -> Result<(), Failure> {
         if !(time >= self.time && time.is_finite()) {
             return Err(Failure::of(format!("t = {time} s is asked for after t = {} s", self.time)));
         }
         let (raw, (steps, time_scale)) = (self.raw.as_ptr(), self.pace);
-        // A cast of a number that is too large gives the largest.
+        // A cast saturates: a number that is too large gives the largest.
         let intervals = (time - self.time) / time_scale;
         let steps = (steps as f64 * if intervals < 1.0 { 1.0 } else { intervals }) as usize;
         // SAFETY: the run is alive and nobody else has it; the shim writes at most `size` bytes of text.
@@ -263,11 +266,12 @@ impl Run {
         Ok(())
     }
 
-    /// Sets the loads that the next readings of reactions count, for every body: force at the mass centre (N, world axes) and moment about it
-    /// (N m). None at first. They do not move anything: every freedom is prescribed.
+    /// Sets the loads on every body that the next readings of reactions include.
+    /// They are the force at the mass centre (N, world axes) and the moment about it (N m); all are zero at first.
+    /// They do not move anything: every degree of freedom is prescribed.
     ///
     /// # Errors
-    /// Another count of loads than of bodies, a number that is not finite.
+    /// A number of loads that differs from that of the bodies, or a number that is not finite.
     pub fn load(&mut self, loads: &[[f64; 3]]) -> Result<(), Failure> {
         if loads.len() != self.state.bodies.len() {
             return Err(Failure::of(format!("{} loads are given for {} bodies", loads.len(), self.state.bodies.len())));
@@ -283,12 +287,13 @@ impl Run {
     /// Reads the state; without `reactions`, no forces.
     ///
     /// # Errors
-    /// Simbody's own, as of [`Run::advance`]: loops that cannot take any force, a number that is not finite.
+    /// Simbody's own, as in [`Run::advance`]: loops that cannot take any force, or a number that is not finite.
     pub fn read(&mut self, reactions: bool) -> Result<&State, Failure> {
         let State { bodies, loops } = &mut self.state;
         let raw = self.raw.as_ptr();
-        // SAFETY: the run is alive and nobody else has it; the vectors are as long as the bodies and loops that it was made of, the
-        // shim fills all of them; it writes at most `size` bytes of text.
+        // SAFETY: the run is alive and nobody else has it.
+        // The vectors are as long as the bodies and loops that it was built from, and the shim fills all of them.
+        // It writes at most `size` bytes of text.
         let read = told(|text, size| unsafe {
             linkproof_simbody_read(raw, reactions.into(), bodies.as_mut_ptr(), loops.as_mut_ptr(), text, size)
         });
@@ -302,15 +307,16 @@ impl Run {
     /// Steps that the integrator has attempted.
     #[must_use]
     pub fn steps(&self) -> usize {
-        // SAFETY: the run is alive, and the shim only looks.
+        // SAFETY: the run is alive, and the shim only reads.
         unsafe { linkproof_simbody_steps(self.raw.as_ptr()) }
     }
 
-    /// Adds to a failure where the integrator stands.
+    /// Adds the integrator's present time and gaps to a failure.
     fn located(&self, failure: Failure) -> Failure {
         let (mut time, mut gaps) = (0.0, vec![0.0; self.state.loops.len()]);
         let raw = self.raw.as_ptr();
-        // SAFETY: the run is alive and nobody else has it; there are as many gaps as loops; at most `size` bytes of text.
+        // SAFETY: the run is alive and nobody else has it; there are as many gaps as loops.
+        // The shim writes at most `size` bytes of text.
         match told(|text, size| unsafe { linkproof_simbody_gaps(raw, &mut time, gaps.as_mut_ptr(), text, size) }) {
             Ok(()) => Failure { time: Some(time), gaps, ..failure },
             Err(_) => failure,

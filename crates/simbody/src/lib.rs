@@ -1,8 +1,9 @@
 //! Planar linkages in Simbody: bodies on pins and sliders, loops closed by constraints, coordinates prescribed in time,
 //! Simbody's own error-controlled integrator, and its reactions.
 //!
-//! Everything is plain numbers in SI units, in the plane x-y; angles in rad, counter-clockwise positive. Simbody runs in three dimensions:
-//! the mobilizers leave no freedom out of the plane, and the constraints add no equation there.
+//! All data are plain numbers in SI units, in the plane x-y; angles are in rad, counter-clockwise positive.
+//! Simbody works in three dimensions.
+//! The mobilizers permit no motion out of the plane, and the constraints add no equation there.
 //!
 //! ```
 //! use linkproof_simbody::{Body, GROUND, Inertia, Joint, Law, Model, Settings};

@@ -1,9 +1,9 @@
-//! The description of a linkage, checked before any of it reaches C++.
+//! The description of a linkage, checked before any part of it reaches C++.
 
 use crate::ffi::{Act, RawBody, RawLoop, Run};
 use crate::parts::{Body, Closing, Failure, Inertia, Joint, Settings};
 
-/// A linkage.
+/// A planar linkage.
 #[derive(Clone, Debug)]
 pub struct Model {
     gravity: [f64; 2],
@@ -12,7 +12,7 @@ pub struct Model {
 }
 
 impl Model {
-    /// The ground alone, under the acceleration of gravity `gravity` (m/s^2).
+    /// A model with the ground only, under the acceleration of gravity `gravity` (m/s^2).
     #[must_use]
     pub fn new(gravity: [f64; 2]) -> Self {
         Model { gravity, bodies: Vec::new(), loops: Vec::new() }
@@ -21,7 +21,7 @@ impl Model {
     /// Adds a body and returns its number.
     ///
     /// # Errors
-    /// A parent that is not there, a number that is not finite, a negative mass or inertia, an axis that is no unit vector.
+    /// A parent that does not exist, a number that is not finite, a negative mass or inertia, or an axis that is not a unit vector.
     pub fn add(&mut self, body: Body) -> Result<usize, Failure> {
         let number = self.bodies.len() + 1;
         let wrong = |what: &str| Err(Failure::of(format!("body {number}: {what}")));
@@ -48,7 +48,7 @@ impl Model {
     /// Closes a loop and returns its number, counted from 0.
     ///
     /// # Errors
-    /// A body that is not there, one body twice, a place that is not finite.
+    /// A body that does not exist, the same body twice, or a position that is not finite.
     pub fn close(&mut self, closing: Closing) -> Result<usize, Failure> {
         let number = self.loops.len();
         let wrong = |what: &str| Err(Failure::of(format!("loop {number}: {what}")));
@@ -66,13 +66,13 @@ impl Model {
     /// Assembles the linkage at time 0 and starts its run.
     ///
     /// # Errors
-    /// Settings out of their ranges; whatever Simbody has against the model: it cannot be assembled from the coordinates
-    /// given, or a free mobilizer carries no inertia.
+    /// Settings out of their ranges, and Simbody's own errors.
+    /// The model may not assemble from the given coordinates, or a free mobilizer may carry no inertia.
     pub fn run(&self, settings: Settings) -> Result<Run, Failure> {
         self.run_under(settings, None)
     }
 
-    /// As [`Model::run`], while `act` acts on the bodies.
+    /// Like [`Model::run`], with `act` acting on the bodies.
     ///
     /// # Errors
     /// Those of [`Model::run`].

@@ -1,25 +1,26 @@
-//! The parts of a linkage as plain numbers, and what stops a run.
+//! The parts of a linkage as plain numbers, and the failure of a run.
 
 use std::fmt;
 
-/// Number of the ground; bodies are numbered from 1 in the order in which they were added.
+/// Number of the ground. Bodies are numbered from 1 in the order in which they were added.
 pub const GROUND: usize = 0;
 
-/// How a body hangs on its parent. Places (m) and unit vectors of axes are in the frame of the body they are on.
+/// The joint between a body and its parent.
+/// Positions (m) and unit vectors of axes are in the frame of the body they belong to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Joint {
-    /// A pin: its coordinate is the angle of the child in its parent (rad).
+    /// A revolute joint: its coordinate is the angle of the child relative to its parent (rad).
     Pin {
-        /// Place on the parent (m).
+        /// Position on the parent (m).
         on_parent: [f64; 2],
-        /// Place on the child (m).
+        /// Position on the child (m).
         on_child: [f64; 2],
     },
-    /// A slider: its coordinate is the way of the child's place along the axis, from the parent's place (m).
+    /// A prismatic joint: its coordinate is the distance along the axis from the parent's point to the child's (m).
     Slider {
-        /// Place on the parent (m).
+        /// Position on the parent (m).
         on_parent: [f64; 2],
-        /// Place on the child (m).
+        /// Position on the child (m).
         on_child: [f64; 2],
         /// Axis in the parent's frame.
         axis_parent: [f64; 2],
@@ -37,15 +38,16 @@ pub struct Inertia {
     pub centre: [f64; 2],
     /// Moment of inertia about the mass centre (kg m^2).
     pub inertia: f64,
-    /// Mass at the same centre that the body carries for the integrator's sake only (kg): gravity does not act on it, and applied
-    /// forces carry it wherever reactions are read. Exact while every freedom is prescribed, since
-    /// accelerations do not depend on masses then. Simbody cannot move a free mobilizer with no inertia on it.
+    /// Mass at the same centre that the body carries only for the integrator (kg).
+    /// Gravity does not act on it, and applied forces balance its inertia wherever reactions are read.
+    /// This is exact while every degree of freedom is prescribed, since accelerations then do not depend on masses.
+    /// Simbody cannot move a free mobilizer that carries no inertia.
     pub extra_mass: f64,
-    /// Moment of inertia of the same kind (kg m^2).
+    /// Moment of inertia that is added for the same reason (kg m^2).
     pub extra_inertia: f64,
 }
 
-/// A prescribed coordinate: where the body starts plus `rate` times the time.
+/// A prescribed coordinate: its start value plus `rate` times the time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Law {
     /// Rate of the coordinate (rad/s or m/s).
@@ -55,42 +57,43 @@ pub struct Law {
 /// A body of the tree.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Body {
-    /// The body it hangs on, added before, or [`GROUND`].
+    /// The parent body, added before, or [`GROUND`].
     pub parent: usize,
-    /// The joint it hangs by.
+    /// The joint to the parent.
     pub joint: Joint,
     /// Its inertia.
     pub inertia: Inertia,
-    /// Moment of constant size against its rotation (N m), nothing while it stands.
+    /// Constant moment against its rotation (N m), zero while it is at rest.
     pub resistance: f64,
     /// Coordinate of its joint at time 0 (rad or m).
     pub coordinate: f64,
-    /// Rate of the coordinate at time 0, where it is not prescribed (rad/s or m/s). Rates that do not belong together are projected onto the loops.
+    /// Rate of the coordinate at time 0, where it is not prescribed (rad/s or m/s).
+    /// Inconsistent rates are projected onto the loops.
     pub rate: f64,
-    /// Its prescribed motion, where it has one.
+    /// Its prescribed motion, if it has one.
     pub law: Option<Law>,
 }
 
-/// A revolute joint between two bodies that are in the tree already: it closes a loop.
+/// A revolute joint between two bodies that are in the tree already. It closes a loop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Closing {
     /// First and second body.
     pub bodies: [usize; 2],
-    /// The joint's place on either (m).
+    /// The joint's position on each body, in its frame (m).
     pub places: [[f64; 2]; 2],
 }
 
-/// How exactly to integrate.
+/// Accuracy of the integration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
     /// Accuracy of the integrator: bound on its weighted local error.
     pub accuracy: f64,
     /// Largest constraint error that projections leave (m).
     pub tolerance: f64,
-    /// Time in which something happens (s): rates of constraint errors are held to `tolerance` divided by it.
+    /// Characteristic time of the motion (s): rates of constraint errors are held to `tolerance` divided by it.
     pub time_scale: f64,
-    /// Internal steps allowed in a time scale, or between two instants nearer than that: before a dead point the integrator would creep on
-    /// for hours.
+    /// Internal steps allowed per time scale, or between two closer instants.
+    /// Without a limit the integrator would take hours in tiny steps near a dead point.
     pub steps: usize,
 }
 
@@ -100,14 +103,14 @@ impl Default for Settings {
     }
 }
 
-/// What kept Simbody from going on.
+/// The failure that stopped Simbody.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Failure {
-    /// What was wrong with the model, or Simbody's own words.
+    /// What is wrong with the model, or Simbody's own message.
     pub message: String,
-    /// Time that was reached (s), where there was a run.
+    /// Time that was reached (s), if there was a run.
     pub time: Option<f64>,
-    /// Gap of every loop there (m).
+    /// Gap of every loop at that time (m).
     pub gaps: Vec<f64>,
 }
 

@@ -1,5 +1,5 @@
-// A planar linkage as a Simbody system: all motion in the plane z = 0, pins and sliders on a spanning tree, loops closed by
-// constraints. See shim.h for units and senses.
+// A planar linkage as a Simbody system: all motion in the plane z = 0, pins and sliders on a spanning tree,
+// loops closed by constraints. See shim.h for units and signs.
 
 #include "shim.h"
 
@@ -25,7 +25,7 @@ void out_of(const Vec3 &vector, double to[2]) {
     to[1] = vector[1];
 }
 
-// A coordinate as a linear function of time. Prescribed as a position, so that no error of integration comes in.
+// A coordinate as a linear function of time. It is prescribed as a position, so that it has no integration error.
 class Uniform : public Motion::Custom::Implementation {
 public:
     Uniform(double start, double rate) : start(start), rate(rate) {}
@@ -39,7 +39,7 @@ private:
     double start, rate;
 };
 
-// Moment of constant size against the rotation of a body.
+// Moment of constant magnitude against the rotation of a body.
 class Resistance : public Force::Custom::Implementation {
 public:
     Resistance(const MobilizedBody &body, double moment) : body(body), moment(moment) {}
@@ -65,7 +65,7 @@ void motion(const State &state, const MobilizedBody &body, linkproof_body_state 
     to.omega = body.getBodyAngularVelocity(state)[2];
 }
 
-// Whatever the caller says acts on the bodies.
+// Forces and moments on the bodies from the caller's function.
 class Acting : public Force::Custom::Implementation {
 public:
     Acting(const std::vector<MobilizedBody> &bodies, const std::vector<Vec3> &centres, linkproof_act act, void *user)
@@ -92,14 +92,14 @@ private:
     void *user;
 };
 
-// Rotation about z by the direction (cos, sin), without a detour through the angle.
+// Rotation about z from the direction (cos, sin), without computing the angle.
 Rotation turn(const double axis[2]) { return Rotation(UnitVec3(axis[0], axis[1], 0), XAxis, Vec3(0, 0, 1), ZAxis); }
 
 struct Loop {
     Constraint::PointInPlane along[2];
 };
 
-// A text for the caller, cut where its buffer ends.
+// Copies a text to the caller's buffer, cut to its size.
 int told(const std::string &what, char *text, size_t size) {
     if (size > 0) {
         const size_t length = std::min(what.size(), size - 1);
@@ -130,8 +130,8 @@ struct linkproof_run {
     RungeKuttaMersonIntegrator integrator;
     Vec3 gravity;
     std::vector<linkproof_body> given;
-    std::vector<double> loads; // Three a body: force at the mass centre and moment about it.
-    std::vector<MobilizedBody> bodies; // The ground first.
+    std::vector<double> loads; // Three per body: force at the mass centre and moment about it.
+    std::vector<MobilizedBody> bodies; // The ground is first.
     std::vector<Loop> loops;
 
     linkproof_run(const linkproof_body *first, size_t count, const Vec3 &gravity, linkproof_act act, void *user)
@@ -152,7 +152,7 @@ struct linkproof_run {
     void hang(const linkproof_body &body) {
         const double mass = body.mass + body.extra_mass, inertia = body.inertia + body.extra_inertia;
         const Vec3 centre = in_plane(body.centre);
-        // Out of plane nothing turns; equal moments of inertia are valid for any body.
+        // Nothing turns out of the plane; equal moments of inertia are valid for any body.
         const MassProperties properties(mass, centre, Inertia(inertia).shiftFromMassCenter(centre, mass));
         MobilizedBody &parent = bodies.at(body.parent);
         const Vec3 on_parent = in_plane(body.on_parent), on_child = in_plane(body.on_child);
@@ -172,7 +172,7 @@ struct linkproof_run {
             Force::Custom(forces, new Resistance(bodies.back(), body.resistance));
     }
 
-    // Two equations in the plane: a third for z would be redundant, since no mobilizer leaves it.
+    // Two equations in the plane: a third for z would be redundant, since no mobilizer leaves the plane.
     void close(const linkproof_loop &loop) {
         Loop closed;
         const Vec3 place = in_plane(loop.on_first);
@@ -194,14 +194,14 @@ struct linkproof_run {
         integrator.setConstraintTolerance(tolerance);
         integrator.setUseInfinityNorm(true);
         integrator.setProjectEveryStep(true);
-        // States between steps would be interpolated: every instant asked for ends a step instead.
+        // Without interpolation every requested time ends a step.
         integrator.setAllowInterpolation(false);
         integrator.initialize(state);
     }
 
     void advance(double time, size_t steps) {
         const size_t before = taken();
-        // An instant that has been reached already, the start for one.
+        // The loop does nothing for a time that has already been reached, such as the start.
         while (integrator.getAdvancedTime() < time) {
             integrator.setInternalStepLimit(100);
             integrator.stepTo(time);
@@ -214,10 +214,11 @@ struct linkproof_run {
 
     size_t taken() const { return static_cast<size_t>(integrator.getNumStepsAttempted()); }
 
-    // Applied forces: loads, and what carries the extra masses, so that no mobilizer has to. The latter follow from accelerations, and these
-    // depend on neither as long as every freedom is prescribed.
+    // Applied forces: the loads, and the forces that accelerate the extra masses instead of the mobilizers.
+    // The latter follow from the accelerations.
+    // These depend on neither as long as every degree of freedom is prescribed.
     void relieve(State &state) const {
-        // Accelerations are all read before a force is set: that takes the state back to before them.
+        // All accelerations are read before a force is set: setting one invalidates them in the state.
         std::vector<SpatialVec> carried(given.size(), SpatialVec(Vec3(0)));
         for (size_t index = 0; index < given.size(); ++index) {
             const linkproof_body &body = given[index];
@@ -255,7 +256,7 @@ struct linkproof_run {
             const SpatialVec &reaction = at_joints[mobile.getMobilizedBodyIndex()];
             out_of(reaction[1], of_bodies[index].force);
             of_bodies[index].moment = reaction[0][2];
-            // These stand on the left of the equations of motion, as multipliers do.
+            // These are on the left side of the equations of motion, like multipliers.
             of_bodies[index].drive = -mobile.getOneFromUPartition(state, 0, drives);
         }
         for (size_t index = 0; index < loops.size(); ++index) {
@@ -264,8 +265,8 @@ struct linkproof_run {
             for (int axis = 0; reactions && axis < 2; ++axis) {
                 const Constraint::PointInPlane &plane = loops[index].along[axis];
                 const MobilizedBody &first = matter.getMobilizedBody(plane.getPlaneMobilizedBodyIndex());
-                // A multiplier stands on the left of the equations of motion: the force has the other sign. (3.7 declares
-                // getForceOnFollowerPoint, but the library does not hold it.)
+                // A multiplier is on the left side of the equations of motion, so the force has the opposite sign.
+                // (3.7 declares getForceOnFollowerPoint, but the library does not contain it.)
                 force -= first.getBodyRotation(state) * (plane.getDefaultPlaneNormal() * plane.getMultiplier(state));
             }
             out_of(force, of_loops[index].force);

@@ -1,6 +1,6 @@
-//! What Simbody finds at an instant. The numbers are laid out as C has them.
+//! Simbody's results at one instant. The memory layout is that of C.
 
-/// What was read at one instant: bodies from 1 on, and loops, in the order in which they were added.
+/// Results at one instant: bodies from 1 on, and loops, in the order in which they were added.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct State {
     /// Every body but the ground.
@@ -9,11 +9,11 @@ pub struct State {
     pub loops: Vec<LoopState>,
 }
 
-/// State of a body at one instant, world axes. Force, moment and drive are 0 where reactions were not asked for.
+/// State of a body at one instant, in world axes. Force, moment and drive are 0 if reactions were not requested.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct BodyState {
-    /// Coordinate of its joint (rad, turns kept, or m).
+    /// Coordinate of its joint (rad, turns counted, or m).
     pub coordinate: f64,
     /// Its rate (rad/s or m/s).
     pub rate: f64,
@@ -29,11 +29,11 @@ pub struct BodyState {
     pub acceleration: [f64; 2],
     /// Angular acceleration (rad/s^2).
     pub alpha: f64,
-    /// Force of its joint with the parent on it (N).
+    /// Force on the body from its joint with the parent (N).
     pub force: [f64; 2],
-    /// Moment of that joint on it, about the joint's place on it (N m); the drive's moment is part of it.
+    /// Moment of that joint on the body, about the joint's point on it (N m). It includes the driving moment.
     pub moment: f64,
-    /// Generalised force of the prescribed motion (N m in a pin, N in a slider).
+    /// Generalised force of the prescribed motion (N m for a pin, N for a slider).
     pub drive: f64,
 }
 
@@ -51,7 +51,7 @@ impl BodyState {
 pub struct LoopState {
     /// Force of the first body on the second (N, world axes).
     pub force: [f64; 2],
-    /// Distance of the two places (m).
+    /// Distance between the two points (m).
     pub gap: f64,
 }
 

@@ -16,8 +16,9 @@ fn body(parent: usize, joint: Joint, inertia: Inertia, coordinate: f64) -> Body 
     Body { parent, joint, inertia, resistance: 0.0, coordinate, rate: 0.0, law: None }
 }
 
-/// A parallelogram with cranks of length 1 from (0, 0) and (2, 0), the first driven; its coupler only shifts. The coordinates of coupler
-/// and second crank are off by `off` (rad).
+/// A parallelogram with cranks of length 1 from (0, 0) and (2, 0).
+/// The first crank is driven; the coupler only translates.
+/// The coordinates of coupler and second crank are off by `off` (rad).
 fn parallelogram(coupler: Inertia, start: f64, rate: f64, off: f64) -> Model {
     let mut model = Model::new([0.0, -G]);
     let first = Body { law: Some(Law { rate }), ..body(GROUND, pin([0.0, 0.0]), rod(1.0, 1.0), start) };
@@ -39,8 +40,10 @@ fn the_library_is_a_simbody_3() {
 
 #[test]
 fn forces_in_a_parallelogram_are_those_of_statics() {
-    // Coupler of 3 kg that only shifts, on a circle of radius 1 at 4 rad/s: a = -16 e. Its pins carry m (a - g) together; moments about
-    // its middle and about the second pivot (whose crank turns uniformly, weight at half its length) share it out.
+    // The coupler of 3 kg only translates, on a circle of radius 1 at 4 rad/s: a = -16 e.
+    // Its joints together carry m (a - g).
+    // The shares follow from the moments about its middle and about the second pivot.
+    // That crank turns uniformly, and its weight acts at half its length.
     let (start, rate, t) = (0.7, 4.0, 0.2);
     let mut run = parallelogram(rod(3.0, 2.0), start, rate, 1e-4).run(Settings::default()).unwrap();
     run.advance(t).unwrap();
@@ -48,13 +51,14 @@ fn forces_in_a_parallelogram_are_those_of_statics() {
     let angle = start + rate * t;
     let (cos, sin) = (angle.cos(), angle.sin());
     let total = [3.0 * -16.0 * cos, 3.0 * (-16.0 * sin + G)];
-    // Equal y components keep the coupler from turning; the x component on the second crank balances its weight's moment.
+    // Equal y components keep the coupler from turning.
+    // The x component on the second crank balances the moment of its weight.
     let half = total[1] / 2.0;
     let on_second = [(-half * cos - 1.0 * G * cos / 2.0) / sin, -half];
     close_to(state.loops[0].force, on_second, 1e-9);
     close_to(state.bodies[1].force, [total[0] + on_second[0], half], 1e-9);
     assert!(state.bodies[1].moment.abs() < 1e-9 && state.bodies[2].moment.abs() < 1e-9);
-    // Power of the drive: weights only, since all kinetic energy is constant.
+    // Power of the drive: only the weights contribute, since all kinetic energy is constant.
     let drive = G * cos * (0.5 + 3.0 + 0.5);
     assert!((state.bodies[0].drive - drive).abs() < 1e-9, "{} instead of {drive}", state.bodies[0].drive);
     assert!((state.bodies[0].moment - drive).abs() < 1e-9, "the drive is part of the moment in its pin");
@@ -72,7 +76,7 @@ fn a_massless_coupler_needs_extra_mass_and_its_reactions_do_not_see_it() {
     let mut run = parallelogram(coupler, 0.7, 4.0, 0.0).run(Settings::default()).unwrap();
     run.advance(0.2).unwrap();
     let state = run.read(true).unwrap();
-    // A massless rod between two pins: one force along it, which is what holds the weight of the second crank.
+    // A massless rod between two joints: one force along it, which supports the weight of the second crank.
     let angle: f64 = 1.5;
     let along = G * angle.cos() / 2.0 / angle.sin();
     close_to(state.loops[0].force, [-along, 0.0], 1e-9);
@@ -92,14 +96,14 @@ fn no_link_needs_a_mass() {
     let mut run = model.run(Settings::default()).unwrap();
     run.advance(0.1).unwrap();
     let state = run.read(true).unwrap();
-    // The coupler turns the loaded crank against 6 N m with its force along itself, the drive bears the same moment.
+    // The coupler turns the loaded crank against 6 N m with its axial force, and the drive bears the same moment.
     close_to(state.loops[0].force, [-6.0 / 1.1_f64.sin(), 0.0], 1e-11);
     assert!((state.bodies[0].drive - 6.0).abs() < 1e-11);
 }
 
 #[test]
 fn a_slider_carries_force_and_moment_across_its_axis() {
-    // A block of 2 kg on a guide inclined by 0.3, pushed at 1.5 m/s, its mass centre off the joint's place.
+    // A block of 2 kg on a guide inclined by 0.3, pushed at 1.5 m/s, with its mass centre away from the joint's point.
     let (angle, axis) = (0.3_f64, [0.3_f64.cos(), 0.3_f64.sin()]);
     let joint =
         Joint::Slider { on_parent: [0.1, 0.2], on_child: [0.0, 0.1], axis_parent: axis, axis_child: [1.0, 0.0] };
@@ -143,7 +147,8 @@ fn a_linkage_that_cannot_be_closed_is_refused() {
 
 #[test]
 fn a_dead_point_ends_the_run_where_it_is() {
-    // Crank 1, coupler 1.5, rocker 1, base 3: no pose once crank pin and pivot are more than 2.5 apart, at cos = 0.625.
+    // Crank 1, coupler 1.5, rocker 1, base 3.
+    // It cannot be assembled once crank pin and pivot are more than 2.5 apart, at cos = 0.625.
     let start = 0.2_f64;
     let crank_pin = [start.cos(), start.sin()];
     let reach: f64 = (3.0 - crank_pin[0]).hypot(crank_pin[1]);

@@ -1,4 +1,4 @@
-//! Largest reactions and moments over the grid's range, refined between samples, and what journals they ask for.
+//! Largest reactions and moments over the grid's range, refined between samples, and the journal diameters they require.
 
 use linkage::math::KeepNan;
 use std::f64::consts::PI;
@@ -10,7 +10,7 @@ use linkage::math::extremum;
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 
-/// Crank angle between two samples, at most (rad): a reaction has a few maxima in a turn, not hundreds.
+/// Largest crank angle between two samples (rad): a reaction has a few maxima in a turn, not hundreds.
 const SAMPLE_STEP: f64 = PI / 360.0;
 
 /// Largest value of a quantity over a range of crank angles.
@@ -18,7 +18,7 @@ const SAMPLE_STEP: f64 = PI / 360.0;
 pub struct Peak {
     /// The largest magnitude (N, or N m for a moment).
     pub value: f64,
-    /// Crank angle of it (rad, as the scenario states it).
+    /// Crank angle at which it occurs (rad, as the scenario defines it).
     pub crank: f64,
 }
 
@@ -27,7 +27,7 @@ pub struct Peak {
 pub struct Peaks {
     /// Magnitude of the reaction in each joint (N).
     pub reactions: Vec<Peak>,
-    /// Magnitude of the moment in each joint that keeps an angle (N m); `None` for joints that bear none.
+    /// Magnitude of the moment in each joint that keeps an angle (N m); `None` for joints that transmit none.
     pub moments: Vec<Option<Peak>>,
     /// Magnitude of the shaking force (N).
     pub shaking_force: Peak,
@@ -35,7 +35,7 @@ pub struct Peaks {
     pub balancing_moment: Peak,
 }
 
-/// Smallest diameter of a journal (m) that carries the force `force` (N) at the lever `lever` (m) with the bending stress `stress` (Pa):
+/// Smallest diameter of a journal (m) for the force `force` (N), lever arm `lever` (m) and bending stress `stress` (Pa).
 /// M = F l and sigma = 32 M / (pi d^3) give d = cbrt(32 F l / (pi sigma)).
 #[must_use]
 pub fn journal_diameter(force: f64, lever: f64, stress: f64) -> f64 {
@@ -45,7 +45,7 @@ pub fn journal_diameter(force: f64, lever: f64, stress: f64) -> f64 {
 /// Peaks over the range of crank angles that the case's grid spans.
 ///
 /// # Errors
-/// Those of [`PoseSolver::solve`], for crank angles in between that cannot be reached.
+/// Those of [`PoseSolver::solve`], for crank angles within the range that cannot be reached.
 pub fn over_range(case: &Case) -> Result<Peaks> {
     if case.grid.cranks.iter().any(|&crank| case.crank().time_of(crank).is_nan()) {
         let message =
@@ -83,7 +83,7 @@ pub fn over_range(case: &Case) -> Result<Peaks> {
     })
 }
 
-/// What has a peak.
+/// A quantity whose peak is wanted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Quantity {
     Reaction(usize),
@@ -108,7 +108,7 @@ fn at<'p>(case: &Case, poses: &'p mut PoseSolver, crank: f64) -> Result<&'p Stat
     poses.solve(crank, drive.omega, drive.alpha, Stage::BalancingMoment)
 }
 
-/// The largest sample and, by golden section between its neighbours, the largest value there.
+/// The largest sample, refined by golden section between its neighbours.
 fn refined(case: &Case, poses: &mut PoseSolver, quantity: Quantity, cranks: &[f64], samples: &[f64]) -> Result<Peak> {
     let mut value = |crank: f64| -> Result<f64> { Ok(quantity.of(case, at(case, poses, crank)?)) };
     let (crank, value) = extremum::greatest(cranks, samples, &mut value)?;

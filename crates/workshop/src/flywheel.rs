@@ -1,4 +1,4 @@
-//! Flywheel for a wanted coefficient of non-uniformity.
+//! Flywheel for a required coefficient of non-uniformity.
 
 use analytic::reduced::Model;
 use analytic::steady::Regime;
@@ -9,26 +9,29 @@ use linkage::math::root::{self, Close};
 /// A flywheel on the crank's shaft, and the motion with it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Flywheel {
-    /// Moment of inertia (kg m^2); 0 if none is needed.
+    /// Moment of inertia (kg m^2); 0 if no flywheel is needed.
     pub inertia: f64,
     /// The steady motion with it.
     pub regime: Regime,
 }
 
-/// So many times the first guess is the largest flywheel before a wish counts as out of reach: sixty doublings.
+/// Largest flywheel as a multiple of the first guess: sixty doublings.
+/// Beyond it the required coefficient counts as unreachable.
 const LARGEST: f64 = (1u64 << 60) as f64;
-/// Regula falsi steps; it takes about eight.
+/// Limit of regula falsi steps; it takes about eight.
 const STEPS: usize = 80;
-/// Relative deviation of the coefficient that is good enough.
+/// Relative deviation of the coefficient that is accepted.
 const CLOSE: f64 = 1e-12;
 
 impl Flywheel {
-    /// The flywheel with which the steady motion's coefficient of non-uniformity is `wanted`, or none where it is less already, by regula falsi (Illinois) over
-    /// true regimes.
+    /// The flywheel with which the steady motion has the coefficient of non-uniformity `wanted`.
+    /// There is none if the coefficient is smaller already.
+    /// It is found by regula falsi (Illinois) over true regimes.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] for a coefficient that is not positive, [`ErrorKind::Numeric`] for one that no flywheel reaches, and those of
-    /// [`Model::regime`].
+    /// [`ErrorKind::Input`] for a coefficient that is not positive.
+    /// [`ErrorKind::Numeric`] for one that no flywheel reaches.
+    /// Those of [`Model::regime`].
     pub fn of(model: &Model, wanted: f64, accuracy: f64) -> Result<Self> {
         if !(wanted > 0.0 && wanted.is_finite()) {
             let message = format!("a coefficient of non-uniformity of {wanted} is asked for");

@@ -1,4 +1,5 @@
-//! Design work off the proving line: what is done with a mechanism once its numbers are right.
+//! Design work outside the proof, on a mechanism whose numbers are proven.
+//! It covers bearings, diagrams, export, flywheel, motor choice and synthesis.
 
 pub mod bearings;
 pub mod diagram;

@@ -13,16 +13,16 @@ use workshop::synthesis::Sheet;
 use workshop::synthesis::crank_rocker::{self, CrankRocker};
 use workshop::synthesis::slider_crank::{Given, SliderCrank};
 
-/// Where results go, and what a scenario needs besides dimensions.
+/// Where results are written, and what a scenario needs besides dimensions.
 #[derive(Debug, clap::Args)]
 struct Target {
     /// Write the scenario to a file, or to standard output instead of the text with `-`
     #[arg(short, long, value_name = "FILE", value_parser = scenario_target, conflicts_with = "json")]
     output: Option<PathBuf>,
-    /// Speed of the crank in the scenario, in turns a minute, counter-clockwise positive
+    /// Speed of the crank in the scenario, in turns per minute, counter-clockwise positive
     #[arg(long, value_name = "RPM", default_value = "60", allow_hyphen_values = true)]
     rpm: f64,
-    /// Mass of the links in the scenario a metre of their length: uniform bars
+    /// Mass per metre of the links in the scenario, which are uniform bars
     #[arg(long, value_name = "KG_PER_M", default_value = "1")]
     bar_kg_per_m: f64,
     /// Write the result as JSON to a file, or to standard output instead of the text with `-`
@@ -45,10 +45,11 @@ impl Target {
         Ok(Sheet { name, title: title.into(), comment, speed: self.rpm * TAU / 60.0, bar: self.bar_kg_per_m })
     }
 
-    /// Writes the scenario, if one is wanted, and then tells the rest where there is room.
+    /// Writes the scenario, if one is wanted. Then writes the other results, unless the scenario went to standard
+    /// output.
     fn deliver(&self, scenario: &str, told: &Told) -> Result<()> {
         if let Some(to) = &self.output {
-            // A name that no scenario may have shows here, not when it is run.
+            // An invalid name is found here, not first when the scenario is run.
             Scenario::parse(scenario, to)?;
             write_scenario(scenario, to, &[])?;
             if to == Path::new("-") {
@@ -62,7 +63,7 @@ impl Target {
     }
 }
 
-/// Two numbers with a comma between them.
+/// Two numbers separated by a comma.
 fn pair(text: &str) -> std::result::Result<[f64; 2], String> {
     let numbers: Vec<f64> = text.split(',').map_while(|part| part.trim().parse().ok()).collect();
     <[f64; 2]>::try_from(numbers).map_err(|_| "expected two numbers with a comma between them, such as 150,15".into())
@@ -126,7 +127,7 @@ pub(super) struct SliderCrankArgs {
     /// Length of the rod
     #[arg(long, value_name = "MM", allow_hyphen_values = true)]
     rod_mm: Option<f64>,
-    /// Time of the slower stroke over that of the faster one
+    /// Duration of the slower stroke over that of the faster one
     #[arg(long, value_name = "K", allow_hyphen_values = true)]
     time_ratio: Option<f64>,
     #[command(flatten)]

@@ -28,9 +28,10 @@ enum Command {
     CrankRocker(closed_form::CrankRockerArgs),
     /// Slider-crank from stroke and offset, and the rod's length or the time ratio
     SliderCrank(closed_form::SliderCrankArgs),
-    /// Lengths and pivots of any linkage so that its output follows a timing: random search, the best refined
+    /// Lengths and pivots of any linkage so that its output follows a timing: random search, then refinement of the
+    /// best candidates
     Search(search::Args),
-    /// How a scenario keeps the timing of a synthesis file
+    /// Show how well a scenario keeps the timing of a synthesis file
     Check(search::CheckArgs),
 }
 

@@ -12,7 +12,7 @@ use workshop::diagram::draw;
 use workshop::synthesis::{self, Achieved};
 use workshop::task::Task;
 
-/// Where results go.
+/// Where results are written.
 #[derive(Debug, clap::Args)]
 struct Target {
     /// Draw the wanted and the achieved motion to a file, or to standard output instead of the text with `-`
@@ -73,7 +73,7 @@ pub(super) fn search(args: &Args) -> Result<()> {
     let found = synthesis::search(&task, args.threads, &mut |part| bar.at(part))?;
     drop(bar);
     let values = redraw::round_values(&task, &found.values);
-    // What is told is measured on the scenario that is written, read back.
+    // The reported figures are measured on the scenario as it is written and read back.
     let place = drawing.path.with_file_name(format!("{}.toml", task.name));
     let bare = Scenario::parse(&redraw::redrawn(&task, &drawing.text, &values, "")?, &place)?;
     let own = Task { case: bare.case, ..task.clone() };
@@ -88,7 +88,7 @@ pub(super) fn search(args: &Args) -> Result<()> {
     tell(&args.target, &Story { task: &own, achieved: &achieved, search: Some((&found, &values)) })
 }
 
-/// How the scenario came about, and how good it is.
+/// How the scenario was found, and how good it is.
 fn comment(args: &Args, task: &Task, achieved: &Achieved) -> String {
     let effort = &task.effort;
     let command = format!(

@@ -1,4 +1,4 @@
-//! Where a scenario that was found is written to.
+//! The file that a found scenario is written to.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -15,7 +15,7 @@ pub(super) fn scenario_target(text: &str) -> std::result::Result<PathBuf, String
     Ok(path)
 }
 
-/// Writes a scenario, but never over one of the files that it comes from.
+/// Writes a scenario, but never over one of its source files.
 pub(super) fn write_scenario(text: &str, to: &Path, sources: &[&Path]) -> Result<()> {
     let same = |source: &&Path| match (fs::canonicalize(source), fs::canonicalize(to)) {
         (Ok(a), Ok(b)) => a == b,

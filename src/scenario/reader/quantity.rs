@@ -7,7 +7,7 @@ use crate::scenario::unit::Family;
 use crate::scenario::words::choice;
 use linkage::error::{Error, Result};
 
-/// Which numbers a quantity may be.
+/// The values that a quantity may have.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Sign {
     /// Any finite number.
@@ -23,7 +23,7 @@ pub enum Sign {
 }
 
 impl Sign {
-    /// The rule that a value breaks, and the way out.
+    /// The rule that a value breaks, and how to correct it.
     fn broken_by(self, value: f64) -> Option<(&'static str, &'static str)> {
         match self {
             Sign::NotNegative if value < 0.0 => Some(("must not be negative", "give zero or a positive number")),
@@ -36,7 +36,7 @@ impl Sign {
 }
 
 impl Table<'_> {
-    /// Quantity under one of the spellings of `base` in `family`, in SI, if there is one.
+    /// Quantity under one of the spellings of `base` in `family`, in SI; `None` if there is none.
     pub fn optional_quantity(&mut self, base: &str, family: &'static Family, sign: Sign) -> Result<Option<f64>> {
         Ok(self.quantity_in(base, &[family], sign)?.map(|(_, value)| value))
     }
@@ -47,7 +47,7 @@ impl Table<'_> {
         value.ok_or_else(|| self.missing(&family.keys(base)))
     }
 
-    /// Quantity that may be of one of several families: the index of its family, and its value in SI.
+    /// Quantity of one of several families: the index of its family, and its value in SI.
     pub fn quantity_in(
         &mut self,
         base: &str,
@@ -85,7 +85,7 @@ impl Table<'_> {
         Ok(Some((index, value)))
     }
 
-    /// The error for a key that is `base` without its unit or with one that is not known.
+    /// The error for a key that is `base` without its unit or with an unknown unit.
     fn misspelt_unit(&self, base: &str, family: &Family, spellings: &[String]) -> Option<Error> {
         let help = format!("write {}", choice(spellings.iter().map(String::as_str), "`"));
         let is_number =

@@ -1,7 +1,7 @@
 //! Which source file of the workspace uses which.
 //!
-//! Paths are followed through modules, imports and re-exports to the file that defines what they name.
-//! What stands under `#[cfg(test)]` does not count: tests may borrow from anywhere.
+//! Paths are followed through modules, imports and re-exports to the file that defines the named item. Code under
+//! `#[cfg(test)]` does not count: tests may use anything.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -11,19 +11,19 @@ use proc_macro2::{TokenStream, TokenTree};
 use syn::visit::Visit;
 use syn::{Attribute, Item, UseTree};
 
-/// A module: where it is written, what it defines, what it imports.
+/// A module: its file, its definitions, its imports.
 #[derive(Default)]
 struct Module {
     file: PathBuf,
     /// Names of items other than modules.
     items: BTreeSet<String>,
-    /// Names that `use` brings in, and the paths they stand for.
+    /// Names brought in by `use`, and the paths that they stand for.
     imports: BTreeMap<String, Vec<String>>,
-    /// Modules whose names are all brought in.
+    /// Modules from which all names are brought in.
     globs: Vec<Vec<String>>,
-    /// Paths that the code names: those of private imports, and those written out.
+    /// Paths in the code: those of private imports, and those written out.
     paths: Vec<Vec<String>>,
-    /// Macros that it calls.
+    /// Macros that the module calls.
     macros: BTreeSet<String>,
 }
 
@@ -43,7 +43,7 @@ impl Graph {
         Graph { modules }
     }
 
-    /// Edges between files: from, to, and the path that makes it.
+    /// Edges between files: from, to, and the path of the edge.
     pub fn edges(&self) -> BTreeMap<(PathBuf, PathBuf), String> {
         let mut edges = BTreeMap::new();
         for (at, module) in &self.modules {
@@ -58,7 +58,7 @@ impl Graph {
         edges
     }
 
-    /// Names that every file uses on its way to something: all words of its paths, and its macros.
+    /// Names that every file uses: all words of its paths, and its macros.
     pub fn names(&self) -> BTreeMap<PathBuf, BTreeSet<String>> {
         let mut names: BTreeMap<PathBuf, BTreeSet<String>> = BTreeMap::new();
         for module in self.modules.values() {
@@ -69,7 +69,8 @@ impl Graph {
         names
     }
 
-    /// The module that defines what a path names in the module `at`; `None` for foreign names and for modules themselves.
+    /// The module that defines the item that a path names in the module `at`; `None` for foreign names and for modules
+    /// themselves.
     fn definer(&self, at: &[String], path: &[String], depth: usize) -> Option<Vec<String>> {
         if depth > 16 {
             return None;
@@ -121,7 +122,8 @@ impl Graph {
     }
 }
 
-/// Reads a module from its file, and its modules below it. `directory`: where files of modules below are looked for.
+/// Reads a module from its file, and the modules below it. `directory` is where the files of these modules are
+/// searched.
 fn read(modules: &mut BTreeMap<Vec<String>, Module>, at: Vec<String>, file: &Path, directory: &Path) {
     let text = fs::read_to_string(file).unwrap_or_else(|error| panic!("{}: {error}", file.display()));
     let code = syn::parse_file(&text).unwrap_or_else(|error| panic!("{}: {error}", file.display()));
@@ -152,7 +154,7 @@ fn take(modules: &mut BTreeMap<Vec<String>, Module>, at: Vec<String>, file: &Pat
                 }
             }
             Item::Use(import) => {
-                // What is handed on is no use of it; who asks for it is led to where it is defined.
+                // A re-export is not a use. A user of the name is led to its definition.
                 let handed_on = !matches!(import.vis, syn::Visibility::Inherited);
                 let mut leaves = Vec::new();
                 expand(&import.tree, &mut Vec::new(), &mut leaves);

@@ -1,4 +1,4 @@
-//! Mistakes in the law of `[drive]` and in grids beyond it.
+//! Errors in the law of `[drive]`, and grids outside the law.
 
 use super::{Bad, GOOD, INPUT, assert_refused};
 

@@ -1,4 +1,4 @@
-//! Mistakes in `[[loads]]`. The good scenario has one load, so that these are the second.
+//! Errors in `[[loads]]`. The good scenario has one load, so these are the second.
 
 use super::{Bad, GOOD, INPUT, assert_refused};
 

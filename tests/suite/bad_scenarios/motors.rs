@@ -1,4 +1,4 @@
-//! Mistakes in `[motor]`.
+//! Errors in `[motor]`.
 
 use super::{Bad, GOOD, INPUT, assert_refused};
 

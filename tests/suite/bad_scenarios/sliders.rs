@@ -1,4 +1,4 @@
-//! What goes wrong with sliders.
+//! Errors in sliders.
 
 use linkage::ErrorKind;
 
@@ -19,7 +19,7 @@ fn sliders() {
     const GUIDE: &str = "links = [\"ground\", \"slider\"]\npoints = [\"O\", \"B\"]";
     const OTHER: &str =
         "name = \"B\"\ntype = \"prismatic\"\naxis_deg = 0\nlinks = [\"rod\", \"slider\"]\npoints = [\"B\", \"C\"]";
-    // The slider's own point, where the rod has none.
+    // The slider has this point; the rod does not.
     const POINT: (&str, &str) = ("[links.slider.points]\nB =", "[links.slider.points]\nC =");
     const PLACE: (&str, &str) = ("points = [\"O\", \"B\"]", "points = [\"O\", \"C\"]");
     const PIN: &str = "name = \"B\"\ntype = \"revolute\"\nlinks = [\"rod\", \"slider\"]";

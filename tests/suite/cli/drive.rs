@@ -49,7 +49,7 @@ fn a_run_up_as_csv() {
     assert!(rows[0][2] == 0.0 && rows[10][2] > 10.0);
 }
 
-/// All words of a drawing, and how many curves it has: open paths.
+/// All words of a drawing, and the number of its curves (open paths).
 fn drawn(text: &str) -> (String, usize) {
     let document = roxmltree::Document::parse(text).unwrap_or_else(|error| panic!("{error}: {text}"));
     let words = document.descendants().filter_map(|node| if node.is_text() { node.text() } else { None }).collect();
@@ -80,12 +80,13 @@ fn graphs_as_svg() {
     ] {
         assert!(words.contains(label), "{label}: {words}");
     }
-    // Beside the text; without a motor there is no steady motion, a resistance of gravity alone has no mean.
+    // The drawing is written beside the text. Without a motor there is no steady motion, and a resistance of gravity
+    // alone has no mean.
     let text = place.ok("drive scenarios/ov7_base.toml --svg ov7.svg");
     assert!(text.contains("no motor"), "{text}");
     let (words, curves) = drawn(&std::fs::read_to_string(place.path("ov7.svg")).unwrap());
     assert!(curves == 3 && words.contains("-330°") && words.contains("mean 0") && !words.contains("e-18"), "{words}");
-    // Clockwise the steady speed is negative: the slowest lies above.
+    // In clockwise motion the steady speed is negative, so the slowest point is the upper one.
     place.edited("crank_rocker.toml", "back.toml", &[("speed_rpm = 130", "speed_rpm = -130")]);
     let (words, curves) = drawn(&place.ok("drive scenarios/back.toml --svg -"));
     let there = ["slowest -12.11 at -10.1°", "greatest 0.4641 at -30.6°", "mean 17.78", "mean over time -14.26"];

@@ -13,7 +13,7 @@ fn all_engines_stand_side_by_side() {
     let run = &document["runs"][0];
     let names = texts(&run["engines"], "name");
     assert!(names.starts_with(&rapiers()), "{names:?}");
-    // Single precision proves less, and the engines that agree do not outvote it; but nothing may be contradicted.
+    // Single precision proves less, and engines that agree do not outvote it. But nothing may be contradicted.
     let single = cfg!(feature = "f32");
     let expected = if single { (3, Some("inconclusive")) } else { (0, Some("agree")) };
     assert_eq!((outcome.code, run["verdict"].as_str()), expected, "{run}");

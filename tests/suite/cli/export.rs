@@ -20,7 +20,7 @@ fn mjcf_goes_where_it_is_told() {
     assert_eq!(step(&place.ok("export scenarios/crank_rocker.toml --mjcf - --dt 2e-5")), 2e-5);
     assert_eq!(place.ok("export scenarios/crank_rocker.toml --mjcf model.mjcf"), "");
     assert_eq!(fs::read_to_string(place.path("model.mjcf")).unwrap(), text);
-    // A name that the user did not choose is told.
+    // The user did not choose the name, so it is printed.
     assert_eq!(place.ok("export scenarios/crank_rocker.toml --mjcf"), "crank_rocker.xml\n");
     assert_eq!(fs::read_to_string(place.path("crank_rocker.xml")).unwrap(), text);
 }

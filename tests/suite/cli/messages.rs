@@ -1,4 +1,4 @@
-//! `inspect`, `list`, help, and what is said when things go wrong.
+//! `inspect`, `list`, help, and error messages.
 
 use std::fs;
 
@@ -119,12 +119,12 @@ fn every_help_shows_examples_that_the_command_understands() {
         let lines = examples.lines().take_while(|line| line.starts_with("  linkproof "));
         let mut count = 0;
         for line in lines {
-            // What follows two blanks explains.
+            // The text after two blanks is an explanation.
             let words = line.trim().trim_start_matches("linkproof ").split("  ").next().unwrap();
             let words = words.replace("scenarios/*.toml", "scenarios/crank_rocker.toml scenarios/ov7_base.toml");
             fs::create_dir_all(place.path("my_scenarios")).unwrap();
             let outcome = place.run(&words);
-            // Single precision proves less: beside it, a proof by all engines stays open.
+            // Single precision proves less: with it, a proof by all engines is inconclusive.
             let code = if cfg!(feature = "f32") && words.contains("--engine all") { 3 } else { 0 };
             assert_eq!((outcome.code, outcome.stderr.as_str()), (code, ""), "{words}: {}", outcome.stdout);
             count += 1;
@@ -154,7 +154,7 @@ fn what_cannot_be_read_is_named_with_a_way_out() {
     for directory in ["gone", "empty.toml"] {
         place.refused(&format!("list {directory}"), &[directory, "linkproof list DIR"]);
     }
-    // Every command asks for what it needs.
+    // Every command asks for its missing arguments.
     for command in ["", "run", "solve", "inspect", "prove"] {
         let outcome = place.run(command);
         assert_eq!(outcome.code, 2, "{command}");
@@ -189,7 +189,7 @@ fn a_scenario_is_never_taken_for_a_target() {
     let (scenario, other) = ("scenarios/crank_rocker.toml", "scenarios/ov7_base.toml");
     let before = fs::read(place.path(other)).unwrap();
     for command in [
-        // What a shell makes of `--json scenarios/*.toml`.
+        // A shell makes this of `--json scenarios/*.toml`.
         format!("run --no-record --json {other} {scenario}"),
         format!("solve {scenario} --with assur --csv {other}"),
         format!("inspect {scenario} --json {other}"),

@@ -1,4 +1,4 @@
-//! `--mode` of `run` and `solve`, and what `inspect` tells of the start.
+//! `--mode` of `run` and `solve`, and the start in the output of `inspect`.
 
 use std::fs;
 
@@ -20,13 +20,14 @@ fn a_dyad_starts_in_the_mode_asked_for() {
     let place = Place::new();
     let left = rocker(&place, "");
     assert_eq!(rocker(&place, "--mode coupler,rocker=left"), left);
-    // The pivot C is at (0.15, 0.015), the crank pin A on the x axis at 0.025995627740337: the two modes mirror at the line AC.
+    // The pivot C is at (0.15, 0.015), the crank pin A on the x axis at 0.025995627740337. The two modes are mirror
+    // images about the line AC.
     let axis = 0.015f64.atan2(0.15 - 0.025995627740337);
     let mirrored = |angle: f64| 2.0 * axis - angle;
     let away = |a: f64, b: f64| ((a - b).sin()).abs() + (1.0 - (a - b).cos());
     let right = rocker(&place, "--mode coupler,rocker=right");
     assert_within!(away(right, mirrored(left)), 1e-12, "{right} {left}");
-    // In the other order of links left and right change places; ranks count as `inspect --modes` does.
+    // With the links in the other order, left and right are exchanged. Ranks count as in `inspect --modes`.
     assert_eq!(rocker(&place, "--mode rocker,coupler=left"), right);
     assert_eq!(rocker(&place, "--mode coupler,rocker=2"), right);
     assert_eq!(rocker(&place, "--mode coupler,rocker=1"), left);
@@ -118,7 +119,8 @@ fn inspect_tells_how_clear_the_start_is() {
     assert!(!place.ok("inspect scenarios/ov7_base.toml").contains("rough place"));
 }
 
-/// A crank, and two pinned base links on four leads, one of them the crank's: a group of six links. Scenario text without `near`.
+/// A crank, and two pinned base links on four leads, one of which is hinged to the crank: a group of six links.
+/// Scenario text without `near`.
 const SIX: &str = r#"format = 1
 name = "six"
 title = "A group of six links"
@@ -212,7 +214,7 @@ fn a_group_of_six_links_starts_from_a_rough_drawing() {
             assert_within!((own[0] * 1e3 - drawn).abs(), 45.0, "{name}: {} for {drawn}", own[0]);
         }
     }
-    // Three points are enough, as docs/scenario.md says: the other links follow from their joints.
+    // Three points are enough, as docs/scenario.md states: the other links follow from their joints.
     six(&place, &near(&[drawn[0], drawn[1], drawn[3]]));
     let few = Table::of(&place.ok("solve scenarios/six.toml --with assur --crank-deg 0:10:5"));
     for point in ["B", "D", "F"] {

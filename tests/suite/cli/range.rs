@@ -1,4 +1,4 @@
-//! `linkproof inspect --range`, and what commands say about crank angles out of reach.
+//! `linkproof inspect --range`, and the messages of commands about crank angles out of reach.
 
 use super::tools::Place;
 use crate::common::assert_within;
@@ -42,13 +42,13 @@ fn a_crank_that_does_not_turn_fully_is_told_with_its_limits() {
     }
     let range = place.run("inspect scenarios/limited.toml --range --json -").json()["range"].clone();
     let [from, to] = ["from_rad", "to_rad"].map(|key| range["extent"][key].as_f64().unwrap());
-    // Folded at both ends: |AC| = AB - CB.
+    // Folded at both limits: |AC| = AB - CB.
     let (a, d, reach) = (0.15f64, 0.15f64.hypot(0.015), 0.347_071_931_891_81 - 0.25);
     let half = ((a * a + d * d - reach * reach) / (2.0 * a * d)).acos();
     let base = 0.015f64.atan2(0.15);
     assert_within!((from - (base + half)).abs(), 1e-9, "{from} {to}");
     assert_within!((to - (base - half + std::f64::consts::TAU)).abs(), 1e-9, "{from} {to}");
-    // Rounded inwards at the sixth decimal: the third is the same.
+    // The limit is rounded inwards at the sixth decimal, so its first three decimals are the same.
     let interval = format!("from {:.3}", from.to_degrees());
     for command in [
         "solve scenarios/limited.toml --with assur",

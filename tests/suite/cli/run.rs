@@ -10,7 +10,7 @@ use crate::common::assert_within;
 
 const BOTH: &str = "scenarios/crank_rocker.toml scenarios/ov7_base.toml";
 
-/// The keys of an object, each with the type of its value, in the order of the alphabet.
+/// The keys of an object, each with the type of its value, in alphabetical order.
 fn keys(object: &Value) -> String {
     let sort = |value: &Value| match value {
         Value::Null => "null",
@@ -58,7 +58,7 @@ fn both_scenarios_agree_and_the_json_is_as_promised() {
             let promised = "basis:text bound:number channel:text discretisation:number iteration:number";
             let limit = if channel["limit"].is_null() { "null" } else { "number" };
             let rest = "origin:text q75:number q99:number reason:null rms:number rounding:number scale:number unit:text verdict:text worst_crank_rad:number worst_t_s:number";
-            // An order that rounding hides is null.
+            // An order that is hidden by rounding is null.
             let order = if channel["observed_order"].is_null() { "null" } else { "number" };
             assert_eq!(keys(channel), format!("{promised} limit:{limit} max:number observed_order:{order} {rest}"));
             assert_eq!(channel["verdict"], "agree", "{channel}");
@@ -133,7 +133,7 @@ fn every_check_is_there() {
     for figure in figures {
         assert!(crank_rocker.iter().any(|name| !name.starts_with("published") && name.ends_with(figure)), "{figure}");
     }
-    // What was printed wrong and can be computed: both lengths and both steady speeds.
+    // Printed numbers that are wrong and can be computed: both lengths and both steady speeds.
     for side in ["assur", "newton"] {
         for (oracle, wrong) in [
             ("lengths", ["distance_m of O A", "distance_m of A B"]),
@@ -210,7 +210,7 @@ fn a_wrong_published_number_disagrees_by_name() {
     assert!(outcome.stdout.contains("DISAGREE: 2 of "), "one for each side: {}", outcome.stdout);
     assert!(outcome.stdout.contains("(newton), reduced_resistance_mean_N_m: 3.2"), "{}", outcome.stdout);
 
-    // A cell of a table: three units of its last digit.
+    // A table cell is changed by three units of its last digit.
     place.edited("ov7_base.toml", "wrong.toml", &[]);
     let table = place.path("scenarios/ov7_base/positions.csv");
     let text = fs::read_to_string(&table).unwrap();
@@ -316,7 +316,8 @@ fn channels_that_are_not_wanted_are_neither_compared_nor_checked() {
     );
 }
 
-/// The dial on all bounds: stricter bounds disagree, and at zero every channel and check is printed beside its bound, judged as ever.
+/// One factor on all bounds. Stricter bounds disagree. At zero every channel and check is printed beside its bound, and
+/// verdicts are as usual.
 #[test]
 fn one_dial_scales_every_bound() {
     let place = Place::new();

@@ -9,8 +9,8 @@ const SOLVERS: [&str; 3] = ["assur", "newton", "rapier"];
 const ON_LINKS: &str = "angle_rad omega_rad_s alpha_rad_s2 x_m y_m vx_m_s vy_m_s ax_m_s2 ay_m_s2";
 const AT_POINTS: &str = "x_m y_m vx_m_s vy_m_s ax_m_s2 ay_m_s2";
 
-/// The promised header: links, points, joints, drive, each in the order of the file.
-/// Channels of the mechanism as a whole.
+/// The documented header: links, points, joints, drive, each in the order of the file. These are the channels of the
+/// mechanism as a whole.
 const WHOLE: [&str; 4] = ["frame.fx_N", "frame.fy_N", "frame.moment_N_m", "drive.torque_N_m"];
 
 fn header(links: &[&str], points: &[&str], joints: &[&str]) -> Vec<String> {
@@ -76,7 +76,7 @@ fn ranges_may_be_negative_and_reversed() {
         let degrees = |all: &[f64]| all.iter().map(|angle| angle.to_degrees().round()).collect::<Vec<_>>();
         let (back, times, rocker_back) = cranks("--crank-deg 30:-30:-15");
         assert_eq!(degrees(&back), [30.0, 15.0, 0.0, -15.0, -30.0], "{solver}");
-        // 130 turns a minute are 780 degrees a second.
+        // 130 turns per minute are 780 degrees per second.
         let late = times.iter().zip(&back).all(|(t, crank)| (t - crank.to_degrees() / 780.0).abs() < 1e-15);
         assert!(late, "{solver}: {times:?}");
         let (forth, _, mut rocker_forth) = cranks("--crank-deg=-30:30:15");
@@ -134,7 +134,7 @@ fn channels_that_are_not_wanted_have_no_column() {
         ("\"positions\", \"velocities\", \"reactions\"", "angle_rad omega_rad_s x_m y_m vx_m_s vy_m_s fx_N fy_N"),
     ] {
         let wanted = format!("[channels]\nwant = [{want}]\n[engine]");
-        // Its own published numbers want more than positions: the whole of them goes.
+        // The scenario's published numbers need more than positions, so all of them are removed.
         place.edited("crank_rocker.toml", "few.toml", &[("[engine]", &wanted)]);
         let text = fs::read_to_string(place.path("scenarios/few.toml")).unwrap();
         let text = text.split("[[oracle]]").next().unwrap();

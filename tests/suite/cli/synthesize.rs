@@ -130,7 +130,7 @@ fn the_published_motor_is_chosen() {
     assert_eq!(json["motor"]["name"], "4A71A4");
 }
 
-/// A catalogue with a slip of the pen points at it.
+/// An error in a catalogue is reported with its place.
 #[test]
 fn catalogues_are_checked() {
     let place = Place::new();

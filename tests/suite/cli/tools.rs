@@ -1,4 +1,4 @@
-//! Runs the command as a user would, on scenarios of the repository or edited copies of them.
+//! Runs the command as a user would, on scenarios of the repository or on edited copies.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -7,10 +7,10 @@ use assert_cmd::Command;
 use serde_json::Value;
 use tempfile::TempDir;
 
-/// A directory of its own that holds copies of the repository's scenarios, and is where commands run.
+/// A separate directory with copies of the repository's scenarios, in which commands run.
 pub struct Place(TempDir);
 
-/// What a command left behind.
+/// Output and exit code of a command.
 pub struct Outcome {
     pub code: i32,
     pub stdout: String,
@@ -28,7 +28,7 @@ impl Place {
         self.0.path().join(name)
     }
 
-    /// Writes a copy of a scenario in which each text is replaced, which must stand there exactly once.
+    /// Writes a copy of a scenario with replaced texts. Each text must occur exactly once.
     pub fn edited(&self, scenario: &str, to: &str, edits: &[(&str, &str)]) {
         let mut text = fs::read_to_string(self.path(&format!("scenarios/{scenario}"))).unwrap();
         for (old, new) in edits {
@@ -38,7 +38,7 @@ impl Place {
         fs::write(self.path(&format!("scenarios/{to}")), text).unwrap();
     }
 
-    /// Runs `linkproof` here with words that stand apart by blanks.
+    /// Runs `linkproof` here; blanks separate the arguments.
     pub fn run(&self, arguments: &str) -> Outcome {
         let mut command = Command::cargo_bin("linkproof").unwrap();
         let output = command.current_dir(self.0.path()).args(arguments.split_whitespace()).output().unwrap();
@@ -48,14 +48,14 @@ impl Place {
         Outcome { code: output.status.code().expect("an exit code"), stdout, stderr }
     }
 
-    /// Runs a command that must succeed without a word on standard error.
+    /// Runs a command that must succeed with nothing on standard error.
     pub fn ok(&self, arguments: &str) -> String {
         let outcome = self.run(arguments);
         assert_eq!((outcome.code, outcome.stderr.as_str()), (0, ""), "{arguments}: {}", outcome.stdout);
         outcome.stdout
     }
 
-    /// Runs a command that must be refused: exit code 2, a message with every one of `words`, and a way out.
+    /// Runs a command that must be refused: exit code 2, a message with all of `words`, and a way out.
     pub fn refused(&self, arguments: &str, words: &[&str]) -> Outcome {
         let outcome = self.run(arguments);
         assert_eq!(outcome.code, 2, "{arguments}: {}", outcome.stderr);
@@ -69,7 +69,7 @@ impl Place {
 }
 
 impl Outcome {
-    /// Standard output as JSON and nothing else.
+    /// Standard output, which must be JSON only.
     pub fn json(&self) -> Value {
         serde_json::from_str(&self.stdout).unwrap_or_else(|error| panic!("{error}: {}", self.stdout))
     }

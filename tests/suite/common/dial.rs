@@ -1,13 +1,13 @@
-//! One dial scales every bound of the tests: `LINKPROOF_TOLERANCE_SCALE=0.1 cargo test --release --test suite`.
+//! One factor scales every bound of the tests: `LINKPROOF_TOLERANCE_SCALE=0.1 cargo test --release --test suite`.
 //!
-//! At zero no bound fails. Instead every residual that uses more of its bound than any before it at the same place is printed beside it (with
-//! `-- --nocapture`), so that the last line of a place is its worst.
+//! At zero no bound fails. Instead, a residual is printed beside its bound (with `-- --nocapture`) if it uses more of
+//! the bound than any earlier one at the same place. So the last line of a place is its worst.
 
 use std::panic::Location;
 use std::sync::LazyLock;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Asserts that a residual is at most its bound, by the dial; NaN fails. What follows is a message as in `assert!`.
+/// Asserts that a residual is at most its bound times the factor; NaN fails. A message may follow, as in `assert!`.
 macro_rules! assert_within {
     ($value:expr, $bound:expr $(,)?) => {
         $crate::common::assert_within!($value, $bound, "{}", stringify!($value))
@@ -19,7 +19,7 @@ macro_rules! assert_within {
 }
 pub(crate) use assert_within;
 
-/// The dial: 1 unless the environment says otherwise.
+/// The factor: 1 unless the environment states another.
 fn scale() -> f64 {
     static SCALE: LazyLock<f64> = LazyLock::new(|| match std::env::var("LINKPROOF_TOLERANCE_SCALE") {
         Ok(text) => {
@@ -30,13 +30,13 @@ fn scale() -> f64 {
     *SCALE
 }
 
-/// Whether a residual is within its bound, by the dial.
+/// Whether a residual is within its bound times the factor.
 pub fn accepts(value: f64, bound: f64) -> bool {
     scale() == 0.0 || value <= scale() * bound
 }
 
-/// What [`assert_within`] does. `worst` keeps the largest share of the bound seen at the place of the call, as bits: those of numbers that are
-/// not negative stand in their order, and NaN above them all.
+/// The work of [`assert_within`]. `worst` keeps the largest share of the bound at the place of the call, as bits. The
+/// bits of numbers that are not negative have the same order as the numbers, and NaN is above them all.
 #[track_caller]
 pub fn judge(worst: &AtomicU64, value: f64, bound: f64, what: impl FnOnce() -> String) {
     if scale() > 0.0 {

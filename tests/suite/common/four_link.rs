@@ -1,4 +1,4 @@
-//! Random mechanisms with one group of four links, the same ones in every run.
+//! Random mechanisms with one group of four links, the same in every run.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -11,7 +11,8 @@ fn place(random: &mut Random) -> [f64; 2] {
     [random.number(-0.5, 0.5), random.number(-0.5, 0.5)]
 }
 
-/// A link whose frame has its origin in its first point and lies as in the world, so that its points are differences.
+/// A link whose frame has its origin in its first point and the world's axes. So its points are differences of
+/// coordinates.
 fn link(text: &mut String, random: &mut Random, name: &str, points: &[(&str, [f64; 2])]) {
     let origin = points[0].1;
     let local = |p: [f64; 2]| format!("{{ x_m = {:?}, y_m = {:?} }}", p[0] - origin[0], p[1] - origin[1]);
@@ -26,7 +27,7 @@ fn link(text: &mut String, random: &mut Random, name: &str, points: &[(&str, [f6
     }
 }
 
-/// A mechanism with one group of four links, described in a pose it can take: links, joints, ground points.
+/// A mechanism with one group of four links, described in a pose that it can take: links, joints, ground points.
 pub fn scenario(random: &mut Random, triad: bool) -> Scenario {
     let mut text = String::from("format = 1\nname = \"random\"\ntitle = \"random\"\n[ground.points]\n");
     let places: Vec<[f64; 2]> = (0..8).map(|_| place(random)).collect();

@@ -1,4 +1,4 @@
-//! Random mechanisms with a higher group, prismatic joints anywhere in it, alone or among dyads.
+//! Random mechanisms with a higher group, alone or together with dyads; any joint of the group may be prismatic.
 
 use linkage::math::Vec2;
 
@@ -6,7 +6,7 @@ use super::random::{SORTS, dyad, sort};
 use super::sketch::{Drawn, Random, Sketch};
 use super::spec::{Ask, Spec, Start};
 
-/// End of a joint: a link of the group, or what it hangs on.
+/// End of a joint: a link of the group, or the link that the group is joined to.
 #[derive(Clone, Copy, Debug)]
 pub enum End {
     Own(usize),
@@ -15,7 +15,8 @@ pub enum End {
 }
 use End::{Crank, Ground, Own};
 
-/// A group: number of links, class, and joints. The group's leads have their outer joint right before their inner one.
+/// A group: number of links, class, and joints. In the list, the outer joint of each lead comes directly before its
+/// inner joint.
 #[derive(Debug)]
 pub struct Topology {
     pub name: &'static str,
@@ -72,7 +73,7 @@ pub const CLASS_3_ORDER_4: Topology = Topology {
     ],
 };
 
-/// Class IV, order 3: a quadrilateral 0-1-2-3, of which 0 hangs on the crank and 1 and 2 on the leads 4 and 5.
+/// Class IV, order 3: a quadrilateral 0-1-2-3. Link 0 is joined to the crank, links 1 and 2 to the leads 4 and 5.
 pub const CLASS_4_ORDER_3: Topology = Topology {
     name: "class IV of order 3",
     links: 6,
@@ -97,14 +98,15 @@ pub struct Family {
     pub slides: &'static [usize],
 }
 
-/// Every sort of higher group that is tried.
+/// Every kind of higher group that is tested.
 pub const FAMILIES: [Family; 18] = {
     const fn of(topology: &'static Topology, slides: &'static [usize]) -> Family {
         Family { topology, slides }
     }
     [
         of(&CLASS_3, &[]),
-        // One slider lead, on the crank or on the ground; one swivel lead; two of these; all three; a lead that keeps the base's angle.
+        // One slider lead, on the crank or on the ground; one swivel lead; two of these; all three; a lead that keeps
+        // the base's angle.
         of(&CLASS_3, &[0]),
         of(&CLASS_3, &[2]),
         of(&CLASS_3, &[1]),
@@ -125,20 +127,20 @@ pub const FAMILIES: [Family; 18] = {
     ]
 };
 
-/// What the group stands among.
+/// Surroundings of the group.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Among {
     Alone,
-    /// It hangs on the second link of a dyad instead of the crank.
+    /// It is joined to the second link of a dyad instead of the crank.
     BehindADyad,
-    /// Two of its links carry a dyad of any sort, with its guide perhaps.
+    /// Two of its links carry a dyad of any kind, possibly with its guide.
     CarryingADyad,
 }
 
-/// How far off the rough places are (m).
+/// Distance of the rough places from the true ones (m).
 const ROUGH: f64 = 0.01;
 
-/// A mechanism with such a group, whose start is asked for by rough places of its joints.
+/// A mechanism with such a group; its start is given by rough places of its joints.
 pub fn mechanism(random: &mut Random, family: &Family, among: Among) -> (Spec, Vec<linkage::mechanism::LinkPose>) {
     let mut sketch = Sketch::new(random, [0.02, 0.05]);
     sketch.spec.grid = (sketch.spec.start - 0.25, 0.05, 10);
@@ -157,7 +159,7 @@ pub fn mechanism(random: &mut Random, family: &Family, among: Among) -> (Spec, V
     sketch.finish()
 }
 
-/// Draws the group, hung on `driver`, and asks for it.
+/// Draws the group, joined to `driver`, and asks for its start.
 fn links(sketch: &mut Sketch, family: &Family, driver: usize) -> Vec<usize> {
     let place = |sketch: &mut Sketch| Vec2::new(sketch.random.number(-0.5, 0.5), sketch.random.number(-0.5, 0.5));
     let mut own = Vec::new();

@@ -1,4 +1,4 @@
-//! Mechanisms for the integration tests: written as scenario text, so that tests enter where a user does.
+//! Mechanisms for the integration tests, written as scenario text, so that tests enter where a user does.
 
 pub mod dial;
 pub mod four_link;
@@ -20,13 +20,13 @@ pub fn shipped(name: &str) -> Scenario {
     Scenario::load(&path).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Names of the Rapier engines, the ones in single precision only where the feature `f32` has them built.
+/// Names of the Rapier engines; those in single precision only in builds with the feature `f32`.
 pub fn rapiers() -> Vec<&'static str> {
     let single = |name: &&str| cfg!(feature = "f32") || !name.ends_with("-f32");
     ["rapier", "rapier-f32", "impulse", "impulse-f32"].into_iter().filter(single).collect()
 }
 
-/// The states that a solver finds at the given times (s), in their order.
+/// The states that a solver computes at the given times (s), in their order.
 pub fn states(solver: &dyn Solver, case: &Case, times: &[f64]) -> linkage::Result<Vec<State>> {
     let case = case.on(Grid::of_times(case.crank(), times.to_vec())).unwrap();
     let mut found: Vec<Option<State>> = vec![None; times.len()];

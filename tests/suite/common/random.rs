@@ -1,4 +1,4 @@
-//! Random mechanisms of dyads of all five sorts, the same ones in every run.
+//! Random mechanisms of dyads of all five kinds, the same in every run.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -14,14 +14,14 @@ use super::dial::accepts;
 use super::sketch::{Random, Sketch};
 use super::spec::{Ask, Dyad, Spec, Start};
 
-/// How far the mechanisms reach (m), and how far their links turn (rad).
+/// Limits of the mechanisms' size (m) and of the turn of their links (rad).
 pub const REACH: f64 = 4.0;
 /// Smallest sine of a transmission angle: 10 degrees.
 const DEAD: f64 = 0.17364817766693033;
 /// Smallest distance of the outer pins of an RPR dyad (m): as short as the shortest link.
 const CLOSE: f64 = 0.1;
 
-/// The five sorts: whether the first outer, the inner and the second outer joint are prismatic.
+/// The five kinds: whether the first outer, the inner and the second outer joint are prismatic.
 pub const SORTS: [[bool; 3]; 5] =
     [[false, false, false], [false, false, true], [false, true, false], [false, true, true], [true, false, true]];
 
@@ -29,15 +29,16 @@ pub const SORTS: [[bool; 3]; 5] =
 pub struct Sample {
     pub spec: Spec,
     pub scenario: Scenario,
-    /// Product over the dyads of 1 / sin(smallest transmission angle): how much one dyad after another can magnify an error.
+    /// Product over the dyads of 1 / sin(smallest transmission angle): the factor by which a chain of dyads can magnify
+    /// an error.
     pub condition: f64,
 }
 
-/// Hangs a dyad on two links, with its mode.
+/// Adds a dyad to two links, with its mode.
 pub fn dyad(sketch: &mut Sketch, slides: [bool; 3], bases: [usize; 2]) -> [usize; 2] {
     let hook = sketch.poses[bases[0]].origin + sketch.random.vector(0.1, 0.6);
     let (mut one, mut two) = (sketch.link(hook), sketch.link(hook));
-    // Either link may be the mechanism's earlier one, and so the group's first.
+    // Either link may be the earlier one in the mechanism, and so the first of the group.
     if sketch.random.yes() {
         (one, two) = (two, one);
     }
@@ -74,7 +75,7 @@ pub fn dyad(sketch: &mut Sketch, slides: [bool; 3], bases: [usize; 2]) -> [usize
     [one, two]
 }
 
-/// A random sort in either order of its links.
+/// A random kind, with its links in either order.
 pub fn sort(random: &mut Random, allowed: &[[bool; 3]]) -> [bool; 3] {
     let mut slides = allowed[random.index(allowed.len())];
     if random.yes() {
@@ -83,14 +84,14 @@ pub fn sort(random: &mut Random, allowed: &[[bool; 3]]) -> [bool; 3] {
     slides
 }
 
-/// A crank and `dyads` dyads, each hung on one of the last links and on any other one or the ground.
+/// A crank and `dyads` dyads, each joined to one of the last links and to any other link or the ground.
 fn chain(random: &mut Random, allowed: &[[bool; 3]], dyads: usize) -> (Spec, Vec<LinkPose>) {
     let mut sketch = Sketch::new(random, [0.1, 1.0]);
     for _ in 0..dyads {
         let count = sketch.poses.len();
         let moving = count - 1 - sketch.random.index(2.min(count - 1));
         let other = if sketch.random.yes() { 0 } else { sketch.random.index(count) };
-        // Both on one link would only make that link larger.
+        // Both ends on one link would only make that link larger.
         let other = if other == moving { 0 } else { other };
         let bases = if sketch.random.yes() { [moving, other] } else { [other, moving] };
         let slides = sort(sketch.random, allowed);
@@ -99,8 +100,9 @@ fn chain(random: &mut Random, allowed: &[[bool; 3]], dyads: usize) -> (Spec, Vec
     sketch.finish()
 }
 
-/// Reads a chain and looks whether it keeps within reach and away from dead points on its grid. Poses are those of the trunk: asking a
-/// solver would have it explain how far the mechanism can be followed, which takes longer than all the rest.
+/// Reads a chain and checks that it stays within reach and away from dead points on its grid. The poses come from the
+/// `linkage` crate. A solver would also compute how far the mechanism can be followed, which takes longer than all the
+/// rest.
 pub fn sample(spec: Spec) -> Option<Sample> {
     let scenario = spec.scenario().unwrap_or_else(|error| panic!("{error}\n{}", spec.toml()));
     let case = &scenario.case;
@@ -128,7 +130,8 @@ pub fn sample(spec: Spec) -> Option<Sample> {
             return None;
         }
         let sine = |pose: &Pose| transmission_sine(mechanism, group, pose).expect("a dyad");
-        // Of one sign: where axes become parallel a slide goes to infinity and comes back from the other side.
+        // The sign must not change: where axes become parallel, a slide goes to infinity and returns from the other
+        // side.
         let sign = sine(&poses[0]).signum();
         let least = poses.iter().map(|pose| sign * sine(pose)).fold(1.0, f64::smaller);
         if !(least >= DEAD) {
@@ -139,22 +142,22 @@ pub fn sample(spec: Spec) -> Option<Sample> {
     Some(Sample { spec, scenario, condition })
 }
 
-/// That the mode asked for is the pose that was drawn.
+/// Checks that the mode asked for gives the pose that was drawn.
 fn starts_as_drawn(sample: &Sample, drawn: &[LinkPose]) {
     for (found, drawn) in sample.scenario.case.start.0.iter().zip(drawn) {
         let turn = linkage::math::angle::wrapped(found.angle - drawn.angle);
         let off = (found.origin - drawn.origin).norm().larger(turn.abs());
-        // Rounding through the dyads, as between the solvers.
+        // Rounding along the dyads, as between the solvers.
         assert_within!(off, 1e-13 * sample.condition.powi(2), "{off:e}\n{}", sample.spec.toml());
     }
 }
 
-/// Runs `check` on `count` random mechanisms of one to three dyads of all sorts.
+/// Runs `check` on `count` random mechanisms of one to three dyads of all kinds.
 pub fn for_each(count: u32, check: impl Fn(&Sample) -> Result<(), TestCaseError>) {
     for_each_of(&SORTS, 3, count, check);
 }
 
-/// Runs `check` on `count` random mechanisms of one to `most` dyads of the given sorts.
+/// Runs `check` on `count` random mechanisms of one to `most` dyads of the given kinds.
 pub fn for_each_of(
     allowed: &[[bool; 3]],
     most: usize,
@@ -177,7 +180,7 @@ pub fn for_each_of(
         checked += 1;
     }
     println!("{checked} of {drawn} mechanisms: {sorts:?}; {}", worst());
-    // One dyad to a mechanism at least, of up to five sorts: the rarest is still met.
+    // Every mechanism has at least one dyad, of up to five kinds, so that the rarest kind still occurs.
     assert!(sorts.len() == allowed.len() && sorts.values().all(|&met| met >= count / 10), "{sorts:?}");
 }
 

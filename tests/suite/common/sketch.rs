@@ -1,5 +1,5 @@
-//! Mechanisms drawn at random in the pose that they start in: links lie anywhere in any direction, and a joint is put where both of its
-//! links happen to be. So every drawing can be assembled, and the pose it must start in is known without any formula.
+//! Mechanisms drawn at random in their start pose. Links have any place and direction, and a joint is put at the
+//! present place of its two links. So every drawing can be assembled, and its start pose is known without any formula.
 
 use linkage::math::{KeepNan, Vec2, rotated, unit};
 use linkage::mechanism::LinkPose;
@@ -17,7 +17,7 @@ impl Random {
         Random(TestRng::from_seed(RngAlgorithm::ChaCha, &[seed; 32]))
     }
 
-    /// The next one.
+    /// The next number.
     pub fn number(&mut self, from: f64, to: f64) -> f64 {
         from + (to - from) * (self.0.next_u64() >> 11) as f64 / (1u64 << 53) as f64
     }
@@ -44,30 +44,30 @@ impl Random {
 /// A joint of a drawing.
 #[derive(Clone, Copy, Debug)]
 pub struct Drawn {
-    /// Its world places on the links it was asked for, in that order: one point, or two along the axis.
+    /// Its world places on the two links, in the order asked for: one point, or two along the axis.
     pub places: [Vec2; 2],
-    /// World direction of a prismatic joint's axis; no direction for a revolute one.
+    /// World direction of a prismatic joint's axis; zero for a revolute joint.
     pub axis: Vec2,
     /// Which of the two links the joint names first.
     pub first: usize,
 }
 
-/// A mechanism that is being drawn. Link 0 is the ground, link 1 the crank.
+/// A mechanism under construction. Link 0 is the ground, link 1 the crank.
 pub struct Sketch<'a> {
     pub random: &'a mut Random,
     pub spec: Spec,
     /// Pose of the ground and of every link.
     pub poses: Vec<LinkPose>,
-    /// For every link one that turns with it, the same one for all that turn together.
+    /// For every link, one link that turns with it; the same one for all links that turn together.
     turning: Vec<usize>,
     joints: usize,
 }
 
-/// Slides are at most this long at the start (m).
+/// Largest slide at the start (m).
 const SLIDE: f64 = 0.5;
 
 impl<'a> Sketch<'a> {
-    /// A crank whose length lies between the given ones (m), on the ground.
+    /// A crank on the ground with a length between the given ones (m).
     pub fn new(random: &'a mut Random, crank: [f64; 2]) -> Self {
         let start = random.angle();
         let speed = random.number(0.5, 30.0) * if random.yes() { 1.0 } else { -1.0 };
@@ -93,7 +93,7 @@ impl<'a> Sketch<'a> {
         let crank_link = sketch.link(pivot);
         sketch.poses[crank_link].angle = zero + start;
         sketch.join(false, 0, crank_link, pivot);
-        // A point at the crank's end gives it its length.
+        // A point at the crank's end determines its length.
         let end = sketch.random.vector(crank[0], crank[1]);
         sketch.put(crank_link, "E", pivot + end);
         sketch
@@ -105,7 +105,7 @@ impl<'a> Sketch<'a> {
         self.poses[1].point(*end)
     }
 
-    /// A new link whose frame lies near `at`.
+    /// A new link whose frame is near `at`.
     pub fn link(&mut self, at: Vec2) -> usize {
         let index = self.poses.len();
         self.poses.push(LinkPose { origin: at + self.random.vector(0.0, 0.3), angle: self.random.angle() });
@@ -118,7 +118,7 @@ impl<'a> Sketch<'a> {
         if link == 0 { "ground".into() } else { self.spec.links[link - 1].name.clone() }
     }
 
-    /// Name of the joint that is drawn next.
+    /// Name of the next joint.
     pub fn next_joint(&self) -> String {
         format!("J{}", self.joints)
     }
@@ -165,7 +165,7 @@ impl<'a> Sketch<'a> {
         Drawn { places, axis, first }
     }
 
-    /// Masses, with mass centres off all lines, and resistances on some of the links that turn.
+    /// Adds masses with mass centres off all lines, and resistances on some of the links that turn.
     pub fn finish(mut self) -> (Spec, Vec<LinkPose>) {
         for index in 0..self.spec.links.len() {
             let points = &self.spec.links[index].points;

@@ -1,5 +1,6 @@
-//! Mechanisms with prismatic joints, built by hand with their motion in closed form: one of every sort of dyad. No frame and no
-//! axis lies along the world's, no mass centre on a joint, so that a wrong sign or a frame left out shows.
+//! Mechanisms with prismatic joints, built by hand, with their motion in closed form: one of every kind of dyad. No
+//! frame and no axis is parallel to the world's, and no mass centre is on a joint. So a wrong sign or a missing frame
+//! shows.
 
 pub mod double;
 
@@ -20,7 +21,7 @@ pub const CRANK: f64 = 0.1;
 /// Direction of the guides on the ground (rad).
 const GUIDE: f64 = 0.3;
 
-/// A mechanism, and what is known of it in closed form.
+/// A mechanism, and its closed form.
 pub struct Sample {
     pub name: &'static str,
     pub case: Case,
@@ -51,8 +52,8 @@ fn along(first: f64, second: f64) -> JointKind {
     JointKind::Prismatic { axes: [unit(first), unit(second)] }
 }
 
-/// The same case with its joints' links named in the other order. The mode of an RPR dyad says which of the pair's links lies
-/// ahead, so it turns about.
+/// The same case with the links of its joints named in the other order. The mode of an RPR dyad says which link of the
+/// pair is ahead, so it changes too.
 pub fn swapped(case: &Case) -> Case {
     let swap = |joint: &Joint| {
         let kind = match joint.kind {
@@ -113,12 +114,12 @@ const OFFSET: f64 = 0.02;
 const SLIDER_AXIS: f64 = -0.5;
 const SLIDER_PLACE: Vec2 = Vec2::new(0.02, 0.015);
 
-/// RRP: crank 0.1 m, rod 0.35 m, slider whose pin runs 0.02 m beside the crank's pivot.
+/// RRP: crank 0.1 m, rod 0.35 m, slider whose pin moves on a line 0.02 m beside the crank's pivot.
 ///
-/// With the crank at phi from the guide and sin(beta) = (e - a sin(phi)) / l: s = a cos(phi) + l cos(beta); both derived twice
-/// (the formulas of a piston compressor, here with an offset).
+/// With the crank at phi from the guide and sin(beta) = (e - a sin(phi)) / l: s = a cos(phi) + l cos(beta); both
+/// derived twice (the formulas of a piston compressor, here with an offset).
 pub fn slider_crank() -> Sample {
-    // The place on the slider and the one on the guide both lie off the pin's path.
+    // The place on the slider and the place on the guide are both off the pin's path.
     let from_pin = rotated(unit(-SLIDER_AXIS), SLIDER_PLACE);
     let guide = rotated(unit(GUIDE), Vec2::new(0.25, OFFSET + from_pin.y));
     let links = vec![
@@ -154,8 +155,9 @@ pub fn slider_crank() -> Sample {
     Sample { name: "slider-crank", case, exact, joint: "guide", link: "rod" }
 }
 
-/// The slider-crank with a rod of 0.11 m: it does not reach its line where the crank's tip is farther from that. Turning on from
-/// the start this begins at 180 deg + asin(0.09 / 0.1) = 244.158 deg from the guide, crank angle 261.347 deg.
+/// The slider-crank with a rod of 0.11 m. It does not reach its line where the crank's tip is farther from the line
+/// than that. From the start onwards this begins at 180 deg + asin(0.09 / 0.1) = 244.158 deg from the guide, crank
+/// angle 261.347 deg.
 pub fn short_rod() -> Case {
     let rod = 0.11;
     let case = slider_crank().case;
@@ -180,8 +182,8 @@ const BLOCK_PLACE: Vec2 = Vec2::new(-0.01, 0.02);
 
 /// RPR: crank 0.1 m, block on its pin, sliding on a rocker about (0.25, 0.05).
 ///
-/// With the guide at eta, A = C + t e + h n (h constant): v . n = t eta', v . e = t' - h eta', a . n = t eta'' + 2 t' eta' - h eta'^2,
-/// a . e = t'' - t eta'^2 - h eta''.
+/// With the guide at eta, A = C + t e + h n (h constant): v . n = t eta', v . e = t' - h eta', a . n = t eta'' + 2 t'
+/// eta' - h eta'^2, a . e = t'' - t eta'^2 - h eta''.
 pub fn swinging_guide() -> Sample {
     let links = vec![
         link("ground", &[("O", Vec2::zeros()), ("C", PIVOT)], [0.0; 4]),
@@ -212,7 +214,7 @@ pub fn swinging_guide() -> Sample {
         let speed = v.dot(&e) + h * spin;
         let alpha = (a.dot(&n) - 2.0 * speed * spin + h * spin * spin) / t;
         let second = a.dot(&e) + t * spin * spin + h * alpha;
-        // The slide counts from the block, the joint's first link, to the rocker.
+        // The slide is measured from the block, the joint's first link, to the rocker.
         let slide = rocker_place.x - (t + block_place.x);
         let turns = if eta < 0.0 { TURN } else { 0.0 };
         Exact { slide: [slide, -speed, -second], angle: [eta - ROCKER_AXIS + turns, spin, alpha] }

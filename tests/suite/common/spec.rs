@@ -1,4 +1,4 @@
-//! A mechanism as data, which a test can turn, mirror or load before it writes it as scenario text.
+//! A mechanism as data. A test can turn, mirror or load it before writing it as scenario text.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -11,11 +11,11 @@ use linkproof::scenario::Scenario;
 pub struct Body {
     pub name: String,
     pub points: Vec<(String, Vec2)>,
-    /// Mass, mass centre and moment of inertia; none for a massless link.
+    /// Mass, mass centre and moment of inertia; `None` for a massless link.
     pub mass: Option<(f64, Vec2, f64)>,
 }
 
-/// A revolute joint: its name (which is its point's) and its links.
+/// A revolute joint: its name (the name of its point) and its links.
 #[derive(Clone, Debug)]
 pub struct Pin {
     pub name: String,
@@ -40,12 +40,12 @@ impl Guide {
     }
 }
 
-/// How a group other than an RRR dyad starts.
+/// Start of a group other than an RRR dyad.
 #[derive(Clone, Debug)]
 pub enum Ask {
     Ahead,
     Behind,
-    /// Points and where they roughly are.
+    /// Points and their rough places.
     Near(Vec<(String, Vec2)>),
 }
 
@@ -60,14 +60,14 @@ impl Ask {
     }
 }
 
-/// A group's links and how it starts.
+/// A group's links and its start.
 #[derive(Clone, Debug)]
 pub struct Start {
     pub links: Vec<String>,
     pub ask: Ask,
 }
 
-/// A dyad's links and whether its inner joint lies to the left.
+/// A dyad's links, and whether its inner joint is on the left.
 #[derive(Clone, Debug)]
 pub struct Dyad {
     pub links: [String; 2],
@@ -81,7 +81,7 @@ pub struct Spec {
     pub links: Vec<Body>,
     pub pins: Vec<Pin>,
     pub guides: Vec<Guide>,
-    /// Whether the prismatic joints stand before the revolute ones.
+    /// Whether the prismatic joints come before the revolute ones.
     pub guides_first: bool,
     pub speed: f64,
     pub zero: f64,
@@ -90,7 +90,7 @@ pub struct Spec {
     /// Links with a moment of resistance.
     pub loads: Vec<(String, f64)>,
     pub dyads: Vec<Dyad>,
-    /// The groups that are no RRR dyads and have more than one configuration.
+    /// Starts of groups other than RRR dyads that have more than one configuration.
     pub starts: Vec<Start>,
     /// First crank angle, step and number of steps of the grid.
     pub grid: (f64, f64, usize),
@@ -167,7 +167,7 @@ impl Spec {
         Scenario::parse(&self.toml(), Path::new("test.toml"))
     }
 
-    /// The same mechanism carried to another place and turned as a whole, gravity included.
+    /// The same mechanism at another place and turned as a whole, gravity included.
     pub fn moved(&self, by: Vec2, turn: f64) -> Spec {
         let mut other = self.clone();
         let carried = |at: Vec2| by + rotated(unit(turn), at);
@@ -182,7 +182,7 @@ impl Spec {
         other
     }
 
-    /// The mirror image at the x axis: places, angles, senses, gravity and assembly modes.
+    /// The mirror image about the x axis: places, angles, senses, gravity and assembly modes.
     pub fn mirrored(&self) -> Spec {
         let mut other = self.clone();
         let points = other.links.iter_mut().flat_map(|body| &mut body.points).chain(&mut other.ground);
@@ -193,7 +193,7 @@ impl Spec {
         other.gravity.y = -self.gravity.y;
         other.guides.iter_mut().flat_map(|guide| &mut guide.axes).for_each(|axis| *axis = -*axis);
         other.near_points().for_each(|at| at.y = -at.y);
-        // Left and right of a line change places; ahead and behind are measured along axes, which are mirrored too.
+        // Left and right of a line are exchanged. Ahead and behind are measured along axes, which are mirrored too.
         other.dyads.iter_mut().for_each(|dyad| dyad.left = !dyad.left);
         other
     }
@@ -217,8 +217,8 @@ impl Spec {
     }
 }
 
-/// A four-bar O-A-B-C with links along their x axes: crank, coupler, rocker of the given lengths on pivots O = (0, 0) and
-/// C = (`base`, 0); slender rods of 10 kg/m.
+/// A four-bar O-A-B-C with links along their x axes: crank, coupler and rocker of the given lengths.
+/// Pivots O = (0, 0) and C = (`base`, 0); slender rods of 10 kg/m.
 pub fn four_bar([base, crank, coupler, rocker]: [f64; 4], left: bool) -> Spec {
     let rod = |name: &str, [from, to]: [&str; 2], length: f64| Body {
         name: name.into(),

@@ -13,7 +13,7 @@ use linkage::case::Case;
 use linkage::drive::{DriveMotion, Load, MotionLaw, Motor, MotorLaw, ShaftInertia};
 use linkproof::scenario::Scenario;
 
-/// A bar of 2 kg and 0.05 kg m^2 about its mass centre, 0.3 m from the pivot; from the direction `start` (deg).
+/// A bar of 2 kg and 0.05 kg m^2 about its mass centre, 0.3 m from the pivot; it starts in the direction `start` (deg).
 fn bar(centre: f64, start: f64, gravity: bool) -> Case {
     let field = if gravity { "[gravity]\nx_m_s2 = 0\ny_m_s2 = -9.81\n" } else { "" };
     let text = format!(
@@ -62,7 +62,8 @@ fn constant_coefficients_have_their_closed_form() {
     }
 }
 
-/// Where inertia and resistance are constant, the averaged model is the true one: a balanced bar against a resistance, behind a reducer with losses.
+/// If inertia and resistance are constant, the averaged model is exact: a balanced bar against a resistance, behind a
+/// reducer with losses.
 #[test]
 fn the_averaged_model_is_exact_for_constant_coefficients() {
     let inertia = ShaftInertia { rotor: 1e-3, input: 5e-4, intermediate: 2e-2, intermediate_ratio: 3.0, output: 0.1 };
@@ -100,14 +101,14 @@ fn the_averaged_model_is_exact_for_constant_coefficients() {
 fn the_averaged_model_is_closed_on_one_straight_line_only() {
     let linear = Motor::ideal(MotorLaw::Linear { at_rest: 4.0, slope: -0.02 }, 10.0);
     let lossy = Motor { efficiency: 0.9, ..linear.clone() };
-    // Without resistance both come to 200 rad/s of the motor, slower with losses.
+    // Without resistance both reach 200 rad/s of the motor, more slowly with losses.
     let free = [&linear, &lossy].map(|motor| Averaged::of(motor, 0.5, 0.0).unwrap());
     free.iter().for_each(|free| assert_within!((free.steady_speed - 20.0).abs(), 1e-12, "{free:?}"));
     assert_within!((free[1].time_constant / free[0].time_constant - 1.0 / 0.9).abs(), 1e-14);
-    // A resistance that drives: beyond 20 rad/s losses change their side.
+    // A resistance that drives: beyond 20 rad/s losses act in the other direction.
     assert_within!((Averaged::of(&linear, 0.5, -2.0).unwrap().steady_speed - 21.0).abs(), 1e-12);
     assert_eq!(Averaged::of(&lossy, 0.5, -2.0), None);
-    // More than the starting moment, no mass, no slope, no line.
+    // No steady motion: more than the starting moment, no mass, no slope, no straight line.
     assert_eq!(Averaged::of(&linear, 0.5, 40.1), None);
     assert_eq!(Averaged::of(&linear, 0.0, 1.0), None);
     let bent = [
@@ -135,7 +136,7 @@ fn kloss_runs_up_in_its_known_time() {
     }
 }
 
-/// A pendulum let go at rest swings with the period 4 K(sin(amplitude / 2)) / Omega; it turns about twice a swing.
+/// A pendulum released at rest swings with the period 4 K(sin(amplitude / 2)) / Omega; it reverses twice per swing.
 #[test]
 fn a_pendulum_swings_in_its_known_time() {
     for degrees in [10.0f64, 90.0, 150.0] {
@@ -149,19 +150,20 @@ fn a_pendulum_swings_in_its_known_time() {
         for (half, at) in found.iter().enumerate() {
             let side = if half % 2 == 0 { 1.0 } else { -1.0 };
             let expected = (-90.0f64).to_radians() + side * degrees.to_radians();
-            // At a turning point the angle is flat in time: this proves the amplitude, the quarter below the period.
+            // At a reversal the angle is stationary in time: this proves the amplitude, and the quarter period below
+            // proves the period.
             assert_within!((at.crank - expected).abs(), 1e-11, "{degrees} {half}: {at:?}");
         }
         let quarters: Vec<f64> = (0..10).map(|k| period * (f64::from(k) + 0.25)).collect();
         let (found, _) = motion(&model, 0.0, &quarters, 1e-13).unwrap();
         for at in &found {
-            // What is asked of run-ups.
+            // The accuracy wanted of run-ups.
             assert_within!((at.crank + PI / 2.0).abs(), 1e-10, "{degrees}: {at:?}");
         }
     }
 }
 
-/// Over the top, a turn takes 4 K(2 Omega / omega_0) / omega_0 from and to the lowest place, turn after turn.
+/// If the pendulum rotates fully, every turn from the lowest place takes 4 K(2 Omega / omega_0) / omega_0.
 #[test]
 fn a_pendulum_turns_in_its_known_time() {
     let case = bar(0.3, -90.0, true);
@@ -181,7 +183,7 @@ fn a_pendulum_turns_in_its_known_time() {
     }
 }
 
-/// The pivot of a bar that falls from rest carries what Newton's law says.
+/// The reaction in the pivot of a bar that falls from rest follows Newton's law.
 #[test]
 fn reactions_follow_the_true_motion() {
     let case = bar(0.3, 0.0, true);
@@ -199,7 +201,7 @@ fn reactions_follow_the_true_motion() {
         let [x, y] = [along * cos - across * sin, along * sin + across * cos];
         assert_within!((fx[row] - 2.0 * x).abs(), 1e-11, "{row}");
         assert_within!((fy[row] - 2.0 * (y + 9.81)).abs(), 1e-11, "{row}");
-        // Energy: the fall of the mass centre.
+        // Energy: the drop of the mass centre.
         let energy = 0.5 * (0.05 + 0.18) * at.omega * at.omega + 2.0 * 9.81 * 0.3 * sin;
         assert_within!(energy.abs(), 1e-11, "{energy:e}");
     }

@@ -1,4 +1,4 @@
-//! Energy of whole mechanisms, summed up link by link.
+//! Energy of whole mechanisms, summed link by link.
 
 use linkage::math::KeepNan;
 use std::f64::consts::TAU;
@@ -21,7 +21,7 @@ fn energy(case: &Case, poses: &mut PoseSolver, at: &CrankState) -> [f64; 2] {
     sum
 }
 
-/// Without motor and loads nothing takes energy: a hundred turns, looked at some thousand times.
+/// Without motor and loads the energy is constant: a hundred turns, checked at some thousand instants.
 #[test]
 fn conservative_mechanisms_keep_their_energy() {
     for (name, speed) in [("crank_rocker", 30.0), ("compressor", 40.0), ("six_bar_slider", 100.0), ("ov7_base", -97.0)]
@@ -29,7 +29,7 @@ fn conservative_mechanisms_keep_their_energy() {
         let case = shipped(&format!("{name}.toml")).case;
         let case = case.with(|parts| parts.loads.clear()).unwrap().with_motor(None).unwrap();
         let model = Model::of(&case).unwrap();
-        // Time enough for a hundred turns; the speed swings about what it was at the start.
+        // Long enough for a hundred turns; the speed varies about its initial value.
         let times: Vec<f64> = (0..=4000).map(|k| f64::from(k) * 0.1 * TAU / f64::abs(speed)).collect();
         let (mut found, end) = motion(&model, speed, &times, 3e-15).unwrap();
         assert_eq!(end, End::Reached, "{name}");
@@ -51,7 +51,8 @@ fn conservative_mechanisms_keep_their_energy() {
     }
 }
 
-/// A mechanism left to itself against a resistance loses just the work of the resistance: 100 N m times the angle that the rocker has gone.
+/// A mechanism that runs freely against a resistance loses exactly the work of the resistance: 100 N m times the angle
+/// travelled by the rocker.
 #[test]
 fn a_resistance_takes_its_work() {
     let case = shipped("crank_rocker.toml").case.with_motor(None).unwrap();
@@ -66,7 +67,7 @@ fn a_resistance_takes_its_work() {
         poses.solve(at.crank, at.omega, at.alpha, Stage::Positions).unwrap();
         poses.with_angles().angles[rocker]
     };
-    // Way of the rocker: it turns about at 50 and 82 deg.
+    // Travel of the rocker: it reverses at 50 and 82 deg.
     let (mut way, mut last) = (0.0f64, angle(&found[0]));
     let mut other = PoseSolver::new(&case).unwrap();
     let first: f64 = energy(&case, &mut other, &found[0]).iter().sum();
@@ -77,7 +78,7 @@ fn a_resistance_takes_its_work() {
         let turned: Vec<f64> = kinks.into_iter().filter(|_| crosses(&model, previous.crank, at.crank)).collect();
         way += match turned.first() {
             None => (now - last).abs(),
-            // To the nearer extreme and back.
+            // To the nearer extreme position and back.
             Some(_) => {
                 let extreme = kinks.into_iter().min_by(|a, b| (a - now).abs().total_cmp(&(b - now).abs())).unwrap();
                 (extreme - last).abs() + (extreme - now).abs()

@@ -9,7 +9,7 @@ use linkage::drive::{Load, Motor, MotorLaw};
 use linkage::math::{KeepNan, Vec2};
 use workshop::flywheel::Flywheel;
 
-/// Half a millisecond to half a second: the run-up of the published problem.
+/// From half a millisecond to half a second: the run-up of the published problem.
 fn times() -> Vec<f64> {
     (0..=500).map(|k| f64::from(k) * 1e-3).collect()
 }
@@ -20,11 +20,12 @@ fn val_crank_rocker_reduced_means_and_maximum() {
     for solver in analytic::all() {
         let means = means::means_over_turn(&case, solver).unwrap();
         assert_within!((means.inertia - 0.164_846_013).abs(), 5.1e-10, "{}: {}", solver.name(), means.inertia);
-        // Over a turn gravity does no work and the rocker goes through its swing of 32 deg twice.
+        // Over a turn gravity does no work, and the rocker travels its swing of 32 deg twice.
         let closed = 100.0 * 2.0 * 32.0 / 360.0;
         assert_within!((means.resistance - closed).abs(), 1e-11, "{}: {:e}", solver.name(), means.resistance - closed);
     }
-    // The published reduced moment leaves out the crank's weight: its mass is moved to the pivot, its moment of inertia about it kept.
+    // The published reduced moment omits the crank's weight: here its mass is moved to the pivot, and its moment of
+    // inertia about the pivot is kept.
     let mut links = case.mechanism.links().to_vec();
     let crank = &mut links[1];
     crank.inertia += crank.mass * crank.mass_centre.norm_squared();
@@ -55,14 +56,15 @@ fn val_crank_rocker_steady_motion() {
     assert_within!((steady * motor.ratio - 302.6266).abs(), 5e-5);
 }
 
-/// The run-up, integrated in time with dI*/dphi, ends in the steady motion, found over the crank angle without it.
+/// The run-up, integrated in time with dI*/dphi, ends in the steady motion, which is computed over the crank angle
+/// without it.
 #[test]
 fn run_up_in_time_and_steady_motion_over_the_angle_are_one() {
     let case = shipped("crank_rocker.toml").case;
     let model = Model::of(&case).unwrap();
     let (found, end) = motion(&model, 0.0, &times(), ACCURACY).unwrap();
     assert_eq!((found.len(), end), (501, End::Reached));
-    // A deviation is gone after a tenth of a turn: from 0.1 s on the motion is the steady one.
+    // A deviation has decayed after a tenth of a turn: from 0.1 s on the motion is the steady one.
     let late: Vec<_> = found.iter().filter(|at| at.t >= 0.1 && at.crank < TAU).collect();
     assert!(late.len() > 300);
     let cranks: Vec<f64> = late.iter().map(|at| at.crank).collect();
@@ -71,13 +73,13 @@ fn run_up_in_time_and_steady_motion_over_the_angle_are_one() {
         assert_within!((at.omega - steady.omega).abs(), 1e-10, "{at:?} {steady:?}");
         assert_within!((at.alpha - steady.alpha).abs(), 1e-7, "{at:?} {steady:?}");
     }
-    // A period later the crank is a turn farther.
+    // One period later the crank has turned once more.
     let pair = [0.2, 0.2 + regime.period];
     let (found, _) = motion(&model, 0.0, &pair, ACCURACY).unwrap();
     assert_within!((found[1].crank - found[0].crank - TAU).abs(), 1e-11, "{:e}", found[1].crank - found[0].crank - TAU);
 }
 
-/// The default accuracy against one a hundred times as tight, and on a grid ten times as fine, so that all steps differ.
+/// The default accuracy against one a hundred times tighter, and on a grid ten times finer, so that all steps differ.
 #[test]
 fn run_up_is_exact_to_1e_10() {
     let case = shipped("crank_rocker.toml").case;
@@ -91,7 +93,7 @@ fn run_up_is_exact_to_1e_10() {
         assert_within!((at.crank - exact.crank).abs(), 1e-10, "{at:?} {exact:?}");
     }
     assert_within!(run_up.power_residual().unwrap(), 1e-10, "{:?}", run_up.power_residual());
-    // All reactions are there.
+    // All reactions are present.
     let reactions = run_up.trajectory.channels().iter().filter(|c| c.to_string().ends_with("fx_N"));
     assert!(reactions.count() >= 4);
 }
@@ -107,7 +109,8 @@ fn slope_of_the_inertia_is_its_derivative() {
             let crank = start + case.crank().sense() * f64::from(k) * 0.2;
             let rows = model.rows(&[crank - step, crank, crank + step]).unwrap();
             let slope = (rows[2].inertia - rows[0].inertia) / (2.0 * step);
-            // Central differences err by the third derivative, some hundred times the inertia, times 1e-10 / 6, and by rounding over 2e-5.
+            // The error of central differences is the third derivative, some hundred times the inertia, times 1e-10 /
+            // 6, plus rounding over 2e-5.
             assert_within!(
                 (slope - rows[1].slope).abs(),
                 1e-6 * rows[1].inertia.larger(1e-9),
@@ -126,10 +129,11 @@ fn a_flywheel_does_what_is_asked() {
         let again = model.with_flywheel(found.inertia).regime(&[], ACCURACY).unwrap();
         assert_within!((again.non_uniformity() / wanted - 1.0).abs(), 1e-10, "{wanted}");
     }
-    // Uniform enough without.
+    // Uniform enough without a flywheel.
     assert_eq!(Flywheel::of(&model, 0.5, ACCURACY).unwrap().inertia, 0.0);
-    // With a large flywheel the speed hardly changes, and J = W / (delta omega^2) with the largest surplus W of work that the mechanism's own kinetic
-    // energy does not take, as in textbooks (Merzalow): the motor's moment is then the mean resistance.
+    // With a large flywheel the speed hardly changes. Then J = W / (delta omega^2), where W is the largest surplus of
+    // work that the mechanism's own kinetic energy does not take, as in textbooks (Merzalow). The motor's moment is
+    // then the mean resistance.
     let count = 36_000;
     let cranks: Vec<f64> = (0..count).map(|k| TAU * (f64::from(k) + 0.5) / f64::from(count)).collect();
     let mean = 100.0 * 64.0 / 360.0;
@@ -143,7 +147,7 @@ fn a_flywheel_does_what_is_asked() {
     let wanted = 1e-5;
     let textbook = (most - least) / (wanted * speed * speed);
     let found = Flywheel::of(&model, wanted, ACCURACY).unwrap();
-    // What the changes of I* and of the motor's moment do is of the order of I* / J.
+    // The effect of changes of I* and of the motor's moment is of the order of I* / J.
     assert_within!((found.inertia / textbook - 1.0).abs(), 1e-3, "{} {textbook}", found.inertia);
 }
 
@@ -171,7 +175,8 @@ fn losses_of_the_reducer_cost_their_share() {
     let case = case.with_motor(Some(motor)).unwrap();
     let model = Model::of(&case).unwrap();
     let run_up = RunUp::of(&model, 0.0, &times(), ACCURACY).unwrap();
-    // Twice in a turn the mechanism drives the motor: the moment on the crank is then 1 / 0.9 of the motor's, else 0.9.
+    // Twice per turn the mechanism drives the motor. Then the moment on the crank is 1 / 0.9 of the motor's, otherwise
+    // 0.9.
     let motor = case.crank().motor().unwrap();
     let (mut drives, mut driven) = (0, 0);
     for at in &run_up.motion[1..] {
@@ -186,19 +191,19 @@ fn losses_of_the_reducer_cost_their_share() {
 
 #[test]
 fn what_a_motor_cannot_move_is_held() {
-    // 10 N m against a greatest resistance of 37: it gets so far and stops for good.
+    // 10 N m against a greatest resistance of 37: the crank moves up to some angle and stops there for good.
     let motor = Motor::ideal(MotorLaw::Constant { torque: 10.0 }, 1.0);
     let case = shipped("crank_rocker.toml").case.with_motor(Some(motor)).unwrap();
     let model = Model::of(&case).unwrap();
     let (found, end) = motion(&model, 0.0, &times(), ACCURACY).unwrap();
     let End::Held(t, crank) = end else { panic!("{end:?}") };
     assert!(found.iter().all(|at| at.t <= t && at.crank <= crank + 1e-12) && found.len() < 501);
-    // There the resistance alone is more than the motor gives.
+    // There the resistance alone exceeds the motor's moment.
     let rows = model.rows(&[crank]).unwrap();
     assert!(rows[0].resistance > 10.0, "{rows:?}");
     let error = model.regime(&[], ACCURACY).unwrap_err();
     assert!(error.message().contains("no stable speed"), "{error}");
-    // Without a load it is not held.
+    // Without a load the crank is not held.
     let case = case.with(|parts| parts.loads.retain(|load| !matches!(load, Load::Resistance { .. }))).unwrap();
     let free = Model::of(&case).unwrap();
     assert_eq!(motion(&free, 0.0, &times(), ACCURACY).unwrap().1, End::Reached);

@@ -1,4 +1,4 @@
-//! Motion that forces decide: both analytic sides against each other, against textbook equations, and the twin.
+//! Motion decided by forces: both analytic sides against each other, against textbook equations, and the twin.
 
 use analytic::{AssurSolver, NewtonSolver};
 use linkage::case::{Case, Grid, Wanted};
@@ -20,7 +20,7 @@ fn solve(solver: &dyn Solver, case: &Case) -> Trajectory {
     solver.solve(case).unwrap_or_else(|error| panic!("{}: {error}", solver.name()))
 }
 
-/// Largest error over the scale, of the channels that `of` picks.
+/// Largest error over the scale, of the channels that `of` selects.
 fn worst(reference: &Trajectory, other: &Trajectory, of: impl Fn(&Channel) -> bool) -> f64 {
     let all = residuals(reference, other).unwrap();
     let picked = all.iter().filter(|residual| of(&residual.channel));
@@ -34,7 +34,8 @@ fn column<'a>(trajectory: &'a Trajectory, name: &str) -> &'a [f64] {
 const RUN_UPS: [&str; 6] =
     ["crank_rocker_runup", "ov7_new_runup", "compressor_runup", "pendulum", "double_pendulum", "five_bar_on_a_spring"];
 
-/// The reduced equation of motion, or transfer functions group by group, against embedding with the Jacobian of the whole mechanism: positions to reactions.
+/// Side 1 (reduced equation of motion, or transfer functions group by group) against side 2 (embedding with the
+/// Jacobian of the whole mechanism), from positions to reactions.
 #[test]
 fn both_sides_agree_in_every_channel() {
     for name in RUN_UPS {
@@ -45,7 +46,8 @@ fn both_sides_agree_in_every_channel() {
     }
 }
 
-/// A damper that does nothing makes side 1 take the transfer functions of its groups instead of the reduced equation of motion.
+/// With a damper of zero effect, side 1 uses the transfer functions of its groups instead of the reduced equation of
+/// motion.
 #[test]
 fn two_ways_of_side_1_agree() {
     for name in ["crank_rocker_runup", "compressor_runup"] {
@@ -57,14 +59,16 @@ fn two_ways_of_side_1_agree() {
     }
 }
 
-/// Two rods of length l and mass m by Lagrange's equations in their angles from the vertical, as in any textbook, by classical Runge-Kutta steps.
+/// Two rods of length l and mass m by Lagrange's equations in their angles from the vertical, as in any textbook, with
+/// classical Runge-Kutta steps.
 #[test]
 fn the_double_pendulum_moves_as_lagrange_has_it() {
     let case = shipped("double_pendulum.toml").case;
     let (m, l, g) = (1.0, 0.5, 9.80665);
     let rates = |[a, b, u, v]: [f64; 4]| {
         let (c, s) = ((a - b).cos(), (a - b).sin());
-        // (4/3) a'' + (1/2) cos(a - b) b'' = -(1/2) sin(a - b) b'^2 - (3/2) (g / l) sin a, and its like, over m l^2.
+        // (4/3) a'' + (1/2) cos(a - b) b'' = -(1/2) sin(a - b) b'^2 - (3/2) (g / l) sin a, and the corresponding second
+        // equation, both over m l^2.
         let (p, q, r) = (4.0 / 3.0, 0.5 * c, 1.0 / 3.0);
         let first = -0.5 * s * v * v - 1.5 * g / l * a.sin();
         let second = 0.5 * s * u * u - 0.5 * g / l * b.sin();
@@ -98,7 +102,7 @@ fn the_double_pendulum_moves_as_lagrange_has_it() {
     assert_within!(farthest, 1e-9, "{farthest:e}");
 }
 
-/// Kinetic and potential energy (J) of every instant, from the channels alone.
+/// Kinetic and potential energy (J) at every instant, from the channels alone.
 fn energies(case: &Case, found: &Trajectory) -> Vec<f64> {
     let of = |row: usize| {
         let links = case.mechanism.links()[1..].iter();
@@ -114,7 +118,8 @@ fn energies(case: &Case, found: &Trajectory) -> Vec<f64> {
     (0..found.times().len()).map(of).collect()
 }
 
-/// Both sides, over ten seconds of a motion that is chaotic in the end: their paths may part, their energy may not change.
+/// Both sides over ten seconds of a motion that becomes chaotic. Their paths may separate; their energy must not
+/// change.
 #[test]
 fn several_freedoms_keep_their_energy() {
     let case = shipped("double_pendulum.toml").case;
@@ -134,7 +139,8 @@ fn twin(name: &str, scenario: &Scenario, settings: impl Fn(Settings) -> Settings
     engine.with(settings(engine.settings()))
 }
 
-/// The run-up of the complete design problem at 1e-4 s: of first order as it is, extrapolated better than 1e-6 rad and 1e-5 of the range of forces.
+/// The run-up of the complete design problem at 1e-4 s: first order as it is; extrapolated, better than 1e-6 rad and
+/// 1e-5 of the range of forces.
 #[test]
 fn the_twin_runs_up_with_order_one_and_extrapolated_exactly() {
     let scenario = shipped("crank_rocker_runup.toml");
@@ -142,7 +148,7 @@ fn the_twin_runs_up_with_order_one_and_extrapolated_exactly() {
     let begun = scenario.case.on(Grid::of_times(scenario.case.crank(), begun)).unwrap();
     let angle = |channel: &Channel| channel.kind.unit == Unit::Radian;
     let force = |channel: &Channel| channel.kind.stage >= Stage::Reactions;
-    // The impulse build needs its thousands of sweeps: a fifth of the time will do for it.
+    // The impulse build needs thousands of sweeps; a fifth of the time is enough for it.
     for (name, route, case) in [
         ("rapier", Route::Differences, &scenario.case),
         ("rapier", Route::Native, &scenario.case),
@@ -168,7 +174,8 @@ fn the_twin_runs_up_with_order_one_and_extrapolated_exactly() {
     }
 }
 
-/// Without rotor and flywheel the crank is all but massless at one angle, and the motion there as fast as a step: nothing is proven, and nothing is accused.
+/// Without rotor and flywheel the crank is almost massless at one angle, and the motion there is as fast as a step. The
+/// proof must be inconclusive, not a disagreement.
 #[test]
 fn an_ill_conditioned_run_up_is_inconclusive_with_its_sensitivity() {
     let mut scenario = shipped("crank_rocker_runup.toml");
@@ -186,7 +193,7 @@ fn an_ill_conditioned_run_up_is_inconclusive_with_its_sensitivity() {
     assert!(proof.engine().channels.iter().all(|channel| channel.verdict.word() != "disagree"));
 }
 
-/// A crank that is set free at a speed, not at rest: all links begin with the velocities that belong to it, in both builds.
+/// A crank that is released at a speed, not at rest: in both builds all links start with the corresponding velocities.
 #[test]
 fn the_twin_starts_at_a_speed() {
     let mut scenario = shipped("crank_rocker_runup.toml");
@@ -198,7 +205,8 @@ fn the_twin_starts_at_a_speed() {
     let case = scenario.case.on(Grid::of_times(scenario.case.crank(), vec![0.0, 0.002, 0.05, 0.1])).unwrap();
     let reference = solve(&AssurSolver, &case);
     assert_within!((column(&reference, "link.crank.omega_rad_s")[0] - 9.0).abs(), 1e-14);
-    // Measured: 8.5e-6 and 3.1e-4. Bodies of their own begin with a gap in every joint, which costs the impulse build more than it gains by extrapolation.
+    // Measured: 8.5e-6 and 3.1e-4. Bodies of their own start with a gap in every joint, which costs the impulse build
+    // more than extrapolation gains.
     for (name, bound) in [("rapier", 2e-5), ("impulse", 1e-3)] {
         let engine = twin(name, &scenario, |settings| Settings { extrapolated: true, ..settings });
         let found = worst(&reference, &solve(engine.as_ref(), &case), |_| true);
@@ -219,7 +227,7 @@ fn what_a_free_motion_cannot_be_asked_says_so() {
         assert!(error.message().contains("hold"), "{}: {error}", solver.name());
         assert!(error.way_out().unwrap().contains("torque"), "{error}");
     }
-    // A motion that begins at t = 0 is not continued backwards, nor does a stand-in move a link without inertia.
+    // A motion that begins at t = 0 is not continued backwards, and a stand-in does not move a link without inertia.
     let mut links = case.mechanism.links().to_vec();
     let coupler = case.mechanism.link_named("coupler").unwrap();
     links[coupler].inertia = 0.0;

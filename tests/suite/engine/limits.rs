@@ -1,4 +1,5 @@
-//! Steps that are far too large and poses that cannot be reached: an error that helps, never numbers that look good.
+//! Steps that are far too large and poses that cannot be reached: the result is an error that helps, never plausible
+//! numbers.
 
 use analytic::{self, AssurSolver, NewtonSolver};
 use linkage::ErrorKind;
@@ -11,8 +12,9 @@ use crate::common::shipped;
 use crate::common::sliders::short_rod;
 use crate::common::spec::four_bar;
 
-/// Story 40. Symptom: numbers off by half, without a word. Cause: with a step of a tenth of a turn the loop opens by less
-/// than what stops a run. The ladder of three steps must refuse to prove anything then: steps of 37 to 7.8 degrees.
+/// Story 40. Symptom: numbers are off by half, without a message. Cause: with a step of a tenth of a turn the loop
+/// opens by less than the limit that stops a run. The ladder of three steps must then be inconclusive: steps of 37 to
+/// 7.8 degrees.
 #[test]
 fn regress_40_steps_that_are_too_large_prove_nothing() {
     let scenario = shipped("crank_rocker.toml");
@@ -32,18 +34,19 @@ fn regress_40_steps_that_are_too_large_prove_nothing() {
     }
 }
 
-/// The error says where it happened and what to do.
+/// The error states where it happened and what to do.
 fn assert_helpful(error: &linkage::Error) {
     assert_eq!(error.kind(), ErrorKind::Numeric, "{error}");
     assert!(error.message().contains("crank angle"), "{error}");
     assert!(error.crank().is_some() && error.time().is_some(), "{error:?}");
-    // An engine that chooses its steps cannot be helped by smaller ones.
+    // Smaller steps do not help an engine that chooses its own steps.
     let helps = |way: String| way.contains("smaller time step") || way.contains("can be assembled");
     assert!(error.way_out().is_some_and(helps), "{error}");
 }
 
-/// Story 41. Symptom: gaps of metres and forces of 1e12 N behind a pose that cannot be assembled. Cause: the engine does
-/// not notice by itself. The links reach 0.45 m, which the outer joints of the dyad pass at acos(0.0475 / 0.24) = 78.6 deg.
+/// Story 41. Symptom: gaps of metres and forces of 1e12 N beyond a pose that cannot be assembled. Cause: the engine
+/// does not detect it by itself. The links reach 0.45 m; the outer joints of the dyad exceed that at acos(0.0475 /
+/// 0.24) = 78.6 deg.
 #[test]
 fn regress_41_a_pose_that_cannot_be_assembled_is_an_error_with_its_crank_angle() {
     let mut spec = four_bar([0.4, 0.3, 0.25, 0.2], true);
@@ -63,7 +66,8 @@ fn regress_41_a_pose_that_cannot_be_assembled_is_an_error_with_its_crank_angle()
     assert_eq!(geometry.kind(), ErrorKind::Geometry);
 }
 
-/// Story 42. The same with a slider, which leaves the engine no gap in the guide to notice: the rod does not reach beyond 261.347 deg.
+/// Story 42. The same with a slider. The engine has no gap in the guide by which to detect it: the rod does not reach
+/// beyond 261.347 deg.
 #[test]
 fn regress_42_a_slider_out_of_reach_is_an_error_with_its_crank_angle() {
     let case = short_rod();

@@ -1,4 +1,4 @@
-//! Several substeps a step: what they are to Rapier, and what of it can be read.
+//! Several substeps per step: their effect in Rapier, and what can be read from them.
 
 use analytic::AssurSolver;
 use linkage::case::{Case, Grid};
@@ -27,9 +27,10 @@ fn engine(name: &str, route: Route, substeps: usize) -> Box<dyn Engine> {
     engine.with(Settings { route, substeps, sweeps: SWEEPS, ..engine.settings() })
 }
 
-/// Story 65. Symptom: with two substeps velocities converge with order one only, and the crank of the impulse build lags. Cause: velocities and impulses
-/// belong to the start of the last substep, not of the step, and a body of its own turns by atan(omega dt) in every substep. The order is that
-/// without substeps in every channel and by every route.
+/// Story 65. Symptom: with two substeps velocities converge with order one only, and the crank of the impulse build
+/// lags. Cause: velocities and impulses belong to the start of the last substep, not of the step, and a separate body
+/// turns by atan(omega dt) in every substep. The order must be the same as without substeps, in every channel and by
+/// every route.
 #[test]
 fn regress_65_substeps_keep_the_formal_order_by_every_route() {
     for name in ["rapier", "impulse"] {
@@ -41,7 +42,7 @@ fn regress_65_substeps_keep_the_formal_order_by_every_route() {
     }
 }
 
-/// Story 66. Symptom: as above. The crank keeps its angle to rounding, as it does without substeps (story 1).
+/// Story 66. Symptom: as in story 65. The crank keeps its angle to rounding, as it does without substeps (story 1).
 #[test]
 fn regress_66_the_motor_holds_its_speed_with_substeps() {
     let case = case();
@@ -59,8 +60,9 @@ fn regress_66_the_motor_holds_its_speed_with_substeps() {
     }
 }
 
-/// Story 67. What two substeps are worth: errors in angles are a quarter of those without substeps, as with a step half as long; of native reactions they
-/// are 0.63 in the multibody build and 0.50 in the impulse build; reactions by a probe, whose tiny steps are not divided, are no worse than without.
+/// Story 67. The gain of two substeps. Errors in angles are a quarter of those without substeps, as with half the step.
+/// Errors of native reactions are 0.63 of them in the multibody build and 0.50 in the impulse build. Reactions by a
+/// probe, whose tiny steps are not divided, are no worse than without substeps.
 #[test]
 fn regress_67_two_substeps_are_nearly_as_good_as_half_the_step() {
     let case = case();

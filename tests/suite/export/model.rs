@@ -1,4 +1,4 @@
-//! An MJCF file as data, and the motion that it stands for, laid out along its bodies.
+//! An MJCF file as data, and the motion that it describes, computed along its bodies.
 
 use std::collections::BTreeSet;
 
@@ -12,7 +12,7 @@ pub enum Kind {
     Slide,
 }
 
-/// A body, its joint and where it stands.
+/// A body, its joint and its pose.
 #[derive(Clone, Debug)]
 pub struct Body {
     pub name: String,
@@ -61,9 +61,9 @@ pub struct Document {
     pub name: String,
     pub step: f64,
     pub gravity: Vec2,
-    /// In the order of coordinates.
+    /// Bodies in the order of coordinates.
     pub bodies: Vec<Body>,
-    /// Name and sites.
+    /// Name and sites of each loop.
     pub loops: Vec<(String, String, String)>,
     pub tendons: Vec<Tendon>,
     pub coordinates: Vec<f64>,
@@ -172,7 +172,7 @@ impl Document {
         let geom = child(child(root, "default"), "geom");
         let named = root.descendants().filter(|node| node.attribute("name").is_some() && !node.has_tag_name("key"));
         let kind = |node: Node| match node.parent().unwrap().tag_name().name() {
-            // Sensors and equality constraints share one space of names each.
+            // Sensors and equality constraints each have one common space of names.
             parent @ ("sensor" | "equality" | "tendon") => parent.to_string(),
             _ => node.tag_name().name().to_string(),
         };
@@ -209,7 +209,7 @@ impl Document {
         self.rates[self.bodies.iter().position(|body| body.name == name).unwrap()]
     }
 
-    /// Owner (none for the ground) and place of a site.
+    /// Owner (`None` for the ground) and place of a site.
     pub fn site(&self, name: &str) -> (Option<&str>, Vec2) {
         let mut found = self.sites.iter().filter(|site| site.1 == name);
         let site = found.next().unwrap_or_else(|| panic!("there is no site {name}"));
@@ -217,12 +217,12 @@ impl Document {
         (site.0.as_deref(), site.2)
     }
 
-    /// Ends of the rods that a body is drawn with.
+    /// Ends of the rods drawn for a body.
     pub fn rods(&self, name: &str) -> Vec<[Vec2; 2]> {
         self.rods.iter().filter(|rod| rod.0.as_deref() == Some(name)).map(|rod| rod.1).collect()
     }
 
-    /// Names in one space occur once, and none is empty or MuJoCo's own.
+    /// Names in one space occur once. No name is empty or reserved by MuJoCo.
     pub fn names_are_unique(&self) {
         let mut seen = BTreeSet::new();
         for name in &self.names {

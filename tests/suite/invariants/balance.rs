@@ -10,7 +10,7 @@ use super::{Around, COUNT};
 use crate::common::random::{REACH, for_each, within};
 use crate::common::{centre, centre_velocity};
 
-/// Five states around an instant, and what the balances are measured by.
+/// Five states around an instant, and the scales of the balances.
 struct Instant<'a> {
     case: &'a Case,
     around: Around,
@@ -37,7 +37,7 @@ impl Instant<'_> {
         loads
     }
 
-    /// What the joints put on `link` (0 for the ground). A joint acts at its place on its second link, on either link.
+    /// Forces of the joints on `link` (0 for the ground). A joint acts on either link at its place on its second link.
     fn on(&self, link: usize) -> Vec<Action> {
         let here = self.here();
         let joints = self.case.mechanism.joints().iter().zip(here.forces.iter().zip(&here.moments));
@@ -159,7 +159,7 @@ fn joints_hold_together_and_guides_push_across_their_axes_only() {
             let sides = [joint.first, joint.second].map(|side| (&here.motions[side.link], side.local));
             let places = sides.map(|(motion, local)| motion.point(local));
             let (gap, turn) = joint.opening(places, sides.map(|(motion, _)| motion.direction));
-            // Rounding of coordinates up to the reach, from one dyad to the next.
+            // Rounding of coordinates up to the reach, growing from one dyad to the next.
             let rounding = 10.0 * f64::EPSILON * at.around.condition;
             within("gap", gap, REACH * rounding)?;
             within("turn of a guide", turn, rounding)?;

@@ -1,4 +1,4 @@
-//! What happens to a solution when the whole problem is moved, turned, mirrored, reversed or made heavier.
+//! The effect on a solution of moving, turning, mirroring, reversing the whole problem, or making it heavier.
 
 use std::f64::consts::PI;
 
@@ -13,11 +13,11 @@ use crate::common::random::{Sample, for_each, within};
 use crate::common::spec::{Spec, Start};
 use crate::common::states;
 
-/// Rounding of two solutions of one problem in different clothes, relative to the size of what is compared, times the
-/// square of the condition: measured, the largest uses a tenth of it.
+/// Rounding between two solutions of one problem in different forms, relative to the size of the compared quantity,
+/// times the square of the condition. The largest measured value uses a tenth of it.
 const ROUNDING: f64 = 1e-12;
 
-/// States of both problems over the grid of the first at equal crank angles times `sense`.
+/// States of both problems over the grid of the first, at equal crank angles times `sense`.
 fn pairs(solver: &dyn Solver, sample: &Sample, two: &Case, sense: f64) -> Vec<(State, State)> {
     let one = &sample.scenario.case;
     let times = one.grid.cranks.iter().map(|crank| two.crank().time_of(crank * sense));
@@ -26,7 +26,7 @@ fn pairs(solver: &dyn Solver, sample: &Sample, two: &Case, sense: f64) -> Vec<(S
     ours.into_iter().zip(theirs).collect()
 }
 
-/// What is expected of the second problem's state, given the first's.
+/// Expected state of the second problem, given the first's.
 struct Expected {
     place: Box<dyn Fn(Vec2) -> Vec2>,
     angle: Box<dyn Fn(f64) -> f64>,
@@ -35,7 +35,7 @@ struct Expected {
     alpha: f64,
     torque: f64,
     velocity: Box<dyn Fn(Vec2) -> Vec2>,
-    /// Accelerations and forces turn alike.
+    /// Transforms accelerations and forces in the same way.
     vector: Box<dyn Fn(Vec2) -> Vec2>,
 }
 
@@ -79,7 +79,7 @@ fn compare(
     for (a, b) in ours.forces.iter().zip(&theirs.forces) {
         within("force", (b - (expected.vector)(*a)).norm(), bound * force)?;
     }
-    // Moments change their sense as the driving one does.
+    // Moments change their sense together with the driving moment.
     for (a, b) in ours.moments.iter().zip(&theirs.moments) {
         within("moment", (b - expected.torque * a).abs(), bound * force.larger(ours.torques[0].abs()))?;
     }
@@ -170,7 +170,7 @@ fn joints_read_the_other_way_round_flip_their_own_force_only() {
             for solver in analytic::all() {
                 for (ours, mut theirs) in pairs(solver, sample, &other, 1.0) {
                     theirs.forces[index] = -theirs.forces[index];
-                    // About the place on the link that was second before.
+                    // About the place on the link that was the second one before.
                     let [first, second] =
                         [joint.first, joint.second].map(|side| ours.motions[side.link].point(side.local));
                     if joint.slides() {
@@ -184,7 +184,7 @@ fn joints_read_the_other_way_round_flip_their_own_force_only() {
     });
 }
 
-/// Turns about the mode of the group whose inner or outer joint `joint` is, if it is of a sort for which that matters.
+/// Changes the mode of the group whose inner or outer joint is `joint`, if this matters for its kind.
 fn turn_modes(case: &Case, spec: &mut Spec, joint: usize, matters: impl Fn(GroupKind) -> bool) {
     for group in case.structure.groups.iter().filter(|group| matters(group.kind)) {
         let has = |start: &Start| {
@@ -196,7 +196,7 @@ fn turn_modes(case: &Case, spec: &mut Spec, joint: usize, matters: impl Fn(Group
     }
 }
 
-/// A guide is a line: neither the sense in which its axis is read nor the place on the line that names it matters.
+/// A guide is a line. Neither the sense of its axis nor the place on the line that names it matters.
 #[test]
 fn guides_read_against_their_axes_and_named_elsewhere_work_alike() {
     for_each(COUNT, |sample| {
@@ -241,7 +241,7 @@ fn twice_the_masses_make_exactly_twice_the_forces() {
         let heavier = case_of(&sample.spec.heavier(2.0));
         for solver in analytic::all() {
             for (ours, theirs) in pairs(solver, &sample, &heavier, 1.0) {
-                // A factor of two changes no rounding, so that the equality is exact.
+                // A factor of two changes no rounding, so the equality is exact.
                 let doubled: Vec<Vec2> = ours.forces.iter().map(|force| force * 2.0).collect();
                 proptest::prop_assert_eq!(&theirs.forces, &doubled);
                 let doubled: Vec<f64> = ours.moments.iter().map(|moment| moment * 2.0).collect();

@@ -1,4 +1,4 @@
-//! Whole turns: the same pose every 360 degrees, and angles that keep their turns.
+//! Whole turns: the same pose every 360 degrees, and angles that count their turns.
 
 use linkage::math::KeepNan;
 use std::f64::consts::TAU;
@@ -8,13 +8,13 @@ use linkage::case::Grid;
 use crate::common::spec::four_bar;
 use crate::common::{assert_within, states};
 
-/// Base, crank, coupler and rocker of mechanisms whose crank turns fully, and the turns that coupler and rocker make with
-/// each turn of the crank.
+/// Base, crank, coupler and rocker of mechanisms whose crank turns fully, and the number of turns of coupler and rocker
+/// per turn of the crank.
 const TURNING: [([f64; 4], [f64; 2]); 4] = [
     // Crank-rocker: the shortest link is the crank.
     ([0.4, 0.1, 0.35, 0.3], [0.0, 0.0]),
     ([0.15, 0.026, 0.347, 0.25], [0.0, 0.0]),
-    // Drag link: the base is the shortest, and all links turn.
+    // Drag link: the base is the shortest link, and all links turn.
     ([0.1, 0.3, 0.35, 0.4], [1.0, 1.0]),
     ([0.2, 0.5, 0.45, 0.6], [1.0, 1.0]),
 ];
@@ -53,7 +53,8 @@ fn three_turns(lengths: [f64; 4], turning: [f64; 2], left: bool, speed: f64, ste
             }
         }
         for pair in found.windows(2) {
-            // No link of these turns more than eight times as fast as the crank: more is a slip of a turn.
+            // No link of these turns more than eight times as fast as the crank; more would be an error of a whole
+            // turn.
             let limit = (8.0 * step_deg.to_radians()).smaller(TAU * 0.75);
             let jumps = (1..4).map(|link| (pair[1].angles[link] - pair[0].angles[link]).abs());
             assert_within!(jumps.fold(0.0, f64::larger), limit, "{} {lengths:?}", solver.name());

@@ -1,4 +1,4 @@
-//! Random mechanisms of dyads of all sorts under random loads of all sorts.
+//! Random mechanisms of dyads of all kinds under random loads of all kinds.
 
 use linkage::math::KeepNan;
 use std::fmt::Write;
@@ -13,7 +13,7 @@ use crate::common::random::{for_each, within};
 use crate::common::sketch::Random;
 use crate::common::{assert_within, shipped, states};
 
-/// Six loads of random sorts, as text.
+/// Six loads of random kinds, as text.
 pub fn loads(random: &mut Random, case: &Case) -> String {
     let links = case.mechanism.links();
     let mut text = String::new();
@@ -103,7 +103,7 @@ fn reactions_balance_powers_and_momentum_on_both_sides() {
             own.flat_map(|(_, values)| values).fold(0.0, |max: f64, v| max.larger(v.abs()))
         };
         let scale = forces(Stage::Reactions).larger(forces(Stage::BalancingMoment));
-        // As without loads: see `both_solvers_agree_to_rounding` of the invariants.
+        // As without loads: see `both_solvers_agree_to_rounding` in the invariants.
         let bound = 1000.0 * f64::EPSILON * sample.condition;
         for residual in residuals(&a, &b).expect("one grid") {
             if residual.channel.kind.stage >= Stage::Reactions {

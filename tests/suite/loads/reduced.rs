@@ -12,12 +12,12 @@ use linkage::trajectory::Stage;
 
 use crate::common::{assert_within, centre, centre_velocity, shipped};
 
-/// The press with those of its loads that `keep` keeps.
+/// The press with those of its loads that `keep` accepts.
 fn press(keep: impl Fn(&Load) -> bool) -> Case {
     shipped("loaded_slider.toml").case.with(|parts| parts.loads.retain(keep)).unwrap()
 }
 
-/// Kinetic energy, that of the weights and that of the linear springs (J).
+/// Kinetic energy, energy of the weights and energy of the linear springs (J).
 fn energy(case: &Case, poses: &mut PoseSolver, at: &CrankState) -> f64 {
     let state = poses.solve(at.crank, at.omega, at.alpha, Stage::Velocities).unwrap();
     let mut sum = 0.0;
@@ -59,7 +59,8 @@ fn the_reduced_moment_of_tables_and_one_sided_moments_is_that_of_the_reactions()
     let more = [Load::Moment { link: rod, moment: table, acts }, Load::Resistance { link: rod, moment: 3.0 }];
     let case = case.with(|parts| parts.loads.extend(more)).unwrap();
     let model = Model::of(&case).unwrap();
-    // Two turns, for the table of two: its three points in them, the press's nine twice, and where the press's table has points the rod turns about.
+    // Two turns, because of the table over two turns: it has three points in them, the press's table has nine in each.
+    // Where the press's table has points, the rocker reverses.
     assert_eq!((model.kinks().period, model.kinks().cranks.len()), (Some(2.0 * TAU), 3 + 18));
     let times: Vec<f64> = (0..=400).map(|k| f64::from(k) * 1e-3).collect();
     let found = RunUp::of(&model, 120.0, &times, 1e-12).unwrap();

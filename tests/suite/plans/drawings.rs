@@ -32,7 +32,7 @@ fn drawings_are_well_formed_and_hold_every_vector() {
                 assert!(arrow.is_some() || plan.paper(vector) <= 0.15, "{name}: {} is not drawn", vector.name);
             }
         }
-        // Nothing is clipped: every coordinate lies on the sheet.
+        // Nothing is clipped: every coordinate is on the sheet.
         for (key, most) in
             [("x", "width"), ("x1", "width"), ("x2", "width"), ("y", "height"), ("y1", "height"), ("y2", "height")]
         {
@@ -45,7 +45,8 @@ fn drawings_are_well_formed_and_hold_every_vector() {
     }
 }
 
-/// Letters stand apart from each other, and none on a line: boxes as large as the letters themselves, a little less than what was kept free.
+/// Letters do not overlap each other or any line. The boxes are as large as the letters themselves, a little smaller
+/// than the space kept free.
 #[test]
 fn letters_can_be_read() {
     let (mut letters, mut crossed) = (0, 0);
@@ -87,7 +88,8 @@ fn letters_can_be_read() {
     assert_eq!(crossed, 0, "of {letters} letters");
 }
 
-/// The arrow of a vector is as long as its size over the scale factor says, to the hundredths of a millimetre that are written.
+/// The arrow of a vector is as long as its magnitude and the scale factor require, to the written hundredths of a
+/// millimetre.
 #[test]
 fn drawings_are_true_to_scale() {
     let plans = plans("crank_rocker", 70.0);

@@ -1,15 +1,15 @@
-//! Graphs over the crank angle, as drawn.
+//! Drawn graphs over the crank angle.
 
 use crate::common::assert_within;
 use std::f64::consts::TAU;
 
 use workshop::diagram::{Graph, Graphs, Mark, draw};
 
-/// A cosine about 3 N over one turn from 90 deg on, in the sense of `way`.
+/// A cosine about 3 N over one turn from 90 deg on, in the direction `way`.
 fn cosine(amplitude: f64, way: f64) -> Graphs {
     let start = TAU / 4.0;
     let points = (0..=360).map(|k| way * TAU * f64::from(k) / 360.0).map(|x| [start + x, 3.0 + amplitude * x.cos()]);
-    // The first lies before the turn that is drawn.
+    // The first mark is before the turn that is drawn.
     let marks = [("least", -TAU / 2.0, -1.0), ("greatest", 0.0, 1.0)];
     let marks = marks.map(|(word, x, side)| Mark { at: [start + way * x, 3.0 + side * amplitude], word });
     let (points, size) = (points.collect(), 3.0 + amplitude);
@@ -49,7 +49,7 @@ fn curves_are_true_to_scale_and_marks_lie_on_them() {
         for (word, degrees) in ["least", "greatest"].iter().zip(degrees) {
             assert!(words.iter().any(|text| text.starts_with(word) && text.ends_with(degrees)), "{degrees}: {words:?}");
         }
-        // Numbers at the axes carry no roundings.
+        // Numbers at the axes show no rounding errors.
         assert!(words.iter().all(|text| text.chars().filter(char::is_ascii_digit).count() < 12), "{words:?}");
         assert!(words.contains(&"mean 3.000".to_string()) && words.contains(&"a < b & c".to_string()));
     }
@@ -60,7 +60,7 @@ fn rounding_is_no_course() {
     assert!(graphs.graphs[0].is_constant());
     let text = draw::graphs(&graphs, "constant");
     assert!(text.contains(">constant 3.000<") && !text.contains("<circle") && !text.contains("least"), "{text}");
-    // Around zero, next to something of size 3.
+    // Values around zero, next to values of size 3.
     let graph = &mut graphs.graphs[0];
     graph.points.iter_mut().for_each(|point| point[1] -= 3.0);
     graph.marks.iter_mut().for_each(|mark| mark.at[1] -= 3.0);

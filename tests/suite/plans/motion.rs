@@ -17,7 +17,8 @@ fn motion(name: &str, channel: &str, divisions: usize) -> MotionDiagram {
     MotionDiagram::of(&case, &AssurSolver, &course, divisions).unwrap()
 }
 
-/// The pin of a uniformly turning crank moves as a sine: the chord method makes it smaller by sin(h/2)/(h/2) and its square.
+/// The pin of a uniformly turning crank moves as a sine. The chord method reduces it by the factor sin(h/2)/(h/2) and
+/// its square.
 #[test]
 fn the_chord_method_on_the_crank_pin_has_its_known_factor() {
     for n in [12, 24, 48] {
@@ -38,7 +39,8 @@ fn the_chord_method_on_the_crank_pin_has_its_known_factor() {
 
 #[test]
 fn the_error_of_all_four_methods_is_of_second_order() {
-    // So many divisions that the next term, of fourth order, no longer shows; the class IV group moves by far the most sharply.
+    // The number of divisions is so large that the next term, of fourth order, does not show. The motion of the class
+    // IV group changes most sharply by far.
     for (name, channel, divisions) in [
         ("crank_rocker", "point.B.x_m", 48),
         ("crank_rocker", "link.rocker.angle_rad", 48),
@@ -52,14 +54,15 @@ fn the_error_of_all_four_methods_is_of_second_order() {
             }
         }
     }
-    // What a draughtsman takes: 12 divisions, then 24 and 48.
+    // Usual numbers of a draughtsman: 12 divisions, then 24 and 48.
     for found in &motion("crank_rocker", "link.coupler.angle_rad", 12).found {
         assert_within!((found.orders[1].unwrap() - 2.0).abs(), 0.05, "{:?}", found.orders);
     }
 }
 
-/// The example of a graphical course: a piston of the two-stage compressor, its velocity and acceleration from its displacement by chords, and back.
-/// Displacement, velocity and acceleration by the closed form that its authors give (phi clockwise from +y), and all four methods by hand on it.
+/// The example of a published graphical course: a piston of the two-stage compressor. Its velocity and acceleration are
+/// found from its displacement by chords, and back. Displacement, velocity and acceleration follow the closed form of
+/// its authors (phi clockwise from +y), and all four methods are computed on it by hand.
 #[test]
 fn a_piston_by_chords_errs_as_its_closed_form_says() {
     let (crank, rod, omega) = (0.06, 0.24, 104.71975511965978);
@@ -79,7 +82,7 @@ fn a_piston_by_chords_errs_as_its_closed_form_says() {
         for which in 0..3 {
             let gap = |row: usize| (diagram.exact[which][row] - at(angle(row))[which]).abs();
             let worst = (0..diagram.cranks.len()).map(gap).fold(0.0, f64::larger);
-            // Rounding of lengths of 0.3 m and of what follows from them.
+            // Rounding of lengths of 0.3 m and of the values that follow from them.
             assert_within!(worst, 1e-12 * scale(which), "{worst:e}");
         }
         let h = TAU / n as f64;
@@ -117,7 +120,7 @@ fn a_piston_by_chords_errs_as_its_closed_form_says() {
 fn a_link_that_turns_uniformly_has_no_error() {
     let diagram = motion("crank_rocker", "link.crank.angle_rad", 12);
     for found in &diagram.found {
-        // The angle grows by 2 pi: rounding of it over the interval, once or twice.
+        // The angle grows by 2 pi: the error is its rounding over the interval, once or twice.
         assert!(found.orders == [None; 2], "{found:?}");
         assert_within!(found.largest, 1e-11, "{found:?}");
         assert_within!(found.share, 1e-11, "{found:?}");
@@ -139,7 +142,7 @@ fn diagrams_are_well_formed_and_carry_their_errors() {
             )));
         }
         let circles = document.descendants().filter(|node| node.has_tag_name("circle")).count();
-        // One at every middle and every end but the first, and one in each of two captions.
+        // One circle at every middle and every end except the first, and one in each of two captions.
         assert_eq!(circles, 2 * n + 2);
     }
 }

@@ -1,4 +1,5 @@
-//! Sliding pairs in plans and diagrams: known directions, Coriolis part and relative acceleration against numerical derivatives, guides drawn.
+//! Sliding pairs in plans and diagrams: known directions, Coriolis part and relative acceleration against numerical
+//! derivatives, and drawn guides.
 
 use analytic::{AssurSolver, NewtonSolver};
 use linkage::case::Case;
@@ -12,7 +13,7 @@ use workshop::diagram::{Part, TipKind, draw};
 use super::{Named, SLIDERS, angles, contours, degrees_of, longest, plans, plans_of, plans_with, scenario};
 use crate::common::assert_within;
 
-/// Joint, sliding point and the name of what lies under it on a moving guide.
+/// Joint, sliding point, and the name of the point under it on a moving guide.
 const MOVING: [(&str, &str, &str, &str); 3] =
     [("quick_return", "slot", "A", "A3"), ("scotch_yoke", "slot", "A", "A3"), ("tangent", "slot", "B", "B1")];
 
@@ -36,18 +37,19 @@ fn points_in_fixed_guides_move_along_them() {
             for plan in [&plans.velocity, &plans.acceleration] {
                 let vector = plan.vector(&format!("{}_{point}", plan.quantity.symbol())).unwrap();
                 assert!(vector.meaning.contains(", along the guide "), "{}", vector.meaning);
-                // What the solvers promise of velocities and accelerations.
+                // The accuracy that the solvers promise for velocities and accelerations.
                 assert_within!(cross(axis, vector.value).abs(), 1e-11 * longest(plan), "{name} {point} at {degrees}");
             }
         }
     }
 }
 
-/// The sliding point's place in the axes of the guide's link, differentiated numerically, gives the relative velocity and acceleration; the
-/// Coriolis part is 2 omega x that velocity. Neither the solvers' derivatives nor the slide's channels are asked.
+/// The place of the sliding point in the axes of the guide's link, differentiated numerically, gives the relative
+/// velocity and acceleration. The Coriolis part is 2 omega x that velocity. Neither the solvers' derivatives nor the
+/// slide's channels are used.
 #[test]
 fn parts_along_and_across_a_moving_guide_are_those_of_numerical_differentiation() {
-    // Round-off of five places (1e-16 of them) over h^2 and truncation by h^4 are both below 1e-8 of the derivative.
+    // Rounding of five places (1e-16 of them) over h^2 and truncation by h^4 are both below 1e-8 of the derivative.
     let h = 2e-3f64;
     let mut worst = 0.0f64;
     for (name, joint, point, under) in MOVING {
@@ -85,7 +87,7 @@ fn parts_along_and_across_a_moving_guide_are_those_of_numerical_differentiation(
     assert_within!(worst, 1e-8, "{worst:e}");
 }
 
-/// A contour holds the sliding pair: without its relative vectors fewer close.
+/// A contour contains the sliding pair: without its relative vectors fewer contours close.
 #[test]
 fn sliding_pairs_close_contours_of_their_own() {
     for (name, _, point, under) in MOVING {
@@ -126,7 +128,8 @@ fn links_that_never_turn_have_no_relative_vectors() {
     }
 }
 
-/// A slider-crank with another name for each thing: points called as what lies under a sliding point, and a rod through a block that only swings.
+/// A slider-crank with other names: points have the names of points under a sliding point, and a rod slides through a
+/// block that only swings.
 #[test]
 fn a_rod_that_slides_through_a_swinging_block_closes_with_letters_of_its_own() {
     let text = r#"
@@ -188,7 +191,7 @@ step_deg = 0.5
             let under = plan.tips.iter().find(|tip| tip.kind == TipKind::Coincident).unwrap();
             assert_eq!(under.letter, "k2'");
         }
-        // The block does not move away: the rod's point under it goes along the rod.
+        // The block does not move away: the rod's point under it moves along the rod.
         let rod = scenario.case.mechanism.link_named("rod").unwrap();
         let along = state(&scenario.case, degrees).motions[rod].direction;
         let under = plans.velocity.vector("v_K2'").unwrap().value;
@@ -197,7 +200,7 @@ step_deg = 0.5
     }
 }
 
-/// Guides are as long as the slide on the grid, and drawn in the sense of their axis.
+/// Guides are as long as the slide on the grid, and drawn in the direction of their axis.
 #[test]
 fn guides_in_the_diagram_span_the_travel() {
     for name in SLIDERS {
@@ -211,7 +214,8 @@ fn guides_in_the_diagram_span_the_travel() {
             let channel = format!("joint.{}.slide_m", joint.name);
             let (_, slide) = trajectory.iter().find(|(own, _)| own.to_string() == channel).unwrap();
             let (low, high) = slide.iter().fold((f64::MAX, f64::MIN), |(l, h), s| (l.smaller(*s), h.larger(*s)));
-            // The angle asked for may lie between two of the grid, a degree of the crank apart: a ten-thousandth of the travel at its end.
+            // The crank angle asked for may be between two angles of the grid, a degree apart: at the end of the travel
+            // this is a ten-thousandth of it.
             let near = |end: Vec2, way: f64| ((end - guide.origin).dot(&guide.axis) - way).abs() <= 1e-4 * (high - low);
             assert!(near(guide.ends[0], low) && near(guide.ends[1], high), "{name} {}", joint.name);
             assert_within!(cross(guide.axis, guide.at - guide.origin).abs(), 1e-12);

@@ -1,4 +1,4 @@
-//! The tree's equations against those of all links at once, which share nothing with them but the pairs' components.
+//! The equations along the tree against those of all links at once. Both share only the components of the joints.
 
 use std::path::{Path, PathBuf};
 
@@ -26,7 +26,8 @@ fn shipped() -> Vec<(String, Case)> {
     files.iter().map(case).collect()
 }
 
-/// The equations as they are used, and along every tree of those that cover all joints which has all links and all driven joints.
+/// The equations along the tree in use, and along every tree of those that together cover all joints, if it has all
+/// links and all driven joints.
 fn along_all_trees(case: &Case) -> Vec<(Tree, NewtonEuler)> {
     let driven: Vec<usize> = case.drives.iter().map(|drive| drive.joint).collect();
     let masses: Vec<[f64; 2]> = case.mechanism.links().iter().map(|link| [link.mass, link.inertia]).collect();
@@ -41,7 +42,7 @@ fn along_all_trees(case: &Case) -> Vec<(Tree, NewtonEuler)> {
     trees.into_iter().map(along).map(|(equations, tree)| (tree, equations)).collect()
 }
 
-/// The dense system of all links: its matrix and its right side.
+/// The dense system of all links: its matrix and its right-hand side.
 fn dense(case: &Case, state: &State) -> (Vec<Vec<f64>>, Vec<f64>) {
     let links = case.mechanism.links();
     let n = 3 * (links.len() - 1);
@@ -86,7 +87,8 @@ fn normal(joint: &Joint, state: &State) -> Option<Vec2> {
     Some(turned(state.motions[joint.first.link].arm(joint.axis_on(joint.first.link)?)))
 }
 
-/// A state anywhere near the start: every link moved and turned on its own, so that all joints are open, with velocities and accelerations of its own.
+/// A state near the start with open joints: every link is moved and turned independently, and has its own velocities
+/// and accelerations.
 fn torn(case: &Case, numbers: &[f64]) -> State {
     let (mut state, size) = (State::at_start(case), case.mechanism.size());
     let mut next = numbers.iter().cycle();
@@ -123,7 +125,8 @@ fn flat(case: &Case, state: &State) -> Vec<f64> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(8))]
 
-    /// Of every shipped mechanism: what is found fulfils the equations of all links to rounding, and is what the dense system gives as well as that is known.
+    /// For every shipped mechanism: the solution fulfils the equations of all links to rounding, and equals that of the
+    /// dense system to the accuracy of the latter.
     #[test]
     fn the_tree_gives_what_all_links_at_once_give(numbers in prop::collection::vec(-1.0f64..1.0, 97)) {
         for (name, case) in shipped() {
@@ -138,7 +141,7 @@ proptest! {
             let mut known = right.clone();
             lu.solve(&mut known);
             let most = |of: &[f64]| of.iter().fold(0.0, |most: f64, value| most.larger(value.abs()));
-            // How far rounding is carried: the largest entry of the inverse.
+            // Amplification of rounding: the largest entry of the inverse.
             let inverse = (0..n).map(|k| {
                 let mut column = vec![0.0; n];
                 column[k] = 1.0;
@@ -162,8 +165,8 @@ proptest! {
     }
 }
 
-/// Several drives, slides as cut joints and as joints of the tree, open chains, loads, and equations that come in pairs or all at once are among
-/// what is tested.
+/// The tested cases include several drives, slides as cut joints and as joints of the tree, open chains, loads, and
+/// equations that are solved in pairs or all at once.
 #[test]
 fn every_kind_of_joint_is_tested() {
     let mut seen = [0; 7];
@@ -186,7 +189,7 @@ fn every_kind_of_joint_is_tested() {
     assert!(seen.iter().all(|&count| count > 0), "{seen:?}");
 }
 
-/// A four-bar whose links all lie along one line: nothing determines the force along it.
+/// A four-bar with all links on one line: nothing determines the force along it.
 #[test]
 fn a_dead_point_is_said() {
     let case = linkage::fixtures::turning(linkage::fixtures::four_bar());

@@ -1,4 +1,4 @@
-//! Recordings of mechanisms with sliders: one topic a joint, guides and blocks in the picture.
+//! Recordings of mechanisms with sliders: one topic per joint, guides and blocks in the picture.
 
 use crate::common::assert_within;
 use std::collections::{BTreeMap, BTreeSet};
@@ -19,7 +19,7 @@ use prost::Message;
 
 const SLIDERS: [&str; 5] = ["compressor", "six_bar_slider", "quick_return", "scotch_yoke", "tangent"];
 
-/// A scenario's reference on its own grid and its recording.
+/// A scenario's reference on its own grid, and its recording.
 fn recorded(name: &str) -> (Case, Trajectory, Vec<u8>, Trajectory) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios").join(format!("{name}.toml"));
     let case = Scenario::load(&path).unwrap().case;
@@ -76,7 +76,7 @@ fn every_channel_of_a_slider_is_read_back_from_one_topic_a_joint() {
     }
 }
 
-/// Rails lie on both sides of the axis and hold the block wherever it goes; pivots alone stand on triangles.
+/// Rails are on both sides of the axis and contain the block in all its positions. Only pivots have triangles.
 #[test]
 fn rails_span_the_slide_and_guide_points_are_no_pivots() {
     for (name, pivots) in SLIDERS.into_iter().zip([1, 2, 2, 1, 1]) {
@@ -101,7 +101,8 @@ fn rails_span_the_slide_and_guide_points_are_no_pivots() {
     }
 }
 
-/// A block is a closed rectangle in the frame of its link, so that it turns with it; a moving guide is a line through its place along its axis.
+/// A block is a closed rectangle in the frame of its link, so that it turns with it. A moving guide is a line through
+/// its place along its axis.
 #[test]
 fn blocks_are_rectangles_and_moving_guides_lines_along_their_axes() {
     for name in SLIDERS {
@@ -143,7 +144,8 @@ fn blocks_are_rectangles_and_moving_guides_lines_along_their_axes() {
     }
 }
 
-/// The cloud shows the blocks too: points around the sliding point, at the block's distance, where the link is at that time.
+/// The cloud shows the blocks too: points around the sliding point, at the block's distance, at the link's place at
+/// that time.
 #[test]
 fn the_cloud_holds_blocks_where_they_are() {
     let (case, trajectory, bytes, _) = recorded("quick_return");
@@ -157,7 +159,7 @@ fn the_cloud_holds_blocks_where_they_are() {
         let points = cloud.data.chunks(16).map(|p| Vec2::new(coordinate(&p[..4]), coordinate(&p[4..8])));
         let near: Vec<Vec2> =
             points.map(|point| rotated(direction, point - at)).filter(|d| d.norm() < 0.05 * size).collect();
-        // Coordinates are rounded to the size over 1024; the long sides lie at 0.022 of it.
+        // Coordinates are rounded to the size over 1024; the long sides are at 0.022 of it.
         let beside = |sign: f64| near.iter().any(|d| (d.y - sign * 0.022 * size).abs() < size / 1024.0);
         assert!(beside(1.0) && beside(-1.0), "row {row}");
     }

@@ -22,7 +22,7 @@ fn case(text: &str) -> Case {
     Scenario::parse(text, Path::new("found.toml")).unwrap_or_else(|error| panic!("{error}\n{text}")).case
 }
 
-/// Angles (rad) are the same, whole turns aside.
+/// Checks that two angles (rad) are the same, except for whole turns.
 fn same_angle(a: f64, b: f64, within: f64) -> bool {
     let apart = (a - b).rem_euclid(TAU);
     apart.smaller(TAU - apart) <= within
@@ -50,12 +50,12 @@ fn the_published_crank_rocker_is_the_scenario_of_the_repository() {
     assert_eq!(own.modes, shipped.modes);
 }
 
-/// The range of motion, by arc length on equations of its own, has the extreme positions asked for, and no others.
+/// The range of motion, by arc length on its own equations, has the extreme positions asked for, and no others.
 #[test]
 fn crank_rockers_have_their_extreme_positions() {
     let mut proven = 0;
     for k in 0..200u32 {
-        // Spread over all that makes sense, without a random number.
+        // The values are spread over the whole sensible range, without random numbers.
         let part = |prime: f64| (f64::from(k) * prime.sqrt()).fract();
         let wish = Wish {
             crank_pivot: Vec2::new(0.3 * part(2.0), -0.2 * part(3.0)),
@@ -69,7 +69,7 @@ fn crank_rockers_have_their_extreme_positions() {
         let range = Range::of(&case).unwrap();
         assert_eq!(range.four_bar.unwrap().of_type, FourBarType::CrankRocker, "{found:?}");
         assert_eq!(range.extent, Extent::FullTurn(1));
-        // A linkage that nearly takes itself apart loses digits.
+        // A linkage that is almost disassembled loses digits.
         if found.transmission < 0.05 {
             continue;
         }
@@ -84,7 +84,7 @@ fn crank_rockers_have_their_extreme_positions() {
         let least = range.groups[0].determinant;
         assert_within!((least.value.abs().asin() - found.transmission).abs(), 1e-6, "{least:?} {found:?}");
         assert!(same_angle(least.crank, found.transmission_at, 1e-6));
-        // From extreme to extreme the crank turns through pi + theta one way, pi - theta the other.
+        // From extreme to extreme the crank turns through pi + theta in one direction, pi - theta in the other.
         let way = (rocker.extremes[0].crank - rocker.extremes[1].crank).abs();
         let slower = way.larger(TAU - way);
         assert_within!((slower / (TAU - slower) - found.time_ratio).abs(), 1e-7);
@@ -117,7 +117,7 @@ fn slider_cranks_have_their_stroke() {
                 assert_within!(state.motions[place].velocity.norm(), 1e-13, "{found:?}");
             }
         }
-        // Nowhere else does it go beyond.
+        // It exceeds them nowhere else.
         assert!(newton.iter().all(|state| {
             let x = state.motions[place].origin.x;
             x <= found.far[1] + 1e-13 && x >= found.near[1] - 1e-13
@@ -130,7 +130,7 @@ fn slider_cranks_have_their_stroke() {
     }
 }
 
-/// Just below the shortest rod told, the crank of the limit does not turn fully any more.
+/// Just below the shortest rod found, the crank at the limit does not turn fully.
 #[test]
 fn the_shortest_rod_is_where_the_crank_stops_turning() {
     let found = SliderCrank::of(0.1, 0.03, Given::Rod(0.0675)).unwrap();

@@ -1,4 +1,4 @@
-//! The designed drives of the warp-knitting machine: what their files claim, and that both sides agree on them.
+//! The designed drives of the warp-knitting machine: the claims of their files, and the agreement of both sides.
 
 use std::path::{Path, PathBuf};
 
@@ -17,7 +17,7 @@ fn top() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/ov7_drives")
 }
 
-/// Task of a drive with the dimensions of a scenario, and what it does.
+/// Task of a drive with the dimensions of a scenario, and its motion.
 fn measured(task: &str, scenario: Scenario) -> (Task, Achieved) {
     let TaskFile { task, .. } = TaskFile::load(&top().join(format!("{task}_task.toml"))).unwrap();
     let task = Task { case: scenario.case, ..task };
@@ -29,8 +29,9 @@ fn designed(name: &str) -> (Task, Achieved) {
     measured(name, Scenario::load(&top().join(format!("{name}.toml"))).unwrap())
 }
 
-/// Largest motion in a dwell and largest way in a wrong sense (shares of the stroke), distance of extreme positions and shortfall of dwells (deg), least
-/// transmission angle (deg): what docs/synthesis.md states, rounded up (the angle down).
+/// Largest motion in a dwell and largest travel in a wrong direction (shares of the stroke), distance of extreme
+/// positions and shortfall of dwells (deg), least transmission angle (deg): the figures in docs/synthesis.md, rounded
+/// up (the angle down).
 const STATED: [(&str, [f64; 5]); 3] = [
     ("needle_bar", [0.0088, 0.0001, 0.2, 0.0, 33.0]),
     ("sinker", [0.0181, 0.0002, 0.8, 0.0, 38.1]),
@@ -50,7 +51,8 @@ fn the_designed_drives_keep_their_timing() {
         );
         assert!(found.unrest(&task) <= unrest && found.wrong() <= wrong, "{name}");
         assert!(degrees[0] <= late && degrees[1] <= short && degrees[2] >= transmission, "{name}: {degrees:?}");
-        // Every moving phase moves as it should: the least displacement is weighed against the rest, so it may lack a little.
+        // Every moving phase moves as required. The least displacement is weighed against the other goals, so it may be
+        // slightly missed.
         for (phase, done) in task.timing.phases().iter().zip(&found.phases) {
             assert!(
                 done.displacement * phase.sense.sign() >= (phase.least - 2e-3) * phase.sense.sign().abs(),
@@ -69,7 +71,7 @@ fn both_sides_agree_on_the_designed_drives() {
     }
 }
 
-/// The curve that the search rates is the output as the second analytic side computes it, from equations of its own.
+/// The curve that the search rates is the output as the second analytic side computes it, with its own equations.
 #[test]
 fn the_curve_is_the_motion_of_the_lever() {
     for (name, _) in STATED {
@@ -83,7 +85,7 @@ fn the_curve_is_the_motion_of_the_lever() {
             .iter()
             .map(|state| state.motions[lever].direction)
             .collect();
-        // From the first row on, because the curve begins anywhere in the stroke.
+        // The comparison starts at the first row, because the curve begins anywhere in the stroke.
         for (&row, direction) in rows.iter().zip(&directions) {
             let turned = found.forward * found.stroke * (found.shares[row] - found.shares[0]);
             let [from, to] = [unit(0.0), unit(turned)];
@@ -95,7 +97,8 @@ fn the_curve_is_the_motion_of_the_lever() {
     }
 }
 
-/// The published drives of the eyelet needles keep the published timing of the eyelet needles roughly: conventions of sense and zero are theirs.
+/// The published drives of the eyelet needles keep the published timing of the eyelet needles roughly; sense and zero
+/// follow their conventions.
 #[test]
 fn the_published_eyelet_needle_drives_keep_their_timing() {
     let (task, new) = measured("eyelet_needle", shipped("ov7_new.toml"));
@@ -116,7 +119,8 @@ fn the_published_eyelet_needle_drives_keep_their_timing() {
     }
 }
 
-/// A class III group is searched too, from its rough place, and what comes out keeps the timing better than the published dimensions.
+/// A class III group is searched too, from its rough place. The result keeps the timing better than the published
+/// dimensions.
 #[test]
 fn a_class_three_group_is_searched() {
     let TaskFile { mut task, .. } = TaskFile::load(&top().join("eyelet_needle_task.toml")).unwrap();

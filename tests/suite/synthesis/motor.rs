@@ -1,4 +1,4 @@
-//! Choice of a motor: the published one comes out.
+//! Choice of a motor: the result is the published one.
 
 use std::path::Path;
 
@@ -11,7 +11,7 @@ fn motors() -> Vec<workshop::motor::CatalogueMotor> {
     catalogue::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("catalogues/motors.toml")).unwrap()
 }
 
-/// Without the crank's own weight, as the authors reckon, the greatest moment is the recomputed one.
+/// Without the crank's own weight, as in the authors' computation, the greatest moment is the recomputed one.
 #[test]
 fn the_peak_without_the_weight_of_the_crank() {
     let mut text = shipped("crank_rocker.toml").text;
@@ -21,7 +21,7 @@ fn the_peak_without_the_weight_of_the_crank() {
         assert_eq!(text.matches(from).count(), 1, "{from}");
         text = text.replace(from, to);
     }
-    // Published masses of this scenario are an oracle and not needed here.
+    // The scenario's published masses are an oracle and not needed here.
     let scenario = linkproof::scenario::Scenario::parse(&text, Path::new("x.toml")).unwrap();
     let choice = Choice::of(&scenario.case, &motors(), 0.92).unwrap();
     assert_within!((choice.peak.1 - 37.016).abs(), 5e-4, "{}", choice.peak.1);
@@ -40,9 +40,10 @@ fn the_published_motor_comes_out() {
     assert_eq!([choice.motor.power, (choice.motor.rated_speed * rpm).round()], [550.0, 2745.0]);
     assert_within!((choice.motor.rated_torque() - 1.913).abs(), 5e-4);
     assert_within!((choice.geared.ratio - 2745.0 / 130.0).abs(), 1e-12);
-    // Printed to three digits, and kept to them.
+    // Printed to three digits, and met to all of them.
     assert!((choice.power - 503.0).abs() < 1.0 && (choice.asked - 547.0).abs() < 1.0);
-    // The balance of the means with the losses left out, as published: 14.332 rad/s with the law rounded to 22.51 - 0.0716 omega, 14.322 with its digits.
+    // The balance of the means without losses, as published: 14.332 rad/s with the law rounded to 22.51 - 0.0716 omega,
+    // 14.322 with its full digits.
     let lossless = linkage::drive::Motor { efficiency: 1.0, ..choice.geared.clone() };
     assert_within!(
         (lossless.steady_speed(choice.mean).unwrap() - 14.3217).abs(),

@@ -14,7 +14,8 @@ use workshop::task::{Effort, Task};
 
 use crate::common::{assert_within, shipped};
 
-/// The published crank-rocker's problem without its closed form: pivots and rocker fixed, crank and coupler free, swing and timing wanted.
+/// The published crank-rocker's problem without its closed form: pivots and rocker are fixed, crank and coupler free,
+/// swing and timing wanted.
 const TASK: &str = r#"
 format = 1
 name = "recovered"
@@ -72,8 +73,8 @@ fn the_search_finds_the_lengths_of_the_closed_form() {
     let known = CrankRocker::of(wish).unwrap();
     let found = search(&task, 2, &mut |_| {}).unwrap();
     assert!(found.cost < 1e-7 && found.cost < found.random_cost, "{found:?}");
-    // The time ratio hardly depends on the lengths along the valley of equal swing: 0.5 mm of the crank are 0.064 deg of the crank angle between the
-    // extreme positions, and the refinement ends where costs are that small.
+    // The time ratio hardly depends on the lengths along the valley of equal swing: 0.5 mm of the crank are 0.064 deg
+    // of the crank angle between the extreme positions. The refinement ends where the cost is that small.
     let expected = [known.crank, known.coupler, known.stretched.crank];
     for ((value, expected), within) in found.values.iter().zip(expected).zip([1e-3, 4e-3, 2e-2]) {
         assert_within!((value - expected).abs(), within, "{found:?} {known:?}");
@@ -98,7 +99,7 @@ fn results_depend_on_the_seed_and_not_on_the_threads() {
     assert_ne!(search(&task, 2, &mut |_| {}).unwrap().values, one.values);
 }
 
-/// What is written is what was found, to the digits of a workshop, and is a scenario.
+/// The written scenario has the values found, rounded to the digits of a workshop, and is valid.
 #[test]
 fn the_scenario_written_has_the_values_found() {
     let TaskFile { mut task, drawing } = task(TASK);
@@ -115,7 +116,7 @@ fn the_scenario_written_has_the_values_found() {
     assert_within!((scenario.case.crank().zero.to_degrees() - 70.7355).abs(), 1e-9);
     assert_within!((links[2].mass - 3.0 * 0.345_679).abs(), 1e-6);
     assert_within!((links[2].inertia / links[2].mass - 0.345_679f64.powi(2) / 12.0).abs(), 1e-7);
-    // What the file says beside dimensions stays.
+    // All of the file except dimensions stays.
     assert_eq!(scenario.case.loads, drawing.case.loads);
     assert_eq!(scenario.case.mechanism.links()[0], drawing.case.mechanism.links()[0]);
 }
@@ -141,7 +142,7 @@ fn what_is_measured_are_the_extreme_positions() {
     }
     assert!(found.unrest(&task) == 0.0);
     assert_within!(found.late(&task), 0.01 / 360.0 * TAU);
-    // The other sense of the output, or another zero, is far from it.
+    // With the other sense of the output, or another zero, the result is far from it.
     assert!(Achieved::of(&task, -1.0).unwrap().wrong() > 0.2);
     assert!(Achieved::of(&task, 1.0).unwrap().late(&task) > 0.1);
 }

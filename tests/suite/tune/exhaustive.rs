@@ -1,5 +1,5 @@
-//! All settings of all Rapier engines on a dense grid: what `tune` is measured against, by a price model in the tests and by the clock in
-//! `benches/tune.rs`.
+//! All settings of all Rapier engines on a dense grid, with which `tune` is compared: by a price model in the tests, by
+//! the clock in `benches/tune.rs`.
 
 use analytic::NewtonSolver;
 use linkage::case::Grid;
@@ -22,13 +22,15 @@ pub const REFERENCES: [&str; 8] = [
     "class3_group",
 ];
 
-/// Largest step that is looked at, in degrees of the crank: with it a turn has twelve steps, and six-point interpolation spans half a turn.
+/// Largest step in the search, in degrees of the crank: with it a turn has twelve steps, and six-point interpolation
+/// spans half a turn.
 const COARSEST_DEG: f64 = 30.0;
-/// Steps coarser than one whose error is this many times the wanted one are not run. Errors rise with the step; where they do not, parts
-/// of opposite sign cancel at one instant, and never in all instants of all channels by such a factor.
+/// Steps coarser than one whose error is this many times the wanted one are not run. Errors grow with the step. Where
+/// they do not, parts of opposite sign cancel at one instant, but never by such a factor at all instants of all
+/// channels.
 const HOPELESS: f64 = 30.0;
 
-/// Which settings are looked at.
+/// The settings in the search.
 pub struct Space {
     /// Numbers of sweeps.
     pub sweeps: &'static [usize],
@@ -51,20 +53,20 @@ pub fn thinned(mut scenario: Scenario, every: usize) -> Scenario {
     scenario
 }
 
-/// Largest error over the scale in all channels that the case wants, infinite if the engine fails. The reference is not the
-/// analytic side that `tune` uses.
+/// Largest error over the scale in all channels that the case wants; infinite if the engine fails. The reference is not
+/// the analytic side that `tune` uses.
 pub fn error_of(scenario: &Scenario, truth: &Trajectory, engine: &dyn Engine) -> f64 {
     let Ok(found) = engine.solve(&scenario.case) else { return f64::INFINITY };
     let residuals = residuals(truth, &found).expect("both stand on one grid");
     residuals.iter().map(Residual::share).fold(0.0, f64::larger)
 }
 
-/// What [`error_of`] compares with.
+/// The reference of [`error_of`].
 pub fn truth(scenario: &Scenario) -> Trajectory {
     NewtonSolver.solve(&scenario.case).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// All ways of setting the Rapier engines but for the step: engine, route, extrapolation, substeps, sweeps.
+/// All ways of setting the Rapier engines except the step: engine, route, extrapolation, substeps, sweeps.
 fn rows(space: &Space) -> Vec<Box<dyn Engine>> {
     let mut rows = Vec::new();
     for engine in linkproof::engines::all(1e-3).into_iter().filter(|engine| !engine.controls_error()) {
@@ -82,8 +84,8 @@ fn rows(space: &Space) -> Vec<Box<dyn Engine>> {
     rows
 }
 
-/// The cheapest settings of each row of the space that cost less than `below` and meet the error `within`, the cheapest of all last, and
-/// the number of runs. Every row is walked from the finest step that it can afford to coarser ones.
+/// The cheapest settings of each row of the space that cost less than `below` and meet the error `within`, the cheapest
+/// of all last, and the number of runs. Every row is searched from the finest affordable step to coarser ones.
 pub fn cheaper(
     scenario: &Scenario,
     within: f64,

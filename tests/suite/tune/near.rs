@@ -1,4 +1,5 @@
-//! What `tune` finds against all of a space of settings, by the price model: for the tests, and with the whole space for `benches/tune.rs`.
+//! The result of `tune` against all of a space of settings, by the price model: for the tests, and with the whole space
+//! for `benches/tune.rs`.
 
 use linkage::engine::Engine;
 use linkproof::engines::EngineName;
@@ -9,7 +10,7 @@ use linkproof::tune::{Tuning, Wish, tune};
 use super::exhaustive::{Space, cheaper, error_of, truth};
 use super::prices::price_of;
 
-/// Within this factor of the cheapest.
+/// Allowed factor from the cheapest price.
 pub const FACTOR: f64 = 1.5;
 
 /// Tunes by the price model.
@@ -22,8 +23,9 @@ pub fn tuned(scenario: &Scenario, within: f64, channels: &[&str], options: &Opti
     tune(scenario, &wish, options, &mut price, &mut |_| {})
 }
 
-/// Tunes all Rapier engines; what is found must keep its promise where it is checked from outside, with the other analytic side, and nothing in
-/// the space may be cheaper than what was found over `below`.
+/// Tunes all Rapier engines. The result must keep its error and its price when checked from outside, with the other
+/// analytic side. The space is searched for settings that cost less than the price of the result over `below`. The
+/// result may cost at most [`FACTOR`] times the cheapest of them.
 pub fn near_the_cheapest(scenario: &Scenario, within: f64, below: f64, space: &Space) {
     let name = &scenario.name;
     let engines = linkproof::engines::all(1e-3).into_iter().filter(|engine| !engine.controls_error());

@@ -1,16 +1,18 @@
-//! What a run costs, as a model, so that no clock decides a test.
+//! A model of the cost of a run, so that no clock decides a test.
 
 use linkage::case::Case;
 use linkage::engine::{Engine, Route};
 use linkage::math::KeepNan;
 use rapier_twin::tree::Tree;
 
-/// Steps that a run does besides those between the first and the last instant: a few backwards, the same forwards, and some beyond the end.
+/// Steps of a run besides those between the first and the last instant: a few backwards, the same number forwards, and
+/// some beyond the end.
 const EXTRA_STEPS: f64 = 16.0;
 /// Tiny steps of a probe in every world.
 const TINY_STEPS: f64 = 5.0;
 
-/// Costs of an engine in units of a step of `rapier` without sweeps on the same mechanism (4.9 us there and then).
+/// Costs of an engine in units of a step of `rapier` without sweeps on the same mechanism (4.9 us on the machine of the
+/// measurement).
 struct Costs {
     /// A step, without its substeps.
     step: f64,
@@ -25,8 +27,8 @@ struct Costs {
     tiny: f64,
 }
 
-/// Measured once on `crank_rocker` by `cargo bench --bench tune -- prices`. The step is divided into what happens once and what happens in every substep
-/// by the costs of one and of two substeps.
+/// Measured once on `crank_rocker` by `cargo bench --bench tune -- prices`. The costs with one and with two substeps
+/// show which part of a step happens once and which happens in every substep.
 fn costs(engine: &str) -> Costs {
     match engine {
         "rapier" => Costs { step: 0.47, substep: 0.53, sweep: 0.028, instant: 0.26, native: 1.03, tiny: 1.1 },

@@ -11,7 +11,7 @@ link 3 = CD, rocker 4 = O2D";
 const READING_4: &str = "Topology is our own reading (docs/variants60.md): crank 1 = O1A, coupler 2 = AB with point C on it, rocker 3 = O2B; \
 gamma is the angle at B between links 2 and 3, phi and theta are not used";
 
-/// Twelve decimals without zeros at the end: 1e-12 m, which no sine's last bit changes.
+/// Twelve decimals without zeros at the end: 1e-12 m, which the last bit of a sine does not change.
 pub fn number(value: f64) -> String {
     let text = format!("{value:.12}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
@@ -39,7 +39,7 @@ fn group(first: &str, second: &str, mode: &str) -> String {
     format!("[[start.groups]]\nlinks = [\"{first}\", \"{second}\"]\nmode = \"{mode}\"\n")
 }
 
-/// What the title says of the range; limits to 1e-6 deg.
+/// The statement of the title about the range; limits to 1e-6 deg.
 pub fn range(plan: &Plan) -> String {
     match plan.limits {
         None => "turns fully".into(),

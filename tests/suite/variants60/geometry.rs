@@ -1,8 +1,9 @@
-//! The variants' own geometry: poses from the given angles, transmission angles by the law of cosines. Nothing of the solvers.
+//! The variants' own geometry: poses from the given angles, transmission angles by the law of cosines. It uses nothing
+//! of the solvers.
 //!
-//! With the guide's direction t and normal n, the slider stays on its line where n . (B - A) = n . B0 - l1 sin(a - theta); over l2 this is the
-//! cosine of the angle between rod and normal. The angle at D between link 3 and rocker 4 has the cosine (l3^2 + l4^2 - |C O2|^2) / 2 l3 l4.
-//! Either dyad is singular where its cosine is 1 or -1.
+//! With the guide's direction t and normal n, the slider stays on its line where n . (B - A) = n . B0 - l1 sin(a -
+//! theta). Divided by l2, this is the cosine of the angle between rod and normal. The angle at D between link 3 and
+//! rocker 4 has the cosine (l3^2 + l4^2 - |C O2|^2) / 2 l3 l4. Either dyad is singular where its cosine is 1 or -1.
 
 use linkage::math::{KeepNan, Vec2, cross, turned, unit};
 
@@ -11,7 +12,7 @@ use linkage::math::{KeepNan, Vec2, cross, turned, unit};
 pub struct Variant {
     pub number: usize,
     pub scheme: usize,
-    /// l1, l2, l3; l4, which scheme 4 has not.
+    /// l1, l2, l3; scheme 4 has no l4.
     pub lengths: [f64; 3],
     pub rocker: Option<f64>,
     pub ac: f64,
@@ -45,21 +46,21 @@ pub fn variants(csv: &str) -> Vec<Variant> {
     csv.lines().skip(1).map(line).collect()
 }
 
-/// Sense in which beta, gamma and phi are laid off, 1 as in our reading.
+/// Sense in which beta, gamma and phi are measured; 1 as in our reading.
 pub type Senses = [f64; 3];
 pub const OURS: Senses = [1.0; 3];
 
-/// How a dyad's transmission angle depends on the crank.
+/// Dependence of a dyad's transmission angle on the crank.
 #[derive(Clone, Copy, Debug)]
 struct Slide {
     along: Vec2,
     /// n . B.
     line: f64,
-    /// 1 if B lies ahead of A along the guide, else -1.
+    /// 1 if B is ahead of A along the guide, else -1.
     sense: f64,
 }
 
-/// A variant's mechanism in the pose that its angles give.
+/// A variant's mechanism in the pose given by its angles.
 #[derive(Clone, Debug)]
 pub struct Linkage {
     pub variant: Variant,
@@ -75,7 +76,7 @@ fn degrees(angle: f64) -> Vec2 {
     unit(angle.to_radians())
 }
 
-/// What counts as singular: the rounding of a sine and a few products.
+/// Limit below which a value counts as singular: the rounding of a sine and a few products.
 const SINGULAR: f64 = 1e-12;
 
 impl Linkage {
@@ -86,7 +87,7 @@ impl Linkage {
         let rod = v.alpha + 180.0 - beta * v.beta;
         let (b, c) = (a + degrees(rod) * l2, a + degrees(rod) * v.ac);
         let Some(l4) = v.rocker else {
-            // Scheme 4: gamma is the angle at B between coupler and rocker, D and B are one point.
+            // Scheme 4: gamma is the angle at B between coupler and rocker; D and B are one point.
             let o2 = b + degrees(rod + 180.0 + gamma * v.gamma) * l3;
             return Linkage { variant: v, a, b, c, d: b, o2, slide: None };
         };
@@ -95,25 +96,25 @@ impl Linkage {
         let o2 = d + degrees(lead + 180.0 + phi * v.phi) * l4;
         let along = degrees(v.theta);
         let ahead = along.dot(&(b - a));
-        // In a singular pose both senses begin: we go ahead.
+        // In a singular pose both senses are possible: the sense ahead is used.
         let sense = if ahead < -SINGULAR { -1.0 } else { 1.0 };
         let slide = Some(Slide { along, line: cross(along, b), sense });
         Linkage { variant: v, a, b, c, d, o2, slide }
     }
 
-    /// Whether the slider lies ahead of A along the guide; none in scheme 4.
+    /// Whether the slider is ahead of A along the guide; `None` in scheme 4.
     pub fn is_ahead(&self) -> Option<bool> {
         self.slide.map(|slide| slide.sense > 0.0)
     }
 
-    /// Whether D (scheme 4: B) lies to the left of the line from C (A) to O2.
+    /// Whether D (scheme 4: B) is to the left of the line from C (A) to O2.
     pub fn is_left(&self) -> bool {
         let outer = if self.slide.is_some() { self.c } else { self.a };
         cross(self.o2 - outer, self.d - outer) > 0.0
     }
 
-    /// Cosines of the transmission angles at crank angle `crank` (deg): rod to normal, and link 3 to rocker. Beyond a limit of the first dyad the
-    /// second has none.
+    /// Cosines of the transmission angles at crank angle `crank` (deg): rod to normal, and link 3 to rocker. Beyond a
+    /// limit of the first dyad the second has none.
     pub fn cosines(&self, crank: f64) -> [f64; 2] {
         let [l1, l2, l3] = self.variant.lengths;
         let a = degrees(crank) * l1;
@@ -138,8 +139,8 @@ impl Linkage {
         self.worst(crank).smaller(1.0).acos().to_degrees()
     }
 
-    /// Crank angles (deg) between which both transmission angles stay above `least` (deg), around `from`; `None` if a whole turn does. Steps of
-    /// 0.01 deg: a hump that lies between two of them is lower than 1e-7.
+    /// Crank angles (deg) between which both transmission angles stay above `least` (deg), around `from`; `None` if
+    /// they do so over a whole turn. Steps of 0.01 deg: a peak between two of them is lower than 1e-7.
     pub fn interval(&self, from: f64, least: f64) -> Option<[f64; 2]> {
         const STEP: f64 = 0.01;
         let bound = least.to_radians().cos();
@@ -160,8 +161,8 @@ impl Linkage {
         Some([end(-1.0)?, end(1.0)?])
     }
 
-    /// The next crank angle (deg) at which the cosine of the slider's dyad reaches 1 without going beyond: crank and rod both across the guide, where
-    /// branches cross.
+    /// The next crank angle (deg) at which the cosine of the slider's dyad reaches 1 without exceeding it. Crank and
+    /// rod are both perpendicular to the guide, and branches cross there.
     pub fn change_point(&self, from: f64, sense: f64) -> Option<f64> {
         let [l1, l2, _] = self.variant.lengths;
         let line = self.slide?.line;
@@ -174,8 +175,8 @@ impl Linkage {
         ends.min_by(|x, y| (sense * x).total_cmp(&(sense * y)))
     }
 
-    /// Smallest of the transmission angles (deg) of each dyad between two crank angles (deg): the best of steps of 0.05 deg, then by
-    /// golden section between its neighbours.
+    /// Smallest of the transmission angles (deg) of each dyad between two crank angles (deg): the best of steps of 0.05
+    /// deg, then a golden section search between its neighbours.
     pub fn least(&self, [from, to]: [f64; 2]) -> [f64; 2] {
         let count = ((to - from) / 0.05).ceil().larger(1.0);
         let at = |k: f64| from + (to - from) * (k / count).clamp(0.0, 1.0);

@@ -1,4 +1,4 @@
-//! What docs/variants60.md says of the whole family, below its marker.
+//! The statements of docs/variants60.md about the whole family, below its marker.
 
 use std::fmt::Write;
 
@@ -39,7 +39,7 @@ fn senses(plans: &[Plan]) -> String {
         let senses: Senses = [4, 2, 1].map(|bit| if k & bit == 0 { 1.0 } else { -1.0 });
         let turns = |v: &&&Variant| Linkage::of(v, senses).interval(v.alpha, 0.0).is_none();
         let count = variants.iter().filter(turns).count();
-        // Beta counts clockwise in our reading, the others counter-clockwise.
+        // In our reading beta counts clockwise, the others counter-clockwise.
         let words = [-senses[0], senses[1], senses[2]].map(|s| if s > 0.0 { "ccw" } else { "cw" });
         let ours = if k == 0 { " (our reading)" } else { "" };
         let _ = writeln!(text, "| {} | {} | {} | {count}{ours} |", words[0], words[1], words[2]);

@@ -1,25 +1,26 @@
-//! Which crank angles of a variant are looked at, and in which steps.
+//! The crank angles and steps for which a variant is solved.
 
 use super::geometry::{Linkage, OURS, Variant};
 use linkage::math::KeepNan;
 
-/// Transmission angle (deg) that the grid keeps where the crank cannot turn fully.
+/// Transmission angle (deg) that the grid keeps if the crank cannot turn fully.
 const LEAST: f64 = 15.0;
-/// The same where the given pose has less than that.
+/// The same if the given pose has less than that.
 const SMALL: f64 = 10.0;
-/// Engine steps from the grid's ends to the limits. Near a limit the motion goes as the root of the distance, so that it alone decides what a step
-/// is worth. With forty, one channel each of variants 15 and 35 stays inconclusive; with sixty none does.
+/// Engine steps from the grid's ends to the limits. Near a limit the motion goes as the square root of the distance,
+/// which alone determines what a step is worth. With forty, one channel each of variants 15 and 35 stays inconclusive;
+/// with sixty none does.
 const STEPS_TO_LIMIT: f64 = 60.0;
-/// Engine step (deg) far from limits, and what steps are multiples of.
+/// Engine step (deg) far from limits, and the unit of which steps are multiples.
 const ENGINE: [f64; 2] = [0.25, 0.01];
-/// Fewest instants of a grid.
+/// Least number of instants in a grid.
 const FEWEST: f64 = 12.0;
 /// Slack of grid ends (deg): an end at a whole degree may be missed by rounding.
 const SLACK: f64 = 1e-6;
 
 const NESTED: &str = "limits are limits of larger angles too";
 
-/// What a variant's file is written from.
+/// The data from which a variant's file is written.
 #[derive(Clone, Debug)]
 pub struct Plan {
     pub linkage: Linkage,
@@ -29,12 +30,12 @@ pub struct Plan {
     pub given: f64,
     /// Transmission angle that the grid keeps (deg); 0 where the crank turns fully.
     pub kept: f64,
-    /// Crank angle of the start (deg): alpha, unless the grid leaves the given pose out.
+    /// Crank angle of the start (deg): alpha, unless the given pose is outside the grid.
     pub start: f64,
     /// Crank angles (deg).
     pub grid: [f64; 2],
     pub grid_step: f64,
-    /// Smallest transmission angles on the grid (deg), a dyad each.
+    /// Smallest transmission angles on the grid (deg), one per dyad.
     pub least: [f64; 2],
     /// Step of the engine (deg).
     pub engine_step: f64,

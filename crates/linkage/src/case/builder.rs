@@ -10,12 +10,12 @@ use crate::mechanism::{
     AssemblyMode, GROUND, Joint, JointKind, Link, Mechanism, Point, Side, StartGroup, Structure, first_pose,
 };
 
-/// A link under construction, a joint with the names it was given, a crank.
+/// A joint by names.
 #[derive(Clone, Debug)]
 struct Wish {
     name: String,
-    first: String,
-    second: String,
+    /// Link and point of either side.
+    sides: [[String; 2]; 2],
     /// Angles of the axis in the frames of both links (rad), of a prismatic joint.
     axes: Option<[f64; 2]>,
 }
@@ -58,8 +58,16 @@ pub struct CaseBuilder {
     wanted: Wanted,
 }
 
+impl Case {
+    /// A case written down in code, link by link.
+    #[must_use]
+    pub fn builder() -> CaseBuilder {
+        CaseBuilder::new()
+    }
+}
+
 impl CaseBuilder {
-    pub(super) fn new() -> Self {
+    fn new() -> Self {
         CaseBuilder {
             links: Vec::new(),
             masses: Vec::new(),
@@ -98,18 +106,19 @@ impl CaseBuilder {
     /// A revolute joint where both links have a point called `name`.
     #[must_use]
     pub fn pin(self, name: &str, first: &str, second: &str) -> Self {
-        self.joint(name, first, second, None)
+        self.joint(name, [(first, name), (second, name)], None)
     }
 
-    /// A prismatic joint where both links have a point called `name`; `axes` are the angles (rad) of its axis in the
-    /// frames of both links.
+    /// A prismatic joint: link and point of its place on either side, and the angles (rad) of its axis in the frames of
+    /// both links. The points must differ in name.
     #[must_use]
-    pub fn slider(self, name: &str, first: &str, second: &str, axes: [f64; 2]) -> Self {
-        self.joint(name, first, second, Some(axes))
+    pub fn slider(self, name: &str, first: (&str, &str), second: (&str, &str), axes: [f64; 2]) -> Self {
+        self.joint(name, [first, second], Some(axes))
     }
 
-    fn joint(mut self, name: &str, first: &str, second: &str, axes: Option<[f64; 2]>) -> Self {
-        self.joints.push(Wish { name: name.into(), first: first.into(), second: second.into(), axes });
+    fn joint(mut self, name: &str, sides: [(&str, &str); 2], axes: Option<[f64; 2]>) -> Self {
+        let sides = sides.map(|(link, point)| [link.to_string(), point.to_string()]);
+        self.joints.push(Wish { name: name.into(), sides, axes });
         self
     }
 
@@ -203,16 +212,11 @@ impl CaseBuilder {
 
     fn made(&self, wish: &Wish) -> Result<Joint> {
         let key = format!("joints.{}", wish.name);
-        let side = |link: &str| -> Result<Side> {
+        let side = |[link, name]: &[String; 2]| -> Result<Side> {
             let index = self.link_of(link, &key)?;
             let points = &self.links[index].points;
-            let point = points.iter().find(|point| point.name == wish.name).ok_or_else(|| {
-                unknown(
-                    &format!("point of link \"{link}\""),
-                    &wish.name,
-                    &key,
-                    points.iter().map(|own| own.name.as_str()),
-                )
+            let point = points.iter().find(|point| point.name == *name).ok_or_else(|| {
+                unknown(&format!("point of link \"{link}\""), name, &key, points.iter().map(|own| own.name.as_str()))
             })?;
             Ok(Side { link: index, local: point.local })
         };
@@ -220,7 +224,7 @@ impl CaseBuilder {
             None => JointKind::Revolute,
             Some(angles) => JointKind::Prismatic { axes: angles.map(unit) },
         };
-        Ok(Joint { name: wish.name.clone(), kind, first: side(&wish.first)?, second: side(&wish.second)? })
+        Ok(Joint { name: wish.name.clone(), kind, first: side(&wish.sides[0])?, second: side(&wish.sides[1])? })
     }
 
     fn drives(&self, mechanism: &Mechanism) -> Result<Drives> {
@@ -317,11 +321,11 @@ mod tests {
             .ground(&[("O", [0.0, 0.0]), ("D", [0.0, 0.0])])
             .link("crank", &[("O", [0.0, 0.0]), ("A", [0.1, 0.0])])
             .link("rod", &[("A", [0.0, 0.0]), ("B", [0.4, 0.0])])
-            .link("piston", &[("B", [0.0, 0.0]), ("D", [0.0, 0.0])])
+            .link("piston", &[("B", [0.0, 0.0])])
             .pin("O", "ground", "crank")
             .pin("A", "crank", "rod")
             .pin("B", "rod", "piston")
-            .slider("D", "ground", "piston", [0.0, 0.0])
+            .slider("D", ("ground", "D"), ("piston", "B"), [0.0, 0.0])
             .crank("O", 10.0)
             .mode(&["rod", "piston"], AssemblyMode::Ahead)
             .instants(8)

@@ -1,6 +1,6 @@
 //! What the rows of the table of channels read of a state.
 
-use super::channel::Subject;
+use super::subject::Subject;
 
 /// What a row of the table reads. One kind of number a variant: the [sampler](crate::solver::Sampler) matches on them, so that a row without a
 /// reader does not compile.

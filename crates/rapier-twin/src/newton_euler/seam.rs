@@ -1,4 +1,4 @@
-//! A joint between two links: where it acts, and what a joint of the tree can transmit.
+//! A joint between two links: where it acts, and what it can transmit as a joint of the tree.
 
 use linkage::case::Case;
 use linkage::math::{Vec2, cross, turned};
@@ -9,41 +9,43 @@ use linkage::solver::State;
 #[derive(Clone, Debug)]
 pub(super) struct Seam {
     pub(super) joint: usize,
-    /// The two links, and their numbers among the tree's; none for the ground.
+    /// The two links, and their numbers in the tree; `None` for the ground.
     pub(super) links: [usize; 2],
     pub(super) numbers: [Option<usize>; 2],
-    /// +1 for the link that is the joint's second, else -1: the sense in which its reaction acts.
+    /// +1 for the joint's second link, else -1: the sense in which its reaction acts.
     pub(super) signs: [f64; 2],
     pub(super) pair: Pair,
 }
 
 #[derive(Clone, Debug)]
 pub(super) enum Pair {
-    /// The joint's places as seen from the mass centres, in the links' frames (m).
+    /// The joint's points relative to the mass centres, in the links' frames (m).
     Pin([Vec2; 2]),
-    /// Axis in the frame of the joint's first link, place on the second, and mass centres in the frames of the two links.
+    /// Axis in the frame of the joint's first link, point on the second, and mass centres in the frames of the two links.
     Slide { axis: Side, place: Side, centres: [Vec2; 2] },
 }
 
-/// A joint at one instant: arms from the mass centres of its links to where it acts (m, world axes), and of a slide the unit vector across its axis.
+/// A joint at one instant: arms from the mass centres of its links to where it acts (m, world axes).
+/// For a prismatic joint also the unit vector across its axis.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stand {
     pub(super) arms: [Vec2; 2],
     pub(super) normal: Option<Vec2>,
 }
 
-/// What a joint of the tree makes of the force and moment that its outer link needs, as weights of their three numbers.
+/// What a joint of the tree transmits of the force and moment that its outer link needs.
+/// All parts are weights of these three numbers.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pass {
-    /// The part that it cannot transmit: the moment about a pin, the force along the axis of a slide.
+    /// The part that it cannot transmit: the moment in a revolute joint, the force along the axis of a prismatic one.
     left_over: Term,
-    /// The force that it transmits: weights of x in x, of either in the other, of y in y.
+    /// The force that it transmits: weights of x in x, of x in y (and y in x), of y in y.
     force: Term,
-    /// The moment about the inner link's mass centre that goes with it.
+    /// The moment of this force about the inner link's mass centre.
     moment: Term,
 }
 
-/// Force and moment about a link's mass centre: x, y and z of one term of a linear function.
+/// Force and moment about a link's mass centre: the x, y and z parts of one term of a linear function.
 pub(super) type Term = [f64; 3];
 
 impl Seam {
@@ -77,7 +79,7 @@ impl Seam {
 }
 
 impl Stand {
-    /// What the two components of the joint do to a link, as far as its arm `k` goes.
+    /// Effect of the joint's two components on the link of side `k`, without the sense of the reaction.
     #[inline]
     pub(super) fn components(&self, k: usize) -> [Term; EQUATIONS] {
         let arm = self.arms[k];
@@ -87,7 +89,7 @@ impl Stand {
         }
     }
 
-    /// Of a joint of the tree, from the inner link to the outer one.
+    /// Weights of a joint of the tree, from the inner link to the outer one.
     #[inline]
     pub(super) fn pass(&self) -> Pass {
         let [inner, outer] = self.arms;
@@ -106,7 +108,8 @@ impl Stand {
         }
     }
 
-    /// The joint's force (N) and moment about its place (N m) that give the outer link of a joint of the tree what it needs.
+    /// The joint's force (N) and moment about its point (N m) that give its outer link what it needs.
+    /// The joint is one of the tree.
     #[inline]
     pub(super) fn reaction(&self, [x, y, moment]: Term) -> (Vec2, f64) {
         match self.normal {
@@ -125,7 +128,7 @@ impl Pass {
         weighed(&self.left_over, term)
     }
 
-    /// Adds what the inner link needs besides, so that the outer one gets what it needs.
+    /// Adds what the inner link needs in addition so that the outer one gets what it needs.
     #[inline]
     pub(super) fn on(&self, term: &Term, sum: &mut Term) {
         let [xx, xy, yy] = self.force;

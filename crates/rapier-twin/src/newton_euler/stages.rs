@@ -4,26 +4,28 @@ use super::seam::{Pass, Seam, Term};
 use linkage::math::dense::Lu;
 use linkage::mechanism::EQUATIONS;
 
-/// A link hung on the ground or another link by a joint of the tree.
+/// A link carried by the ground or by another link through a joint of the tree.
 #[derive(Clone, Debug)]
 pub(super) struct Limb {
     pub(super) seam: Seam,
-    /// Number of the drive that turns the link about its pin.
+    /// Index of the drive that turns the link about its revolute joint.
     pub(super) drive: Option<usize>,
-    /// Components of cut joints on the links from this one outwards: all others are nothing to it.
+    /// Components of cut joints on this link and the links beyond it. No other component acts on it.
     pub(super) terms: Vec<usize>,
 }
 
 /// Equations that determine some of the components once others are known.
 #[derive(Debug)]
 pub(super) enum Stage {
-    /// Both components of a cut joint, the first of which is given, from two equations.
+    /// Both components of a cut joint from two equations; the first component is given.
     Pair(usize, [Row; EQUATIONS]),
-    /// All that are left, with room for the system.
+    /// All components that are left, with workspace for the system.
     All { rows: Vec<Row>, terms: Vec<usize>, values: Vec<f64>, matrix: Lu },
 }
 
-/// The equation of a joint of the tree: number of its limb, terms with their columns in the matrix of the stage, and terms known before.
+/// The equation of a joint of the tree.
+/// It stores the number of its limb and its unknown terms with their columns in the stage's matrix.
+/// Terms that are already known stand apart.
 #[derive(Debug)]
 pub(super) struct Row {
     pub(super) number: usize,
@@ -40,7 +42,8 @@ impl Row {
         Row { number, columns: columns.collect(), known: known.collect() }
     }
 
-    /// Gives the coefficients to `put`, by column, and gives back the right side, from what the limb's joint passes and what its link needs.
+    /// Passes the coefficients to `put`, by column, and returns the right-hand side.
+    /// Both follow from what the limb's joint transmits and what its link needs.
     #[inline]
     pub(super) fn equation(
         &self,
@@ -59,8 +62,9 @@ impl Row {
     }
 }
 
-/// Stages in which components are found: first cut joints whose two components stand alone in two equations, which is all that dyads need, then all
-/// others at once.
+/// Stages in which the components are found.
+/// First come cut joints whose two components stand alone in two equations; dyads need no more.
+/// Then all others are solved together.
 pub(super) fn stages(limbs: &[Limb], cuts: usize) -> Vec<Stage> {
     let mut left: Vec<usize> = (0..limbs.len()).rev().filter(|&number| limbs[number].drive.is_none()).collect();
     let (mut unknown, mut stages): (Vec<usize>, _) = ((0..EQUATIONS * cuts).collect(), Vec::new());

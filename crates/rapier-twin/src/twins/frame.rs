@@ -1,9 +1,10 @@
-//! Where a joint's rows stand.
+//! Position and direction of a joint's constraint rows.
 
 use linkage::math::Vec2;
 
-/// Where a joint's rows stood at the start of a step: direction of the first joint frame's x axis, and arms of the rows from the mass
-/// centres of both bodies.
+/// Where a joint's constraint rows were at the start of a step.
+/// The direction is that of the first joint frame's x axis.
+/// The arms go from the mass centres of both bodies to the rows.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Frame {
     pub(super) axis: Vec2,

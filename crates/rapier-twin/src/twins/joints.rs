@@ -1,4 +1,4 @@
-//! Joints and bodies in Rapier's terms.
+//! Joints and bodies as Rapier defines them.
 
 use super::parry::mass_properties::MassProperties;
 use super::rapier::prelude::{
@@ -10,7 +10,8 @@ use linkage::engine::Settings;
 use linkage::math::Vec2;
 use linkage::mechanism::{Joint, JointKind, Link};
 
-/// Joint frequency (Hz): rigid to rounding. The default, 1e6 Hz, adds 6 % to the closure gap at a step of 1e-5 s.
+/// Joint frequency (Hz): rigid down to rounding.
+/// The default, 1e6 Hz, adds 6 % to the closure gap at a step of 1e-5 s.
 const JOINT_FREQUENCY: f64 = 1e12;
 
 /// Rapier's vector.
@@ -18,7 +19,7 @@ pub(super) fn vector(of: Vec2) -> Vector {
     Vector::new(real(of.x), real(of.y))
 }
 
-/// A joint between the joint's places on `links` that holds the axes given.
+/// A joint between the joint's points on `links` that locks the given axes.
 pub(super) fn holding(axes: JointAxesMask, joint: &Joint, links: [usize; 2]) -> GenericJointBuilder {
     let [first, second] = links.map(|link| vector(joint.on(link).expect("the joint is on the link")));
     GenericJointBuilder::new(axes)
@@ -28,8 +29,8 @@ pub(super) fn holding(axes: JointAxesMask, joint: &Joint, links: [usize; 2]) -> 
         .softness(SpringCoefficients::new(real(JOINT_FREQUENCY), 1.0))
 }
 
-/// The joint between `links`, which Rapier calls first and second. Of a prismatic one, the x axis of either joint frame lies
-/// along the axis.
+/// The joint between `links`, which Rapier calls first and second.
+/// For a prismatic joint, the x axis of both joint frames lies along the axis.
 pub(super) fn between(joint: &Joint, links: [usize; 2]) -> GenericJoint {
     match joint.kind {
         JointKind::Revolute => holding(JointAxesMask::LOCKED_REVOLUTE_AXES, joint, links).build(),
@@ -40,22 +41,22 @@ pub(super) fn between(joint: &Joint, links: [usize; 2]) -> GenericJoint {
     }
 }
 
-/// A moving body with the mass and moment of inertia given.
+/// A moving body with the given mass (kg) and moment of inertia (kg m^2).
 pub(super) fn body(link: &Link, [mass, inertia]: [f64; 2]) -> RigidBodyBuilder {
     RigidBodyBuilder::dynamic()
         .can_sleep(false)
-        // Without it Rapier holds plain bodies to an eighth of a turn a step.
+        // Without this Rapier limits separate bodies to an eighth of a turn per step.
         .allow_fast_rotation(true)
         .additional_mass_properties(MassProperties::new(vector(link.mass_centre), real(mass), real(inertia)))
 }
 
-/// Parameters of a run.
+/// Integration parameters of a run.
 pub(super) fn parameters(settings: &Settings) -> IntegrationParameters {
-    // The way to reactions is a matter of reading, and extrapolation one of several runs.
+    // The route to reactions concerns only the reading, and extrapolation combines several runs.
     let &Settings { resolution, sweeps, substeps, route: _, extrapolated: _ } = settings;
     IntegrationParameters {
         dt: real(resolution),
-        // These are substeps: each restarts the sweeps from nothing.
+        // These are substeps: each restarts the sweeps from zero.
         num_solver_iterations: substeps,
         num_internal_pgs_iterations: sweeps,
         num_internal_stabilization_iterations: sweeps,

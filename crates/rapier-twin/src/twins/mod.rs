@@ -1,5 +1,5 @@
-//! Rapier's worlds, written once for both precisions: this file and its like are compiled against `rapier2d-f64` and against
-//! `rapier2d`.
+//! Rapier's worlds, written once for both precisions.
+//! This module is compiled against `rapier2d-f64` and against `rapier2d`.
 
 mod frame;
 mod joints;
@@ -30,7 +30,7 @@ struct Cut {
     joint: Joint,
     index: usize,
     handle: ImpulseJointHandle,
-    /// Whether neither body is a link of the multibody: then Rapier makes the joint's rows orthogonal to each other.
+    /// Whether neither body is a link of the multibody. Rapier then makes the joint's rows orthogonal to each other.
     plain: bool,
     /// Where the joint was at the start of the last substep.
     start: frame::Frame,
@@ -40,9 +40,9 @@ struct Cut {
 #[derive(Clone, Debug)]
 struct Motor {
     handle: ImpulseJointHandle,
-    /// +1 if the driving link is the second of the driven joint, as the motor counts, else -1.
+    /// +1 if the driving link is the second link of the driven joint, as the motor counts it, else -1.
     sense: f64,
-    /// Whether the driving link is a body of its own.
+    /// Whether the driving link is a separate body.
     plain: bool,
 }
 
@@ -52,23 +52,24 @@ pub(crate) struct Twin {
     tree: Tree,
     joints: Vec<Joint>,
     bodies: Vec<RigidBodyHandle>,
-    /// The multibody, by one of its links; none if all links are bodies of their own.
+    /// The multibody, given by one of its links; `None` if all links are separate bodies.
     any_link: Option<MultibodyJointHandle>,
-    /// Links that are bodies of their own.
+    /// Links that are separate bodies.
     plain: Vec<usize>,
-    /// Generalised coordinate of every branch's joint: index in the multibody; its sense is that of the child in its parent.
+    /// Generalised coordinate of every branch's joint: its index in the multibody.
+    /// Its sense is that of the child relative to its parent.
     dofs: Vec<usize>,
     /// Number of every branch's link in the multibody.
     ids: Vec<usize>,
     cuts: Vec<Cut>,
-    /// One a drive, in the case's order.
+    /// One for each drive, in the case's order.
     motors: Vec<Motor>,
     /// Mass centre of every link, and the inverses of the mass and of the moment of inertia that it has here.
     centres: Vec<Vec2>,
     inverse: Vec<[f64; 2]>,
-    /// Angle of the child less that of its parent (rad) of every branch whose joint keeps it.
+    /// Angle of the child minus that of its parent (rad), for every branch whose joint keeps it constant.
     twists: Vec<Option<f64>>,
-    /// Frames of all links after the last step or placing.
+    /// Frames of all links after the last step or placement.
     frames: Vec<LinkFrame>,
     /// Whether reactions will be read.
     read: bool,
@@ -90,8 +91,8 @@ impl Twin {
             bodies.push(world.bodies.insert(joints::body(link, masses)));
         }
         let plain = |link: usize| tree.branches.iter().all(|branch| branch.link != link);
-        // A joint between a link of the multibody and a body of its own never turns that body: such bodies stand on a ground of
-        // their own.
+        // Rapier never turns a separate body that is joined to a link of the multibody.
+        // Such bodies are therefore joined to a separate ground.
         let own_ground = world.bodies.insert(RigidBodyBuilder::fixed());
         let hold = |link: usize, other: usize| {
             if link == GROUND && plain(other) { own_ground } else { bodies[link] }
@@ -157,7 +158,7 @@ impl Twin {
         Ok(twin)
     }
 
-    /// Readies the multibody. The order of calls matters: see the comments.
+    /// Prepares the multibody. The order of calls matters: see the comments.
     fn prepare(&mut self) {
         if self.any_link.is_none() {
             return;
@@ -169,15 +170,15 @@ impl Twin {
         });
         let ids: Vec<usize> = ids.collect();
         let multibody = multibody_joints.get_multibody_mut(root).expect("the multibody exists");
-        // Collapses the freedoms of the fixed root; before this call the indices below do not hold.
+        // Removes the degrees of freedom of the fixed root; the indices below are wrong before this call.
         multibody.forward_kinematics(bodies, true);
-        // Rapier puts 0.1 N m s/rad on every pin by default.
+        // Rapier gives every revolute joint a damping of 0.1 N m s/rad by default.
         multibody.damping_mut().fill(0.0);
         self.dofs = ids.iter().map(|&id| multibody.link(id).expect("the link exists").assembly_id()).collect();
         self.ids = ids;
     }
 
-    /// Puts all links into poses.
+    /// Moves all links into the given poses.
     fn put(&mut self, poses: &[LinkPose]) {
         self.put_tree(poses);
         self.put_bodies(poses);

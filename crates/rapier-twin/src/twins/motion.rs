@@ -1,4 +1,4 @@
-//! Poses and velocities in and out, and the step itself.
+//! Sets and reads poses and velocities, and does the step itself.
 
 use super::rapier::prelude::{JointAxesMask, JointAxis, Multibody, PhysicsWorld, Pose, Rotation};
 use super::{RIGID_MOTOR, Twin, joints, real, wide};
@@ -22,7 +22,7 @@ impl Twin {
         for ((branch, &dof), &id) in self.tree.branches.iter().zip(&self.dofs).zip(&self.ids) {
             let joint = &self.joints[branch.joint];
             let coords = multibody.link(id).expect("known link").joint().coords();
-            // The free coordinate of a slider is the first, of a pin the last.
+            // The free coordinate is the first one of a prismatic joint, and the last one of a revolute joint.
             let now = match joint.kind {
                 JointKind::Prismatic { .. } => coords[0],
                 JointKind::Revolute => coords[2],
@@ -41,7 +41,7 @@ impl Twin {
         }
     }
 
-    /// Frames of all links after a step.
+    /// Reads the frames of all links after a step.
     pub(super) fn read_frames(&mut self) {
         for (&body, frame) in self.bodies.iter().zip(&mut self.frames).skip(1) {
             let (origin, direction) = place(self.world.bodies[body].position());
@@ -56,7 +56,7 @@ impl Twin {
         }
     }
 
-    /// Frames of all links that have been put into poses.
+    /// Sets the frames of all links after they were moved into poses.
     pub(super) fn put_frames(&mut self, poses: &[LinkPose]) {
         for ((&body, frame), pose) in self.bodies.iter().zip(&mut self.frames).zip(poses).skip(1) {
             let (origin, direction) = place(self.world.bodies[body].position());
@@ -64,7 +64,7 @@ impl Twin {
         }
     }
 
-    /// Duration of a substep (s): what Rapier itself takes for a step.
+    /// Duration of a substep (s), which Rapier itself treats as a step.
     pub(super) fn substep(&self) -> f64 {
         let parameters = &self.world.integration_parameters;
         wide(parameters.dt) / parameters.num_solver_iterations as f64
@@ -105,7 +105,8 @@ impl World for Twin {
     fn set_drive(&mut self, drive: usize, omega: f64) {
         let motor = &self.motors[drive];
         let turn = omega * self.substep();
-        // A body of its own turns by atan(omega dt) a substep; that much more is asked for. Beyond a radian nothing would hold anyway.
+        // A separate body turns by atan(omega dt) per substep, so its target speed is raised accordingly.
+        // Beyond a radian no speed would be held anyway.
         let omega = if motor.plain && turn.abs() < 1.0 { turn.tan() / self.substep() } else { omega };
         let joint = self.world.impulse_joints.get_mut(motor.handle, true).expect("the motor exists");
         joint.data.set_motor_velocity(JointAxis::AngX, real(omega * motor.sense), real(RIGID_MOTOR));
@@ -116,7 +117,7 @@ impl World for Twin {
         let joint = self.world.impulse_joints.get_mut(motor.handle, true).expect("the motor exists");
         joint.data.set_motor_velocity(JointAxis::AngX, real(target * motor.sense), real(damping));
         if damping == 0.0 {
-            // Rapier holds a motor without stiffness and damping as if it were rigid.
+            // Rapier treats a motor without stiffness and damping as rigid.
             joint.data.motor_axes = JointAxesMask::empty();
         }
     }
@@ -148,7 +149,7 @@ impl World for Twin {
         }
         let body = &self.world.bodies[self.bodies[link]];
         let (velocity, step) = (body.linvel(), self.substep());
-        // What it turned in the substep: see `set_drive`.
+        // Its actual rotation in the substep: see `set_drive`.
         let omega = arc_tangent(wide(body.angvel()) * step) / step;
         Some((Vec2::new(wide(velocity.x), wide(velocity.y)), omega))
     }

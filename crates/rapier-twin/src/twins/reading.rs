@@ -1,4 +1,4 @@
-//! Impulses as forces.
+//! Converts impulses to forces.
 
 use super::frame::Frame;
 use super::{Twin, wide};
@@ -7,9 +7,10 @@ use linkage::math::{Vec2, cross, rotated, turned};
 use linkage::mechanism::JointKind;
 
 impl Twin {
-    /// Remembers where the joints to be read stand, as far as `share` says on the way from what was remembered before: Rapier gives impulses in
-    /// the axes at the start of the last substep, which lies between poses that can be seen. On that short way frames move along a straight line
-    /// but for errors of second order, where impulses themselves are of first.
+    /// Stores where the joints to be read are, the share `share` of the way from the stored frames to the present ones.
+    /// Rapier gives impulses in the axes at the start of the last substep, which lies between poses that can be read.
+    /// On that short way frames move along a straight line, with errors of second order.
+    /// The errors of the impulses themselves are of first order.
     pub(super) fn keep_frames(&mut self, share: f64) {
         for index in 0..self.cuts.len() {
             let joint = &self.cuts[index].joint;
@@ -19,7 +20,7 @@ impl Twin {
             let (axis, place) = match joint.kind {
                 JointKind::Revolute => (direction, first),
                 JointKind::Prismatic { axes: [axis, _] } => {
-                    // Along the free axis the rows act at the place on the second body.
+                    // Along the free axis the rows act at the point on the second body.
                     let normal = turned(rotated(direction, axis));
                     (rotated(direction, axis), second - normal * normal.dot(&(second - first)))
                 }
@@ -44,21 +45,21 @@ impl Twin {
         let (force, moment) = match cut.joint.kind {
             JointKind::Prismatic { .. } => {
                 if cut.plain {
-                    // The row across the axis was made orthogonal to the one that keeps the angle.
+                    // Rapier made the row across the axis orthogonal to the row that keeps the angle.
                     rows[2] -= rows[1] * turning(lever(across), [1.0; 2]) / turning([1.0; 2], [1.0; 2]);
                 }
                 (across * rows[1], rows[2])
             }
             JointKind::Revolute => {
                 if cut.plain {
-                    // The second row was made orthogonal to the first.
+                    // Rapier made the second row orthogonal to the first.
                     let mass = inverse[0][0] + inverse[1][0] + turning(lever(axis), lever(axis));
                     rows[0] -= rows[1] * turning(lever(axis), lever(across)) / mass;
                 }
                 (axis * rows[0] + across * rows[1], 0.0)
             }
         };
-        // An impulse is that of the last substep, and counted as that on the first body.
+        // The impulse is that of the last substep, and its sign is that on the first body.
         let duration = -self.substep();
         Some((force / duration, moment / duration))
     }

@@ -1,4 +1,4 @@
-//! How the vectors of a plan are found: from the motions of the links, pair of points by pair of points.
+//! Computes the vectors of a plan from the motions of the links, pair of points by pair of points.
 
 use super::names::{Place, fixed_guide, pair, pivot, primed};
 use super::scale::factor;
@@ -8,9 +8,9 @@ use linkage::math::{KeepNan, Motion, Vec2, turned};
 use linkage::mechanism::Mechanism;
 use linkage::solver::State;
 
-/// Length (mm) that the longest vector of a plan is drawn with, at most.
+/// Largest length (mm) of the longest vector of a plan.
 const ROOM: f64 = 100.0;
-/// A tangential part shorter than this on paper (mm) is none: the link turns uniformly.
+/// A tangential part shorter than this on paper (mm) counts as zero: the link turns uniformly.
 pub(super) const NOTHING: f64 = 1e-9;
 
 /// A point of a link and its letter.
@@ -21,7 +21,7 @@ struct On<'a> {
     fixed: bool,
 }
 
-/// Puts the vectors of one plan together.
+/// Collects the vectors of one plan.
 pub(super) struct Builder<'a> {
     quantity: Quantity,
     mechanism: &'a Mechanism,
@@ -66,7 +66,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Vectors from the pole: of points, and of mass centres.
+    /// Vectors from the pole to the images of points and of mass centres.
     fn absolute(&mut self) {
         let (pole, symbol, word) = (self.quantity.pole(), self.quantity.symbol(), self.quantity.word());
         for place in self.places {
@@ -96,7 +96,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// What is known beforehand of the direction of the vector of a point of `link`.
+    /// The direction that is known in advance for the vector of a point of `link`.
     fn direction(&self, link: usize, name: &str) -> String {
         match (self.quantity, pivot(self.mechanism, link), fixed_guide(self.mechanism, link)) {
             (Quantity::Velocity, Some((_, pivot)), _) => format!(", perpendicular to {}", pair(&pivot, name)),
@@ -105,7 +105,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Vectors from the pole of the points of moving guides that lie under the sliding ones.
+    /// Vectors from the pole for the points of moving guides that coincide with the sliding points.
     fn coincident(&mut self) {
         let (pole, symbol, word) = (self.quantity.pole(), self.quantity.symbol(), self.quantity.word());
         for slide in self.slides {
@@ -120,7 +120,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Vectors between the ends of a link's points.
+    /// Relative vectors between the images of a link's points.
     fn relative(&mut self, link: usize) {
         let (symbol, word) = (self.quantity.symbol(), self.quantity.word());
         let motion = &self.state.motions[link];
@@ -140,8 +140,8 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// What a sliding pair on a moving guide adds: the relative velocity, or the Coriolis part and the relative acceleration. A fixed guide
-    /// adds nothing but the direction of the absolute vectors, a revolute pair nothing at all.
+    /// Vectors of a prismatic pair on a moving guide: the relative velocity, or the Coriolis part and the relative acceleration.
+    /// A fixed guide adds only the direction of the absolute vectors, and a revolute pair adds nothing.
     fn sliding(&mut self) {
         let mut number = 0;
         for slide in self.slides {
@@ -173,7 +173,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// `letter`, with as many primes as no other end of a vector has.
+    /// `letter`, with as many primes as make it different from all other ends of vectors.
     fn unused(&self, letter: String) -> String {
         primed(letter, |letter| self.tips.iter().any(|tip| tip.letter == letter))
     }
@@ -209,8 +209,10 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Pairs of points of a link: first its pivot on the ground with every other, then the moving ones among themselves, last those under
-    /// sliding points with its pivot or, where it has none, with its moving points. None of a link that never turns: all its points move alike.
+    /// Pairs of points of a link.
+    /// First come its ground pivot with every other point, and then the moving points with each other.
+    /// Last come the points under sliding points with its pivot or, without a pivot, with its moving points.
+    /// A link that never turns has no pairs: all its points have the same motion.
     fn pairs(&self, link: usize) -> Vec<(On<'a>, On<'a>)> {
         if !self.mechanism.can_turn(link) {
             return Vec::new();
@@ -253,7 +255,7 @@ impl<'a> Builder<'a> {
     }
 }
 
-/// The direction along the guide of a joint, as meanings have it.
+/// The direction along the guide of a joint, as part of a vector's meaning.
 fn along(joint: &str) -> String {
     format!(", along the guide {joint}")
 }

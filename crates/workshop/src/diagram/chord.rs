@@ -1,21 +1,23 @@
 //! The chord method and its inverse, graphical integration.
 //!
-//! The slope of the chord over an interval is the mean of the derivative over it; placed at the middle it errs by h^2 f'''/24 and what follows:
-//! for a sine of angular frequency k exactly by the factor sin(k h/2) / (k h/2). Backwards, the value at the middle times the interval is the increment.
+//! The slope of the chord over an interval is the mean of the derivative over it.
+//! Assigned to the middle of the interval, it has the error h^2 f'''/24 and terms of higher order.
+//! For a sine of angular frequency k it is exactly the factor sin(k h/2) / (k h/2).
+//! In the inverse, the value at the middle times the interval is the increment.
 
-/// Middles of the intervals between `places`.
+/// Midpoints of the intervals between `places`.
 #[must_use]
 pub fn middles(places: &[f64]) -> Vec<f64> {
     places.windows(2).map(|pair| f64::midpoint(pair[0], pair[1])).collect()
 }
 
-/// Slopes of the chords between the points (`places`, `values`): the derivative at the middles of the intervals.
+/// Slopes of the chords between the points (`places`, `values`): the derivative at the midpoints of the intervals.
 #[must_use]
 pub fn slopes(places: &[f64], values: &[f64]) -> Vec<f64> {
     places.windows(2).zip(values.windows(2)).map(|(x, y)| (y[1] - y[0]) / (x[1] - x[0])).collect()
 }
 
-/// Values at `places` of the function that starts from `start` and has the derivatives `rates` at the middles of the intervals.
+/// Values at `places` of the function that starts from `start` and has the derivatives `rates` at the midpoints.
 #[must_use]
 pub fn integral(start: f64, places: &[f64], rates: &[f64]) -> Vec<f64> {
     let mut sum = start;
@@ -26,7 +28,8 @@ pub fn integral(start: f64, places: &[f64], rates: &[f64]) -> Vec<f64> {
     std::iter::once(start).chain(steps).collect()
 }
 
-/// Slopes at the inner and the last of `places` of a curve that repeats itself over them and has the values `rates` at their middles.
+/// Slopes at the inner and the last of `places` of a curve that is periodic over them.
+/// The curve has the values `rates` at their midpoints.
 #[must_use]
 pub fn closed_slopes(places: &[f64], rates: &[f64]) -> Vec<f64> {
     let mut middles = middles(places);
@@ -57,7 +60,7 @@ mod tests {
             let velocity = slopes(&x, &sine);
             let acceleration = closed_slopes(&x, &velocity);
             assert_eq!((velocity.len(), acceleration.len()), (n, n));
-            // Rounding of the sines, enlarged by the two divisions by h.
+            // Rounding of the sines, amplified by the two divisions by h.
             let bound = |order: i32| 8.0 * f64::EPSILON * (n as f64 / TAU * 2.0).powi(order);
             for (x, v) in middles(&x).iter().zip(&velocity) {
                 assert!((v - factor * k * (k * x).cos()).abs() <= bound(1), "{v}");
@@ -73,7 +76,7 @@ mod tests {
         let x = [0.0, 0.1, 0.35, 0.4, 1.0];
         let f = [2.0, -1.0, 0.5, 7.0, 3.0];
         for (back, value) in integral(f[0], &x, &slopes(&x, &f)).iter().zip(f) {
-            // One division, one product and one sum an interval, of values up to 7.
+            // One division, one product and one sum per interval, of values up to 7.
             assert!((back - value).abs() <= 7.0 * 12.0 * f64::EPSILON);
         }
     }

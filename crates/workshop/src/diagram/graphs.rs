@@ -1,13 +1,13 @@
-//! Graphs of quantities over one period of the crank angle, whoever found them.
+//! Graphs of quantities over one period of the crank angle, independent of the method that computed them.
 
 use linkage::math::KeepNan;
 
-/// A place on a graph that is marked.
+/// A marked point of a graph.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mark {
     /// Crank angle (rad; any of those a period apart) and value.
     pub at: [f64; 2],
-    /// What it is, such as "greatest".
+    /// Its meaning, such as "greatest".
     pub word: &'static str,
 }
 
@@ -16,19 +16,20 @@ pub struct Mark {
 pub struct Graph {
     /// Its name.
     pub name: &'static str,
-    /// Its symbol, `_` before what is set as a subscript.
+    /// Its symbol, with `_` before a subscript.
     pub symbol: &'static str,
-    /// Its unit, `^` before a power.
+    /// Its unit, with `^` before a power.
     pub unit: &'static str,
     /// Crank angles (rad) over the period, in the sense of motion, and values.
     pub points: Vec<[f64; 2]>,
     /// Its mean.
     pub mean: f64,
-    /// What the mean is called.
+    /// Name of the mean.
     pub mean_word: &'static str,
     /// Its lowest and its highest point on paper.
     pub marks: [Mark; 2],
-    /// What the range of its values is compared with: below a billionth of this size it is rounding, and the quantity constant.
+    /// Reference size for the range of its values.
+    /// Below a billionth of this size the range is rounding, and the quantity is constant.
     pub size: f64,
 }
 
@@ -40,7 +41,7 @@ impl Graph {
         values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.smaller(value), high.larger(value)])
     }
 
-    /// Whether the quantity is the same all over the period, but for rounding.
+    /// Whether the quantity is constant over the period, except for rounding.
     #[must_use]
     pub fn is_constant(&self) -> bool {
         let [low, high] = self.range();
@@ -48,7 +49,7 @@ impl Graph {
     }
 }
 
-/// Graphs over one and the same period, one below the other.
+/// Graphs over the same period, arranged vertically.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Graphs {
     /// Crank angle at the start of the period and at its end (rad), in the sense of motion.

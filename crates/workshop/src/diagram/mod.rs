@@ -1,5 +1,6 @@
-//! The graphical methods of the theory of mechanisms as results of their own: velocity and acceleration plans, the singular Assur
-//! point of a class IV group, motion diagrams by chords and by graphical integration, and graphs over the crank angle; as data and as drawings true to scale.
+//! The graphical methods of the theory of mechanisms, as data and as drawings to scale.
+//! They are velocity and acceleration plans, the singular Assur point of a class IV group,
+//! motion diagrams by chords and by graphical integration, and graphs over the crank angle.
 
 mod builder;
 pub mod chord;

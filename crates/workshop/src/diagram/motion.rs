@@ -1,7 +1,9 @@
 //! Motion diagrams over one turn of the crank: displacement, velocity and acceleration, exact and by the graphical methods.
 //!
-//! Forwards: chords of the displacement give the velocity at the middles of the divisions, chords of that the acceleration at their ends. Backwards: the exact
-//! velocity at the middles gives the displacement, the exact acceleration there the velocity, each from its exact first value.
+//! Differentiation: chords of the displacement give the velocity at the midpoints of the divisions.
+//! Chords of that velocity give the acceleration at their ends.
+//! Integration: the exact velocity at the midpoints gives the displacement, and the exact acceleration there the velocity.
+//! Each starts from its exact first value.
 
 use super::chord::{closed_slopes, integral, slopes};
 use linkage::case::{Case, Grid, Wanted};
@@ -12,15 +14,16 @@ use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Stage, Subject};
 use std::f64::consts::TAU;
 
-/// Divisions of the turn that make sense: fewer show no motion, more only cost time.
+/// Useful numbers of divisions of the turn: fewer do not show the motion, more only cost time.
 pub const DIVISIONS: std::ops::RangeInclusive<usize> = 4..=1000;
-/// Points of the exact curves, at least.
+/// Least number of points of the exact curves.
 const CURVE: usize = 720;
-/// A derivative that hardly changes takes its errors from the displacement: its scale is this share of the natural one at least.
+/// Least scale of a derivative, as a share of its natural scale.
+/// The errors of a derivative that hardly changes come from the displacement.
 const SMALLEST: f64 = 1e-3;
-/// Errors below this share of the half range are rounding, from which no order can be read.
+/// Errors below this share of the half range are rounding, and give no order.
 const ROUNDING: f64 = 1e-11;
-/// Endings of a channel and of its two derivatives.
+/// Suffixes of a channel and of its two derivatives.
 const ENDINGS: [[&str; 3]; 3] =
     [["angle_rad", "omega_rad_s", "alpha_rad_s2"], ["x_m", "vx_m_s", "ax_m_s2"], ["y_m", "vy_m_s", "ay_m_s2"]];
 
@@ -29,10 +32,10 @@ const ENDINGS: [[&str; 3]; 3] =
 pub struct Course(pub [Channel; 3]);
 
 impl Course {
-    /// That of the channel called `name`, which must be a position or an angle of something that moves in `case`.
+    /// The course of the channel `name`, which must be a position or an angle of a moving link or point of `case`.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] for any other name, with those that are possible.
+    /// [`ErrorKind::Input`] for any other name, with the possible names.
     pub fn named(case: &Case, name: &str) -> Result<Self> {
         let all = case.wanting(Wanted::ALL).channels();
         let wrong = |message: String, help: String| Error::new(ErrorKind::Input, message).help(help);
@@ -57,7 +60,7 @@ impl Course {
     }
 }
 
-/// The names that could have been meant: of the same thing, of things of the same sort, or the sorts.
+/// The possible names: of the same link or point, of those of the same kind, or the kinds.
 fn help(all: &[Channel], name: &str) -> String {
     let positions = all.iter().filter(|channel| channel.kind.stage == Stage::Positions);
     let parts: Vec<&str> = name.splitn(2, '.').collect();
@@ -76,7 +79,7 @@ fn help(all: &[Channel], name: &str) -> String {
     format!("allowed here: {}", names.join(", "))
 }
 
-/// Way from one diagram to another.
+/// Derivation of one diagram from another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
     /// Velocity from chords of the displacement.
@@ -90,11 +93,11 @@ pub enum Method {
 }
 
 impl Method {
-    /// All of them.
+    /// All methods.
     pub const ALL: [Method; 4] =
         [Method::ChordVelocity, Method::ChordAcceleration, Method::IntegratedDisplacement, Method::IntegratedVelocity];
 
-    /// In words.
+    /// The method in words.
     #[must_use]
     pub fn words(self) -> &'static str {
         match self {
@@ -105,7 +108,7 @@ impl Method {
         }
     }
 
-    /// What it gives: 0 displacement, 1 velocity, 2 acceleration.
+    /// Index of its result: 0 displacement, 1 velocity, 2 acceleration.
     #[must_use]
     pub fn gives(self) -> usize {
         match self {
@@ -116,7 +119,7 @@ impl Method {
     }
 }
 
-/// What a method found, and how far it is from the truth.
+/// Result of a method, and its error.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Found {
     /// The method.
@@ -129,10 +132,12 @@ pub struct Found {
     pub largest: f64,
     /// Root mean square of the errors (SI).
     pub rms: f64,
-    /// Largest error over half the range of the exact curve, but at least a thousandth of what is natural for it: the displacement's half range
-    /// times the crank's angular velocity, once or twice.
+    /// Largest error divided by half the range of the exact curve.
+    /// The divisor is at least a thousandth of the natural scale.
+    /// That scale is the displacement's half range times the crank's angular velocity, once or twice.
     pub share: f64,
-    /// Observed order of the error (of its root mean square), from these divisions to twice as many and from those to four times as many.
+    /// Observed orders of the error (of its root mean square).
+    /// The first is from these divisions to twice as many, the second from those to four times as many.
     /// `None` where the error is rounding.
     pub orders: [Option<f64>; 2],
 }
@@ -144,23 +149,25 @@ pub struct MotionDiagram {
     pub course: Course,
     /// Divisions of the turn.
     pub divisions: usize,
-    /// Rows between two ends of divisions, an even number.
+    /// Rows between the two ends of a division, an even number.
     pub stride: usize,
-    /// Crank angle of every row (rad, as the scenario states it).
+    /// Crank angle of every row (rad, as the scenario defines it).
     pub cranks: Vec<f64>,
     /// Time of every row (s).
     pub times: Vec<f64>,
     /// Exact displacement, velocity, acceleration in every row (SI).
     pub exact: [Vec<f64>; 3],
-    /// What the methods found, in the order of [`Method::ALL`].
+    /// Results of the methods, in the order of [`Method::ALL`].
     pub found: Vec<Found>,
 }
 
 impl MotionDiagram {
-    /// The diagrams of `course` over one turn of the crank from its start, in the sense of its rotation, in so many equal divisions.
+    /// The diagrams of `course` over one turn of the crank, with `divisions` equal divisions.
+    /// The turn begins at the crank's start and follows its sense of rotation.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] for a number of divisions outside [`DIVISIONS`]; those of the solver, where the crank cannot turn fully.
+    /// [`ErrorKind::Input`] for a number of divisions outside [`DIVISIONS`].
+    /// Those of the solver, if the crank cannot turn fully.
     pub fn of(case: &Case, solver: &dyn Solver, course: &Course, divisions: usize) -> Result<Self> {
         if !DIVISIONS.contains(&divisions) {
             let (least, most) = DIVISIONS.into_inner();
@@ -171,7 +178,7 @@ impl MotionDiagram {
             let message = "the chord method divides a turn into equal times, but the drive's speed changes";
             return Err(Error::new(ErrorKind::Unsupported, message).help("give the drive a constant speed"));
         }
-        // Divisions, their halves and quarters all have their middles among the rows.
+        // Divisions, their halves and their quarters all have their midpoints among the rows.
         let stride = 8 * CURVE.div_ceil(8 * divisions);
         let rows = divisions * stride;
         let sense = case.crank().sense();
@@ -200,7 +207,7 @@ impl MotionDiagram {
             let largest = errors[0].iter().fold(0.0f64, |most, error| most.larger(error.abs()));
             let orders = [order(size[0], size[1]), order(size[1], size[2])];
             let [(rows, values), ..] = runs;
-            // What stands perfectly still has no scale, and no error either.
+            // A curve without any motion has no scale, and no error either.
             let share = share(largest, scale);
             Found { method, rows, values, largest, rms: size[0], share, orders }
         });
@@ -215,7 +222,7 @@ impl MotionDiagram {
     }
 }
 
-/// Scales that errors are judged by.
+/// Scales of the errors (SI).
 fn scales(exact: &[Vec<f64>; 3], period: f64) -> [f64; 3] {
     let natural = |order: i32| SMALLEST * half_range(&exact[0]) * (TAU / period).powi(order);
     [0, 1, 2].map(|order| half_range(&exact[order as usize]).larger(natural(order)))

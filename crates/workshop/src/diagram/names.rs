@@ -1,22 +1,23 @@
-//! Letters of the plans: points A, B are a, b there, mass centres s2, ends of normal parts n1; the pole has its own.
+//! Letters of the plans: points A, B are a, b there, mass centres s2, ends of normal parts n1.
+//! The pole has its own letter.
 
 use linkage::math::Vec2;
 use linkage::mechanism::{GROUND, Joint, Mechanism, Side};
 
-/// A named point of the mechanism, once for all links that carry it.
+/// A named point of the mechanism, listed once for all links that contain it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Place {
     /// Name in the mechanism.
     pub name: String,
     /// Letter in the plans.
     pub letter: String,
-    /// A link that carries it, and where: one hinged to the ground or in a fixed guide, where there is one.
+    /// A link that contains it, and its position there. A link on a ground pivot or in a fixed guide is preferred.
     pub side: Side,
-    /// Whether it is a point of the ground.
+    /// Whether it is a ground point.
     pub fixed: bool,
 }
 
-/// Place on `link` of its revolute joint with the ground, and the name of that pivot.
+/// Position on `link` of its revolute joint with the ground, and the name of that pivot.
 pub fn pivot(mechanism: &Mechanism, link: usize) -> Option<(Vec2, String)> {
     let mut pins = mechanism.joints().iter().filter(|joint| joint.is_pin());
     let joint = pins.find(|joint| joint.on(link).is_some() && joint.other(link).link == GROUND)?;
@@ -25,13 +26,13 @@ pub fn pivot(mechanism: &Mechanism, link: usize) -> Option<(Vec2, String)> {
     Some((own, named.map_or_else(|| joint.name.clone(), |point| point.name.clone())))
 }
 
-/// The prismatic joint that leads `link` along a guide of the ground.
+/// The prismatic joint that guides `link` on the ground.
 pub fn fixed_guide(mechanism: &Mechanism, link: usize) -> Option<&Joint> {
     let mut sliding = mechanism.joints().iter().filter(|joint| joint.slides());
     sliding.find(|joint| joint.on(link).is_some() && joint.other(link).link == GROUND)
 }
 
-/// All named points, those of the ground first, each with a letter of its own.
+/// All named points, those of the ground first, each with a unique letter.
 pub fn places(mechanism: &Mechanism, poles: &[&str]) -> Vec<Place> {
     let mut taken: Vec<String> = poles.iter().map(ToString::to_string).collect();
     let mut letter = |name: &str| {
@@ -55,7 +56,7 @@ pub fn places(mechanism: &Mechanism, poles: &[&str]) -> Vec<Place> {
     all
 }
 
-/// `name` with as many primes as it takes not to be `taken`.
+/// `name` with as many primes as are needed so that it is not `taken`.
 pub fn primed(mut name: String, taken: impl Fn(&str) -> bool) -> String {
     while taken(&name) {
         name.push('\'');
@@ -63,7 +64,7 @@ pub fn primed(mut name: String, taken: impl Fn(&str) -> bool) -> String {
     name
 }
 
-/// Two names as the field writes them side by side: BA, but P3,P2 where letters alone would run together.
+/// Two names as they are written side by side: BA, but P3,P2 where the letters alone would be ambiguous.
 pub fn pair(a: &str, b: &str) -> String {
     let single = |name: &str| name.chars().count() == 1;
     if single(a) && single(b) { format!("{a}{b}") } else { format!("{a},{b}") }

@@ -1,15 +1,19 @@
 //! Velocity and acceleration plans.
 //!
-//! All absolute vectors start in the pole; the plane motion of a rigid link, v_B = v_A + omega x AB and
-//! a_B = a_A + alpha x AB - omega^2 AB, makes the vector between the ends of two of them the relative one. So the image of a link in the velocity
-//! plan is the link itself, turned by 90 deg and enlarged omega times; in the acceleration plan it is turned by
-//! 180 deg - atan2(alpha, omega^2) and enlarged sqrt(alpha^2 + omega^4) times (Mehmke's and Burmester's theorems).
+//! All absolute vectors start in the pole.
+//! For the plane motion of a rigid link, v_B = v_A + omega x AB and a_B = a_A + alpha x AB - omega^2 AB.
+//! So the vector between the ends of two absolute vectors is the relative one.
+//! The image of a link in the velocity plan is therefore the link itself, turned by 90 deg and enlarged omega times.
+//! In the acceleration plan it is turned by 180 deg - atan2(alpha, omega^2) and enlarged sqrt(alpha^2 + omega^4) times.
+//! These are Mehmke's and Burmester's theorems.
 //!
-//! A point A that slides on a moving guide of link 3 lies over a point A3 of that link. In the axes of the guide it moves along it by s(t); differentiated
-//! in resting axes, v_A = v_A3 + s' e and a_A = a_A3 + 2 omega x (s' e) + s'' e with the guide's unit vector e and angular velocity omega (Coriolis 1835).
+//! A point A that slides on a moving guide of link 3 coincides with a point A3 of that link.
+//! In the axes of the guide it moves along it by s(t).
+//! Differentiation in fixed axes gives v_A = v_A3 + s' e and a_A = a_A3 + 2 omega x (s' e) + s'' e.
+//! Here e is the guide's unit vector and omega its angular velocity (Coriolis 1835).
 //!
-//! Each vector comes from the motion of its own link, those along a guide from the slide, none from the difference of two others: that the polygons
-//! close is a result.
+//! Each vector comes from the motion of its own link, and those along a guide from the slide.
+//! No vector is the difference of two others, so the closure of the polygons is a result.
 
 use super::builder::Builder;
 use super::names::places;
@@ -24,7 +28,7 @@ use linkage::trajectory::Stage;
 /// Kinematic diagram, velocity plan and acceleration plan of one instant.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plans {
-    /// Crank angle (rad, as the scenario states it).
+    /// Crank angle (rad, as the scenario defines it).
     pub crank: f64,
     /// The mechanism.
     pub scheme: Scheme,
@@ -35,8 +39,8 @@ pub struct Plans {
 }
 
 impl Plans {
-    /// The plans of a state that holds motions up to accelerations. `solver` finds how far sliders travel on the case's grid: so long are
-    /// the guides in the kinematic diagram.
+    /// The plans of a state that contains motions up to accelerations.
+    /// `solver` finds the travel of the sliders on the case's grid, which gives the length of the guides in the kinematic diagram.
     #[must_use]
     pub fn of(case: &Case, solver: &dyn Solver, state: &State, crank: f64) -> Self {
         let mut all = places(&case.mechanism, &[Quantity::Velocity.pole(), Quantity::Acceleration.pole()]);
@@ -48,10 +52,10 @@ impl Plans {
     }
 }
 
-/// The state of `case` at the crank angle `crank` (rad, as the scenario states it), up to accelerations.
+/// The state of `case` at the crank angle `crank` (rad, as the scenario defines it), up to accelerations.
 ///
 /// # Errors
-/// [`ErrorKind::Input`] for a crank angle too far away to be followed; those of the solver.
+/// [`ErrorKind::Input`] for a crank angle too far away to be reached step by step; those of the solver.
 pub fn state_at(case: &Case, solver: &dyn Solver, crank: f64) -> Result<State> {
     let grid = Grid::of_cranks(case.crank(), vec![crank]);
     grid.check(case.crank())

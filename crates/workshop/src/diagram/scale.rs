@@ -1,13 +1,15 @@
-//! Scale factors of drawings, as drawing practice takes them: 1, 2, 2.5 or 5 times a power of ten.
+//! Scale factors of drawings by drafting practice: 1, 2, 2.5 or 5 times a power of ten.
 
 use linkage::math::KeepNan;
 
-/// Share by which a number may exceed a round one and still count as it: rounding of the quotient.
+/// Share by which a number may exceed a round one and still count as round: rounding of the quotient.
 const SAME: f64 = 1e-12;
 
-/// The smallest number 1, 2, 2.5 or 5 times a power of ten that is not below `least`; 1 if that is not a positive number.
+/// The smallest of the numbers 1, 2, 2.5 or 5 times a power of ten that is not below `least`.
+/// It is 1 if `least` is not positive and finite.
 ///
-/// Neighbours differ by a factor of two at most, so a vector drawn with it fills more than half of the room that `least` stands for.
+/// Neighbours differ by a factor of two at most.
+/// A vector drawn with this number therefore fills more than half of the room that `least` corresponds to.
 #[must_use]
 pub fn round_up(least: f64) -> f64 {
     if !(least > 0.0 && least.is_finite()) {
@@ -15,12 +17,12 @@ pub fn round_up(least: f64) -> f64 {
     }
     let power = least.log10().floor() as i32;
     let candidates = (power - 1..=power + 1).flat_map(|n| ["1", "2", "2.5", "5"].map(|m| (m, n)));
-    // Read as text, so that 0.02 is the double nearest to 0.02 and is printed so.
+    // Parsed from text, so that 0.02 is the double nearest to 0.02 and is printed as such.
     let numbers = candidates.filter_map(|(m, n)| format!("{m}e{n}").parse::<f64>().ok());
     numbers.filter(|&number| number >= least * (1.0 - SAME)).fold(f64::INFINITY, f64::smaller)
 }
 
-/// Scale factor (units a millimetre) with which `largest` is at most `room` millimetres long, and more than half of that.
+/// Scale factor (units per millimetre) with which `largest` is at most `room` millimetres long, and more than half of that.
 #[must_use]
 pub fn factor(largest: f64, room: f64) -> f64 {
     round_up(largest / room)

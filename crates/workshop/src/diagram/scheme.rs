@@ -9,13 +9,13 @@ use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{GROUND, Joint};
 use linkage::solver::State;
 
-/// Width and height (mm) that the kinematic diagram may take on paper.
+/// Largest width and height (mm) of the kinematic diagram on paper.
 const ROOM: [f64; 2] = [150.0, 215.0];
 
 /// One moving link of the diagram.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SchemeLink {
-    /// Its number: its place in the mechanism, where the ground is 0.
+    /// Its number: its index in the mechanism, where the ground is 0.
     pub number: usize,
     /// Its name.
     pub name: String,
@@ -31,7 +31,7 @@ pub struct SchemeLink {
     pub alpha: f64,
 }
 
-/// A guide of the diagram and the block on it.
+/// A guide of the diagram and its block.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SchemeGuide {
     /// Number of the link that the guide belongs to: 0 for a fixed guide.
@@ -40,13 +40,13 @@ pub struct SchemeGuide {
     pub block: usize,
     /// Unit vector along the guide, in the world.
     pub axis: Vec2,
-    /// World position of the joint's place on the guide (m).
+    /// World position of the joint's point on the guide (m).
     pub origin: Vec2,
     /// World position of the sliding point (m).
     pub at: Vec2,
-    /// Ends of the sliding point's travel on the guide as it stands now, in the world (m).
+    /// Ends of the sliding point's travel, with the guide in its present position, in the world (m).
     pub ends: [Vec2; 2],
-    /// Names of the sliding point and of the point of a moving guide's link under it.
+    /// Names of the sliding point and of the coincident point of a moving guide's link.
     pub under: Option<[String; 2]>,
 }
 
@@ -57,17 +57,17 @@ pub struct Scheme {
     pub scale: f64,
     /// Moving links.
     pub links: Vec<SchemeLink>,
-    /// Named points and their world positions (m); the first `fixed` of them are points of the ground.
+    /// Named points and their world positions (m); the first `fixed` of them are ground points.
     pub points: Vec<(String, Vec2)>,
-    /// Number of points of the ground.
+    /// Number of ground points.
     pub fixed: usize,
-    /// World positions of the points of the ground that are no pivots but only lie on a guide (m).
+    /// World positions of the ground points that are not pivots but only lie on a guide (m).
     pub marks: Vec<Vec2>,
     /// Guides, fixed and moving.
     pub guides: Vec<SchemeGuide>,
     /// Number of the driving link.
     pub driver: usize,
-    /// Singular points of class IV groups, where they have one.
+    /// Singular points of class IV groups that have one.
     pub singular: Vec<SingularPoint>,
 }
 

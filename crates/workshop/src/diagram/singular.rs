@@ -1,17 +1,22 @@
 //! The singular Assur point of a class IV group of order 2: its velocities and accelerations without a system of equations.
 //!
-//! Two base links hang on the outer joints A and K; two leads BD and CE connect them. S = BD x CE, taken as a point of either
-//! base link, has the same velocity component along each lead as the lead's end, because on one line through S rotation adds nothing along the
-//! line. Two components fix a vector: S moves alike with both base links, v_S = v_A + omega2 x AS = v_K + omega5 x KS. Both sides have a known direction,
-//! so v_S is where two lines meet. The accelerations of S on the two base links differ by d with, along the lead BD (unit vector u),
-//! d u = omega5^2 (D - S) u - omega2^2 (B - S) u - omega3^2 |BD|, likewise along CE; then a_A + ... + d = a_K + ... is the same construction again.
+//! Two base links have the outer joints A and K; two leads BD and CE connect them.
+//! S = BD x CE is taken as a point of either base link.
+//! Its velocity component along each lead equals that of the lead's end.
+//! The reason: on a line through S, rotation adds no component along that line.
+//! Two components determine a vector, so S has the same velocity on both base links:
+//! v_S = v_A + omega2 x AS = v_K + omega5 x KS.
+//! Both sides have a known direction, so v_S is the intersection of two lines.
+//! The accelerations of S on the two base links differ by d.
+//! Along the lead BD (unit vector u), d u = omega5^2 (D - S) u - omega2^2 (B - S) u - omega3^2 |BD|; likewise along CE.
+//! Then a_A + ... + d = a_K + ... is the same construction again.
 
 use linkage::case::Case;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::{Motion, Vec2, cross, turned};
 use linkage::mechanism::{Group, Mechanism};
 
-/// Sine of an angle below which two lines are parallel: beyond it the point keeps too few digits to be of use.
+/// Sine of an angle below which two lines count as parallel: the point then has too few correct digits to be useful.
 const PARALLEL: f64 = 1e-9;
 
 /// The singular point of a group, and the motion found through it.
@@ -39,11 +44,12 @@ struct Lead {
 }
 
 impl SingularPoint {
-    /// The singular point of `group`. From `motions` come the places of the group's links and the motions of the links before it, nothing else.
+    /// The singular point of `group`.
+    /// `motions` gives the poses of the group's links and the motions of the links before it, nothing else.
     /// `None` if the group is not of class IV and order 2.
     ///
     /// # Errors
-    /// [`ErrorKind::Geometry`] if the leads are parallel, or if the point lies in line with the outer joints: a dead point.
+    /// [`ErrorKind::Geometry`] if the leads are parallel, or if the point is in line with the outer joints: a dead point.
     pub fn of(case: &Case, group: &Group, motions: &[Motion]) -> Result<Option<Self>> {
         let Some((bases, leads)) = parts(&case.mechanism, group, motions) else { return Ok(None) };
         let [first, second] = &leads;
@@ -58,7 +64,7 @@ impl SingularPoint {
         if !(dead.abs() > PARALLEL) {
             return Err(dead_point(&leads));
         }
-        // turned(arm1) w1 - turned(arm2) w2 = r, multiplied by the arm that takes one unknown away.
+        // turned(arm1) w1 - turned(arm2) w2 = r, multiplied by the arm that eliminates one unknown.
         let spins = |r: Vec2| {
             let turn = turned(arms[0]).dot(&arms[1]);
             [r.dot(&arms[1]) / turn, r.dot(&arms[0]) / turn]
@@ -75,7 +81,7 @@ impl SingularPoint {
             omegas[1].powi(2) * d - omegas[0].powi(2) * b - omega.powi(2) * lead.length
         };
         let components = [along(first, lead_omegas[0]), along(second, lead_omegas[1])];
-        // The vector with these components along two slanting directions.
+        // The vector with these components along two oblique directions.
         let step = (turned(first.along) * components[1] - turned(second.along) * components[0]) / slant;
         let centripetal = |side: usize| outer[side][2] - arms[side] * omegas[side].powi(2);
         let alphas = spins(centripetal(1) - centripetal(0) - step);
@@ -97,7 +103,7 @@ impl SingularPoint {
         Ok(Some(SingularPoint { leads: names, at, velocity: field(0, at), accelerations, links }))
     }
 
-    /// The point in the field's words: `BD x CE`.
+    /// The point in the usual notation: `BD x CE`.
     #[must_use]
     pub fn lines(&self) -> String {
         self.leads.each_ref().map(|[a, b]| super::names::pair(a, b)).join(" x ")
@@ -106,7 +112,7 @@ impl SingularPoint {
 
 type Base = (usize, [Vec2; 3]);
 
-/// Base links with place, velocity and acceleration of their outer joints, and the leads between them.
+/// Base links with position, velocity and acceleration of their outer joints, and the leads between them.
 fn parts(mechanism: &Mechanism, group: &Group, motions: &[Motion]) -> Option<([Base; 2], [Lead; 2])> {
     let base = |&joint: &usize| {
         let joint = &mechanism.joints()[joint];

@@ -1,4 +1,4 @@
-//! Sliding pairs as plans and drawings see them: which link is the guide, which point slides on it, and what lies under that point.
+//! Prismatic pairs in plans and drawings: the guide's link, the sliding point, and the point of the guide that coincides with it.
 
 use super::names::{Place, primed};
 use linkage::case::{Case, Wanted};
@@ -23,7 +23,7 @@ pub struct Slide {
     pub joint: usize,
     /// Its name.
     pub joint_name: String,
-    /// The guide's link and the joint's place on it.
+    /// The guide's link and the joint's point on it.
     pub guide: Side,
     /// The block's link and the sliding point on it.
     pub block: Side,
@@ -31,31 +31,31 @@ pub struct Slide {
     pub name: String,
     /// Its letter.
     pub letter: String,
-    /// Whether the sliding point belongs to the ground too: a rod in a block that only swings.
+    /// Whether the sliding point is also a ground point: a rod in a block that only swings.
     pub fixed: bool,
-    /// The point of a moving guide's link under the sliding point; a fixed guide has none.
+    /// The coincident point of a moving guide's link; a fixed guide has none.
     pub under: Option<Named>,
 }
 
 impl Slide {
-    /// Place on the guide's link of the point under the sliding one (m, link frame).
+    /// Position of the coincident point on the guide's link (m, link frame).
     pub fn place_under(&self, state: &State) -> Vec2 {
         let (guide, block) = (&state.motions[self.guide.link], &state.motions[self.block.link]);
         let back = Vec2::new(guide.direction.x, -guide.direction.y);
         rotated(back, block.point(self.block.local) - guide.origin)
     }
 
-    /// Velocity and acceleration along the guide of the sliding point relative to the guide's link, as world vectors (SI).
+    /// Velocity and acceleration of the sliding point along the guide, relative to the guide's link, as world vectors (SI).
     pub fn rates(&self, mechanism: &Mechanism, state: &State) -> Option<[Vec2; 2]> {
         let joint = &mechanism.joints()[self.joint];
         let [_, speed, growth] = state.slide(joint)?;
         let axis = state.motions[self.guide.link].arm(joint.axis_on(self.guide.link)?);
-        // The slide counts from the first link to the second.
+        // The slide is measured from the first link to the second.
         let axis = if joint.first.link == self.guide.link { axis } else { -axis };
         Some([axis * speed, axis * growth])
     }
 
-    /// Way along the guide's axis from the joint's place on the guide to the sliding point (m).
+    /// Distance along the guide's axis from the joint's point on the guide to the sliding point (m).
     fn way(&self, mechanism: &Mechanism, state: &State) -> f64 {
         let joint = &mechanism.joints()[self.joint];
         let slide = state.slide(joint).map_or(0.0, |slide| slide[0]);
@@ -92,7 +92,7 @@ pub fn slides(mechanism: &Mechanism, places: &mut Vec<Place>) -> Vec<Slide> {
     all
 }
 
-/// `name` and its letter, with as many primes as make both the only ones.
+/// `name` and its letter, with as many primes as make both unique.
 fn unused(name: String, places: &[Place], others: &[Named]) -> Named {
     let name = primed(name, |name| {
         let letter = name.to_lowercase();
@@ -104,7 +104,8 @@ fn unused(name: String, places: &[Place], others: &[Named]) -> Named {
     Named { letter: name.to_lowercase(), name }
 }
 
-/// Least and largest way of every slide from the joint's place on its guide (m): on the case's grid, as far as the solver gets, and in `state`.
+/// Least and largest distance of every slide from the joint's point on its guide (m).
+/// They cover the case's grid, as far as the solver gets, and `state`.
 pub fn travels(case: &Case, solver: &dyn Solver, state: &State, slides: &[Slide]) -> Vec<[f64; 2]> {
     let mut travels: Vec<[f64; 2]> = slides.iter().map(|slide| [slide.way(&case.mechanism, state); 2]).collect();
     if slides.is_empty() {
@@ -118,7 +119,7 @@ pub fn travels(case: &Case, solver: &dyn Solver, state: &State, slides: &[Slide]
         Ok(())
     };
     let case = case.wanting(Wanted::of(&[Stage::Positions]));
-    // A grid that the crank cannot follow to its end still shows how far the sliders came.
+    // If the crank cannot follow the grid to its end, the travel found so far still counts.
     let _ = solver.each(&case, &mut visit);
     travels
 }

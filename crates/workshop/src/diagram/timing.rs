@@ -1,29 +1,29 @@
-//! The timing diagram of an output: its course over one turn against the phases that it shall keep.
+//! The timing diagram of an output: its course over one turn, together with the wanted phases.
 
-/// A phase, as drawn.
+/// A phase in the drawing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stretch {
     /// Crank angle at which it begins (rad).
     pub from: f64,
     /// Crank angle at which it ends (rad).
     pub to: f64,
-    /// What the output shall do in it.
+    /// The wanted motion of the output in it.
     pub word: &'static str,
-    /// Whether it shall rest.
+    /// Whether a dwell is wanted.
     pub rests: bool,
-    /// What it does in truth, in a few letters.
+    /// The achieved motion, in a few characters.
     pub figure: String,
 }
 
 /// A timing diagram: shares of the stroke over the crank angle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TimingDiagram {
-    /// Crank angle (rad) and share of the stroke that were achieved.
+    /// Achieved curve: crank angle (rad) and share of the stroke.
     pub curve: Vec<[f64; 2]>,
-    /// The same of the wanted curve; empty if only senses are wanted.
+    /// The wanted curve, likewise; empty if only senses of motion are wanted.
     pub wanted: Vec<[f64; 2]>,
     /// The phases.
     pub stretches: Vec<Stretch>,
-    /// A line of figures.
+    /// A line of numbers.
     pub note: String,
 }

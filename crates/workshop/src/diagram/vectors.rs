@@ -1,8 +1,8 @@
-//! A velocity or acceleration plan: its vectors, and where they end.
+//! A velocity or acceleration plan: its vectors and their end points.
 
 use linkage::math::Vec2;
 
-/// What a plan shows.
+/// The quantity of a plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
     /// Velocities (m/s).
@@ -39,7 +39,7 @@ impl Quantity {
         }
     }
 
-    /// The word for it.
+    /// The quantity in words.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
@@ -49,10 +49,10 @@ impl Quantity {
     }
 }
 
-/// Sort of the end of a vector.
+/// Kind of the end point of a vector.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TipKind {
-    /// The pole itself, or a point of the ground, which lies in it.
+    /// The pole itself, or a ground point, which coincides with it.
     Fixed,
     /// A named point of the mechanism.
     Point,
@@ -60,7 +60,7 @@ pub enum TipKind {
     MassCentre,
     /// The end of a normal part: n and a running number.
     Normal,
-    /// A point of a moving guide's link under a sliding point: letter of that point and number of the link, a3.
+    /// A point of a moving guide's link that coincides with a sliding point: letter of that point and number of the link, a3.
     Coincident,
     /// The end of a Coriolis part: k and a running number.
     Coriolis,
@@ -71,24 +71,24 @@ pub enum TipKind {
 pub struct Tip {
     /// Its letter.
     pub letter: String,
-    /// Its sort.
+    /// Its kind.
     pub kind: TipKind,
     /// Vector from the pole (SI).
     pub at: Vec2,
 }
 
-/// Sort of a vector.
+/// Kind of a vector.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
-    /// Absolute, of a named point.
+    /// Absolute vector of a named point.
     Absolute,
-    /// Absolute, of a mass centre.
+    /// Absolute vector of a mass centre.
     MassCentre,
-    /// Relative, of two points of one link.
+    /// Relative vector of two points of one link.
     Relative,
-    /// Normal part of an acceleration: omega^2 l, from the point towards the other.
+    /// Normal part of an acceleration: omega^2 l, from the point towards the other one.
     Normal,
-    /// Tangential part of an acceleration: alpha l, perpendicular to the line of both points.
+    /// Tangential part of an acceleration: alpha l, perpendicular to the line through both points.
     Tangential,
     /// Along a moving guide: velocity or acceleration of a sliding point relative to the guide's link.
     Sliding,
@@ -99,32 +99,33 @@ pub enum Part {
 /// One vector of a plan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Vector {
-    /// Name as the field writes it: `v_B`, `v_BA`, `a_BA^n`, `a_BA^t`, `v_S2`; `v_A3`, `v_A,A3`, `a_A,A3^cor`, `a_A,A3^r` where A slides on link 3.
+    /// Name in the usual notation: `v_B`, `v_BA`, `a_BA^n`, `a_BA^t`, `v_S2`.
+    /// If A slides on link 3: `v_A3`, `v_A,A3`, `a_A,A3^cor`, `a_A,A3^r`.
     pub name: String,
-    /// Sort.
+    /// Kind.
     pub part: Part,
-    /// Letter where it starts.
+    /// Letter of its start point.
     pub from: String,
-    /// Letter where it ends.
+    /// Letter of its end point.
     pub to: String,
-    /// Where it starts, from the pole (SI).
+    /// Start point, relative to the pole (SI).
     pub start: Vec2,
     /// Components in world axes (SI).
     pub value: Vec2,
     /// Number of the link whose motion it comes from.
     pub link: usize,
-    /// What it is, in words.
+    /// Its meaning in words.
     pub meaning: String,
 }
 
 /// A velocity or acceleration plan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
-    /// What it shows.
+    /// The quantity of the plan.
     pub quantity: Quantity,
     /// Scale factor mu_v ((m/s)/mm) or mu_a ((m/s^2)/mm).
     pub scale: f64,
-    /// Ends of vectors; the pole first.
+    /// End points of vectors; the pole is first.
     pub tips: Vec<Tip>,
     /// All vectors.
     pub vectors: Vec<Vector>,

@@ -1,3 +1,3 @@
-//! A mechanism as a model file of another program, to be simulated and looked at there.
+//! Export of a mechanism as a model file for another program, for simulation and display there.
 
 pub mod mjcf;

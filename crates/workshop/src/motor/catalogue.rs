@@ -1,8 +1,8 @@
-//! Motors as catalogues list them.
+//! Motors with the data of catalogues.
 
 use linkage::drive::{Motor, MotorLaw};
 
-/// An induction motor of a catalogue.
+/// An induction motor from a catalogue.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CatalogueMotor {
     /// Its type.
@@ -13,7 +13,7 @@ pub struct CatalogueMotor {
     pub rated_speed: f64,
     /// Speed without load (rad/s), above the rated one.
     pub synchronous_speed: f64,
-    /// Breakdown torque over rated torque, where the catalogue has it.
+    /// Breakdown torque divided by rated torque, if the catalogue states it.
     pub breakdown: Option<f64>,
 }
 
@@ -24,7 +24,7 @@ impl CatalogueMotor {
         self.power / self.rated_speed
     }
 
-    /// The stable part of its characteristic as the straight line through the rated point and synchronous speed:
+    /// The stable part of its characteristic: the straight line through the rated point and synchronous speed,
     /// M = M_n (omega_s - omega) / (omega_s - omega_n).
     #[must_use]
     pub fn law(&self) -> MotorLaw {
@@ -32,14 +32,16 @@ impl CatalogueMotor {
         MotorLaw::Linear { at_rest: -slope * self.synchronous_speed, slope }
     }
 
-    /// Behind a reducer that brings the rated speed down to `crank` (rad/s, greater than zero), with the efficiency `efficiency` (above 0, at most 1).
+    /// The motor with a gearbox that reduces the rated speed to `crank` (rad/s, greater than zero).
+    /// The gearbox has the efficiency `efficiency` (above 0, at most 1).
     #[must_use]
     pub fn geared_to(&self, crank: f64, efficiency: f64) -> Motor {
         Motor { efficiency, ..Motor::ideal(self.law(), self.rated_speed / crank) }
     }
 }
 
-/// The motor of the least rated power that is not below `power` (W); of equal ones the first of the catalogue. `None` if all are too weak.
+/// The motor of the least rated power that is not below `power` (W). Of equal ones the first in the catalogue is taken.
+/// `None` if all are too weak.
 #[must_use]
 pub fn weakest_sufficient(motors: &[CatalogueMotor], power: f64) -> Option<&CatalogueMotor> {
     motors.iter().filter(|motor| motor.power >= power).min_by(|a, b| a.power.total_cmp(&b.power))
@@ -64,7 +66,7 @@ mod tests {
     #[test]
     fn the_published_line() {
         let motor = motor("a", 0.55, 2745.0);
-        // Printed 1.913 N m, 22.51 N m and -0.0716 N m s.
+        // The printed values are 1.913 N m, 22.51 N m and -0.0716 N m s.
         assert!((motor.rated_torque() - 1.913).abs() < 5e-4);
         let MotorLaw::Linear { at_rest, slope } = motor.law() else { panic!("not linear") };
         assert!((at_rest - 22.51).abs() < 5e-3 && (slope + 0.0716).abs() < 1e-4, "{at_rest} {slope}");

@@ -1,7 +1,9 @@
 //! Choice of a motor from the peak of the reduced moment of resistance.
 //!
-//! The power on the crank's shaft that the peak would take at the wanted speed, over the efficiency between motor and crank, is what the motor is rated for at
-//! least. Courses of machine design choose so: conservative, because inertia carries the crank over peaks.
+//! The required power is that of the peak on the crank's shaft at the wanted speed.
+//! Divided by the efficiency between motor and crank, it is the least rated power of the motor.
+//! Courses of machine design choose in this way.
+//! It is conservative, because inertia carries the crank over peaks.
 
 use super::catalogue::{CatalogueMotor, weakest_sufficient};
 use analytic::AssurSolver;
@@ -13,24 +15,24 @@ use linkage::drive::Motor;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
 
-/// A motor chosen for a mechanism, and how it does.
+/// A motor chosen for a mechanism, and the resulting motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Choice {
     /// Crank angle (rad) and value (N m) of the greatest reduced moment of resistance.
     pub peak: (f64, f64),
     /// Mean reduced moment of resistance (N m).
     pub mean: f64,
-    /// Wanted size of the crank's speed (rad/s): that of the scenario.
+    /// Wanted magnitude of the crank's speed (rad/s): that of the scenario.
     pub wanted: f64,
     /// Power on the crank's shaft at the peak (W).
     pub power: f64,
-    /// Power that the motor is asked for (W): that over the efficiency.
+    /// Required power of the motor (W): that power divided by the efficiency.
     pub asked: f64,
     /// The motor.
     pub motor: CatalogueMotor,
-    /// The motor behind a reducer from its rated speed to the wanted one.
+    /// The motor with a gearbox from its rated speed to the wanted one.
     pub geared: Motor,
-    /// Size of the crank's speed (rad/s) at which the averaged model is in balance.
+    /// Magnitude of the crank's speed (rad/s) at which the averaged model is in equilibrium.
     pub averaged: f64,
     /// Steady periodic motion.
     pub regime: Regime,
@@ -40,8 +42,9 @@ impl Choice {
     /// The weakest motor of the catalogue that has the peak's power, for the crank's speed in the scenario.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] for an efficiency that is none, or if every motor is too weak; [`ErrorKind::Numeric`] if the mechanism needs no motor, or the motor
-    /// has no steady speed; those of [`Model::of`] and of its extremes.
+    /// [`ErrorKind::Input`] for an efficiency that is not above 0 and at most 1, or if every motor is too weak.
+    /// [`ErrorKind::Numeric`] if the mechanism needs no motor, or the motor has no steady speed.
+    /// Those of [`Model::of`] and of its extremes.
     pub fn of(case: &Case, catalogue: &[CatalogueMotor], efficiency: f64) -> Result<Self> {
         if !(efficiency > 0.0 && efficiency <= 1.0) {
             return Err(Error::new(ErrorKind::Input, format!("the efficiency is {efficiency}"))
@@ -85,13 +88,13 @@ impl Choice {
         })
     }
 
-    /// Torque (N m) that the peak asks of the motor's shaft, without inertia.
+    /// Torque (N m) on the motor's shaft that the peak requires, without inertia.
     #[must_use]
     pub fn peak_torque(&self) -> f64 {
         self.peak.1 / (self.geared.ratio * self.geared.efficiency)
     }
 
-    /// Torque (N m) that the mean resistance asks of the motor's shaft.
+    /// Torque (N m) on the motor's shaft that the mean resistance requires.
     #[must_use]
     pub fn mean_torque(&self) -> f64 {
         self.mean / (self.geared.ratio * self.geared.efficiency)

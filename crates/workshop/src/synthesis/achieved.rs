@@ -1,4 +1,4 @@
-//! What a mechanism does of what its output shall do, measured finely on its scenario.
+//! The achieved motion of a mechanism compared with the wanted motion of its output, on a fine grid of its scenario.
 
 use linkage::math::KeepNan;
 use std::f64::consts::TAU;
@@ -8,28 +8,30 @@ use crate::task::{Sense, Task};
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::mechanism::GroupKind;
 
-/// Rows of the turn.
+/// Rows per turn.
 const ROWS: usize = 7200;
-/// Half width of the band about a dwell (share of the stroke): where the output leaves it, the dwell ends.
+/// Half width of the band about a dwell (share of the stroke). The dwell ends where the output leaves the band.
 pub const BAND: f64 = 0.01;
 
-/// What was done in one phase.
+/// Achieved motion in one phase.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PhaseDone {
     /// Displacement from its beginning to its end, forward positive (share of the stroke).
     pub displacement: f64,
-    /// Largest motion, greatest less least position (share of the stroke): in a dwell it should be none.
+    /// Greatest minus least position (share of the stroke); in a dwell it should be zero.
     pub motion: f64,
-    /// Way in the wrong sense (share of the stroke); 0 in a dwell.
+    /// Distance travelled in the wrong sense (share of the stroke); 0 in a dwell.
     pub wrong: f64,
-    /// Share of the stroke at which the output stands at its end.
+    /// Position of the output at the end of the phase (share of the stroke).
     pub level: f64,
-    /// Crank angle (rad) at which the phase ends in truth: the extreme position between two motions, or where the output leaves the middle of a dwell, or comes to
-    /// it, by [`BAND`]. `None` between two motions in one sense, and where there is no such place nearby.
+    /// Crank angle (rad) at which the phase actually ends.
+    /// Between two motions it is the extreme position.
+    /// At a dwell it is where the output departs from the middle of the dwell, or approaches it, by [`BAND`].
+    /// `None` between two motions in one sense, and if there is no such point nearby.
     pub end: Option<f64>,
 }
 
-/// A motion measured against its timing.
+/// A motion compared with its timing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Achieved {
     /// Stroke of the output (rad or m).
@@ -38,19 +40,20 @@ pub struct Achieved {
     pub transmission: Option<f64>,
     /// The phases, in their order.
     pub phases: Vec<PhaseDone>,
-    /// Crank angles (rad from crank angle zero in the sense of rotation) of the curve.
+    /// Crank angles of the curve (rad from crank angle zero in the sense of rotation).
     pub turns: Vec<f64>,
-    /// The output there (share of the stroke, 0 rearmost).
+    /// The output at these angles (share of the stroke, 0 rearmost).
     pub shares: Vec<f64>,
     /// Sense of the output that is forward: +1 or -1.
     pub forward: f64,
 }
 
 impl Achieved {
-    /// What the mechanism of `task.case` does, its dimensions as they are; `forward` is the sense of the output that counts as forward (+1 or -1).
+    /// Achieved motion of the mechanism of `task.case` with its present dimensions.
+    /// `forward` is the sense of the output that counts as forward (+1 or -1).
     ///
     /// # Errors
-    /// [`ErrorKind::Geometry`] if it cannot be assembled all around, or if its output turns fully.
+    /// [`ErrorKind::Geometry`] if it cannot be assembled over the whole turn, or if its output turns fully.
     pub fn of(task: &Task, forward: f64) -> Result<Self> {
         let turns: Vec<f64> = (0..=ROWS).map(|row| TAU * (row as f64 / ROWS as f64)).collect();
         let as_drawn = Task { places: Vec::new(), ..task.clone() };
@@ -78,7 +81,7 @@ impl Achieved {
         Ok(found)
     }
 
-    /// The same in whichever sense of the output comes nearer to the timing, where the task leaves it open.
+    /// The same for the sense of the output that is closer to the timing, if the task leaves the sense open.
     ///
     /// # Errors
     /// Those of [`Achieved::of`].
@@ -98,13 +101,13 @@ impl Achieved {
         dwells.map(|(done, _)| done.motion).fold(0.0, f64::larger)
     }
 
-    /// Largest way in the wrong sense in any phase (share of the stroke).
+    /// Largest distance travelled in the wrong sense in any phase (share of the stroke).
     #[must_use]
     pub fn wrong(&self) -> f64 {
         self.phases.iter().map(|phase| phase.wrong).fold(0.0, f64::larger)
     }
 
-    /// Largest distance of an extreme position from the limit of two opposite motions that it should be at (rad).
+    /// Largest deviation (rad) of an extreme position from the limit between two opposite motions where it should be.
     #[must_use]
     pub fn late(&self, task: &Task) -> f64 {
         let phases = task.timing.phases();
@@ -116,8 +119,8 @@ impl Achieved {
         self.phases.iter().enumerate().filter_map(apart).fold(0.0, f64::larger)
     }
 
-    /// By how much the worst dwell falls short at either end (rad): where the output is beyond [`BAND`] although it should rest. A dwell that is longer than asked for does
-    /// not count.
+    /// Largest shortfall of a dwell at either end (rad): the output is outside [`BAND`] although it should dwell.
+    /// A dwell that is longer than required does not count.
     #[must_use]
     pub fn short(&self, task: &Task) -> f64 {
         let phases = task.timing.phases();
@@ -134,7 +137,7 @@ impl Achieved {
         self.phases.iter().enumerate().filter_map(missing).fold(0.0, f64::larger)
     }
 
-    /// The share at any row, counted on over turns.
+    /// The share at any row; rows continue over several turns.
     fn at(&self, row: i64) -> f64 {
         self.shares[row.rem_euclid(ROWS as i64) as usize]
     }
@@ -168,14 +171,15 @@ impl Achieved {
         }
     }
 
-    /// Crank angle (rad) of a row, of the turn in which it lies near `to`.
+    /// Crank angle (rad) of a row, in the turn that is closest to `to`.
     fn turn_near(&self, row: f64, to: f64) -> f64 {
         let turn = row * TAU / ROWS as f64;
         turn + TAU * ((to - turn) / TAU).round()
     }
 
-    /// Where the output, from the middle of its dwell between the rows `from` and `to` on towards `to` and beyond, leaves the band about the dwell's mean of
-    /// extremes.
+    /// Row at which the output leaves the band about its dwell.
+    /// The search starts in the middle of the dwell between the rows `from` and `to`, and goes towards `to` and beyond.
+    /// The band is centred between the dwell's extremes.
     fn leaves(&self, from: i64, to: i64, way: i64) -> Option<f64> {
         let (low, high) = (from.min(to), from.max(to));
         let values = || (low..=high).map(|row| self.at(row));
@@ -188,7 +192,8 @@ impl Achieved {
         (row != outside).then_some(row as f64)
     }
 
-    /// The extreme position nearest to a row, within a quarter of a turn: greatest for `sign` +1. Between rows by the parabola through three.
+    /// The extreme position nearest to a row, within a quarter of a turn: a maximum for `sign` +1.
+    /// Between rows it is interpolated by a parabola through three rows.
     fn extreme(&self, to: i64, sign: f64) -> Option<f64> {
         let value = |row: i64| sign * self.at(row);
         let is_top = |row: &i64| value(*row) >= value(row - 1) && value(*row) > value(row + 1);

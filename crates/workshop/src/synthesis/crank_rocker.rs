@@ -1,8 +1,8 @@
 //! Crank-rocker from the two extreme positions of its rocker, in closed form.
 //!
-//! In the extreme positions crank and coupler are in line: stretched, `|O B1| = OA + AB`; folded, `|O B2| = AB - OA`. With both positions of B
-//! given, the two lengths are half the sum and half the difference of the two distances. Artobolevsky, "Theory of mechanisms and machines",
-//! synthesis of the four-bar from two extreme positions.
+//! In the extreme positions crank and coupler are in line: stretched, `|O B1| = OA + AB`; folded, `|O B2| = AB - OA`.
+//! With both positions of B given, the two lengths are half the sum and half the difference of the two distances.
+//! Source: Artobolevsky, "Theory of mechanisms and machines", synthesis of the four-bar from two extreme positions.
 
 use std::f64::consts::{PI, TAU};
 
@@ -12,7 +12,7 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::{KeepNan, Vec2, cross, unit};
 use linkage::mechanism::AssemblyMode;
 
-/// What a crank-rocker is wanted to do.
+/// Requirements on a crank-rocker.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wish {
     /// Pivot O of the crank (m).
@@ -23,7 +23,8 @@ pub struct Wish {
     pub rocker: f64,
     /// Angle of the rocker C -> B in one extreme position (rad).
     pub extreme: f64,
-    /// Angle from there to the other extreme position (rad): positive counter-clockwise, not zero, less than half a turn either way.
+    /// Angle from there to the other extreme position (rad).
+    /// It is positive counter-clockwise, not zero, and less than half a turn in either sense.
     pub swing: f64,
 }
 
@@ -32,14 +33,14 @@ pub struct Wish {
 pub struct Extreme {
     /// Angle of the rocker C -> B (rad).
     pub rocker: f64,
-    /// Angle of the crank O -> A (rad), from 0 to a turn.
+    /// Angle of the crank O -> A (rad), from 0 to a full turn.
     pub crank: f64,
 }
 
 /// A crank-rocker that has the wanted extreme positions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CrankRocker {
-    /// What was wanted.
+    /// The requirements.
     pub wish: Wish,
     /// Length OA of the crank (m).
     pub crank: f64,
@@ -53,9 +54,9 @@ pub struct CrankRocker {
     pub mode: AssemblyMode,
     /// Smallest transmission angle of the turn (rad), between coupler and rocker at B, at most a right angle.
     pub transmission: f64,
-    /// Crank angle (rad) at which it occurs: the crank on the line of the pivots.
+    /// Crank angle (rad) at which it occurs: the crank is on the line of the pivots.
     pub transmission_at: f64,
-    /// Time of the slower swing over that of the faster one at a constant speed of the crank.
+    /// Time of the slower swing divided by that of the faster one, at a constant speed of the crank.
     pub time_ratio: f64,
 }
 
@@ -64,16 +65,16 @@ fn wrong(key: &str, message: String, help: &str) -> Error {
 }
 
 impl CrankRocker {
-    /// The crank-rocker of a wish.
+    /// The crank-rocker for the given requirements.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] for lengths and angles that make no sense, [`ErrorKind::Geometry`] where the two positions leave no crank that turns fully, with the
-    /// distances and the way out.
+    /// [`ErrorKind::Input`] for lengths and angles that make no sense.
+    /// [`ErrorKind::Geometry`] if the two positions permit no crank that turns fully, with the distances and the way out.
     pub fn of(wish: Wish) -> Result<Self> {
         check(&wish)?;
         let frame = wish.rocker_pivot - wish.crank_pivot;
         let angles = [wish.extreme, wish.extreme + wish.swing];
-        // From the crank's pivot to B in both positions.
+        // Vectors from the crank's pivot to B in both positions.
         let arms = angles.map(|angle| frame + unit(angle) * wish.rocker);
         let distances = arms.map(|arm| arm.norm());
         let (far, near) = if distances[0] >= distances[1] { (0, 1) } else { (1, 0) };
@@ -94,7 +95,8 @@ impl CrankRocker {
         }
         let lengths = [frame.norm(), crank, coupler, wish.rocker];
         let found = FourBar::of_lengths(lengths).of_type;
-        // The triangles O, B, C of both positions make the crank the shortest link, and let it turn fully; only rounding can put them on one line.
+        // The triangles O, B, C of both positions make the crank the shortest link, and let it turn fully.
+        // Only rounding can put them on one line.
         if found != FourBarType::CrankRocker {
             let message = format!(
                 "{told}: an extreme position lies on the line of the pivots but for rounding, a {}",
@@ -139,8 +141,9 @@ fn check(wish: &Wish) -> Result<()> {
     Ok(())
 }
 
-/// Smallest transmission angle (rad) of a four-bar (frame, crank, coupler, rocker) and the crank angle (rad) at which it occurs. It is extreme where
-/// the crank lies on the line of the pivots (Alt 1932): there A is nearest to C, or farthest from it.
+/// Smallest transmission angle (rad) of a four-bar (frame, crank, coupler, rocker), and its crank angle (rad).
+/// It has its extremes where the crank is on the line of the pivots (Alt 1932).
+/// A is then nearest to C, or farthest from it.
 fn transmission([frame, crank, coupler, rocker]: [f64; 4], line: Vec2) -> (f64, f64) {
     let at = |distance: f64| {
         let cos = (coupler.powi(2) + rocker.powi(2) - distance * distance) / (2.0 * coupler * rocker);

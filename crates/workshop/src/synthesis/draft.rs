@@ -1,22 +1,22 @@
-//! Scenario files of linkages that were found in closed form.
+//! Scenario files for linkages that were found in closed form.
 
 use std::fmt::Write;
 
 use super::crank_rocker::CrankRocker;
 use super::slider_crank::SliderCrank;
 
-/// What a scenario says besides the dimensions.
+/// Contents of a scenario besides the dimensions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sheet {
-    /// Name of the scenario, fit for file names.
+    /// Name of the scenario, usable in file names.
     pub name: String,
-    /// One line for people.
+    /// Title for the reader, in one line.
     pub title: String,
-    /// Comment at the top of the file; its lines without the leading `#`.
+    /// Comment at the top of the file; its lines have no leading `#`.
     pub comment: String,
     /// Speed of the crank (rad/s), not zero, counter-clockwise positive.
     pub speed: f64,
-    /// Mass of the links a metre of their length (kg/m): uniform slender bars.
+    /// Mass of the links per metre of their length (kg/m): uniform slender bars.
     pub bar: f64,
 }
 
@@ -27,7 +27,7 @@ impl Sheet {
         text
     }
 
-    /// A link of one bar from its first point at its origin along its x axis.
+    /// A link that is one bar, from its first point at its origin along its x axis.
     fn bar(&self, name: &str, points: [&str; 2], length: f64) -> String {
         let mass = self.bar * length;
         format!(

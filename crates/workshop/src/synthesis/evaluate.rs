@@ -1,4 +1,4 @@
-//! The motion of a candidate: dimensions in, the output over one turn out.
+//! The motion of a candidate: from dimensions to the output over one turn.
 
 use std::f64::consts::{PI, TAU};
 
@@ -9,12 +9,12 @@ use linkage::mechanism::assembly::transmission_sine;
 use linkage::mechanism::{Mechanism, Pose, first_pose};
 use linkage::solver::State;
 
-/// Poses looked at first: a candidate that does not assemble mostly fails in one of them.
+/// Poses that are tried first: most candidates that cannot be assembled fail in one of them.
 const PROBES: usize = 8;
-/// Largest step (rad) between poses that are followed.
+/// Largest step (rad) between poses that are found by continuation.
 const FOLLOWED: f64 = PI / 90.0;
 
-/// Goes through the turn of one candidate after the other. The loop over the poses does not allocate.
+/// Computes the turn of one candidate after another. The loop over the poses does not allocate.
 #[derive(Clone, Debug)]
 pub(super) struct Evaluator<'a> {
     task: &'a Task,
@@ -22,9 +22,9 @@ pub(super) struct Evaluator<'a> {
     motions: Vec<Motion>,
     /// Pose of the last motions, for dyads with prismatic joints.
     pose: Pose,
-    /// Output at the crank angles asked for last, without jumps.
+    /// Output at the crank angles of the last run, without jumps.
     pub(super) curve: Vec<f64>,
-    /// Smallest transmission sine of any dyad on the way.
+    /// Smallest transmission sine of any dyad so far.
     pub(super) sine: f64,
 }
 
@@ -48,9 +48,12 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    /// The output at the crank angles `turns` (rad from crank angle zero, in the sense of rotation; ascending, the last a turn after the first) with the crank's zero
-    /// at the world direction `zero`, into `curve`. `Err` with the share of poses reached, if the mechanism cannot be assembled all around, or if the
-    /// output turns fully.
+    /// Computes the output at the crank angles `turns` into `curve`.
+    /// They are in rad from crank angle zero in the sense of rotation, ascending; the last is a turn after the first.
+    /// The crank's zero is at the world direction `zero` (rad).
+    ///
+    /// # Errors
+    /// The share of poses reached, if the mechanism cannot be assembled over the whole turn, or if the output turns fully.
     pub(super) fn run(&mut self, values: &[f64], zero: f64, turns: &[f64]) -> Result<(), f64> {
         self.dimension(values);
         let case = &self.task.case;
@@ -88,7 +91,7 @@ impl<'a> Evaluator<'a> {
         Ok(())
     }
 
-    /// Higher groups: from the start pose on, in small steps; after the turn the output must be back.
+    /// Higher groups: from the start pose in small steps. After the turn the output must be at its start again.
     fn follow(&mut self, mut plan: Plan, world: &dyn Fn(f64) -> f64, turns: &[f64], zero: f64) -> Result<(), f64> {
         let case = &self.task.case;
         let start = zero + case.crank().start;
@@ -123,7 +126,7 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    /// Keeps the smallest transmission sine.
+    /// Updates the smallest transmission sine.
     #[inline]
     fn watch(&mut self, plan: &Plan) {
         let mut placed = false;
@@ -144,7 +147,7 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    /// Takes the jumps of a turn out of angles; an output that does not come back after the turn is refused.
+    /// Removes jumps by a full turn from angles. An output that is not periodic over the turn is refused.
     fn unwind(&mut self) -> Result<(), f64> {
         if let Output::Angle { .. } = self.task.output {
             for row in 1..self.curve.len() {

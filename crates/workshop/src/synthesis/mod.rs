@@ -1,4 +1,4 @@
-//! Dimensions from a wanted motion: closed forms where there are any, else a search over lengths and pivots.
+//! Dimensions from a wanted motion: in closed form where possible, else by a search over lengths and pivots.
 
 pub mod achieved;
 pub mod crank_rocker;
@@ -16,8 +16,9 @@ pub use slider_crank::SliderCrank;
 
 use std::f64::consts::PI;
 
-/// Time of the slower stroke over that of the faster one where the directions of crank and coupler in the two extreme positions differ by `theta` (rad):
-/// K = (pi + |theta|) / (pi - |theta|), at a constant speed of the crank.
+/// Time of the slower stroke divided by that of the faster one, at a constant speed of the crank:
+/// K = (pi + |theta|) / (pi - |theta|).
+/// `theta` (rad) is the difference between the directions of crank and coupler in the two extreme positions.
 fn time_ratio(theta: f64) -> f64 {
     (PI + theta.abs()) / (PI - theta.abs())
 }

@@ -1,40 +1,43 @@
-//! How far an output is from what it shall do: one number, zero for a perfect one.
+//! Deviation of an output from the wanted motion: one number, zero for a perfect output.
 //!
-//! The output is looked at as a share of its stroke, so that neither amplitude nor offset matters. Squares of shares are summed up: of the motion in
-//! dwells, of ways in the wrong sense, of levels missed, of moving phases that hardly move, and of extreme positions that lie beside the limits of their
-//! phases. A cost of 1e-4 is about one hundredth of the stroke.
+//! The output is expressed as a share of its stroke, so that neither amplitude nor offset matters.
+//! The cost is a sum of squares of shares.
+//! They measure the motion in dwells, distances travelled in the wrong sense, levels missed, and moving phases that hardly move.
+//! They also measure extreme positions that deviate from the limits of their phases.
+//! A cost of 1e-4 is about one hundredth of the stroke.
 
 use std::f64::consts::TAU;
 
 use crate::task::{Phase, Sense, Task, Timing};
 use linkage::math::KeepNan;
 
-/// Weight of a way in the wrong sense, and of a moving phase that moves too little, against the motion in a dwell.
+/// Weight of motion in the wrong sense, and of a moving phase that moves too little, relative to the motion in a dwell.
 const WRONG: f64 = 4.0;
-/// Crank angle (rad, 20 deg) that a rate of the output at the limit of two opposite motions is multiplied by to count as a share of the stroke.
+/// Crank angle (rad, 20 deg) that multiplies the output's rate at the limit of two opposite motions.
+/// The product counts as a share of the stroke.
 const LATE: f64 = TAU / 18.0;
-/// Distance (rad, 0.25 deg) of the rows from which the rate at a limit is taken.
+/// Distance (rad, 0.25 deg) of the rows from which the rate at a limit is computed.
 const BESIDE: f64 = TAU / 1440.0;
-/// Weight of limits that are not kept, against shares of the stroke.
+/// Weight of violated limits, relative to shares of the stroke.
 const LIMIT: f64 = 10.0;
 
-/// Rates outputs that are sampled at certain crank angles.
+/// Computes the cost of outputs that are sampled at certain crank angles.
 #[derive(Clone, Debug)]
 pub(super) struct Rater<'a> {
     timing: &'a Timing,
-    /// Crank angles (rad) of the samples, from 0 to a turn.
+    /// Crank angles (rad) of the samples, from 0 to a full turn.
     pub(super) turns: Vec<f64>,
     /// Row at which each phase ends.
     ends: Vec<usize>,
-    /// The wanted curve, where it is to be followed.
+    /// The wanted curve, if it is to be followed.
     wanted: Vec<f64>,
-    /// The output twice round, so that a turn may begin at any row.
+    /// The output over two turns, so that a turn may begin at any row.
     twice: Vec<f64>,
     span: f64,
 }
 
 impl<'a> Rater<'a> {
-    /// On so many equal parts of the turn; limits of phases are taken at the nearest row.
+    /// With `count` equal parts of the turn; limits of phases are at the nearest row.
     pub(super) fn even(timing: &'a Timing, count: usize) -> Self {
         let turns: Vec<f64> = (0..=count).map(|row| TAU * (row as f64 / count as f64)).collect();
         let phases = timing.phases();
@@ -47,8 +50,8 @@ impl<'a> Rater<'a> {
         Rater::on(timing, turns, ends)
     }
 
-    /// On rows at most `step` (rad) apart, with every limit of a phase among them and two more close by, from which the rate there is taken: over whole steps it
-    /// would be off by a few hundredths of a degree.
+    /// With rows at most `step` (rad) apart, which include every limit of a phase.
+    /// Two more rows close to each limit give the rate there: over whole steps it would be off by a few hundredths of a degree.
     pub(super) fn fitted(timing: &'a Timing, step: f64) -> Self {
         let (mut turns, mut ends) = (vec![0.0], Vec::new());
         for phase in timing.phases() {
@@ -70,7 +73,7 @@ impl<'a> Rater<'a> {
         Rater { timing, turns, ends, wanted, twice: Vec::new(), span: 0.0 }
     }
 
-    /// Takes an output in; its stroke.
+    /// Stores an output and returns its stroke.
     pub(super) fn take(&mut self, curve: &[f64]) -> f64 {
         let (low, high) =
             curve.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &v| (l.smaller(v), h.larger(v)));
@@ -84,7 +87,8 @@ impl<'a> Rater<'a> {
         self.span
     }
 
-    /// Cost of the output taken in last if the turn begins at the row `shift` and the sense `forward` (+1 or -1) of the output is forward.
+    /// Cost of the stored output if the turn begins at the row `shift`.
+    /// `forward` is the sense of the output (+1 or -1) that counts as forward.
     pub(super) fn cost(&self, shift: usize, forward: f64) -> f64 {
         let (offset, slope) = if forward > 0.0 { (0.0, 1.0) } else { (1.0, -1.0) };
         let at = |row: usize| offset + slope * self.twice[shift + row];
@@ -119,7 +123,7 @@ impl<'a> Rater<'a> {
         cost
     }
 
-    /// What is added to the cost for a stroke outside its limits, and for a transmission sine below its own.
+    /// Addition to the cost for a stroke outside its limits, and for a transmission sine below its limit.
     pub(super) fn excess(&self, task: &Task, sine: f64) -> f64 {
         let [least, most] = task.stroke;
         let short = if least > 0.0 { (1.0 - self.span / least).larger(0.0) } else { 0.0 };
@@ -129,7 +133,8 @@ impl<'a> Rater<'a> {
     }
 }
 
-/// Motion in a dwell: the square of its range, and of its scatter, which is the range again for an even drift.
+/// Motion in a dwell: the square of its range plus twelve times its variance.
+/// For a uniform drift the second term equals the first.
 fn unrest(values: impl Iterator<Item = f64>) -> f64 {
     let (mut count, mut sum, mut squares, mut low, mut high) = (0.0, 0.0, 0.0, f64::INFINITY, f64::NEG_INFINITY);
     for value in values {
@@ -181,7 +186,7 @@ mod tests {
 
     #[test]
     fn a_drift_in_a_dwell_counts_twice_its_square() {
-        // The scatter of 1001 even steps is the range squared over 12.
+        // The variance of 1001 uniform steps is the range squared over 12.
         let drift = unrest((0..=1000).map(|k| 0.02 * f64::from(k) / 1000.0));
         assert!((drift - 2.0 * 0.02f64.powi(2)).abs() < 2e-6, "{drift}");
         assert_eq!(unrest([0.3; 5].into_iter()), 0.0);

@@ -1,8 +1,11 @@
 //! Random search over lengths and pivots, and refinement of the best.
 //!
-//! Candidates are drawn evenly within their bounds, each block of them from a random stream of its own (ChaCha, by Bernstein), so that the result depends on the seed
-//! and not on the number of threads. The best are refined by an evolution strategy with one parent and one child and the rule of one fifth (Rechenberg 1973), which
-//! finds its way over kinks and edges, and from there by linear approximation within a trust region (COBYLA, Powell 1994).
+//! Candidates are drawn uniformly within their bounds.
+//! Each block of them has its own random stream (ChaCha, by Bernstein).
+//! The result therefore depends on the seed and not on the number of threads.
+//! The best are refined by an evolution strategy with one parent and one child and the one-fifth rule (Rechenberg 1973).
+//! This strategy can cross kinks and edges.
+//! Linear approximation within a trust region follows (COBYLA, Powell 1994).
 
 mod candidate;
 mod refine;
@@ -17,43 +20,45 @@ use crate::task::Task;
 use candidate::{Candidate, free_zero, of_share, values};
 use linkage::error::{Error, ErrorKind, Result};
 
-/// Equal parts of the turn on which random candidates are rated.
+/// Equal parts of the turn on which the cost of random candidates is computed.
 const COARSE: usize = 72;
-/// Candidates of one random stream.
+/// Candidates per random stream.
 const BLOCK: usize = 4096;
-/// Blocks between two calls of the progress; a constant, so that threads do not decide what is kept.
+/// Blocks between two calls of the progress; a constant, so that the threads do not decide which candidates are kept.
 const ROUND: usize = 16;
-/// Threads, at most.
+/// Largest number of threads.
 const MOST_THREADS: usize = 256;
-/// Share of the progress that the random candidates are.
+/// Share of the progress for the random candidates.
 const RANDOM_SHARE: f64 = 0.5;
-/// Shifts of the crank's zero are tried in steps of so many rows, then row by row about the best.
+/// Shifts of the crank's zero are tried in steps of this many rows, then row by row about the best.
 const STRIDE: usize = 3;
 
-/// Random candidates whose stroke or transmission sine is off its limits by more than this factor are dropped: refinement would hardly bring them back.
+/// Random candidates whose stroke or transmission sine violates its limits by more than this factor are dropped.
+/// Refinement would hardly repair them.
 const NEAR: f64 = 1.5;
 
-/// What a search found.
+/// Result of a search.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Found {
     /// Values of the variables (SI), in the order of [`Task::variables`].
     pub values: Vec<f64>,
     /// Sense of the output that is forward: +1 or -1.
     pub forward: f64,
-    /// Cost of the best: a sum of squares of shares of the stroke.
+    /// Cost of the best candidate: a sum of squares of shares of the stroke.
     pub cost: f64,
-    /// Cost of the best before refinement, on a coarser grid.
+    /// Cost of the best candidate before refinement, on a coarser grid.
     pub random_cost: f64,
-    /// How many random candidates were drawn, and how many of them could be assembled all around, near the limits at least.
+    /// Number of random candidates, and of those among them that assemble over the whole turn and are at least near the limits.
     pub candidates: [usize; 2],
     /// Costs of all refined candidates, ascending.
     pub refined: Vec<f64>,
 }
 
-/// Searches the dimensions of a task with so many threads (as many as the machine has for 0). `progress` is told from 0 to 1.
+/// Searches the dimensions of a task with `threads` threads; 0 means as many as the machine has.
+/// `progress` is called with values from 0 to 1.
 ///
 /// # Errors
-/// Those of [`Task::check`]; [`ErrorKind::Numeric`] if no candidate assembles all around.
+/// Those of [`Task::check`]; [`ErrorKind::Numeric`] if no candidate can be assembled over the whole turn.
 pub fn search(task: &Task, threads: usize, progress: &mut dyn FnMut(f64)) -> Result<Found> {
     task.check()?;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.min(MOST_THREADS)).build().map_err(|error| {
@@ -105,13 +110,13 @@ fn none(task: &Task) -> Error {
         .help("draw more candidates, narrow the bounds about a drawing that turns fully, or ask for less in `limits`")
 }
 
-/// The cheapest `count`, in order; of equal ones the first drawn.
+/// Keeps the cheapest `count`, in order; of equal ones the first drawn is first.
 fn keep(candidates: &mut Vec<Candidate>, count: usize) {
     candidates.sort_by(|a, b| a.cost.total_cmp(&b.cost).then(a.number.cmp(&b.number)));
     candidates.truncate(count);
 }
 
-/// Draws and rates candidates.
+/// Draws candidates and computes their costs.
 struct Random<'a> {
     task: &'a Task,
     evaluator: Evaluator<'a>,
@@ -131,7 +136,7 @@ impl<'a> Random<'a> {
         }
     }
 
-    /// The best candidates of a block, and how many could be assembled.
+    /// The best candidates of a block, and the number that could be assembled.
     fn block(&mut self, block: usize) -> (Vec<Candidate>, usize) {
         let effort = &self.task.effort;
         let mut rng = ChaCha8Rng::seed_from_u64(effort.seed);
@@ -154,7 +159,8 @@ impl<'a> Random<'a> {
         (best, assembled)
     }
 
-    /// Cost and sense of a candidate; its crank's zero is chosen on the way, where it is free. `None` if it cannot be assembled, or is far off the limits.
+    /// Cost and sense of a candidate; the crank's zero is chosen here if it is free.
+    /// `None` if it cannot be assembled, or is far outside the limits.
     fn rate(&mut self, shares: &mut [f64]) -> Option<(f64, f64)> {
         if let Some(zero) = self.zero {
             shares[zero] = 0.0;
@@ -219,7 +225,7 @@ mod tests {
 
     #[test]
     fn random_numbers_are_even_and_repeat() {
-        // The upper 53 bits of each draw, in every version of the library: a task's seed stands for its result.
+        // The upper 53 bits of each draw, in every version of the library: a task's seed determines its result.
         let mut bits = ChaCha8Rng::seed_from_u64(5);
         let upper = |rng: &mut ChaCha8Rng| (rng.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
         let draw = || {

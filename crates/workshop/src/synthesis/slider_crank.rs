@@ -1,26 +1,29 @@
 //! Slider-crank from stroke and offset, and the rod's length or the time ratio, in closed form.
 //!
 //! With crank r, rod l and offset e (distance of the crank's pivot from the slider's line) the stroke is
-//! `s = sqrt((l + r)^2 - e^2) - sqrt((l - r)^2 - e^2)`. Squared twice it is linear in r^2: `r^2 = s^2 (4 (l^2 - e^2) - s^2) / (4 (4 l^2 - s^2))`.
-//! The crank turns fully if l > r + |e|; at equality `l = (|e| + sqrt(e^2 + s^2)) / 2`, below which no rod will do. With the time ratio K the
-//! directions of the extreme positions differ by theta = pi (K - 1) / (K + 1), and the nearer of them, n along the line, solves
-//! `n^2 + s n + e^2 - |e| s cot(theta) = 0`. Follows from the right triangles of the extreme positions.
+//! `s = sqrt((l + r)^2 - e^2) - sqrt((l - r)^2 - e^2)`.
+//! Squared twice it is linear in r^2: `r^2 = s^2 (4 (l^2 - e^2) - s^2) / (4 (4 l^2 - s^2))`.
+//! The crank turns fully if l > r + |e|.
+//! At equality `l = (|e| + sqrt(e^2 + s^2)) / 2`; no shorter rod is possible.
+//! With the time ratio K the directions of the extreme positions differ by theta = pi (K - 1) / (K + 1).
+//! The nearer extreme position n along the line solves `n^2 + s n + e^2 - |e| s cot(theta) = 0`.
+//! This follows from the right triangles of the extreme positions.
 
 use std::f64::consts::{PI, TAU};
 
 use super::time_ratio;
 use linkage::error::{Advice, Error, ErrorKind, Result};
 
-/// What a slider-crank is wanted to do, besides its stroke and offset.
+/// Requirement on a slider-crank, besides its stroke and offset.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Given {
     /// Length of the rod (m).
     Rod(f64),
-    /// Time of the slower stroke over that of the faster one, at a constant speed of the crank; 1 or more.
+    /// Time of the slower stroke divided by that of the faster one, at a constant speed of the crank; 1 or more.
     TimeRatio(f64),
 }
 
-/// A slider-crank with its crank's pivot at the origin and the slider's line along x at y = `offset`.
+/// A slider-crank with its crank's pivot at the origin and the slider's line parallel to x at y = `offset`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SliderCrank {
     /// Stroke of the slider (m).
@@ -31,11 +34,11 @@ pub struct SliderCrank {
     pub crank: f64,
     /// Length of the rod (m).
     pub rod: f64,
-    /// Crank angle (rad, from 0 to a turn) and place of the slider along its line (m) where it is farthest from the pivot.
+    /// Crank angle (rad, from 0 to a full turn) and position of the slider along its line (m) where it is farthest from the pivot.
     pub far: [f64; 2],
     /// The same where it is nearest.
     pub near: [f64; 2],
-    /// Time of the slower stroke over that of the faster one.
+    /// Time of the slower stroke divided by that of the faster one.
     pub time_ratio: f64,
     /// Largest angle between the rod and the slider's line (rad): the pressure angle; the transmission angle is its complement.
     pub pressure: f64,
@@ -53,7 +56,7 @@ impl SliderCrank {
     /// The slider-crank with this stroke and offset (m).
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] for numbers that make no sense, [`ErrorKind::Geometry`] where no crank turns fully, with the limit.
+    /// [`ErrorKind::Input`] for numbers that make no sense, [`ErrorKind::Geometry`] if no crank turns fully, with the limit.
     pub fn of(stroke: f64, offset: f64, given: Given) -> Result<Self> {
         if !(stroke > 0.0 && stroke.is_finite()) {
             return Err(wrong("stroke", format!("the stroke is {stroke} m"), "give a length greater than zero"));
@@ -71,7 +74,7 @@ impl SliderCrank {
             Given::TimeRatio(ratio) => of_time_ratio(stroke, e, ratio)?,
         };
         let place = |reach: f64| (reach * reach - e * e).sqrt();
-        // Folded, the rod points from A over O to the slider.
+        // In the folded position, the rod points from A over O to the slider.
         let far = [(offset / (rod + crank)).asin().rem_euclid(TAU), place(rod + crank)];
         let near = [((offset / (rod - crank)).asin() + PI).rem_euclid(TAU), place(rod - crank)];
         let between = (e / (rod - crank)).asin() - (e / (rod + crank)).asin();

@@ -1,19 +1,19 @@
-//! Dimensions that vary: places of points in their links, by coordinates or by distance and direction from another point.
+//! Variable dimensions: positions of points in their links, by coordinates or by distance and direction from another point.
 
 use linkage::math::{Vec2, unit};
 use linkage::mechanism::{Handle, Mechanism};
 
-/// A number that is fixed, or one of those that vary.
+/// A fixed number or a variable.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Entry {
     /// Fixed (SI).
     Fixed(f64),
-    /// The variable of this index.
+    /// The variable with this index.
     Free(usize),
 }
 
 impl Entry {
-    /// Its value (SI), with those of the variables.
+    /// Its value (SI), given the values of the variables.
     #[inline]
     #[must_use]
     pub fn value(self, values: &[f64]) -> f64 {
@@ -24,19 +24,19 @@ impl Entry {
     }
 }
 
-/// The place of a point in its link.
+/// The position of a point in its link.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Place {
     /// The point, and the joints that move with it.
     pub handle: Handle,
-    /// Point of the same link that length and angle count from; without one the entries are x and y.
+    /// Point of the same link from which length and angle are measured. Without it the entries are x and y.
     pub from: Option<usize>,
     /// x and y (m), or length (m) and angle (rad) in the link's frame.
     pub entries: [Entry; 2],
 }
 
 impl Place {
-    /// Puts the point where `values` say.
+    /// Moves the point to the position that `values` define.
     #[inline]
     pub fn apply(&self, values: &[f64], mechanism: &mut Mechanism) {
         let [a, b] = self.entries.map(|entry| entry.value(values));

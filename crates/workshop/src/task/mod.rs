@@ -1,5 +1,5 @@
-//! What a synthesis is given: a structure with a starting drawing, which of its dimensions may vary, what a link or point shall do, and what else must
-//! hold. SI units, world axes.
+//! Input of a synthesis, in SI units and world axes.
+//! It has a structure with a starting drawing, the variable dimensions, the wanted motion of a link or point, and constraints.
 
 mod dimension;
 mod timing;
@@ -12,7 +12,7 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::Vec2;
 use linkage::mechanism::{GroupKind, StartGroup};
 
-/// What is watched.
+/// The output quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Output {
     /// The angle of a link (rad, counter-clockwise positive).
@@ -22,19 +22,19 @@ pub enum Output {
     },
     /// The coordinate of a point along a direction of the world (m).
     Coordinate {
-        /// A link that carries the point.
+        /// A link that contains the point.
         link: usize,
-        /// The point among the link's.
+        /// Index of the point among the link's points.
         point: usize,
         /// Unit vector of the direction.
         along: Vec2,
     },
 }
 
-/// A quantity that varies.
+/// A variable quantity.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Variable {
-    /// Name for people: `crank.A length`.
+    /// Name for the reader: `crank.A length`.
     pub name: String,
     /// Least and greatest value (m or rad).
     pub bounds: [f64; 2],
@@ -42,61 +42,61 @@ pub struct Variable {
     pub is_angle: bool,
 }
 
-/// How long is searched.
+/// Effort of the search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Effort {
     /// Seed of all random numbers.
     pub seed: u64,
-    /// Random candidates.
+    /// Number of random candidates.
     pub candidates: usize,
-    /// Best of them that are refined.
+    /// Number of the best candidates that are refined.
     pub refined: usize,
     /// Evaluations that each refinement may take.
     pub evaluations: usize,
 }
 
-/// A problem of synthesis.
+/// A synthesis task.
 #[derive(Clone, Debug)]
 pub struct Task {
-    /// Short name of the scenario to be found.
+    /// Short name of the resulting scenario.
     pub name: String,
-    /// One line for people.
+    /// Title for the reader, in one line.
     pub title: String,
     /// Structure and starting drawing.
     pub case: Case,
-    /// How its groups start, in the order of the structure.
+    /// Start values of its groups, in the order of the structure.
     pub starts: Vec<StartGroup>,
-    /// The quantities that vary.
+    /// The variable quantities.
     pub variables: Vec<Variable>,
-    /// Places that follow from them, in the order in which they are to be set.
+    /// Positions that follow from them, in the order in which they must be set.
     pub places: Vec<Place>,
-    /// World direction of the crank at the crank angle zero (rad).
+    /// World direction of the crank at crank angle zero (rad).
     pub zero: Entry,
-    /// What is watched.
+    /// The output quantity.
     pub output: Output,
     /// Sense of the output that counts as forward: +1 or -1; `None` leaves it to the search.
     pub forward: Option<f64>,
-    /// What the output shall do.
+    /// The wanted motion of the output.
     pub timing: Timing,
-    /// Smallest and largest stroke of the output that will do (rad or m).
+    /// Smallest and largest permitted stroke of the output (rad or m).
     pub stroke: [f64; 2],
-    /// Smallest transmission angle of any dyad (rad) that will do.
+    /// Smallest permitted transmission angle of any dyad (rad).
     pub transmission: f64,
-    /// How long is searched.
+    /// Effort of the search.
     pub effort: Effort,
-    /// Mass of the links found a metre of their length (kg/m); without it links keep the masses of the drawing.
+    /// Mass of the links found, per metre of their length (kg/m). Without it links keep the masses of the drawing.
     pub bar: Option<f64>,
 }
 
-/// Most random candidates, refinements and evaluations of one: more is a slip of the pen.
+/// Limit of random candidates, of refinements and of evaluations of each: more is most likely a mistyped number.
 pub const MOST: usize = 1_000_000_000;
 
 impl Task {
-    /// Checks what holds between the parts of a task.
+    /// Checks the consistency of the parts of a task.
     ///
     /// # Errors
-    /// [`ErrorKind::Unsupported`] for mechanisms of several freedoms or transmission angles of groups that have none, [`ErrorKind::Input`] if nothing may vary
-    /// or the effort is none.
+    /// [`ErrorKind::Unsupported`] for mechanisms with several degrees of freedom, or transmission angles of groups without any.
+    /// [`ErrorKind::Input`] if nothing may vary or the effort is zero.
     pub fn check(&self) -> Result<()> {
         let wrong = |key: &str, message: &str, help: &str| {
             Err(Error::new(ErrorKind::Input, message.to_string()).key(key).help(help.to_string()))
@@ -124,13 +124,13 @@ impl Task {
         Ok(())
     }
 
-    /// Number of quantities that vary.
+    /// Number of variable quantities.
     #[must_use]
     pub fn freedoms(&self) -> usize {
         self.variables.len()
     }
 
-    /// Sense in which the crank turns: +1 or -1.
+    /// Sense of rotation of the crank: +1 or -1.
     #[must_use]
     pub fn turning(&self) -> f64 {
         self.case.crank().sense()

@@ -1,25 +1,25 @@
-//! What an output shall do over one turn of the crank: phases of motion either way and of rest.
+//! Wanted motion of an output over one turn of the crank: phases of motion in either sense and of dwell.
 
 use std::f64::consts::TAU;
 
 use linkage::error::{Error, ErrorKind, Result};
 
-/// Most phases of a turn: ten degrees each.
+/// Largest number of phases per turn: ten degrees each.
 const MOST_PHASES: usize = 36;
 
-/// What the output does in a phase.
+/// Motion of the output in a phase.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sense {
-    /// It stands still.
+    /// The output is at rest.
     Dwell,
-    /// It goes forward.
+    /// The output moves forward.
     Forward,
-    /// It goes back.
+    /// The output moves back.
     Back,
 }
 
 impl Sense {
-    /// Name, as in files.
+    /// Name, as used in files.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -48,21 +48,22 @@ pub struct Phase {
     pub from: f64,
     /// Crank angle at which it ends (rad).
     pub to: f64,
-    /// What the output does.
+    /// Motion of the output.
     pub sense: Sense,
-    /// Where it shall stand at the end, as a share of the stroke from the rearmost position: 0 to 1. `None` leaves it to the search.
+    /// Wanted position at the end, as a share of the stroke from the rearmost position: 0 to 1.
+    /// `None` leaves it to the search.
     pub level: Option<f64>,
     /// Least displacement of a moving phase, as a share of the stroke.
     pub least: f64,
 }
 
-/// The phases of one turn, one after the other from 0 to a whole turn.
+/// The phases of one turn, in sequence from 0 to a full turn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Timing {
     phases: Vec<Phase>,
-    /// Levels at the ends of all phases, where they are all known.
+    /// Levels at the ends of all phases, if all are known.
     levels: Option<Vec<f64>>,
-    /// Whether the output shall follow the smooth curve between the levels, and not only go the right way.
+    /// Whether the output must follow the smooth curve between the levels, and not only move in the right sense.
     follow: bool,
 }
 
@@ -70,8 +71,9 @@ impl Timing {
     /// The timing of these phases.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] with the number of the phase (`phases[2]`) if they do not follow each other over a whole turn, contradict themselves, or if the curve is
-    /// to be followed and a level is not known.
+    /// [`ErrorKind::Input`] with the number of the phase (`phases[2]`) in these cases:
+    /// the phases do not follow each other over a whole turn, they contradict themselves,
+    /// or the curve must be followed and a level is not known.
     pub fn of(phases: Vec<Phase>, follow: bool) -> Result<Self> {
         let wrong = |index: usize, message: String, help: &str| {
             Err(Error::new(ErrorKind::Input, message).key(format!("phases[{}]", index + 1)).help(help))
@@ -133,7 +135,7 @@ impl Timing {
         &self.phases
     }
 
-    /// Whether the output shall follow [`Timing::wanted`], and not only go the right way.
+    /// Whether the output must follow [`Timing::wanted`], and not only move in the right sense.
     #[must_use]
     pub fn follows(&self) -> bool {
         self.follow
@@ -145,8 +147,10 @@ impl Timing {
         self.levels.as_ref().map(|levels| levels[phase]).or(self.phases[phase].level)
     }
 
-    /// Share of the stroke (0 rearmost, 1 foremost) at the crank angle `crank` (rad, 0 to a turn) on the smooth curve through all levels: cycloidal,
-    /// without jumps of the acceleration: u - sin(2 pi u) / 2 pi. `None` if not all levels are known.
+    /// Share of the stroke (0 rearmost, 1 foremost) at the crank angle `crank` (rad, 0 to a full turn).
+    /// It is on the smooth curve through all levels.
+    /// The curve is cycloidal, without jumps of the acceleration: u - sin(2 pi u) / 2 pi.
+    /// `None` if not all levels are known.
     #[must_use]
     pub fn wanted(&self, crank: f64) -> Option<f64> {
         let levels = self.levels.as_ref()?;
@@ -158,7 +162,7 @@ impl Timing {
     }
 }
 
-/// Levels at the ends of all phases: those given, those that a dwell keeps, and 1 and 0 where there is one motion forward and one back.
+/// Levels at the ends of all phases: those given, those that a dwell keeps, and 1 and 0 if there is one motion forward and one back.
 fn levels(phases: &[Phase]) -> Option<Vec<f64>> {
     let alone = |sense: Sense| phases.iter().filter(|phase| phase.sense == sense).count() == 1;
     let simple = alone(Sense::Forward) && alone(Sense::Back);
@@ -171,7 +175,7 @@ fn levels(phases: &[Phase]) -> Option<Vec<f64>> {
         })
         .collect();
     let count = phases.len();
-    // Twice round: a dwell at the start of the turn keeps the level of the end.
+    // Two passes: a dwell at the start of the turn keeps the level of the end.
     for index in 0..2 * count {
         let (own, before) = (index % count, (index + count - 1) % count);
         if phases[own].sense == Sense::Dwell && found[own].is_none() {

@@ -1,4 +1,4 @@
-//! Dyads with two prismatic pairs.
+//! Dyads with two prismatic joints.
 
 use linkage::math::{Vec2, cross, rotated, turned, unit};
 use linkage::mechanism::{AssemblyMode, LinkPose};
@@ -15,8 +15,8 @@ const SLOT: Vec2 = Vec2::new(0.03, -0.02);
 
 /// RPP: crank 0.1 m, block on its pin, sliding in the oblique slot of a yoke that slides on the ground.
 ///
-/// The block's place Q = A + const stays on the slot: with the slot's normal m, s = m . (Q - G - slot) / m . g; both derivatives are
-/// those of A.
+/// The block's place Q = A + const stays on the slot: with the slot's normal m, s = m . (Q - G - slot) / m . g; both
+/// derivatives are those of A.
 pub fn scotch_yoke() -> Sample {
     let links = vec![
         link("ground", &[("O", Vec2::zeros()), ("G", YOKE_GUIDE)], [0.0; 4]),
@@ -56,8 +56,8 @@ const CRANK_PLACE: Vec2 = Vec2::new(0.05, 0.02);
 
 /// PRP: block sliding on the crank, pinned to a slider on the ground.
 ///
-/// The pin B = L + s g lies h beside the crank's axis e: n . (L + s g) = h, so s = (h - n . L) / n . g; with n' = -w e and s' from n . B = h:
-/// s' n . g = w e . B and s'' n . g = 2 w s' e . g + w^2 n . B.
+/// The pin B = L + s g lies h beside the crank's axis e: n . (L + s g) = h, so s = (h - n . L) / n . g; with n' = -w e
+/// and s' from n . B = h: s' n . g = w e . B and s'' n . g = 2 w s' e . g + w^2 n . B.
 pub fn slotted_crank() -> Sample {
     let links = vec![
         link("ground", &[("O", Vec2::zeros()), ("L", LINE)], [0.0; 4]),
@@ -79,7 +79,7 @@ pub fn slotted_crank() -> Sample {
         let pin = LINE + g * s;
         let speed = SPEED * e.dot(&pin) / n.dot(&g);
         let second = (2.0 * SPEED * speed * e.dot(&g) + SPEED * SPEED * n.dot(&pin)) / n.dot(&g);
-        // The slide counts from the slider, the joint's first link, to the ground.
+        // The slide is measured from the slider, the joint's first link, to the ground.
         Exact { slide: [-s, -speed, -second], angle: [crank + CRANK_AXIS - BLOCK_AXIS, SPEED, 0.0] }
     };
     let start = 1.2;
@@ -98,8 +98,8 @@ const SHAFTS: Vec2 = Vec2::new(0.03, 0.04);
 const DISC_AXIS: f64 = 0.8;
 const OUTPUT_AXIS: f64 = -0.35;
 
-/// RPP in rotation: an Oldham coupling. The disc's middle runs on the circle whose diameter is the distance of the shafts, at
-/// twice the speed: M = C/2 + |C|/2 unit(2 phi - arg C), and the slide on the crank is e . M = e . C.
+/// RPP in rotation: an Oldham coupling. The centre of the disc moves at twice the speed on a circle whose diameter is
+/// the distance of the shafts: M = C/2 + |C|/2 unit(2 phi - arg C). The slide on the crank is e . M = e . C.
 pub fn oldham() -> Sample {
     let far = Vec2::new(0.0, 0.1);
     let links = vec![

@@ -5,18 +5,18 @@ use super::style::{BLACK, GREY};
 use crate::diagram::scale::{factor, round_up};
 use linkage::math::{KeepNan, Vec2};
 
-/// Line of a grid.
+/// Style of a grid line.
 pub const GRID: Style = solid("#c8c8c8", 0.15);
 
-/// An upright axis between two round values.
+/// A vertical axis between two round values.
 #[derive(Clone, Copy, Debug)]
 pub struct Axis {
     /// Its ends, in steps.
     bottom: f64,
     up: f64,
-    /// Values between two lines of the grid.
+    /// Value between two grid lines.
     step: f64,
-    /// Scale factor (units a millimetre).
+    /// Scale factor (units per millimetre).
     pub scale: f64,
 }
 
@@ -38,7 +38,7 @@ impl Axis {
         self.y(self.up * self.step)
     }
 
-    /// Lines at round values, `long` (mm), and their numbers to the left.
+    /// Grid lines at round values, `long` (mm) in length, and their numbers on the left.
     pub fn draw(&self, figure: &mut Figure, long: f64) {
         let step = self.step;
         for k in 0..=(self.up - self.bottom).round() as i32 {
@@ -51,7 +51,7 @@ impl Axis {
     }
 }
 
-/// The frame of a diagram, its lower left corner at the origin.
+/// The frame of a diagram; its lower left corner is the origin.
 pub fn frame(figure: &mut Figure, [long, high]: [f64; 2]) {
     let corners = [(0.0, 0.0), (long, 0.0), (long, high), (0.0, high)].map(|(x, y)| Vec2::new(x, y));
     figure.shape(corners.to_vec(), true, None, solid(GREY, 0.25));
@@ -66,7 +66,7 @@ fn number(value: f64, step: f64) -> String {
     if value == 0.0 {
         return "0".into();
     }
-    // Some multiples of a round number are a rounding beside one.
+    // Some multiples of a round number differ from the round value by rounding.
     let round: f64 = format!("{value:.9e}").parse().unwrap_or(value);
     format!("{round:e}")
 }

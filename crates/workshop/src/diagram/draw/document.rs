@@ -1,4 +1,4 @@
-//! A drawing as an SVG document.
+//! Writes a drawing as an SVG document.
 
 use super::figure::Figure;
 use svg::Document;

@@ -1,19 +1,20 @@
-//! What a figure is made of: lines, shapes and words, in millimetres with y upwards, kept until they are put on paper.
+//! A figure consists of lines, shapes and text, in millimetres with y upwards.
+//! They are stored until they are written as SVG.
 
 use svg::node::Blob;
 use svg::node::element::{Circle, Group, Line, Path, Title};
 
 use linkage::math::{KeepNan, Vec2, turned};
 
-/// Begins a subscript, a superscript, and ends either.
+/// Control characters: begin of a subscript, begin of a superscript, end of either.
 const SUB: char = '\u{1}';
 const SUP: char = '\u{2}';
 const END: char = '\u{3}';
-/// Mean width of a letter over the size of the type.
+/// Mean width of a letter divided by the font size.
 const LETTER: f64 = 0.56;
-/// Size of sub- and superscripts over that of the type.
+/// Size of sub- and superscripts divided by the font size.
 const SMALL: f64 = 0.72;
-/// Length of an arrow's head (mm), and its largest share of the arrow.
+/// Length of an arrow head (mm), and its largest share of the arrow.
 const HEAD: f64 = 2.8;
 const HEAD_SHARE: f64 = 0.45;
 
@@ -33,12 +34,12 @@ pub fn scripted(name: &str) -> String {
     lifted(symbol, false) + &lifted(rest, true)
 }
 
-/// Text fit for XML: without control characters.
+/// Text without control characters, as XML requires.
 pub fn clean(text: &str) -> String {
     text.chars().filter(|sign| !sign.is_control()).collect()
 }
 
-/// Estimated width of a text (mm) at the size of its type.
+/// Estimated width of a text (mm) at its font size.
 pub fn width(text: &str, size: f64) -> f64 {
     let mut scale = 1.0;
     let mut sum = 0.0;
@@ -52,7 +53,7 @@ pub fn width(text: &str, size: f64) -> f64 {
     sum
 }
 
-/// How far a text reaches to the left of its place.
+/// Distance (mm) that a text extends to the left of its position.
 fn left(text: &str, set: &Type) -> f64 {
     match set.anchor {
         "middle" => width(text, set.size) / 2.0,
@@ -74,7 +75,7 @@ pub const fn solid(colour: &'static str, width: f64) -> Style {
     Style { colour, width, dash: "" }
 }
 
-/// How a text is set.
+/// Typography of a text.
 #[derive(Clone, Copy, Debug)]
 pub struct Type {
     pub size: f64,
@@ -85,7 +86,7 @@ pub struct Type {
     pub bold: bool,
 }
 
-/// Upright text that starts at its place.
+/// Upright text that starts at its position.
 pub const fn words(size: f64) -> Type {
     Type { size, colour: super::style::BLACK, anchor: "start", italic: false, bold: false }
 }
@@ -112,7 +113,7 @@ impl Figure {
         self.ink.push(Ink::Line(ends, style));
     }
 
-    /// An arrow with a name that shows when it is pointed at.
+    /// An arrow with a name that appears when the mouse points at it.
     pub fn arrow(&mut self, ends: [Vec2; 2], style: Style, name: String) {
         ends.iter().for_each(|end| self.reach(*end));
         self.ink.push(Ink::Arrow(ends, style, name));
@@ -139,12 +140,12 @@ impl Figure {
         self.ink.push(Ink::Text { at, text, set });
     }
 
-    /// Lower left and upper right corner of everything drawn.
+    /// Lower left and upper right corner of all elements.
     pub fn bounds(&self) -> [Vec2; 2] {
         self.low.unwrap_or([Vec2::zeros(); 2])
     }
 
-    /// Puts all of `other` into this figure, moved by `offset`.
+    /// Adds all of `other` to this figure, moved by `offset`.
     pub fn add(&mut self, other: &Figure, offset: Vec2) {
         if let Some(bounds) = other.low {
             bounds.iter().for_each(|corner| self.reach(corner + offset));
@@ -157,7 +158,7 @@ impl Figure {
         self.low = Some([low.inf(&at), high.sup(&at)]);
     }
 
-    /// The figure as elements; its y axis is turned downwards.
+    /// The figure as SVG elements; its y axis is turned downwards.
     pub fn nodes(&self) -> impl Iterator<Item = Box<dyn svg::Node>> + '_ {
         self.ink.iter().map(Ink::node)
     }
@@ -205,7 +206,7 @@ impl Ink {
     }
 }
 
-/// A length on paper with hundredths of a millimetre; without a sign if it is zero.
+/// A length on paper rounded to hundredths of a millimetre; zero has no sign.
 fn mm(value: f64) -> f64 {
     (value * 100.0).round() / 100.0 + 0.0
 }
@@ -234,7 +235,7 @@ fn arrow(ends: [Vec2; 2], style: &Style, name: &str) -> Group {
     group.add(line(&[ends[0], base + unit * 0.3], style)).add(head)
 }
 
-/// Written out, because an element inside a text must not be set apart by blanks.
+/// Written as a string, because an element inside a text must not be separated by white space.
 fn text_element(at: Vec2, text: &str, set: &Type) -> String {
     let size = set.size;
     let mut shift = 0.0;
@@ -263,7 +264,7 @@ fn text_element(at: Vec2, text: &str, set: &Type) -> String {
     let face =
         if set.italic { " font-family=\"Liberation Serif, Times New Roman, serif\" font-style=\"italic\"" } else { "" };
     let weight = if set.bold { " font-weight=\"bold\"" } else { "" };
-    // Not all viewers centre a text of several pieces; its estimated width serves them all.
+    // Not all viewers centre a text of several pieces; the estimated width works in all of them.
     let pieces = text.contains([SUB, SUP]);
     let x = at.x - if pieces { left(text, set) } else { 0.0 };
     let anchor =

@@ -1,4 +1,4 @@
-//! The sheet of graphs over the crank angle, one below the other.
+//! The sheet of graphs over the crank angle, arranged vertically.
 
 use super::axes::{Axis, GRID, frame};
 use super::document::document;
@@ -7,19 +7,19 @@ use super::style::{COLOURS, significant};
 use crate::diagram::graphs::{Graph, Graphs};
 use linkage::math::{KeepNan, Vec2};
 
-/// Length of the crank angle's axis (mm): over one turn two degrees a millimetre.
+/// Length of the crank angle axis (mm): over one turn two degrees per millimetre.
 const LONG: f64 = 180.0;
-/// Height of a graph, at most, and what stands between two.
+/// Largest height of a graph, and distance between two graphs (mm).
 const HIGH: f64 = 56.0;
 const BETWEEN: f64 = 6.0;
-/// Margins to the left, for the numbers of the axis, and elsewhere.
+/// Left margin, for the numbers of the axis, and the other margins (mm).
 const LEFT: f64 = 22.0;
 const MARGIN: f64 = 12.0;
-/// Room above and below a curve for the words at its extremes, as a share of its range.
+/// Room above and below a curve for the text at its extremes, as a share of its range.
 const ROOM: f64 = 0.2;
-/// Closer to an end of the axis than this (mm), words at an extreme start or end at it.
+/// Closer to an end of the axis than this (mm), the text at an extreme starts or ends there.
 const ASIDE: f64 = 28.0;
-/// Line of a mean.
+/// Style of the line at the mean.
 const MEAN: Style = Style { colour: COLOURS[1], width: 0.3, dash: "2 1.2" };
 
 /// The graphs as an SVG document; `title` is written above them.
@@ -43,11 +43,11 @@ pub fn graphs(graphs: &Graphs, title: &str) -> String {
     document(&sheet, [(high.x + MARGIN).ceil(), (MARGIN - low.y).ceil()], title)
 }
 
-/// One graph: the lower left corner of its frame at the origin.
+/// One graph; the lower left corner of its frame is the origin.
 fn panel(graph: &Graph, [start, end]: [f64; 2]) -> Figure {
     let mut figure = Figure::default();
     let constant = graph.is_constant();
-    // Roundings next to the quantity's size are zero.
+    // Rounding errors relative to the quantity's size are shown as zero.
     let clear = |value: f64| if value.abs() <= 1e-9 * graph.size.abs() { 0.0 } else { value };
     let mean = clear(graph.mean);
     let [low, high] = if constant { [mean.smaller(0.0), mean.larger(0.0)] } else { graph.range() };
@@ -88,11 +88,11 @@ fn panel(graph: &Graph, [start, end]: [f64; 2]) -> Figure {
     figure
 }
 
-/// Lines at round crank angles, their numbers, and what they are.
+/// Grid lines at round crank angles, their numbers, and the axis title.
 fn angles(figure: &mut Figure, [start, end]: [f64; 2], height: f64) {
     let (from, to) = (start.to_degrees(), end.to_degrees());
     let every = 30.0 * ((to - from).abs() / 360.0).ceil().larger(1.0);
-    // A rounding beyond an end belongs to the end.
+    // An angle beyond an end by rounding counts as the end.
     let [first, last] = [(from.smaller(to) / every - 1e-9).ceil(), (from.larger(to) / every + 1e-9).floor()];
     for k in 0..=(last - first).larger(0.0) as u32 {
         let degrees = (first + f64::from(k)) * every + 0.0;

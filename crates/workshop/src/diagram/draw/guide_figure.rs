@@ -1,4 +1,5 @@
-//! Guides and blocks of the kinematic diagram: hatched rails of the ground, lines of moving links, rectangles that slide on either.
+//! Guides and blocks of the kinematic diagram.
+//! The ground's guides are hatched rails, moving links' guides are lines, and the blocks on them are rectangles.
 
 use super::figure::{Figure, Style, solid};
 use super::labels::{Obstacles, inside};
@@ -6,29 +7,31 @@ use super::style::{BLACK, GREY, colour};
 use crate::diagram::scheme::{Scheme, SchemeGuide};
 use linkage::math::{KeepNan, Vec2, turned};
 
-/// Half length and half width (mm) of a block in a fixed guide, and on a moving one: where both sit on one pin, both are seen.
+/// Half length and half width (mm) of a block in a fixed guide, and on a moving one.
+/// They differ so that both are visible if they sit on the same joint.
 const FIXED: [f64; 2] = [5.0, 3.2];
 const MOVING: [f64; 2] = [3.8, 2.0];
-/// Room (mm) between a block and the rail beside it.
+/// Clearance (mm) between a block and the rail beside it.
 const PLAY: f64 = 0.4;
-/// Length (mm) of hatching lines, and their distance along the rail.
+/// Length (mm) of hatching lines, and their spacing along the rail.
 const HATCH: f64 = 1.6;
 const PITCH: f64 = 2.0;
-/// Axes longer than this (mm) on from the rail are not drawn to the point of the ground that they go through.
+/// Longest extension of an axis beyond the rail (mm) towards the ground point that it goes through.
 const AXIS: f64 = 150.0;
 
-/// Half length and half width of the block on a guide.
+/// Half length and half width (mm) of the block on a guide.
 fn half(guide: &SchemeGuide) -> [f64; 2] {
     if guide.link == 0 { FIXED } else { MOVING }
 }
 
-/// Ends on paper of the way that the block itself covers.
+/// End points on paper of the path that the block itself covers.
 fn covered(guide: &SchemeGuide, scale: f64) -> [Vec2; 2] {
     let reach = guide.axis * half(guide)[0];
     [guide.ends[0] / scale - reach, guide.ends[1] / scale + reach]
 }
 
-/// Rails and axes of the fixed guides, on which the links will lie. Rails leave the boxes of `pivots` free: centre and half size of each.
+/// Rails and axes of the fixed guides, drawn beneath the links.
+/// Rails leave the boxes of `pivots` free: centre and half size of each.
 pub fn rails(figure: &mut Figure, scheme: &Scheme, pivots: &[[Vec2; 2]], obstacles: &mut Obstacles) {
     let mut drawn: Vec<[Vec2; 2]> = Vec::new();
     for guide in scheme.guides.iter().filter(|guide| guide.link == 0) {
@@ -36,7 +39,7 @@ pub fn rails(figure: &mut Figure, scheme: &Scheme, pivots: &[[Vec2; 2]], obstacl
         let origin = guide.origin / scheme.scale;
         let along = |at: Vec2| (at - ends[0]).dot(&guide.axis);
         let length = along(ends[1]);
-        // From the point of the ground, or the rail's own ends, a little over both.
+        // From the ground point, or the rail's own ends, a little beyond both.
         let near = along(origin).clamp(-AXIS, length + AXIS);
         let axis = [near.smaller(0.0) - 2.0, near.larger(length) + 2.0].map(|way| ends[0] + guide.axis * way);
         figure.line(axis, Style { colour: GREY, width: 0.2, dash: "4 1 0.5 1" });
@@ -45,7 +48,7 @@ pub fn rails(figure: &mut Figure, scheme: &Scheme, pivots: &[[Vec2; 2]], obstacl
             let rail = ends.map(|end| end + side * (FIXED[1] + PLAY));
             for piece in pieces(rail, pivots) {
                 figure.line(piece, solid(BLACK, 0.5));
-                // Hatching of two guides on one axis would fill the gaps of each other.
+                // Hatching of two guides on the same axis would fill each other's gaps.
                 let feet = feet(piece).filter(|foot| !drawn.iter().any(|other| on(*foot, other)));
                 for foot in feet {
                     figure.line([foot, foot + (side - guide.axis) * HATCH], solid(BLACK, 0.2));
@@ -57,7 +60,7 @@ pub fn rails(figure: &mut Figure, scheme: &Scheme, pivots: &[[Vec2; 2]], obstacl
     }
 }
 
-/// What is left of a rail outside all boxes.
+/// The parts of a rail outside all boxes.
 fn pieces(rail: [Vec2; 2], boxes: &[[Vec2; 2]]) -> Vec<[Vec2; 2]> {
     boxes.iter().fold(vec![rail], |pieces, &[centre, half]| {
         let cut = |piece: [Vec2; 2]| match inside(&piece, centre, half) {
@@ -71,7 +74,7 @@ fn pieces(rail: [Vec2; 2], boxes: &[[Vec2; 2]]) -> Vec<[Vec2; 2]> {
     })
 }
 
-/// Feet of the hatching of a rail.
+/// Start points of the hatching lines of a rail.
 fn feet([start, end]: [Vec2; 2]) -> impl Iterator<Item = Vec2> {
     let (length, axis) = ((end - start).norm(), (end - start).normalize());
     let strokes = ((length - HATCH) / PITCH).floor().larger(0.0) + 1.0;
@@ -79,7 +82,7 @@ fn feet([start, end]: [Vec2; 2]) -> impl Iterator<Item = Vec2> {
     (0..strokes as usize).map(move |k| start + axis * (inset + PITCH * k as f64))
 }
 
-/// Whether a foot lies on a rail from `a` to `b`.
+/// Whether the start point of a hatching line lies on a rail from `a` to `b`.
 fn on(foot: Vec2, &[a, b]: &[Vec2; 2]) -> bool {
     let axis = (b - a).normalize();
     let way = (foot - a).dot(&axis);
@@ -90,7 +93,7 @@ fn on(foot: Vec2, &[a, b]: &[Vec2; 2]) -> bool {
 pub fn slots(figure: &mut Figure, scheme: &Scheme, obstacles: &mut Obstacles) {
     for guide in scheme.guides.iter().filter(|guide| guide.link != 0) {
         let [start, end] = covered(guide, scheme.scale);
-        // A guide's line begins at the joint's place on its link, wherever the block is.
+        // A guide's line begins at the joint's point on its link, wherever the block is.
         let origin = guide.origin / scheme.scale;
         let way = (origin - start).dot(&guide.axis);
         let ends = [start + guide.axis * way.smaller(0.0), start + guide.axis * way.larger((end - start).norm())];
@@ -99,7 +102,7 @@ pub fn slots(figure: &mut Figure, scheme: &Scheme, obstacles: &mut Obstacles) {
     }
 }
 
-/// The blocks, those in fixed guides first, which are larger.
+/// The blocks; those in fixed guides come first because they are larger.
 pub fn blocks(figure: &mut Figure, scheme: &Scheme, obstacles: &mut Obstacles) {
     let (fixed, moving): (Vec<&SchemeGuide>, Vec<&SchemeGuide>) =
         scheme.guides.iter().partition(|guide| guide.link == 0);
@@ -116,7 +119,7 @@ pub fn blocks(figure: &mut Figure, scheme: &Scheme, obstacles: &mut Obstacles) {
     }
 }
 
-/// A point of the ground that is no pivot: a short stroke across the axis it lies on.
+/// A ground point that is not a pivot: a short stroke across the axis it lies on.
 pub fn mark(figure: &mut Figure, at: Vec2, axis: Vec2) {
     let half = turned(axis) * 1.4;
     figure.line([at - half, at + half], solid(BLACK, 0.4));

@@ -1,8 +1,9 @@
-//! Places letters so that they touch neither lines nor each other: each takes the cheapest of the places around its anchor, in a few rounds.
+//! Places labels so that they touch neither lines nor each other.
+//! Each label takes the cheapest position around its anchor, in a few rounds.
 
 use linkage::math::{KeepNan, Vec2};
 
-/// Room that a letter keeps from lines (mm).
+/// Clearance between a label and lines (mm).
 const AIR: f64 = 0.5;
 /// Directions tried around an anchor.
 const DIRECTIONS: usize = 32;
@@ -10,23 +11,23 @@ const DIRECTIONS: usize = 32;
 const DISTANCES: [f64; 8] = [0.6, 1.2, 2.0, 3.0, 4.5, 6.5, 9.0, 12.0];
 /// Rounds after which nothing moves any more in practice.
 const ROUNDS: usize = 6;
-/// Distance (mm) of points whose letters may get in each other's way.
+/// Largest distance (mm) of points whose labels may conflict.
 const NEIGHBOURS: f64 = 12.0;
 
-/// A letter to be placed; paper coordinates (mm), y upwards.
+/// A label to be placed; paper coordinates (mm), y upwards.
 #[derive(Clone, Copy, Debug)]
 pub struct Label {
     /// The point it names.
     pub anchor: Vec2,
-    /// Direction in which it should stand; zero if that is all the same.
+    /// Preferred direction from the anchor; zero if there is none.
     pub away: Vec2,
-    /// Width and height of its box.
+    /// Width and height of its box (mm).
     pub size: Vec2,
-    /// Radius around the anchor that is taken by its mark.
+    /// Radius (mm) around the anchor that its mark covers.
     pub clear: f64,
 }
 
-/// What letters must not touch.
+/// Elements that labels must not touch.
 #[derive(Clone, Debug, Default)]
 pub struct Obstacles {
     /// Lines.
@@ -51,7 +52,8 @@ pub fn place(labels: &[Label], obstacles: &Obstacles) -> Vec<Vec2> {
     places.into_iter().zip(labels).map(|(place, label)| place.unwrap_or(label.anchor)).collect()
 }
 
-/// Lets neighbours change places where that is better for the two together: one alone would not leave a place that only it can take.
+/// Lets neighbours exchange positions if that is better for the two together.
+/// A single label would not leave a position that only it can take.
 fn trade(labels: &[Label], places: &mut [Option<Vec2>], obstacles: &Obstacles) {
     let both = |a: usize, b: usize, places: &[Option<Vec2>]| {
         let one = |index: usize| places[index].map_or(f64::INFINITY, |at| cost(index, at, labels, places, obstacles));
@@ -66,7 +68,7 @@ fn trade(labels: &[Label], places: &mut [Option<Vec2>], obstacles: &Obstacles) {
             places[b] = None;
             places[a] = cheapest(a, labels, places, obstacles);
             places[b] = cheapest(b, labels, places, obstacles);
-            // A trade that gains nothing would be taken back and forth.
+            // An exchange without gain would be repeated back and forth.
             if !(both(a, b, places) < was - 1e-9) {
                 [places[a], places[b]] = old;
             }
@@ -121,12 +123,12 @@ fn cost(index: usize, place: Vec2, labels: &[Label], places: &[Option<Vec2>], ob
             if overlap.x > 0.0 && overlap.y > 0.0 {
                 cost += 40.0 + 10.0 * overlap.x.smaller(overlap.y);
             }
-            // What leads from a letter to its point must not pass through another letter.
+            // The line from a label to its point must not pass through another label.
             let crossed = length_inside(&[label.anchor, place], *at, other.size / 2.0)
                 + length_inside(&[other.anchor, *at], place, label.size / 2.0);
             cost += if crossed > 0.0 { 7.0 } else { 0.0 };
         }
-        // Nearer to another point than to its own, a letter misleads.
+        // A label nearer to another point than to its own misleads.
         if (other.anchor - place).norm() < distance {
             cost += 9.0;
         }

@@ -1,4 +1,4 @@
-//! Drawings as SVG, one unit a millimetre: printed at full size they are true to the scale factors written on them.
+//! Drawings as SVG, with one unit per millimetre. Printed at full size they have the scale factors written on them.
 
 mod axes;
 mod document;

@@ -1,4 +1,4 @@
-//! The sheet of motion diagrams: displacement, velocity and acceleration over the crank angle, one below the other.
+//! The sheet of motion diagrams: displacement, velocity and acceleration over the crank angle, arranged vertically.
 
 use super::axes::{Axis, GRID, frame};
 use super::document::document;
@@ -7,15 +7,15 @@ use super::style::{BLACK, COLOURS, significant};
 use crate::diagram::motion::{Found, Method, MotionDiagram};
 use linkage::math::{KeepNan, Vec2};
 
-/// Length of the crank angle's axis (mm): two degrees a millimetre.
+/// Length of the crank angle axis (mm): two degrees per millimetre.
 const LONG: f64 = 180.0;
-/// Height of a diagram, at most, and what stands between two.
+/// Largest height of a diagram, and distance between two diagrams (mm).
 const HIGH: f64 = 60.0;
 const BETWEEN: f64 = 10.0;
-/// Margins to the left, for the numbers of the axis, and elsewhere.
+/// Left margin, for the numbers of the axis, and the other margins (mm).
 const LEFT: f64 = 28.0;
 const MARGIN: f64 = 12.0;
-/// Most points of a curve on paper: more do not show.
+/// Largest number of points of a curve on paper: more are not visible.
 const POINTS: usize = 361;
 
 /// The diagrams as an SVG document; `title` is written above them.
@@ -39,7 +39,7 @@ pub fn motion(diagram: &MotionDiagram, title: &str) -> String {
     document(&sheet, [(high.x + MARGIN).ceil(), (MARGIN - low.y).ceil()], title)
 }
 
-/// One diagram: the lower left corner of its frame at the origin.
+/// One diagram; the lower left corner of its frame is the origin.
 fn panel(diagram: &MotionDiagram, which: usize) -> Figure {
     let mut figure = Figure::default();
     let exact = &diagram.exact[which];
@@ -74,7 +74,7 @@ fn panel(diagram: &MotionDiagram, which: usize) -> Figure {
     figure
 }
 
-/// Which mark is what, and how far it is from the curve.
+/// The legend: the method of each mark, and its error relative to the curve.
 fn caption(figure: &mut Figure, found: &[&Found], which: usize, unit: &str) {
     let mut line = -9.5;
     if which == 0 {

@@ -8,16 +8,16 @@ use crate::diagram::builder::NOTHING;
 use crate::diagram::vectors::{Part, Plan, Tip, TipKind, Vector};
 use linkage::math::{KeepNan, Vec2};
 
-/// Size of letters (mm).
+/// Font size of labels (mm).
 pub const LETTER: f64 = 4.2;
-/// Points nearer to each other on paper (mm) share one label.
+/// Points closer to each other on paper than this (mm) share one label.
 const ONE: f64 = 0.7;
-/// Arrows shorter than this (mm) are points.
+/// Arrows shorter than this (mm) are drawn as points.
 const POINT: f64 = 0.15;
-/// Labels farther than this from their point (mm) are joined with it by a line.
+/// Labels farther than this from their point (mm) are connected with it by a line.
 const FAR: f64 = 3.2;
 
-/// How vectors of a sort are drawn.
+/// Line style of each kind of vector.
 pub fn style(vector: &Vector) -> Style {
     match vector.part {
         Part::Absolute => solid(BLACK, 0.5),
@@ -30,7 +30,7 @@ pub fn style(vector: &Vector) -> Style {
     }
 }
 
-/// The plan with its pole at the origin.
+/// The plan; its pole is the origin.
 pub fn plan(plan: &Plan) -> Figure {
     let mut figure = Figure::default();
     let mut obstacles = Obstacles::default();
@@ -76,12 +76,13 @@ pub fn plan(plan: &Plan) -> Figure {
     figure
 }
 
-/// Box of a label: a little more than its letters take in the faces that viewers fall back on, subscripts included.
+/// Box of a label.
+/// It is a little larger than its letters in the fonts that viewers fall back on, subscripts included.
 pub fn label_size(text: &str) -> Vec2 {
     Vec2::new(1.05 * width(text, LETTER), 1.15 * LETTER)
 }
 
-/// A letter at its place, with a line to its point if that is far.
+/// A label at its position, with a line to its point if that is far away.
 pub fn letter(figure: &mut Figure, label: &Label, at: Vec2, text: &str, paint: &'static str) {
     let toward = label.anchor - at;
     let half = label.size / 2.0;
@@ -94,13 +95,13 @@ pub fn letter(figure: &mut Figure, label: &Label, at: Vec2, text: &str, paint: &
     figure.text(at - Vec2::new(0.0, 0.28 * LETTER), text, set);
 }
 
-/// Points of the plan on paper and the letters of all that coincide there; the pole first.
+/// Points of the plan on paper, with the letters of all points that coincide there; the pole is first.
 fn marks(plan: &Plan) -> Vec<(Vec2, String)> {
     let mut marks: Vec<(Vec2, String)> = Vec::new();
     for tip in &plan.tips {
         let at = tip.at / plan.scale;
         match marks.iter_mut().find(|(place, _)| (place - at).norm() < ONE) {
-            // An end of a part that no eye can tell from another point needs no letter.
+            // The end of a part that coincides visibly with another point needs no letter.
             Some(_) if matches!(tip.kind, TipKind::Normal | TipKind::Coriolis) => {}
             Some((_, text)) => *text += &format!(", {}", letters(tip)),
             None => marks.push((at, letters(tip))),
@@ -119,14 +120,14 @@ fn letters(tip: &Tip) -> String {
     }
 }
 
-/// All vectors of the plan with their sizes.
+/// All vectors of the plan with their magnitudes.
 pub fn table(plan: &Plan) -> Table {
     let letter = |name: &String| plan.tips.iter().find(|tip| tip.letter == *name).map_or_else(|| name.clone(), letters);
     let rows = plan.vectors.iter().map(|vector| {
         let meaning = vector.meaning.replace(", perpendicular to the ", " ⊥ ").replace(", along the ", " ∥ ");
         let meaning = meaning.replace(", perpendicular to ", " ⊥ ");
         let meaning = meaning.replace("omega^2", "ω²").replace("omega x", "ω ×").replace("alpha", "α");
-        // In a dead position nothing but rounding is left of some vectors.
+        // At a dead point some vectors consist of rounding errors only.
         let size = if plan.paper(vector) > NOTHING { vector.value.norm() } else { 0.0 };
         let cells = vec![
             scripted(&vector.name),

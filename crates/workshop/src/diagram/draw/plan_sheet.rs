@@ -1,4 +1,5 @@
-//! The sheet of a mechanism's plans: kinematic diagram, velocity plan and acceleration plan side by side, each above its table.
+//! The sheet of a mechanism's plans: kinematic diagram, velocity plan and acceleration plan side by side.
+//! Each stands above its table.
 
 use super::document::document;
 use super::figure::{Figure, Type, scripted, sub, words};
@@ -7,11 +8,11 @@ use crate::diagram::plan::Plans;
 use crate::diagram::vectors::Plan;
 use linkage::math::{KeepNan, Vec2};
 
-/// Margin of the sheet, room between columns, and between a figure and its table (mm).
+/// Margin of the sheet, distance between columns, and distance between a figure and its table (mm).
 const MARGIN: f64 = 10.0;
 const GAP: f64 = 14.0;
 const SPACE: f64 = 6.0;
-/// Height of the sheet's title and of a column's heading.
+/// Height of the sheet's title and of a column's heading (mm).
 const TITLE: f64 = 18.0;
 const HEADING: f64 = 13.0;
 
@@ -62,7 +63,7 @@ pub fn plans(plans: &Plans, name: &str, title: &str) -> String {
     document(&sheet, [(high.x.larger(left - GAP) + MARGIN).ceil(), (MARGIN - low.y).ceil()], name)
 }
 
-/// An angle in degrees, without digits that are rounding.
+/// An angle in degrees, without digits that are only rounding.
 fn degrees(angle: f64) -> String {
     let degrees = (angle.to_degrees() * 1e6).round() / 1e6 + 0.0;
     format!("{degrees}")

@@ -10,19 +10,19 @@ use crate::diagram::scheme::{Scheme, SchemeLink};
 use crate::diagram::singular::SingularPoint;
 use linkage::math::{KeepNan, Vec2, cross, turned, unit};
 
-/// Radius of a joint's mark, of the disc around a link's number, and of a mass centre's mark.
+/// Radius (mm) of a joint's mark, of the disc around a link's number, and of a mass centre's mark.
 const PIN: f64 = 1.1;
 const NUMBER: f64 = 2.1;
 const MASS: f64 = 1.0;
-/// Radius of the arrow that shows the sense of the crank's rotation, and its angle (rad).
+/// Radius (mm) of the arrow that shows the crank's sense of rotation, and its angle (rad).
 const SENSE: f64 = 8.0;
 const SWEEP: f64 = 1.7;
-/// Share of what is natural below which an angular velocity or acceleration is rounding.
+/// Share of the natural scale below which an angular velocity or acceleration is rounding.
 const ROUNDING: f64 = 1e-12;
-/// A singular point farther than this (mm) from the leads' ends is not drawn.
+/// A singular point farther than this (mm) from the ends of the leads is not drawn.
 const NEAR: f64 = 120.0;
 
-/// The mechanism, the world's origin at the origin.
+/// The mechanism; the world's origin is the figure's origin.
 pub fn scheme(scheme: &Scheme) -> Figure {
     let (mut figure, mut obstacles) = (Figure::default(), Obstacles::default());
     let paper = |at: &Vec2| at / scheme.scale;
@@ -117,7 +117,8 @@ pub fn scheme(scheme: &Scheme) -> Figure {
     figure
 }
 
-/// A singular point on paper and the lines that meet in it, each from the lead's farther end; none if it lies too far away.
+/// A singular point on paper and the lines that meet in it, each from the lead's farther end.
+/// `None` if it lies too far away.
 fn lines_through(scheme: &Scheme, point: &SingularPoint) -> Option<(Vec2, [[Vec2; 2]; 2])> {
     let named = |name: &String| scheme.points.iter().find(|(own, _)| own == name).map(|(_, at)| at / scheme.scale);
     let at = point.at / scheme.scale;
@@ -129,7 +130,7 @@ fn lines_through(scheme: &Scheme, point: &SingularPoint) -> Option<(Vec2, [[Vec2
     Some((at, [line(&point.leads[0])?, line(&point.leads[1])?]))
 }
 
-/// A pivot on hatched ground.
+/// A ground pivot with hatching.
 fn ground(figure: &mut Figure, at: Vec2, obstacles: &mut Obstacles) {
     let corner = |x: f64, y: f64| at + Vec2::new(x, y);
     figure.shape(vec![at, corner(-2.4, -4.4), corner(2.4, -4.4)], true, Some(("#ececec", 1.0)), solid(BLACK, 0.35));
@@ -177,7 +178,7 @@ fn mass_centre(figure: &mut Figure, at: Vec2) {
     }
 }
 
-/// Convex hull, counter-clockwise; both ends of a bar (Andrew 1979).
+/// Convex hull, counter-clockwise; both ends if all points are on one line (Andrew 1979).
 fn hull(mut places: Vec<Vec2>) -> Vec<Vec2> {
     places.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
     let flat = 1e-6 * places.iter().map(Vec2::norm_squared).fold(0.0, f64::larger);
@@ -199,10 +200,10 @@ fn hull(mut places: Vec<Vec2>) -> Vec<Vec2> {
     corners
 }
 
-/// The links with their numbers and rotations.
+/// The links with their numbers, angular velocities and angular accelerations.
 pub fn table(scheme: &Scheme) -> Table {
     let driver = scheme.links.iter().find(|link| link.number == scheme.driver).map_or(0.0, |link| link.omega.abs());
-    // In a dead position nothing but rounding is left, of the crank's speed and its square.
+    // At a dead point only rounding is left, relative to the crank's speed and its square.
     let shown = |value: f64, scale: f64| significant(if value.abs() > ROUNDING * scale { value } else { 0.0 });
     let row = |link: &SchemeLink| {
         let (omega, alpha) = (shown(link.omega, driver), shown(link.alpha, driver * driver));

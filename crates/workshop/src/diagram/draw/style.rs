@@ -1,12 +1,12 @@
-//! Colours of links, and numbers as drawings write them.
+//! Colours of links, and the number format of drawings.
 
-/// Colours of links, dark enough to stand on white paper and of different greys (after Okabe and Ito 2008).
+/// Colours of links, dark enough for white paper and different in grey scale (after Okabe and Ito 2008).
 pub(super) const COLOURS: [&str; 7] = ["#0072b2", "#d55e00", "#009e73", "#b0578d", "#b8860b", "#4b2e83", "#3b8ea5"];
 
-/// Colour of what belongs to no link.
+/// Colour of elements that belong to no link.
 pub(super) const BLACK: &str = "#1a1a1a";
 
-/// Colour of what stays in the background.
+/// Colour of background elements.
 pub(super) const GREY: &str = "#8a8a8a";
 
 /// Colour of the link with this number.
@@ -14,7 +14,7 @@ pub(super) fn colour(link: usize) -> &'static str {
     COLOURS[(link + COLOURS.len() - 1) % COLOURS.len()]
 }
 
-/// A number with four significant digits, as drawings and tables carry it.
+/// A number with four significant digits, as in drawings and tables.
 #[must_use]
 pub fn significant(value: f64) -> String {
     let rounded = format!("{value:.3e}");

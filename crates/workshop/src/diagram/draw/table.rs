@@ -4,10 +4,10 @@ use super::figure::{Figure, Style, Type, solid, width, words};
 use super::style::{BLACK, GREY};
 use linkage::math::{KeepNan, Vec2};
 
-/// Size of the type (mm) and distance of lines.
+/// Font size and line spacing (mm).
 const SIZE: f64 = 2.5;
 const LINE: f64 = 3.9;
-/// Room between columns, and of the sample of a line before the first.
+/// Distance between columns, and width of the line sample before the first column (mm).
 const GAP: f64 = 3.0;
 const SAMPLE: f64 = 9.0;
 
@@ -15,12 +15,12 @@ const SAMPLE: f64 = 9.0;
 pub struct Table {
     pub head: Vec<&'static str>,
     pub rows: Vec<(Style, Vec<String>)>,
-    /// Columns of numbers, which stand flush right.
+    /// Columns of numbers, which are aligned right.
     pub numbers: &'static [usize],
 }
 
 impl Table {
-    /// The table as a figure whose upper left corner is the origin.
+    /// The table as a figure; its upper left corner is the origin.
     pub fn figure(&self) -> Figure {
         let mut figure = Figure::default();
         let cells = |column: usize| self.rows.iter().filter_map(move |(_, row)| row.get(column));

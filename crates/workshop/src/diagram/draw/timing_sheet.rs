@@ -8,16 +8,16 @@ use super::style::{BLACK, COLOURS, GREY};
 use crate::diagram::timing::TimingDiagram;
 use linkage::math::Vec2;
 
-/// Length of the crank angle's axis (mm): two degrees a millimetre.
+/// Length of the crank angle axis (mm): two degrees per millimetre.
 const LONG: f64 = 180.0;
 /// Height of the stroke (mm).
 const HIGH: f64 = 80.0;
 /// Height of the strip of phases above it (mm).
 const STRIP: f64 = 11.0;
-/// Margins: to the left, for the numbers of the axis, and elsewhere.
+/// Left margin, for the numbers of the axis, and the other margins (mm).
 const LEFT: f64 = 14.0;
 const MARGIN: f64 = 12.0;
-/// Ground of a phase in which the output shall rest.
+/// Background of a phase in which the output should dwell.
 const REST: &str = "#e3edf4";
 
 /// The diagram as an SVG document; `title` is written above it.
@@ -38,7 +38,7 @@ pub fn timing(diagram: &TimingDiagram, title: &str) -> String {
     for stretch in &diagram.stretches {
         let [from, to] = [x(stretch.from), x(stretch.to)];
         figure.line([Vec2::new(to, 0.0), Vec2::new(to, HIGH + STRIP)], solid(GREY, 0.25));
-        // Narrow phases carry their words in smaller type.
+        // Narrow phases have text in a smaller font.
         let size = ((to - from) / 6.0).clamp(1.8, 2.8);
         let middle = (from + to) / 2.0;
         let set = Type { anchor: "middle", ..words(size) };

@@ -1,14 +1,14 @@
-//! Where a body stands in its parent, and the coordinate of the joint that carries it.
+//! Position of a body in its parent, and the coordinate of its joint.
 
 use linkage::case::Case;
 use linkage::math::{Vec2, rotated, unit};
 use linkage::mechanism::{Branch, JointKind};
 use linkage::solver::State;
 
-/// The one freedom of a body in its parent.
+/// The one degree of freedom of a body in its parent.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Freedom {
-    /// Hinge about z at a place of the body's frame (m).
+    /// Hinge about z at a point of the body's frame (m).
     Hinge(Vec2),
     /// Slide along a unit vector of the body's frame.
     Slide(Vec2),
@@ -19,17 +19,17 @@ pub(super) enum Freedom {
 pub(super) struct Body {
     /// Origin of the link's frame in that of its parent, in the start pose (m).
     pub offset: Vec2,
-    /// Angle of the link less that of its parent in the start pose (rad).
+    /// Angle of the link minus that of its parent in the start pose (rad).
     pub turn: f64,
     /// The joint.
     pub freedom: Freedom,
-    /// The joint's coordinate in the start pose: angle of the link less that of its parent (rad), or slide (m).
+    /// The joint's coordinate in the start pose: angle of the link minus that of its parent (rad), or slide (m).
     pub coordinate: f64,
     /// Its rate at the start (rad/s, m/s).
     pub rate: f64,
 }
 
-/// The body of a branch. Poses are the case's own at t = 0, rates those of `start`.
+/// The body of a branch. Poses are those of the case at t = 0, rates those of `start`.
 pub(super) fn body(case: &Case, start: &State, branch: &Branch) -> Body {
     let joint = &case.mechanism.joints()[branch.joint];
     let [parent, child] = [branch.parent, branch.link].map(|link| case.start.0[link]);
@@ -43,7 +43,7 @@ pub(super) fn body(case: &Case, start: &State, branch: &Branch) -> Body {
         }
         JointKind::Prismatic { .. } => {
             let axis = joint.axis_on(branch.link).expect("a branch's joint is on its link");
-            // A slide counts from the first link to the second.
+            // A slide is measured from the first link to the second.
             let sense = if branch.link == joint.second.link { 1.0 } else { -1.0 };
             let of = |state: &State| state.slide(joint).expect("the joint slides");
             (Freedom::Slide(axis * sense), of(&State::at_start(case))[0], of(start)[1])

@@ -1,17 +1,25 @@
 //! MJCF, the XML of MuJoCo: the spanning tree as nested bodies, the loops closed by equality constraints.
 //!
-//! What is where:
+//! Contents of the file:
 //!
-//! - The plane is XOY. Every body's frame is its link's; it stands in the start pose, and `ref` makes the joint coordinates those of the
-//!   mechanism: the angle of the child less that of its parent, and the slide of a prismatic joint as its channel has it.
-//! - A joint that closes a loop is a `connect` of two sites. Its third row, along z, is zero in a plane mechanism: it costs a little and does nothing.
-//! - A drive is a rotor ([`Model::rotor`]) on the driven hinge, so heavy that nothing changes its speed: 1e-9, with any integrator and at any step. A velocity
-//!   actuator as stiff as that diverges (`implicitfast` solves the constraints without its damping), a softer one lags. The rotor does
-//!   not enter the interaction forces that sensors read: the torque sensor of the hinge reads the driving moment.
-//! - A moment that resists the rotation of a link is dry friction: of its hinge if that is on the ground, else of a fixed tendon whose length is the
-//!   link's angle. At rest it holds, where [`Load::Resistance`](linkage::drive::Load::Resistance) is zero.
-//! - Constraints are as stiff as a step allows: with `solref="1e-9 0.5"` MuJoCo raises the time constant to twice the step (`refsafe`), which
-//!   makes b = 1/h and k = 1/h^2, a gap closed in one step. So the file serves for any step, and the error is of second order in it.
+//! - The plane is XOY. Every body's frame is that of its link, in the start pose.
+//!   `ref` makes the joint coordinates those of the mechanism.
+//!   They are the angle of the child minus that of its parent, and the slide of a prismatic joint as in its channel.
+//! - A joint that closes a loop is a `connect` of two sites.
+//!   Its third row, along z, is zero in a planar mechanism: it costs a little and has no effect.
+//! - A drive is a rotor ([`Model::rotor`]) on the driven hinge, with so much inertia that its speed is practically constant.
+//!   It changes by 1e-9, with any integrator and at any step.
+//!   A velocity actuator of that stiffness diverges (`implicitfast` solves the constraints without its damping).
+//!   A softer one lags.
+//!   The rotor does not enter the interaction forces that sensors read.
+//!   The torque sensor of the hinge therefore reads the driving moment.
+//! - A moment that resists the rotation of a link is dry friction.
+//!   It acts in the link's hinge if that is on the ground, else in a fixed tendon whose length is the link's angle.
+//!   At rest it holds the link, where [`Load::Resistance`](linkage::drive::Load::Resistance) is zero.
+//! - Constraints are as stiff as a step permits.
+//!   With `solref="1e-9 0.5"` MuJoCo raises the time constant to twice the step (`refsafe`).
+//!   That gives b = 1/h and k = 1/h^2, so a gap is closed in one step.
+//!   The file is therefore valid for any step, and the error is of second order in it.
 
 mod bodies;
 mod model;
@@ -26,11 +34,13 @@ use linkage::error::Result;
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
 
-/// The case as MJCF, called `name`, with the time step `step` (s). The pose is the case's own at t = 0, its speeds are those that `solver` finds.
+/// The case as MJCF, with the model name `name` and the time step `step` (s).
+/// The pose is that of the case at t = 0, and `solver` finds its speeds.
 ///
 /// # Errors
-/// [`ErrorKind::Input`](linkage::ErrorKind::Input) for a step that is not positive and finite,
-/// [`ErrorKind::Unsupported`](linkage::ErrorKind::Unsupported) for names that MuJoCo does not take, and those of the solver.
+/// [`ErrorKind::Input`](linkage::ErrorKind::Input) for a step that is not positive and finite.
+/// [`ErrorKind::Unsupported`](linkage::ErrorKind::Unsupported) for names that MuJoCo does not accept.
+/// Those of the solver.
 pub fn mjcf(case: &Case, solver: &dyn Solver, name: &str, step: f64) -> Result<String> {
     let start = first_state(case, solver)?;
     Ok(write::document(&Model::new(case, &start, name, step)?))

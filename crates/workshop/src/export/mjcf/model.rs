@@ -1,4 +1,4 @@
-//! What is written, as numbers: bodies, joints, loops, frictions and the first state.
+//! Contents of the file as numbers: bodies, joints, loops, frictions and the first state.
 
 use super::bodies::{self, Body};
 use super::names::Names;
@@ -9,13 +9,17 @@ use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{GROUND, Tree};
 use linkage::solver::State;
 
-/// Inertia of a drive's rotor over the largest moment of inertia that the mechanism could have about one of its points. Inertia forces are of the
-/// size of that moment times the speed squared, so that they change the speed by 1e-9 of it in a radian.
+/// Inertia of a drive's rotor divided by the largest moment of inertia that the mechanism could have about one of its points.
+/// Inertia forces are of the size of that moment times the speed squared.
+/// They therefore change the speed by 1e-9 of it in a radian.
 const ROTOR: f64 = 1e9;
-/// Mass of a link that has none, over that of the whole mechanism: MuJoCo refuses zero. A smaller share would falsify reactions less, but MuJoCo softens
-/// every loop in proportion to the inverse of the masses that it holds together. docs/mjcf.md has the figures.
+/// Mass of a massless link, as a share of the mass of the whole mechanism: MuJoCo refuses zero.
+/// A smaller share would falsify reactions less.
+/// But MuJoCo softens every loop in proportion to the inverse of the masses that it connects.
+/// docs/mjcf.md has the figures.
 const LIGHT: f64 = 1e-5;
-/// Radius of gyration of a link that has no inertia, over its size; and what its size counts for at least, over the mechanism's.
+/// Radius of gyration of a link without inertia, divided by its size.
+/// Then the least size that counts for this, divided by the mechanism's size.
 const GYRATION: f64 = 0.3;
 const SHORTEST: f64 = 0.1;
 
@@ -26,20 +30,20 @@ pub(super) struct Friction {
     pub link: usize,
     /// Moment (N m).
     pub moment: f64,
-    /// Hinges from the ground to the link, as indices of branches: their angles add up to the link's.
+    /// Hinges from the ground to the link, as indices of branches: the sum of their angles is the link's angle.
     pub hinges: Vec<usize>,
-    /// Whether the one hinge is the joint that carries the link.
+    /// Whether the only hinge is the joint that carries the link.
     pub own_hinge: bool,
 }
 
-/// A mechanism in MuJoCo's terms.
+/// A mechanism as a MuJoCo model.
 #[derive(Debug)]
 pub struct Model<'a> {
     pub(super) case: &'a Case,
     pub(super) name: &'a str,
     pub(super) step: f64,
     pub(super) tree: Tree,
-    /// One a branch of the tree.
+    /// One for each branch of the tree.
     pub(super) bodies: Vec<Body>,
     pub(super) frictions: Vec<Friction>,
 }
@@ -61,7 +65,7 @@ impl<'a> Model<'a> {
                 .key("drive.motion")
                 .help("export a scenario whose drives are prescribed: take `motion = \"free\"` out"));
         }
-        // A rotor keeps a constant speed and no other law.
+        // A rotor keeps a constant speed and permits no other law.
         if let Some(drive) = case.drives.iter().find(|drive| drive.constant_speed().is_none()) {
             let message =
                 format!("a drive with the law \"{}\" cannot be written to a model for MuJoCo", drive.law_name());
@@ -80,20 +84,20 @@ impl<'a> Model<'a> {
         Ok(model)
     }
 
-    /// Largest moment of inertia that the mechanism could have about one of its points (kg m^2): all its mass a size away.
+    /// Largest moment of inertia that the mechanism could have about one of its points (kg m^2): all its mass one size away.
     fn bulk(&self) -> f64 {
         let size = self.size();
         let inertia: f64 = self.case.mechanism.links().iter().map(|link| link.inertia).sum();
         inertia + self.mass() * size * size
     }
 
-    /// Mass of the mechanism (kg); 1 kg if it has none, so that its motion can be simulated all the same.
+    /// Mass of the mechanism (kg); 1 kg if it has none, so that its motion can still be simulated.
     fn mass(&self) -> f64 {
         let mass: f64 = self.case.mechanism.links().iter().map(|link| link.mass).sum();
         if mass > 0.0 { mass } else { 1.0 }
     }
 
-    /// Size of the mechanism (m), for what is drawn and for inertias.
+    /// Size of the mechanism (m), for drawing and for inertias.
     pub(super) fn size(&self) -> f64 {
         let size = self.case.mechanism.size();
         if size > 0.0 { size } else { 1.0 }
@@ -105,7 +109,7 @@ impl<'a> Model<'a> {
         ROTOR * self.bulk()
     }
 
-    /// Mass (kg) and moment of inertia (kg m^2) of a link as MuJoCo gets them: its own, or those of a light rod where it has none.
+    /// Mass (kg) and moment of inertia (kg m^2) of a link for MuJoCo: its own, or those of a light rod if it has none.
     #[must_use]
     pub fn inertial(&self, link: usize) -> (f64, f64) {
         let link = &self.case.mechanism.links()[link];
@@ -126,12 +130,12 @@ impl<'a> Model<'a> {
         self.tree.branches.iter().position(|branch| branch.link == link)
     }
 
-    /// Links that hang on `parent`, in the tree's order.
+    /// Child links of `parent`, in the tree's order.
     pub(super) fn children(&self, parent: usize) -> Vec<usize> {
         self.tree.branches.iter().filter(|branch| branch.parent == parent).map(|branch| branch.link).collect()
     }
 
-    /// Bodies in the order of MuJoCo's coordinates: each before those that hang on it, and those before its neighbours.
+    /// Bodies in the order of MuJoCo's coordinates: each before its children, and these before its next sibling.
     pub(super) fn in_order(&self) -> Vec<&Body> {
         let mut order = Vec::new();
         let mut waiting = self.children(GROUND);
@@ -143,7 +147,7 @@ impl<'a> Model<'a> {
         order
     }
 
-    /// Place of a joint on one of its links, in that link's frame (m).
+    /// Position of a joint on one of its links, in that link's frame (m).
     pub(super) fn place(&self, joint: usize, link: usize) -> Vec2 {
         self.case.mechanism.joints()[joint].on(link).expect("the joint is on the link")
     }
@@ -162,7 +166,7 @@ impl<'a> Model<'a> {
         hinges
     }
 
-    /// One friction for each link that is resisted; a link that cannot turn is not.
+    /// One friction for each link with a resistance; a link that cannot turn has none.
     fn frictions(&self) -> Vec<Friction> {
         let mut moments = vec![0.0; self.case.mechanism.links().len()];
         for (link, moment) in self.case.loads.iter().filter_map(Load::resistance) {

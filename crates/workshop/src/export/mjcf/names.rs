@@ -1,26 +1,27 @@
-//! Names in the file: the scenario's own wherever MuJoCo takes them.
+//! Names in the file: those of the scenario wherever MuJoCo accepts them.
 
 use std::collections::BTreeSet;
 
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::mechanism::{Joint, Mechanism};
 
-/// Name of MuJoCo's own for the ground.
+/// MuJoCo's own name for the ground.
 const WORLD: &str = "world";
 
-/// Names of things that have none in the scenario.
+/// Names of elements that have none in the scenario.
 pub(super) struct Names;
 
 impl Names {
-    /// Site at the joint's place on `link`.
+    /// Site at the joint's point on `link`.
     pub fn side(joint: &Joint, link: usize) -> String {
         format!("{}.{}", joint.name, if joint.first.link == link { "first" } else { "second" })
     }
 
-    /// Checks that MuJoCo can tell all things apart.
+    /// Checks that all names are unique in MuJoCo.
     ///
     /// # Errors
-    /// [`ErrorKind::Unsupported`] for a link called as MuJoCo calls the ground, for two sites of one name and for names without a letter.
+    /// [`ErrorKind::Unsupported`] in these cases:
+    /// a link has MuJoCo's name for the ground, two sites have the same name, or a name is empty or has control characters.
     pub fn check(mechanism: &Mechanism) -> Result<()> {
         let unsupported = |message: String, key: String| {
             let error = Error::new(ErrorKind::Unsupported, message).key(key);

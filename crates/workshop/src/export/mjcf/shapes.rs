@@ -1,10 +1,10 @@
-//! Simple shapes for the eye: they have no mass and touch nothing.
+//! Simple shapes for display: they have no mass and no contacts.
 
 use super::model::Model;
 use linkage::math::{Vec2, rotated, unit};
 use linkage::mechanism::GROUND;
 
-/// Thickness of what is drawn as a share of the mechanism's size.
+/// Thickness of the shapes as a share of the mechanism's size.
 const THICKNESS: f64 = 0.012;
 
 /// A shape in the frame of a link (m).
@@ -12,13 +12,13 @@ const THICKNESS: f64 = 0.012;
 pub(super) enum Shape {
     /// Ball.
     Ball(Vec2, f64),
-    /// Rod with round ends and its radius.
+    /// Rod with round ends, and its radius.
     Rod([Vec2; 2], f64),
-    /// Block about a place, turned by an angle, with half its length and half its width.
+    /// Block about a point, turned by an angle, with half its length and half its width.
     Block(Vec2, f64, [f64; 2]),
 }
 
-/// What is drawn of a link: rods between its joints, a block or a guide where it slides.
+/// Shapes of a link: rods between its joints, and a block or a guide where it slides.
 pub(super) fn of_link(model: &Model, link: usize) -> Vec<Shape> {
     let mechanism = &model.case.mechanism;
     let thick = THICKNESS * model.size();
@@ -50,7 +50,7 @@ pub(super) fn of_link(model: &Model, link: usize) -> Vec<Shape> {
     shapes
 }
 
-/// How far along its axis a guide's block stands at the start (m).
+/// Start position of a guide's block along the guide's axis (m).
 fn along(model: &Model, guide: usize, axis: Vec2, place: Vec2, block: usize, local: Vec2) -> f64 {
     let [guide, block] = [guide, block].map(|link| model.case.start.0[link]);
     rotated(unit(guide.angle), axis).dot(&(block.point(local) - guide.point(place)))

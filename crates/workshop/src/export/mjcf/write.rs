@@ -10,11 +10,11 @@ use super::shapes::{self, Shape};
 use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::GROUND;
 
-/// Stiffness of every constraint: see the module.
+/// Stiffness of every constraint: see the module documentation.
 const STIFF: &str = "1e-9 0.5";
-/// Impedance of every constraint: the most that MuJoCo takes, at any gap.
+/// Impedance of every constraint: the largest that MuJoCo accepts, at any gap.
 const HARD: &str = "0.9999 0.9999 1";
-/// Colours of links, one after the other.
+/// Colours of links, used in turn.
 const COLOURS: [&str; 6] = [
     "0.20 0.42 0.70 1",
     "0.85 0.45 0.13 1",
@@ -24,7 +24,7 @@ const COLOURS: [&str; 6] = [
     "0.30 0.62 0.65 1",
 ];
 
-/// Shortest text that is read back as the same number.
+/// Shortest text that is parsed as the same number.
 fn number(value: f64) -> String {
     match value.abs() {
         0.0 => "0".into(),
@@ -37,19 +37,19 @@ fn numbers(values: impl IntoIterator<Item = f64>) -> String {
     values.into_iter().map(number).collect::<Vec<_>>().join(" ")
 }
 
-/// A place of the plane.
+/// A position in the plane.
 fn flat(place: Vec2) -> String {
     numbers([place.x, place.y, 0.0])
 }
 
-/// A turn about z.
+/// A rotation about z.
 fn about_z(angle: f64) -> String {
     numbers([0.0, 0.0, 1.0, angle])
 }
 
 type Attributes<'a> = &'a [(&'a str, &'a str)];
 
-/// An XML document in memory, to which writing cannot fail.
+/// An XML document in memory; writing to it cannot fail.
 struct Xml(Writer<Vec<u8>>);
 
 impl Xml {
@@ -104,8 +104,8 @@ fn options(xml: &mut Xml, model: &Model) {
     let step = number(model.step);
     let settings =
         [("timestep", step.as_str()), ("gravity", &gravity), ("integrator", "implicitfast"), ("solver", "Newton")];
-    // MuJoCo measures its tolerance by the trace of the inertia matrix, in which the rotor stands: only zero is small enough. Newton's method is done
-    // in two iterations; 20 are a bound where rounding keeps it going.
+    // MuJoCo scales its tolerance with the trace of the inertia matrix, which contains the rotor: only zero is small enough.
+    // Newton's method needs two iterations; 20 are a limit in case rounding keeps it going.
     let solver = [("iterations", "20"), ("tolerance", "0"), ("ls_tolerance", "1e-6")];
     xml.nest("option", &[&settings[..], &solver].concat(), |xml| {
         xml.leaf("flag", &[("contact", "disable"), ("refsafe", "enable")]);
@@ -113,7 +113,7 @@ fn options(xml: &mut Xml, model: &Model) {
     let (centre, extent) = view(model);
     xml.leaf("statistic", &[("center", &flat(centre)), ("extent", &number(extent))]);
     xml.nest("visual", &[], |xml| {
-        // Seen from above: x right, y up.
+        // View from above: x right, y up.
         xml.leaf("global", &[("azimuth", "90"), ("elevation", "-90")]);
     });
     xml.comment("As stiff as a step allows: the time constant is raised to twice the time step, whatever that is.");
@@ -158,7 +158,7 @@ fn body(xml: &mut Xml, model: &Model, link: usize) {
         if model.is_lent(link) {
             xml.comment("It has no mass or no inertia: MuJoCo gets a small one.");
         }
-        // Three equal moments satisfy the triangle inequality; those about x and y have no motion to act in.
+        // Three equal moments satisfy the triangle inequality; those about x and y have no effect in planar motion.
         let inertial = [flat(data.mass_centre), number(mass), numbers([inertia; 3])];
         xml.leaf("inertial", &[("pos", &inertial[0]), ("mass", &inertial[1]), ("diaginertia", &inertial[2])]);
         joint(xml, model, index);
@@ -245,7 +245,7 @@ fn loops(xml: &mut Xml, model: &Model) {
     });
 }
 
-/// Resistance to the rotation of links that no hinge of their own joins to the ground.
+/// Resistance to the rotation of links that have no hinge of their own on the ground.
 fn tendons(xml: &mut Xml, model: &Model) {
     let long: Vec<_> = model.frictions.iter().filter(|friction| !friction.own_hinge).collect();
     if long.is_empty() {
@@ -265,7 +265,7 @@ fn tendons(xml: &mut Xml, model: &Model) {
     });
 }
 
-/// Reactions in the joints of the tree, and moments where there is one.
+/// Reactions in the joints of the tree, and moments where there are any.
 fn sensors(xml: &mut Xml, model: &Model) {
     xml.comment(
         "What acts on the body in the joint that carries it, in the body's frame; moments about the joint's place, without frictionloss.",

@@ -1,11 +1,11 @@
-//! A candidate of the search, and how shares of the search space become dimensions.
+//! A candidate of the search, and the conversion from shares of the search space to dimensions.
 
 use std::f64::consts::TAU;
 
 use crate::task::{Entry, Task, Variable};
 use linkage::mechanism::GroupKind;
 
-/// A candidate and what it costs.
+/// A candidate and its cost.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Candidate {
     /// Its variables as shares of their bounds, 0 to 1.
@@ -13,11 +13,11 @@ pub(super) struct Candidate {
     /// Sense of the output that is forward: +1 or -1.
     pub(super) forward: f64,
     pub(super) cost: f64,
-    /// Its number: of equal ones the first is kept.
+    /// Its number: of equal candidates the first is kept.
     pub(super) number: usize,
 }
 
-/// Values (SI) of shares of the bounds.
+/// Values (SI) from shares of the bounds.
 pub(super) fn values(task: &Task, shares: &[f64]) -> Vec<f64> {
     let value = |(share, variable): (&f64, &Variable)| of_share(*share, variable);
     shares.iter().zip(&task.variables).map(value).collect()
@@ -29,7 +29,8 @@ pub(super) fn of_share(share: f64, variable: &Variable) -> f64 {
     low + share * (high - low)
 }
 
-/// The variable that is the crank's zero, if it may lie anywhere: then it repeats, and turns the motion about.
+/// The variable that is the crank's zero, if its bounds span a full turn and no group is a higher one.
+/// It is then periodic, and shifts the motion along the crank angle.
 pub(super) fn free_zero(task: &Task) -> Option<usize> {
     let Entry::Free(index) = task.zero else { return None };
     let [low, high] = task.variables[index].bounds;

@@ -1,4 +1,4 @@
-//! Refinement of one candidate: an evolution strategy over kinks and edges, then COBYLA.
+//! Refinement of one candidate: an evolution strategy across kinks and edges, then COBYLA.
 
 use std::cell::RefCell;
 
@@ -11,25 +11,27 @@ use crate::synthesis::evaluate::Evaluator;
 use crate::synthesis::rating::Rater;
 use crate::task::Task;
 
-/// Crank angle between two rows, at most (rad): 3 degrees.
+/// Largest crank angle between two rows (rad): 3 degrees.
 const STEP: f64 = std::f64::consts::PI / 60.0;
-/// Cost of what cannot be assembled; twice as much where nothing can.
+/// Cost of a candidate that cannot be assembled; twice as much if no pose can.
 const BROKEN: f64 = 100.0;
-/// Share of the evaluations that the evolution strategy takes.
+/// Share of the evaluations for the evolution strategy.
 const EVOLUTION: f64 = 0.5;
-/// Step sizes of the evolution strategy as shares of the bounds: the first, and the one at which it begins again with a larger step.
+/// Step sizes of the evolution strategy as shares of the bounds.
+/// The first one, and the one at which it restarts with a larger step.
 const FIRST: f64 = 0.05;
 const LAST: f64 = 1e-5;
-/// Growth of the step after a success; after a failure the fourth root of it is taken back, so that the step stays with one success in five.
+/// Growth of the step after a success. After a failure the step is divided by the fourth root of it.
+/// The step is therefore stationary with one success in five.
 const GROWTH: f64 = 1.5;
 /// Share of the variables that change from parent to child.
 const CHANGED: f64 = 0.4;
-/// Step sizes with which COBYLA begins, one run after the other, each from the best so far.
+/// Initial step sizes of COBYLA, one run after another, each from the best so far.
 const RADII: [f64; 4] = [3e-2, 1e-2, 3e-3, 1e-3];
 /// Relative change of the cost at which a run ends.
 const SETTLED: f64 = 1e-7;
 
-/// Rates shares of the bounds on rows that have all limits among them.
+/// Computes the cost of shares of the bounds, on rows that include all limits.
 struct Bench<'a> {
     task: &'a Task,
     evaluator: Evaluator<'a>,
@@ -77,10 +79,10 @@ pub(super) fn refine(task: &Task, candidate: &Candidate) -> Candidate {
     Candidate { shares: bench.best, cost: bench.cost, ..*candidate }
 }
 
-/// One parent, one child, the better one goes on.
+/// One parent and one child; the better one becomes the parent.
 fn evolve(bench: &mut Bench, zero: Option<usize>, evaluations: usize, number: usize) {
     let mut rng = ChaCha8Rng::seed_from_u64(bench.task.effort.seed);
-    // Streams of their own, beyond those of the blocks.
+    // Separate random streams, beyond those of the blocks.
     rng.set_stream((1 << 40) + number as u64);
     let mut child = bench.best.clone();
     let mut step = FIRST;
@@ -88,7 +90,7 @@ fn evolve(bench: &mut Bench, zero: Option<usize>, evaluations: usize, number: us
         child.copy_from_slice(&bench.best);
         for (index, share) in child.iter_mut().enumerate() {
             if rng.random::<f64>() < CHANGED {
-                // Nearly normal: four even numbers, of variance 1 / 3 all in all.
+                // Approximately normal: four uniform numbers, of variance 1 / 3 in total.
                 let normal = (0..4).map(|_| rng.random::<f64>() - 0.5).sum::<f64>() * 3f64.sqrt();
                 *share += step * normal;
                 if zero != Some(index) {
@@ -104,10 +106,10 @@ fn evolve(bench: &mut Bench, zero: Option<usize>, evaluations: usize, number: us
     }
 }
 
-/// COBYLA from the best so far, with smaller and smaller first steps.
+/// COBYLA from the best so far, with decreasing initial steps.
 fn approximate(bench: &mut Bench, zero: Option<usize>, evaluations: usize) {
     let each = evaluations / RADII.len();
-    // None would mean no limit to COBYLA.
+    // Zero would mean no limit to COBYLA.
     if each == 0 {
         return;
     }
@@ -122,7 +124,7 @@ fn approximate(bench: &mut Bench, zero: Option<usize>, evaluations: usize) {
         let objective = |shares: &[f64], _: &mut ()| shared.borrow_mut().cost(shares);
         let none: [fn(&[f64], &mut ()) -> f64; 0] = [];
         let stop = cobyla::StopTols { ftol_rel: SETTLED, ..cobyla::StopTols::default() };
-        // What it returns is not needed: the best that it tried is kept on the way.
+        // Its return value is not needed: the best candidate that it tried is kept during the run.
         let _ = minimize(objective, &from, &bounds, &none, (), each, RhoBeg::All(radius), Some(stop));
     }
 }
