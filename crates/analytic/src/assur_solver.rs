@@ -1,4 +1,4 @@
-//! Side 1: group by group, forwards for the motion and backwards for the forces; dyads in closed form.
+//! Side 1: group by group, forwards for the motion and backwards for the forces. Dyads in closed form.
 
 use crate::assur::PoseSolver;
 use crate::assur::transfer::TransferSide;
@@ -10,7 +10,7 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::solver::{Progress, Provision, Solver, Visit};
 use linkage::trajectory::Channel;
 
-/// Group by group.
+/// The solver of side 1, group by group.
 #[derive(Clone, Copy, Debug)]
 pub struct AssurSolver;
 
@@ -39,7 +39,7 @@ impl Solver for AssurSolver {
     }
 }
 
-/// Motion under forces: of one freedom by its reduced equation of motion, of several by their transfer functions.
+/// Motion under forces. One degree of freedom: its reduced equation of motion. Several: the transfer functions.
 fn free_motion(case: &Case, visit: Visit, progress: Progress) -> Result<()> {
     if !case.drives.further().is_empty() || case.loads.iter().any(Load::is_viscous) {
         return free::sweep(case, &mut TransferSide::new(case)?, visit, progress);
@@ -64,7 +64,7 @@ fn free_motion(case: &Case, visit: Visit, progress: Progress) -> Result<()> {
     })
 }
 
-/// The motion does not last as long as the grid.
+/// The error of a motion that ends before the grid does.
 fn ended(end: End) -> Error {
     let (what, t, crank) = match end {
         End::Held(t, crank) => ("loads hold the mechanism", t, crank),

@@ -1,6 +1,6 @@
-//! The analytic side: two solvers that share nothing but the mechanism and small mathematics.
+//! The analytic side: two solvers that share only the mechanism and small mathematics.
 //!
-//! Side 1 ([`assur`]) goes group by group, side 2 ([`newton`]) takes the whole mechanism at once.
+//! Side 1 ([`assur`]) solves group by group, side 2 ([`newton`]) solves the whole mechanism at once.
 
 pub mod assur;
 mod assur_solver;
@@ -24,7 +24,7 @@ pub fn all() -> [&'static dyn Solver; 2] {
     [&AssurSolver, &NewtonSolver]
 }
 
-/// The analytic solver called `name`.
+/// The analytic solver with the name `name`.
 #[must_use]
 pub fn named(name: &str) -> Option<&'static dyn Solver> {
     all().into_iter().find(|solver| solver.name() == name)

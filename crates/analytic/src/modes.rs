@@ -17,23 +17,24 @@ pub struct Mode {
     pub mode: AssemblyMode,
     /// Pose of each link of the group, in the order of its links.
     pub poses: Vec<LinkPose>,
-    /// Angular velocity of each link (rad/s); `None` in a singular configuration, where none is determined.
+    /// Angular velocity of each link (rad/s); `None` in a singular configuration, where it is not determined.
     pub omegas: Option<Vec<f64>>,
-    /// Whether it is the one that the case follows.
+    /// Whether the case follows this configuration.
     pub is_followed: bool,
 }
 
-/// What is known of one group's real configurations.
+/// The known real configurations of one group.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Modes {
-    /// Its configurations; the followed one alone if not all are known.
+    /// Its configurations; only the followed one if not all are known.
     pub modes: Vec<Mode>,
-    /// Why not all are known, for groups of more than four links; `None` if these are all there are.
+    /// Why not all are known, for groups of more than four links; `None` if the list is complete.
     pub unknown: Option<String>,
 }
 
-/// The real configurations of every group (in the order of the structure) at the crank angle `crank` (rad, as the scenario states
-/// it), each group hung on the links before it as the case follows them.
+/// The real configurations of every group (in the order of the structure) at the crank angle `crank` (rad, as the
+/// scenario states it).
+/// For each group the links before it have the pose that the case follows.
 ///
 /// # Errors
 /// [`ErrorKind::Geometry`] if the crank angle cannot be reached on the case's branch.
@@ -70,7 +71,7 @@ pub fn all(case: &Case, crank: f64) -> Result<Vec<Modes>> {
             let mut chosen = case.modes[..=index].to_vec();
             chosen[index] = one.mode;
             let mut plan = Plan::of(mechanism, &part, &chosen);
-            // The configurations are exact: solving them again only prepares the velocities.
+            // The configurations are exact already. Solving them again only prepares the velocities.
             let solved = plan.positions(&angles, &mut motions).is_ok();
             let mut placed = pose.clone();
             for (&link, place) in group.links.iter().zip(&one.links) {

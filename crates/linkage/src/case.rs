@@ -1,4 +1,5 @@
-//! What every solver is given: the mechanism, what drives and loads it, where it starts, and what is wanted.
+//! The input of every solver: the mechanism, its drives and loads, its start pose, and the wanted instants and
+//! channels.
 
 mod builder;
 mod check;
@@ -16,10 +17,10 @@ pub use builder::CaseBuilder;
 pub use grid::Grid;
 pub use parts::{CaseParts, Wanted};
 
-/// A problem, ready for any solver: parts that fit together.
+/// A problem that any solver can take: parts that have been checked to fit together.
 ///
-/// They are read as fields, `case.mechanism` for one. Nothing changes them in place: [`Case::with`] and its like make
-/// another case, and check it.
+/// Read the parts as fields, for example `case.mechanism`.
+/// Nothing changes them in place: [`Case::with`] and its like make another case and check it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Case(CaseParts);
 
@@ -36,19 +37,21 @@ impl Case {
     /// The case of these parts.
     ///
     /// # Errors
-    /// All name the part at fault as key.
+    /// All errors name the part at fault as key.
     /// [`ErrorKind::Input`](crate::ErrorKind::Input) if drives, loads, start pose or modes do not belong to the
-    /// mechanism, a number of theirs is none, or the structure is not that of mechanism and drives;
+    /// mechanism, or if one of their numbers is NaN or infinite.
+    /// The same if the structure is not that of mechanism and drives.
     /// [`ErrorKind::Geometry`](crate::ErrorKind::Geometry) if the start pose leaves a joint open or a driving link off
-    /// its angle;
-    /// [`ErrorKind::Unsupported`](crate::ErrorKind::Unsupported) for drives that this version does not solve together.
-    /// Besides, the errors of [`Structure::of`](crate::mechanism::Structure::of) and [`Grid::check`].
+    /// its angle.
+    /// [`ErrorKind::Unsupported`](crate::ErrorKind::Unsupported) for a combination of drives that this version does not
+    /// solve.
+    /// Also the errors of [`Structure::of`](crate::mechanism::Structure::of) and [`Grid::check`].
     pub fn new(parts: CaseParts) -> Result<Case> {
         check::all(&parts)?;
         Ok(Case(parts))
     }
 
-    /// The case of these parts, whatever they are: for tests that plant a fault and ask who notices it.
+    /// The case of these parts, without any check. For tests that plant a fault and ask which check finds it.
     #[cfg(any(test, feature = "fixtures"))]
     #[doc(hidden)]
     #[must_use]
@@ -56,7 +59,7 @@ impl Case {
         Case(parts)
     }
 
-    /// The parts, to be changed and put together again.
+    /// The parts. Change them and make a new case of them with [`Case::new`].
     #[must_use]
     pub fn into_parts(self) -> CaseParts {
         self.0
@@ -90,12 +93,12 @@ impl Case {
     /// The same problem with another motor of the crank, or without one.
     ///
     /// # Errors
-    /// Those of [`Case::new`]: of a motor whose numbers are none.
+    /// Those of [`Case::new`], for a motor with a NaN or infinite number.
     pub fn with_motor(&self, motor: Option<Motor>) -> Result<Case> {
         self.with(|parts| *parts.drives.crank_mut() = self.crank().with_motor(motor))
     }
 
-    /// The same problem with every drive in its nominal motion: what questions about crank angles are about.
+    /// The same problem with every drive in its nominal motion. Questions about crank angles refer to this motion.
     #[must_use]
     pub fn nominal(&self) -> Case {
         Case(CaseParts { drives: self.drives.map(Drive::nominal), ..self.0.clone() })
@@ -109,8 +112,8 @@ impl Case {
         Case(CaseParts { drives, ..self.0.clone() })
     }
 
-    /// The wanted channels in the order of columns: links, points, joints, sliders, frame, drive, further drives;
-    /// within each as in [`CHANNELS`].
+    /// The wanted channels in the order of columns: links, points, joints, sliders, frame, drive, further drives.
+    /// Within each of these the order is that of [`CHANNELS`].
     #[must_use]
     pub fn channels(&self) -> Vec<Channel> {
         let links = self.mechanism.links()[1..].iter().map(|link| (Subject::Link, link.name.as_str()));
@@ -131,15 +134,15 @@ impl Case {
         subjects.flat_map(rows).collect()
     }
 
-    /// The driving link by whose angle instants are told.
+    /// The crank: the driving link whose angle identifies an instant.
     #[inline]
     #[must_use]
     pub fn crank(&self) -> &Drive {
         self.drives.crank()
     }
 
-    /// Whether forces decide the motion of a driving link. Then crank angles are known of solved trajectories only:
-    /// those of the grid are of the nominal motion.
+    /// Whether forces decide the motion of a driving link.
+    /// If so, crank angles are known only from a solved trajectory; those of the grid belong to the nominal motion.
     #[must_use]
     pub fn is_free(&self) -> bool {
         self.drives.iter().any(Drive::is_free)
@@ -151,9 +154,9 @@ impl Case {
         !self.is_free() && self.drives.iter().all(|drive| drive.constant_speed().is_some())
     }
 
-    /// Hands what every load does to every link, the ground included, to `put`; `motions` and `angles` (rad, turns
-    /// kept) are those of all links, as in [`State`](crate::solver::State). Loads read positions and velocities, no
-    /// accelerations.
+    /// Calls `put` with the action of every load on every link, the ground included.
+    /// `motions` and `angles` (rad, turns kept) are those of all links, as in [`State`](crate::solver::State).
+    /// Loads depend on positions and velocities, not on accelerations.
     #[inline]
     pub fn each_load(&self, motions: &[Motion], angles: &[f64], mut put: impl FnMut(Action)) {
         let setting = self.setting(motions, angles);
@@ -168,16 +171,16 @@ impl Case {
         Setting { motions, angles, start: &self.start.0, crank }
     }
 
-    /// Fills in the resultant of all loads on every link, the ground included: force at the mass centre and moment
-    /// about it. Arguments as in
-    /// [`Case::each_load`]; `out` has one entry a link.
+    /// Writes to `out` the resultant of all loads on every link, the ground included: force at the mass centre and
+    /// moment about it.
+    /// Arguments as in [`Case::each_load`]; `out` has one entry per link.
     #[inline]
     pub fn loads_on(&self, motions: &[Motion], angles: &[f64], out: &mut [Wrench]) {
         self.loads_with(motions, angles, |_, load, link, crank| load.moment_in(motions[link].omega, crank), out);
     }
 
-    /// The same, with the moment (N m) of every load that asks for the sense of a link's rotation from `sensed`, which
-    /// is given its number, the load, the link and the crank angle (rad).
+    /// The same, but `sensed` gives the moment (N m) of every load that depends on the sense of a link's rotation.
+    /// `sensed` receives the number of the load, the load, the link and the crank angle (rad).
     #[inline]
     pub fn loads_with(
         &self,

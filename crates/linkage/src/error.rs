@@ -1,4 +1,5 @@
-//! The one error type: what was asked, what was found, where, and the way out. Each is data; words come last.
+//! The only error type: what was asked, what was found, where, and the remedy. All of it is data; only the output is
+//! text.
 
 mod advice;
 
@@ -11,27 +12,27 @@ use std::path::PathBuf;
 /// Result of every fallible operation of this crate.
 pub type Result<T> = std::result::Result<T, Error>;
 
-/// What sort of thing went wrong; decides the exit code and nothing else.
+/// Kind of error. It decides the exit code and nothing else.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ErrorKind {
     /// The scenario or an argument is wrong.
     Input,
-    /// The mechanism cannot take the pose that was asked for.
+    /// The mechanism cannot take the requested pose.
     Geometry,
-    /// A solver could not finish: a dead point, no convergence, a number that is not finite.
+    /// A solver could not finish: a dead point, no convergence, a NaN or infinite number.
     Numeric,
-    /// Well-formed, but not handled by this version.
+    /// Well-formed, but this version does not support it.
     Unsupported,
     /// A file could not be read or written.
     Io,
 }
 
-/// Place in a text file that an error points at.
+/// Place in a text file that an error refers to.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Place {
     /// Path of the file as the user gave it.
     pub file: PathBuf,
-    /// Whole text of the file, for showing the line.
+    /// Whole text of the file, to show the line.
     pub text: String,
     /// Byte range in `text`.
     pub span: Range<usize>,
@@ -46,7 +47,7 @@ impl Place {
     }
 }
 
-/// Part of a mechanism that an error is about, by name.
+/// Part of a mechanism that an error refers to, by name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Part {
     /// A link.
@@ -57,18 +58,18 @@ pub enum Part {
     Group(String),
 }
 
-/// A number that is beyond its bound.
+/// A number beyond its bound.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Excess {
     /// The number; may be NaN.
     pub value: f64,
-    /// The bound that it had to keep.
+    /// The bound.
     pub bound: f64,
     /// Unit of both; empty for a ratio.
     pub unit: &'static str,
 }
 
-/// How far a run came before it failed.
+/// How far a run got before it failed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reached {
     /// Up to this time (s).
@@ -86,7 +87,7 @@ impl fmt::Display for Reached {
     }
 }
 
-/// An error with its message, what is known about it, its place where there is one, and the way out.
+/// An error: message, known data, place if there is one, and remedy.
 #[derive(Clone, Debug)]
 pub struct Error(Box<Inner>);
 
@@ -106,7 +107,7 @@ struct Inner {
 }
 
 impl Error {
-    /// New error of a kind; `message` says what was asked and what was found.
+    /// New error of this kind. `message` says what was asked and what was found.
     #[must_use]
     pub fn new(kind: ErrorKind, message: impl Into<String>) -> Self {
         Error(Box::new(Inner {
@@ -124,185 +125,186 @@ impl Error {
         }))
     }
 
-    /// Sets the way out, in place of one that is there.
+    /// Sets the remedy; replaces an earlier one.
     #[must_use]
     pub fn help(mut self, advice: impl Into<Advice>) -> Self {
         self.0.advice = vec![advice.into()];
         self
     }
 
-    /// Adds an alternative to the way out.
+    /// Adds an alternative remedy.
     #[must_use]
     pub fn or_help(mut self, advice: impl Into<Advice>) -> Self {
         self.0.advice.push(advice.into());
         self
     }
 
-    /// Replaces every way out by what `change` makes of it.
+    /// Replaces every remedy by the result of `change`.
     #[must_use]
     pub fn map_advice(mut self, change: impl FnMut(Advice) -> Advice) -> Self {
         self.0.advice = std::mem::take(&mut self.0.advice).into_iter().map(change).collect();
         self
     }
 
-    /// The same error in other words: `change` makes the new message of the old one. All else is kept.
+    /// The same error in other words: `change` turns the old message into the new one. Everything else is kept.
     #[must_use]
     pub fn map_message(mut self, change: impl FnOnce(&str) -> String) -> Self {
         self.0.message = change(&self.0.message);
         self
     }
 
-    /// Says at which time (s).
+    /// Sets the time (s) of the error.
     #[must_use]
     pub fn at_time(mut self, time: f64) -> Self {
         self.0.time = Some(time);
         self
     }
 
-    /// Says at which crank angle (rad, as the scenario states it).
+    /// Sets the crank angle of the error (rad, as the scenario states it).
     #[must_use]
     pub fn at_crank(mut self, crank: f64) -> Self {
         self.0.crank = Some(crank);
         self
     }
 
-    /// Says which link it is about.
+    /// Sets the link that the error is about.
     #[must_use]
     pub fn of_link(mut self, name: impl Into<String>) -> Self {
         self.0.part = Some(Part::Link(name.into()));
         self
     }
 
-    /// Says which joint it is about.
+    /// Sets the joint that the error is about.
     #[must_use]
     pub fn of_joint(mut self, name: impl Into<String>) -> Self {
         self.0.part = Some(Part::Joint(name.into()));
         self
     }
 
-    /// Says which Assur group it is about, by the names of its links.
+    /// Sets the Assur group that the error is about, by the names of its links.
     #[must_use]
     pub fn of_group(mut self, names: impl Into<String>) -> Self {
         self.0.part = Some(Part::Group(names.into()));
         self
     }
 
-    /// Says which number is beyond which bound, both in `unit` (empty for a ratio).
+    /// Sets the number and the bound that it exceeds, both in `unit` (empty for a ratio).
     #[must_use]
     pub fn beyond(mut self, value: f64, bound: f64, unit: &'static str) -> Self {
         self.0.residual = Some(Excess { value, bound, unit });
         self
     }
 
-    /// Says how far the run came.
+    /// Sets how far the run got.
     #[must_use]
     pub fn after(mut self, reached: Reached) -> Self {
         self.0.reached = Some(reached);
         self
     }
 
-    /// Marks the error as that of a pose which the branch of the case does not reach. Who joins solvers and range adds
-    /// the crank angles that can be reached.
+    /// Marks the error as a pose that the branch of the case does not reach.
+    /// The caller that knows both solvers and range of motion adds the crank angles that can be reached.
     #[must_use]
     pub fn out_of_reach(mut self) -> Self {
         self.0.out_of_reach = true;
         self
     }
 
-    /// Takes that mark off, once it is explained.
+    /// Removes that mark, once the error is explained.
     #[must_use]
     pub fn explained(mut self) -> Self {
         self.0.out_of_reach = false;
         self
     }
 
-    /// Names the scenario key (dotted path) at fault. A key already named is kept: the innermost knows best.
+    /// Names the scenario key (dotted path) at fault. A key that is already set is kept, because the innermost caller
+    /// knows best.
     #[must_use]
     pub fn key(mut self, key: impl Into<String>) -> Self {
         self.0.key.get_or_insert_with(|| key.into());
         self
     }
 
-    /// Adds the place in the file. A place already known is kept.
+    /// Adds the place in the file. A place that is already set is kept.
     #[must_use]
     pub fn at(mut self, place: Place) -> Self {
         self.0.place.get_or_insert(place);
         self
     }
 
-    /// Sort of the error.
+    /// Kind of the error.
     #[must_use]
     pub fn kind(&self) -> ErrorKind {
         self.0.kind
     }
 
-    /// What was asked and what was found, without key, place and help.
+    /// What was asked and what was found, without key, place and remedy.
     #[must_use]
     pub fn message(&self) -> &str {
         &self.0.message
     }
 
-    /// Dotted path of the scenario key at fault, where one is.
+    /// Dotted path of the scenario key at fault, if there is one.
     #[must_use]
     pub fn scenario_key(&self) -> Option<&str> {
         self.0.key.as_deref()
     }
 
-    /// Place in the file, where one is known.
+    /// Place in the file, if known.
     #[must_use]
     pub fn place(&self) -> Option<&Place> {
         self.0.place.as_ref()
     }
 
-    /// Time (s), where one is known.
+    /// Time (s), if known.
     #[must_use]
     pub fn time(&self) -> Option<f64> {
         self.0.time
     }
 
-    /// Crank angle (rad, as the scenario states it), where one is known.
+    /// Crank angle (rad, as the scenario states it), if known.
     #[must_use]
     pub fn crank(&self) -> Option<f64> {
         self.0.crank
     }
 
-    /// Link, joint or group at fault, where one is known.
+    /// Link, joint or group at fault, if known.
     #[must_use]
     pub fn part(&self) -> Option<&Part> {
         self.0.part.as_ref()
     }
 
-    /// Number that is beyond its bound, where there is one.
+    /// The number beyond its bound, if there is one.
     #[must_use]
     pub fn residual(&self) -> Option<Excess> {
         self.0.residual
     }
 
-    /// How far the run came, where it had begun.
+    /// How far the run got, if it had begun.
     #[must_use]
     pub fn reached(&self) -> Option<Reached> {
         self.0.reached
     }
 
-    /// Whether the pose that was asked for is not reached on the case's branch, which nobody has explained so far.
+    /// Whether the requested pose is out of reach on the case's branch and no caller has explained it yet.
     #[must_use]
     pub fn is_out_of_reach(&self) -> bool {
         self.0.out_of_reach
     }
 
-    /// The ways out, which are alternatives; empty where none is known.
+    /// The remedies, which are alternatives; empty if none is known.
     #[must_use]
     pub fn advice(&self) -> &[Advice] {
         &self.0.advice
     }
 
-    /// The way out in words that name no option of any program, where one is known.
+    /// The remedy in words that name no option of any program, if one is known.
     #[must_use]
     pub fn way_out(&self) -> Option<String> {
         self.way_out_by(Advice::to_string)
     }
 
-    /// The way out in words, each advice told by `tell`, where one is known.
+    /// The remedy in words, if one is known. `tell` puts each advice into words.
     #[must_use]
     pub fn way_out_by(&self, tell: impl Fn(&Advice) -> String) -> Option<String> {
         let parts = [Advice::sentence(&self.0.advice, tell), self.0.reached.map(|reached| reached.to_string())];
@@ -310,7 +312,7 @@ impl Error {
         (!parts.is_empty()).then(|| parts.join("; "))
     }
 
-    /// The whole error in one line, as its `Display`, with each advice told by `tell`.
+    /// The whole error in one line, as its `Display`. `tell` puts each advice into words.
     #[must_use]
     pub fn line_by(&self, tell: impl Fn(&Advice) -> String) -> String {
         let place = self.0.place.as_ref().map(|place| format!("{}:{}: ", place.file.display(), place.line()));

@@ -52,8 +52,8 @@ pub fn four_bar() -> Mechanism {
     mechanism(links, &pins).unwrap()
 }
 
-/// Reference 7: crank 1 = OA, triangles 2 = A-C-B and 5 = K-E-D, links 3 = BD and 4 = CE. B is C turned by +60 deg about A
-/// (`side_b` = 1) or by -60 deg (-1), D is E turned about K likewise.
+/// Reference 7: crank 1 = OA, triangles 2 = A-C-B and 5 = K-E-D, links 3 = BD and 4 = CE.
+/// B is C turned by +60 deg about A (`side_b` = 1) or by -60 deg (-1), D is E turned about K likewise.
 pub fn class_four(side_b: f64, side_d: f64) -> Mechanism {
     let (x, y) = (15e-3, 30e-3 * 0.75f64.sqrt());
     let links = vec![
@@ -76,7 +76,8 @@ pub fn class_four(side_b: f64, side_d: f64) -> Mechanism {
     mechanism(links, &pins).unwrap()
 }
 
-/// A mechanism of dyads, all in mode left, whose joint 0 drives its link 1 from angle zero with 1 rad/s; no gravity, no loads, no grid.
+/// A case of a mechanism of dyads, all in mode left. Joint 0 drives link 1 from angle zero with 1 rad/s; no gravity,
+/// no loads, no grid.
 pub fn turning(mechanism: Mechanism) -> Case {
     let drives = Drives::from(Drive::prescribed(0, 1, 0.0, 0.0, MotionLaw::ConstantSpeed(1.0)));
     let structure = Structure::of(&mechanism, &drives.joints()).unwrap();

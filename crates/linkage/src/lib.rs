@@ -1,8 +1,8 @@
-//! What a planar mechanism is, and what solvers and engines of it have in common.
+//! Planar mechanisms, and the interfaces that their solvers and engines share.
 //!
-//! Links, joints and Assur groups ([`mechanism`]), what moves and loads them ([`drive`]), the problem as every solver is
-//! given it ([`case`]), what every solver answers with ([`trajectory`]), and the traits of solvers and engines
-//! ([`solver`], [`engine`]).
+//! Links, joints and Assur groups are in [`mechanism`], drives and loads in [`drive`].
+//! [`case`] has the problem as every solver receives it, [`trajectory`] the result that every solver returns.
+//! [`solver`] and [`engine`] have the traits of solvers and engines.
 //!
 //! SI units and world axes (x right, y up, angles counter-clockwise from +x) everywhere.
 

@@ -1,4 +1,4 @@
-//! What a solver is, and how it hands its states over.
+//! The interface of all solvers, and how they deliver their states.
 
 use crate::case::{Case, Wanted};
 use crate::error::{Error, ErrorKind, Result};
@@ -8,19 +8,19 @@ use crate::trajectory::channel::rows;
 use crate::trajectory::{Channel, OfDrive, OfFrame, OfJoint, OfLink, OfPoint, OfSlider, Stage, Trajectory};
 use std::cell::LazyCell;
 
-/// How a solver comes by a channel.
+/// How a solver obtains a channel.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Provision {
-    /// It is computed, or read from the engine, as it is.
+    /// It is computed, or read from the engine, without conversion.
     Computed,
-    /// It is derived from something else; the text says how.
+    /// It is derived from other quantities; the text says how.
     Derived(&'static str),
 }
 
-/// Is told which share of a long run is done, from 0 to 1.
+/// Receives the finished share of a long run, from 0 to 1.
 pub type Progress<'a> = &'a mut dyn FnMut(f64);
 
-/// Given every state with its row of the grid; what it refuses stops the run.
+/// Receives every state with its row of the grid. An error that it returns stops the run.
 pub type Visit<'a> = &'a mut dyn FnMut(usize, &State) -> Result<()>;
 
 /// Anything that turns a case into a trajectory.
@@ -28,17 +28,17 @@ pub trait Solver: Send + Sync {
     /// Short name, as on the command line.
     fn name(&self) -> &'static str;
 
-    /// How this solver comes by `channel`.
+    /// How this solver obtains `channel`.
     fn provides(&self, channel: &Channel) -> Provision;
 
-    /// Hands the state at every instant of the case's grid to `visit`, with its row, in any order. Only what the wanted
-    /// channels need is computed; the rest of the state is meaningless.
+    /// Passes the state at every instant of the case's grid to `visit`, with its row, in any order.
+    /// Only the parts that the wanted channels need are computed; the rest of the state has no meaning.
     ///
     /// # Errors
-    /// Whatever keeps the solution from staying on the asked branch, with the crank angle; and the visitor's own.
+    /// An error with the crank angle if the solution cannot stay on the requested branch; also the errors of `visit`.
     fn sweep(&self, case: &Case, visit: Visit, progress: Progress) -> Result<()>;
 
-    /// As [`Solver::sweep`], without telling how far the run is.
+    /// As [`Solver::sweep`], without progress reports.
     ///
     /// # Errors
     /// Those of [`Solver::sweep`].
@@ -49,12 +49,12 @@ pub trait Solver: Send + Sync {
     /// Solves the case: all its wanted channels on its grid.
     ///
     /// # Errors
-    /// Those of [`Solver::sweep`], and numbers that are not finite.
+    /// Those of [`Solver::sweep`]; also an error if a result is NaN or infinite.
     fn solve(&self, case: &Case) -> Result<Trajectory> {
         self.solve_with(case, &mut |_| {})
     }
 
-    /// As [`Solver::solve`]; `progress` is told which share of the run is done, from 0 to 1.
+    /// As [`Solver::solve`]; `progress` receives the finished share of the run, from 0 to 1.
     ///
     /// # Errors
     /// Those of [`Solver::solve`].
@@ -69,7 +69,8 @@ pub trait Solver: Send + Sync {
     }
 }
 
-/// Checks that no instant before t = 0 is wanted of a free motion, which begins there; of a prescribed motion any instant may be.
+/// Checks that a free motion has no wanted instant before t = 0, where it begins. A prescribed motion allows any
+/// instant.
 ///
 /// # Errors
 /// [`ErrorKind::Input`] with such an instant.
@@ -83,23 +84,25 @@ pub fn check_instants(case: &Case) -> Result<()> {
     }
 }
 
-/// State of the whole mechanism at one instant, in the form common to all solvers.
+/// State of the whole mechanism at one instant, in the form that all solvers share.
 #[derive(Clone, Debug)]
 pub struct State {
-    /// Motion of every link's frame; the ground's is [`Motion::REST`].
+    /// Motion of every link's frame. The ground's motion is [`Motion::REST`].
     pub motions: Vec<Motion>,
     /// Angle of every link's frame, turns kept (rad).
     pub angles: Vec<f64>,
     /// Force of the first link on the second in every joint (N).
     pub forces: Vec<Vec2>,
-    /// Moment of the first link on the second in every joint, about the joint's place on the second (N m); 0 in revolute joints.
+    /// Moment of the first link on the second in every joint, about the joint's place on the second (N m). 0 in
+    /// revolute joints.
     pub moments: Vec<f64>,
-    /// Balancing moment on every driving link (N m), in the order of [`CaseParts::drives`](crate::case::CaseParts::drives).
+    /// Balancing moment on every driving link (N m), in the order of
+    /// [`CaseParts::drives`](crate::case::CaseParts::drives).
     pub torques: Vec<f64>,
 }
 
 impl State {
-    /// A state at rest with everything at zero.
+    /// A state at rest with all values zero.
     #[must_use]
     pub fn at_rest(case: &Case) -> Self {
         State {
@@ -111,8 +114,9 @@ impl State {
         }
     }
 
-    /// Slide of a prismatic joint (m) with its rate and second derivative: s = e . (p2 - p1) along the axis e of the first link; with
-    /// p2 - p1 = s e, e . (v2 - v1) = s' and e . (a2 - a1) = s'' - s omega^2. `None` for a revolute joint.
+    /// Slide of a prismatic joint (m) with its first and second derivative; `None` for a revolute joint.
+    /// s = e . (p2 - p1) along the axis e of the first link.
+    /// With p2 - p1 = s e: e . (v2 - v1) = s' and e . (a2 - a1) = s'' - s omega^2.
     #[inline]
     #[must_use]
     pub fn slide(&self, joint: &Joint) -> Option<[f64; 3]> {
@@ -125,11 +129,12 @@ impl State {
         Some([slide, speed, second_derivative + slide * first.0.omega * first.0.omega])
     }
 
-    /// Shaking force (N) and shaking moment about the origin (N m): the sum of what the joints with the ground, the drives, and the springs and
-    /// dampers that are fastened to the ground exert on the frame.
+    /// Shaking force (N) and shaking moment about the origin (N m).
+    /// They are the sum of what the joints with the ground, the drives, and the springs and dampers fastened to the
+    /// ground exert on the frame.
     #[must_use]
     pub fn shaking(&self, case: &Case) -> (Vec2, f64) {
-        // Drives stand on the frame: their reactions there are opposite to the balancing moments.
+        // Drives stand on the frame, so their reactions there are opposite to the balancing moments.
         let (mut force, mut moment) = (Vec2::zeros(), -self.torques.iter().sum::<f64>());
         for (index, joint) in case.mechanism.joints().iter().enumerate() {
             let sign = match (joint.first.link, joint.second.link) {
@@ -163,7 +168,8 @@ impl State {
     }
 }
 
-/// Rows that are kept together before they go into their columns: every column lies in memory of its own, which is looked up once for all of them.
+/// Rows collected before they are written to their columns.
+/// Each column is a separate block of memory; a whole group of rows needs one access to it.
 const BLOCK: usize = 8;
 
 /// Collects states into the columns of a trajectory, row by row in any order.
@@ -174,10 +180,11 @@ pub struct Sampler {
     channels: Vec<Channel>,
     columns: Vec<Vec<f64>>,
     rows: Vec<usize>,
-    /// The last rows, of which the first `kept` of all are in the columns already.
+    /// The last rows. The first `kept` rows of all are in the columns already.
     block: Vec<f64>,
     kept: usize,
-    /// Crank angles (rad, as the scenario states them): the grid's, or those of the states where forces decide the motion.
+    /// Crank angles (rad, as the scenario states them): those of the grid, or those of the states where forces decide
+    /// the motion.
     cranks: Vec<f64>,
 }
 
@@ -242,7 +249,7 @@ impl Sampler {
                 OfSlider::Moment => state.moments[index],
             });
         }
-        // Summed up once, and only if a row that is wanted reads it.
+        // Computed once, and only if a wanted row uses it.
         let shaking = LazyCell::new(|| state.shaking(case));
         out.put(&rows::FRAME, |of| match of {
             OfFrame::ForceX => shaking.0.x,
@@ -261,7 +268,7 @@ impl Sampler {
         debug_assert!(out.values.is_empty(), "as many values as channels");
     }
 
-    /// Puts the rows of the block into their columns.
+    /// Moves the rows of the block into their columns.
     fn keep(&mut self) {
         let width = self.channels.len();
         let rows = &self.rows[self.kept..];
@@ -276,14 +283,14 @@ impl Sampler {
     /// The trajectory on the case's grid.
     ///
     /// # Errors
-    /// If a value is missing or not finite.
+    /// If a value is missing, NaN or infinite.
     pub fn finish(mut self, case: &Case) -> Result<Trajectory> {
         self.keep();
         Trajectory::new(case.grid.times.clone(), self.cranks, self.channels, self.columns)
     }
 
-    /// What there is of the trajectory: the rows stored so far, in the order in which they came. `None` if there is none, or if
-    /// their numbers are not finite.
+    /// The trajectory so far: the stored rows in the order in which they came.
+    /// `None` if there are no rows, or if a number is not finite.
     #[must_use]
     pub fn so_far(mut self, case: &Case) -> Option<Trajectory> {
         self.keep();
@@ -296,10 +303,10 @@ impl Sampler {
     }
 }
 
-/// What is left of a row, filled in the order of channels.
+/// The unfilled rest of a row; it is filled in the order of channels.
 struct Row<'a> {
     values: &'a mut [f64],
-    /// The stages that are wanted, a [`bit`] each.
+    /// The wanted stages, one [`bit`] each.
     wanted: u8,
 }
 
@@ -308,14 +315,15 @@ const fn bit(stage: Stage) -> u8 {
 }
 
 impl Row<'_> {
-    /// What `rows` read by `read`, as far as their stages are wanted.
+    /// Stores the quantities of `rows` whose stages are wanted. `read` gives their values.
     #[inline(always)]
     fn put<Of: Copy, const N: usize>(&mut self, rows: &[(Of, Stage); N], read: impl Fn(Of) -> f64) {
         let needed = rows.iter().fold(0, |all, &(_, stage)| all | bit(stage));
         if self.wanted & needed == needed {
             let (own, rest) =
                 std::mem::take(&mut self.values).split_first_chunk_mut::<N>().expect("as many values as channels");
-            // Written out, not a loop: every reading then is a constant, and nothing is left of the match on it.
+            // Written out instead of a loop: every quantity is then a constant, and the compiler removes the match on
+            // it.
             macro_rules! each {
                 ($($row:literal)*) => {{
                     const { assert!(N <= [$($row),*].len(), "every row of a subject is put") };

@@ -1,4 +1,4 @@
-//! Side 1: group by group, forwards for the motion and backwards for the forces; dyads in closed form.
+//! Side 1: group by group, forwards for the motion and backwards for the forces. Dyads in closed form.
 
 #[cfg(feature = "batch")]
 pub mod batch;

@@ -1,4 +1,4 @@
-//! Pose after pose by Assur groups: the part of side 1 that is fast.
+//! Pose after pose by Assur groups: the fast part of side 1.
 
 use super::forces::Kinetostatics;
 use super::turns::Turns;
@@ -9,11 +9,12 @@ use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 
-/// Crank angle between two poses (rad) over which no link turns so far that its turns could be miscounted.
+/// Largest crank angle between two poses (rad). Over such a step no link turns so far that its turns could be
+/// miscounted.
 const CLOSED_FORM_STEP: f64 = std::f64::consts::PI / 12.0;
-/// The same where a group is followed by Newton's method from pose to pose.
+/// The same where Newton's method follows a group from pose to pose.
 const FOLLOWED_STEP: f64 = std::f64::consts::PI / 90.0;
-/// How often a step that fails is halved: down to a millionth of it.
+/// How often a failing step is halved: down to a millionth of it.
 const HALVINGS: u32 = 20;
 
 /// Goes from crank angle to crank angle on one branch and solves the pose there, without allocation.
@@ -23,7 +24,7 @@ pub struct PoseSolver<'a> {
     plan: Plan,
     statics: Kinetostatics,
     state: State,
-    /// Turns of the links, where somebody or a load asks for their angles.
+    /// Turns of the links, if the caller or a load needs their angles.
     turns: Option<Turns>,
     /// Angles, angular velocities or accelerations of all driving links, as each stage needs them.
     inputs: Vec<f64>,
@@ -32,10 +33,10 @@ pub struct PoseSolver<'a> {
 }
 
 impl<'a> PoseSolver<'a> {
-    /// At the start pose of the case, which fixes the branch.
+    /// Starts at the start pose of the case, which fixes the branch.
     ///
     /// # Errors
-    /// [`ErrorKind::Geometry`] if the start pose is a singular one.
+    /// [`ErrorKind::Geometry`] if the start pose is singular.
     pub fn new(case: &'a Case) -> Result<Self> {
         let plan = Plan::of(&case.mechanism, &case.structure, &case.modes);
         let step = if plan.is_closed_form() { CLOSED_FORM_STEP } else { FOLLOWED_STEP };
@@ -50,7 +51,7 @@ impl<'a> PoseSolver<'a> {
         Ok(solver)
     }
 
-    /// The same, and counts the turns of all links on the way.
+    /// The same, and counts the turns of all links.
     ///
     /// # Errors
     /// Those of [`PoseSolver::new`].
@@ -60,12 +61,15 @@ impl<'a> PoseSolver<'a> {
         Ok(solver)
     }
 
-    /// The state at the crank angle `crank` (rad, as the scenario states it) for the crank's angular velocity `omega` (rad/s)
-    /// and acceleration `alpha` (rad/s^2), to which further drives are geared as at that instant, computed as far as `deepest`; what lies beyond is left from before, and so are the angles:
-    /// see [`PoseSolver::with_angles`].
+    /// The state at the crank angle `crank` (rad, as the scenario states it) for the crank's angular velocity
+    /// `omega` (rad/s) and acceleration `alpha` (rad/s^2).
+    /// Further drives have the speed ratios of that instant.
+    /// Only stages up to `deepest` are computed. Later stages keep old values, and so do the angles: see
+    /// [`PoseSolver::with_angles`].
     ///
     /// # Errors
-    /// [`ErrorKind::Geometry`] if the crank angle cannot be reached on the branch, with the group and the angle at which it fails.
+    /// [`ErrorKind::Geometry`] if the crank angle cannot be reached on the branch, with the group and the angle at
+    /// which it fails.
     #[inline]
     pub fn solve(&mut self, crank: f64, omega: f64, alpha: f64, deepest: Stage) -> Result<&State> {
         self.go_to(crank)?;
@@ -86,7 +90,7 @@ impl<'a> PoseSolver<'a> {
         Ok(&self.state)
     }
 
-    /// Places the mechanism at the crank angle `target`, in small steps from where it is.
+    /// Moves the mechanism from its present pose to the crank angle `target`, in small steps.
     #[inline]
     fn go_to(&mut self, target: f64) -> Result<()> {
         if (target - self.crank).abs() <= self.step && self.place(target).is_ok() {
@@ -95,7 +99,7 @@ impl<'a> PoseSolver<'a> {
         self.go_far_to(target)
     }
 
-    /// The same where one step does not do.
+    /// The same where one step is not enough.
     #[cold]
     fn go_far_to(&mut self, target: f64) -> Result<()> {
         let from = self.crank;
@@ -106,7 +110,7 @@ impl<'a> PoseSolver<'a> {
         self.step_to(target, HALVINGS)
     }
 
-    /// World angles of all driving links at a crank angle into the inputs.
+    /// Writes the world angles of all driving links at a crank angle to the inputs.
     #[inline]
     fn turn(&mut self, crank: f64) {
         let (first, further) = self.inputs.split_first_mut().expect("there is a drive");
@@ -119,7 +123,7 @@ impl<'a> PoseSolver<'a> {
         }
     }
 
-    /// The crank's `rate` and those of further driving links, which are geared to it, into the inputs.
+    /// Writes the crank's `rate` and those of further driving links, by their speed ratios, to the inputs.
     #[inline]
     fn drive(&mut self, rate: f64) {
         let (first, further) = self.inputs.split_first_mut().expect("there is a drive");
@@ -130,7 +134,7 @@ impl<'a> PoseSolver<'a> {
         }
     }
 
-    /// One step as a whole.
+    /// One step, not divided.
     #[inline]
     fn place(&mut self, target: f64) -> std::result::Result<(), OutOfReach> {
         self.turn(target);
@@ -142,7 +146,7 @@ impl<'a> PoseSolver<'a> {
         Ok(())
     }
 
-    /// One step; where a group cannot be followed over it, two of half the size.
+    /// One step. Where a group cannot be followed over it, two steps of half the size.
     fn step_to(&mut self, target: f64, halvings: u32) -> Result<()> {
         match self.place(target) {
             Ok(()) => Ok(()),
@@ -154,7 +158,8 @@ impl<'a> PoseSolver<'a> {
         }
     }
 
-    /// The last state with its links' angles (rad): turns kept if they are [counted](PoseSolver::counting_turns), else as they were at the
+    /// The last state with its links' angles (rad).
+    /// Turns are kept if they are [counted](PoseSolver::counting_turns); otherwise the angles are those at the
     /// start of the case.
     pub fn with_angles(&mut self) -> &State {
         if let Some(turns) = &self.turns {
@@ -167,7 +172,7 @@ impl<'a> PoseSolver<'a> {
         &self.state
     }
 
-    /// The last state, with its links' angles if they are asked for: see [`PoseSolver::with_angles`].
+    /// The last state, with its links' angles if requested: see [`PoseSolver::with_angles`].
     pub(crate) fn last(&mut self, angles: bool) -> &State {
         if angles { self.with_angles() } else { &self.state }
     }

@@ -1,7 +1,9 @@
-//! Side 1 for several freedoms: Jourdain's principle with the transfer functions of every driving link, group by group.
+//! Side 1 for several degrees of freedom: Jourdain's principle with the transfer functions of every driving link,
+//! group by group.
 //!
-//! With the first transfer functions v_j, w_j of a link's mass centre and angle for driving link j alone, A_ij = sum of m v_i . v_j + J w_i w_j, and
-//! A alpha = T + sum of v_i . (F - m a0) + w_i (M - J alpha0), where a0, alpha0 are the accelerations that are left when no free driving link accelerates.
+//! v_j and w_j are the first transfer functions of a link's mass centre and angle for driving link j alone.
+//! Then A_ij = sum of m v_i . v_j + J w_i w_j, and A alpha = T + sum of v_i . (F - m a0) + w_i (M - J alpha0).
+//! a0 and alpha0 are the accelerations that remain when no free driving link accelerates.
 
 use super::forces::Kinetostatics;
 use super::turns::Turns;
@@ -17,7 +19,7 @@ use linkage::mechanism::GROUND;
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 
-/// A driving link turns at most this much (rad) between two poses, so that no link's turns are miscounted.
+/// Largest turn of a driving link (rad) between two poses, so that no link's turns are miscounted.
 const STEP: f64 = std::f64::consts::PI / 12.0;
 
 /// The equations of motion of a case by its Assur groups.
@@ -33,7 +35,8 @@ pub(crate) struct TransferSide<'a> {
     unit: Vec<f64>,
     /// Numbers of the free drives.
     free: Vec<usize>,
-    /// First transfer functions of every link's mass centre and angle, link by link, for one free driving link after the other.
+    /// First transfer functions of every link's mass centre and angle, link by link, for one free driving link
+    /// after the other.
     transfer: Vec<(Vec2, f64)>,
     matrix: Lu,
     right: Vec<f64>,
@@ -41,10 +44,11 @@ pub(crate) struct TransferSide<'a> {
 }
 
 impl<'a> TransferSide<'a> {
-    /// At the start pose of a case.
+    /// Starts at the start pose of a case.
     ///
     /// # Errors
-    /// [`ErrorKind::Unsupported`] for mechanisms with groups of more than two links; [`ErrorKind::Geometry`] if the start pose is singular.
+    /// [`ErrorKind::Unsupported`] for mechanisms with groups of more than two links; [`ErrorKind::Geometry`] if
+    /// the start pose is singular.
     pub(crate) fn new(case: &'a Case) -> Result<Self> {
         let plan = Plan::of(&case.mechanism, &case.structure, &case.modes);
         if !plan.is_closed_form() {
@@ -181,7 +185,7 @@ impl Side for TransferSide<'_> {
     fn fill(&mut self, inputs: &Inputs, state: &mut State) -> Result<()> {
         self.find_angles(&inputs.angles);
         if self.case.wanted.deepest() >= Stage::Reactions {
-            // At the very moment of setting off, loads act against the motion that begins.
+            // At the instant of starting from rest, loads act against the motion that begins.
             let setting_off = inputs.speeds.iter().all(|&speed| speed == 0.0);
             if setting_off {
                 let begun: Vec<f64> = inputs.accelerations.iter().map(|alpha| SETTING_OFF.copysign(*alpha)).collect();

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use linkage::math::{Motion, Vec2, angle, cross};
 use linkage::mechanism::Pose;
 
-/// Counts the turns of every link; between two poses no link may turn by half a turn or more.
+/// Counts the turns of every link. Between two poses no link may turn by half a turn or more.
 #[derive(Clone, Debug)]
 pub(super) struct Turns {
     /// Direction of every link at the last pose.
@@ -14,7 +14,7 @@ pub(super) struct Turns {
 }
 
 impl Turns {
-    /// From a pose whose angles keep their turns.
+    /// Starts from a pose whose angles keep their turns.
     pub(super) fn from(pose: &Pose, motions: &[Motion]) -> Self {
         let whole = |angle: f64| ((angle - angle::wrapped(angle)) / TAU).round();
         Turns {
@@ -23,7 +23,8 @@ impl Turns {
         }
     }
 
-    /// Takes the next pose: a link has gone past the direction -x since the last one, one way or the other.
+    /// Counts a turn of each link that has passed the direction -x since the last pose, with the sign of its
+    /// rotation.
     #[inline]
     pub(super) fn count(&mut self, motions: &[Motion]) {
         for ((whole, last), motion) in self.whole.iter_mut().zip(&mut self.directions).zip(motions) {
@@ -43,7 +44,7 @@ impl Turns {
 
     /// Angles of all links at the last pose (rad), turns kept.
     pub(super) fn angles(&self) -> impl Iterator<Item = f64> {
-        // Adding zero makes -0 a 0: on the axis -x the angle is +pi, as it is counted.
+        // Adding zero makes -0 a 0: on the axis -x the angle is +pi, as the count assumes.
         let angle = |(whole, now): (&f64, &Vec2)| (now.y + 0.0).atan2(now.x) + TAU * whole;
         self.whole.iter().zip(&self.directions).map(angle)
     }

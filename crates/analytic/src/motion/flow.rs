@@ -1,4 +1,4 @@
-//! The pieces of a free motion: what is held in each, and where it ends.
+//! The pieces of a free motion: what each keeps constant, and where it ends.
 
 use std::cell::{Cell, RefCell};
 
@@ -11,11 +11,12 @@ use linkage::drive::Branch;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::solver::State;
 
-/// Farthest that a driving link may turn within a step (rad). A first try of a step may lead anywhere; it is to be refused, not followed.
+/// Largest turn of a driving link within a step (rad). The first trial of a step may lead anywhere; such a trial must
+/// be refused.
 const FARTHEST: f64 = std::f64::consts::PI;
-/// Bounds of the motor's piece, which follow those of the loads: too fast, too slow.
+/// Bounds of the motor's piece, which come after those of the loads: too fast, too slow.
 const OF_MOTOR: usize = 2;
-/// The first of them.
+/// The first of these bounds.
 const TOO_FAST: usize = 0;
 
 /// Angles and speeds of the free driving links at t = 0: first all angles in the world, then all speeds.
@@ -31,13 +32,13 @@ pub(super) fn start<const N: usize>(case: &Case) -> [f64; N] {
 pub(super) struct Pieces<'a, const N: usize> {
     case: &'a Case,
     work: RefCell<Work<'a>>,
-    /// Loads that ask for the sense of a link's rotation, with that link.
+    /// Loads that depend on the sense of a link's rotation, with that link.
     sensed: Vec<(usize, usize)>,
     branch: Cell<Option<Branch>>,
     origin: Cell<[f64; N]>,
 }
 
-/// What an evaluation works with.
+/// Working memory of an evaluation.
 struct Work<'a> {
     side: &'a mut dyn Side,
     inputs: Inputs,
@@ -81,7 +82,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
         self.branch.get().map_or(0.0, |branch| self.case.crank().sense() * branch.moment(self.crank_speed(y)))
     }
 
-    /// Accelerations of the driving links, left in the inputs of `work`.
+    /// Computes the accelerations of the driving links; the result is in the inputs of `work`.
     fn accelerate(&self, work: &mut Work, t: f64, y: &[f64; N]) -> Result<()> {
         self.put(&mut work.inputs, t, y);
         work.held.motor = self.motor_moment(y);
@@ -95,7 +96,8 @@ impl<'a, const N: usize> Pieces<'a, N> {
         work.side.fill(&work.inputs, state)
     }
 
-    /// Chooses the senses and the motor's branch with which the motion goes on from where it is: at its beginning, or after it has come to a bound.
+    /// Chooses the senses and the motor's branch for the next piece: at the beginning of the motion, or after it has
+    /// reached a bound.
     ///
     /// # Errors
     /// [`ErrorKind::Numeric`] where a resistance holds a link at rest, and those of the side.
@@ -107,7 +109,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
                 self.begin_senses(work, place)?
             }
             Some((_, Some(end))) => {
-                // Exactly on the bound, or the same piece would be chosen again.
+                // Exactly on the bound; otherwise the same piece would be chosen again.
                 let speeds = self.branch.get().map_or([0.0; 2], |branch| branch.speeds);
                 place.y[N / 2] = self.case.crank().sense() * speeds[1 - end];
                 self.choose_branch(place, if end == TOO_FAST { 1.0 } else { -1.0 });
@@ -122,13 +124,14 @@ impl<'a, const N: usize> Pieces<'a, N> {
         }
     }
 
-    /// The motor's branch at the crank's speed, and from there towards higher speeds for a positive `towards`, else towards lower ones.
+    /// Chooses the motor's branch at the crank's speed.
+    /// Where two meet: the one towards higher speeds for a positive `towards`, otherwise the one towards lower speeds.
     fn choose_branch(&self, place: &Place<N>, towards: f64) {
         let motor = self.case.crank().moving_motor();
         self.branch.set(motor.map(|motor| motor.branch(self.crank_speed(&place.y), towards)));
     }
 
-    /// Senses at the beginning; gives back what of `sensed` stands still.
+    /// Senses at the beginning. Returns the entries of `sensed` whose links stand still.
     fn begin_senses(&self, work: &mut Work, place: &Place<N>) -> Result<Vec<(usize, usize)>> {
         self.put(&mut work.inputs, place.x, &place.y);
         let mut stood = Vec::new();
@@ -143,7 +146,8 @@ impl<'a, const N: usize> Pieces<'a, N> {
         Ok(stood)
     }
 
-    /// Links at rest, with their loads in `stood`, go where they are accelerated without their resistances, if their resistances let them.
+    /// Chooses the sense of links at rest, with their loads in `stood`.
+    /// Each starts in the direction in which it is accelerated without its resistances, if the resistances allow it.
     fn set_off(&self, work: &mut Work, place: &Place<N>, stood: &[(usize, usize)]) -> Result<()> {
         let before = work.held.senses.clone();
         for &(index, _) in stood {
@@ -171,12 +175,12 @@ impl<'a, const N: usize> Pieces<'a, N> {
             .help("give the motor more torque or the mechanism more speed, or let the grid end before")
     }
 
-    /// The crank's own speed in the motor's sense: it is the first that is free, wherever there is a branch.
+    /// The crank's speed in the motor's sense. Wherever there is a branch, the crank is the first free driving link.
     fn crank_speed(&self, y: &[f64; N]) -> f64 {
         self.case.crank().sense() * y[N / 2]
     }
 
-    /// How far within the speeds of its branch the motor is.
+    /// Distance of the motor's speed from the bounds of its branch, positive inside.
     fn branch_margin(&self, bound: usize, y: &[f64; N]) -> f64 {
         let speed = self.crank_speed(y);
         self.branch.get().map_or(f64::INFINITY, |branch| match bound {

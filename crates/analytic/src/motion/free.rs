@@ -1,8 +1,10 @@
-//! Motion that forces decide, of any number of freedoms: each analytic side gives the accelerations of the driving links in its own way, and the shared
-//! integrator follows them in time.
+//! Motion decided by forces, with any number of degrees of freedom.
+//! Each analytic side computes the accelerations of the driving links with its own equations. The shared integrator
+//! follows them in time.
 //!
-//! Independent coordinates are the angles of the driving links (coordinate partitioning: Wehage and Haug 1982). What jumps with a sense of motion,
-//! a resistance or the losses of a reducer, is held within a piece of the motion; pieces end exactly where the sense changes.
+//! The independent coordinates are the angles of the driving links (coordinate partitioning: Wehage and Haug 1982).
+//! A resistance or the losses of a reducer jump with a sense of motion. They keep their sense within one piece of the
+//! motion, and pieces end exactly where the sense changes.
 
 use super::flow::{self, Pieces};
 use super::march::{ACCURACY, MOST_EMPTY, Place, Step, Stop, march};
@@ -11,13 +13,14 @@ use linkage::case::Case;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::solver::{Progress, State, Visit, check_instants};
 
-/// Most free driving links.
+/// Largest number of free driving links.
 pub const MOST_FREEDOMS: usize = 4;
 
 /// Checks that a case can be solved as a free motion.
 ///
 /// # Errors
-/// [`ErrorKind::Input`] for instants before t = 0, and for mechanisms in which nothing has a mass; [`ErrorKind::Unsupported`] for too many freedoms.
+/// [`ErrorKind::Input`] for instants before t = 0, and for mechanisms without any mass; [`ErrorKind::Unsupported`] for
+/// too many degrees of freedom.
 pub(crate) fn check(case: &Case) -> Result<()> {
     check_instants(case)?;
     let free = case.drives.free().count();

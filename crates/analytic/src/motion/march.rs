@@ -1,8 +1,9 @@
 //! Steps of DOP853 that end exactly where a piece of the equation of motion ends.
 //!
-//! An eighth-order step over a kink is of first order only. The equations are therefore written piece by piece, each going on smoothly beyond its
-//! ends; a step that leaves its piece is taken again, as long as its end lies on the boundary. Hairer, Norsett, Wanner, "Solving ordinary
-//! differential equations I", II.5 (DOP853) and II.6 (discontinuities).
+//! An eighth-order step over a kink is of first order only.
+//! So the equations are written piece by piece, and each piece continues smoothly beyond its ends.
+//! A step that leaves its piece is repeated until its end lies on the boundary.
+//! Hairer, Norsett, Wanner, "Solving ordinary differential equations I", II.5 (DOP853) and II.6 (discontinuities).
 
 use differential_equations::interpolate::Interpolation;
 use differential_equations::methods::{DormandPrince, ExplicitRungeKutta, Ordinary};
@@ -16,19 +17,20 @@ use linkage::math::root;
 /// DOP853 on a state of `N` numbers.
 pub(crate) type Method<const N: usize> = ExplicitRungeKutta<Ordinary, DormandPrince, f64, [f64; N], 8, 12, 16>;
 
-/// Relative and absolute error that each step may make, by its own estimate, which is cautious: the run-up of `crank_rocker` is then exact to 2e-14 rad.
+/// Relative and absolute error allowed in each step, by the step's own estimate.
+/// The estimate is cautious: the run-up of `crank_rocker` is then exact to 2e-14 rad.
 pub const ACCURACY: f64 = 1e-11;
-/// Speed (rad/s) with which a crank at rest that is about to turn is told from one that stands: its square vanishes.
+/// Speed (rad/s) of a crank at rest that is about to turn. It marks the sense of motion; its square underflows to zero.
 pub(crate) const SETTING_OFF: f64 = 1e-200;
-/// Pieces in a row that take no time: the motion does not get away from a kink.
+/// Largest number of consecutive pieces that take no time. With more, the motion does not get away from a kink.
 pub(crate) const MOST_EMPTY: usize = 8;
-/// Most steps of one piece: a hundred turns of a mechanism take some ten thousand.
+/// Largest number of steps of one piece. A hundred turns of a mechanism take some ten thousand.
 const MOST_STEPS: usize = 10_000_000;
-/// How much longer than wished a step may be to reach a target at once: no sliver is left before it.
+/// Factor by which a step may be longer than planned to reach a target at once, so that no tiny step is left.
 const STRETCH: f64 = 1.001;
-/// Bisections of a step for a first guess of the place where a bound is passed.
+/// Bisections of a step for a first estimate of the place where a bound is passed.
 const BISECTIONS: usize = 30;
-/// Times that a shortened step is taken again, at most: secants from a guess of order 4 take three.
+/// Largest number of repetitions of a shortened step. Secants from an estimate of order 4 take three.
 const CORRECTIONS: usize = 6;
 
 /// An equation of motion on one piece.
@@ -36,13 +38,13 @@ pub(crate) trait Flow<const N: usize>: ODE<f64, [f64; N]> {
     /// Number of bounds of the piece.
     fn bounds(&self) -> usize;
 
-    /// How far within a bound the state is: negative beyond it.
+    /// Distance of the state from a bound, positive inside and negative beyond it.
     fn margin(&self, bound: usize, x: f64, y: &[f64; N]) -> f64;
 
-    /// Told where every step begins.
+    /// Receives the beginning of every step.
     fn begin(&self, x: f64, y: &[f64; N]);
 
-    /// What went wrong in an evaluation since the last call.
+    /// The error of an evaluation since the last call, if there was one.
     fn fault(&self) -> Option<Error>;
 }
 
@@ -55,22 +57,22 @@ pub(crate) enum Stop {
     Bound(usize),
 }
 
-/// Where a march is.
+/// Present position of a march.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Place<const N: usize> {
     /// Independent variable.
     pub(crate) x: f64,
     /// State.
     pub(crate) y: [f64; N],
-    /// Length of the next step; 0 for not known.
+    /// Length of the next step; 0 if not known.
     pub(crate) h: f64,
 }
 
-/// One step: where it began, and where it ended.
+/// One step: its beginning and its end.
 pub(crate) type Step<const N: usize> = [(f64, [f64; N]); 2];
 
-/// Goes on from `place` over all `targets`, which ascend and lie ahead, to the last of them or to the first bound. Every target ends a step, so that
-/// the state there is as exact as the method. `visit` sees every step.
+/// Continues from `place` over all `targets`, which ascend and lie ahead, to the last of them or to the first bound.
+/// Every target ends a step, so that the state there is as exact as the method. `visit` receives every step.
 pub(crate) fn march<const N: usize, F: Flow<N>>(
     flow: &F,
     place: &mut Place<N>,
@@ -101,7 +103,7 @@ pub(crate) fn march<const N: usize, F: Flow<N>>(
         if (0..flow.bounds()).any(|bound| flow.margin(bound, method.t(), method.y()) < 0.0) {
             return end_on_bound(flow, place, &mut method, visit);
         }
-        // Of a step that had to be short, nothing is learnt about the length of the next.
+        // A step that had to be short says nothing about the length of the next.
         place.h = if cut { wished.larger(method.h()) } else { method.h() };
         method.set_h(place.h);
         let before = (place.x, place.y);
@@ -117,7 +119,7 @@ pub(crate) fn march<const N: usize, F: Flow<N>>(
     }
 }
 
-/// Takes the last step of a method again, so that it ends on the first bound that it passed.
+/// Repeats the last step of a method so that it ends on the first bound that it passed.
 fn end_on_bound<const N: usize, F: Flow<N>>(
     flow: &F,
     place: &mut Place<N>,
@@ -135,7 +137,7 @@ fn end_on_bound<const N: usize, F: Flow<N>>(
     }
     let (at, bound) = first;
     let before = (place.x, place.y);
-    // A bound that was all but reached before needs no step of its own.
+    // A bound that had nearly been reached before needs no separate step.
     if at - place.x > 8.0 * f64::EPSILON * at.abs() {
         (place.x, place.y) = shortened(flow, before, at - place.x, method, bound)?;
         visit(flow, &[before, (place.x, place.y)])?;
@@ -143,7 +145,8 @@ fn end_on_bound<const N: usize, F: Flow<N>>(
     Ok(Stop::Bound(bound))
 }
 
-/// About where in its last step a method passes a bound. The library's interpolation is of order 4 only: good for a first guess.
+/// Approximate place in its last step at which a method passes a bound.
+/// The library's interpolation is of order 4 only: good enough for a first estimate.
 fn crossing<const N: usize, F: Flow<N>>(flow: &F, method: &mut Method<N>, bound: usize) -> Result<f64> {
     let [low, _] = root::halved([method.t_prev(), method.t()], BISECTIONS, |middle| -> Result<bool> {
         let state = method.interpolate(middle).map_err(|why| lost(middle, &format!("{why:?}")))?;
@@ -152,7 +155,7 @@ fn crossing<const N: usize, F: Flow<N>>(flow: &F, method: &mut Method<N>, bound:
     Ok(low)
 }
 
-/// The end of a step of about the length `h` that ends on the bound: secants between steps of that length.
+/// The end of a step of about the length `h` that ends on the bound, by secants between steps of that length.
 fn shortened<const N: usize, F: Flow<N>>(
     flow: &F,
     (x, y): (f64, [f64; N]),
@@ -169,11 +172,11 @@ fn shortened<const N: usize, F: Flow<N>>(
     Ok(end)
 }
 
-/// State after one step of a given length, whatever its error estimate: it is part of one that was accepted.
+/// State after one step of a given length, whatever its error estimate, because it is part of an accepted step.
 pub(crate) fn one_step<const N: usize, F: Flow<N>>(flow: &F, x: f64, y: &[f64; N], h: f64) -> Result<[f64; N]> {
     flow.begin(x, y);
     let mut method: Method<N> = ExplicitRungeKutta::dop853().rtol(1e6).atol(1e6).h0(h);
-    // The interval is longer than the step, or rounding would make it too short for it.
+    // The interval is longer than the step; otherwise rounding would make it too short.
     let begun = method.init(flow, x, x + 2.0 * h, y);
     checked(flow, begun, x)?;
     let taken = method.step(flow);
@@ -184,7 +187,7 @@ pub(crate) fn one_step<const N: usize, F: Flow<N>>(flow: &F, x: f64, y: &[f64; N
     Ok(*method.y())
 }
 
-/// The flow's own fault before the library's. A fault in a trial step that was taken again does not count.
+/// Reports the flow's own error before the library's. An error in a trial step that was repeated does not count.
 fn checked<const N: usize, F: Flow<N>, T, E: std::fmt::Debug>(
     flow: &F,
     answer: std::result::Result<T, E>,

@@ -1,4 +1,4 @@
-//! What both sides integrate equations of motion with, whatever the equations are.
+//! The integration of equations of motion that both sides share, whatever the equations are.
 
 pub(crate) mod flow;
 pub(crate) mod free;

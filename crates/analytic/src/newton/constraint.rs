@@ -1,10 +1,13 @@
-//! The two equations of every joint: their residuals, their rows of the Jacobian, and what their second derivatives leave on the
+//! The two equations of every joint: residuals, rows of the Jacobian, and the terms of their second derivatives on the
 //! right-hand side.
 //!
-//! Revolute: C = p2 - p1. Prismatic, with the axis e and its normal n = z x e on the first link and d = p2 - p1: C1 = n . d and C2 =
-//! theta2 - theta1 - twist. As n' = -omega1 e, dC1/dtheta1 = -e . (d + r1) with r1 from the mass centre to p1, and C1'' = 0 gives
-//! n . d'' = 2 omega1 e . d' + alpha1 e . d, of which the first term and the centripetal ones of d'' are gamma. So the multiplier
-//! of C1 is a force along n that acts at p2 on either link, and that of C2 a moment (Haug, chapter 3.3).
+//! Revolute: C = p2 - p1.
+//! Prismatic, with the axis e and its normal n = z x e on the first link and d = p2 - p1: C1 = n . d and
+//! C2 = theta2 - theta1 - twist.
+//! As n' = -omega1 e, dC1/dtheta1 = -e . (d + r1) with r1 from the mass centre to p1.
+//! C1'' = 0 gives n . d'' = 2 omega1 e . d' + alpha1 e . d. Its first term and the centripetal terms of d'' are gamma.
+//! So the multiplier of C1 is a force along n that acts at p2 on both links, and that of C2 a moment (Haug, chapter
+//! 3.3).
 
 use super::system::System;
 use linkage::math::{Vec2, turned};

@@ -1,7 +1,9 @@
-//! Free motion of the whole mechanism: J q'' = gamma + E alpha with unknown accelerations alpha of the free driving links, found by embedding.
+//! Free motion of the whole mechanism: J q'' = gamma + E alpha with unknown accelerations alpha of the free driving
+//! links, found by embedding.
 //!
-//! With V = J^-1 E, the columns of the drives, q'' = a0 + V alpha and V^T J^T lambda = E^T lambda, the moments of the drives, which motor and rotor give:
-//! (V^T M V + added) alpha = T + V^T (Q - M a0). The multipliers then are the reactions (Haug, chapters 3 and 8).
+//! V = J^-1 E has one column per drive. Then q'' = a0 + V alpha, and V^T J^T lambda = E^T lambda are the moments of the
+//! drives, which motor and rotor give: (V^T M V + added) alpha = T + V^T (Q - M a0).
+//! The multipliers then are the reactions (Haug, chapters 3 and 8).
 
 use super::steps::TRACKING_STEP;
 use super::system::System;
@@ -14,7 +16,8 @@ use linkage::mechanism::EQUATIONS;
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 
-/// How far a corrected angle or place may lie from its prediction over one tracking step (rad, or of the mechanism's size).
+/// Largest distance of a corrected angle or place from its prediction over one tracking step (rad, or share of the
+/// mechanism's size).
 const JUMP: f64 = 10.0 * TRACKING_STEP;
 
 /// A system whose free driving links move under forces.
@@ -31,7 +34,7 @@ pub(super) struct Embedded<'a> {
 }
 
 impl<'a> Embedded<'a> {
-    /// Of a system at its start pose.
+    /// The equations of a system at its start pose.
     pub(super) fn new(system: System<'a>) -> Self {
         let n = system.q.len();
         let drives = system.inputs.len();

@@ -1,8 +1,10 @@
 //! Side 2: the whole mechanism at once, from its constraint equations and their Jacobian.
 //!
-//! Coordinates are (x, y, theta) of every link's mass centre frame. Constraints: two equations C = 0 of every joint, and the
-//! driving link has its angle. Positions by Newton, then J q' = rate of the drive, J q'' = gamma with the centripetal terms,
-//! and M q'' = Q + J^T lambda, whose multipliers are the reactions on the second links and the balancing moment (Haug,
+//! Coordinates are (x, y, theta) of every link's mass centre frame.
+//! Constraints: two equations C = 0 per joint, and the given angle of the driving link.
+//! Positions follow by Newton's method, then velocities from J q' = rate of the drive.
+//! Accelerations follow from J q'' = gamma with the centripetal terms, and multipliers from M q'' = Q + J^T lambda.
+//! The multipliers are the reactions on the second links and the balancing moment (Haug,
 //! "Computer aided kinematics and dynamics of mechanical systems", 1989, chapters 3 and 8).
 
 use super::free::Embedded;
@@ -13,7 +15,7 @@ use linkage::error::{Error, Result};
 use linkage::solver::{Progress, Provision, Solver, State, Visit};
 use linkage::trajectory::Channel;
 
-/// Whole mechanism by Newton and Lagrange multipliers.
+/// The solver of side 2: the whole mechanism by Newton's method and Lagrange multipliers.
 #[derive(Clone, Copy, Debug)]
 pub struct NewtonSolver;
 
@@ -34,7 +36,7 @@ impl Solver for NewtonSolver {
         }
         let mut state = State::at_rest(case);
         let rows = case.grid.ascending();
-        // Outwards from the start in both directions: first the rows at and after t = 0, then those before it, backwards.
+        // From the start in both directions: first the rows at and after t = 0, then those before it, backwards.
         let split = rows.partition_point(|&row| case.grid.times[row] < 0.0);
         let mut done = 0;
         let mut follow = |rows: &mut dyn Iterator<Item = usize>, system: &mut System| -> Result<()> {

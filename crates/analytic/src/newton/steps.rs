@@ -1,4 +1,5 @@
-//! Following the branch: Newton from a prediction, in small turns of the crank, then velocities, accelerations and multipliers.
+//! Follows the branch: Newton's method from a prediction, in small turns of the crank, then velocities, accelerations
+//! and multipliers.
 
 use std::f64::consts::PI;
 
@@ -11,15 +12,15 @@ use linkage::mechanism::EQUATIONS;
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 
-/// Largest turn of the crank between two poses (rad): a prediction from there stays on the branch.
+/// Largest turn of the crank between two poses (rad). A prediction over this step stays on the branch.
 pub(super) const TRACKING_STEP: f64 = PI / 90.0;
-/// How often a step that fails is halved: down to a millionth of it.
+/// How often a failing step is halved: down to a millionth of it.
 const HALVINGS: u32 = 20;
-/// Newton from a predicted pose converges in two or three iterations; more mean that something is wrong.
+/// Newton's method from a predicted pose converges in two or three iterations. If it needs more, something is wrong.
 const MAX_ITERATIONS: usize = 12;
 
 impl System<'_> {
-    /// Polishes the pose at t = 0 and fixes the branch there.
+    /// Corrects the pose at t = 0 to rounding and fixes the branch there.
     pub(super) fn settle(&mut self) -> Result<()> {
         self.correct()?;
         self.branch = self.jacobian.determinant_sign();
@@ -31,7 +32,7 @@ impl System<'_> {
     pub(super) fn go_to(&mut self, t: f64) -> Result<()> {
         let turned = |drive: &Drive| match drive.constant_speed() {
             Some(_) => (drive.at(t).angle - drive.at(self.time).angle).abs(),
-            // It may go there and back in between.
+            // The motion may go there and back in between.
             None => drive.top_speed().abs() * (t - self.time).abs(),
         };
         let turn = self.case.drives.iter().map(turned).fold(0.0, f64::larger);
@@ -40,7 +41,7 @@ impl System<'_> {
         for part in 1..parts as usize {
             self.step_to(from + (t - from) * (part as f64 / parts), HALVINGS)?;
         }
-        // The last part lands on t itself, not on a rounded neighbour.
+        // The last part ends at t itself, not at a rounded neighbour.
         self.step_to(t, HALVINGS)?;
         if self.stage >= Stage::Reactions {
             self.find_loads(Case::loads_on);
@@ -49,7 +50,7 @@ impl System<'_> {
         Ok(())
     }
 
-    /// One step from a prediction; where the branch cannot be followed over it, two of half the size.
+    /// One step from a prediction. Where the branch cannot be followed over it, two steps of half the size.
     pub(super) fn step_to(&mut self, t: f64, halvings: u32) -> Result<()> {
         let (from, dt) = (self.time, t - self.time);
         self.before.copy_from_slice(&self.q);
@@ -73,8 +74,8 @@ impl System<'_> {
         }
     }
 
-    /// Newton to rounding, from the pose that stands in `q`. The Jacobian is left factored at the last pose but one
-    /// (which differs from the last by rounding).
+    /// Newton's method to rounding, from the pose in `q`. The factored Jacobian is that of the last pose but one (which
+    /// differs from the last by rounding).
     pub(super) fn correct(&mut self) -> Result<()> {
         let size = self.case.mechanism.size().larger(f64::MIN_POSITIVE);
         let mut last = f64::INFINITY;
@@ -89,7 +90,7 @@ impl System<'_> {
                 self.q[i] -= step;
                 change = change.larger(step.abs() / if i % 3 == 2 { 1.0 } else { size });
             }
-            // Quadratic convergence: once below 1e-9 the next change is rounding, and one more step makes sure of it.
+            // Quadratic convergence: once below 1e-9 the next change is rounding. One more step makes sure of it.
             if change < 1e-14 || (last < 1e-9 && change < 1e-9) {
                 return Ok(());
             }
@@ -128,7 +129,7 @@ impl System<'_> {
         self.jacobian.solve(&mut self.second);
     }
 
-    /// Motions and angles of all links from the coordinates, for the loads, which are then found by `of`.
+    /// Computes motions and angles of all links from the coordinates, and calls `of` to find their loads.
     pub(super) fn find_loads(&mut self, of: impl FnOnce(&Case, &[Motion], &[f64], &mut [Wrench])) {
         if !self.case.loads.is_empty() {
             for link in 1..self.motions.len() {
@@ -138,7 +139,7 @@ impl System<'_> {
         }
     }
 
-    /// J^T lambda = M q'' - Q, with the loads last found.
+    /// J^T lambda = M q'' - Q, with the loads found last.
     pub(super) fn multipliers(&mut self) {
         for (index, link) in self.case.mechanism.links()[1..].iter().enumerate() {
             let i = 3 * index;
@@ -150,12 +151,12 @@ impl System<'_> {
         self.jacobian.solve_transposed(&mut self.lambda);
     }
 
-    /// A pose reached by going through a singular one, or by a correction far beyond the prediction, is another branch.
+    /// Refuses a pose on another branch: one beyond a singular pose, or one far from the prediction.
     pub(super) fn check_branch(&self, dt: f64) -> Result<()> {
         if self.jacobian.determinant_sign() != self.branch {
             return Err(self.lost("the mechanism has passed a dead point on the way there"));
         }
-        // Places too: where axes become parallel, a slider comes back from infinity on the other side.
+        // Places are checked too: where axes become parallel, a slider returns from infinity on the other side.
         let size = self.case.mechanism.size();
         for (index, rate) in self.rate.iter().enumerate() {
             let allowed = (dt * rate).abs() + if index % 3 == 2 { TRACKING_STEP } else { size };

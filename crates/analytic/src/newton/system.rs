@@ -1,4 +1,4 @@
-//! The equations of one case and the state that they are solved for.
+//! The equations of one case and the state for which they are solved.
 
 use std::f64::consts::TAU;
 
@@ -9,7 +9,7 @@ use linkage::math::{Motion, Vec2, rotated, turned, unit};
 use linkage::mechanism::{EQUATIONS, Joint, Side};
 use linkage::trajectory::Stage;
 
-/// The equations of one case and the state they are solved for.
+/// The equations of one case and the state for which they are solved.
 pub(super) struct System<'a> {
     pub(super) case: &'a Case,
     pub(super) stage: Stage,
@@ -18,20 +18,20 @@ pub(super) struct System<'a> {
     pub(super) q: Vec<f64>,
     pub(super) rate: Vec<f64>,
     pub(super) second: Vec<f64>,
-    /// Multipliers: two a joint, then the drives'.
+    /// Multipliers: two per joint, then those of the drives.
     pub(super) lambda: Vec<f64>,
-    /// Of every joint: see [`twist`].
+    /// For every joint: see [`twist`].
     pub(super) twists: Vec<f64>,
     pub(super) jacobian: Lu,
-    /// Sign of the Jacobian's determinant on the branch that is followed.
+    /// Sign of the Jacobian's determinant on the followed branch.
     pub(super) branch: f64,
     pub(super) residual: Vec<f64>,
     pub(super) predicted: Vec<f64>,
-    /// Coordinates before the step, to go back to.
+    /// Coordinates before the step, for a return to them.
     pub(super) before: Vec<f64>,
-    /// The driving links now: angles in the world, angular velocities and accelerations.
+    /// The driving links at the present time: angles in the world, angular velocities and accelerations.
     pub(super) inputs: Vec<DriveState>,
-    /// Motions and angles of all links, for their loads, and these.
+    /// Motions and angles of all links, for their loads, and the loads themselves.
     pub(super) motions: Vec<Motion>,
     pub(super) angles: Vec<f64>,
     pub(super) loads: Vec<Wrench>,
@@ -68,7 +68,7 @@ impl<'a> System<'a> {
         }
     }
 
-    /// Sets the time, and the driving links as their laws have them then.
+    /// Sets the time, and the driving links to the values of their laws at that time.
     pub(super) fn set_time(&mut self, t: f64) {
         self.time = t;
         for (input, drive) in self.inputs.iter_mut().zip(self.case.drives.iter()) {
@@ -90,7 +90,7 @@ impl<'a> System<'a> {
         (motion, self.q[i + 2])
     }
 
-    /// The drives with their rows, which stand below those of the joints.
+    /// The drives with their rows, which come after those of the joints.
     pub(super) fn drives(&self) -> impl Iterator<Item = (usize, &'a Drive)> + use<'a> {
         let first = EQUATIONS * self.case.mechanism.joints().len();
         self.case.drives.iter().enumerate().map(move |(index, drive)| (first + index, drive))
@@ -132,14 +132,14 @@ impl<'a> System<'a> {
     }
 }
 
-/// A driving link as its law has it, with its angle in the world.
+/// State of a driving link by its law, with its angle in the world.
 fn by_law(drive: &Drive, t: f64) -> DriveState {
     let state = drive.at(t);
     DriveState { angle: drive.world_angle(state.angle), ..state }
 }
 
-/// Angle of a joint's second link less that of its first (rad) while the axes of a prismatic pair are parallel; its whole turns
-/// are those of the start pose. 0 for a revolute joint, which does not use it.
+/// Angle of a joint's second link minus that of its first (rad) while the axes of a prismatic pair are parallel.
+/// Its whole turns are those of the start pose. 0 for a revolute joint, which does not use it.
 fn twist(case: &Case, joint: &Joint) -> f64 {
     let Some(axes) = joint.kind.axes() else { return 0.0 };
     let [first, second] = axes.map(|axis| axis.y.atan2(axis.x));

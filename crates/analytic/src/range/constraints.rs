@@ -1,17 +1,19 @@
-//! Constraint equations of a mechanism whose drive is let go: one equation fewer than coordinates, so that their solutions are curves.
+//! Constraint equations of a mechanism without its drive. There is one equation fewer than coordinates, so that the
+//! solutions are curves.
 //!
-//! Coordinates are x, y (in sizes of the mechanism, so that they compare with angles) of the middle of the joints of every moving link, and its
-//! angle. The rows of a joint stand in one function for each kind of joint.
+//! Coordinates of every moving link are x and y of the middle of its joints, and its angle.
+//! x and y are divided by the size of the mechanism, so that they compare with angles.
+//! Each kind of joint has one function with its rows.
 
 use linkage::math::{Column, KeepNan, Matrix, Vec2, cross, rotated, unit};
 use linkage::mechanism::{EQUATIONS, Group, Joint, JointKind, LinkPose, Mechanism, Pose, Side};
 
-/// A driving link that is geared to the crank: its angle follows the crank's.
+/// A driving link that is geared to the crank: its angle follows that of the crank.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Gearing {
     pub(super) crank: usize,
     pub(super) link: usize,
-    /// Turns of the link in a turn of the crank, and its angle where the crank's is zero (rad).
+    /// Turns of the link per turn of the crank, and its angle where the crank's is zero (rad).
     pub(super) ratio: f64,
     pub(super) offset: f64,
 }
@@ -20,9 +22,10 @@ pub(super) struct Gearing {
 #[derive(Debug)]
 pub(super) struct Constraints<'a> {
     mechanism: &'a Mechanism,
-    /// World place that coordinates count from, so that a mechanism far from the origin loses no digits (m).
+    /// World place at which coordinates have their origin, so that a mechanism far from the world's origin loses no
+    /// digits (m).
     origin: Vec2,
-    /// What lengths are divided by (m).
+    /// Length by which all lengths are divided (m).
     size: f64,
     gearings: Vec<Gearing>,
     /// Middle of the joints of every link, in its frame (m).
@@ -37,7 +40,7 @@ pub(super) struct Equations {
 }
 
 impl<'a> Constraints<'a> {
-    /// The equations of `mechanism`, counted from the place `origin` (m).
+    /// The equations of `mechanism`, with coordinates from the place `origin` (m).
     pub(super) fn of(mechanism: &'a Mechanism, origin: Vec2, gearings: Vec<Gearing>) -> Self {
         let middle = |link: usize| {
             let locals: Vec<Vec2> = mechanism.joints().iter().filter_map(|joint| joint.on(link)).collect();
@@ -52,7 +55,7 @@ impl<'a> Constraints<'a> {
         }
     }
 
-    /// Number of coordinates: three a moving link.
+    /// Number of coordinates: three per moving link.
     pub(super) fn coordinates(&self) -> usize {
         3 * (self.mechanism.links().len() - 1)
     }
@@ -62,7 +65,7 @@ impl<'a> Constraints<'a> {
         EQUATIONS * self.mechanism.joints().len() + self.gearings.len()
     }
 
-    /// Coordinate that is the angle of `link`.
+    /// Index of the coordinate that is the angle of `link`.
     pub(super) fn angle(link: usize) -> usize {
         3 * (link - 1) + 2
     }
@@ -77,7 +80,7 @@ impl<'a> Constraints<'a> {
         q
     }
 
-    /// The pose of coordinates.
+    /// The pose for these coordinates.
     pub(super) fn pose(&self, q: &Column) -> Pose {
         let place = |link: usize| {
             let middle = Vec2::new(q[3 * link - 3], q[3 * link - 2]) * self.size + self.origin;
@@ -123,7 +126,7 @@ impl<'a> Constraints<'a> {
         }
     }
 
-    /// n . (p_second - p_first) = 0 with the normal n of the axis on the first link, and both axes at one angle.
+    /// n . (p_second - p_first) = 0 with the normal n of the axis on the first link, and equal angles of both axes.
     fn prismatic(&self, joint: &Joint, axes: [Vec2; 2], q: &Column, row: usize, equations: &mut Equations) {
         let angle_of = |link: usize| if link == 0 { 0.0 } else { q[Self::angle(link)] };
         let [first, second] = [joint.first, joint.second];
@@ -148,7 +151,8 @@ impl<'a> Constraints<'a> {
         }
     }
 
-    /// Place of one side of a joint, and the vector to it from the middle of its link, in sizes.
+    /// Place of one side of a joint, and the vector to it from the middle of its link, in units of the mechanism's
+    /// size.
     fn point(&self, side: Side, q: &Column) -> (Vec2, Vec2) {
         if side.link == 0 {
             return ((side.local - self.origin) / self.size, Vec2::zeros());
@@ -158,7 +162,8 @@ impl<'a> Constraints<'a> {
         (Vec2::new(q[at], q[at + 1]) + arm, arm)
     }
 
-    /// The part of a Jacobian that belongs to the joints and links of a group: square, first all x and y, then all angles.
+    /// The part of a Jacobian that belongs to the joints and links of a group. It is square, with all x and y first,
+    /// then all angles.
     pub(super) fn block(&self, jacobian: &Matrix, group: &Group) -> Matrix {
         let joints = group.inner.iter().chain(&group.outer);
         let rows: Vec<usize> = joints.flat_map(|&joint| [EQUATIONS * joint, EQUATIONS * joint + 1]).collect();

@@ -1,6 +1,7 @@
-//! What is extreme along the curve of poses: angles of links, determinants, condition numbers.
+//! Extremes along the curve of poses: angles of links, determinants, condition numbers.
 //!
-//! A link is at an extreme position where its part of the tangent, hence its angular velocity, changes sign: a simple zero of the curve.
+//! A link is at an extreme position where its part of the tangent, and so its angular velocity, changes sign: a simple
+//! zero along the curve.
 
 use linkage::math::KeepNan;
 use std::f64::consts::TAU;
@@ -9,8 +10,9 @@ use super::constraints::Constraints;
 use super::singularity::{At, Kind, Singularity};
 use super::tracking::{Point, Tracker};
 
-/// Part of the tangent that is rounding and no motion, times the square of the smallest singular value: a pose is known to rounding over that
-/// value, and its tangent to the error of the pose over it once more.
+/// Part of the tangent below which it is rounding and not motion, times the square of the smallest singular value.
+/// The error of a pose is rounding divided by that value; the error of its tangent is the error of the pose divided by
+/// it again.
 const STILL: f64 = 50.0 * f64::EPSILON;
 
 /// Extreme position of a link: its angular velocity changes sign.
@@ -24,15 +26,16 @@ pub struct Extreme {
     pub is_greatest: bool,
 }
 
-/// How far a link turns.
+/// Range of rotation of a link.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinkRange {
     /// The link.
     pub link: usize,
-    /// Smallest and greatest angle (rad, counted on from that of the start pose), with their crank angles.
+    /// Smallest and greatest angle (rad, continued from that of the start pose), with their crank angles.
     pub angles: [At; 2],
-    /// Whole turns that the link makes until the mechanism is back at its first pose, counter-clockwise positive for a
-    /// crank that turns so; 0 for one that rocks, or if the crank cannot turn fully.
+    /// Whole turns of the link until the mechanism is back at its first pose, counter-clockwise positive for a crank
+    /// that turns counter-clockwise.
+    /// 0 for a link that rocks, or if the crank cannot turn fully.
     pub turns: i32,
     /// Extreme positions in ascending order of the crank angle.
     pub extremes: Vec<Extreme>,
@@ -51,7 +54,7 @@ fn of_link(tracker: &Tracker, points: &[Point], closed: bool, link: usize) -> Li
     let mut add = |point: &Point, is_greatest: bool| {
         extremes.push(Extreme { crank: tracker.crank_of(&point.q), angle: point.q[angle], is_greatest });
     };
-    // Places of poses in which the link turns at all: between two of them that differ in sense lies one extreme.
+    // Indices of poses in which the link turns at all. Between two of them with different sense there is one extreme.
     let moving: Vec<usize> =
         (0..points.len()).filter(|&k| rate(&points[k]).abs() * points[k].sigma.powi(2) > STILL).collect();
     for pair in moving.windows(2) {
@@ -64,7 +67,7 @@ fn of_link(tracker: &Tracker, points: &[Point], closed: bool, link: usize) -> Li
         }
     }
     let last = points.len() - 1;
-    // A start in an extreme position is first and last pose of a closed curve.
+    // A start in an extreme position is both first and last pose of a closed curve.
     if let (true, Some(&first), Some(&end)) = (closed, moving.first(), moving.last())
         && first > 0
         && rate(&points[first]) * rate(&points[end]) < 0.0
@@ -81,7 +84,7 @@ fn of_link(tracker: &Tracker, points: &[Point], closed: bool, link: usize) -> Li
     LinkRange { link, angles: [least, most], turns, extremes }
 }
 
-/// The pose in which `f`, smooth along the curve, is smallest.
+/// The pose with the smallest value of `f`, which is smooth along the curve.
 pub(super) fn least(tracker: &Tracker, points: &[Point], closed: bool, f: &dyn Fn(&Point) -> f64) -> Point {
     let values: Vec<f64> = points.iter().map(f).collect();
     let place = (0..values.len()).min_by(|&a, &b| values[a].total_cmp(&values[b])).unwrap_or(0);
@@ -116,7 +119,7 @@ fn refined(tracker: &Tracker, points: &[Point], closed: bool, place: usize, f: &
     }
 }
 
-/// Poses in which a group's determinant has a minimum below `bound` without vanishing.
+/// Poses in which a group's determinant has a minimum below `bound` but not zero.
 pub(super) fn contacts(tracker: &Tracker, points: &[Point], closed: bool, bound: f64) -> Vec<Singularity> {
     let last = points.len() - 1;
     let groups = points[0].measures.len();
@@ -127,7 +130,7 @@ pub(super) fn contacts(tracker: &Tracker, points: &[Point], closed: bool, bound:
         for place in range {
             let before = size(&points[if place == 0 { last - 1 } else { place - 1 }]);
             let (here, after) = (size(&points[place]), size(&points[place + 1]));
-            // A sample near a deep minimum: where the minimum itself lies is found below.
+            // A sample near a deep minimum. The place of the minimum itself is found below.
             if here < before && here <= after && here < 10.0 * bound {
                 let lowest = refined(tracker, points, closed, place, &size);
                 let contact = Singularity {

@@ -1,16 +1,20 @@
 //! Grashof's type of a four-bar.
 //!
-//! With the shortest link s, the longest l and the others p, q: if s + l < p + q, the shortest link turns fully against all others, so that the link
-//! that is shortest decides; if s + l > p + q, none does; if both sums are equal, all joints can come into one line, where branches cross (Grashof
-//! 1883; for example Hunt, "Kinematic geometry of mechanisms", 1978, section 4.1).
+//! With the shortest link s, the longest l and the others p, q:
+//! if s + l < p + q, the shortest link turns fully against all others, so that the type depends on which link is
+//! shortest.
+//! If s + l > p + q, no link does.
+//! If both sums are equal, all joints can come into one line, where branches cross.
+//! (Grashof 1883; for example Hunt, "Kinematic geometry of mechanisms", 1978, section 4.1.)
 
 use linkage::case::Case;
 use linkage::mechanism::{GROUND, GroupKind};
 
-/// Lengths whose sums differ by no more than this part of the sum are equal: the rounding of four lengths read from decimal numbers.
+/// Relative difference of the sums of lengths up to which they are equal: the rounding of four lengths read from
+/// decimal numbers.
 const EQUAL: f64 = 1e-14;
 
-/// What the links of a four-bar do.
+/// Rotation of the links of a four-bar.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FourBarType {
     /// The driving link is the shortest: it turns fully, the output link rocks.
@@ -75,7 +79,7 @@ impl FourBar {
         FourBar { lengths, of_type }
     }
 
-    /// The four-bar that a case is; `None` if it is another mechanism.
+    /// The four-bar of a case; `None` if the case is another mechanism.
     #[must_use]
     pub fn of(case: &Case) -> Option<Self> {
         let (mechanism, drive) = (&case.mechanism, case.crank());
@@ -120,7 +124,7 @@ mod tests {
 
     #[test]
     fn equal_sums_are_equal_in_spite_of_rounding() {
-        // Parallelogram, deltoid, and lengths of which the sums differ in the last digit.
+        // Parallelogram, deltoid, and lengths whose sums differ in the last digit.
         for lengths in [[0.4, 0.1, 0.4, 0.1], [0.1, 0.1, 0.4, 0.4], [0.1, 0.2, 0.5, 0.4]] {
             assert_eq!(FourBar::of_lengths(lengths).of_type, FourBarType::ChangePoint, "{lengths:?}");
         }

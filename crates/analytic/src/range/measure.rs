@@ -1,9 +1,13 @@
-//! How far a group is from a singular pose: its determinant and its condition number.
+//! Distance of a group from a singular pose: its determinant and its condition number.
 //!
-//! With x and y of its links eliminated (projection on the complement of their columns), as many equations as angles are left. Their columns
-//! are vectors of constant length, one a link; divided by these lengths, the determinant is a pure number from -1 to 1. For a
-//! dyad the columns are the vectors from the outer joints to the inner one: the determinant is the sine of the transmission
-//! angle mu (Alt 1932), and the condition number is cot(mu / 2) for mu up to 90 degrees. Groups with sliders keep all columns.
+//! With x and y of the group's links eliminated (projection on the complement of their columns), there are as many
+//! equations as angles.
+//! Their columns are vectors of constant length, one per link. Divided by these lengths, the determinant is a pure
+//! number from -1 to 1.
+//! For a dyad the columns are the vectors from the outer joints to the inner one.
+//! Its determinant is the sine of the transmission angle mu (Alt 1932), and its condition number is cot(mu / 2) for mu
+//! up to 90 degrees.
+//! Groups with sliders keep all columns.
 
 use linkage::math::{KeepNan, Matrix};
 use linkage::mechanism::assembly::transmission_sine;
@@ -14,7 +18,8 @@ use linkage::mechanism::{Group, Mechanism, Pose};
 pub struct Measure {
     /// Normalised determinant, from -1 to 1; zero in a singular pose.
     pub determinant: f64,
-    /// Condition number (2-norm) of the normalised equations: factor by which relative errors of position pass into angular velocities.
+    /// Condition number (2-norm) of the normalised equations: the factor from relative errors of position to those of
+    /// angular velocities.
     /// [`f64::MAX`] where the equations are singular to the last digit.
     pub condition: f64,
 }
@@ -32,8 +37,8 @@ pub(super) fn of(block: &Matrix, mechanism: &Mechanism, group: &Group, pose: &Po
     of_columns(rest, block.determinant().signum())
 }
 
-/// Measures a group with sliders, in which x and y cannot be eliminated: all columns are divided by their lengths. A dyad keeps its own
-/// determinant, the sine of its transmission angle.
+/// Measures a group with sliders, in which x and y cannot be eliminated. All columns are divided by their lengths.
+/// A dyad keeps its own determinant, the sine of its transmission angle.
 fn of_sliding(block: &Matrix, sine: Option<f64>) -> Measure {
     let sign = block.determinant().signum();
     let measure = of_columns(block.clone(), sign);
@@ -48,7 +53,7 @@ fn of_columns(mut matrix: Matrix, sign: f64) -> Measure {
         }
     }
     let values = matrix.singular_values();
-    // Of a matrix of zeros, whose quotient is no number, the condition is as bad as that of any singular one.
+    // For a matrix of zeros the quotient is NaN. Its condition number is then that of any singular matrix.
     let condition = (values.max() / values.min()).smaller_number(f64::MAX);
     Measure { determinant: sign * values.product(), condition }
 }

@@ -1,9 +1,12 @@
-//! Over which crank angles a mechanism can be followed on its branch, what limits it, and how well conditioned it is on the way.
+//! The crank angles over which a mechanism can be followed on its branch, what limits them, and the condition numbers
+//! along the way.
 //!
-//! The drive is let go and the curve of all poses is followed by its length, both ways from the start pose: until the mechanism is back there, or up
-//! to a singular pose. At a *limit of rotation* (dead point of the crank) one group's determinant vanishes, the two branches that meet there are one smooth
-//! curve, and along it the crank turns back. At a *change point* two such curves cross: the determinant
-//! changes its sign while the crank goes on, and which way the mechanism takes is not decided by geometry.
+//! The drive is released, and the curve of all poses is followed by its length, both ways from the start pose.
+//! It ends where the mechanism is back at the start, or at a singular pose.
+//! At a *limit of rotation* (dead point of the crank) the determinant of one group is zero. The two branches that meet
+//! there are one smooth curve, and along it the crank reverses.
+//! At a *change point* two such curves cross. The determinant changes its sign while the crank goes on; geometry does
+//! not decide which way the mechanism takes.
 
 mod constraints;
 mod extremes;
@@ -24,22 +27,23 @@ use linkage::math::Vec2;
 use linkage::mechanism::{Group, Mechanism, Pose};
 use tracking::{End, Point, Tracker};
 
-/// Below this, a determinant that does not vanish is reported as [`Kind::BranchContact`]: transmission angle 0.06 deg, at which accelerations have lost
-/// six digits.
+/// Below this, a determinant that is not zero is reported as [`Kind::BranchContact`].
+/// It is a transmission angle of 0.06 deg, at which accelerations have lost six digits.
 const CONTACT: f64 = 1e-3;
-/// Below this, a pose counts as singular: configurations that meet are parted by the root of rounding, 1e-8 to 1e-7.
+/// Below this, a pose counts as singular. Rounding separates configurations that meet by its square root, 1e-8 to 1e-7.
 const SINGULAR: f64 = 1e-6;
 
 /// Crank angles over which a mechanism can be followed on its branch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Extent {
-    /// All of them; the mechanism is back at its first pose after so many turns (one, unless it has a higher group).
+    /// All of them. The mechanism is back at its first pose after this number of turns (one, except with some higher
+    /// groups).
     FullTurn(i32),
-    /// From one singular pose to another, the start between them; may be more than a turn.
+    /// From one singular pose to another, with the start between them. It may be more than a turn.
     Limited([Singularity; 2]),
 }
 
-/// The worst of one group.
+/// The worst values of one group.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GroupRange {
     /// Normalised determinant of smallest size, with its sign.
@@ -48,28 +52,30 @@ pub struct GroupRange {
     pub condition: Option<At>,
 }
 
-/// All groups at one pose.
+/// The measures of all groups at one pose.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sample {
     /// Crank angle (rad, as the scenario states it).
     pub crank: f64,
-    /// Determinant and condition number of each group, in the order of the structure. The determinant of a dyad is positive in the mode
+    /// Determinant and condition number of each group, in the order of the structure.
+    /// The determinant of a dyad is positive in the mode
     /// [`AssemblyMode::Left`](linkage::mechanism::AssemblyMode::Left), that of a higher group at the start.
     pub groups: Vec<Measure>,
 }
 
-/// What can be said about a mechanism on its branch.
+/// The range of motion of a mechanism on its branch.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Range {
     /// Crank angles that can be reached.
     pub extent: Extent,
     /// Limits, change points and contacts, in ascending order of the crank angle.
     pub singularities: Vec<Singularity>,
-    /// The worst of each group.
+    /// The worst values of each group.
     pub groups: Vec<GroupRange>,
-    /// Every moving link.
+    /// The range of every moving link.
     pub links: Vec<LinkRange>,
-    /// All groups along the way, in ascending order of the crank angle, at most two degrees of it apart; without the limits themselves.
+    /// Measures of all groups along the way, in ascending order of the crank angle, at most two degrees apart, without
+    /// the limits themselves.
     pub samples: Vec<Sample>,
     /// Grashof's type, if the mechanism is a four-bar.
     pub four_bar: Option<FourBar>,
@@ -101,7 +107,7 @@ impl Range {
     }
 }
 
-/// Crank angles that the branch of a case reaches: what [`Range::of`] knows first.
+/// Crank angles that the branch of a case reaches: the first part of [`Range::of`].
 ///
 /// # Errors
 /// Those of [`Range::of`].
@@ -110,9 +116,10 @@ pub fn reachable(case: &Case) -> Result<Extent> {
     Ok(both_ways(&tracker, &start)?.1)
 }
 
-/// An error of a solver on this case, for those who join the solvers. If it [is that of a pose out of
-/// reach](Error::is_out_of_reach), the message gets the crank angles that can be reached, or why none can be told; any
-/// other error stays as it is. The solvers do not ask for the range themselves: they must not share it.
+/// Explains an error of a solver on this case, for code that joins solvers and range of motion.
+/// If it [is that of a pose out of reach](Error::is_out_of_reach), the message gets the crank angles that can be
+/// reached, or why they are not known. Any other error stays unchanged.
+/// The solvers do not call the range analysis themselves, because they must not share it.
 #[must_use]
 pub fn explained(case: &Case, error: Error) -> Error {
     if !error.is_out_of_reach() {
@@ -127,15 +134,15 @@ pub fn explained(case: &Case, error: Error) -> Error {
     error.map_message(|message| format!("{message}{reached}")).explained()
 }
 
-/// `from X to Y deg on this branch`, to 1e-6 deg and rounded inwards, so that the numbers can be asked for.
+/// `from X to Y deg on this branch`, to 1e-6 deg and rounded inwards, so that the user can request these angles.
 fn interval([from, to]: [Singularity; 2]) -> String {
-    // What lies within 1e-9 deg of a printed number is that number.
+    // An angle within 1e-9 deg of a printed number counts as that number.
     let from = (from.crank.to_degrees() * 1e6 - 1e-3).ceil() / 1e6 + 0.0;
     let to = (to.crank.to_degrees() * 1e6 + 1e-3).floor() / 1e6 + 0.0;
     format!("from {from:.6} to {to:.6} deg on this branch")
 }
 
-/// Whether two configurations of a group meet in this pose to rounding, so that velocities are not determined.
+/// Whether two configurations of a group coincide in this pose to rounding, so that velocities are not determined.
 #[must_use]
 pub fn is_singular(mechanism: &Mechanism, group: &Group, pose: &Pose) -> bool {
     let constraints = Constraints::of(mechanism, Vec2::zeros(), Vec::new());

@@ -1,14 +1,14 @@
 //! Singular poses, and values at a crank angle.
 
-/// Sort of a singular pose.
+/// Kind of a singular pose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// Limit of rotation of the crank: two configurations of a group meet and there is none beyond. The determinant vanishes as
-    /// the square root of the crank angle that is left.
+    /// Limit of rotation of the crank: two configurations of a group meet, and beyond there is none.
+    /// The determinant goes to zero as the square root of the remaining crank angle.
     DeadPoint,
     /// Branches cross: the determinant changes its sign, linear in the crank angle, and the crank can go on.
     ChangePoint,
-    /// The two axes of an RPP or PRP dyad are parallel: towards there its slides grow without bound.
+    /// The two axes of an RPP or PRP dyad are parallel. Towards this pose its slides grow without bound.
     ParallelAxes,
     /// Another branch comes so near that the determinant is below 1e-3, without changing its sign.
     BranchContact,
@@ -27,16 +27,17 @@ impl Kind {
     }
 }
 
-/// A singular pose, or one that is nearly so.
+/// A singular or nearly singular pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Singularity {
-    /// Its sort.
+    /// Its kind.
     pub kind: Kind,
-    /// Crank angle (rad, as the scenario states it), to 1e-9 rad; of a contact, where the determinant is smallest.
+    /// Crank angle (rad, as the scenario states it), to 1e-9 rad. For a contact, the angle of the smallest determinant.
     pub crank: f64,
-    /// The group whose determinant vanishes: index in [`Structure::groups`](linkage::mechanism::Structure::groups).
+    /// The group whose determinant is zero: index in [`Structure::groups`](linkage::mechanism::Structure::groups).
     pub group: usize,
-    /// Normalised determinant of the group there: 0, but not of a contact. The transmission angle of a dyad is its arc sine.
+    /// Normalised determinant of the group there: 0, except for a contact. The transmission angle of a dyad is its arc
+    /// sine.
     pub determinant: f64,
 }
 

@@ -1,9 +1,12 @@
-//! The curve of all poses that a mechanism goes through, followed by its length (pseudo-arclength continuation; Allgower and
+//! The curve of all poses of a mechanism, followed by its length (pseudo-arclength continuation; Allgower and
 //! Georg, "Numerical continuation methods", 1990, chapters 2 to 4 and 8).
 //!
-//! Along the length a limit of rotation is nothing special: the crank's component of the tangent changes its sign there, a simple zero, whereas
-//! as a function of the crank angle the pose has a square root. Where branches cross, the rank of the equations drops. The smallest singular value
-//! of the Jacobian bounds how near another branch can be, and steps are kept below it, so that none is jumped to.
+//! Along the length a limit of rotation is a regular point: the crank's component of the tangent changes its sign
+//! there, a simple zero.
+//! As a function of the crank angle the pose has a square root there.
+//! Where branches cross, the rank of the equations drops.
+//! The smallest singular value of the Jacobian is a lower bound on the distance to another branch.
+//! Steps are kept below it, so that no step jumps to another branch.
 
 use std::f64::consts::TAU;
 
@@ -16,22 +19,24 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::root::{self, Close};
 use linkage::math::{Column, KeepNan, Matrix, unit};
 
-/// Longest step: two degrees, where the crank alone turns.
+/// Longest step: two degrees, where only the crank turns.
 const LONGEST: f64 = std::f64::consts::PI / 90.0;
-/// Step over the smallest singular value. The derivatives of the equations are at most of order one in sizes of the mechanism, so another
-/// branch is farther away than that.
+/// Largest ratio of a step to the smallest singular value.
+/// The derivatives of the equations are at most of order one in sizes of the mechanism, so that another branch is
+/// farther away.
 const SAFE: f64 = 0.5;
-/// Cosine of the angle between tangents of neighbouring poses: at most 0.25 rad.
+/// Smallest cosine of the angle between tangents of neighbouring poses: at most 0.25 rad.
 const STRAIGHT: f64 = 0.969;
-/// Branches nearer than this to each other (in sizes and rad) meet: lengths rounded to 16 digits part crossing branches by the root of that, 1e-8.
+/// Branches nearer than this to each other (in sizes and rad) count as meeting.
+/// Lengths rounded to 16 digits separate crossing branches by the square root of that, 1e-8.
 const MEET: f64 = 1e-6;
-/// Shortest step before branches are said to meet.
+/// Shortest step. Below it branches count as meeting.
 const SHORTEST: f64 = 1e-9;
-/// Most steps to a zero along the curve; it takes about eight.
+/// Largest number of steps to a zero along the curve; it takes about eight.
 const STEPS_TO_ZERO: usize = 60;
-/// More poses mean that something is wrong.
+/// Largest number of poses. More mean that something is wrong.
 const MOST_POINTS: usize = 200_000;
-/// Turns after which a crank that has not come back to its first pose is left alone.
+/// Number of turns after which the search for the first pose ends.
 const MOST_TURNS: i32 = 12;
 
 /// A pose on the curve.
@@ -42,14 +47,14 @@ pub(super) struct Point {
     pub(super) tangent: Column,
     /// Smallest singular value of the equations.
     pub(super) sigma: f64,
-    /// Each group's.
+    /// Measures of each group.
     pub(super) measures: Vec<Measure>,
 }
 
 /// How a track ends.
 #[derive(Clone, Debug)]
 pub(super) enum End {
-    /// The mechanism is back at its first pose after so many turns of the crank.
+    /// The mechanism is back at its first pose after this number of turns of the crank.
     Closed(i32),
     /// It cannot be followed any further.
     Limit(Singularity),
@@ -62,7 +67,7 @@ pub(super) struct Track {
     pub(super) end: End,
 }
 
-/// Distance from the crank's pivot, in sizes of the mechanism, at which a link is on its way to infinity.
+/// Distance from the crank's pivot, in sizes of the mechanism, beyond which a link counts as going to infinity.
 const FAR: f64 = 50.0;
 
 /// Follows the curve of one case.
@@ -70,14 +75,14 @@ const FAR: f64 = 50.0;
 pub(super) struct Tracker<'a> {
     case: &'a Case,
     constraints: Constraints<'a>,
-    /// The crank's coordinate.
+    /// Index of the crank's coordinate.
     crank: usize,
-    /// Makes every group's determinant positive at the start.
+    /// Signs that make every group's determinant positive at the start.
     signs: Vec<f64>,
 }
 
 impl<'a> Tracker<'a> {
-    /// At the start pose of a case.
+    /// Starts at the start pose of a case.
     ///
     /// # Errors
     /// [`ErrorKind::Geometry`] if it is singular.
@@ -136,7 +141,7 @@ impl<'a> Tracker<'a> {
         Ok(())
     }
 
-    /// The pose at `q`, whose tangent goes the way of `along`.
+    /// The pose at `q`, with its tangent in the direction of `along`.
     fn point(&self, q: Column, along: &Column) -> Point {
         let jacobian = self.constraints.at(&q).jacobian;
         let tangent = tangent(&jacobian, along);
@@ -151,8 +156,8 @@ impl<'a> Tracker<'a> {
         Point { q, tangent, sigma, measures }
     }
 
-    /// Newton's method from `q` on all equations and `across . (q - from) = distance`; `None` if the first correction is longer than `most` or the
-    /// method does not converge.
+    /// Newton's method from `q` on all equations and `across . (q - from) = distance`.
+    /// `None` if the first correction is longer than `most` or the method does not converge.
     fn correct(&self, mut q: Column, across: &Column, from: &Column, distance: f64, most: f64) -> Option<Column> {
         let mut last = f64::INFINITY;
         for _ in 0..10 {
@@ -174,7 +179,7 @@ impl<'a> Tracker<'a> {
         None
     }
 
-    /// The pose that lies `distance` ahead of `from`, measured along its tangent.
+    /// The pose at `distance` ahead of `from`, measured along its tangent.
     pub(super) fn advance(&self, from: &Point, distance: f64) -> Option<Point> {
         let predicted = &from.q + &from.tangent * distance;
         let most = 0.25 * distance.abs() + 1e-12;
@@ -191,14 +196,15 @@ impl<'a> Tracker<'a> {
         Some(self.point(q, &near.tangent))
     }
 
-    /// Zero of `f` between the neighbours `a` and `b`, where it has different signs, by the Illinois method in the distance from `a`.
+    /// Zero of `f` between the neighbours `a` and `b`, where it has different signs. By the Illinois method in the
+    /// distance from `a`.
     pub(super) fn zero(&self, a: &Point, b: &Point, f: impl Fn(&Point) -> f64) -> Point {
         let width = a.tangent.dot(&(&b.q - &a.q));
         let ends = [(0.0, f(a)), (width, f(b))];
         let nearer = usize::from(!(ends[0].1.abs() < ends[1].1.abs()));
         let mut best = ([a, b][nearer].clone(), ends[nearer].1.abs());
         let close = Close { value: 0.0, width: 1e-14 * width.abs() };
-        // A pose that cannot be corrected ends the search: the best so far is as near as the equations allow.
+        // A pose that cannot be corrected ends the search. The best result so far is as near as the equations allow.
         let _ = root::regula_falsi(ends, close, STEPS_TO_ZERO, |at| {
             let point = self.advance(a, at).ok_or(())?;
             let value = f(&point);
@@ -258,7 +264,8 @@ impl<'a> Tracker<'a> {
         Err(lost(self.crank_of(&points[points.len() - 1].q)))
     }
 
-    /// One step of at most `longest`, over no singular pose but a single limit of rotation; `None` where branches meet.
+    /// One step of at most `longest`, which passes no singular pose except one limit of rotation. `None` where branches
+    /// meet.
     fn step(&self, here: &Point, longest: f64) -> Option<(Point, f64)> {
         let mut step = longest.smaller(SAFE * here.sigma);
         while step >= SHORTEST {
@@ -276,8 +283,9 @@ impl<'a> Tracker<'a> {
         None
     }
 
-    /// The end of a track at a pose where branches meet. Near it the equations lose digits, but along the branch everything is a smooth
-    /// function of the determinant that vanishes: its value at zero follows from poses at a distance (Neville's scheme).
+    /// The end of a track at a pose where branches meet. Near it the equations lose digits.
+    /// Along the branch everything is a smooth function of the determinant that goes to zero.
+    /// So the value at zero is extrapolated from poses at a distance (Neville's scheme).
     fn met(&self, mut points: Vec<Point>) -> Result<Track> {
         let last = &points[points.len() - 1];
         let Some(group) = weakest(&last.measures) else { return Err(lost(self.crank_of(&last.q))) };
@@ -285,7 +293,8 @@ impl<'a> Tracker<'a> {
         let q = if known.len() < 3 { last.q.clone() } else { neville_at_zero(&known) };
         let moved = (&q - &last.q).norm();
         let q = if moved < 1e-3 { q } else { last.q.clone() };
-        // A dead point of several groups at once: the crank stands still on the curve, as in one of a single group.
+        // A dead point of several groups at once: the crank stands still on the curve, as at the dead point of a single
+        // group.
         let kind = if self.crank_rate(last).abs() < 1e-3 { Kind::DeadPoint } else { Kind::ChangePoint };
         let mut end = Point { q, ..last.clone() };
         end.measures[group] = Measure { determinant: 0.0, condition: f64::MAX };
@@ -294,7 +303,8 @@ impl<'a> Tracker<'a> {
         Ok(Track { points, end: End::Limit(singularity) })
     }
 
-    /// The end of a track along which a slide grows without bound: the crank angle is a smooth function of the determinant there too.
+    /// The end of a track along which a slide grows without bound. The crank angle is a smooth function of the
+    /// determinant there too.
     fn escaped(&self, mut points: Vec<Point>) -> Result<Track> {
         let last = &points[points.len() - 1];
         let Some(group) = weakest(&last.measures) else { return Err(lost(self.crank_of(&last.q))) };
@@ -310,14 +320,14 @@ impl<'a> Tracker<'a> {
         Ok(Track { points, end: End::Limit(singularity) })
     }
 
-    /// A singular pose, at the group of smallest determinant.
+    /// A singular pose, for the group with the smallest determinant.
     pub(super) fn singularity(&self, kind: Kind, at: &Point) -> Singularity {
         let group = weakest(&at.measures).unwrap_or(0);
         let determinant = if kind == Kind::BranchContact { at.measures[group].determinant } else { 0.0 };
         Singularity { kind, crank: self.crank_of(&at.q), group, determinant }
     }
 
-    /// Whether all links are where they were, whole turns apart.
+    /// Whether all links have the same place again, whole turns apart.
     fn is_same(&self, a: &Point, b: &Point) -> bool {
         (1..self.case.mechanism.links().len())
             .map(Constraints::angle)
@@ -325,7 +335,8 @@ impl<'a> Tracker<'a> {
     }
 }
 
-/// Coordinates of the last regular poses by the determinant of a group, the nearest to zero first, each half as far again as the one before.
+/// Coordinates of the last regular poses by the determinant of a group.
+/// The nearest to zero comes first; each is half as far again as the one before.
 fn by_determinant(points: &[Point], group: usize) -> Vec<(f64, &Column)> {
     let mut known: Vec<(f64, &Column)> = Vec::new();
     for point in points.iter().rev().filter(|point| point.sigma > 1e-4) {
@@ -338,7 +349,7 @@ fn by_determinant(points: &[Point], group: usize) -> Vec<(f64, &Column)> {
     known
 }
 
-/// The group of smallest determinant.
+/// The group with the smallest determinant.
 fn weakest(measures: &[Measure]) -> Option<usize> {
     (0..measures.len()).min_by(|&a, &b| measures[a].determinant.abs().total_cmp(&measures[b].determinant.abs()))
 }
@@ -359,7 +370,7 @@ fn bordered(jacobian: &Matrix, row: &Column) -> Matrix {
     square
 }
 
-/// Unit vector that the Jacobian takes to zero, on the side of `along`; `along` itself if there are several.
+/// Unit vector that the Jacobian maps to zero, on the side of `along`; `along` itself if there are several.
 fn tangent(jacobian: &Matrix, along: &Column) -> Column {
     let mut ahead = Column::zeros(along.len());
     ahead[along.len() - 1] = 1.0;

@@ -1,8 +1,9 @@
 //! The equation of motion on one piece, in two independent forms.
 //!
-//! In time, for run-ups, which begin at rest: phi' = omega, omega' = (M - omega^2 / 2 dI*/dphi) / I*. Over the crank angle, for regimes, whose interval
-//! is known there and whose kinks lie at known places: with E = I* omega^2 / 2, dE/dphi = M and dt/dphi = 1 / omega. The second form has no
-//! dI*/dphi, so that each proves the other.
+//! In time, for run-ups, which begin at rest: phi' = omega, omega' = (M - omega^2 / 2 dI*/dphi) / I*.
+//! Over the crank angle, for steady regimes, where the interval and the places of the kinks are known:
+//! with E = I* omega^2 / 2, dE/dphi = M and dt/dphi = 1 / omega.
+//! The second form does not contain dI*/dphi, so that each form checks the other.
 
 use std::cell::{Cell, RefCell};
 
@@ -14,10 +15,11 @@ use crate::motion::march::Flow;
 use linkage::drive::Branch;
 use linkage::error::{Error, Result};
 
-/// Farthest that a stage of a step may lie from its beginning (rad). A first try of a step may lead anywhere; it is to be refused, not followed.
+/// Largest distance of a stage of a step from the step's beginning (rad). The first trial of a step may lead anywhere;
+/// such a trial must be refused.
 const FARTHEST: f64 = std::f64::consts::TAU;
 
-/// What both forms evaluate.
+/// The evaluation that both forms share.
 #[derive(Debug)]
 pub(crate) struct Forces<'m, 'a> {
     pub(crate) model: &'m Model<'a>,
@@ -44,13 +46,13 @@ impl<'m, 'a> Forces<'m, 'a> {
         })
     }
 
-    /// A step begins at this crank angle, however far it is.
+    /// Begins a step at this crank angle, however far it is.
     pub(crate) fn begin_at(&self, crank: f64) {
         self.origin.set(crank);
     }
 
-    /// Reduced quantities on the present piece, with what turns with the crank. Not a number too far away, so that the step is taken again, and after
-    /// a fault, which is kept.
+    /// Reduced quantities on the present piece, with the inertia that turns with the crank.
+    /// NaN at crank angles too far away, so that the step is repeated, and after an error, which is kept.
     pub(crate) fn reduced(&self, crank: f64) -> Reduced {
         if !((crank - self.origin.get()).abs() <= FARTHEST) {
             return Reduced { inertia: f64::NAN, slope: f64::NAN, applied: f64::NAN };
@@ -71,7 +73,7 @@ impl<'m, 'a> Forces<'m, 'a> {
         self.branch.get().map_or(0.0, |branch| sense * branch.moment(sense * omega))
     }
 
-    /// Its change with the crank's speed (N m s).
+    /// Its derivative with respect to the crank's speed (N m s).
     fn motor_slope(&self, omega: f64) -> f64 {
         self.branch.get().map_or(0.0, |branch| branch.slope(self.model.sense * omega))
     }
@@ -85,7 +87,7 @@ impl<'m, 'a> Forces<'m, 'a> {
         self.fault.borrow_mut().take()
     }
 
-    /// How far within the speeds of its branch the motor is.
+    /// Distances of the motor's speed from the bounds of its branch, positive inside.
     fn branch_margins(&self, omega: f64) -> [f64; 2] {
         let speed = self.model.sense * omega;
         self.branch.get().map_or([f64::INFINITY; 2], |branch| [branch.speeds[1] - speed, speed - branch.speeds[0]])
@@ -133,12 +135,13 @@ impl Flow<2> for InTime<'_, '_> {
     }
 }
 
-/// Kinetic energy, time, and the derivative of the energy by that at the beginning, over the crank angle counted in the sense of motion.
+/// Kinetic energy, time, and the derivative of the energy with respect to its initial value, over the crank angle
+/// counted in the sense of motion.
 #[derive(Debug)]
 pub(crate) struct OverAngle<'m, 'a>(pub(crate) Forces<'m, 'a>);
 
 impl OverAngle<'_, '_> {
-    /// Speed of the crank (rad/s) at the place `x` of the way with the energy `energy` (J).
+    /// Speed of the crank (rad/s) at the place `x` of the way, where the energy is `energy` (J).
     pub(crate) fn speed(&self, x: f64, energy: f64) -> f64 {
         let way = self.0.way.get();
         way * (2.0 * energy / self.0.reduced(way * x).inertia).sqrt()

@@ -1,4 +1,5 @@
-//! The mechanism reduced to its driving link: moment of inertia and moment of resistance as functions of the crank angle.
+//! The mechanism reduced to its driving link: moment of inertia and moment of resistance
+//! as functions of the crank angle.
 
 use std::f64::consts::{PI, TAU};
 
@@ -13,7 +14,7 @@ use linkage::math::{KeepNan, Motion, quadrature, root};
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
 
-/// Reduced moment of inertia (kg m^2): twice the kinetic energy over the square of the driving link's speed,
+/// Reduced moment of inertia (kg m^2): twice the kinetic energy divided by the square of the driving link's speed,
 /// I* = sum of m (v / omega_1)^2 + J (omega / omega_1)^2.
 #[must_use]
 pub fn moment_of_inertia(case: &Case, motions: &[Motion]) -> f64 {
@@ -25,8 +26,8 @@ pub fn moment_of_inertia(case: &Case, motions: &[Motion]) -> f64 {
     sum / motions[case.crank().link].omega.powi(2)
 }
 
-/// Reduced moment of resistance (N m): minus the power of gravity and loads over the driving link's speed, positive
-/// where the drive must do work against them.
+/// Reduced moment of resistance (N m): minus the power of gravity and loads divided by the driving link's speed.
+/// Positive where the drive must do work against them.
 #[must_use]
 pub fn moment_of_resistance(case: &Case, state: &State) -> f64 {
     let power = |(link, motion): (usize, &Motion)| {
@@ -37,30 +38,31 @@ pub fn moment_of_resistance(case: &Case, state: &State) -> f64 {
     -(weights + case.load_power(&state.motions, &state.angles)) / state.motions[case.crank().link].omega
 }
 
-/// Over which crank angles the reduced quantities repeat, and where they have kinks.
+/// The period of the reduced quantities, and their kinks.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Kinks {
-    /// Crank angle after which the mechanism is back at its first pose, under the same loads (rad): a whole turn, or several with higher groups and
-    /// with tables over several turns.
+    /// Crank angle after which the mechanism is back at its first pose, under the same loads (rad).
+    /// It is one turn, or several with higher groups and with tables over several turns.
     /// `None` if the crank cannot turn fully.
     pub period: Option<f64>,
-    /// Crank angles (rad) at which a loaded link turns about, so that its load changes its sense, and those at which tables of loads have their
-    /// points: ascending, of one period that begins at the start, or all that can be reached.
+    /// Crank angles (rad) of the kinks: where a loaded link reverses, so that its load changes its sense, and at the
+    /// points of load tables.
+    /// Ascending, over one period that begins at the start, or over all angles that can be reached.
     pub cranks: Vec<f64>,
     /// Crank angles (rad) that can be reached, if there are limits.
     pub limits: Option<[f64; 2]>,
 }
 
-/// Most turns after which the reduced quantities may repeat.
+/// Largest number of turns after which the reduced quantities may repeat.
 const MOST_TURNS: u32 = 1000;
-/// Newton steps from a crank angle known to 1e-9 rad to rounding.
+/// Newton steps that improve a crank angle known to 1e-9 rad to rounding.
 const POLISHING: usize = 3;
 
 /// Kinks of the reduced quantities of a case.
 ///
 /// # Errors
-/// Those of [`Range::of`]; [`ErrorKind::Unsupported`] for loads against the motion of a point, and for tables that repeat together only after more than
-/// a thousand turns.
+/// Those of [`Range::of`]; [`ErrorKind::Unsupported`] for loads against the motion of a point, and for tables that
+/// repeat together only after more than a thousand turns.
 pub fn kinks(case: &Case) -> Result<Kinks> {
     if let Some(load) = case.loads.iter().find(|load| load.sensed_point().is_some()) {
         let message = format!(
@@ -79,14 +81,14 @@ pub fn kinks(case: &Case) -> Result<Kinks> {
     let start = case.crank().start;
     let within = |crank: f64, period: f64| {
         let inside = (crank - start).rem_euclid(period);
-        // A rounding before the start belongs to the start.
+        // A rounding error before the start is allowed.
         start + if period - inside < 1e-12 { 0.0 } else { inside }
     };
     let mut poses = PoseSolver::new(case)?;
     let mut cranks = Vec::new();
     for link in range.links.iter().filter(|link| case.loads.iter().any(|load| load.sensed_link() == Some(link.link))) {
         for extreme in &link.extremes {
-            // A flat extreme stays where it was found.
+            // A flat extreme keeps its first estimate.
             let crank = root::polished(extreme.crank, POLISHING, 1e-6, |crank| -> Result<(f64, f64)> {
                 let motion = &poses.solve(crank, 1.0, 0.0, Stage::Accelerations)?.motions[link.link];
                 Ok((motion.omega, motion.alpha))
@@ -130,7 +132,8 @@ pub fn kinks(case: &Case) -> Result<Kinks> {
     Ok(Kinks { period, cranks, limits })
 }
 
-/// Means of the reduced quantities over one turn of the crank, or as many as bring the mechanism back to its first pose.
+/// Means of the reduced quantities over one turn of the crank, or over as many turns as bring the mechanism back to its
+/// first pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Means {
     /// Mean reduced moment of inertia (kg m^2).
@@ -139,11 +142,11 @@ pub struct Means {
     pub resistance: f64,
 }
 
-/// Longest panel of the quadrature (rad), on eight nodes each: quantities whose nearest singularity lies a tenth of a radian off the real axis are
-/// integrated to 1e-16.
+/// Longest panel of the quadrature (rad), on eight nodes each.
+/// A quantity whose nearest singularity is a tenth of a radian off the real axis is integrated to 1e-16.
 const PANEL: f64 = PI / 90.0;
 
-/// Means over one turn at the drive's top speed, with the motion of the given solver: Gauss's rule between the kinks.
+/// Means over one turn at the drive's top speed, with the motion of the given solver. Gauss's rule between the kinks.
 ///
 /// # Errors
 /// Those of the solver, [`ErrorKind::Geometry`] for mechanisms whose crank cannot turn fully.
@@ -168,7 +171,7 @@ pub fn means_over_turn(case: &Case, solver: &dyn Solver) -> Result<Means> {
     Ok(means)
 }
 
-/// The error for a question about whole turns, where there are none.
+/// The error for a question about whole turns of a crank that cannot turn fully.
 pub(crate) fn no_turn(kinks: &Kinks) -> Error {
     let reached = kinks.limits.map_or(String::new(), |[from, to]| {
         format!(": it can be turned from {:.6} to {:.6} deg only", from.to_degrees(), to.to_degrees())

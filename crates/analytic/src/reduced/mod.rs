@@ -1,7 +1,8 @@
-//! Motion under forces: the equation of motion of a mechanism of one freedom, reduced to its crank.
+//! Motion under forces: the equation of motion of a mechanism of one degree of freedom, reduced to its crank.
 //!
-//! `omega^2 / 2 dI*/dphi + I* domega/dt = M`, with I* and dI*/dphi from first and second transfer functions and M from the powers of motor, gravity and
-//! loads. Artobolevsky, "Theory of mechanisms and machines", motion of a machine under given forces.
+//! `omega^2 / 2 dI*/dphi + I* domega/dt = M`. I* and dI*/dphi follow from first and second transfer functions, M from
+//! the powers of motor, gravity and loads.
+//! Artobolevsky, "Theory of mechanisms and machines", motion of a machine under given forces.
 
 pub(crate) mod flow;
 pub mod means;

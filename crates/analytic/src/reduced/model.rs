@@ -1,4 +1,4 @@
-//! The mechanism as one body on the crank's shaft: what its equation of motion is made of, exactly, at every crank angle.
+//! The mechanism reduced to its crank's shaft: the exact coefficients of its equation of motion at every crank angle.
 
 use super::means::{self, Kinks};
 use crate::PoseSolver;
@@ -10,7 +10,8 @@ use linkage::mechanism::GROUND;
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 
-/// How far from a limit of rotation a motion is followed (rad): there the reduced moment of inertia grows without bound.
+/// Distance from a limit of rotation at which a motion ends (rad). At the limit the reduced moment of inertia grows
+/// without bound.
 const LIMIT_MARGIN: f64 = 1e-4;
 
 /// Reduced quantities at one crank angle.
@@ -18,7 +19,8 @@ const LIMIT_MARGIN: f64 = 1e-4;
 pub struct Reduced {
     /// Reduced moment of inertia I* (kg m^2), without that of motor, reducer and flywheel.
     pub inertia: f64,
-    /// Its derivative dI*/dphi (kg m^2): twice the sum of m v . a + J omega alpha for a crank that turns with 1 rad/s and 0 rad/s^2.
+    /// Its derivative dI*/dphi (kg m^2): twice the sum of m v . a + J omega alpha for a crank with the speed 1 rad/s
+    /// and the acceleration 0 rad/s^2.
     pub slope: f64,
     /// Moment of gravity and loads reduced to the crank (N m), counter-clockwise positive.
     pub applied: f64,
@@ -33,35 +35,36 @@ struct Mass {
     centre: Vec2,
 }
 
-/// A stretch of crank angles without a kink.
+/// An interval of crank angles without a kink.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Piece {
     index: i64,
-    /// Crank angles (rad) between which it lies.
+    /// Crank angles (rad) at its ends.
     pub(crate) ends: [f64; 2],
 }
 
 impl Piece {
-    /// All crank angles: for what has not been placed yet.
+    /// The piece of all crank angles, for use before the first placing.
     pub(crate) fn unbounded() -> Self {
         Piece { index: 0, ends: [f64::NEG_INFINITY, f64::INFINITY] }
     }
 }
 
-/// A mechanism of one freedom under forces: the coefficients of its equation of motion
+/// A mechanism of one degree of freedom under forces: the coefficients of its equation of motion
 /// `omega^2 / 2 dI*/dphi + I* domega/dt = M`, and the crank angles at which they have kinks.
 #[derive(Clone, Debug)]
 pub struct Model<'a> {
     pub(crate) case: &'a Case,
     masses: Vec<Mass>,
-    /// Loads that turn with the sense of a link's rotation, and these links.
+    /// Loads that change with the sense of a link's rotation, and these links.
     sensed: Vec<(usize, Load)>,
-    /// Loads that depend on the pose alone.
+    /// Loads that depend only on the pose.
     steady: Vec<Load>,
     kinks: Kinks,
-    /// Crank angles between pieces: the kinks of one period, or its start if there are none; with limits those as well.
+    /// Crank angles between pieces: the kinks of one period, or its start if there are none; with limits also the
+    /// limits.
     boundaries: Vec<f64>,
-    /// Sense of each such link's transfer function on each piece of one period: +1 or -1, pieces one after the other.
+    /// Sense of each such link's transfer function on each piece of one period: +1 or -1, one piece after the other.
     senses: Vec<f64>,
     pub(crate) motor: Option<Motor>,
     /// Sense in which the motor drives the crank: that of the scenario's prescribed speed.
@@ -71,11 +74,11 @@ pub struct Model<'a> {
 }
 
 impl<'a> Model<'a> {
-    /// The model of a case; its motor drives in the sense of its prescribed speed, which is not used otherwise.
+    /// The model of a case. Its motor drives in the sense of the prescribed speed, which is not used otherwise.
     ///
     /// # Errors
-    /// [`ErrorKind::Unsupported`] for mechanisms of several freedoms, [`ErrorKind::Input`] for one without masses, and those of
-    /// [`Range::of`](crate::range::Range::of).
+    /// [`ErrorKind::Unsupported`] for mechanisms of several degrees of freedom, [`ErrorKind::Input`] for one without
+    /// masses, and those of [`Range::of`](crate::range::Range::of).
     pub fn of(case: &'a Case) -> Result<Self> {
         if !case.drives.further().is_empty() {
             let message = format!(
@@ -112,7 +115,8 @@ impl<'a> Model<'a> {
         Ok(model)
     }
 
-    /// The same with a flywheel on the crank's shaft (kg m^2, may be negative to take inertia away, as long as all in all it stays positive).
+    /// The same with a flywheel on the crank's shaft (kg m^2).
+    /// A negative value takes inertia away; the total must stay positive.
     #[must_use]
     pub fn with_flywheel(&self, inertia: f64) -> Self {
         Model { added: self.added + inertia, ..self.clone() }
@@ -142,8 +146,9 @@ impl<'a> Model<'a> {
         Ok(())
     }
 
-    /// How far to go back (rad) so that the crank angle stays small: the period, where `crank` is the end of the last piece going up; minus the
-    /// period, where it is the beginning of the first one going down; else nothing. Small angles keep their last digits.
+    /// Angle (rad) to subtract so that the crank angle stays small. Small angles keep their last digits.
+    /// Going up, it is the period if `crank` is at the end of the last piece.
+    /// Going down, it is minus the period if `crank` is at the beginning of the first piece. Otherwise it is zero.
     pub(crate) fn wrap(&self, crank: f64, way: f64) -> f64 {
         let first = self.boundaries[0];
         match self.kinks.period {
@@ -153,7 +158,7 @@ impl<'a> Model<'a> {
         }
     }
 
-    /// Crank angle of a boundary, counted on through the periods.
+    /// Crank angle of a boundary, numbered through all periods.
     fn boundary(&self, index: i64) -> f64 {
         let all = &self.boundaries;
         let count = all.len() as i64;
@@ -163,12 +168,12 @@ impl<'a> Model<'a> {
         }
     }
 
-    /// The piece above the boundary of the same number.
+    /// The piece above the boundary with the same number.
     fn piece(&self, index: i64) -> Piece {
         Piece { index, ends: [self.boundary(index), self.boundary(index + 1)] }
     }
 
-    /// The piece at `crank`; at a boundary, the one to which `way` (+1 or -1) leads. `None` beyond a limit.
+    /// The piece at `crank`. At a boundary, the piece in the direction `way` (+1 or -1). `None` beyond a limit.
     pub(crate) fn piece_at(&self, crank: f64, way: f64) -> Option<Piece> {
         let all = &self.boundaries;
         let (turns, inside) = match self.kinks.period {
@@ -180,7 +185,7 @@ impl<'a> Model<'a> {
         };
         let below = all.iter().filter(|&&boundary| boundary <= inside).count() as i64 - 1;
         let count = all.len() as i64;
-        // Rounding may have put the crank one piece off.
+        // Rounding may have shifted the crank by one piece.
         let guess = below + turns * count;
         let holds = |piece: &Piece| match way > 0.0 {
             true => crank >= piece.ends[0] && crank < piece.ends[1],
@@ -190,8 +195,9 @@ impl<'a> Model<'a> {
         (guess - 1..=guess + 1).filter(allowed).map(|index| self.piece(index)).find(holds)
     }
 
-    /// Reduced quantities at `crank` (rad) while the crank turns in the sense of `way` (+1, -1, or 0 for standstill, where no load acts that asks
-    /// for a sense). Beyond its ends the piece goes on smoothly.
+    /// Reduced quantities at `crank` (rad) while the crank turns in the sense of `way`.
+    /// `way` is +1, -1, or 0 for standstill, where loads that depend on a sense do not act.
+    /// Beyond its ends the piece continues smoothly.
     pub(crate) fn on_piece(&self, poses: &mut PoseSolver, crank: f64, way: f64, piece: Piece) -> Result<Reduced> {
         let state = self.at_unit_speed(poses, crank)?;
         let count = self.sensed.len();
@@ -232,7 +238,7 @@ impl<'a> Model<'a> {
         Ok(poses.last(self.steady.iter().any(Load::needs_angles)))
     }
 
-    /// What masses, gravity and steady loads contribute: virtual powers at a crank speed of 1 rad/s.
+    /// Contribution of masses, gravity and steady loads: virtual powers at a crank speed of 1 rad/s.
     fn of_pose(&self, state: &State, crank: f64) -> Reduced {
         let mut found = self.of_masses(&state.motions);
         let (motions, angles) = (state.motions.as_slice(), state.angles.as_slice());
@@ -243,7 +249,7 @@ impl<'a> Model<'a> {
         found
     }
 
-    /// What masses and gravity contribute, from the motions at a crank speed of 1 rad/s.
+    /// Contribution of masses and gravity, from the motions at a crank speed of 1 rad/s.
     #[inline]
     fn of_masses(&self, motions: &[Motion]) -> Reduced {
         let mut found = Reduced { inertia: 0.0, slope: 0.0, applied: 0.0 };
@@ -258,14 +264,15 @@ impl<'a> Model<'a> {
         found
     }
 
-    /// Smooth piece of the motor's moment that holds while the crank turns with `omega` (rad/s) and goes on towards `towards` (rad/s^2).
+    /// Smooth piece of the motor's moment that is valid while the crank turns with `omega` (rad/s) and accelerates in
+    /// the sense of `towards` (rad/s^2).
     pub(crate) fn branch(&self, omega: f64, towards: f64) -> Option<Branch> {
         let motor = self.motor.as_ref()?;
         Some(motor.branch(self.sense * omega, self.sense * towards))
     }
 }
 
-/// That the loads are of those that the reduction to the crank knows.
+/// Checks that the reduction to the crank supports all loads.
 fn check_loads(case: &Case, kinks: &Kinks) -> Result<()> {
     let refuse = |load: &Load, why: &str, help: &str| {
         let message = format!("the motion under forces is asked for, but a load of type \"{}\" {why}", load.sort());
@@ -292,7 +299,7 @@ fn check_loads(case: &Case, kinks: &Kinks) -> Result<()> {
     Ok(())
 }
 
-/// Crank angles between pieces, of a drive that starts at `start` (rad).
+/// Crank angles between pieces, for a drive that starts at `start` (rad).
 fn boundaries(kinks: &Kinks, start: f64) -> Vec<f64> {
     match kinks.limits {
         None if kinks.cranks.is_empty() => vec![start],

@@ -17,35 +17,38 @@ pub struct CrankState {
     pub t: f64,
     /// Crank angle (rad, as the scenario states it), turns kept.
     pub crank: f64,
-    /// The same without the whole periods gone by, so that after many turns no digits are lost (rad).
+    /// The same without the completed whole periods, so that no digits are lost after many turns (rad).
     pub within: f64,
     /// Angular velocity of the crank (rad/s).
     pub omega: f64,
     /// Its angular acceleration (rad/s^2).
     pub alpha: f64,
-    /// Static moment of the motor on the crank (N m), counter-clockwise positive; what accelerates rotor and reducer is not taken off.
+    /// Static moment of the motor on the crank (N m), counter-clockwise positive. The moment that accelerates rotor and
+    /// reducer is not subtracted.
     pub motor: f64,
-    /// Moment that the crank's shaft passes on to the mechanism (N m): the motor's, less what accelerates rotor, reducer and flywheel.
+    /// Moment that the crank's shaft passes on to the mechanism (N m): that of the motor minus the moment that
+    /// accelerates rotor, reducer and flywheel.
     pub shaft: f64,
 }
 
 /// How a motion ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum End {
-    /// At the last instant wanted.
+    /// At the last wanted instant.
     Reached,
-    /// At a standstill that loads and losses hold, at this time (s) and crank angle (rad).
+    /// At a standstill held by loads and losses, at this time (s) and crank angle (rad).
     Held(f64, f64),
     /// Before a limit of rotation, at this time (s) and crank angle (rad).
     Limit(f64, f64),
 }
 
-/// Motion of the crank at wanted times (s, from 0, ascending), from the start of the case with the speed `omega` (rad/s); and how it ended: instants
-/// after the end are left out.
+/// Motion of the crank at wanted times (s, from 0, ascending), from the start of the case with the speed `omega`
+/// (rad/s), and how it ended.
+/// Instants after the end are left out.
 ///
 /// # Errors
-/// [`ErrorKind::Input`] for times that do not ascend from 0, [`ErrorKind::Numeric`] where the equation cannot be integrated on, and those of
-/// [`PoseSolver::solve`].
+/// [`ErrorKind::Input`] for times that do not ascend from 0, [`ErrorKind::Numeric`] where the integration cannot
+/// continue, and those of [`PoseSolver::solve`].
 pub fn motion(model: &Model, omega: f64, times: &[f64], accuracy: f64) -> Result<(Vec<CrankState>, End)> {
     if times.iter().chain(&[omega]).any(|value| !value.is_finite())
         || times.first().is_some_and(|&first| first < 0.0)
@@ -65,9 +68,9 @@ pub fn motion(model: &Model, omega: f64, times: &[f64], accuracy: f64) -> Result
 
 struct Runner<'m, 'a> {
     flow: InTime<'m, 'a>,
-    /// Where it is; the crank angle without the periods gone.
+    /// Present state; the crank angle is without the completed periods.
     place: Place<2>,
-    /// Periods gone by, as an angle of the crank (rad).
+    /// Completed periods, as an angle of the crank (rad).
     gone: f64,
 }
 
@@ -119,7 +122,7 @@ impl<'m, 'a> Runner<'m, 'a> {
         Ok(End::Reached)
     }
 
-    /// Puts the coordinate that has reached a bound exactly there.
+    /// Sets the coordinate that has reached a bound exactly to the bound.
     fn arrive(&mut self, bound: usize) {
         let forces = &self.flow.0;
         let [from, to] = forces.piece.get().ends;
@@ -140,10 +143,12 @@ impl<'m, 'a> Runner<'m, 'a> {
         }
     }
 
-    /// Chooses sense, piece and branch in which the motion goes on from where it is. The end, if it does not.
+    /// Chooses sense, piece and branch for the next part of the motion. Returns the end, if the motion does not
+    /// continue.
     fn enter(&mut self) -> Result<Option<End>> {
         let (t, [crank, omega]) = (self.place.x, self.place.y);
-        // At a standstill the crank goes where it is accelerated with what then resists it.
+        // From standstill the crank starts in the direction in which it is accelerated against the resistance of that
+        // direction.
         let ways: &[f64] = if omega == 0.0 { &[1.0, -1.0] } else { &[omega.signum()] };
         for &way in ways {
             let Some(piece) = self.flow.0.model.piece_at(crank, way) else {
@@ -168,32 +173,32 @@ impl<'m, 'a> Runner<'m, 'a> {
         Ok(Some(End::Held(t, crank + self.gone)))
     }
 
-    /// The instant at which a motion is held, if it is wanted.
+    /// Adds the instant at which a motion is held, if it is wanted.
     fn held(&self, times: &[f64], found: &mut Vec<CrankState>, end: End) {
         if let End::Held(t, crank) = end
             && times.get(found.len()) == Some(&t)
         {
-            // Whatever holds the crank balances the motor.
+            // The force that holds the crank balances the motor.
             let motor = self.flow.0.motor_moment(0.0);
             found.push(CrankState { t, crank, within: crank - self.gone, omega: 0.0, alpha: 0.0, motor, shaft: motor });
         }
     }
 }
 
-/// The crank at a state, `gone` (rad) of whole periods later.
+/// The crank at a state, with `gone` (rad) of completed periods added.
 fn instant(flow: &InTime, t: f64, [crank, omega]: [f64; 2], gone: f64) -> CrankState {
     let alpha = flow.0.acceleration(crank, omega);
     let motor = flow.0.motor_moment(omega);
     CrankState { t, crank: crank + gone, within: crank, omega, alpha, motor, shaft: motor - flow.0.model.added * alpha }
 }
 
-/// Kinetostatics of a motion: the state at every instant, as far as the case wants it.
+/// Kinetostatics of a motion: the state at every instant, up to the stage that the case wants.
 pub(crate) fn states(case: &Case, motion: &[CrankState], visit: Visit) -> Result<()> {
     let mut poses = PoseSolver::counting_turns(case)?;
     let deepest = case.wanted.deepest();
     for (row, instant) in motion.iter().enumerate() {
         poses.solve(instant.crank, instant.omega, instant.alpha, deepest)?;
-        // At the very moment of setting off, loads act against the motion that begins.
+        // At the instant of starting from rest, loads act against the motion that begins.
         if instant.omega == 0.0 && instant.alpha != 0.0 && deepest >= Stage::Reactions {
             let begun = SETTING_OFF.copysign(instant.alpha);
             let loaded = poses.solve(instant.crank, begun, instant.alpha, deepest)?.clone();
@@ -207,21 +212,23 @@ pub(crate) fn states(case: &Case, motion: &[CrankState], visit: Visit) -> Result
     Ok(())
 }
 
-/// A motion with everything that it does to the mechanism.
+/// A motion with all its effects on the mechanism.
 #[derive(Clone, Debug)]
 pub struct RunUp {
     /// The crank at every instant.
     pub motion: Vec<CrankState>,
-    /// All wanted channels at these instants. `drive.torque_N_m` is the moment on the crank that its equilibrium asks for, from the reactions.
+    /// All wanted channels at these instants. `drive.torque_N_m` is the moment on the crank from its equilibrium with
+    /// the reactions.
     pub trajectory: Trajectory,
     /// How it ended.
     pub end: End,
-    /// Largest reaction times the mechanism's size (N m): what moments are measured by where none acts on the crank.
+    /// Largest reaction times the mechanism's size (N m): the reference for moments where none acts on the crank.
     natural: f64,
 }
 
 impl RunUp {
-    /// Motion of the case's mechanism at the given times, with the case's wanted channels: kinetostatics with the true speed and acceleration.
+    /// Motion of the case's mechanism at the given times, with the case's wanted channels.
+    /// Kinetostatics with the true speed and acceleration.
     ///
     /// # Errors
     /// Those of [`motion`].
@@ -231,7 +238,7 @@ impl RunUp {
             times: motion.iter().map(|instant| instant.t).collect(),
             cranks: motion.iter().map(|instant| instant.crank).collect(),
         };
-        // Forces decide this motion: no law of the crank is asked where it ends.
+        // Forces decide this motion, so the law of the crank must not limit its time.
         let case = model.case.at_top_speed().on(grid)?;
         let mut sampler = Sampler::new(&case);
         let (mut natural, size) = (0.0f64, case.mechanism.size());
@@ -244,8 +251,10 @@ impl RunUp {
         Ok(RunUp { motion, trajectory, end, natural })
     }
 
-    /// Largest difference between the moment that the shaft passes on and the one that the crank's equilibrium asks for, over the largest moment, or the largest reaction times the mechanism's size: the
-    /// equation of motion against the reactions, which know nothing of reduced quantities. `None` if the balancing moment is not wanted.
+    /// Largest difference between the shaft's moment and the moment from the crank's equilibrium.
+    /// It is divided by the largest moment, or by the largest reaction times the mechanism's size.
+    /// It compares the equation of motion with the reactions, which do not use reduced quantities.
+    /// `None` if the balancing moment is not wanted.
     #[must_use]
     pub fn power_residual(&self) -> Option<f64> {
         let asked = self.trajectory.column(&Channel::named("drive.torque_N_m")?)?;

@@ -2,27 +2,32 @@
 
 use linkage::drive::{Motor, MotorLaw};
 
-/// Share by which a steady speed may lie beyond the end of the motor's line: rounding.
+/// Relative amount by which a steady speed may lie beyond the end of the motor's line: rounding.
 const SAME: f64 = 1e-12;
 
-/// Motion from rest under `I domega/dt = M0 - B omega - R`, with the means I of the inertia and R of the resistance over the turn in place of their
-/// courses, and the motor's straight line M0 - B omega on the crank: omega = omega_s (1 - exp(-t / T)) with T = I / B and omega_s = (M0 - R) / B.
+/// Motion from rest under `I domega/dt = M0 - B omega - R`.
+/// I and R are the means of inertia and resistance over the turn, in place of their courses. M0 - B omega is the
+/// motor's straight line on the crank.
+/// Then omega = omega_s (1 - exp(-t / T)) with T = I / B and omega_s = (M0 - R) / B.
 ///
-/// A linear law of the motor gives B = -slope ratio^2 efficiency, as long as the motor drives. Speeds and angles count positive in the motor's sense.
+/// A linear law of the motor gives B = -slope ratio^2 efficiency, as long as the motor drives. Speeds and angles count
+/// positive in the motor's sense.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Averaged {
-    /// Time constant T (s): after it 1 - 1 / e = 63.2 % of the steady speed are reached.
+    /// Time constant T (s). After this time the speed is 1 - 1 / e = 63.2 % of the steady speed.
     pub time_constant: f64,
     /// Steady speed omega_s of the crank (rad/s), above zero.
     pub steady_speed: f64,
 }
 
 impl Averaged {
-    /// The model of a motor before a moment of inertia on the crank (kg m^2, rotor, reducer and flywheel among it) and a moment of resistance
-    /// (N m, positive where the motor must work against it).
+    /// The model of a motor with a moment of inertia on the crank (kg m^2, including rotor, reducer and flywheel) and a
+    /// moment of resistance (N m, positive where the motor must work against it).
     ///
-    /// `None` where there is no such closed form: the law is not linear, the motor does not start against the resistance, or the resistance drives
-    /// the motor beyond its speed without load through a reducer with losses, where the line has a bend.
+    /// `None` where this closed form does not exist: the law is not linear, or the motor does not start against
+    /// the resistance.
+    /// Also `None` where the resistance drives the motor beyond its no-load speed through a reducer with losses: the
+    /// line has a bend there.
     #[must_use]
     pub fn of(motor: &Motor, inertia: f64, resistance: f64) -> Option<Self> {
         let MotorLaw::Linear { .. } = motor.law else { return None };

@@ -7,10 +7,10 @@ use linkage::error::Result;
 use linkage::math::extremum;
 use std::f64::consts::PI;
 
-/// Crank angle between two samples, at most (rad): a reduced quantity has a few extremes in a turn, not hundreds.
+/// Largest crank angle between two samples (rad). A reduced quantity has a few extremes per turn, not hundreds.
 const SAMPLE_STEP: f64 = PI / 360.0;
 
-/// The reduced quantities at one crank angle, motor, reducer and flywheel left out.
+/// The reduced quantities at one crank angle, without motor, reducer and flywheel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Row {
     /// Crank angle (rad, as the scenario states it).
@@ -19,7 +19,8 @@ pub struct Row {
     pub inertia: f64,
     /// dI*/dphi (kg m^2).
     pub slope: f64,
-    /// Reduced moment of resistance (N m): of gravity and loads, positive where the drive must work against them; in the sense of the scenario's speed.
+    /// Reduced moment of resistance of gravity and loads (N m), in the sense of the scenario's speed. Positive where
+    /// the drive must work against them.
     pub resistance: f64,
 }
 
@@ -44,12 +45,12 @@ impl Model<'_> {
 
     fn row(&self, poses: &mut PoseSolver, crank: f64) -> Result<Row> {
         let found = self.at(poses, crank, self.sense)?;
-        // Against the motion counts as positive, whichever way the crank turns.
+        // Positive against the motion, whichever way the crank turns.
         let resistance = -self.sense * found.applied;
         Ok(Row { crank, inertia: found.inertia, slope: found.slope, resistance })
     }
 
-    /// Extremes over one period of the reduced moment of inertia and of the reduced moment of resistance, refined between samples.
+    /// Extremes over one period of the reduced moments of inertia and of resistance, refined between samples.
     ///
     /// # Errors
     /// [`ErrorKind::Geometry`](linkage::error::ErrorKind::Geometry) for a crank that does not turn fully.
@@ -70,7 +71,7 @@ impl Model<'_> {
         let count = (period / SAMPLE_STEP).ceil();
         let start = self.case.crank().start;
         let mut cranks: Vec<f64> = (0..=count as usize).map(|k| start + period * (k as f64 / count)).collect();
-        // A kink may be an extreme, and has no flat top.
+        // A kink may be an extreme, and it has no flat top.
         cranks.extend(&self.kinks().cranks);
         cranks.sort_by(f64::total_cmp);
         let mut poses = PoseSolver::new(self.case)?;

@@ -11,9 +11,9 @@ use crate::reduced::model::{Model, Piece};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::root;
 
-/// Newton steps of the shooting; it takes three to six.
+/// Largest number of Newton steps of the shooting method; it takes three to six.
 const MOST_SHOTS: usize = 60;
-/// Relative change of the energy over a period at which it counts as none.
+/// Relative change of the energy over a period that counts as zero.
 const CLOSED: f64 = 2e-14;
 
 /// Speed of the crank at a crank angle.
@@ -32,9 +32,9 @@ pub struct At {
 pub struct Regime {
     /// Time of one period (s).
     pub period: f64,
-    /// Turns of the crank in a period: 1, but for some higher groups.
+    /// Turns of the crank in a period: 1, except for some higher groups.
     pub turns: f64,
-    /// Mean angular velocity over the time (rad/s): the turns over the period.
+    /// Mean angular velocity over time (rad/s): the turns divided by the period.
     pub mean_speed: f64,
     /// Angular velocity at the start of the case (rad/s).
     pub start_speed: f64,
@@ -42,16 +42,17 @@ pub struct Regime {
     pub fastest: At,
     /// Where it is slowest.
     pub slowest: At,
-    /// Share of a small deviation of the energy that is left after a period: below 1, or the motion would not be stable.
+    /// Share of a small deviation of the energy that remains after a period. Below 1; otherwise the motion would not be
+    /// stable.
     pub multiplier: f64,
-    /// The crank at the crank angles asked for.
+    /// The crank at the requested crank angles.
     pub samples: Vec<At>,
     /// Energy of the reduced motion at the start of the period (J).
     energy: f64,
 }
 
 impl Regime {
-    /// Coefficient of non-uniformity: (fastest - slowest) / mean over the time, of the speeds' sizes.
+    /// Coefficient of non-uniformity: (fastest - slowest) / mean over time, of the absolute speeds.
     #[must_use]
     pub fn non_uniformity(&self) -> f64 {
         (self.fastest.omega.abs() - self.slowest.omega.abs()) / self.mean_speed.abs()
@@ -59,12 +60,14 @@ impl Regime {
 }
 
 impl Model<'_> {
-    /// The steady periodic motion in the motor's sense, found by Newton's method on the energy at the start of a period, whose derivative is integrated
-    /// along. `cranks`: crank angles (rad) of one period from the start of the case, in the order of the motion, at which the crank's speed is wanted.
+    /// The steady periodic motion in the motor's sense.
+    /// Newton's method finds the energy at the start of a period; its derivative is integrated along with the motion.
+    /// `cranks`: crank angles (rad) of one period from the start of the case, in the order of the motion, at which the
+    /// crank's speed is wanted.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] without a motor, [`ErrorKind::Geometry`] if the crank does not turn fully, [`ErrorKind::Numeric`] if the motor has no stable
-    /// speed or does not carry the crank over a period.
+    /// [`ErrorKind::Input`] without a motor, [`ErrorKind::Geometry`] if the crank does not turn fully,
+    /// [`ErrorKind::Numeric`] if the motor has no stable speed or does not carry the crank over a period.
     pub fn regime(&self, cranks: &[f64], accuracy: f64) -> Result<Regime> {
         let Some(motor) = &self.motor else {
             let message = "a steady motion is asked for, but there is no motor";
@@ -77,7 +80,7 @@ impl Model<'_> {
         let resistance = self.sense * means.resistance;
         let guess = motor.steady_speed(resistance).filter(|&speed| speed > 0.0);
         let Some(speed) = guess else { return Err(means::no_steady_speed(resistance)) };
-        // At the mean energy, not at the mean speed: where the mechanism is light, it is fast.
+        // At the mean energy, not at the mean speed: the mechanism is fast where its reduced inertia is small.
         let mut energy = (means.inertia + self.added) * speed * speed / 2.0;
         let mut share = 0.0;
         for _ in 0..MOST_SHOTS {
@@ -96,7 +99,8 @@ impl Model<'_> {
             .help("follow the run-up instead, and look what the crank's speed does"))
     }
 
-    /// A steady motion of this model at other crank angles, followed over one more period and not looked for again: as [`Model::regime`] gives it.
+    /// A steady motion of this model at other crank angles, in the form of [`Model::regime`].
+    /// The motion is followed over one more period; it is not searched for again.
     ///
     /// # Errors
     /// Those of [`Model::regime`].
@@ -131,14 +135,15 @@ impl<'m, 'a> Turn<'m, 'a> {
         let (way, last) = (forces.way.get(), self.start + self.period);
         forces.begin_at(way * self.start);
         let mut place = Place { x: self.start, y: [energy, 0.0, 1.0], h: 0.0 };
-        // A speed at which a branch has just ended: from the energy it would come back with a rounding, on one side or the other.
+        // The speed at which a branch has just ended. Computed from the energy it would have a rounding error to one
+        // side or the other.
         let mut reached: Option<f64> = None;
         let mut empty = 0;
         while place.x < last {
             let piece = forces.model.piece_at(way * place.x, way).ok_or_else(|| stalled(way * place.x))?;
             forces.piece.set(piece);
             let end = if way > 0.0 { piece.ends[1] } else { -piece.ends[0] };
-            // The branch as the speed goes on from here.
+            // The branch for the speeds that follow.
             let omega = reached.take().unwrap_or_else(|| self.flow.speed(place.x, place.y[0]));
             forces.branch.set(forces.model.branch(omega, way));
             let alpha = forces.acceleration(way * place.x, omega);
@@ -150,7 +155,7 @@ impl<'m, 'a> Turn<'m, 'a> {
             let stop = march(&self.flow, &mut place, &targets, accuracy, visit)
                 .map_err(|error| if error.kind() == ErrorKind::Numeric { stalled(way * from) } else { error })?;
             if let Stop::Bound(bound) = stop {
-                // Exactly onto the speed at which the next branch begins.
+                // Exactly to the speed at which the next branch begins.
                 let speeds = forces.branch.get().map_or([0.0; 2], |branch| branch.speeds);
                 let speed = speeds[1 - bound];
                 place.y[0] = forces.reduced(way * place.x).inertia * speed * speed / 2.0;
@@ -164,7 +169,7 @@ impl<'m, 'a> Turn<'m, 'a> {
         Ok(place.y)
     }
 
-    /// Everything about the period that begins with `energy`.
+    /// All results for the period that begins with `energy`.
     fn described(&self, energy: f64, multiplier: f64, cranks: &[f64], accuracy: f64) -> Result<Regime> {
         let forces = &self.flow.0;
         let way = forces.way.get();
@@ -189,7 +194,7 @@ impl<'m, 'a> Turn<'m, 'a> {
             Ok(())
         };
         let [_, period, _] = self.run(energy, &targets, accuracy, &mut visit)?;
-        // Targets end steps; the ends of the period are one and the same state.
+        // Targets end steps. Both ends of the period are the same state.
         for &crank in cranks {
             let at = extremes.iter().find(|at| at.crank == crank);
             let ends = [self.start, last].map(|end| (way * crank - end).abs() < 1e-9);
@@ -217,7 +222,7 @@ fn extreme(
     here: &dyn Fn(&OverAngle, f64, f64) -> At,
 ) -> Result<At> {
     let mut found = low;
-    // At an extreme the speed is flat: half the digits of the angle are enough.
+    // At an extreme the speed is flat, so half the digits of the angle are enough.
     root::halved([0.0, end - x], 30, |h| -> Result<bool> {
         found = here(flow, x + h, one_step(flow, x, &y, h)?[0]);
         Ok(found.alpha * low.alpha > 0.0)

@@ -1,4 +1,4 @@
-//! Other ways to what the two sides compute: they bear witness, nothing else rests on them.
+//! Independent methods for the results of the two sides. They serve only as checks; no other result depends on them.
 
 pub mod momentum;
 pub mod power;

@@ -1,12 +1,13 @@
-//! Momentum of the whole mechanism: a way to the shaking force and moment that knows no reaction.
+//! Momentum of the whole mechanism: the shaking force and moment without any reaction.
 
 use linkage::case::Case;
 use linkage::math::{Vec2, cross};
 use linkage::solver::State;
 
-/// Shaking force (N) and shaking moment about the origin (N m) from d'Alembert's principle for all moving links together: inner
-/// reactions cancel, and so do loads between two links, the frame being one of them: it carries F = sum of m (g - a) + loads and
-/// M = sum of r x m (g - a) - J alpha + loads.
+/// Shaking force (N) and shaking moment about the origin (N m) from d'Alembert's principle for all moving links
+/// together.
+/// Inner reactions cancel, and so do loads between two links, including loads between a link and the frame.
+/// The frame carries F = sum of m (g - a) + loads and M = sum of r x m (g - a) - J alpha + loads.
 #[must_use]
 pub fn shaking(case: &Case, state: &State) -> (Vec2, f64) {
     let (mut force, mut moment) = (Vec2::zeros(), 0.0);

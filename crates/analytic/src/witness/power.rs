@@ -1,4 +1,4 @@
-//! Balance of powers: a way to the balancing moment that knows no reaction.
+//! Balance of powers: the balancing moment without any reaction.
 
 use linkage::case::Case;
 use linkage::math::Motion;
@@ -16,8 +16,9 @@ pub fn of_known_forces(case: &Case, state: &State) -> f64 {
     own + case.load_power(&state.motions, &state.angles)
 }
 
-/// Balancing moment on the crank (N m) with which the powers of all forces vanish, those of further drives reduced to it: the sum of
-/// their moments times the ratios of speed. Ideal joints do no work, so no reaction enters. The crank must turn.
+/// Balancing moment on the crank (N m) for which the powers of all forces sum to zero.
+/// Those of further drives are reduced to it: the sum of their moments times the ratios of speed.
+/// Ideal joints do no work, so that no reaction enters. The crank must turn.
 #[must_use]
 pub fn balancing_moment(case: &Case, state: &State) -> f64 {
     -of_known_forces(case, state) / state.motions[case.crank().link].omega

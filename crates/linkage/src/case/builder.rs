@@ -1,4 +1,4 @@
-//! A case written down in code: names instead of numbers of links, checked when it is built.
+//! Builds a case in code. Links have names, not numbers. The build checks them.
 
 use std::f64::consts::TAU;
 
@@ -14,15 +14,15 @@ use crate::mechanism::{
 #[derive(Clone, Debug)]
 struct Wish {
     name: String,
-    /// Link and point of either side.
+    /// Link and point of both sides.
     sides: [[String; 2]; 2],
-    /// Angles of the axis in the frames of both links (rad), of a prismatic joint.
+    /// Only for a prismatic joint: angles of its axis in the frames of both links (rad).
     axes: Option<[f64; 2]>,
 }
 
 /// Builds a [`Case`] from names and numbers (SI units).
 ///
-/// Every step takes what is given and checks nothing; [`CaseBuilder::build`] checks all of it and names what is wrong.
+/// The single steps check nothing. [`CaseBuilder::build`] checks everything and names what is wrong.
 ///
 /// ```
 /// use linkage::case::Case;
@@ -89,7 +89,8 @@ impl CaseBuilder {
         self
     }
 
-    /// A moving link and its points: names and places (m) in its own frame. Without mass until it is given one.
+    /// A moving link and its points: names and places (m) in its own frame. It has no mass until [`CaseBuilder::mass`]
+    /// gives it one.
     #[must_use]
     pub fn link(mut self, name: &str, points: &[(&str, [f64; 2])]) -> Self {
         self.links.push(bare(name, points));
@@ -103,14 +104,14 @@ impl CaseBuilder {
         self
     }
 
-    /// A revolute joint where both links have a point called `name`.
+    /// A revolute joint between two links. Both have a point called `name`.
     #[must_use]
     pub fn pin(self, name: &str, first: &str, second: &str) -> Self {
         self.joint(name, [(first, name), (second, name)], None)
     }
 
-    /// A prismatic joint: link and point of its place on either side, and the angles (rad) of its axis in the frames of
-    /// both links. The points must differ in name.
+    /// A prismatic joint: link and point of its place on both sides, and the angles (rad) of its axis in the frames of
+    /// both links. The points must have different names.
     #[must_use]
     pub fn slider(self, name: &str, first: (&str, &str), second: (&str, &str), axes: [f64; 2]) -> Self {
         self.joint(name, [first, second], Some(axes))
@@ -122,56 +123,57 @@ impl CaseBuilder {
         self
     }
 
-    /// A driving link: that which the joint `joint` hinges to the ground, at constant speed (rad/s, counter-clockwise
-    /// positive). The first one is the crank.
+    /// A driving link at constant speed (rad/s, counter-clockwise positive): the link that `joint` connects to the
+    /// ground.
+    /// The first driving link is the crank.
     #[must_use]
     pub fn crank(self, joint: &str, speed: f64) -> Self {
         self.driven(joint, MotionLaw::ConstantSpeed(speed))
     }
 
-    /// A driving link that follows a law.
+    /// A driving link that follows a motion law.
     #[must_use]
     pub fn driven(mut self, joint: &str, law: MotionLaw) -> Self {
         self.cranks.push((joint.into(), law));
         self
     }
 
-    /// World angle of the crank's x axis at t = 0 (rad); 0 if it is not given.
+    /// World angle of the crank's x axis at t = 0 (rad). Default: 0.
     #[must_use]
     pub fn start(mut self, crank: f64) -> Self {
         self.start = crank;
         self
     }
 
-    /// Assembly mode of the group that has these links.
+    /// Assembly mode of the Assur group with these links.
     #[must_use]
     pub fn mode(mut self, links: &[&str], mode: AssemblyMode) -> Self {
         self.modes.push((links.iter().map(ToString::to_string).collect(), mode));
         self
     }
 
-    /// Acceleration of gravity (m/s^2); none if it is not given.
+    /// Acceleration of gravity (m/s^2). Default: no gravity.
     #[must_use]
     pub fn gravity(mut self, gravity: [f64; 2]) -> Self {
         self.gravity = gravity.into();
         self
     }
 
-    /// A load, whose links are numbered in the order of [`CaseBuilder::link`] from 1; the ground is 0.
+    /// A load. Its links are numbered from 1 in the order of [`CaseBuilder::link`]; the ground is 0.
     #[must_use]
     pub fn load(mut self, load: Load) -> Self {
         self.loads.push(load);
         self
     }
 
-    /// Number of equal parts of the crank's turn at whose ends a solution is wanted; 360 if it is not given.
+    /// Number of equal parts into which the wanted instants divide one turn of the crank. Default: 360.
     #[must_use]
     pub fn instants(mut self, parts: usize) -> Self {
         self.instants = parts;
         self
     }
 
-    /// Channels wanted; all if it is not given.
+    /// Wanted channels. Default: all.
     #[must_use]
     pub fn wanted(mut self, wanted: Wanted) -> Self {
         self.wanted = wanted;
@@ -181,9 +183,9 @@ impl CaseBuilder {
     /// The case.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] for a link, point or joint that there is not, with the names that there are, and for a
-    /// mechanism without ground or crank; those of [`Mechanism::new`], [`Structure::of`], [`first_pose`] and
-    /// [`Case::new`].
+    /// [`ErrorKind::Input`] for an unknown link, point or joint, with a list of the known names, and for a mechanism
+    /// without ground or crank.
+    /// Also the errors of [`Mechanism::new`], [`Structure::of`], [`first_pose`] and [`Case::new`].
     pub fn build(mut self) -> Result<Case> {
         if self.links.first().is_none_or(|link| link.name != "ground") {
             return Err(missing("ground", "the mechanism has no ground", "give its points with `ground`"));
@@ -243,7 +245,7 @@ impl CaseBuilder {
         Ok(Drives::new(crank, all))
     }
 
-    /// What is asked of each group, in the order of the structure. A group with one configuration need not be asked.
+    /// The required mode of each group, in the order of the structure. A group with only one configuration needs none.
     fn starts(&self, mechanism: &Mechanism, structure: &Structure) -> Result<Vec<StartGroup>> {
         let mut starts = vec![StartGroup::default(); structure.groups.len()];
         for (start, group) in starts.iter_mut().zip(&structure.groups) {

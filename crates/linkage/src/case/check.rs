@@ -1,4 +1,4 @@
-//! What must hold between the parts of a case.
+//! Conditions between the parts of a case.
 
 use super::grid::Grid;
 use super::parts::CaseParts;
@@ -8,7 +8,8 @@ use crate::math::{KeepNan, unit};
 use crate::mechanism::{AssemblyMode, GROUND, GroupKind, JointKind, LinkPose, Side, Structure};
 
 /// Largest opening of a joint in a start pose, as a share of the farthest place in it.
-/// First poses of all shipped scenarios leave less than 1e-15 (`tests/suite/start.rs`); a pose of another mechanism lies far above.
+/// First poses of all shipped scenarios leave less than 1e-15 (`tests/suite/start.rs`).
+/// The pose of a different mechanism is far above.
 const LARGEST_OPENING: f64 = 1e-9;
 
 /// Checks all parts.
@@ -128,7 +129,7 @@ fn motor_is_sound(motor: &Motor) -> bool {
         && own.intermediate_ratio.is_finite()
 }
 
-/// That the structure is the one of mechanism and drives.
+/// Checks that the structure is that of mechanism and drives.
 fn structure(parts: &CaseParts) -> Result<()> {
     let own = Structure::of(&parts.mechanism, &parts.drives.joints())?;
     if own != parts.structure {
@@ -161,7 +162,7 @@ fn loads(parts: &CaseParts) -> Result<()> {
     Ok(())
 }
 
-/// The links that a load acts on, and whether its numbers are such.
+/// The links that a load acts on, and whether its numbers are valid.
 fn of_load(load: &Load) -> (Vec<usize>, bool) {
     let finite = |side: &Side| side.local.iter().all(|value| value.is_finite());
     let course = |course: &Course| match course {
@@ -185,7 +186,8 @@ fn of_load(load: &Load) -> (Vec<usize>, bool) {
     }
 }
 
-/// That there is a place for every link, at which all joints hold together and the driving links are where they start.
+/// Checks that every link has a place, that all joints are closed there and that the driving links have their start
+/// angles.
 fn start(parts: &CaseParts) -> Result<()> {
     let (mechanism, poses) = (&parts.mechanism, &parts.start.0);
     let links = mechanism.links();
@@ -206,7 +208,7 @@ fn start(parts: &CaseParts) -> Result<()> {
         let sides = [joint.first, joint.second];
         let places = sides.map(|side| poses[side.link].point(side.local));
         let (gap, turn) = joint.opening(places, sides.map(|side| unit(poses[side.link].angle)));
-        // Written so that NaN is refused.
+        // Written this way round so that NaN is refused.
         if !(gap <= LARGEST_OPENING * reach && turn <= LARGEST_OPENING) {
             let message = format!(
                 "joint \"{}\" is open in the start pose, crank angle {crank:.4} deg: by {gap:.3e} m and {turn:.3e} rad",
@@ -229,7 +231,7 @@ fn start(parts: &CaseParts) -> Result<()> {
 const CLOSED: &str =
     "take `first_pose` at the world angles of the drives, or another pose in which all joints are closed";
 
-/// That every group has a mode, and one of its kind.
+/// Checks that every group has a mode, and that the mode is of the group's kind.
 fn modes(parts: &CaseParts) -> Result<()> {
     let (groups, modes) = (&parts.structure.groups, &parts.modes);
     if groups.len() != modes.len() {

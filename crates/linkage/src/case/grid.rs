@@ -42,14 +42,15 @@ impl Grid {
         self.times.is_empty()
     }
 
-    /// Largest number of turns of the crank, from its zero, that a grid may lead away: solvers follow the branch all the way, and
-    /// an angle of more turns has lost its last digits.
+    /// Largest distance of a grid from the crank's zero, in turns.
+    /// Solvers follow the branch all the way, and a larger angle has lost its last digits.
     pub const MOST_TURNS: f64 = 1e5;
 
-    /// Checks that all times and angles are finite and within [`Grid::MOST_TURNS`], and that the law of the drive holds at all of them.
+    /// Checks that all times and angles are finite and within [`Grid::MOST_TURNS`], and that the law of the drive is
+    /// defined at all of them.
     ///
     /// # Errors
-    /// A message that says how far the grid leads, or where the law ends.
+    /// A message that says how far the grid reaches, or where the law ends.
     pub fn check(&self, drive: &Drive) -> std::result::Result<(), String> {
         if drive.constant_speed().is_none() {
             let name = drive.law_name();
@@ -58,7 +59,7 @@ impl Grid {
                     "the drive's law, \"{name}\", does not come to a crank angle of the grid at one time"
                 ));
             }
-            // The rounding of the last instant belongs to it.
+            // A rounding error beyond the last instant is allowed.
             let end = drive.end().unwrap_or(f64::INFINITY);
             if let Some(t) = self.times.iter().find(|&&t| t < 0.0 || t > end * (1.0 + 1e-12)) {
                 return Err(format!(

@@ -1,4 +1,4 @@
-//! What a case is made of.
+//! The parts of a case.
 
 use super::grid::Grid;
 use crate::drive::{Drives, Load};
@@ -6,7 +6,7 @@ use crate::math::Vec2;
 use crate::mechanism::{AssemblyMode, Mechanism, Pose, Structure};
 use crate::trajectory::Stage;
 
-/// Which stages of channels a run wants.
+/// The stages of channels that a run must deliver.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Wanted([bool; Stage::ALL.len()]);
 
@@ -31,14 +31,14 @@ impl Wanted {
         self.0[stage as usize]
     }
 
-    /// The last stage that must be computed; positions at least.
+    /// The last stage that must be computed; at least positions.
     #[must_use]
     pub fn deepest(&self) -> Stage {
         Stage::ALL.into_iter().rev().find(|&stage| self.has(stage)).unwrap_or(Stage::Positions)
     }
 }
 
-/// What a [`Case`](super::Case) is made of, not checked yet. SI units, world axes.
+/// The parts of a [`Case`](super::Case), not checked yet. SI units, world axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CaseParts {
     /// The mechanism.

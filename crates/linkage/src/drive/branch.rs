@@ -1,8 +1,8 @@
-//! One smooth piece of a motor's moment on the crank. Equations of motion are integrated piece by piece.
+//! One smooth piece of a motor's moment on the crank. The equations of motion are integrated piece by piece.
 
 use crate::math::KeepNan;
 
-/// A smooth curve of torque over speed, of the motor.
+/// A smooth torque-speed curve of the motor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Curve {
     Line { at_rest: f64, slope: f64 },
@@ -14,7 +14,7 @@ impl Curve {
     pub(super) fn torque(&self, omega: f64) -> f64 {
         match *self {
             Curve::Line { at_rest, slope } => at_rest + slope * omega,
-            // Multiplied out, so that zero slip is no exception.
+            // Multiplied out, so that zero slip is not a special case.
             Curve::Kloss { breakdown_torque, breakdown_slip: b, synchronous_speed } => {
                 let slip = 1.0 - omega / synchronous_speed;
                 2.0 * breakdown_torque * slip * b / (slip * slip + b * b)
@@ -34,7 +34,7 @@ impl Curve {
         }
     }
 
-    /// Speed without torque, if there is one.
+    /// Speed at which the torque is zero, if there is one.
     pub(super) fn root(&self) -> Option<f64> {
         match *self {
             Curve::Line { slope: 0.0, .. } => None,
@@ -43,12 +43,12 @@ impl Curve {
         }
     }
 
-    /// Speed at which the torque is `torque` and falls with the speed.
+    /// Speed at which the torque equals `torque` and falls with the speed.
     fn stable_speed(&self, torque: f64) -> Option<f64> {
         match *self {
             Curve::Line { at_rest, slope } if slope < 0.0 => Some((torque - at_rest) / slope),
             Curve::Line { .. } => None,
-            // With x = s / b: torque (x + 1 / x) = 2 M, the root of smaller size, in a form that does not cancel.
+            // With x = s / b: torque (x + 1 / x) = 2 M. Take the root of smaller size, in a form without cancellation.
             Curve::Kloss { breakdown_torque, breakdown_slip, synchronous_speed } => {
                 let share = torque / breakdown_torque;
                 let root = (1.0 - share * share).larger(0.0).sqrt();
@@ -63,15 +63,15 @@ impl Curve {
 pub struct Branch {
     curve: Curve,
     ratio: f64,
-    /// Share of the static torque that reaches the crank, or its inverse where power flows back.
+    /// Share of the static torque that reaches the crank; its inverse where power flows back to the motor.
     factor: f64,
-    /// Speeds of the crank (rad/s) between which the piece holds; beyond them it goes on smoothly.
+    /// Speeds of the crank (rad/s) between which the piece is valid. Beyond them it continues smoothly.
     pub speeds: [f64; 2],
 }
 
 impl Branch {
-    /// The piece of a curve between two speeds of the motor, on which torque and speed keep their senses, behind a reducer of this ratio and
-    /// efficiency.
+    /// The piece of a curve between two speeds of the motor, behind a reducer of this ratio and efficiency.
+    /// Torque and speed keep their signs on the piece.
     pub(super) fn of(ratio: f64, efficiency: f64, curve: Curve, ends: [f64; 2]) -> Self {
         let inside = match ends {
             [from, to] if from.is_finite() && to.is_finite() => (from + to) / 2.0,
@@ -91,17 +91,17 @@ impl Branch {
         self.ratio * self.factor * self.curve.torque(self.ratio * omega)
     }
 
-    /// Change of that moment with the crank's speed (N m s).
+    /// Derivative of that moment with respect to the crank's speed (N m s).
     #[inline]
     #[must_use]
     pub fn slope(&self, omega: f64) -> f64 {
         self.ratio * self.ratio * self.factor * self.curve.slope(self.ratio * omega)
     }
 
-    /// Speed of the crank (rad/s) on this piece at which the moment is `resistance` (N m) and falls with the speed.
+    /// Speed of the crank (rad/s) on this piece at which the moment equals `resistance` (N m) and falls with the speed.
     pub(super) fn steady_speed(&self, resistance: f64) -> Option<f64> {
         let speed = self.curve.stable_speed(resistance / (self.ratio * self.factor))? / self.ratio;
-        // A rounding beyond an end belongs to the end.
+        // A rounding error beyond an end is allowed.
         let slack = 4.0 * f64::EPSILON * speed.abs();
         (speed >= self.speeds[0] - slack && speed <= self.speeds[1] + slack).then_some(speed)
     }

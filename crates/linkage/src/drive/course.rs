@@ -1,4 +1,4 @@
-//! A number that may depend on the crank angle.
+//! A quantity that may depend on the crank angle.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -12,16 +12,17 @@ pub enum Course {
     Constant(f64),
     /// A function of the crank angle (rad, as the scenario states it).
     Table {
-        /// The function, periodic with so many turns.
+        /// The function. Its period is `turns` turns of the crank.
         function: Arc<Piecewise>,
-        /// Turns of the crank after which it repeats.
+        /// Period in turns of the crank.
         turns: u32,
     },
 }
 
 impl Course {
-    /// Straight lines (`smooth` false), or a periodic cubic spline with continuous second derivatives, through points of crank angle (rad)
-    /// and value: ascending, at least one, within `turns` turns, after which the table repeats.
+    /// A table through points of crank angle (rad) and value.
+    /// The points are ascending, at least one, and within `turns` turns, after which the table repeats.
+    /// If `smooth` is false, straight lines; otherwise a periodic cubic spline with continuous second derivatives.
     #[must_use]
     pub fn table(points: &[(f64, f64)], turns: u32, smooth: bool) -> Self {
         let of = if smooth { Piecewise::periodic_spline } else { Piecewise::periodic_lines };
@@ -38,7 +39,8 @@ impl Course {
         }
     }
 
-    /// Crank angles (rad) between which it is one polynomial, of one period, and the number of turns of that; none for a constant.
+    /// The crank angles (rad) between which the function is one polynomial, over one period, and the period in turns.
+    /// `None` for a constant.
     #[must_use]
     pub fn knots(&self) -> Option<(&[f64], u32)> {
         match self {

@@ -1,35 +1,37 @@
-//! A driving link, and what moves it.
+//! A driving link and its motion.
 
 use super::{DriveState, MotionLaw, Motor};
 
 /// What moves a driving link.
 #[derive(Clone, Debug, PartialEq)]
 pub enum DriveMotion {
-    /// A law prescribes the motion; whatever moment that takes is there.
+    /// A law prescribes the motion. The drive supplies whatever moment this takes.
     Prescribed {
         /// The law.
         law: MotionLaw,
-        /// Motor whose speed under the load is asked for. The law holds whether the motor can follow it or not.
+        /// Motor whose speed under load is wanted. The law is followed whether or not the motor is able to.
         motor: Option<Motor>,
     },
-    /// From t = 0 on, forces decide the motion: loads, weights, inertia and the motor, if there is one.
+    /// From t = 0 on, forces decide the motion: loads, weights, inertia, and the motor if there is one.
     Free {
         /// Speed at t = 0 (rad/s), counter-clockwise positive.
         initial_speed: f64,
-        /// Speed of the nominal motion (rad/s, not zero), counter-clockwise positive. The motor drives in its sense,
-        /// speeds are measured by its size, and questions about crank angles are answered in the nominal motion.
+        /// Speed of the nominal motion (rad/s, not zero), counter-clockwise positive.
+        /// The motor drives in its sense, and speeds are compared with its size.
+        /// Questions about crank angles refer to the nominal motion.
         nominal_speed: f64,
         /// The motor that moves the link.
         motor: Option<Motor>,
     },
 }
 
-/// A driving link: it turns about its joint as its motion says.
+/// A driving link: it turns about its joint as `motion` says.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drive {
     /// Driven joint.
     pub joint: usize,
-    /// Driving link.
+    /// World direction from which the crank angle is measured: the angle of the link's x axis at crank angle zero
+    /// (rad).
     pub link: usize,
     /// World direction from which the crank angle is measured: the angle of the link's x axis at crank angle zero
     /// (rad).
@@ -41,13 +43,13 @@ pub struct Drive {
 }
 
 impl Drive {
-    /// A drive that follows `law` and has no motor; the other arguments are the fields of the same names.
+    /// A drive that follows `law` and has no motor. The other arguments are the fields of the same names.
     #[must_use]
     pub fn prescribed(joint: usize, link: usize, zero: f64, start: f64, law: MotionLaw) -> Self {
         Drive { joint, link, zero, start, motion: DriveMotion::Prescribed { law, motor: None } }
     }
 
-    /// Reads the law that prescribes the motion, or that of the nominal motion.
+    /// Applies `read` to the law that prescribes the motion, or to that of the nominal motion.
     #[inline]
     fn by_law<T>(&self, read: impl FnOnce(&MotionLaw) -> T) -> T {
         match &self.motion {
@@ -56,23 +58,24 @@ impl Drive {
         }
     }
 
-    /// State of the driving link at time `t` (s), as [`MotionLaw::at`]; of a free link, in the nominal motion.
+    /// State of the driving link at time `t` (s), as [`MotionLaw::at`]. For a free link: in the nominal motion.
     #[inline]
     #[must_use]
     pub fn at(&self, t: f64) -> DriveState {
         self.by_law(|law| law.at(self.start, t))
     }
 
-    /// Time (s) at which the crank angle is `angle` (rad, as the scenario states it), as [`MotionLaw::time_of`]; of a
-    /// free link, in the nominal motion.
+    /// Time (s) at which the crank angle is `angle` (rad, as the scenario states it), as [`MotionLaw::time_of`].
+    /// For a free link: in the nominal motion.
     #[inline]
     #[must_use]
     pub fn time_of(&self, angle: f64) -> f64 {
         self.by_law(|law| law.time_of(angle - self.start))
     }
 
-    /// Constant speed (rad/s) that takes the driving link in a step from where the law is at the time `from` (s) to
-    /// where it is at `to`, in a time as long as the step; negative of the law's sense if `to` lies before `from`.
+    /// Constant speed (rad/s) for one integration step that ends where the law is at the time `to`.
+    /// The step starts where the law is at the time `from` (s) and takes the time between the two.
+    /// The speed is opposite to the law's sense if `to` is before `from`.
     #[inline]
     #[must_use]
     pub fn step_speed(&self, from: f64, to: f64) -> f64 {
@@ -82,20 +85,21 @@ impl Drive {
         })
     }
 
-    /// The speed that the law reaches, as [`MotionLaw::top_speed`]; of a free link, the nominal one.
+    /// The largest speed of the law, as [`MotionLaw::top_speed`]. For a free link: the nominal speed.
     #[must_use]
     pub fn top_speed(&self) -> f64 {
         self.by_law(MotionLaw::top_speed)
     }
 
-    /// Sense in which the law goes: +1 counter-clockwise, -1 clockwise. A law that goes to and fro has the sense of
-    /// its top speed.
+    /// Sense of rotation of the law: +1 counter-clockwise, -1 clockwise.
+    /// A law that goes to and fro has the sense of its top speed.
     #[must_use]
     pub fn sense(&self) -> f64 {
         self.top_speed().signum()
     }
 
-    /// Angular velocity at t = 0 (rad/s), counter-clockwise positive: the law's, or that from which a free link starts.
+    /// Angular velocity at t = 0 (rad/s), counter-clockwise positive: that of the law, or the initial speed of a free
+    /// link.
     #[must_use]
     pub fn initial_speed(&self) -> f64 {
         match self.motion {
@@ -104,14 +108,14 @@ impl Drive {
         }
     }
 
-    /// The speed of the law, or the nominal one, if it is constant (rad/s).
+    /// The speed of the law, or the nominal speed, if it is constant (rad/s).
     #[inline]
     #[must_use]
     pub fn constant_speed(&self) -> Option<f64> {
         self.by_law(MotionLaw::constant)
     }
 
-    /// Time (s) up to which the law holds, if it ends.
+    /// Time (s) at which the law ends, if it does.
     #[must_use]
     pub fn end(&self) -> Option<f64> {
         self.by_law(MotionLaw::end)
@@ -123,7 +127,7 @@ impl Drive {
         self.by_law(MotionLaw::jump)
     }
 
-    /// What the law, or that of the nominal motion, is called in scenario files.
+    /// Name of the law, or of the law of the nominal motion, in scenario files.
     #[must_use]
     pub fn law_name(&self) -> &'static str {
         self.by_law(MotionLaw::name)
@@ -139,7 +143,7 @@ impl Drive {
         }
     }
 
-    /// Whether there is a moment between drive and link: not on a free link without a motor.
+    /// Whether the drive exerts a moment on the link. A free link without a motor has none.
     #[must_use]
     pub fn has_moment(&self) -> bool {
         match &self.motion {
@@ -148,7 +152,7 @@ impl Drive {
         }
     }
 
-    /// The motor, whether it moves the link or its speed is asked for only.
+    /// The motor, whether it moves the link or only its speed is wanted.
     #[must_use]
     pub fn motor(&self) -> Option<&Motor> {
         match &self.motion {
@@ -156,7 +160,7 @@ impl Drive {
         }
     }
 
-    /// The motor that moves the link: that of a free link.
+    /// The motor that moves the link. Only a free link has one.
     #[must_use]
     pub fn moving_motor(&self) -> Option<&Motor> {
         match &self.motion {
@@ -165,7 +169,7 @@ impl Drive {
         }
     }
 
-    /// Moment of inertia of rotor and reducer that turn with a free link (kg m^2); 0 where a law prescribes the motion.
+    /// Moment of inertia of rotor and reducer that turn with a free link (kg m^2). 0 where a law prescribes the motion.
     #[must_use]
     pub fn moving_inertia(&self) -> f64 {
         self.moving_motor().map_or(0.0, Motor::inertia_on_crank)
@@ -183,7 +187,7 @@ impl Drive {
         Drive { motion, ..*self }
     }
 
-    /// The same drive in its nominal motion: where it is free, the nominal speed is prescribed.
+    /// The same drive in its nominal motion: a free link gets the nominal speed as its law.
     #[must_use]
     pub fn nominal(&self) -> Drive {
         let motion = match &self.motion {
@@ -195,8 +199,8 @@ impl Drive {
         Drive { motion, ..*self }
     }
 
-    /// The same drive with the law's top speed all the time. A free link stays free: its nominal motion is that
-    /// already.
+    /// The same drive with the law's top speed at all times.
+    /// A free link stays free, because its nominal motion already has that speed.
     #[must_use]
     pub fn at_top_speed(&self) -> Drive {
         let motion = match &self.motion {
@@ -281,7 +285,7 @@ mod tests {
         }
     }
 
-    /// Laws that start from rest have a sense there too.
+    /// Laws that start from rest have a sense at t = 0 too.
     #[test]
     fn sense_and_initial_speed() {
         let laws = [
@@ -297,7 +301,7 @@ mod tests {
             let motion = DriveMotion::Free { initial_speed: 0.5, nominal_speed: 4.0 * sense, motor: None };
             let free = Drive { motion, ..drive };
             assert_eq!((free.sense(), free.initial_speed()), (sense, 0.5), "{:?}", free.motion);
-            // What is asked about crank angles goes by the nominal motion.
+            // Questions about crank angles refer to the nominal motion.
             assert_eq!(free.at(2.0), free.nominal().at(2.0));
             assert_eq!((free.time_of(3.0), free.nominal().initial_speed()), (2.5 * sense / 4.0, 4.0 * sense));
         }

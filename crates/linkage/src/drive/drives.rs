@@ -5,9 +5,8 @@ use std::ops::Deref;
 
 use super::Drive;
 
-/// The driving links of a mechanism, the crank first: the one by whose angle instants are told. At least one; in the
-/// order of
-/// [`Structure::drivers`](crate::mechanism::Structure::drivers).
+/// The driving links of a mechanism, at least one. The first is the crank, whose angle identifies an instant.
+/// The order is that of [`Structure::drivers`](crate::mechanism::Structure::drivers).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drives(Vec<Drive>);
 
@@ -27,7 +26,7 @@ impl Drives {
         &self.0[0]
     }
 
-    /// The crank, to be changed.
+    /// The crank, mutable.
     pub fn crank_mut(&mut self) -> &mut Drive {
         &mut self.0[0]
     }
@@ -44,7 +43,7 @@ impl Drives {
         self.0.iter().enumerate().filter(|(_, drive)| drive.is_free())
     }
 
-    /// The drives that exert a moment, with their numbers: all but those of free links without a motor.
+    /// The drives that exert a moment, with their numbers: all except those of free links without a motor.
     pub fn with_moment(&self) -> impl Iterator<Item = (usize, &Drive)> {
         self.0.iter().enumerate().filter(|(_, drive)| drive.has_moment())
     }
@@ -61,8 +60,7 @@ impl Drives {
         Drives(self.0.iter().map(change).collect())
     }
 
-    /// World angles of the driving links' x axes (rad) where the crank angle is `crank` (rad, as the scenario states
-    /// it).
+    /// World angles of the driving links' x axes (rad) at the crank angle `crank` (rad, as the scenario states it).
     #[must_use]
     pub fn world_angles(&self, crank: f64) -> Vec<f64> {
         let t = self.crank().time_of(crank);
@@ -70,13 +68,14 @@ impl Drives {
         std::iter::once(self.crank().world_angle(crank)).chain(further).collect()
     }
 
-    /// Angular velocities of the driving links as shares of the crank's at the time `t` (s); the crank's own is 1.
+    /// Ratios of the driving links' angular velocities to that of the crank at the time `t` (s). The crank's own ratio
+    /// is 1.
     pub fn ratios(&self, t: f64) -> impl Iterator<Item = f64> {
         let omega = self.crank().at(t).omega;
         self.0.iter().enumerate().map(move |(index, drive)| if index == 0 { 1.0 } else { drive.at(t).omega / omega })
     }
 
-    /// Largest speed of a driving link (rad/s), without sign.
+    /// Largest absolute speed of a driving link (rad/s).
     #[must_use]
     pub fn top_speed(&self) -> f64 {
         self.0.iter().fold(0.0, |most: f64, drive| most.larger(drive.top_speed().abs()))

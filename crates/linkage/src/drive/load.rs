@@ -1,13 +1,13 @@
-//! Loads on links besides gravity and inertia: what each does to the links it acts on, in one place.
+//! Loads on links other than gravity and inertia. What each does to the links is written here only.
 
 use super::course::Course;
 use crate::math::{Motion, Vec2, angle, cross};
 use crate::mechanism::{LinkPose, Side};
 
-/// While which rotation of its link a moment acts.
+/// The sense of rotation of the link for which a moment acts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Acts {
-    /// Whatever the link does.
+    /// For every motion of the link.
     Always,
     /// While the link turns counter-clockwise, not at standstill.
     CounterClockwise,
@@ -18,14 +18,14 @@ pub enum Acts {
 /// A load on one link, or between two.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Load {
-    /// Moment of constant size that acts against the link's rotation, and not at all while it stands still.
+    /// Moment of constant size against the link's rotation. Zero while the link stands still.
     Resistance {
         /// The loaded link.
         link: usize,
         /// Size of the moment (N m), not negative.
         moment: f64,
     },
-    /// Moment that does not depend on the speed, but may rest while the link turns one way.
+    /// Moment that does not depend on the speed. It may act for one sense of the link's rotation only.
     Moment {
         /// The loaded link.
         link: usize,
@@ -38,20 +38,20 @@ pub enum Load {
     Force {
         /// The point.
         at: Side,
-        /// Components (N), in world axes or in those of the link's frame.
+        /// Components (N), in world axes or in the axes of the link's frame.
         force: [Course; 2],
-        /// Whether they are those of the link's frame, with which the force turns.
+        /// Whether the components are in the link's frame, so that the force turns with it.
         follows: bool,
     },
-    /// Force of constant size against the motion of a point of a link, -F v / |v|; none while the point stands still.
+    /// Force of constant size against the motion of a point of a link, -F v / |v|. Zero while the point stands still.
     ResistingForce {
         /// The point.
         at: Side,
         /// Size of the force (N), not negative.
         force: f64,
     },
-    /// Spring between two points: it pulls them together with stiffness times (length - free length); without a direction where they coincide,
-    /// and there without a force.
+    /// Spring between two points. It pulls them together with stiffness times (length - free length).
+    /// Where the points coincide the direction is undefined and the force is zero.
     Spring {
         /// The points.
         ends: [Side; 2],
@@ -60,15 +60,18 @@ pub enum Load {
         /// Length without force (m).
         free_length: f64,
     },
-    /// Damper between two points: it pulls them together with damping times the rate of their distance; no force where they coincide.
+    /// Damper between two points: it pulls them together with damping times the rate of their distance.
+    /// The force is zero where they coincide.
     Damper {
         /// The points.
         ends: [Side; 2],
         /// Damping (N s/m).
         damping: f64,
     },
-    /// Torsional spring between two links: stiffness times (twist - free twist) on the first link, the opposite on the second. The twist is the
-    /// angle of the second link's frame less that of the first's: at t = 0 in (-pi, pi], from there with its turns.
+    /// Torsional spring between two links: stiffness times (twist - free twist) on the first link, the opposite on the
+    /// second.
+    /// The twist is the angle of the second link's frame minus that of the first.
+    /// At t = 0 it is in (-pi, pi]; from there on it keeps its turns.
     TorsionSpring {
         /// The links.
         links: [usize; 2],
@@ -77,7 +80,8 @@ pub enum Load {
         /// Twist without moment (rad).
         free_angle: f64,
     },
-    /// Torsional damper between two links: damping times the rate of the twist on the first link, the opposite on the second.
+    /// Torsional damper between two links: damping times the rate of the twist on the first link, the opposite on the
+    /// second.
     TorsionDamper {
         /// The links.
         links: [usize; 2],
@@ -86,10 +90,10 @@ pub enum Load {
     },
 }
 
-/// On whose sense of motion a load depends, so that it jumps where that turns about.
+/// The motion whose sense a load depends on. The load jumps where that motion reverses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Senses {
-    /// On nobody's.
+    /// The load does not depend on a sense of motion.
     Nothing,
     /// On the sense of rotation of a link.
     Link(usize),
@@ -97,31 +101,31 @@ pub enum Senses {
     Point(Side),
 }
 
-/// What sort of load it is and what it reads: see [`Load::nature`].
+/// The sort of a load and the quantities it depends on: see [`Load::nature`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Nature<'a> {
-    /// The sort, as scenario files call it.
+    /// Name of the sort in scenario files.
     pub sort: &'static str,
-    /// On whose sense of motion it depends.
+    /// The motion whose sense it depends on.
     pub senses: Senses,
-    /// Whether it depends on the size of speeds, not on their senses only.
+    /// Whether it depends on the size of speeds, not only on their senses.
     pub is_viscous: bool,
-    /// The two links whose [`Setting::twist`] it reads.
+    /// The two links whose [`Setting::twist`] it depends on.
     pub twist: Option<[usize; 2]>,
-    /// Its numbers that may depend on the crank angle.
+    /// Its quantities that may depend on the crank angle.
     pub courses: &'a [Course],
 }
 
-/// What loads depend on. Slices have one entry a link.
+/// The state that loads depend on. Slices have one entry per link.
 #[derive(Clone, Copy, Debug)]
 pub struct Setting<'a> {
-    /// Motions of all links; loads read no accelerations.
+    /// Motions of all links. Loads do not use the accelerations.
     pub motions: &'a [Motion],
-    /// Angles of all links (rad), turns kept. Only torsional springs read them.
+    /// Angles of all links (rad), turns kept. Only torsional springs use them.
     pub angles: &'a [f64],
     /// Poses at t = 0.
     pub start: &'a [LinkPose],
-    /// Crank angle (rad, as the scenario states it). Only tables read it.
+    /// Crank angle (rad, as the scenario states it). Only tables use it.
     pub crank: f64,
 }
 
@@ -134,7 +138,7 @@ impl Setting<'_> {
     }
 }
 
-/// What a load does to one link.
+/// Action of a load on one link.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Action {
     /// The link.
@@ -143,25 +147,25 @@ pub struct Action {
     pub force: Vec2,
     /// World place at which the force acts (m).
     pub place: Vec2,
-    /// Moment besides that of the force (N m), counter-clockwise positive.
+    /// Additional moment besides that of the force (N m), counter-clockwise positive.
     pub moment: f64,
 }
 
 impl Action {
-    /// A moment (N m, counter-clockwise positive) alone.
+    /// Only a moment (N m, counter-clockwise positive), no force.
     #[must_use]
     pub fn of_moment(link: usize, moment: f64) -> Self {
         Action { link, force: Vec2::zeros(), place: Vec2::zeros(), moment }
     }
 
-    /// Moment of all of it about a world point (N m).
+    /// Moment of force and moment together about a world point (N m).
     #[inline]
     #[must_use]
     pub fn about(&self, pole: Vec2) -> f64 {
         cross(self.place - pole, self.force) + self.moment
     }
 
-    /// Power on a link that moves so (W).
+    /// Power on a link with this motion (W).
     #[inline]
     #[must_use]
     pub fn power(&self, motion: &Motion) -> f64 {
@@ -184,7 +188,7 @@ impl Wrench {
 }
 
 impl Load {
-    /// Hands what the load does to each link that it acts on to `put`, the ground included.
+    /// Calls `put` with the action of the load on each of its links, the ground included.
     #[inline]
     pub fn act(&self, setting: &Setting, put: &mut impl FnMut(Action)) {
         let motions = setting.motions;
@@ -232,7 +236,8 @@ impl Load {
         }
     }
 
-    /// What sort of load it is and what it reads. Whoever must know a load's variant asks this: the one match on them besides [`Load::act`].
+    /// The sort of the load and the quantities it depends on.
+    /// Code that must know a load's variant uses this: it is the only match on variants besides [`Load::act`].
     #[inline]
     #[must_use]
     pub fn nature(&self) -> Nature<'_> {
@@ -257,7 +262,7 @@ impl Load {
         }
     }
 
-    /// The link on whose sense of rotation the load depends, so that it jumps where that link turns about.
+    /// The link on whose sense of rotation the load depends. The load jumps where that link reverses.
     #[inline]
     #[must_use]
     pub fn sensed_link(&self) -> Option<usize> {
@@ -267,7 +272,7 @@ impl Load {
         }
     }
 
-    /// The point on whose sense of motion the load depends, so that it jumps where that point turns back.
+    /// The point on whose sense of motion the load depends. The load jumps where that point reverses.
     #[must_use]
     pub fn sensed_point(&self) -> Option<Side> {
         match self.nature().senses {
@@ -276,8 +281,9 @@ impl Load {
         }
     }
 
-    /// Moment (N m) of a load with a [sensed link](Load::sensed_link) while that link turns in the sense of `omega`, at the crank angle
-    /// `crank` (rad). Zero for loads without one.
+    /// Moment (N m) of a load with a [sensed link](Load::sensed_link) while that link turns in the sense of `omega`,
+    /// at the crank angle
+    /// `crank` (rad). Zero for other loads.
     #[inline]
     #[must_use]
     pub fn moment_in(&self, omega: f64, crank: f64) -> f64 {
@@ -294,8 +300,8 @@ impl Load {
         }
     }
 
-    /// The loaded link and the size of the moment (N m) of a [resistance](Load::Resistance), the one load that some engines and formats have of
-    /// their own.
+    /// For a [resistance](Load::Resistance): the loaded link and the size of the moment (N m).
+    /// It is the only load that some engines and formats have built in.
     #[inline]
     #[must_use]
     pub fn resistance(&self) -> Option<(usize, f64)> {
@@ -307,24 +313,24 @@ impl Load {
         }
     }
 
-    /// Whether the load depends on the size of speeds, not on their senses only.
+    /// Whether the load depends on the size of speeds, not only on their senses.
     #[must_use]
     pub fn is_viscous(&self) -> bool {
         self.nature().is_viscous
     }
 
-    /// Whether [`Setting::angles`] or [`Setting::crank`] is read.
+    /// Whether the load depends on [`Setting::angles`] or [`Setting::crank`].
     #[must_use]
     pub fn needs_angles(&self) -> bool {
         self.nature().twist.is_some() || self.courses().any(|course| course.knots().is_some())
     }
 
-    /// Numbers that may depend on the crank angle.
+    /// The quantities that may depend on the crank angle.
     pub fn courses(&self) -> impl Iterator<Item = &Course> {
         self.nature().courses.iter()
     }
 
-    /// What sort of load it is, as scenario files call it.
+    /// Name of the load's sort in scenario files.
     #[must_use]
     pub fn sort(&self) -> &'static str {
         self.nature().sort
@@ -338,7 +344,8 @@ fn span(motions: &[Motion], ends: [Side; 2]) -> ([Vec2; 2], Vec2) {
     (places, places[1] - places[0])
 }
 
-/// The force `pull` on the first end, towards the second if the two attract each other, and its reaction.
+/// Applies the force `pull` to the first end and its reaction to the second.
+/// `pull` points towards the second end if the two attract each other.
 #[inline]
 fn pull_together(ends: [Side; 2], places: [Vec2; 2], pull: Vec2, put: &mut impl FnMut(Action)) {
     put(Action { link: ends[0].link, force: pull, place: places[0], moment: 0.0 });

@@ -22,29 +22,29 @@ pub struct DriveState {
 pub enum MotionLaw {
     /// Constant angular velocity (rad/s, not zero), counter-clockwise positive.
     ConstantSpeed(f64),
-    /// From rest with constant acceleration up to a speed, which then stays.
+    /// From rest with constant acceleration up to a speed, which then stays constant.
     Ramp {
         /// The speed (rad/s, not zero), counter-clockwise positive.
         speed: f64,
         /// Time in which it is reached (s), positive.
         time: f64,
     },
-    /// Cycloidal motion from rest to rest: rise (s - sin(2 pi s) / 2 pi) with s = t / time. Its acceleration, 2 pi
-    /// rise / time^2 sin(2 pi s), begins and ends with zero. Artobolevsky, "Theory of mechanisms and machines", laws
-    /// of motion of followers.
+    /// Cycloidal motion from rest to rest: rise (s - sin(2 pi s) / 2 pi) with s = t / time.
+    /// Its acceleration, 2 pi rise / time^2 sin(2 pi s), begins and ends with zero.
+    /// Artobolevsky, "Theory of mechanisms and machines", laws of motion of followers.
     Cycloidal {
-        /// Angle gone through (rad, not zero), counter-clockwise positive.
+        /// Total angle (rad, not zero), counter-clockwise positive.
         rise: f64,
-        /// Time that it takes (s), positive.
+        /// Duration (s), positive.
         time: f64,
     },
-    /// Angle gone through (rad) as a function of time (s) that has two continuous derivatives, from its first knot, 0,
-    /// to its last.
+    /// Angle from the start (rad) as a function of time (s) with two continuous derivatives, from its first knot, 0, to
+    /// its last.
     Table(Arc<Piecewise>),
 }
 
 impl MotionLaw {
-    /// Time (s) up to which the law holds, if it ends.
+    /// Time (s) at which the law ends, if it does.
     #[must_use]
     pub fn end(&self) -> Option<f64> {
         match self {
@@ -73,7 +73,7 @@ impl MotionLaw {
         }
     }
 
-    /// What it is called in scenario files.
+    /// Name of the law in scenario files.
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
@@ -85,7 +85,8 @@ impl MotionLaw {
     }
 
     /// Angle, speed and acceleration at time `t` (s) of a motion that begins with the crank angle `start` (rad) at t =
-    /// 0. Times beyond the law's are meant, for what runs up to it: the formula goes on smoothly.
+    /// 0.
+    /// Times beyond the law's end are allowed for callers that approach the end: the formula continues smoothly.
     #[inline]
     #[must_use]
     pub fn at(&self, start: f64, t: f64) -> DriveState {
@@ -114,7 +115,8 @@ impl MotionLaw {
         }
     }
 
-    /// The speed that the law reaches (rad/s), counter-clockwise positive: the constant one, or that of largest size.
+    /// The speed that the law reaches (rad/s), counter-clockwise positive: the constant speed, or the speed of largest
+    /// size.
     /// Not zero.
     #[must_use]
     pub fn top_speed(&self) -> f64 {
@@ -128,8 +130,8 @@ impl MotionLaw {
         }
     }
 
-    /// Time (s) at which the angle `gone` (rad) has been gone through: the first one. Not a number if the law never
-    /// comes there, and for tables, which may come there more than once.
+    /// First time (s) at which the driving link has turned by the angle `gone` (rad).
+    /// NaN if the law never gets there. Also NaN for tables, which may get there more than once.
     #[inline]
     #[must_use]
     pub fn time_of(&self, gone: f64) -> f64 {
@@ -146,12 +148,12 @@ impl MotionLaw {
     }
 }
 
-/// Halvings of the whole time: to rounding.
+/// Halvings of the whole time, down to rounding.
 const HALVINGS: usize = 60;
 
-/// The share s of time at which s - sin(2 pi s) / 2 pi is `gone`: by halving, since the function is flat at both ends.
+/// The share s of time at which s - sin(2 pi s) / 2 pi is `gone`. By halving, since the function is flat at both ends.
 fn cycloid(gone: f64) -> f64 {
-    // The rounding of the last angle belongs to it.
+    // A rounding error beyond the last angle is allowed.
     if !(-1e-15..=1.0 + 1e-15).contains(&gone) {
         return f64::NAN;
     }

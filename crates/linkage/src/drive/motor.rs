@@ -1,8 +1,8 @@
-//! Motors: their torque as a function of their speed, and the gear between them and the crank.
+//! Motors: torque as a function of speed, and the reducer between motor and crank.
 
 use super::branch::{Branch, Curve};
 
-/// Torque of a motor as a function of its own speed, in the sense in which it drives.
+/// Torque of a motor as a function of its own speed. Positive in the sense in which it drives.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MotorLaw {
     /// The same torque at every speed.
@@ -10,25 +10,28 @@ pub enum MotorLaw {
         /// Torque (N m).
         torque: f64,
     },
-    /// M = `at_rest` + `slope` omega: the stable branch of an induction motor's characteristic, or a direct current motor.
+    /// M = `at_rest` + `slope` omega: the stable branch of an induction motor's characteristic, or a direct-current
+    /// motor.
     Linear {
-        /// Torque at which the line meets standstill (N m).
+        /// Torque of the line at standstill (N m).
         at_rest: f64,
-        /// Change of the torque with the speed (N m s); negative, or the motor would run away.
+        /// Change of the torque with the speed (N m s). Negative; otherwise the motor would run away.
         slope: f64,
     },
-    /// Induction motor after Kloss: M = 2 `breakdown_torque` / (s / `breakdown_slip` + `breakdown_slip` / s) with the slip
-    /// s = 1 - omega / `synchronous_speed`, without the stator's resistance. Kloss, Archiv fuer Elektrotechnik 5 (1916).
+    /// Induction motor after Kloss, without the stator's resistance:
+    /// M = 2 `breakdown_torque` / (s / `breakdown_slip` + `breakdown_slip` / s) with the slip s = 1 - omega /
+    /// `synchronous_speed`.
+    /// Kloss, Archiv fuer Elektrotechnik 5 (1916).
     Kloss {
         /// Largest torque (N m).
         breakdown_torque: f64,
-        /// Slip at which it is reached, above 0.
+        /// Slip at which that torque is reached, above 0.
         breakdown_slip: f64,
         /// Speed without load (rad/s), above 0.
         synchronous_speed: f64,
     },
-    /// Straight lines between measured points, the outer ones continued beyond the table. Straight lines, because they cannot
-    /// overshoot: a table that falls gives a law that falls.
+    /// Straight lines between measured points; the outer lines continue beyond the table.
+    /// Straight lines cannot overshoot: a table that falls gives a law that falls.
     Table {
         /// Speeds (rad/s), ascending, at least two.
         speeds: Vec<f64>,
@@ -62,7 +65,8 @@ impl MotorLaw {
         curves.iter().find(holds).or(curves.last()).map_or(0.0, |(_, curve)| curve.torque(omega))
     }
 
-    /// The smooth pieces of the law, with the speeds (rad/s) between which each holds; together they cover all speeds.
+    /// The smooth pieces of the law, each with the speeds (rad/s) between which it is valid. Together they cover all
+    /// speeds.
     pub(super) fn curves(&self) -> Vec<([f64; 2], Curve)> {
         let all = [f64::NEG_INFINITY, f64::INFINITY];
         match self {
@@ -87,14 +91,14 @@ impl MotorLaw {
     }
 }
 
-/// Moments of inertia of what turns with the motor and the reducer (kg m^2), each about its own shaft.
+/// Moments of inertia of the rotor and of the reducer's shafts (kg m^2), each about its own shaft.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ShaftInertia {
     /// The motor's rotor.
     pub rotor: f64,
     /// The reducer's input shaft, which turns with the motor.
     pub input: f64,
-    /// Its intermediate shaft.
+    /// Ratio of the intermediate shaft's speed to that of the crank. Has no meaning where `intermediate` is 0.
     pub intermediate: f64,
     /// Speed of the intermediate shaft over that of the crank; without a meaning where `intermediate` is 0.
     pub intermediate_ratio: f64,
@@ -105,40 +109,44 @@ pub struct ShaftInertia {
 /// A motor that turns the crank through a reducer.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Motor {
-    /// The motor's law.
+    /// The motor's torque-speed law.
     pub law: MotorLaw,
-    /// Speed of the motor over that of the crank, greater than zero.
+    /// Ratio of the motor's speed to that of the crank, above 0.
     pub ratio: f64,
-    /// Share of the power that passes the reducer, above 0 and at most 1, the same in either direction. It lessens the motor's static torque;
-    /// losses on what accelerates the shafts are left out.
+    /// Share of the power that passes the reducer, above 0 and at most 1, the same in both directions.
+    /// It reduces the motor's static torque. Losses of the moments that accelerate the shafts are neglected.
     pub efficiency: f64,
-    /// What turns with the motor and the reducer.
+    /// Inertia of rotor and reducer.
     pub inertia: ShaftInertia,
 }
 
 impl Motor {
-    /// A motor behind a reducer without losses and without masses.
+    /// A motor behind a reducer without losses and without inertia.
     #[must_use]
     pub fn ideal(law: MotorLaw, ratio: f64) -> Self {
         Motor { law, ratio, efficiency: 1.0, inertia: ShaftInertia::default() }
     }
 
-    /// Moment of the motor on the crank (N m) while the crank turns with `omega` (rad/s, positive where the motor drives): ratio times the
-    /// torque by equal powers, times the efficiency where power flows to the crank, over it where power flows back.
+    /// Moment of the motor on the crank (N m) while the crank turns with `omega` (rad/s, positive where the motor
+    /// drives).
+    /// By equal powers it is ratio times torque.
+    /// It is multiplied by the efficiency where power flows to the crank, and divided by it where power flows back.
     #[must_use]
     pub fn moment_on_crank(&self, omega: f64) -> f64 {
         self.branch(omega, 1.0).moment(omega)
     }
 
-    /// Moment of inertia of rotor and reducer as the crank feels it (kg m^2): each times the square of its speed over the crank's.
+    /// Moment of inertia of rotor and reducer reduced to the crank (kg m^2).
+    /// Each part counts with the square of the ratio of its speed to the crank's.
     #[must_use]
     pub fn inertia_on_crank(&self) -> f64 {
         let own = &self.inertia;
         (own.rotor + own.input) * self.ratio.powi(2) + own.intermediate * own.intermediate_ratio.powi(2) + own.output
     }
 
-    /// The smooth piece of the moment on the crank that holds at the crank's speed `omega` (rad/s) and from there towards higher speeds
-    /// for a positive `towards`, else towards lower ones.
+    /// The smooth piece of the moment on the crank that is valid at the crank's speed `omega` (rad/s).
+    /// Where two pieces meet: the one towards higher speeds for a positive `towards`, otherwise the one towards lower
+    /// speeds.
     #[must_use]
     pub fn branch(&self, omega: f64, towards: f64) -> Branch {
         let holds = |branch: &&Branch| match towards > 0.0 {
@@ -153,7 +161,7 @@ impl Motor {
     fn branches(&self) -> Vec<Branch> {
         let mut found = Vec::new();
         for ([from, to], curve) in self.law.curves() {
-            // Losses change their sense with the power: where motor or torque turn about.
+            // The losses change sense with the power, that is where speed or torque changes sign.
             let mut ends = vec![from, to];
             if self.efficiency < 1.0 {
                 let turns = [Some(0.0), curve.root()].into_iter().flatten();
@@ -167,8 +175,9 @@ impl Motor {
         found
     }
 
-    /// Speed of the crank (rad/s) at which the motor's moment on it is `resistance` (N m) and would fall with the speed: the stable
-    /// balance, the fastest if there are several. `None` if there is none.
+    /// Speed of the crank (rad/s) at the stable balance: the motor's moment is `resistance` (N m) and falls with the
+    /// speed.
+    /// The fastest if there are several, `None` if there is none.
     #[must_use]
     pub fn steady_speed(&self, resistance: f64) -> Option<f64> {
         self.branches().iter().rev().find_map(|branch| branch.steady_speed(resistance))
@@ -194,7 +203,7 @@ mod tests {
             let steady = kloss.steady_speed(resistance).unwrap();
             assert!((kloss.moment_on_crank(steady) - resistance).abs() < 1e-10, "{resistance}");
         }
-        // It breaks down at 10 * 0.9 * 5 N m.
+        // Its breakdown torque on the crank is 10 * 0.9 * 5 N m.
         assert_eq!(kloss.steady_speed(45.1), None);
         assert_eq!(Motor::ideal(MotorLaw::Constant { torque: 3.0 }, 1.0).steady_speed(2.0), None);
     }
@@ -215,7 +224,7 @@ mod tests {
         for (found, expected) in torques.iter().zip([3.0, 4.0, 5.0, 6.0, 3.0, 0.0, -3.0]) {
             assert!((found - expected).abs() < 1e-14, "{torques:?}");
         }
-        // The stable balance lies on the falling side.
+        // The stable balance is on the falling side.
         let steady = Motor::ideal(table, 2.0).steady_speed(10.0).unwrap();
         assert!((steady - 20.0 / 3.0).abs() < 1e-14, "{steady}");
     }
@@ -242,7 +251,7 @@ mod tests {
             let at = pair[0].speeds[1];
             assert_eq!(at, pair[1].speeds[0]);
             let jump = (pair[0].moment(at) - pair[1].moment(at)).abs();
-            // At standstill the losses turn about: there alone the moment jumps.
+            // At standstill the losses change sense: only there the moment jumps.
             assert!(jump < 1e-12 || at == 0.0, "{at} {jump}");
             assert_eq!(motor.branch(at, 1.0), pair[1]);
             assert_eq!(motor.branch(at, -1.0), pair[0]);

@@ -1,10 +1,11 @@
-//! What engines ask of links because they integrate bodies.
+//! Masses that engines need because they integrate bodies.
 
 use crate::case::Case;
 use crate::error::{Advice, Error, ErrorKind, Result};
 
-/// Mass (kg) and moment of inertia (kg m^2) that engines add to a link, by its number, which has none: the mean mass of all links, and the moment of a rod of that
-/// mass and the mechanism's size. 0 of what it has itself.
+/// Mass (kg) and moment of inertia (kg m^2) that engines add to a link without them; 0 for what the link already has.
+/// The mass is the mean mass of all links.
+/// The moment of inertia is that of a rod with this mass and the mechanism's size. `link` is the link's number.
 pub fn stand_in(case: &Case, link: usize) -> [f64; 2] {
     let moving = &case.mechanism.links()[1..];
     let total: f64 = moving.iter().map(|link| link.mass).sum();
@@ -14,8 +15,9 @@ pub fn stand_in(case: &Case, link: usize) -> [f64; 2] {
     [mass, if own.inertia > 0.0 { 0.0 } else { (own.mass + mass) * size * size / 12.0 }]
 }
 
-/// Checks that every link has a mass and a moment of inertia. Under forces no stand-in will do: it would change the motion. `software`: what the engine's
-/// users know it by.
+/// Checks that every link has a mass and a moment of inertia.
+/// Where forces decide the motion no stand-in is allowed, because it would change the motion.
+/// `software` is the name under which users know the engine.
 ///
 /// # Errors
 /// [`ErrorKind::Unsupported`] with the first link that lacks one of them.

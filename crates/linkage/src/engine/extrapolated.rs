@@ -1,5 +1,5 @@
-//! Any engine with a fixed step, extrapolated to step zero: solved at h and at h / 2, and both states combined so that the leading error
-//! drops out (Richardson 1911).
+//! Richardson extrapolation of any engine with a fixed step to step zero (Richardson 1911).
+//! The engine solves at h and at h / 2; both states are combined so that the leading error cancels.
 
 use std::sync::Arc;
 
@@ -15,12 +15,12 @@ use crate::trajectory::{CHANNELS, Channel, ChannelKind, Stage};
 pub struct Extrapolated {
     inner: Box<dyn Engine>,
     half: Box<dyn Engine>,
-    /// Runs that other extrapolations of the engine need too.
+    /// Runs that other extrapolations of the same engine need too.
     shared: Arc<Shared>,
 }
 
 impl Extrapolated {
-    /// Extrapolates an engine, whose step is h.
+    /// Extrapolates an engine with the step h.
     pub fn new(inner: Box<dyn Engine>) -> Self {
         debug_assert!(!inner.controls_error(), "there is no step to be halved");
         let half = inner.at(0.5 * inner.settings().resolution);
@@ -28,12 +28,13 @@ impl Extrapolated {
     }
 }
 
-/// Share of the run at h / 2: 2^p / (2^p - 1) for an error in proportion to h^p. That of the run at h is one less this.
+/// Weight of the run at h / 2: 2^p / (2^p - 1) for an error proportional to h^p. The weight of the run at h is 1 minus
+/// this.
 fn share(order: f64) -> f64 {
     1.0 / (1.0 - 0.5f64.powf(order))
 }
 
-/// Numbers of a state that depend on the step, and the shares of h / 2 in them.
+/// Weights of the run at h / 2 for the quantities of a state that depend on the step.
 struct Shares {
     position: f64,
     velocity: f64,
@@ -55,12 +56,12 @@ impl Shares {
         }
     }
 
-    /// Combines the state at h / 2 with that at h, in the place of the first.
+    /// Combines the state at h / 2 with that at h. The result replaces the first.
     fn combine(&self, case: &Case, fine: &mut State, coarse: &State) {
         let mix = |share: f64, fine: f64, coarse: f64| coarse + share * (fine - coarse);
         let mix_pair = |share: f64, fine: Vec2, coarse: Vec2| coarse + (fine - coarse) * share;
         for (index, link) in case.mechanism.links().iter().enumerate().skip(1) {
-            // Mass centres, as bodies are: the frame's origin follows from them.
+            // Combines mass centres, as the engine's bodies have them. The frame's origin follows.
             let of = |motion: &Motion| {
                 [
                     motion.point(link.mass_centre),
@@ -152,7 +153,7 @@ impl Engine for Extrapolated {
     }
 
     fn formal_order(&self, case: &Case, channel: &ChannelKind) -> f64 {
-        // Errors in proportion to h^p and h^(p+1), of which the first drops out.
+        // The errors are proportional to h^p and h^(p+1); the first cancels.
         self.inner.formal_order(case, channel) + 1.0
     }
 
@@ -181,7 +182,8 @@ mod tests {
     use crate::error::{Error, ErrorKind};
     use crate::fixtures;
 
-    /// An engine whose links turn by t + h^2, which writes down its runs, by steps and sweeps, and stops at the second instant of those in `fails`.
+    /// An engine whose links turn by t + h^2. It records its runs by steps and sweeps.
+    /// Runs listed in `fails` stop at the second instant.
     #[derive(Clone, Debug)]
     struct Counted {
         settings: Settings,
@@ -190,7 +192,7 @@ mod tests {
     }
 
     impl Counted {
-        /// The runs written down so far, which are forgotten.
+        /// The runs recorded so far; the record is cleared.
         fn taken(&self) -> Vec<(f64, usize)> {
             std::mem::take(&mut self.runs.lock().unwrap())
         }
@@ -265,7 +267,7 @@ mod tests {
         case.on(Grid::of_times(case.crank(), vec![0.2, 0.0, 0.1])).unwrap()
     }
 
-    /// Rows and angles that an engine hands over, in its order, and how the run ended; progress must rise from 0 to 1.
+    /// Rows and angles that an engine delivers, in its order, and how the run ended. Progress must rise from 0 to 1.
     fn run(engine: &dyn Engine, case: &Case) -> (Vec<(usize, f64)>, Result<()>) {
         let (mut seen, mut far) = (Vec::new(), 0.0);
         let mut visit = |row: usize, state: &State| {
@@ -291,7 +293,7 @@ mod tests {
         assert_eq!(alone[0].len(), 3);
         let once = [(0.1, 8), (0.05, 8), (0.025, 8), (0.2, 8), (0.1, 4), (0.05, 4)];
         assert_eq!(engine.taken(), once);
-        // What nobody expects any more is not kept: the first rung runs again as if alone.
+        // A run that no engine expects any more is not kept: the first rung runs again as if alone.
         assert_eq!(run(ladder[0].as_ref(), &case).0, alone[0]);
         assert_eq!(engine.taken(), once[..2]);
     }

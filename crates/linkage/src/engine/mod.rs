@@ -1,4 +1,4 @@
-//! The simulating side: a family of engines behind one contract, judged by the conformance tests.
+//! The simulating side: engines behind one trait, checked by the conformance tests.
 
 pub mod bodies;
 mod extrapolated;
@@ -12,7 +12,7 @@ use crate::case::Case;
 use crate::solver::Solver;
 use crate::trajectory::ChannelKind;
 
-/// An engine: a solver that integrates numerically, with settings that decide how well.
+/// An engine: a solver that integrates numerically, with settings that decide its accuracy.
 pub trait Engine: Solver {
     /// Name and version of the software behind it.
     fn version(&self) -> String;
@@ -20,37 +20,39 @@ pub trait Engine: Solver {
     /// Its settings.
     fn settings(&self) -> Settings;
 
-    /// The same engine with other settings. What it does not know of them is left out of its results: see [`Engine::told`].
+    /// The same engine with other settings. It ignores settings that it does not have: see [`Engine::told`].
     fn with(&self, settings: Settings) -> Box<dyn Engine>;
 
-    /// The same engine at another resolution and else as it is.
+    /// The same engine at another resolution, otherwise unchanged.
     fn at(&self, resolution: f64) -> Box<dyn Engine> {
         self.with(Settings { resolution, ..self.settings() })
     }
 
-    /// The engine with each of some settings, to solve one case one after the other, each of them once. Results are those of [`Engine::with`], but what
-    /// several of these engines need is computed once, and kept until the last of them has had it.
+    /// The engine with each of some settings, to solve one case with one after the other, each once.
+    /// Results are those of [`Engine::with`].
+    /// Runs that several of these engines need are computed once, and kept until the last of them has used them.
     fn ladder(&self, rungs: &[Settings]) -> Vec<Box<dyn Engine>> {
         rungs.iter().map(|&settings| self.with(settings)).collect()
     }
 
-    /// Whether [`Settings::resolution`] is an accuracy that the engine keeps by steps of its own choice, and not a time step.
+    /// Whether [`Settings::resolution`] is an accuracy that the engine keeps by choosing its own steps, instead of a
+    /// time step.
     fn controls_error(&self) -> bool {
         false
     }
 
-    /// Ways to reactions and balancing moment that are on offer, the cheapest first.
+    /// Available routes to reactions and balancing moment, the cheapest first.
     fn routes(&self) -> &'static [Route];
 
-    /// Order of convergence that a channel of a case should show with the present route and extrapolation.
+    /// Order of convergence expected of a channel of a case, with the present route and extrapolation.
     fn formal_order(&self, case: &Case, channel: &ChannelKind) -> f64;
 
     /// Bound on the rounding noise of a channel on the grid of a case, in the channel's unit.
     fn noise(&self, case: &Case, channel: &ChannelKind) -> f64;
 
-    /// Whether the factors in [`Engine::noise`] were measured; if not they were chosen.
+    /// Whether the factors in [`Engine::noise`] were measured. If not, they were chosen.
     fn is_noise_measured(&self) -> bool;
 
-    /// Settings that influence the result, by name, for people.
+    /// Settings that influence the result, by name, for display.
     fn told(&self) -> Vec<(&'static str, String)>;
 }

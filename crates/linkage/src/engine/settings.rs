@@ -1,13 +1,13 @@
-//! What can be set on an engine.
+//! Settings of an engine.
 
-/// A way to reactions and balancing moment.
+/// A route to reactions and balancing moment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Route {
-    /// Newton and Euler's equations on centred second differences of the engine's own positions.
+    /// Newton-Euler equations on centred second differences of the engine's own positions.
     Differences,
-    /// What the engine itself reports of the running trajectory: impulses, multipliers.
+    /// Values that the engine itself reports for the running trajectory: impulses, multipliers.
     Native,
-    /// What the engine reports of one tiny step that starts on its own trajectory.
+    /// Values that the engine reports for one tiny step that starts on its own trajectory.
     Probe,
 }
 
@@ -32,18 +32,18 @@ impl Route {
     }
 }
 
-/// Settings of an engine. All influence results; an engine says in [`told`](super::Engine::told) what it makes of them.
+/// Settings of an engine. All influence results. An engine lists in [`told`](super::Engine::told) those that it uses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// Time step (s) of an engine with a fixed step; relative accuracy of one that controls its error.
+    /// Time step (s) of an engine with a fixed step; relative accuracy of an engine that controls its error.
     pub resolution: f64,
-    /// Sweeps of the iteration over all constraints in a step; 0 in an engine that does not iterate.
+    /// Iteration sweeps over all constraints in a step; 0 in an engine that does not iterate.
     pub sweeps: usize,
-    /// Parts that the engine itself divides a step into.
+    /// Number of parts into which the engine itself divides a step.
     pub substeps: usize,
-    /// The way to reactions and balancing moment.
+    /// The route to reactions and balancing moment.
     pub route: Route,
-    /// Whether the state is combined from runs at the step and at half of it, so that the leading error drops out.
+    /// Whether the state is combined from runs at the full and at half the step, so that the leading error cancels.
     pub extrapolated: bool,
 }
 

@@ -1,4 +1,4 @@
-//! Runs that several engines are made of.
+//! Runs that several engines share.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -10,7 +10,7 @@ use crate::solver::{Progress, State, Visit};
 /// States by row of the grid.
 type States = Vec<Option<State>>;
 
-/// Runs of one engine on one case at different settings: each is made once, and kept as long as somebody still expects it.
+/// The case of the kept runs.
 #[derive(Debug, Default)]
 pub(super) struct Shared {
     kept: Mutex<Kept>,
@@ -19,20 +19,21 @@ pub(super) struct Shared {
 #[derive(Debug, Default)]
 struct Kept {
     runs: Vec<Run>,
-    /// What the kept runs are of.
+    /// Runs of one engine on one case at different settings. Each is made once, and kept as long as an engine still
+    /// expects it.
     case: Option<Case>,
 }
 
 #[derive(Debug)]
 struct Run {
     settings: Settings,
-    /// How many times it will be asked for.
+    /// How many more times it will be requested.
     expected: usize,
     states: Option<Arc<States>>,
 }
 
 impl Shared {
-    /// Announces that a run at these settings will be asked for, once more than it has been announced before.
+    /// Announces one more request for a run at these settings.
     pub(super) fn expect(&self, settings: Settings) {
         let runs = &mut self.kept().runs;
         match runs.iter_mut().find(|run| run.settings == settings) {
@@ -41,7 +42,8 @@ impl Shared {
         }
     }
 
-    /// As [`Solver::sweep`](crate::solver::Solver::sweep) of the engine, from the states of its run on this case if they are kept.
+    /// As [`Solver::sweep`](crate::solver::Solver::sweep) of the engine. Uses the kept states of its run on this case,
+    /// if any.
     ///
     /// # Errors
     /// Those of the engine and of the visitor.
@@ -69,7 +71,7 @@ impl Shared {
         Ok(())
     }
 
-    /// What is kept of a run at these settings, and whether it is expected again after this time.
+    /// The kept states of a run at these settings, and whether it is expected again after this request.
     fn ask(&self, settings: Settings, case: &Case) -> (Option<Arc<States>>, bool) {
         let mut kept = self.kept();
         let Kept { runs, case: own } = &mut *kept;
@@ -85,7 +87,7 @@ impl Shared {
         }
     }
 
-    /// What is kept. A thread that panicked meanwhile left whole runs or none.
+    /// The kept runs. A thread that panicked while it held the lock left either a whole run or none.
     fn kept(&self) -> MutexGuard<'_, Kept> {
         self.kept.lock().unwrap_or_else(PoisonError::into_inner)
     }

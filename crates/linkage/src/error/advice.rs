@@ -1,44 +1,44 @@
-//! The way out of an error, as data. In words it names no option of any program: who has options adds them.
+//! The remedy for an error, as data. Its text names no option of any program; a program with options adds them.
 
 use std::fmt;
 
-/// One way out. Several of them are alternatives.
+/// One remedy. Several of them are alternatives.
 ///
-/// The variants are what a program can act on; advice about the text of a description is [`Advice::Text`].
+/// A program can act on the variants; advice about the text of a description is [`Advice::Text`].
 #[derive(Clone, Debug, PartialEq)]
 pub enum Advice {
-    /// Words that are the same for every reader, such as the name of a scenario key.
+    /// Text that is the same for every reader, such as the name of a scenario key.
     Text(String),
     /// A smaller time step of the engine.
     SmallerStep {
-        /// A step to try (s), where the present one is known.
+        /// A step to try (s), if the present one is known.
         to: Option<f64>,
     },
     /// A larger time step of the engine.
     LargerStep {
-        /// A step to try (s), where the present one is known.
+        /// A step to try (s), if the present one is known.
         to: Option<f64>,
     },
-    /// A smaller accuracy number of an engine that chooses its own steps.
+    /// A smaller accuracy number for an engine that chooses its own steps.
     TighterAccuracy {
         /// A relative accuracy to try.
         to: f64,
     },
-    /// A larger accuracy number of an engine that chooses its own steps.
+    /// A larger accuracy number for an engine that chooses its own steps.
     LooserAccuracy {
         /// A relative accuracy to try.
         to: f64,
     },
-    /// More sweeps of the engine's iteration in a step.
+    /// More iteration sweeps per step of the engine.
     MoreSweeps {
-        /// A number to try, where the present one is known.
+        /// A number to try, if the present one is known.
         to: Option<usize>,
     },
     /// An engine in double precision.
     DoublePrecision,
     /// Another engine.
     OtherEngine,
-    /// Another way to the reactions.
+    /// Another route to the reactions.
     OtherRoute {
         /// Names of the routes that work.
         routes: &'static [&'static str],
@@ -48,36 +48,37 @@ pub enum Advice {
         /// Its name.
         solver: &'static str,
     },
-    /// No engine, but an analytic solver alone.
+    /// An analytic solver alone, without an engine.
     OtherSolver {
         /// Its name.
         solver: &'static str,
     },
     /// A grid within the crank angles that the branch reaches.
     ShortenGrid,
-    /// A look at the range of motion, which shows what limits the crank and which links turn fully.
+    /// An analysis of the range of motion, which shows what limits the crank and which links turn fully.
     LookAtRange,
-    /// Another choice among the configurations of a group.
+    /// Another of the configurations of a group.
     Configuration {
-        /// What can be given, in words.
+        /// What the user can specify, in words.
         give: String,
     },
-    /// The solution as a table in place of what was asked for.
+    /// The solution as a table instead of the requested form.
     SolutionTable,
     /// Channels that exist.
     OtherChannel {
         /// Groups of channels, in words.
         groups: String,
     },
-    /// A larger error, other channels or further engines in place of a wish that no engine meets.
+    /// A larger error, other channels or more engines instead of a request that no engine meets.
     WeakerWish,
-    /// The complete results in place of an extract.
+    /// The complete results instead of an extract.
     AllResults,
 }
 
 impl Advice {
-    /// The same advice with a number to try, from the present `resolution` of an engine (time step in s, or relative
-    /// accuracy if it `controls_error`) and its present number of `sweeps`.
+    /// The same advice with a number to try.
+    /// It follows from the engine's present `resolution` (time step in s, or relative accuracy if the engine
+    /// `controls_error`) and its present number of `sweeps`.
     #[must_use]
     pub fn from_settings(self, resolution: f64, controls_error: bool, sweeps: usize) -> Self {
         let (half, double) = (rounded(resolution / 2.0), rounded(resolution * 2.0));
@@ -91,7 +92,7 @@ impl Advice {
             Advice::SmallerStep { .. } => Advice::SmallerStep { to: Some(half) },
             Advice::LargerStep { .. } => Advice::LargerStep { to: Some(double) },
             Advice::MoreSweeps { .. } => Advice::MoreSweeps { to: Some(2 * sweeps) },
-            // Nothing in them is a number of an engine's settings.
+            // These contain no number of an engine's settings.
             other @ (Advice::Text(_)
             | Advice::TighterAccuracy { .. }
             | Advice::LooserAccuracy { .. }
@@ -110,14 +111,14 @@ impl Advice {
         }
     }
 
-    /// Alternatives as one sentence, each told by `tell`; `None` if there is none.
+    /// Alternatives as one sentence; `tell` puts each into words. `None` if there are none.
     #[must_use]
     pub fn sentence(all: &[Advice], tell: impl Fn(&Advice) -> String) -> Option<String> {
         (!all.is_empty()).then(|| all.iter().map(tell).collect::<Vec<_>>().join(", or "))
     }
 }
 
-/// A number to try, to two digits.
+/// A number to try, rounded to two digits.
 fn rounded(number: f64) -> f64 {
     format!("{number:.1e}").parse().unwrap_or(number)
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-/// The angle congruent to `angle` (modulo one turn) that lies nearest to `near`; both in rad.
+/// The angle congruent to `angle` (modulo one turn) nearest to `near`; both in rad.
 #[inline]
 fn nearest(angle: f64, near: f64) -> f64 {
     angle + TAU * ((near - angle) / TAU).round()
@@ -15,7 +15,7 @@ pub fn wrapped(angle: f64) -> f64 {
     if wrapped <= -TAU / 2.0 { wrapped + TAU } else { wrapped }
 }
 
-/// Arc tangent (rad), by its series where that has all digits after five terms: a quarter of the cost.
+/// Arc tangent (rad). Uses its series where five terms give all digits: a quarter of the cost.
 #[inline]
 #[must_use]
 pub fn arc_tangent(x: f64) -> f64 {

@@ -1,8 +1,8 @@
-//! Dense linear systems that are factored in place, time after time, without allocating.
+//! Dense linear systems that are factored in place, again and again, without allocation.
 
 /// Square system A x = b by LU decomposition with partial pivoting; the storage is reused between poses.
 ///
-/// nalgebra's own LU takes its matrix by value and so allocates once a pose, and has no solve with the transpose.
+/// nalgebra's own LU takes its matrix by value and so allocates in every pose, and it has no solve with the transpose.
 #[derive(Clone, Debug)]
 pub struct Lu {
     n: usize,
@@ -75,7 +75,8 @@ impl Lu {
         (0..self.n).fold(self.swap_sign, |product, k| product * self.a[k * self.n + k])
     }
 
-    /// Sign of the determinant of the factored matrix, +1 or -1; right where the determinant itself would be too small for a number.
+    /// Sign of the determinant of the factored matrix, +1 or -1. Correct even where the determinant itself would
+    /// underflow.
     #[must_use]
     pub fn determinant_sign(&self) -> f64 {
         (0..self.n).fold(self.swap_sign, |sign, k| sign * self.a[k * self.n + k].signum())
@@ -101,7 +102,7 @@ impl Lu {
     /// Solves A^T x = b for the factored matrix; `y` is replaced by `x`.
     pub fn solve_transposed(&self, y: &mut [f64]) {
         let n = self.n;
-        // Row by row: each solved number is taken off all that come after it.
+        // Row by row: each solved unknown is subtracted from all later rows.
         for (row, entries) in self.a.chunks_exact(n).enumerate() {
             let (solved, rest) = y[row..].split_first_mut().expect("as many numbers as rows");
             *solved *= self.inverse[row];
@@ -121,8 +122,9 @@ impl Lu {
     }
 }
 
-/// Solves two equations A x = b by elimination with partial pivoting; `None` if A is singular to working precision (or not finite). The same as
-/// [`Lu`] does, for what is solved so often that its loops would cost more than the arithmetic.
+/// Solves two equations A x = b by elimination with partial pivoting; `None` if A is singular to working precision (or
+/// not finite).
+/// The same method as [`Lu`], for systems solved so often that its loops would cost more than the arithmetic.
 #[inline]
 #[must_use]
 pub fn solve_pair(a: [[f64; 2]; 2], b: [f64; 2]) -> Option<[f64; 2]> {

@@ -1,11 +1,13 @@
-//! Extremes of a function of one variable between bounds: every search for one is here.
+//! Extremes of a function of one variable between bounds. All such searches of the project are here.
 
-/// Golden section steps of [`greatest`]: the interval shrinks to 1e-9 of the distance of two samples, where the value is exact to rounding.
+/// Golden section steps of [`greatest`]. The interval shrinks to 1e-9 of the distance of two samples, where the value
+/// is exact to rounding.
 const REFINEMENTS: usize = 44;
 
-/// The interval from `low` to `high` about the greatest value, after `steps` steps of golden section (Kiefer 1953), each of which leaves 0.618 of
-/// it: both ends of what is left. Sure of a function with one extreme in the interval; of others one of their extremes is found. About 40
-/// steps reach the square root of rounding, and nothing is to be found out beyond. A value that is not a number counts as less than any.
+/// The interval from `low` to `high` about the greatest value, after `steps` steps of golden section (Kiefer 1953).
+/// Each step leaves 0.618 of the interval. Returns both ends of the remaining interval.
+/// The result is certain for a function with one extreme in the interval; for others it is one of their extremes.
+/// About 40 steps reach the square root of rounding; more steps gain nothing. NaN counts as less than any number.
 ///
 /// # Errors
 /// The first of `value`.
@@ -31,9 +33,10 @@ pub fn golden<E>(
     Ok([low, high])
 }
 
-/// Place and value of the greatest sample or, by golden section between its neighbours, of the greatest value found there.
-/// `places` ascend, `samples` are the values there; `value` may fail, as with a pose that cannot be reached. Where a sample or a value on the way is
-/// not a number, that is the answer: nobody could say what is greatest.
+/// Place and value of the greatest sample or, by golden section between its neighbours, of the greatest value found
+/// there.
+/// `places` ascend, `samples` are the values there. `value` may fail, for example at a pose that cannot be reached.
+/// If a sample or a computed value is NaN, the result is NaN, because the greatest value is then unknown.
 ///
 /// # Errors
 /// The first of `value`.
@@ -76,7 +79,7 @@ mod tests {
         let places = [-1.0, 0.0, 1.0, 2.0];
         let samples = places.map(|x| value(x).unwrap());
         let (place, peak) = greatest(&places, &samples, &mut value).unwrap();
-        // Flat at the top: half the digits of the place, all of the value.
+        // The function is flat at the top: half the digits of the place, all digits of the value.
         assert!((place - 0.3).abs() < 1e-7 && (peak - 3.0).abs() < 1e-15, "{place} {peak}");
         assert_eq!(greatest(&places, &samples, &mut |_| Err("out of reach")), Err("out of reach"));
     }
@@ -88,7 +91,7 @@ mod tests {
             let found = greatest(&[0.0, 1.0, 2.0], &[0.0, unknown, 2.0], &mut value).unwrap();
             assert!(found.0 == 1.0 && found.1.is_nan(), "{found:?}");
         }
-        // One value on the way only, the second: those after it do not hide it.
+        // Only one value is NaN, the second: those after it do not hide it.
         let mut count = 0;
         let mut gap = |x: f64| {
             count += 1;
@@ -98,7 +101,7 @@ mod tests {
     }
 
     proptest! {
-        /// The greatest value lies in what is left, wherever it is; at an end too.
+        /// The greatest value lies in the remaining interval, wherever it is, also at an end.
         #[test]
         fn golden_section_keeps_the_peak(low in -5.0f64..5.0, width in 0.1f64..10.0, share in 0.0f64..=1.0, sharp in 0.1f64..4.0) {
             let (high, peak) = (low + width, low + share * width);
@@ -108,7 +111,7 @@ mod tests {
             prop_assert!(b - a < 2e-6 * width, "{}", b - a);
         }
 
-        /// Never less than any sample, nor than what is there.
+        /// Never less than any sample, nor than the true value.
         #[test]
         fn the_greatest_is_not_below_any_sample(c in prop::collection::vec(-1.0f64..1.0, 6), count in 40usize..80) {
             let f = |x: f64| (0..3).map(|k| c[2 * k] * (k as f64 * x + c[2 * k + 1]).sin()).sum::<f64>();
@@ -117,7 +120,8 @@ mod tests {
             let (place, value) = greatest(&places, &samples, &mut |x| Ok::<f64, ()>(f(x))).unwrap();
             prop_assert!(samples.iter().all(|&sample| value >= sample) && value == f(place));
             let dense = (0..7000).map(|k| f(k as f64 * 1e-3)).fold(f64::NEG_INFINITY, f64::larger);
-            // Two peaks of nearly the same height may be told wrongly by the samples, by a parabola's height between two of them.
+            // Of two peaks of nearly the same height the samples may choose the wrong one, by a parabola's height
+            // between two of them.
             prop_assert!(value >= dense - 5.0 * (7.0 / count as f64).powi(2), "{value} {dense}");
         }
     }

@@ -1,8 +1,10 @@
-//! Zeros of trigonometric polynomials: all of them.
+//! All zeros of trigonometric polynomials.
 //!
-//! Between two neighbouring extrema a function has one zero if its signs there differ, else none. The extrema are the zeros of the
-//! derivative, and these come from eigenvalues. Where two zeros meet, the zeros themselves move by the square root of the
-//! rounding, but the extremum between them stays simple: its sign tells a close pair from a near miss.
+//! Between two neighbouring extrema a function has one zero if its signs there differ, otherwise none.
+//! The extrema are the zeros of the derivative, which are computed from eigenvalues.
+//! Where two zeros meet, the zeros themselves move by the square root of the rounding, but the extremum between them
+//! stays simple.
+//! Its sign distinguishes a close pair of zeros from a near miss.
 
 use crate::math::KeepNan;
 use nalgebra::{Complex, DMatrix, linalg::Schur};
@@ -13,28 +15,31 @@ use super::root;
 
 type Coefficients = Vec<Complex<f64>>;
 
-/// Roots of the derivative farther than this from the unit circle are no angles. Simple roots move by rounding only; a root that is
-/// nearly double moves by its square root, 1e-8, times its condition. Taking in too many does no harm: each is only a place to look.
+/// Roots of the derivative farther than this from the unit circle are not angles. Simple roots move by rounding only; a
+/// root that is nearly double moves by its square root, 1e-8, times its condition number.
+/// Too many roots do no harm: each is only one more candidate.
 const ON_CIRCLE: f64 = 1e-3;
-/// Below this share of the scale a value cannot be told from zero: it is the rounding of the coefficients with two digits to spare.
+/// Below this share of the scale a value counts as zero: it is the rounding of the coefficients with a margin of two
+/// digits.
 const ZERO: f64 = 1e-14;
-/// Zeros nearer to each other than this (rad) are one that touches: a parabola of height `ZERO` is as wide.
+/// Zeros nearer to each other than this (rad) are one touching zero: a parabola of height `ZERO` has this width.
 const APART: f64 = 1e-7;
 
-/// Real zeros in [0, 2 pi) of the trigonometric polynomial of at most degree `degree` (1 or more) that equals `f`, in ascending order;
-/// `scale` is the size of the terms that `f` sums up, by which its rounding is judged. Touching zeros count once. Leading
-/// coefficients may vanish.
+/// Real zeros in [0, 2 pi) of the trigonometric polynomial of at most degree `degree` (1 or more) that equals `f`, in
+/// ascending order.
+/// `scale` is the size of the terms that `f` sums up; it sets the limit for rounding.
+/// Touching zeros count once. Leading coefficients may be zero.
 ///
 /// Returns `None` if `f` is zero everywhere to rounding, or not finite.
 pub fn zeros(degree: usize, scale: f64, f: impl Fn(f64) -> f64) -> Option<Vec<f64>> {
     let coefficients = coefficients(degree, f);
     let largest = coefficients.iter().map(|c| c.norm()).fold(0.0, f64::larger);
-    // A value that is no number has left its mark in every coefficient, but `max` overlooks it.
+    // A NaN value makes every coefficient NaN, but `max` ignores it.
     if !(coefficients.iter().all(|c| c.norm().is_finite()) && largest > ZERO * scale) {
         return None;
     }
     let small = ZERO * scale;
-    // An even grid besides: were an extremum overlooked, the zeros beside it would still not be.
+    // An even grid in addition: even if an extremum were missed, the zeros next to it would be found.
     let even = (0..4 * degree).map(|k| TAU * (k as f64 + 0.37) / (4 * degree) as f64);
     let mut places: Vec<f64> = extrema(&coefficients)?.into_iter().chain(even).collect();
     places.sort_by(f64::total_cmp);
@@ -44,7 +49,7 @@ pub fn zeros(degree: usize, scale: f64, f: impl Fn(f64) -> f64) -> Option<Vec<f6
         let to = places.get(index + 1).copied().unwrap_or(places[0] + TAU);
         let ends = [value(from), value(to)];
         if ends[0].abs() <= small {
-            // Neighbouring places that are all flat lie on one multiple zero.
+            // Neighbouring places with values of zero belong to one multiple zero.
             let before = places[(index + places.len() - 1) % places.len()];
             if value(before).abs() > small {
                 found.push(from);
@@ -68,7 +73,7 @@ fn coefficients(degree: usize, f: impl Fn(f64) -> f64) -> Coefficients {
     let values: Vec<f64> = (0..count).map(|j| f(TAU * j as f64 / count as f64)).collect();
     let coefficient = |k: i64| {
         let term = |(j, &value): (usize, &f64)| {
-            // The product is reduced before it becomes an angle: no digits are lost.
+            // The product is reduced before it becomes an angle, so that no digits are lost.
             let turn = (k * j as i64).rem_euclid(count as i64) as f64 / count as f64;
             Complex::from_polar(value / count as f64, -TAU * turn)
         };
@@ -89,7 +94,7 @@ fn evaluate(coefficients: &[Complex<f64>], x: f64) -> (f64, f64) {
     (value, slope)
 }
 
-/// Places in [0, 2 pi) of the extrema; none of a constant.
+/// Places in [0, 2 pi) of the extrema; an empty list for a constant.
 fn extrema(coefficients: &[Complex<f64>]) -> Option<Vec<f64>> {
     let degree = (coefficients.len() / 2) as f64;
     let slope = |(index, c): (usize, &Complex<f64>)| c * Complex::new(0.0, index as f64 - degree);
@@ -100,7 +105,8 @@ fn extrema(coefficients: &[Complex<f64>]) -> Option<Vec<f64>> {
     let near = roots(&derivative)?.into_iter().filter(|found| (found.norm() - 1.0).abs() < ON_CIRCLE);
     let polished = near.map(|found| {
         let (mut best, mut least) = (found.arg(), f64::INFINITY);
-        // Beside a multiple root Newton's method may go astray: the flattest place on its way is kept, the fifth too.
+        // Near a multiple root Newton's method may diverge. The place with the smallest slope is kept, including the
+        // fifth step.
         let Ok(_) = root::polished(found.arg(), 5, f64::INFINITY, |x| {
             let (value, slope) = evaluate(&derivative, x);
             if value.abs() < least && (x - found.arg()).abs() < ON_CIRCLE {
@@ -113,7 +119,8 @@ fn extrema(coefficients: &[Complex<f64>]) -> Option<Vec<f64>> {
     Some(polished.collect())
 }
 
-/// The one zero between two places where the signs differ: Newton's method, by halves where it would leave the interval.
+/// The single zero between two places where the signs differ. Newton's method; bisection where it would leave the
+/// interval.
 fn between(coefficients: &[Complex<f64>], from: f64, to: f64) -> f64 {
     let rises = evaluate(coefficients, to).0 > 0.0;
     let middle = f64::midpoint(from, to);
@@ -122,16 +129,17 @@ fn between(coefficients: &[Complex<f64>], from: f64, to: f64) -> f64 {
     found.expect("coefficients are finite, and so are the values")
 }
 
-/// Roots of a polynomial (lowest power first) whose coefficients are their own mirror image but for conjugation and a sign, so that roots
-/// come in pairs z, 1 / conj(z).
+/// Roots of a polynomial (lowest power first) whose coefficients are their own mirror image, except for conjugation and
+/// a sign, so that roots come in pairs z, 1 / conj(z).
 ///
-/// The map z = (w + a) / (1 + conj(a) w), |a| < 1, keeps the unit circle and brings roots at infinity, which vanishing leading
-/// coefficients stand for, to -1 / conj(a). Its leading coefficient has the size of the polynomial's value at a: a is chosen so that
-/// this is large, and the companion matrix is well scaled.
+/// The map z = (w + a) / (1 + conj(a) w), |a| < 1, keeps the unit circle and moves roots at infinity, which correspond
+/// to zero leading coefficients, to -1 / conj(a).
+/// Its leading coefficient has the size of the polynomial's value at a.
+/// So a is chosen to make this value large; the companion matrix is then well scaled.
 fn roots(polynomial: &[Complex<f64>]) -> Option<Vec<Complex<f64>>> {
     let n = polynomial.len() - 1;
     let value = |a: Complex<f64>| polynomial.iter().rev().fold(Complex::new(0.0, 0.0), |sum, c| sum * a + c).norm();
-    // One candidate more than there are roots inside the circle: one of them is away from all.
+    // One candidate more than there are roots inside the circle: at least one candidate is far from all roots.
     let candidates = (0..n + 1).map(|k| Complex::from_polar(0.5, TAU * k as f64 / (n + 1) as f64));
     let a = candidates.max_by(|&a, &b| value(a).total_cmp(&value(b)))?;
     let mut mapped = vec![Complex::new(0.0, 0.0); n + 1];
@@ -185,7 +193,8 @@ mod tests {
         assert!(zeros(3, 1.0, |x| if x > 5.0 { f64::NAN } else { x.cos() }).is_none());
     }
 
-    /// Two zeros apart by d make a parabola of depth d^2 / 4 (times 1/2 here): told from a near miss as long as this is above `ZERO`.
+    /// Two zeros at the distance d make a parabola of depth d^2 / 4 (times 1/2 here). It is distinguished from a near
+    /// miss as long as this is above `ZERO`.
     #[test]
     fn a_close_pair_is_told_from_a_near_miss() {
         for d in [1e-2, 1e-4, 1e-6] {
@@ -196,7 +205,8 @@ mod tests {
         }
     }
 
-    /// Where four zeros are one, the derivative's three are known to a third of the digits: f is flat enough for that.
+    /// Where four zeros coincide, the three zeros of the derivative are known to a third of the digits: f is flat
+    /// enough for that.
     #[test]
     fn a_fourfold_zero_is_found_once() {
         for k in 0..20 {
@@ -206,7 +216,7 @@ mod tests {
         }
     }
 
-    /// A zero at the seam of the turn, and one at every place that the even grid may hit, is found once.
+    /// A zero at the ends of the turn, or at any place of the even grid, is found once.
     #[test]
     fn zeros_anywhere_are_found_once() {
         for k in 0..48 {
@@ -221,7 +231,7 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(2000))]
         #[test]
         fn as_many_as_a_dense_scan_finds(c in prop::collection::vec(-1.0f64..1.0, 7), small in 0..3usize) {
-            // From degree 3 down to 1, by leading coefficients that are rounding, and by those that are merely small.
+            // From degree 3 down to 1, with leading coefficients that are rounding, and with some that are only small.
             let size = [1.0, 1e-15, 1e-8];
             let (two, three) = (if c[0] > 0.5 { size[small] } else { 1.0 }, size[small]);
             let f = |x: f64| c[0] + c[1] * x.cos() + c[2] * x.sin() + two * (c[3] * (2.0 * x).cos() + c[4] * (2.0 * x).sin())
@@ -233,7 +243,7 @@ mod tests {
             let n = 20_000;
             let value = |k: usize| f(TAU * k as f64 / n as f64);
             let changes = (0..n).filter(|&k| value(k) * value(k + 1) < 0.0).count();
-            // Between two sign changes closer than the scan's spacing only the scan can be wrong.
+            // Where two sign changes are closer than the scan's spacing, only the scan can be wrong.
             let close = found.windows(2).any(|pair| pair[1] - pair[0] < TAU / n as f64);
             prop_assert!(found.len() == changes || close && found.len() == changes + 2, "{found:?} against {changes}");
         }

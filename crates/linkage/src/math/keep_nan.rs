@@ -1,6 +1,6 @@
-//! The larger and the smaller of two numbers, where NaN is not lost on the way.
+//! The larger and the smaller of two numbers, with NaN kept.
 //!
-//! `f64::max` and `f64::min` drop NaN: of NaN and 1 they make 1, and a check of what comes out cannot fail.
+//! `f64::max` and `f64::min` drop NaN: of NaN and 1 they make 1, and a check of the result cannot fail.
 //! `clippy.toml` forbids them.
 
 /// The larger and the smaller of two numbers.
@@ -13,11 +13,11 @@ pub trait KeepNan: Copy {
     #[must_use]
     fn smaller(self, other: Self) -> Self;
 
-    /// The larger of those that are numbers: NaN counts for nothing. NaN if both are.
+    /// The larger of the two, with NaN ignored. NaN if both are.
     #[must_use]
     fn larger_number(self, other: Self) -> Self;
 
-    /// The smaller of those that are numbers: NaN counts for nothing. NaN if both are.
+    /// The smaller of the two, with NaN ignored. NaN if both are.
     #[must_use]
     fn smaller_number(self, other: Self) -> Self;
 }
@@ -46,7 +46,7 @@ impl KeepNan for f64 {
     }
 }
 
-/// The largest absolute value; NaN if one of them is, 0 of none.
+/// The largest absolute value; NaN if one of them is, 0 for an empty list.
 #[must_use]
 pub fn largest_size(values: impl IntoIterator<Item = f64>) -> f64 {
     values.into_iter().fold(0.0, |most, value| value.abs().larger(most))

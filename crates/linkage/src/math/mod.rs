@@ -1,4 +1,5 @@
-//! Small mathematics without physics: plane vectors, rigid motion fields, dense solves, quantiles, interpolation, splines, zeros and extremes.
+//! Small mathematics without physics: plane vectors, rigid motion fields, dense linear systems, quantiles,
+//! interpolation, splines, zeros and extremes.
 
 pub mod angle;
 pub mod dense;
@@ -19,7 +20,7 @@ pub use piecewise::Piecewise;
 /// Vector in the plane XOY.
 pub type Vec2 = nalgebra::Vector2<f64>;
 
-/// Matrix of any size, for what is computed once and not in every pose.
+/// Matrix of any size, for quantities that are not computed in every pose.
 pub type Matrix = nalgebra::DMatrix<f64>;
 
 /// Column of any length.

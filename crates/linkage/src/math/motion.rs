@@ -1,4 +1,4 @@
-//! Plane motion of a rigid body as a field: where each of its points is, how fast, how strongly accelerated.
+//! Plane motion of a rigid body as a field: position, velocity and acceleration of each of its points.
 
 use super::{Vec2, rotated, turned};
 
@@ -30,8 +30,9 @@ impl Motion {
         alpha: 0.0,
     };
 
-    /// The motion of a body of which one point is given: its body coordinates `local` (m), its position, velocity and
-    /// acceleration, and the body's direction, angular velocity and angular acceleration.
+    /// The motion of a body from one of its points and its rotation.
+    /// Of the point: body coordinates `local` (m), position, velocity and acceleration. Of the body: direction, angular
+    /// velocity and angular acceleration.
     #[inline]
     #[must_use]
     pub fn of_point(
@@ -114,7 +115,7 @@ mod tests {
     use super::*;
     use crate::math::unit;
 
-    /// A frame whose origin and angle are polynomials of time, so that every derivative is known.
+    /// A frame whose origin and angle are polynomials of time, so that all derivatives are known.
     fn frame(t: f64) -> Motion {
         Motion {
             origin: Vec2::new(1.0 + 2.0 * t, 3.0 * t * t),

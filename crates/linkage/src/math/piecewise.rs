@@ -7,13 +7,14 @@ use crate::math::KeepNan;
 pub struct Piecewise {
     /// Knots, one more than pieces.
     knots: Vec<f64>,
-    /// Of each piece: coefficients of the powers 0 to 3 of the distance from its first knot.
+    /// For each piece: coefficients of the powers 0 to 3 of the distance from its first knot.
     pieces: Vec<[f64; 4]>,
     periodic: bool,
 }
 
 impl Piecewise {
-    /// Straight lines through `(x, y)`, repeated with `period`. The x must ascend, at least one of them, within one period.
+    /// Straight lines through `(x, y)`, repeated with `period`. The x must ascend, at least one of them, within one
+    /// period.
     #[must_use]
     pub fn periodic_lines(points: &[(f64, f64)], period: f64) -> Self {
         let (knots, values) = closed(points, period);
@@ -23,8 +24,9 @@ impl Piecewise {
         Piecewise { knots, pieces, periodic: true }
     }
 
-    /// The periodic cubic spline through `(x, y)`, whose first two derivatives are continuous everywhere. De Boor, "A practical guide to
-    /// splines", 1978, chapter IV. The x must ascend, at least one of them, within one period.
+    /// The periodic cubic spline through `(x, y)`, whose first two derivatives are continuous everywhere.
+    /// De Boor, "A practical guide to splines", 1978, chapter IV.
+    /// The x must ascend, at least one of them, within one period.
     #[must_use]
     pub fn periodic_spline(points: &[(f64, f64)], period: f64) -> Self {
         let (knots, values) = closed(points, period);
@@ -38,8 +40,9 @@ impl Piecewise {
         Piecewise { pieces: of_second_derivatives(&values, &h, &slope, &second), knots, periodic: true }
     }
 
-    /// The cubic spline through `(x, y)` with the slopes given at its ends, whose first two derivatives are continuous. De Boor, as above. The
-    /// x must ascend, at least two of them. Beyond its ends the outer pieces go on.
+    /// The cubic spline through `(x, y)` with given slopes at its ends. Its first two derivatives are continuous. De
+    /// Boor, as above.
+    /// The x must ascend, at least two of them. The outer pieces continue beyond the ends.
     #[must_use]
     pub fn clamped_spline(points: &[(f64, f64)], [first, last]: [f64; 2]) -> Self {
         let (knots, values): (Vec<f64>, Vec<f64>) = points.iter().copied().unzip();
@@ -66,13 +69,13 @@ impl Piecewise {
         [a + d * (b + d * (c + d * e)), b + d * (2.0 * c + d * 3.0 * e), 2.0 * c + d * 6.0 * e]
     }
 
-    /// The knots; of a periodic function those of one period, both ends included.
+    /// The knots. For a periodic function those of one period, both ends included.
     #[must_use]
     pub fn knots(&self) -> &[f64] {
         &self.knots
     }
 
-    /// KeepNans of the first derivative: its least and largest value at and between the knots.
+    /// Extremes of the first derivative: its smallest and largest value at and between the knots.
     #[must_use]
     pub fn slopes(&self) -> [f64; 2] {
         let mut found = [f64::INFINITY, f64::NEG_INFINITY];
@@ -110,7 +113,7 @@ fn of_second_derivatives(values: &[f64], h: &[f64], slope: &[f64], second: &[f64
     (0..h.len()).map(piece).collect()
 }
 
-/// Rows `[below, on, above the diagonal, right-hand side]`, diagonally dominant.
+/// Solves diagonally dominant rows `[below, on, above the diagonal, right-hand side]`.
 fn solve_tridiagonal(rows: &[[f64; 4]]) -> Vec<f64> {
     let (mut above, mut found) = (vec![0.0; rows.len()], vec![0.0; rows.len()]);
     for (k, &[below, on, over, right]) in rows.iter().enumerate() {
@@ -124,7 +127,8 @@ fn solve_tridiagonal(rows: &[[f64; 4]]) -> Vec<f64> {
     found
 }
 
-/// The same where the first row's `below` stands in the last column and the last row's `above` in the first: by Sherman and Morrison's formula.
+/// The same for cyclic rows, by Sherman and Morrison's formula.
+/// The first row's `below` stands in the last column and the last row's `above` in the first.
 fn solve_cyclic(mut rows: Vec<[f64; 4]>) -> Vec<f64> {
     let n = rows.len();
     if n == 1 {

@@ -11,14 +11,15 @@ pub const NODES: usize = 8;
 
 /// Nodes in -1 to 1 and weights of Gauss and Legendre's rule of [`NODES`] nodes, exact for polynomials of degree 15.
 ///
-/// Nodes by Newton's method on the Legendre polynomial from its asymptotic roots; weights 2 / ((1 - x^2) P'(x)^2). Abramowitz and Stegun 25.4.29.
+/// Nodes by Newton's method on the Legendre polynomial from its asymptotic roots; weights 2 / ((1 - x^2) P'(x)^2).
+/// Abramowitz and Stegun 25.4.29.
 #[must_use]
 pub fn gauss_legendre() -> [(f64, f64); NODES] {
     let n = NODES as f64;
     std::array::from_fn(|k| {
         let guess = -(PI * (k as f64 + 0.75) / (n + 0.5)).cos();
         let mut slope = 1.0;
-        // Quadratic from three digits on: five steps reach rounding.
+        // Quadratic convergence from three digits on: five steps reach rounding.
         let Ok(x) = root::polished(guess, 6, f64::INFINITY, |x| {
             let (mut before, mut here) = (1.0, x);
             for degree in 2..=NODES {
@@ -32,8 +33,8 @@ pub fn gauss_legendre() -> [(f64, f64); NODES] {
     })
 }
 
-/// Nodes and weights over the pieces between ascending `breaks`, each cut into equal panels no longer than `panel`. A function that is
-/// smooth between the breaks may have kinks at them.
+/// Nodes and weights over the pieces between ascending `breaks`, each divided into equal panels no longer than `panel`.
+/// A function that is smooth between the breaks may have kinks at them.
 #[must_use]
 pub fn composite(breaks: &[f64], panel: f64) -> Vec<(f64, f64)> {
     let rule = gauss_legendre();
@@ -65,7 +66,7 @@ mod tests {
 
     #[test]
     fn a_kink_on_a_break_does_not_hurt() {
-        // |sin x| from 0 to 2 pi comes to 4.
+        // The integral of |sin x| from 0 to 2 pi is 4.
         let found: f64 = composite(&[0.0, PI, 2.0 * PI], 0.5).iter().map(|(x, w)| w * x.sin().abs()).sum();
         assert!((found - 4.0).abs() < 1e-14, "{found}");
     }

@@ -1,19 +1,21 @@
-//! Zeros of a function of one variable, between bounds where there are any: every search for one is here.
+//! Zeros of a function of one variable, with or without bounds. All such searches of the project are here.
 //!
-//! Each function says what it needs of the one it searches, and where it ends. Functions may fail (`E`): the first error ends a search.
-//! What is not a number is never taken for a zero.
+//! Each function documents what it requires of the searched function, and where it ends.
+//! Searched functions may fail (`E`): the first error ends a search. NaN is never taken for a zero.
 
 use super::KeepNan;
 
-/// Whether the values at two places have different signs, or one of them is zero. What is not a number has no sign.
+/// Whether the values at two places have different signs, or one of them is zero. NaN has no sign.
 #[inline]
 #[must_use]
 pub fn changes(a: f64, b: f64) -> bool {
     a <= 0.0 && b >= 0.0 || a >= 0.0 && b <= 0.0
 }
 
-/// The interval from `low` to `high` halved `halvings` times about the place up to which `before` holds: both ends of what is left. Where
-/// `before` never holds the lower end stays, where it always holds the upper one. About 52 halvings reach rounding.
+/// Bisects the interval from `low` to `high` `halvings` times, towards the place up to which `before` is true.
+/// Returns both ends of the remaining interval.
+/// If `before` is never true the lower end stays; if it is always true the upper one stays. About 52 halvings reach
+/// rounding.
 ///
 /// # Errors
 /// The first of `before`.
@@ -37,9 +39,10 @@ pub fn halved<E>(
 /// A place and the value there.
 pub type Known = (f64, f64);
 
-/// Looks from `from` on, first `width` away and then twice as far each time, up to `most`, for a place where the sign differs from that at
-/// `from`. The last two places looked at, between which it changes; `None` if it does not, a value or the width is not a number, or the
-/// width is zero. A negative `width` looks backwards.
+/// Searches for a sign change from `from` on: first `width` away, then twice as far each time, up to `most`.
+/// Returns the last two places, between which the sign changes.
+/// `None` if it does not change, if a value or the width is NaN, or if the width is zero. A negative `width` searches
+/// backwards.
 ///
 /// # Errors
 /// The first of `value`.
@@ -65,17 +68,18 @@ pub fn widened<E>(
     Ok(None)
 }
 
-/// When a regula falsi ends: as soon as one of the two holds.
+/// When a regula falsi ends: as soon as one of the two conditions holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Close {
     /// Size of the value that counts as zero.
     pub value: f64,
-    /// Distance of the bounds at which they are one place; never less than four roundings of the larger one.
+    /// Distance of the bounds below which they count as one place; never less than four roundings of the larger one.
     pub width: f64,
 }
 
-/// The zero between two places with different signs by regula falsi, in the Illinois form: a bound that stays counts half with every step
-/// (Dowell and Jarratt, BIT 11, 1971, 168-174; order 1.44). `None` if the signs are the same, a value is not a number, or `steps` were not enough.
+/// The zero between two places with different signs by regula falsi, in the Illinois form: a bound that stays counts
+/// half with every step (Dowell and Jarratt, BIT 11, 1971, 168-174; order 1.44). `None` if the signs are the same, a
+/// value is NaN, or `steps` were not enough.
 ///
 /// # Errors
 /// The first of `value`.
@@ -92,7 +96,7 @@ pub fn regula_falsi<E>(
         return Ok(Some(end.0));
     }
     for _ in 0..steps {
-        // A mean weighted with positive weights: it lies between the bounds, and no digits are lost.
+        // A mean with positive weights: it lies between the bounds, and no digits are lost.
         let at = (held.0 * last.1 - last.0 * held.1) / (last.1 - held.1);
         let found = value(at)?;
         let rounding = 4.0 * f64::EPSILON * held.0.abs().larger(last.0.abs());
@@ -112,9 +116,11 @@ pub fn regula_falsi<E>(
     Ok(None)
 }
 
-/// The zero of a function with its slope between `bounds` (either may be the larger) by Newton's method from `start`, by halves where that
-/// leaves the bounds. `rises`: whether the value is positive at the second bound. A step of Newton's of at most `settled` is the last one and is
-/// still taken: the method is quadratic, so that what is left is of the order of its square. `None` for a value that is not a number.
+/// The zero of a function with its slope between `bounds` (either may be the larger).
+/// Newton's method from `start`; bisection where a step leaves the bounds. `rises`: whether the value is positive at
+/// the second bound.
+/// A Newton step of at most `settled` is the last one and is still taken.
+/// The method is quadratic, so that the remaining error is of the order of its square. `None` if a value is NaN.
 ///
 /// # Errors
 /// The first of `value`.
@@ -126,7 +132,7 @@ pub fn newton<E>(
     settled: f64,
     mut value: impl FnMut(f64) -> Result<(f64, f64), E>,
 ) -> Result<Option<f64>, E> {
-    /// As many halvings as a double has bits, and what Newton's method takes besides.
+    /// As many halvings as a double has bits, plus the steps of Newton's method.
     const MOST: usize = 100;
     let mut at = start;
     for _ in 0..MOST {
@@ -151,8 +157,9 @@ pub fn newton<E>(
     Ok(Some(at))
 }
 
-/// `steps` steps of Newton's method from a place near the zero; steps of `longest` or more, and such that are not numbers, are not taken. The
-/// function gives value and slope.
+/// `steps` steps of Newton's method from a place near the zero. Steps that are NaN, or `longest` or longer, are not
+/// taken.
+/// The function gives value and slope.
 ///
 /// # Errors
 /// The first of `value`.
@@ -173,8 +180,10 @@ pub fn polished<E>(
     Ok(at)
 }
 
-/// A length at which the value vanishes, by at most `steps` secants, the first through what is `known` and a `guess`, both positive. Ends where
-/// a secant would change the length by no more than four roundings; by more than the length itself it is not changed.
+/// A length at which the value is zero, by at most `steps` secants, the first through `known` and a `guess`, both
+/// positive.
+/// Ends where a secant would change the length by no more than four roundings. A change by more than the length itself
+/// is not made.
 ///
 /// # Errors
 /// The first of `value`.

@@ -2,7 +2,8 @@
 
 use crate::math::KeepNan;
 
-/// Quantile `q` (0 to 1) of values sorted in ascending order, linear between neighbours (type 7 of Hyndman and Fan 1996).
+/// Quantile `q` (0 to 1) of values sorted in ascending order, linear between neighbours
+/// (type 7 of Hyndman and Fan 1996).
 ///
 /// Returns 0 for an empty slice.
 #[must_use]
@@ -14,7 +15,7 @@ pub fn quantile(sorted: &[f64], q: f64) -> f64 {
     sorted[low] + (sorted[high] - sorted[low]) * (place - low as f64)
 }
 
-/// Places of `values` in ascending order of value; equal values keep their order.
+/// Indices of `values` in ascending order of value; equal values keep their order.
 #[must_use]
 pub fn ascending(values: &[f64]) -> Vec<usize> {
     let mut places: Vec<usize> = (0..values.len()).collect();
@@ -22,20 +23,20 @@ pub fn ascending(values: &[f64]) -> Vec<usize> {
     places
 }
 
-/// Root of the mean square of `values`; 0 for none.
+/// Root mean square of `values`; 0 for an empty list.
 #[must_use]
 pub fn rms(values: impl IntoIterator<Item = f64>) -> f64 {
     let (count, sum) = values.into_iter().fold((0usize, 0.0), |(n, s), v| (n + 1, s + v * v));
     if count == 0 { 0.0 } else { (sum / count as f64).sqrt() }
 }
 
-/// `part` as a share of `whole`; no part is 0, whatever the whole, even of none.
+/// `part` as a share of `whole`. A `part` of 0 gives 0 whatever the whole, even 0.
 #[must_use]
 pub fn share(part: f64, whole: f64) -> f64 {
     if part == 0.0 { 0.0 } else { part / whole }
 }
 
-/// Half the distance between the smallest and the largest value, NaN if a value is NaN; 0 for none.
+/// Half the distance between the smallest and the largest value. NaN if a value is NaN; 0 for an empty slice.
 #[must_use]
 pub fn half_range(values: &[f64]) -> f64 {
     let Some(&first) = values.first() else { return 0.0 };

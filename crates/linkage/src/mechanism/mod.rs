@@ -1,4 +1,4 @@
-//! What a mechanism is: links, joints, structure, and the pose it starts from. No time, no files, no solvers.
+//! The mechanism: links, joints, structure, and start pose. No time, no files, no solvers.
 
 pub mod assembly;
 mod placing;
@@ -18,7 +18,7 @@ use crate::math::{KeepNan, Vec2, cross, rotated};
 /// Index of the ground (frame) in [`Mechanism::links`].
 pub const GROUND: usize = 0;
 
-/// Rigid member of a mechanism with its own frame, in which points and mass centre are given.
+/// Rigid member of a mechanism. Its points and mass centre are given in its own frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Link {
     /// Name, unique in the mechanism.
@@ -45,31 +45,36 @@ impl Link {
 /// Named point of a link.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Point {
-    /// Name. Points of different links that carry one name are one place: a joint holds them together.
+    /// Name. Points of different links with the same name are the same place: a joint holds them together.
     pub name: String,
     /// Coordinates in the link's frame (m).
     pub local: Vec2,
 }
 
-/// Sort of kinematic pair. Either takes two equations and leaves one relative freedom.
+/// Kind of kinematic pair. Each has two constraint equations and leaves one relative degree of freedom.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum JointKind {
-    /// Revolute pair (pin): the joint's places on both links are one point.
+    /// Revolute pair (pin): the joint's places on both links coincide.
     Revolute,
-    /// Prismatic pair (slider in a guide): the second link's place lies on the line through the first link's along the axis,
-    /// and the two links turn together.
+    /// Prismatic pair (slider in a guide).
+    /// The second link's place lies on the line through the first link's place along the axis, and the two links turn
+    /// together.
     Prismatic {
-        /// Unit vector of the axis in the frame of the first link and in that of the second; one direction in the world.
+        /// Unit vector of the axis in the frame of the first link and in that of the second. Both are the same
+        /// direction in the world.
         axes: [Vec2; 2],
     },
 }
 
-/// Number of constraint equations of any lower pair of the plane: rows of joint k begin at `EQUATIONS * k` wherever equations are listed.
+/// Number of constraint equations of any lower pair of the plane.
+/// In every list of equations the rows of joint k begin at `EQUATIONS * k`.
 pub const EQUATIONS: usize = 2;
 
-/// What the rest of the crate asks of a pair. A new kind answers here, and where its equations are written out by kind.
+/// Properties of a pair for the rest of the crate. A new kind is added here and where its equations are written out by
+/// kind.
 impl JointKind {
-    /// Axes along which the links slide: unit vectors in the frames of the first and the second link. `None` if they do not slide.
+    /// Axes along which the links slide: unit vectors in the frames of the first and the second link. `None` if they
+    /// do not slide.
     #[inline]
     #[must_use]
     pub fn axes(self) -> Option<[Vec2; 2]> {
@@ -79,7 +84,8 @@ impl JointKind {
         }
     }
 
-    /// Number of constraint equations. A kind with another number than [`EQUATIONS`] asks for another count of rows wherever that stands.
+    /// Number of constraint equations. A kind with a number other than [`EQUATIONS`] needs another row count wherever
+    /// that constant is used.
     #[must_use]
     pub fn equations(self) -> usize {
         match self {
@@ -87,7 +93,7 @@ impl JointKind {
         }
     }
 
-    /// Whether the links slide along each other: there is a guide and a block, and a way between them.
+    /// Whether the links slide along each other. Then there is a guide, a block, and a slide between them.
     #[inline]
     #[must_use]
     pub fn slides(self) -> bool {
@@ -97,7 +103,7 @@ impl JointKind {
         }
     }
 
-    /// Whether the joint is one point of both links, about which they turn.
+    /// Whether the joint is one common point of both links, about which they turn.
     #[inline]
     #[must_use]
     pub fn is_pin(self) -> bool {
@@ -107,7 +113,7 @@ impl JointKind {
         }
     }
 
-    /// Whether the links turn together, so that the angle between them stays and the reaction has a moment.
+    /// Whether the links turn together: the angle between them is constant and the reaction includes a moment.
     #[inline]
     #[must_use]
     pub fn keeps_angle(self) -> bool {
@@ -136,13 +142,13 @@ pub struct Side {
     pub local: Vec2,
 }
 
-/// Kinematic pair between two links. Its reaction is what the first link exerts on the second: a force, and in a prismatic
-/// pair a moment besides, about the joint's place on the second link.
+/// Kinematic pair between two links. Its reaction is what the first link exerts on the second.
+/// It is a force, and in a prismatic pair also a moment about the joint's place on the second link.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Joint {
     /// Name, unique in the mechanism.
     pub name: String,
-    /// Sort of pair.
+    /// Kind of pair.
     pub kind: JointKind,
     /// First link and the joint's place on it.
     pub first: Side,
@@ -157,7 +163,7 @@ impl Joint {
         [self.first, self.second].into_iter().find(|side| side.link == link).map(|side| side.local)
     }
 
-    /// The side on the other link than `link`.
+    /// The side on the link other than `link`.
     #[must_use]
     pub fn other(&self, link: usize) -> Side {
         if self.first.link == link { self.second } else { self.first }
@@ -184,7 +190,8 @@ impl Joint {
         self.kind.keeps_angle()
     }
 
-    /// Unit vector of the axis along which the links slide in the frame of `link`, if they do and the joint is on that link.
+    /// Unit vector of the sliding axis in the frame of `link`. `None` if the links do not slide or the joint is not on
+    /// `link`.
     #[must_use]
     pub fn axis_on(&self, link: usize) -> Option<Vec2> {
         let axes = self.kind.axes()?;
@@ -192,9 +199,10 @@ impl Joint {
         sides.iter().position(|side| side.link == link).map(|index| axes[index])
     }
 
-    /// How far the joint is from holding together: distance of its places, across the axis in a prismatic pair (m), and
-    /// angle between the axes (its sine; 0 in a revolute pair). `places` are the joint's on both links in the world,
-    /// `directions` the (cos, sin) of both links' angles.
+    /// How far the joint is from being closed: a distance and the sine of an angle.
+    /// The distance is that of its places (m), in a prismatic pair measured across the axis.
+    /// The angle is that between the axes (0 in a revolute pair).
+    /// `places` are the joint's places on both links in the world, `directions` the (cos, sin) of both links' angles.
     #[must_use]
     pub fn opening(&self, places: [Vec2; 2], directions: [Vec2; 2]) -> (f64, f64) {
         let gap = places[1] - places[0];
@@ -202,7 +210,7 @@ impl Joint {
             JointKind::Revolute => (gap.norm(), 0.0),
             JointKind::Prismatic { axes } => {
                 let [first, second] = [0, 1].map(|k| rotated(directions[k], axes[k]));
-                // Axes that point against each other are as far off as can be.
+                // Opposite axes have the largest possible opening.
                 let turn = if first.dot(&second) > 0.0 { cross(first, second).abs() } else { 1.0 };
                 (cross(first, gap).abs(), turn)
             }
@@ -218,7 +226,7 @@ pub struct Mechanism {
 }
 
 impl Mechanism {
-    /// A mechanism of the given links (the first is the ground) and joints.
+    /// A mechanism with these links (the first is the ground) and joints.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] with the key of the link or joint at fault: names used twice, a joint of a link with
@@ -258,8 +266,8 @@ impl Mechanism {
         self.joints.iter().position(|joint| joint.name == name)
     }
 
-    /// Guide and block of a joint that slides: the ground is a guide, and so is the larger of two moving links, of equal ones the first. `None` for
-    /// other joints.
+    /// Guide and block of a joint that slides; `None` for other joints.
+    /// The ground is always the guide. Of two moving links the larger is the guide, of equal ones the first.
     #[must_use]
     pub fn guide_and_block(&self, joint: &Joint) -> Option<[Side; 2]> {
         let size = |side: Side| if side.link == GROUND { f64::INFINITY } else { self.links[side.link].size() };
@@ -267,7 +275,7 @@ impl Mechanism {
         joint.slides().then(|| if size(first) >= size(second) { [first, second] } else { [second, first] })
     }
 
-    /// Points that move, each name once: the link that carries it first, and its place there.
+    /// Points that move, each name once: the first link that carries the point, and its place there.
     pub fn moving_points(&self) -> impl Iterator<Item = (&str, Side)> {
         let on_ground = |name: &str| self.links[GROUND].points.iter().any(|point| point.name == name);
         let mut seen: Vec<&str> = Vec::new();
@@ -283,13 +291,13 @@ impl Mechanism {
         points.into_iter()
     }
 
-    /// Largest distance between two points of one link (m): the size that closure gaps are judged by.
+    /// Largest distance between two points of one link (m). Closure gaps are compared with this size.
     #[must_use]
     pub fn size(&self) -> f64 {
         self.links.iter().map(Link::size).fold(0.0, f64::larger)
     }
 
-    /// Whether a link can turn: it cannot if joints that keep the angle connect it with the ground.
+    /// Whether a link can turn. It cannot if joints that keep the angle connect it with the ground.
     #[must_use]
     pub fn can_turn(&self, link: usize) -> bool {
         let mut still = vec![GROUND];
@@ -363,7 +371,8 @@ impl Mechanism {
         Ok(())
     }
 
-    /// Whether revolute joints that lie at points called `name` connect link `a` with link `b`, directly or through others.
+    /// Whether revolute joints at points with the name `name` connect link `a` with link `b`, directly or through
+    /// others.
     fn held_together(&self, name: &str, a: usize, b: usize) -> bool {
         let at = |side: Side| self.links[side.link].points.iter().any(|p| p.name == name && p.local == side.local);
         let mut reached = vec![a];

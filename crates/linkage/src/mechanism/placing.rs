@@ -1,4 +1,4 @@
-//! Changing the dimensions of a mechanism: a point of a link, and the joints that lie there.
+//! Changes the dimensions of a mechanism: moves a point of a link, and the joints at it.
 
 use super::{Joint, Mechanism, Side};
 use crate::math::Vec2;
@@ -8,15 +8,15 @@ use crate::math::Vec2;
 pub struct Handle {
     /// Index of the link.
     pub link: usize,
-    /// Index of the point among the link's.
+    /// Index of the point in the link.
     pub point: usize,
-    /// Joints that lie at it.
+    /// Joints at the point.
     joints: Vec<usize>,
 }
 
 impl Mechanism {
-    /// The point `point` of the link `link` (both by index) with the joints that lie there; `None` if another point of the link has the same place, so that
-    /// joints could be at either.
+    /// The point `point` of the link `link` (both by index) with the joints at it.
+    /// `None` if another point of the link has the same place, because then the joints could be at either.
     #[must_use]
     pub fn handle(&self, link: usize, point: usize) -> Option<Handle> {
         let points = &self.links[link].points;
@@ -29,7 +29,7 @@ impl Mechanism {
         Some(Handle { link, point, joints })
     }
 
-    /// Moves a point to the place `local` in its link's frame (m), and its joints with it. Masses stay as they are.
+    /// Moves a point to the place `local` in its link's frame (m), and its joints with it. Masses stay unchanged.
     pub fn place(&mut self, handle: &Handle, local: Vec2) {
         self.links[handle.link].points[handle.point].local = local;
         for &joint in &handle.joints {

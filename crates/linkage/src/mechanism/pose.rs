@@ -1,4 +1,4 @@
-//! Where every link is at one instant.
+//! Place of every link at one instant.
 
 use super::{Joint, Mechanism, Side};
 use crate::math::{KeepNan, Vec2, cross, rotated, unit};
@@ -13,7 +13,7 @@ pub struct LinkPose {
 }
 
 impl LinkPose {
-    /// The ground's: the frame that coincides with the world's.
+    /// Pose of the ground: its frame coincides with the world's.
     pub const GROUND: LinkPose = LinkPose { origin: Vec2::new(0.0, 0.0), angle: 0.0 };
 
     /// The pose at `angle` that puts the body point `local` on the world point `at`.
@@ -22,7 +22,7 @@ impl LinkPose {
         LinkPose { origin: at - rotated(unit(angle), local), angle }
     }
 
-    /// The pose that puts the body points `local_a`, `local_b` on two world points; the distances are taken to fit.
+    /// The pose that puts the body points `local_a`, `local_b` on two world points. The distances are assumed to fit.
     #[must_use]
     pub fn between(local_a: Vec2, local_b: Vec2, a: Vec2, b: Vec2) -> Self {
         let (local, world) = (local_b - local_a, b - a);
@@ -36,12 +36,12 @@ impl LinkPose {
     }
 }
 
-/// Pose of the whole mechanism: one entry a link, in the mechanism's order; the ground's is [`LinkPose::GROUND`].
+/// Pose of the whole mechanism: one entry per link, in the mechanism's order. The ground's is [`LinkPose::GROUND`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pose(pub Vec<LinkPose>);
 
 impl Pose {
-    /// Largest opening of any joint (m): see [`Joint::opening`]; an angle counts at the mechanism's size.
+    /// Largest opening of any joint (m): see [`Joint::opening`]. An angle is multiplied by the mechanism's size.
     #[must_use]
     pub fn closure(&self, mechanism: &Mechanism) -> f64 {
         let opening = |joint: &Joint| {
@@ -59,6 +59,6 @@ impl Pose {
 pub struct SidePoint {
     /// The point's name.
     pub name: String,
-    /// The link it is on, and where.
+    /// The link and the place of the point on it.
     pub side: Side,
 }

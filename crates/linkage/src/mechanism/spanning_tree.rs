@@ -1,25 +1,28 @@
 //! Spanning tree of a linkage: which joint carries which link, and which joints are cut.
 //!
-//! In the tree that a run moves with, prismatic joints are never cut: they close no loop by themselves (structural analysis refuses that), so all of them fit into
-//! the tree, where they hold exactly. As cuts they work too, with order 2. Largest error over the half range in any channel at a
-//! step of 1e-3 s, with prismatic joints kept and with the innermost joint cut whatever its kind: slider-crank 1.4e-4 and 2.0e-4,
-//! swinging guide 8.3e-4 and 1.2e-3, Scotch yoke 7.8e-5 and 6.5e-5, a crank with a slot 1.9e-3 and an Oldham coupling 9.0e-5 both ways.
+//! In the tree that a run uses, prismatic joints are never cut. They close no loop by themselves, because structural
+//! analysis refuses that. So all of them fit into the tree, where they hold exactly.
+//! Prismatic joints also work as cuts, with order 2.
+//! Largest error over the half range in any channel at a step of 1e-3 s, with prismatic joints kept and with the
+//! innermost joint cut whatever its kind:
+//! slider-crank 1.4e-4 and 2.0e-4, swinging guide 8.3e-4 and 1.2e-3, Scotch yoke 7.8e-5 and 6.5e-5,
+//! a crank with a slot 1.9e-3 and an Oldham coupling 9.0e-5 both ways.
 
 use super::{GROUND, Joint, JointKind, LinkPose, Mechanism};
 use crate::math::{rotated, unit};
 
-/// A link hung on its parent by a joint of the tree.
+/// A link that a joint of the tree connects to its parent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Branch {
     /// The link.
     pub link: usize,
-    /// The link it hangs on, nearer to the ground.
+    /// The parent link, nearer to the ground.
     pub parent: usize,
     /// The joint between the two.
     pub joint: usize,
 }
 
-/// Links hung on the ground by branches, and the joints left over, which close the loops. Links without a branch are bodies of their own.
+/// Branches from the ground, and the remaining joints, which close the loops. Links without a branch are free bodies.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Tree {
     /// Branches; a parent always comes before its children.
@@ -29,14 +32,14 @@ pub struct Tree {
 }
 
 impl Tree {
-    /// No tree: every link a body of its own, every joint left over.
+    /// No tree: every link is a free body and every joint remains.
     #[must_use]
     pub fn none(mechanism: &Mechanism) -> Self {
         Tree { branches: Vec::new(), cut: (0..mechanism.joints().len()).collect() }
     }
 
-    /// Trees such that every joint is cut in one of them: that of [`Tree::of`] first, then each with as many joints cut that no tree
-    /// before it cuts as a tree can have.
+    /// Trees such that every joint is cut in at least one of them.
+    /// The first is that of [`Tree::of`]. Each further tree cuts as many joints as possible that no earlier tree cuts.
     #[must_use]
     pub fn covering(mechanism: &Mechanism) -> Vec<Self> {
         let mut trees = vec![Tree::of(mechanism)];
@@ -47,7 +50,8 @@ impl Tree {
                 return trees;
             }
             let mut tree = Tree::along(mechanism, kept.into_iter().chain(wanted.iter().copied()));
-            // What nothing else holds to the ground, a crank alone on its pin, is cut off as a whole.
+            // Links that only the joint in question holds to the ground, such as a crank alone on its pin, are cut off
+            // as a whole.
             if !tree.cut.iter().any(|joint| wanted.contains(joint)) {
                 let mut held = vec![GROUND];
                 let (kept, lost): (Vec<Branch>, Vec<Branch>) = tree.branches.into_iter().partition(|branch| {
@@ -63,7 +67,7 @@ impl Tree {
         }
     }
 
-    /// The spanning tree that takes joints in the order given as long as they close no loop (Kruskal's algorithm).
+    /// The spanning tree that takes joints in the given order as long as they close no loop (Kruskal's algorithm).
     fn along(mechanism: &Mechanism, order: impl Iterator<Item = usize>) -> Self {
         let mut part: Vec<usize> = (0..mechanism.links().len()).collect();
         let (mut taken, mut cut) = (Vec::new(), Vec::new());
@@ -93,15 +97,17 @@ impl Tree {
         Tree { branches, cut }
     }
 
-    /// The spanning tree that runs move with: breadth first, with all that slides on a link taken along with it, so that only revolute
-    /// joints are left over.
+    /// The spanning tree for runs: breadth first. All links that slide on a link are taken along with it, so that only
+    /// revolute joints remain to be cut.
     #[must_use]
     pub fn of(mechanism: &Mechanism) -> Self {
         Tree::with(mechanism, &[])
     }
 
-    /// The same with the given joints in it, each with the ground or with a link of the ones before, whatever else could reach their links: in an Oldham coupling the driven
-    /// disc is reached by sliding alone, and a drive that is to be a coordinate of the tree would be cut.
+    /// The same tree, but with the given joints in it, each with the ground or with a link of the joints before it.
+    /// This holds even if other joints reach their links.
+    /// In an Oldham coupling, for example, sliding joints alone reach the driven disc.
+    /// The drive would then be cut, although it must be a coordinate of the tree.
     #[must_use]
     pub fn with(mechanism: &Mechanism, joints: &[usize]) -> Self {
         let mut tree = Tree { branches: Vec::new(), cut: Vec::new() };
@@ -130,7 +136,7 @@ impl Tree {
         tree
     }
 
-    /// Takes a link and all that slides on it.
+    /// Adds a link and all links that slide on it.
     fn reach(&mut self, mechanism: &Mechanism, parent: usize, reached: &mut Vec<usize>) {
         reached.push(parent);
         for (joint, found) in mechanism.joints().iter().enumerate().filter(|(_, found)| found.slides()) {
@@ -143,8 +149,9 @@ impl Tree {
     }
 }
 
-/// Coordinate of a branch's joint in poses: angle of the child in its parent (rad), or way along the parent's axis from the place
-/// on the parent to that on the child (m), whichever of the two is the joint's first link.
+/// Coordinate of a branch's joint in poses, whichever of the two links is the joint's first.
+/// Angle of the child in its parent (rad), or distance along the parent's axis from the place on the parent to that on
+/// the child (m).
 #[must_use]
 pub fn coordinate(joint: &Joint, branch: &Branch, poses: &[LinkPose]) -> f64 {
     let [parent, child] = [branch.parent, branch.link].map(|link| poses[link]);
@@ -174,7 +181,7 @@ mod tests {
     #[test]
     fn every_joint_is_cut_in_one_of_the_covering_trees() {
         let trees = Tree::covering(&four_bar());
-        // One cut a tree, four joints.
+        // One cut per tree, four joints.
         assert_eq!(trees.iter().map(|tree| tree.cut.clone()).collect::<Vec<_>>(), [[2], [3], [1], [0]]);
         let class_four = class_four(1.0, 1.0);
         let trees = Tree::covering(&class_four);
@@ -205,7 +212,7 @@ mod tests {
         let pairs = |tree: &Tree| tree.branches.iter().map(|b| (b.parent, b.link)).collect::<Vec<_>>();
         let asked = Tree::with(&four_bar(), &[3]);
         assert_eq!((pairs(&asked), asked.cut), (vec![(0, 3), (0, 1), (3, 2)], vec![1]));
-        // With the coupler sliding on both cranks, the second would be reached by sliding alone.
+        // If the coupler slides on both cranks, sliding joints alone reach the second crank.
         let kind = JointKind::Prismatic { axes: [Vec2::new(1.0, 0.0); 2] };
         let mut joints = four_bar().joints().to_vec();
         for slide in [1, 2] {
@@ -223,7 +230,8 @@ mod tests {
 
     #[test]
     fn what_slides_on_a_link_hangs_on_it() {
-        // The joint that the four-bar is cut at made a prismatic one: the coupler slides on the rocker, the cut is the crank pin.
+        // The joint at which the four-bar is cut becomes prismatic: the coupler slides on the rocker, and the crank
+        // pin is cut.
         let kind = JointKind::Prismatic { axes: [Vec2::new(1.0, 0.0); 2] };
         let mut joints = four_bar().joints().to_vec();
         joints[2] = Joint { kind, ..joints[2].clone() };

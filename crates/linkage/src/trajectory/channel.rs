@@ -1,4 +1,4 @@
-//! The one table of channels: what a trajectory can hold, in which unit, and what must be computed for it.
+//! The only table of channels: which quantities a trajectory can hold, in which unit, and which stage they need.
 
 use std::fmt;
 
@@ -6,7 +6,7 @@ use super::reading::{OfDrive, OfFrame, OfJoint, OfLink, OfPoint, OfSlider, Readi
 use super::subject::Subject;
 use super::unit::Unit;
 
-/// How far a solver must go for a channel; each stage needs the ones before it.
+/// How far a solver must compute for a channel. Each stage needs the ones before it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Stage {
     /// Positions and angles.
@@ -42,19 +42,19 @@ impl Stage {
 /// One row of the table of channels.
 #[derive(Debug, PartialEq)]
 pub struct ChannelKind {
-    /// What it belongs to: the subject of what it reads.
+    /// The subject of `reading`.
     pub subject: Subject,
-    /// What it reads.
+    /// The quantity of the state that the row reads.
     pub reading: Reading,
     /// Last part of the channel's name, unit included.
     pub suffix: &'static str,
-    /// Plain words for people.
+    /// The quantity in plain words.
     pub quantity: &'static str,
     /// SI unit.
     pub unit: Unit,
-    /// Whether values one turn apart are the same pose.
+    /// Whether values one turn apart mean the same pose.
     pub periodic: bool,
-    /// What must be computed for it.
+    /// The stage that must be computed for it.
     pub stage: Stage,
 }
 
@@ -62,11 +62,14 @@ const fn row(reading: Reading, suffix: &'static str, quantity: &'static str, uni
     ChannelKind { subject: reading.subject(), reading, suffix, quantity, unit, periodic: false, stage }
 }
 
-/// Every channel there is, in the order of columns. All vectors are in world axes; angles count counter-clockwise
-/// from world +x and keep their turns; a joint's force is that of its first link on its second; a prismatic joint's slide is the
-/// way along its axis from the place on its first link to that on its second, its moment that of the first link on the
-/// second about the place on the second; what acts on the frame is the sum over its joints and the drive, its
-/// moment about the origin; the drive's torque acts on the driving link. Moments are counter-clockwise positive.
+/// All channels, in the order of columns. Vectors are in world axes.
+/// Angles count counter-clockwise from world +x and keep their turns. Moments are counter-clockwise positive.
+/// The force of a joint is that of its first link on its second.
+/// The slide of a prismatic joint is the distance along its axis from the place on its first link to that on its
+/// second.
+/// Its moment is that of the first link on the second about the place on the second.
+/// The force on the frame is the sum over its joints and the drive; its moment is about the origin.
+/// The torque of the drive acts on the driving link.
 pub static CHANNELS: [ChannelKind; 26] = TABLE;
 
 const TABLE: [ChannelKind; 26] = {
@@ -114,7 +117,7 @@ const TABLE: [ChannelKind; 26] = {
     ]
 };
 
-/// How many rows of the table belong to a subject.
+/// Number of rows of the table that belong to a subject.
 const fn count(subject: Subject) -> usize {
     let (mut rows, mut index) = (0, 0);
     while index < TABLE.len() {
@@ -124,7 +127,7 @@ const fn count(subject: Subject) -> usize {
     rows
 }
 
-/// What the rows of one subject read, with their stages, in the order of columns. `$any` is only there to begin with.
+/// The readings of one subject with their stages, in the order of columns. `$any` only initialises the array.
 macro_rules! rows_of {
     ($subject:ident, $of:ty, $any:expr) => {{
         let mut rows: [($of, Stage); count(Subject::$subject)] = [($any, Stage::Positions); count(Subject::$subject)];
@@ -140,7 +143,8 @@ macro_rules! rows_of {
     }};
 }
 
-/// The table once more, by subjects: constants, so that what reads a whole subject needs no look at the table while it runs.
+/// The table again, sorted by subjects. These are constants: code that reads a whole subject needs no look-up at run
+/// time.
 pub(crate) mod rows {
     use super::{OfDrive, OfFrame, OfJoint, OfLink, OfPoint, OfSlider, Reading, Stage, Subject, TABLE, count};
 

@@ -1,4 +1,4 @@
-//! What every solver answers with: channels over a grid of times. A trajectory holds finite numbers only.
+//! The result of every solver: channels over a grid of times. A trajectory holds finite numbers only.
 
 pub mod channel;
 mod reading;
@@ -22,10 +22,12 @@ pub struct Trajectory {
 }
 
 impl Trajectory {
-    /// A trajectory from its grid (times in s, crank angles in rad as the scenario states them) and one column of values a channel.
+    /// A trajectory from its grid (times in s, crank angles in rad as the scenario states them) and one column of
+    /// values per channel.
     ///
     /// # Errors
-    /// [`ErrorKind::Numeric`] if a value is NaN or infinite (with its channel, time and crank angle), or if lengths differ.
+    /// [`ErrorKind::Numeric`] if a value is NaN or infinite (with its channel, time and crank angle), or if lengths
+    /// differ.
     pub fn new(times: Vec<f64>, cranks: Vec<f64>, channels: Vec<Channel>, columns: Vec<Vec<f64>>) -> Result<Self> {
         let rows = times.len();
         if cranks.len() != rows || channels.len() != columns.len() || columns.iter().any(|c| c.len() != rows) {
@@ -75,7 +77,7 @@ impl Trajectory {
         Some(&self.columns[index])
     }
 
-    /// Values of the channel called `name`, such as `joint.A.fx_N`, over the grid, in its SI unit.
+    /// Values of the channel with the name `name`, such as `joint.A.fx_N`, over the grid, in its SI unit.
     #[must_use]
     pub fn named(&self, name: &str) -> Option<&[f64]> {
         self.column(&Channel::named(name)?)
@@ -87,7 +89,7 @@ impl Trajectory {
     }
 }
 
-/// Whether all numbers are finite. Anything else times zero is not zero; that is found several numbers at a time.
+/// Whether all numbers are finite. A non-finite number times zero is not zero; this tests several numbers at a time.
 fn all_finite(values: &[f64]) -> bool {
     let (chunks, rest) = values.as_chunks::<8>();
     let mut sums = [0.0; 8];

@@ -1,29 +1,29 @@
-//! What the rows of the table of channels read of a state.
+//! The quantities of a state that the rows of the table of channels read.
 
 use super::subject::Subject;
 
-/// What a row of the table reads. One kind of number a variant: the [sampler](crate::solver::Sampler) matches on them, so that a row without a
-/// reader does not compile.
+/// The quantity that a row of the table reads, one variant per subject.
+/// The [sampler](crate::solver::Sampler) matches on the variants, so that a row without a reader does not compile.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Reading {
-    /// Of a link.
+    /// A quantity of a link.
     Link(OfLink),
-    /// Of a named point.
+    /// A quantity of a named point.
     Point(OfPoint),
-    /// Of any joint.
+    /// A quantity of any joint.
     Joint(OfJoint),
-    /// Of a prismatic joint, besides.
+    /// An additional quantity of a prismatic joint.
     Slider(OfSlider),
-    /// Of the frame.
+    /// A quantity of the frame.
     Frame(OfFrame),
-    /// Of the drive.
+    /// A quantity of the drive.
     Drive(OfDrive),
-    /// Of a further drive.
+    /// A quantity of a further drive.
     Motor(OfDrive),
 }
 
 impl Reading {
-    /// What it is read of.
+    /// The subject of the quantity.
     #[must_use]
     pub const fn subject(self) -> Subject {
         match self {
@@ -38,7 +38,7 @@ impl Reading {
     }
 }
 
-/// Number that is read of a body point.
+/// Quantity of a body point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum OfPoint {
     /// World x coordinate.
@@ -55,7 +55,7 @@ pub enum OfPoint {
     AccelerationY,
 }
 
-/// Number that is read of a link.
+/// Quantity of a link.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum OfLink {
     /// Angle of the link's frame, turns kept.
@@ -64,11 +64,11 @@ pub enum OfLink {
     Omega,
     /// Angular acceleration.
     Alpha,
-    /// Of its mass centre.
+    /// A quantity of its mass centre.
     Centre(OfPoint),
 }
 
-/// Number that is read of any joint.
+/// Quantity of any joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum OfJoint {
     /// Force of the first link on the second along x.
@@ -77,7 +77,7 @@ pub enum OfJoint {
     ForceY,
 }
 
-/// Number that is read of a prismatic joint.
+/// Quantity of a prismatic joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum OfSlider {
     /// Slide.
@@ -90,7 +90,7 @@ pub enum OfSlider {
     Moment,
 }
 
-/// Number that is read of the frame.
+/// Quantity of the frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum OfFrame {
     /// Shaking force along x.
@@ -101,7 +101,7 @@ pub enum OfFrame {
     Moment,
 }
 
-/// Number that is read of a drive.
+/// Quantity of a drive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum OfDrive {
     /// Balancing moment on the driving link.

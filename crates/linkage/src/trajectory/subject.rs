@@ -9,18 +9,18 @@ pub enum Subject {
     Point,
     /// A joint.
     Joint,
-    /// A prismatic joint: what it has besides the rows of any joint.
+    /// A prismatic joint: the additional rows besides those of any joint.
     Slider,
-    /// The frame, on which all joints with the ground and the drive act.
+    /// The frame. All joints with the ground and the drive act on it.
     Frame,
     /// The drive.
     Drive,
-    /// A further drive, called by its joint.
+    /// A further drive, named after its joint.
     Motor,
 }
 
 impl Subject {
-    /// Whether there is one of it in a mechanism, so that it needs no name.
+    /// Whether a mechanism has exactly one of it, so that it needs no name.
     #[must_use]
     pub fn is_whole(self) -> bool {
         match self {
@@ -29,7 +29,7 @@ impl Subject {
         }
     }
 
-    /// Word that channel names start with.
+    /// First word of the channel names.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// SI unit of a channel. Whoever asks what a quantity is measured in matches on it, so that a new unit is a compile error there.
+/// SI unit of a channel. Code that depends on the unit matches on it, so that a new unit is a compile error there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Unit {
     /// Angles (rad).
@@ -24,7 +24,7 @@ pub enum Unit {
 }
 
 impl Unit {
-    /// How the unit is written, for example `rad/s^2`.
+    /// Symbol of the unit, for example `rad/s^2`.
     #[must_use]
     pub const fn symbol(self) -> &'static str {
         match self {
@@ -39,7 +39,7 @@ impl Unit {
         }
     }
 
-    /// How names end in the unit, for example `rad_s2`.
+    /// Ending of names in this unit, for example `rad_s2`.
     #[must_use]
     pub const fn suffix(self) -> &'static str {
         match self {

@@ -1,4 +1,4 @@
-//! The constants of a case of driving links and RRR dyads: what [`super::equations`] needs of it, derived once.
+//! The constants of a case of driving links and RRR dyads for [`super::equations`], derived once.
 
 use super::poses::Layout;
 use linkage::case::Case;
@@ -16,7 +16,7 @@ pub(super) struct Action {
     pub(super) sign: f64,
 }
 
-/// A link with what acts on it; moments are about its pole, one of its joints.
+/// A link with the actions on it. Moments are about its pole, which is one of its joints.
 #[derive(Clone, Debug)]
 pub(super) struct Body {
     /// First column of the link.
@@ -26,7 +26,7 @@ pub(super) struct Body {
     /// From the pole to the mass centre, in the link's frame.
     pub(super) centre: Vec2,
     pub(super) inertia: f64,
-    /// Joints at which later groups hang on it.
+    /// Joints at which later groups are attached to it.
     pub(super) hanging: Vec<Action>,
     /// Loads that act against its rotation.
     pub(super) loads: Vec<Load>,
@@ -44,7 +44,7 @@ pub(super) struct Driver {
 /// One link of a dyad.
 #[derive(Clone, Debug)]
 pub(super) struct Arm {
-    /// First column of the known link and the joint's place on it; no column for the ground.
+    /// First column of the known link and the joint's place on it; the column is `None` for the ground.
     pub(super) base: (Option<usize>, Vec2),
     /// The outer joint, and the vector from there to the inner one, in the link's frame.
     pub(super) outer: Vec2,
@@ -75,8 +75,9 @@ pub(super) struct Dyads {
 }
 
 impl Dyads {
-    /// `None` if a group is of another kind, a driving link hangs on another one, or a load is other than a moment of resistance: what needs places
-    /// and other links is left to poses one by one.
+    /// The constants of a case. `None` if a group is of another kind, a driving link is attached to another
+    /// driving link, or a load is not a moment of resistance.
+    /// Such cases need places and other links, and are solved pose by pose.
     pub(super) fn of(case: &Case, layout: Layout) -> Option<Self> {
         let groups = &case.structure.groups;
         let simple = |load: &Load| load.resistance().is_some();
@@ -98,11 +99,11 @@ impl Dyads {
     }
 }
 
-/// Takes the constants out of a case.
+/// Reads the constants from a case.
 struct Reader<'a> {
     case: &'a Case,
     layout: Layout,
-    /// Joints whose reactions are known once it is the group's turn.
+    /// Joints whose reactions are known when the group is solved.
     settled: &'a [bool],
 }
 

@@ -1,8 +1,8 @@
-//! The equations of driving links and RRR dyads on several poses at once.
+//! The equations of driving links and RRR dyads for several poses at once.
 //!
-//! They are those of [`crate::assur::groups::Rrr`] for motions and of the module `reference::kinetostatics` for forces, where
-//! their sources are named; arms of forces are taken from the pole in the link's frame, which spares the places in
-//! the world.
+//! They are those of [`crate::assur::groups::Rrr`] for motions and of the module `assur::forces` for forces,
+//! where their sources are named. Arms of forces start at the pole in the link's frame, so that places in the
+//! world are not needed.
 
 use pulp::Simd;
 
@@ -15,21 +15,21 @@ use linkage::trajectory::Stage;
 /// Columns of a dyad in the working memory: two each for its spans r1 and r2, and 1 / (r1 x r2).
 pub(super) const OF_DYAD: usize = 5;
 
-/// A plane vector v turned by 90 degrees and scaled, plus its centripetal part: alpha x v - omega^2 v.
+/// A plane vector v, turned by 90 degrees and scaled, plus its centripetal part: alpha x v - omega^2 v.
 #[inline(always)]
 fn swung<S: Simd>(v: Plane<S>, omega: Lanes<S>, alpha: Lanes<S>) -> Plane<S> {
     v.turned() * alpha - v * (omega * omega)
 }
 
 impl Dyads {
-    /// Motion of all links, as deep as asked for; directions and rates of the driving links are in their columns
-    /// already.
+    /// Motion of all links, up to the stage `deepest`. Directions and rates of the driving links are already in
+    /// their columns.
     #[inline(always)]
     pub(super) fn move_links<S: Simd>(&self, deepest: Stage, tile: &mut Window<S>, work: &mut Window<S>) {
         for driver in &self.drivers {
             driver.turn(deepest, tile);
         }
-        // Not a number as soon as one dyad cannot be assembled.
+        // Becomes NaN as soon as one dyad cannot be assembled.
         let mut reach = Lanes::splat(tile.simd, 0.0);
         for (index, dyad) in self.dyads.iter().enumerate() {
             reach = reach + dyad.turn(deepest, tile, work, OF_DYAD * index);
@@ -68,7 +68,8 @@ impl Driver {
 }
 
 impl Arm {
-    /// World vector from the base link's origin to the outer joint, and the base's first column; none for the ground.
+    /// World vector from the base link's origin to the outer joint, and the base's first column; `None` for the
+    /// ground.
     #[inline(always)]
     fn base<S: Simd>(&self, tile: &Window<S>) -> (Plane<S>, Option<usize>) {
         match self.base {
@@ -106,7 +107,7 @@ impl Arm {
 }
 
 impl Dyad {
-    /// Motion of both links; returns a number that is not one where they cannot be assembled.
+    /// Motion of both links. Returns NaN where they cannot be assembled.
     #[inline(always)]
     fn turn<S: Simd>(&self, deepest: Stage, tile: &mut Window<S>, work: &mut Window<S>, column: usize) -> Lanes<S> {
         let [first, second] = &self.arms;

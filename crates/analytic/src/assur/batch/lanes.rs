@@ -1,7 +1,7 @@
-//! One number or plane vector for several poses at once, on the widest registers that the machine has.
+//! One number or plane vector for several poses at once, on the widest registers of the machine.
 //!
-//! Every operation is one of IEEE 754 on each lane by itself, and none is fused: a lane's value depends neither on its
-//! neighbours nor on how many there are.
+//! Every operation is an IEEE 754 operation on each lane separately, and none is fused.
+//! So a lane's value depends neither on its neighbours nor on the number of lanes.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -9,7 +9,7 @@ use pulp::Simd;
 
 use linkage::math::Vec2;
 
-/// Poses that stand together in memory.
+/// Number of poses that are adjacent in memory.
 pub(super) const TILE: usize = 8;
 
 /// One column of a tile.
@@ -17,7 +17,7 @@ pub(super) const TILE: usize = 8;
 #[repr(align(64))]
 pub(super) struct Eight(pub(super) [f64; TILE]);
 
-/// One number a pose.
+/// One number per pose.
 #[derive(Clone, Copy)]
 pub(super) struct Lanes<S: Simd> {
     simd: S,
@@ -64,7 +64,7 @@ impl<S: Simd> Lanes<S> {
         Lanes { value: self.simd.sqrt_f64s(self.value), ..self }
     }
 
-    /// `f` of every lane.
+    /// Applies `f` to every lane.
     #[inline(always)]
     pub(super) fn map(self, f: impl Fn(f64) -> f64) -> Self {
         let mut column = Eight([0.0; TILE]);
@@ -82,7 +82,7 @@ impl<S: Simd> Lanes<S> {
     }
 }
 
-/// One plane vector a pose.
+/// One plane vector per pose.
 #[derive(Clone, Copy)]
 pub(super) struct Plane<S: Simd> {
     pub(super) x: Lanes<S>,
@@ -153,24 +153,24 @@ impl<S: Simd> Plane<S> {
         Plane { x: -self.y, y: self.x }
     }
 
-    /// `v` rotated by the direction that this is.
+    /// `v` rotated by this direction.
     #[inline(always)]
     pub(super) fn rotate(self, v: Vec2) -> Self {
         Plane { x: self.x * v.x - self.y * v.y, y: self.x * v.y + self.y * v.x }
     }
 }
 
-/// The columns of one tile, of which as many poses are seen as fit into a register.
+/// View of the columns of one tile: as many poses as fit into a register.
 #[derive(Debug)]
 pub(super) struct Window<'a, S: Simd> {
     pub(super) simd: S,
     pub(super) columns: &'a mut [Eight],
-    /// Which share of the tile's poses.
+    /// Index of the part of the tile.
     pub(super) part: usize,
 }
 
 impl<S: Simd> Window<'_, S> {
-    /// Number of shares in a tile.
+    /// Number of parts in a tile.
     pub(super) const PARTS: usize = TILE / S::F64_LANES;
 
     #[inline(always)]
@@ -183,7 +183,7 @@ impl<S: Simd> Window<'_, S> {
         S::as_mut_simd_f64s(&mut self.columns[column].0).0[self.part] = lanes.value;
     }
 
-    /// The vector whose components are at `column` and behind it.
+    /// The vector with its components at `column` and the next column.
     #[inline(always)]
     pub(super) fn vector(&self, column: usize) -> Plane<S> {
         Plane { x: self.get(column), y: self.get(column + 1) }

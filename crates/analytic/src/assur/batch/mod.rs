@@ -1,7 +1,9 @@
 //! Many poses of one case in one call.
 //!
-//! A case of driving links and RRR dyads, loaded by moments of resistance only, is solved for as many crank angles at once as the machine's registers hold:
-//! such poses do not depend on each other. Any other case is solved pose by pose.
+//! A case of driving links and RRR dyads, loaded by moments of resistance only, is solved for several crank angles
+//! at once,
+//! as many as fit into the machine's registers. Such poses do not depend on each other.
+//! Any other case is solved pose by pose.
 
 mod dyads;
 mod equations;
@@ -24,11 +26,11 @@ use linkage::error::Result;
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 
-/// Crank angle between two rows (rad) beyond which the way between them is looked at too; not more than
-/// [`PoseSolver`]'s step for poses in closed form.
+/// Crank angle between two rows (rad) above which the poses between them are checked too.
+/// Not more than [`PoseSolver`]'s step for poses in closed form.
 const STEP: f64 = PI / 12.0;
 
-/// Angle (rad) beyond which the vector sine is not relied on: ten times what a grid may hold.
+/// Angle (rad) above which the vector sine is not used: ten times the largest angle of a grid.
 const FAR: f64 = 1e7;
 
 /// Solves a case for many crank angles in one call, on the branch of its start pose.
@@ -39,14 +41,14 @@ pub struct Batch<'a> {
     dyads: Option<Dyads>,
     work: Vec<Eight>,
     arch: Arch,
-    /// Solves what the dyads do not, and says what is wrong.
+    /// Solves poses that the dyads cannot solve, and makes the error message.
     poses: PoseSolver<'a>,
     /// Last crank angle reached (rad).
     crank: f64,
 }
 
 impl<'a> Batch<'a> {
-    /// At the start pose of the case, which fixes the branch.
+    /// Starts at the start pose of the case, which fixes the branch.
     ///
     /// # Errors
     /// Those of [`PoseSolver::new`].
@@ -64,18 +66,21 @@ impl<'a> Batch<'a> {
         })
     }
 
-    /// Whether many poses are solved at once; if not, the case has other groups than RRR dyads, or other loads than moments of
-    /// resistance, and goes pose by pose.
+    /// Whether many poses are solved at once.
+    /// If not, the case has groups other than RRR dyads, or loads other than moments of resistance, and is solved
+    /// pose by pose.
     #[must_use]
     pub fn is_vectorised(&self) -> bool {
         self.dyads.is_some()
     }
 
     /// The poses at the crank angles `cranks` (rad, as the scenario states them) for one angular velocity `omega`
-    /// (rad/s) and acceleration `alpha` (rad/s^2) of the crank, computed as far as `deepest`: to rounding, what
-    /// [`PoseSolver::solve`] finds for one after the other. It starts from the last crank angle reached, at first
-    /// from the start pose. Where poses are [vectorised](Batch::is_vectorised), a crank angle gives the same bits
-    /// wherever it stands; rows that are more than 15 degrees apart cost a walk from one to the next.
+    /// (rad/s) and acceleration `alpha` (rad/s^2) of the crank, computed up to the stage `deepest`.
+    /// To rounding, they are those of [`PoseSolver::solve`] at one crank angle after the other.
+    /// It starts from the last crank angle reached, at first from the start pose.
+    /// Where poses are [vectorised](Batch::is_vectorised), a crank angle gives the same bits at every place in the
+    /// list.
+    /// Rows more than 15 degrees apart take intermediate poses from one to the next.
     ///
     /// # Errors
     /// Those of [`PoseSolver::solve`] at the first crank angle that cannot be reached; the poses before it are in
@@ -104,7 +109,7 @@ impl<'a> Batch<'a> {
         Ok(())
     }
 
-    /// Goes to a crank angle pose by pose, from the last one reached.
+    /// Goes to a crank angle pose by pose, from the last angle reached.
     fn walk(&mut self, crank: f64, omega: f64, alpha: f64, deepest: Stage) -> Result<&State> {
         if self.is_vectorised() {
             self.poses.solve(self.crank, omega, alpha, Stage::Positions)?;
@@ -113,7 +118,7 @@ impl<'a> Batch<'a> {
     }
 }
 
-/// What is asked of a batch.
+/// The request to a batch.
 #[derive(Clone, Copy, Debug)]
 struct Asked<'a> {
     cranks: &'a [f64],
@@ -122,7 +127,7 @@ struct Asked<'a> {
     deepest: Stage,
 }
 
-/// All tiles of a batch, to be solved with the instructions that the machine has.
+/// All tiles of a batch. They are solved with the widest instructions of the machine.
 struct Tiles<'a> {
     case: &'a Case,
     dyads: &'a Dyads,
@@ -131,8 +136,8 @@ struct Tiles<'a> {
     out: &'a mut Poses,
 }
 
-/// What the drives do in one tile: directions, angular velocities and accelerations of the driving links. Rows that
-/// are left over repeat the last crank angle.
+/// Input of the drives in one tile: directions, angular velocities and accelerations of the driving links.
+/// Unused rows repeat the last crank angle.
 #[inline(always)]
 fn drive(case: &Case, dyads: &Dyads, asked: Asked, cranks: &[f64], tile: &mut [Eight]) {
     let mut own = [cranks[cranks.len() - 1]; TILE];
@@ -193,7 +198,7 @@ mod tests {
     use linkage::math::{KeepNan, Vec2};
     use linkage::mechanism::Mechanism;
 
-    /// Every width that this machine has.
+    /// All register widths of this machine.
     fn widths() -> Vec<Arch> {
         let mut widths = vec![Arch::Scalar, Arch::new()];
         #[cfg(target_arch = "x86_64")]
@@ -201,12 +206,12 @@ mod tests {
         widths
     }
 
-    /// An error of each of one unit in the last place of 1: the standard library's has half of it at most, the rest
-    /// is the vector's.
+    /// Each error is at most one unit in the last place of 1. The standard library's part of it is at most half a
+    /// unit; the rest is that of the vector functions.
     #[test]
     fn units_are_those_of_the_standard_library() {
         for k in -400_000..400_000 {
-            // A tenth of them are multiples of a quarter turn, where one of the two vanishes.
+            // A tenth of them are multiples of a quarter turn, where sine or cosine is zero.
             let quarters = f64::from(k) * if k % 10 == 0 { 1.0 } else { 1.600_123_4 };
             let angles = [1.0, 1e-5, 3.0, 15.0, -1.0, -0.1, 7.3, 0.5].map(|share| quarters * share * PI / 2.0);
             let [cos, sin] = units(angles);

@@ -1,4 +1,4 @@
-//! Where a batch puts its poses: columns, cut into tiles of eight rows that stand together in memory.
+//! Storage for the poses of a batch: columns, cut into tiles of eight rows that are adjacent in memory.
 
 use super::lanes::{Eight, TILE};
 use linkage::case::Case;
@@ -6,8 +6,8 @@ use linkage::math::{Motion, Vec2};
 use linkage::mechanism::GROUND;
 use linkage::solver::State;
 
-/// Columns of one link's motion, in this order: two each of origin, direction, velocity and acceleration, one each of
-/// angular velocity and angular acceleration.
+/// Columns of one link's motion, in this order: two each for origin, direction, velocity and acceleration, one
+/// each for angular velocity and angular acceleration.
 const OF_LINK: usize = 10;
 /// Places of these in a link's columns.
 pub(super) const ORIGIN: usize = 0;
@@ -17,7 +17,7 @@ pub(super) const ACCELERATION: usize = 6;
 pub(super) const OMEGA: usize = 8;
 pub(super) const ALPHA: usize = 9;
 
-/// Which column holds what.
+/// The assignment of columns.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Layout {
     links: usize,
@@ -34,12 +34,12 @@ impl Layout {
         Layout { links, joints, drives: case.drives.len(), has_moments }
     }
 
-    /// First column of a link; the ground has none.
+    /// First column of a link; `None` for the ground.
     pub(super) fn link(&self, link: usize) -> Option<usize> {
         (link != GROUND).then(|| (link - 1) * OF_LINK)
     }
 
-    /// Two columns: the force in a joint.
+    /// First of the two columns of the force in a joint.
     #[inline(always)]
     pub(super) fn force(&self, joint: usize) -> usize {
         (self.links - 1) * OF_LINK + 2 * joint
@@ -51,7 +51,7 @@ impl Layout {
         self.force(self.joints) + drive
     }
 
-    /// A number that is not one (NaN) where the pose cannot be assembled.
+    /// The column that is NaN where the pose cannot be assembled.
     #[inline(always)]
     pub(super) fn reach(&self) -> usize {
         self.torque(self.drives)
@@ -66,9 +66,9 @@ impl Layout {
     }
 }
 
-/// The poses that [`Batch::solve`](super::Batch::solve) has found, a row for every crank angle. Kept between calls,
-/// its memory is used again. What lies beyond the stage that was asked for is meaningless. Methods panic on a row
-/// that is not there.
+/// The poses that [`Batch::solve`](super::Batch::solve) has found, one row per crank angle.
+/// Keep it between calls: its memory is used again.
+/// Values beyond the requested stage have no meaning. Methods panic if the row does not exist.
 #[derive(Clone, Debug, Default)]
 pub struct Poses {
     layout: Layout,
@@ -122,14 +122,15 @@ impl Poses {
         if self.layout.has_moments { self.get(row, self.layout.moment(joint)) } else { 0.0 }
     }
 
-    /// Balancing moment on the driving link of the drive `drive` of [`drives`](linkage::case::CaseParts::drives) (N m), in the pose `row`.
+    /// Balancing moment on the driving link of the drive `drive` (N m), in the pose `row`.
+    /// `drive` is an index of [`drives`](linkage::case::CaseParts::drives).
     #[must_use]
     pub fn torque(&self, row: usize, drive: usize) -> f64 {
         self.get(row, self.layout.torque(drive))
     }
 
-    /// Copies the pose `row` to a state of the same case. Its angles, which count turns, are left as they are, as by
-    /// [`PoseSolver::solve`](crate::PoseSolver::solve).
+    /// Copies the pose `row` to a state of the same case. The state's angles, which count turns, stay unchanged,
+    /// as with [`PoseSolver::solve`](crate::PoseSolver::solve).
     pub fn copy_to(&self, row: usize, state: &mut State) {
         for (link, motion) in state.motions.iter_mut().enumerate() {
             *motion = self.motion(row, link);
@@ -142,7 +143,7 @@ impl Poses {
         }
     }
 
-    /// Room for as many rows.
+    /// Reserves space for this number of rows.
     pub(super) fn prepare(&mut self, layout: Layout, rows: usize) {
         let tiles = rows.div_ceil(TILE) * layout.columns();
         (self.layout, self.rows) = (layout, rows);
@@ -165,7 +166,7 @@ impl Poses {
         !self.get(row, self.layout.reach()).is_nan()
     }
 
-    /// Puts a state into a row.
+    /// Writes a state to a row.
     pub(super) fn put(&mut self, row: usize, state: &State) {
         let layout = self.layout;
         let mut put = |column: usize, value: f64| {

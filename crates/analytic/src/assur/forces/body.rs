@@ -1,11 +1,11 @@
-//! A link, what acts on it, and what a joint does to it.
+//! A link, the loads on it, and the action of a joint on it.
 
 use linkage::case::Case;
 use linkage::drive::Wrench;
 use linkage::math::{Motion, Vec2, cross};
 use linkage::mechanism::{JointKind, Side};
 
-/// What the first link of every joint exerts on the second, filled in from the last group to the first.
+/// Reactions: what the first link of every joint exerts on the second. Filled in from the last group to the first.
 #[derive(Debug)]
 pub(super) struct Reactions<'a> {
     /// Forces (N).
@@ -16,7 +16,7 @@ pub(super) struct Reactions<'a> {
     pub(super) loads: &'a [Wrench],
 }
 
-/// A joint as it acts on one of its links: `sign` times its reaction, at the place where the reaction is told.
+/// A joint as it acts on one of its links: `sign` times its reaction, at the place to which the reaction refers.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Action {
     pub(super) joint: usize,
@@ -29,7 +29,7 @@ impl Action {
         let found = &case.mechanism.joints()[joint];
         let local = found.on(link).expect("the joint is on the link");
         let side = match found.kind {
-            // The places are one point; that on the link itself is at hand.
+            // Both places are the same point. The one on this link is available.
             JointKind::Revolute => Side { link, local },
             JointKind::Prismatic { .. } => found.second,
         };
@@ -48,8 +48,9 @@ impl Action {
         reactions.forces[self.joint] = force * self.sign;
     }
 
-    /// Stores a prismatic joint's reaction from the force on the link and the moment of all else on it about `pole`, which
-    /// it must balance.
+    /// Stores a prismatic joint's reaction.
+    /// It follows from the force on the link and from the moment of all other actions on it about `pole`, which
+    /// the joint must balance.
     #[inline]
     pub(super) fn put_guided(
         &self,
@@ -64,8 +65,9 @@ impl Action {
     }
 }
 
-/// A link with the joints at which later groups hang on it. Its masses are at hand, not behind the mechanism's list of links:
-/// that is a tenth of the cost of a force analysis.
+/// A link with the joints at which later groups are attached to it.
+/// It has its own copy of the masses. A look-up in the mechanism's list of links would cost a tenth of the force
+/// analysis.
 #[derive(Clone, Debug)]
 pub(super) struct Body {
     link: usize,

@@ -1,24 +1,26 @@
 //! Reactions of any higher group.
 //!
-//! Virtual work on the unknowns of its contours, with the closing joints cut, gives the forces there (J^T lambda = -Q); those of
-//! the other joints follow from the outermost link inwards.
+//! The closing joints are cut. Virtual work on the unknowns of the contours gives the forces there (J^T lambda =
+//! -Q).
+//! The forces of the other joints follow from the outermost link inwards.
 
 use super::body::{Action, Body, Reactions};
 use crate::assur::groups::{Chain, Node, Plan, Step};
 use linkage::case::Case;
 use linkage::math::{Motion, Vec2, cross};
 
-/// A higher group, seen from its forces.
+/// Force analysis of a higher group.
 #[derive(Clone, Debug)]
 pub(super) struct Higher {
     /// Index of the group's [`Chain`] in the plan.
     step: usize,
     bodies: Vec<Body>,
-    /// Of each node: its own hanging joint, as it acts on the node's link.
+    /// For each node: the joint to its parent, as it acts on the node's link.
     hung: Vec<Action>,
-    /// Known force on each node's link and on all that hangs on it (N), and its moment about the node's own joint (N m).
+    /// Known force on each node's link and on all links attached to it (N), and its moment about the node's own
+    /// joint (N m).
     carried: Vec<(Vec2, f64)>,
-    /// The same of the forces in the closing joints.
+    /// The same for the forces in the closing joints.
     cut: Vec<(Vec2, f64)>,
     multipliers: Vec<f64>,
 }
@@ -72,14 +74,14 @@ impl Higher {
     }
 }
 
-/// World place of the joint that a node hangs by, on its own link.
+/// World place of the joint between a node and its parent, on the node's own link.
 #[inline]
 fn pole(node: &Node, motions: &[Motion]) -> Vec2 {
     motions[node.link].point(node.own)
 }
 
-/// Adds up force and moment from the outermost link inwards. A link on a pin hands on a force only; one on a guide turns with
-/// its parent and hands on its moment as well.
+/// Sums force and moment from the outermost link inwards.
+/// A link on a pin passes on a force only. A link on a guide turns with its parent and passes on its moment too.
 fn gather(carried: &mut [(Vec2, f64)], nodes: &[Node], motions: &[Motion]) {
     for (index, node) in nodes.iter().enumerate().rev() {
         let Some(parent) = node.parent_node else { continue };

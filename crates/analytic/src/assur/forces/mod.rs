@@ -1,7 +1,7 @@
 //! Joint reactions group by group, last group first, and the balancing moment from the driving link's equilibrium.
 //!
-//! D'Alembert: every link carries m (g - a) at its mass centre, the moment -J alpha, its loads, and the forces of the
-//! groups that hang on it; one file a sort of group.
+//! D'Alembert: every link carries m (g - a) at its mass centre, the moment -J alpha, its loads, and the forces of
+//! the groups attached to it. There is one file per kind of group.
 
 mod body;
 mod higher;
@@ -17,7 +17,7 @@ use linkage::solver::State;
 use rrr::Pinned;
 use sliding::Sliding;
 
-/// One group, seen from its forces.
+/// Force analysis of one group.
 #[derive(Clone, Debug)]
 enum Part {
     Pinned(Pinned),
@@ -25,7 +25,7 @@ enum Part {
     Higher(Higher),
 }
 
-/// The force analysis of a case, ready for pose after pose without allocation.
+/// The force analysis of a case, prepared to solve pose after pose without allocation.
 #[derive(Clone, Debug)]
 pub(super) struct Kinetostatics {
     parts: Vec<Part>,
@@ -60,9 +60,10 @@ impl Kinetostatics {
         Kinetostatics { parts, drivers, loads: vec![Wrench::ZERO; loads] }
     }
 
-    /// Fills in what the first link exerts on the second in every joint, and the balancing moments on the driving
-    /// links (N m), from their equilibrium about the pivots. The pose must be the last one that `plan` has solved; loads may ask for the state's
-    /// angles.
+    /// Writes to `state` the reaction in every joint (first link on second) and the balancing moments on the
+    /// driving links (N m).
+    /// The balancing moments follow from equilibrium about the pivots.
+    /// The pose must be the last one that `plan` has solved. Loads may use the state's angles.
     pub(super) fn solve(&mut self, case: &Case, plan: &Plan, state: &mut State) {
         let State { motions, forces, moments, torques, angles } = state;
         case.loads_on(motions, angles, &mut self.loads);

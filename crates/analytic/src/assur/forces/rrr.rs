@@ -1,8 +1,9 @@
 //! Reactions of the RRR dyad.
 //!
-//! With F and M the known force on a link and its moment about the inner joint, r1 and r2 the vectors from the outer joints there, and R
-//! the force at the first outer joint: r1 x R = M_1 and r2 x (R + F_1 + F_2) = -M_2. Artobolevsky, "Theory of mechanisms and
-//! machines", kinetostatics of class II groups.
+//! F and M are the known force on a link and its moment about the inner joint.
+//! r1 and r2 are the vectors from the outer joints to the inner joint, R is the force at the first outer joint.
+//! Then r1 x R = M_1 and r2 x (R + F_1 + F_2) = -M_2.
+//! Artobolevsky, "Theory of mechanisms and machines", kinetostatics of class II groups.
 
 use super::body::{Action, Body, Reactions};
 use crate::assur::groups::Rrr;
@@ -10,7 +11,7 @@ use linkage::case::Case;
 use linkage::math::{Motion, cross};
 use linkage::mechanism::Group;
 
-/// An RRR dyad, seen from its forces.
+/// Force analysis of an RRR dyad.
 #[derive(Clone, Debug)]
 pub(super) struct Pinned {
     /// Index of the group in the plan.

@@ -1,26 +1,29 @@
 //! Reactions of the four dyads with prismatic pairs.
 //!
-//! An outer or inner revolute pair passes a force, a prismatic one a force across its axis and a moment. With F and M the known
-//! force and moment on a link, u and w the vectors from the pole to the outer joints, R the force on link a at its outer joint:
+//! A revolute pair transmits a force, a prismatic one a force across its axis and a moment.
+//! F and M are the known force and moment on a link, u and w the vectors from the pole to the outer joints.
+//! R is the force on link a at its outer joint.
 //! RRP: u x R = -M_a about the inner joint, e . (R + F) = 0 for the whole.
-//! RPR, with R on the pair's second link: e . (R + F_b) = 0 there, d x R = -M for the whole about the first pin. RPP: b . (R + F_a) = 0 on the
-//! pinned link, e . (R + F) = 0 for the whole. PRP: the inner force I on link a has e . (I + F_a) = 0 and
-//! b . (I - F_b) = 0. Moments of the guides follow from the moments of their links. Artobolevsky, "Theory of mechanisms and
-//! machines", kinetostatics of class II groups.
+//! RPR, with R on the pair's second link: e . (R + F_b) = 0 there, d x R = -M for the whole about the first pin.
+//! RPP: b . (R + F_a) = 0 on the pinned link, e . (R + F) = 0 for the whole.
+//! PRP: the inner force I on link a has e . (I + F_a) = 0 and b . (I - F_b) = 0.
+//! The moments of the guides follow from the moments of their links.
+//! Artobolevsky, "Theory of mechanisms and machines", kinetostatics of class II groups.
 
 use super::body::{Action, Body, Reactions};
 use linkage::case::Case;
 use linkage::math::{Motion, Vec2, cross, turned};
 use linkage::mechanism::{Group, GroupKind};
 
-/// A dyad with prismatic pairs, seen from its forces. The links stand in the order in which the formulas name them.
+/// Force analysis of a dyad with prismatic pairs. The links have the order in which the formulas name them.
 #[derive(Clone, Debug)]
 pub(super) struct Sliding {
     kind: GroupKind,
     bodies: [Body; 2],
     outer: [Action; 2],
     inner: [Action; 2],
-    /// Axis of the prismatic pair of RRP, RPR (the inner) and PRP (the first), or of RPP's guide, on the link given with it.
+    /// Axis of the prismatic pair of RRP, of RPR (the inner pair) and of PRP (the first), or of RPP's guide. The
+    /// index is the link on which the axis is given.
     axis: (usize, Vec2),
     /// Axis of PRP's second guide, or of RPP's inner pair.
     other: (usize, Vec2),
@@ -41,7 +44,7 @@ impl Sliding {
         }
         let links = order.map(|k| group.links[k]);
         let outer = order.map(|k| group.outer[k]);
-        // The axis in the world: on the first link of its joint, which moves as the joint does.
+        // The axis in world axes. It is fixed to the first link of its joint.
         let axis = |joint: usize| {
             let link = joints[joint].first.link;
             (link, joints[joint].axis_on(link).unwrap_or_else(Vec2::zeros))

@@ -1,9 +1,10 @@
-//! Outer prismatic pair of a dyad: a link that slides on one that is known, and turns with it.
+//! Outer prismatic pair of a dyad: a link that slides on a known link and turns with it.
 
 use linkage::math::{Motion, Vec2, cross, rotated, turned};
 use linkage::mechanism::{Joint, Side};
 
-/// `a` times the conjugate of `b` as complex numbers: the direction of a frame in which the unit vector `b` shows along `a`.
+/// `a` times the conjugate of `b` as complex numbers: the direction of a frame in which the unit vector `b` points
+/// along `a`.
 #[inline]
 pub(super) fn turn_between(a: Vec2, b: Vec2) -> Vec2 {
     Vec2::new(b.dot(&a), cross(b, a))
@@ -42,13 +43,13 @@ impl Guide {
         motions[self.base.link].arm(self.axis)
     }
 
-    /// Turns the sliding link as the guide stands.
+    /// Turns the sliding link with its guide.
     #[inline]
     pub(super) fn aim(&self, motions: &mut [Motion]) {
         motions[self.link].direction = rotated(motions[self.base.link].direction, self.turn);
     }
 
-    /// World place of the sliding link's point `local` at slide zero; the link must have been aimed.
+    /// World place of the sliding link's point `local` at slide zero. The link must have been aimed.
     #[inline]
     pub(super) fn at_zero(&self, local: Vec2, motions: &[Motion]) -> Vec2 {
         motions[self.base.link].point(self.base.local) + motions[self.link].arm(local - self.own)

@@ -1,4 +1,4 @@
-//! The two links of a dyad, in the order that its equations want.
+//! The two links of a dyad, in the order that its equations need.
 
 use linkage::mechanism::{Group, Joint, Mechanism};
 
@@ -8,7 +8,7 @@ pub(super) struct Half<'a> {
     pub(super) outer: &'a Joint,
 }
 
-/// The two halves of a dyad, the one that `is_first` holds for at the front.
+/// The two halves of a dyad. The half for which `is_first` is true comes first.
 pub(super) fn of_dyad<'a>(
     mechanism: &'a Mechanism,
     group: &Group,

@@ -21,20 +21,21 @@ pub enum Misfit {
     Swing {
         /// Distance of the pins (m).
         distance: f64,
-        /// Smallest distance possible (m).
+        /// Smallest possible distance (m).
         shortest: f64,
     },
     /// RPP, PRP: the two axes are parallel.
     Parallel,
-    /// A higher group, whose branch could not be followed.
+    /// A higher group whose branch could not be followed.
     Lost,
 }
 
-/// Sine of the angle between two axes below which it is rounding.
+/// Sine of the angle between two axes below which it is zero to rounding.
 const PARALLEL: f64 = 1e-14;
 
-/// Side on which two axes lie to each other, from the sine of their angle, once `side` is known: a dyad that went through infinity is on
-/// another branch, and one whose axes are parallel to rounding is nowhere.
+/// Sign of the sine of the angle between two axes, checked against `side` once that is known.
+/// A dyad that passed through infinity is on another branch. A dyad whose axes are parallel to rounding has no
+/// pose.
 pub(super) fn kept_side(side: f64, sine: f64) -> Result<f64, Misfit> {
     let now = sine.signum();
     if !(sine.abs() > PARALLEL) || side * now < 0.0 { Err(Misfit::Parallel) } else { Ok(now) }

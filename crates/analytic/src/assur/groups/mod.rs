@@ -1,5 +1,5 @@
-//! Kinematics group by group: the driving link, then every Assur group, one file a kind: dyads in closed form, higher groups
-//! by Newton's method on their contours.
+//! Kinematics group by group: the driving link, then every Assur group, one file per kind.
+//! Dyads are solved in closed form, higher groups by Newton's method on their contours.
 
 mod chain;
 mod guide;
@@ -23,7 +23,7 @@ pub use rrr::Rrr;
 use linkage::math::{Motion, Vec2, rotated, turned, unit};
 use linkage::mechanism::{AssemblyMode, GROUND, GroupKind, Mechanism, Structure};
 
-/// Driving link that turns about a joint with the ground, or with a driving link before it.
+/// Driving link that turns about a joint with the ground, or with an earlier driving link.
 #[derive(Clone, Copy, Debug)]
 struct Driver {
     link: usize,
@@ -33,7 +33,7 @@ struct Driver {
     place: Vec2,
 }
 
-/// An Assur group, ready for solving.
+/// An Assur group, prepared for solving.
 #[derive(Clone, Debug)]
 pub enum Step {
     /// RRR dyad.
@@ -50,7 +50,7 @@ pub enum Step {
     Chain(Chain),
 }
 
-/// A mechanism made ready for solving pose after pose without allocation.
+/// A mechanism prepared to be solved pose after pose without allocation.
 #[derive(Clone, Debug)]
 pub struct Plan {
     drivers: Vec<Driver>,
@@ -64,12 +64,12 @@ pub struct Plan {
 pub struct OutOfReach {
     /// Index of the group in [`Structure::groups`].
     pub group: usize,
-    /// Why.
+    /// The reason.
     pub why: Misfit,
 }
 
 impl Plan {
-    /// Prepares a mechanism of the given structure in the given assembly modes (one a group).
+    /// Prepares a mechanism of this structure in these assembly modes (one per group).
     #[must_use]
     pub fn of(mechanism: &Mechanism, structure: &Structure, modes: &[AssemblyMode]) -> Self {
         let drivers = structure.drivers.iter().map(|&(link, joint)| {
@@ -95,13 +95,14 @@ impl Plan {
         &self.steps
     }
 
-    /// Whether all groups are placed in closed form; if not, poses must be followed in small steps.
+    /// Whether all groups are solved in closed form. If not, poses must be followed in small steps.
     #[must_use]
     pub fn is_closed_form(&self) -> bool {
         !self.steps.iter().any(|step| matches!(step, Step::Chain(_)))
     }
 
-    /// Positions of all links for the world angles of the driving links (rad), in the order of [`Structure::drivers`]. Higher groups
+    /// Positions of all links for the world angles of the driving links (rad), in the order of
+    /// [`Structure::drivers`]. Higher groups
     /// start from the last pose in `motions`.
     ///
     /// # Errors
@@ -134,7 +135,7 @@ impl Plan {
         Ok(())
     }
 
-    /// Velocities of all links, once their positions are known; `omegas` are the driving links' (rad/s).
+    /// Velocities of all links. Positions must be known. `omegas` are those of the driving links (rad/s).
     #[inline]
     pub fn velocities(&mut self, omegas: &[f64], motions: &mut [Motion]) {
         for (driver, &omega) in self.drivers.iter().zip(omegas) {
@@ -157,7 +158,7 @@ impl Plan {
         }
     }
 
-    /// Accelerations of all links, once their velocities are known; `alphas` are the driving links' (rad/s^2).
+    /// Accelerations of all links. Velocities must be known. `alphas` are those of the driving links (rad/s^2).
     #[inline]
     pub fn accelerations(&mut self, alphas: &[f64], motions: &mut [Motion]) {
         for (driver, &alpha) in self.drivers.iter().zip(alphas) {

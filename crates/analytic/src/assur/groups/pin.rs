@@ -1,4 +1,4 @@
-//! Outer revolute pair of a dyad: a link that turns about a point of one that is known.
+//! Outer revolute pair of a dyad: a link that turns about a point of a known link.
 
 use linkage::math::{Motion, Vec2, turned};
 use linkage::mechanism::{Joint, Side};
@@ -36,7 +36,7 @@ impl Pin {
         motions[self.base.link].point_acceleration(self.base.local)
     }
 
-    /// Places the turning link by its direction.
+    /// Places the turning link for its direction.
     #[inline]
     pub(super) fn put(&self, direction: Vec2, motions: &mut [Motion]) {
         let place = self.place(motions);
@@ -45,7 +45,7 @@ impl Pin {
         motion.origin = place - motion.arm(self.own);
     }
 
-    /// Moves the turning link by its angular velocity.
+    /// Sets the velocity of the turning link from its angular velocity.
     #[inline]
     pub(super) fn put_velocity(&self, omega: f64, motions: &mut [Motion]) {
         let velocity = self.velocity(motions);
@@ -54,7 +54,7 @@ impl Pin {
         motion.velocity = velocity - turned(motion.arm(self.own)) * omega;
     }
 
-    /// Accelerates the turning link by its angular acceleration.
+    /// Sets the acceleration of the turning link from its angular acceleration.
     #[inline]
     pub(super) fn put_acceleration(&self, alpha: f64, motions: &mut [Motion]) {
         let acceleration = self.acceleration(motions);

@@ -1,27 +1,29 @@
 //! Dyad of two sliders on one pin: outer prismatic pairs, inner revolute pair (class II, order 2).
 //!
-//! Both links turn with their guides. The inner joint C lies on two lines along the axes e and b: (C1 + s e - C2) x b = 0, where C1 and C2 are
-//! its places on either link at slide zero; and with E1, E2 the points of the guides' links at C,
-//! v_E1 + s' e = v_E2 + t' b and the accelerations with their Coriolis parts. Artobolevsky, "Theory of mechanisms and
-//! machines", kinematics of class II groups of the fourth kind.
+//! Both links turn with their guides. The inner joint C lies on two lines along the axes e and b: (C1 + s e - C2)
+//! x b = 0.
+//! C1 and C2 are its places on the two links at slide zero.
+//! With E1, E2 the points of the guides' links at C, v_E1 + s' e = v_E2 + t' b.
+//! The accelerations have the same form, with their Coriolis parts.
+//! Artobolevsky, "Theory of mechanisms and machines", kinematics of class II groups of the fourth kind.
 
 use super::guide::Guide;
 use super::misfit::{Misfit, kept_side};
 use linkage::math::{Motion, Vec2, cross, turned};
 use linkage::mechanism::{Group, Mechanism};
 
-/// PRP dyad, ready for solving.
+/// PRP dyad, prepared for solving.
 #[derive(Clone, Copy, Debug)]
 pub struct Prp {
     guides: [Guide; 2],
     /// The inner joint in each slider's frame.
     inner: [Vec2; 2],
-    /// Sign of the sine of the angle between the axes on the branch that is followed; 0 before the first pose.
+    /// Sign of the sine of the angle between the axes on the followed branch; 0 before the first pose.
     side: f64,
 }
 
 impl Prp {
-    /// Prepares the dyad `group`, which has one configuration.
+    /// Prepares the dyad `group`, which has only one configuration.
     #[must_use]
     pub fn of(mechanism: &Mechanism, group: &Group) -> Self {
         let joints = mechanism.joints();

@@ -1,10 +1,13 @@
-//! Dyad of a pinned link that slides on a slider: outer revolute, inner and outer prismatic pair (class II, order 2).
+//! Dyad of a pinned link that slides on a slider: outer revolute, inner and outer prismatic pair (class II, order
+//! 2).
 //!
-//! All angles follow from the guide's link. With its axis e, the inner axis b and a point X of the slider on the inner axis, X is
-//! carried by the guide and slides along e, and lies on a line along b that turns about the pin:
-//! b x (X - line) = 0 gives s, b x (v_E - v_A) + s' b x e = 0 gives s', where E and A are the points of the guide's and
-//! of the pinned link at X, and the accelerations, with both Coriolis parts, give s''. Artobolevsky, "Theory of mechanisms
-//! and machines", kinematics of class II groups of the fifth kind.
+//! All angles follow from the guide's link. It has the axis e; b is the inner axis, and X a point of the slider on
+//! the inner axis.
+//! The guide carries X, which slides along e and lies on a line along b that turns about the pin:
+//! b x (X - line) = 0 gives s, and b x (v_E - v_A) + s' b x e = 0 gives s'.
+//! E and A are the points of the guide's link and of the pinned link at X.
+//! The accelerations, with both Coriolis parts, give s''.
+//! Artobolevsky, "Theory of mechanisms and machines", kinematics of class II groups of the fifth kind.
 
 use super::guide::{Guide, turn_between};
 use super::half::of_dyad;
@@ -13,7 +16,7 @@ use super::pin::Pin;
 use linkage::math::{Motion, Vec2, cross, turned};
 use linkage::mechanism::{Group, Mechanism};
 
-/// RPP dyad, ready for solving.
+/// RPP dyad, prepared for solving.
 #[derive(Clone, Copy, Debug)]
 pub struct Rpp {
     pinned: Pin,
@@ -22,11 +25,11 @@ pub struct Rpp {
     axes: [Vec2; 2],
     /// The inner joint's place in the same frames.
     inner: [Vec2; 2],
-    /// Sign of the sine of the angle between the axes on the branch that is followed; 0 before the first pose.
+    /// Sign of the sine of the angle between the axes on the followed branch; 0 before the first pose.
     side: f64,
 }
 
-/// What is needed again at every derivative.
+/// Values that every derivative needs again.
 struct Pose {
     axis: Vec2,
     inner_axis: Vec2,
@@ -35,7 +38,7 @@ struct Pose {
 }
 
 impl Rpp {
-    /// Prepares the dyad `group`, which has one configuration.
+    /// Prepares the dyad `group`, which has only one configuration.
     #[must_use]
     pub fn of(mechanism: &Mechanism, group: &Group) -> Self {
         let [slider, pinned] = of_dyad(mechanism, group, |outer, _| outer.slides());

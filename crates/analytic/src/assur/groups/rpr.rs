@@ -1,8 +1,10 @@
 //! Dyad of a swinging guide and a block: outer revolute pairs, inner prismatic pair (class II, order 2).
 //!
-//! With the outer pins P1 (on the pair's first link) and P2, d = P2 - P1 and the axis e with its normal n, d = e s + n h, where h is a
-//! constant of the two links and s = +-sqrt(d^2 - h^2) gives the common direction. d' = s' e + omega x d gives
-//! omega = n . d' / s, s' = e . d' + omega h, and once more alpha = (n . d'' - 2 s' omega + omega^2 h) / s.
+//! The outer pins are P1 (on the pair's first link) and P2. With d = P2 - P1 and the axis e with its normal n, d =
+//! e s + n h.
+//! h is a constant of the two links, and s = +-sqrt(d^2 - h^2) gives the common direction.
+//! d' = s' e + omega x d gives omega = n . d' / s and s' = e . d' + omega h.
+//! A second derivative gives alpha = (n . d'' - 2 s' omega + omega^2 h) / s.
 //! Artobolevsky, "Theory of mechanisms and machines", kinematics of class II groups of the third kind.
 
 use super::guide::turn_between;
@@ -11,13 +13,13 @@ use super::pin::Pin;
 use linkage::math::{Motion, Vec2, cross, rotated, turned};
 use linkage::mechanism::{AssemblyMode, Group, Mechanism};
 
-/// RPR dyad, ready for solving.
+/// RPR dyad, prepared for solving.
 #[derive(Clone, Copy, Debug)]
 pub struct Rpr {
     pins: [Pin; 2],
     /// The axis in the frame of each link.
     axes: [Vec2; 2],
-    /// Distance of the second pin from the line through the first along the axis, to its left.
+    /// Distance of the second pin from the line through the first pin along the axis, positive to its left.
     across: f64,
     sense: f64,
 }
@@ -45,7 +47,7 @@ impl Rpr {
         let d = p2 - p1;
         let squared = d.norm_squared();
         let along_squared = squared - self.across * self.across;
-        // Pins on one point have no direction: refused by the second condition.
+        // Coincident pins have no direction: the second condition refuses them.
         if !(along_squared >= 0.0 && squared > 0.0) {
             return Err(Misfit::Swing { distance: squared.sqrt(), shortest: self.across.abs() });
         }

@@ -1,10 +1,11 @@
 //! Dyad of a connecting rod and a slider: outer and inner revolute pair, outer prismatic pair (class II, order 2).
 //!
-//! With the outer pin P, the inner joint C, r = C - P, the guide's axis e and its normal n: C lies on a line along e, so that
-//! h = n . r is known and e . r = +-sqrt(l^2 - h^2). From v_P + omega x r = v_E + s' e, where E is the point of the guide's link
-//! at C: omega = n . (v_E - v_P) / (e . r), and with the Coriolis part 2 omega_E s' n
-//! alpha = (n . (a_E - a_P + omega^2 r) + 2 omega_E s') / (e . r). Artobolevsky, "Theory of mechanisms and machines",
-//! kinematics of class II groups of the second kind.
+//! The outer pin is P, the inner joint C, r = C - P; the guide has the axis e and its normal n.
+//! C lies on a line along e, so that h = n . r is known and e . r = +-sqrt(l^2 - h^2).
+//! From v_P + omega x r = v_E + s' e, where E is the point of the guide's link at C: omega = n . (v_E - v_P) / (e
+//! . r).
+//! With the Coriolis part 2 omega_E s' n: alpha = (n . (a_E - a_P + omega^2 r) + 2 omega_E s') / (e . r).
+//! Artobolevsky, "Theory of mechanisms and machines", kinematics of class II groups of the second kind.
 
 use super::guide::{Guide, turn_between};
 use super::half::of_dyad;
@@ -13,7 +14,7 @@ use super::pin::Pin;
 use linkage::math::{Motion, Vec2, turned};
 use linkage::mechanism::{AssemblyMode, Group, Mechanism};
 
-/// RRP dyad, ready for solving.
+/// RRP dyad, prepared for solving.
 #[derive(Clone, Copy, Debug)]
 pub struct Rrp {
     rod: Pin,

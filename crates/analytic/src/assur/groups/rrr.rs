@@ -2,9 +2,10 @@
 //!
 //! With the outer joints P1, P2, the inner joint P3, r1 = P3 - P1, r2 = P3 - P2 and D = r1 x r2:
 //! r1 = d f + (z x d) h with d = P2 - P1, f = (l1^2 - l2^2 + d^2) / 2 d^2, h = +-sqrt(l1^2 / d^2 - f^2);
-//! omega1 = (v2 - v1) . r2 / D, omega2 = (v2 - v1) . r1 / D from v1 + omega1 x r1 = v2 + omega2 x r2, and the same with
-//! the accelerations less their centripetal parts. Follows from the vector contour of the group, for example Artobolevsky,
-//! "Theory of mechanisms and machines", chapter on the kinematics of class II groups.
+//! omega1 = (v2 - v1) . r2 / D, omega2 = (v2 - v1) . r1 / D from v1 + omega1 x r1 = v2 + omega2 x r2.
+//! The same equations hold for the accelerations minus their centripetal parts.
+//! They follow from the vector contour of the group, for example Artobolevsky, "Theory of mechanisms and machines",
+//! chapter on the kinematics of class II groups.
 
 use super::misfit::Misfit;
 use linkage::math::{Motion, Vec2, cross, turned};
@@ -22,7 +23,7 @@ struct Arm {
     inverse_span: Vec2,
 }
 
-/// RRR dyad, ready for solving.
+/// RRR dyad, prepared for solving.
 #[derive(Clone, Copy, Debug)]
 pub struct Rrr {
     arms: [Arm; 2],
@@ -62,8 +63,8 @@ impl Rrr {
         }
     }
 
-    /// World vectors from the outer joints of the group's first and second link to the inner one (m), and the inverse of their vector
-    /// product (1/m^2), once positions and velocities are known.
+    /// World vectors from the outer joints of the group's first and second link to the inner joint (m), and the
+    /// inverse of their vector product (1/m^2). Positions and velocities must be known.
     #[inline]
     #[must_use]
     pub fn spans(&self) -> ([Vec2; 2], f64) {
@@ -78,7 +79,7 @@ impl Rrr {
         let d_squared = d.norm_squared();
         let along = 0.5 * (self.squared[0] - self.squared[1] + d_squared) / d_squared;
         let across_squared = self.squared[0] / d_squared - along * along;
-        // Written so that NaN (outer joints on one point) is refused too.
+        // Written this way round so that NaN (outer joints on one point) is refused too.
         if !(across_squared >= 0.0) {
             let [l1, l2] = self.squared.map(f64::sqrt);
             return Err(Misfit::Span { distance: d_squared.sqrt(), reach: [(l1 - l2).abs(), l1 + l2] });

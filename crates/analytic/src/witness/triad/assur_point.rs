@@ -1,11 +1,13 @@
 //! Reactions of the group by its singular Assur point.
 //!
-//! At its foot a lead takes a force across its line and one along it. The lead's own moments about its head give the first,
-//! `N_n = -M_head / l`. The forces along two leads pass through the intersection S of their lines, the singular Assur point: the
-//! moments about S of the base link and those two leads leave one unknown, the force along the third lead. The equilibrium of
-//! the same three links gives the other two, and that of each lead the reaction at its head (kinetostatics of class III groups:
-//! Artobolevsky, "Theory of mechanisms and machines"). Of the three Assur points the one of the two leads nearest to a right angle is
-//! taken: parallel leads have theirs at infinity.
+//! At its foot a lead receives a force across its line and a force along it.
+//! The lead's own moments about its head give the first, `N_n = -M_head / l`.
+//! The forces along two leads pass through the intersection S of their lines, the singular Assur point.
+//! So the moments about S of the base link and those two leads leave one unknown, the force along the third lead.
+//! The equilibrium of the same three links gives the other two, and that of each lead the reaction at its head
+//! (kinetostatics of class III groups: Artobolevsky, "Theory of mechanisms and machines").
+//! Of the three Assur points, that of the two leads nearest to a right angle is used: parallel leads have theirs at
+//! infinity.
 
 use super::{Known, Places, Reactions, singular};
 use linkage::error::Result;
@@ -53,7 +55,7 @@ pub fn reactions(places: &Places, known: &[Known; 4]) -> Result<Reactions> {
     });
     let point = best(places);
     let ([i, j, k], pole) = (point.leads, point.place);
-    // What acts on the base link and the leads i and j: lead k pushes at its head.
+    // The actions on the base link and the leads i and j. Lead k pushes at its head.
     let third = across[k] + known[k].force;
     let with_two = |pole: Vec2| {
         let at_feet: f64 = [i, j].map(|lead| cross(places.feet[lead] - pole, across[lead])).iter().sum();
@@ -81,7 +83,7 @@ mod tests {
         Known { force, moment: 0.0, at }
     }
 
-    /// A beam of length 2 on two upright leads and one level lead at its left end; forces by hand.
+    /// A beam of length 2 on two upright leads and one level lead at its left end. Forces calculated by hand.
     fn beam() -> Places {
         let at = Vec2::new;
         Places {

@@ -1,11 +1,13 @@
 //! First transfer functions and angular accelerations of the group's links by Cramer's rule.
 //!
-//! The two vector contours A_1 B_1 B_k A_k, k = 2, 3, of leads and base link,
-//! `l_1 e(alpha_1) + b_k e(alpha_4 + beta_k) = A_1 A_k + l_k e(alpha_k)`, differentiated by the crank angle (or by time), give four
-//! linear equations for alpha_1' .. alpha_4' with the velocities of the feet on the right; differentiated again, the same
-//! determinant and on the right the accelerations of the feet and the centripetal parts of the links. Each unknown is a quotient
-//! of two 4 x 4 determinants (method of the transfer functions for class III groups; Artobolevsky, "Theory of mechanisms
-//! and machines", analytical kinematics by vector contours).
+//! Leads and base link have the two vector contours A_1 B_1 B_k A_k, k = 2, 3:
+//! `l_1 e(alpha_1) + b_k e(alpha_4 + beta_k) = A_1 A_k + l_k e(alpha_k)`.
+//! Differentiated by the crank angle (or by time), they give four linear equations for alpha_1' .. alpha_4', with the
+//! velocities of the feet on the right.
+//! Differentiated again, they have the same determinant, with the accelerations of the feet and the centripetal parts
+//! of the links on the right.
+//! Each unknown is a quotient of two 4 x 4 determinants (method of the transfer functions for class III groups;
+//! Artobolevsky, "Theory of mechanisms and machines", analytical kinematics by vector contours).
 
 use super::{Triad, singular};
 use linkage::error::Result;
@@ -23,7 +25,7 @@ pub struct Contours {
 type Matrix = [[f64; 4]; 4];
 
 impl Contours {
-    /// The contours of a group in the pose of `motions`, of which only the links' directions are read.
+    /// The contours of a group in the pose of `motions`, which supplies only the links' directions.
     #[must_use]
     pub fn of(triad: &Triad, motions: &[Motion]) -> Self {
         let base = &motions[triad.base];
@@ -33,7 +35,7 @@ impl Contours {
         }
     }
 
-    /// Coefficients: two rows a contour, one column a link.
+    /// Coefficients: two rows per contour, one column per link.
     fn matrix(&self) -> Matrix {
         let mut matrix = [[0.0; 4]; 4];
         for (k, side) in self.sides.into_iter().enumerate() {
@@ -46,8 +48,8 @@ impl Contours {
         matrix
     }
 
-    /// Angular velocities of the three leads and the base link (rad/s) for the velocities of the three feet (m/s); with the feet's
-    /// derivatives by the crank angle (m) the first transfer functions alpha_i'.
+    /// Angular velocities of the three leads and the base link (rad/s) from the velocities of the three feet (m/s).
+    /// From the feet's derivatives by the crank angle (m) they are the first transfer functions alpha_i'.
     ///
     /// # Errors
     /// [`ErrorKind::Numeric`](linkage::ErrorKind::Numeric) at a dead point of the group.
@@ -55,8 +57,9 @@ impl Contours {
         self.solve([feet[1] - feet[0], feet[2] - feet[0]])
     }
 
-    /// Angular accelerations (rad/s^2) for the accelerations of the feet (m/s^2) and the angular velocities `first` (rad/s); with
-    /// derivatives by the crank angle the second transfer functions.
+    /// Angular accelerations (rad/s^2) from the accelerations of the feet (m/s^2) and the angular velocities `first`
+    /// (rad/s).
+    /// From derivatives by the crank angle they are the second transfer functions.
     ///
     /// # Errors
     /// [`ErrorKind::Numeric`](linkage::ErrorKind::Numeric) at a dead point of the group.
@@ -80,8 +83,8 @@ impl Contours {
     }
 }
 
-/// Angular velocities (rad/s) and angular accelerations (rad/s^2) of leads and base link. Of `motions` are read the directions of the
-/// group's links and the whole motion of the links that carry its feet.
+/// Angular velocities (rad/s) and angular accelerations (rad/s^2) of leads and base link.
+/// `motions` supplies the directions of the group's links and the whole motion of the links that carry its feet.
 ///
 /// # Errors
 /// [`ErrorKind::Numeric`](linkage::ErrorKind::Numeric) at a dead point of the group.
@@ -130,7 +133,8 @@ mod tests {
     fn a_parallelogram_turns_as_one_and_three_parallel_leads_have_no_determinant() {
         let (up, along) = (Vec2::new(0.0, 1.0), Vec2::new(1.0, 0.0));
         let contours = Contours { leads: [up, up, along], sides: [along, along * 2.0] };
-        // The feet at rest but the third, which is drawn along its lead: the base moves along x without turning.
+        // All feet are at rest except the third, which is pulled along its lead. The base link moves along x without
+        // turning.
         let rates = contours.first([Vec2::zeros(), Vec2::zeros(), along * 3.0]).unwrap();
         assert_eq!(rates, [-3.0, -3.0, 0.0, 0.0]);
         let parallel = Contours { leads: [up; 3], ..contours };

@@ -1,8 +1,10 @@
 //! Reactions of the group from all its equations of equilibrium at once.
 //!
-//! Twelve unknowns, x and y of the forces at the three feet and the three heads, and three equations for each of the four links: forces
-//! along x and y, and moments, a lead's about its head and the base link's about the first head, each divided by a length so that all rows
-//! are forces. The system is solved as it stands, without using any order among the links.
+//! There are twelve unknowns: x and y of the forces at the three feet and the three heads.
+//! Each of the four links has three equations: forces along x and y, and moments.
+//! Moments of a lead are about its head, those of the base link about the first head. They are divided by a length so
+//! that all rows are forces.
+//! The system is solved without any order among the links.
 
 use super::{Known, Places, Reactions, singular};
 use linkage::error::Result;
@@ -44,13 +46,14 @@ struct System {
 }
 
 impl System {
-    /// Puts the known forces on a link on the right-hand side.
+    /// Adds the known forces on a link to the right-hand side.
     fn known(&mut self, link: usize, known: &Known, pole: Vec2, length: f64) {
         let values = [known.force.x, known.force.y, known.about(pole) / length];
         (0..3).for_each(|row| self.right[3 * link + row] = -values[row]);
     }
 
-    /// Lets `sign` times the force number `unknown` act on a link, at `arm` from its pole in the link's lengths.
+    /// Adds `sign` times the force number `unknown` to the equations of a link, at `arm` from its pole in the link's
+    /// lengths.
     fn force(&mut self, link: usize, unknown: usize, sign: f64, arm: Vec2) {
         for (column, axis) in [(2 * unknown, Vec2::new(sign, 0.0)), (2 * unknown + 1, Vec2::new(0.0, sign))] {
             for (row, value) in [axis.x, axis.y, cross(arm, axis)].into_iter().enumerate() {

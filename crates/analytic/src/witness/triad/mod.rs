@@ -1,11 +1,12 @@
 //! Published methods for the class III group of order 3: a base link on three leads, all pairs revolute.
 //!
-//! They are ways of their own to numbers that the two solvers find too, and share no equation with them: first transfer
-//! functions by Cramer's rule ([`cramer`]), the exchange of the driving link ([`class_change`]), and reactions by the
-//! singular Assur point ([`assur_point`]) or by all equations of equilibrium at once ([`linear_system`]).
+//! They compute quantities that the two solvers compute too, with independent equations:
+//! first transfer functions by Cramer's rule ([`cramer`]), the exchange of the driving link ([`class_change`]), and
+//! reactions by the singular Assur point ([`assur_point`]) or by all equations of equilibrium at once
+//! ([`linear_system`]).
 //!
-//! Everywhere here lead i goes from its foot A_i, the outer joint, to its head B_i, the joint with the base link. Arrays of three are in
-//! the order of [`Triad::leads`]; arrays of four are the three leads and then the base link.
+//! In these modules lead i goes from its foot A_i, the outer joint, to its head B_i, the joint with the base link.
+//! Arrays of three are in the order of [`Triad::leads`]. Arrays of four are the three leads and then the base link.
 
 pub mod assur_point;
 pub mod class_change;
@@ -41,15 +42,16 @@ pub struct Lead {
 /// A class III group of order 3 with revolute pairs only.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Triad {
-    /// The link on which all three leads hang.
+    /// The link to which all three leads are attached.
     pub base: usize,
     /// The leads, in the order of the group's outer joints.
     pub leads: [Lead; 3],
 }
 
 impl Triad {
-    /// Sees a group as a base link on three leads; `None` for any other group, and where a pair on one of the group's links is not
-    /// revolute, those with later groups included: such a pair would also transmit a moment.
+    /// Reads a group as a base link on three leads. `None` for any other group.
+    /// Also `None` where a pair on one of the group's links is not revolute, because it would also transmit a moment.
+    /// This includes pairs with later groups.
     #[must_use]
     pub fn of(mechanism: &Mechanism, group: &Group) -> Option<Self> {
         let touching = mechanism.joints().iter().filter(|joint| group.links.iter().any(|&l| joint.on(l).is_some()));
@@ -76,7 +78,7 @@ impl Triad {
         Some(Triad { base, leads: [lead(group.outer[0])?, lead(group.outer[1])?, lead(group.outer[2])?] })
     }
 
-    /// All groups of this sort in a case.
+    /// All groups of this kind in a case.
     #[must_use]
     pub fn all(case: &Case) -> Vec<Self> {
         case.structure.groups.iter().filter_map(|group| Triad::of(&case.mechanism, group)).collect()
@@ -97,8 +99,9 @@ impl Triad {
         }
     }
 
-    /// What is known to act on each link before the group's reactions: gravity and inertia m (g - a) at the mass centre, the moment
-    /// -J alpha, loads, and the forces in the joints with later groups, read from the state.
+    /// The known forces on each link before the group's reactions.
+    /// They are gravity and inertia m (g - a) at the mass centre, the moment -J alpha, and loads.
+    /// The forces in the joints with later groups are taken from the state.
     #[must_use]
     pub fn known(&self, case: &Case, state: &State) -> [Known; 4] {
         let (motions, forces) = (&state.motions, &state.forces);
@@ -134,7 +137,7 @@ impl Triad {
     }
 }
 
-/// Where the joints of the group are (m, world axes).
+/// Places of the group's joints (m, world axes).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Places {
     /// Outer joints.

@@ -1,4 +1,4 @@
-//! The smallest fault in every part, and what is said of it.
+//! The smallest fault in every part, and the error for it.
 
 use crate::case::{Case, CaseParts, Grid};
 use crate::drive::{Drive, DriveMotion, Drives, Load, MotionLaw, Motor, MotorLaw};
@@ -7,7 +7,7 @@ use crate::math::Vec2;
 use crate::mechanism::{AssemblyMode, LinkPose, Side, Structure};
 use crate::{Error, ErrorKind};
 
-/// The error that the four-bar makes with one part changed.
+/// The error of the four-bar with one part changed.
 fn refused(change: impl FnOnce(&mut CaseParts)) -> Error {
     turning(four_bar()).with(change).unwrap_err()
 }
@@ -91,7 +91,7 @@ fn numbers_of_a_motor_are_such() {
     }
 }
 
-/// A four-bar that hangs on the end of another crank has two freedoms.
+/// A four-bar whose chain hangs on the end of a second crank has two degrees of freedom.
 #[test]
 fn drives_together_are_what_is_solved() {
     let links = vec![
@@ -121,7 +121,7 @@ fn drives_together_are_what_is_solved() {
     let motor = || Some(Motor::ideal(MotorLaw::Constant { torque: 1.0 }, 1.0));
     let pair = of(free(0, motor()), free(1, None)).unwrap();
     assert_eq!(pair.drives.free().count(), 2);
-    // The crank's motor alone exerts a moment.
+    // Only the crank's motor exerts a moment.
     assert_eq!(pair.drives.with_moment().map(|(index, _)| index).collect::<Vec<_>>(), [0]);
     let nominal = pair.nominal();
     assert!(!nominal.is_free() && nominal.crank().motor().is_some() && nominal.crank().moving_motor().is_none());
@@ -170,7 +170,7 @@ fn a_start_pose_closes_the_joints_where_the_drive_starts() {
     says(Input, "start", &["\"rocker\""], |parts| parts.start.0[3].angle = f64::NAN);
     says(Geometry, "start", &["\"B\"", "e-8 m"], |parts| parts.start.0[3].angle += 1e-8);
     says(Geometry, "start", &["\"crank\"", "1.000e-8 rad"], |parts| parts.drives.crank_mut().start = 1e-8);
-    // Whole turns and rounding are no fault.
+    // Whole turns and rounding are not faults.
     let turned = turning(four_bar()).with(|parts| {
         parts.start.0[2].angle += 3.0 * std::f64::consts::TAU;
         parts.start.0[3].angle += 1e-14;

@@ -60,7 +60,8 @@ fn a_force_keeps_its_direction_or_follows_its_link() {
 
 #[test]
 fn a_resisting_force_opposes_the_point_not_the_link() {
-    // The point one metre along the link's x axis, above its origin, moves with (-1, 2) m/s where the link turns with 1 rad/s.
+    // The point one metre along the link's x axis is above its origin. It moves with (-1, 2) m/s where the link turns
+    // with 1 rad/s.
     let load = Load::ResistingForce { at: side(1, 1.0, 0.0), force: 10.0 };
     let found = act(&load, &motions(1.0), &[], 0.0)[0];
     assert!((found.force - Vec2::new(1.0, -2.0) * (10.0 / 5f64.sqrt())).norm() < 1e-14);
@@ -85,8 +86,8 @@ fn a_spring_pulls_when_it_is_long_and_pushes_when_it_is_short() {
 
 #[test]
 fn a_damper_resists_the_rate_of_its_length() {
-    // The point at (3, 5) moves with (0, 2) - 5 (1, 0) = (-5, 2) m/s where the link turns with 1 rad/s: its distance from (0, 1) changes with
-    // (-5 * 0.6 + 2 * 0.8) = -1.4 m/s.
+    // The point at (3, 5) moves with (0, 2) - 5 (1, 0) = (-5, 2) m/s where the link turns with 1 rad/s.
+    // Its distance from (0, 1) changes with (-5 * 0.6 + 2 * 0.8) = -1.4 m/s.
     let load = Load::Damper { ends: [side(0, 0.0, 1.0), side(1, 5.0, 0.0)], damping: 10.0 };
     let [ground, link] = act(&load, &motions(1.0), &[], 0.0)[..] else { panic!("two ends") };
     assert!((ground.force - Vec2::new(0.6, 0.8) * -14.0).norm() < 1e-13, "{ground:?}");
@@ -96,7 +97,8 @@ fn a_damper_resists_the_rate_of_its_length() {
 
 #[test]
 fn a_torsion_spring_counts_turns_from_the_start() {
-    // At the start the link stands at 90 degrees; two turns later it is wound up by two turns, whatever the angle of the pose was called.
+    // At the start the link stands at 90 degrees. Two turns later the spring is wound up by two turns, whatever angle
+    // the pose reports.
     let load = Load::TorsionSpring { links: [0, 1], stiffness: 2.0, free_angle: 0.5 };
     let still = motions(0.0);
     for turns in [0.0, 2.0, -1.0] {

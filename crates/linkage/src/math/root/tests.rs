@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use super::*;
 use crate::math::KeepNan;
 
-/// An answer of a search whose function cannot fail.
+/// The result of a search whose function cannot fail.
 fn sure<T>(answer: Result<T, Infallible>) -> T {
     let Ok(found) = answer;
     found
@@ -16,7 +16,7 @@ const EXACT: Close = Close { value: 0.0, width: 0.0 };
 #[test]
 fn signs_change_over_zero_and_not_over_what_is_no_number() {
     assert!(changes(-1.0, 2.0) && changes(2.0, -1.0) && changes(0.0, 1.0) && changes(-1.0, 0.0) && changes(0.0, 0.0));
-    // Their product would be zero.
+    // Their product would underflow to zero.
     assert!(!changes(1e-200, 1e-200) && !changes(-1e-200, -1e-200));
     assert!(!changes(f64::NAN, 1.0) && !changes(-1.0, f64::NAN) && !changes(f64::NAN, 0.0));
 }
@@ -71,7 +71,7 @@ fn newton_is_held_between_bounds() {
     for (bounds, rises) in [([-0.3, 0.1], true), ([0.1, -0.3], false)] {
         assert!(sure(newton(bounds, rises, 0.1, 1e-9, steep)).unwrap().abs() < f64::EPSILON);
     }
-    // Without a slope halves alone are left.
+    // With zero slope only bisection remains.
     let flat = |x: f64| Ok::<_, Infallible>((x - 0.3, 0.0));
     assert!((sure(newton([0.0, 1.0], true, 0.5, 1e-9, flat)).unwrap() - 0.3).abs() < 1e-15);
     let touched = |x: f64| Ok::<_, Infallible>(((x - 0.5).powi(3), 3.0 * (x - 0.5).powi(2)));
@@ -112,7 +112,7 @@ fn cubic(zero: f64, a: f64, b: f64) -> impl Fn(f64) -> (f64, f64) {
 }
 
 proptest! {
-    /// All ways come to the same zero, to rounding, from either sense.
+    /// All methods find the same zero, to rounding, for both signs.
     #[test]
     fn every_way_finds_the_zero(zero in -5.0f64..5.0, below in 0.01f64..10.0, above in 0.01f64..10.0, a in 0.0f64..10.0, b in 0.1f64..10.0,
         falls in any::<bool>()) {
@@ -131,7 +131,7 @@ proptest! {
         }
         let polish = sure(polished(zero + 1e-3, 5, 1e-2, |x| Ok(f(x))));
         prop_assert!(near(polish) || a * 1e-4 > b, "{polish}");
-        // From one end on, in the sense in which the zero lies, however far it is.
+        // From one end in the direction of the zero, however far it is.
         let wide = sure(widened(ends[0], 1e-3, 100.0, |x| Ok(f(x).0))).unwrap();
         prop_assert!(wide[0].0 <= zero && zero <= wide[1].0 && changes(wide[0].1, wide[1].1));
         let of_length = |length: f64| f(low + length).0;
@@ -140,7 +140,7 @@ proptest! {
         prop_assert!((length - below).abs() <= 16.0 * f64::EPSILON * low.abs().larger(high.abs()), "{length} {below}");
     }
 
-    /// The width that is asked for is kept, and no more steps are made than it takes.
+    /// The search keeps the requested width and makes no more steps than it needs.
     #[test]
     fn regula_falsi_ends_when_it_is_told(zero in -1.0f64..1.0, tolerance in 1e-9f64..1e-2) {
         let f = |x: f64| (x - zero).exp() - 1.0;

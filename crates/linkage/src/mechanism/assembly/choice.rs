@@ -1,4 +1,4 @@
-//! Which configuration a group takes at the start: that of the mode, rank or rough places asked for.
+//! The configuration of a group at the start: that of the required mode, number or rough places.
 
 use super::configurations::configurations;
 use super::mode::{AssemblyMode, Choice, Configuration, StartGroup};
@@ -7,7 +7,7 @@ use crate::error::{Advice, Error, ErrorKind, Result};
 use crate::math::KeepNan;
 use crate::mechanism::{Group, GroupKind, Mechanism, Pose};
 
-/// Poses the links of a group as asked.
+/// Poses the links of a group as required.
 pub(super) fn place(mechanism: &Mechanism, group: &Group, wanted: &StartGroup, pose: &mut Pose) -> Result<Choice> {
     let all_known = group.kind != GroupKind::Higher || four_link::is_handled(mechanism, group, pose);
     if !all_known && wanted.rank.is_none() && !wanted.near.is_empty() {
@@ -88,7 +88,8 @@ fn contradiction(wanted: &StartGroup, mode: AssemblyMode) -> Error {
         .help("correct the mode or the rough place; the wrong branch is never chosen silently")
 }
 
-/// The configuration nearest to the rough places, with its largest distance from them and that of the next (m).
+/// The configuration nearest to the rough places, with its largest distance from them and that of the next
+/// configuration (m).
 fn nearest<'a>(
     mechanism: &Mechanism,
     group: &Group,
@@ -105,8 +106,8 @@ fn nearest<'a>(
     };
     let mut order: Vec<(f64, &Configuration)> = all.iter().map(|one| (distance(one), one)).collect();
     order.sort_by(|a, b| a.0.total_cmp(&b.0));
-    // Places that are less than twice as near to one configuration as to the next do not tell them apart; nor do they
-    // if they lie beyond the mechanism from all of them.
+    // Places that are less than twice as near to one configuration as to the next do not distinguish them. Neither do
+    // places that are farther from all configurations than the size of the mechanism.
     if let [(first, a), (second, b), ..] = order[..]
         && 2.0 * first > second
     {
@@ -136,7 +137,7 @@ fn nearest<'a>(
     }
 }
 
-/// The mode of a dyad; for higher groups, whose configurations have no names, `rank`.
+/// The mode of a dyad. For higher groups, whose configurations have no names, `rank`.
 fn named(mode: AssemblyMode, rank: &'static str) -> &'static str {
     if mode == AssemblyMode::Followed { rank } else { mode.name() }
 }

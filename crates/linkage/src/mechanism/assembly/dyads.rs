@@ -1,8 +1,9 @@
-//! All configurations of the five dyads, and how well each transmits.
+//! All configurations of the five dyads, and their transmission angles.
 //!
-//! With one outer joint on each link and the inner joint between them, a dyad is closed by one scalar equation: of two circles (RRR), a
-//! circle and a line (RRP, and RPR seen from the guide), or two lines (RPP, PRP). A prismatic pair gives the angle of one link by
-//! the other's, and keeps the second's place on the line through the first's along the axis.
+//! With one outer joint on each link and the inner joint between them, a dyad is closed by one scalar equation.
+//! It is that of two circles (RRR), a circle and a line (RRP, and RPR seen from the guide), or two lines (RPP, PRP).
+//! A prismatic pair gives the angle of one link from that of the other.
+//! It keeps the second link's place on the line through the first link's place along the axis.
 
 #[cfg(test)]
 mod tests;
@@ -12,8 +13,8 @@ use crate::error::{Error, ErrorKind, Result};
 use crate::math::{Vec2, cross, rotated, turned, unit};
 use crate::mechanism::{Group, GroupKind, Joint, LinkPose, Mechanism, Pose};
 
-/// Sine of the angle between two axes below which they count as parallel: rounding of their directions would move the links by
-/// more than a ten-thousandth of the mechanism.
+/// Sine of the angle between two axes below which they count as parallel. Rounding of their directions would then move
+/// the links by more than a ten-thousandth of the mechanism.
 const PARALLEL: f64 = 1e-12;
 
 /// Angle (rad) that turns `from` into the direction of `to`.
@@ -26,7 +27,7 @@ struct Member<'a> {
     link: usize,
     outer: &'a Joint,
     inner: &'a Joint,
-    /// Pose of the link that the outer joint is hung on.
+    /// Pose of the link to which the outer joint is attached.
     base: LinkPose,
 }
 
@@ -122,7 +123,7 @@ pub(super) fn transmission_sine(mechanism: &Mechanism, group: &Group, pose: &Pos
     }
 }
 
-/// The link with the outer revolute pair, then that with the outer prismatic one.
+/// The link with the outer revolute pair, then the link with the outer prismatic one.
 fn prismatic_last<'a, 'b>([a, b]: &'b [Member<'a>; 2]) -> [&'b Member<'a>; 2] {
     if a.outer.slides() { [b, a] } else { [a, b] }
 }
@@ -151,7 +152,7 @@ fn parallel(sine: f64) -> Error {
     .help("check the axes, or start at a crank angle at which they cross")
 }
 
-/// The inner joint is where the circles about the outer joints meet.
+/// The inner joint lies where the circles about the outer joints meet.
 fn rrr(members: &[Member; 2]) -> Result<Vec<Configuration>> {
     let [first, second] = members.each_ref().map(Member::hook);
     let [radius_1, radius_2] = members.each_ref().map(|member| member.span().norm());
@@ -177,7 +178,8 @@ fn rrr(members: &[Member; 2]) -> Result<Vec<Configuration>> {
     Ok(vec![one(AssemblyMode::Left, across), one(AssemblyMode::Right, -across)])
 }
 
-/// The inner joint moves on a line along the guide; it is where the circle of the rod about the outer pin meets that line.
+/// The inner joint moves on a line along the guide. It lies where the circle of the rod about the outer pin meets that
+/// line.
 fn rrp(members: &[Member; 2]) -> Result<Vec<Configuration>> {
     let [rod, slider] = prismatic_last(members);
     let (axis, pin, length) = (slider.guide(), rod.hook(), rod.span().norm());
@@ -202,8 +204,8 @@ fn rrp(members: &[Member; 2]) -> Result<Vec<Configuration>> {
     Ok(vec![one(AssemblyMode::Ahead, along), one(AssemblyMode::Behind, -along)])
 }
 
-/// Across the axis e, the outer pins are as far apart as both links' offsets say: e x d = h. Along it, they are sqrt(d^2 - h^2) apart, one
-/// way or the other; d and its components give e.
+/// Across the axis e, the distance of the outer pins is given by both links' offsets: e x d = h.
+/// Along it, the distance is sqrt(d^2 - h^2), in one direction or the other. d and its components give e.
 fn rpr(members: &[Member; 2]) -> Result<Vec<Configuration>> {
     let [first, second] = in_pair_order(members);
     let offset = |member: &Member| cross(member.axis_of(member.inner), member.span());
@@ -229,7 +231,8 @@ fn rpr(members: &[Member; 2]) -> Result<Vec<Configuration>> {
     Ok(vec![one(AssemblyMode::Ahead, along), one(AssemblyMode::Behind, -along)])
 }
 
-/// Both angles are those of the guides; the slider moves along the outer axis until the places of the inner joint are in line.
+/// Both angles are those of the guides. The slider moves along the outer axis until the places of the inner joint are
+/// in line.
 fn rpp(members: &[Member; 2]) -> Result<Vec<Configuration>> {
     let [swivel, slider] = prismatic_last(members);
     let outer = slider.guide();
@@ -248,7 +251,7 @@ fn rpp(members: &[Member; 2]) -> Result<Vec<Configuration>> {
     Ok(vec![configuration(members, AssemblyMode::Only, poses)])
 }
 
-/// The inner pin is where the two lines cross on which the sliders carry it.
+/// The inner pin lies where the two lines cross on which the sliders move it.
 fn prp(members: &[Member; 2]) -> Result<Vec<Configuration>> {
     let axes = members.each_ref().map(Member::guide);
     let sine = cross(axes[0], axes[1]);

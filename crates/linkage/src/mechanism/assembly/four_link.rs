@@ -1,9 +1,10 @@
 //! All real configurations of an Assur group of four links, with any revolute and prismatic pairs.
 //!
-//! There are two such groups: the class III group of order 3, a base link on three leads, and the class IV group of order 2, a
-//! quadrilateral of two ternary and two binary links that changes shape. The second is the first seen from one of its
-//! ternary links: that link is the frame, the other the base, and the leads are the two binary links and what the group
-//! hangs on, taken as one body.
+//! There are two such groups: the class III group of order 3, a base link on three leads, and the class IV group of
+//! order 2, a quadrilateral of two ternary and two binary links that changes shape.
+//! The second is the first seen from one of its ternary links. That link is the frame and the other ternary link the
+//! base.
+//! The leads are the two binary links and the links before the group, taken as one body.
 
 use super::mode::{AssemblyMode, Configuration};
 use super::three_leads::{Conditions, End, Lead, Pair};
@@ -16,7 +17,7 @@ use std::f64::consts::TAU;
 #[cfg(test)]
 mod tests;
 
-/// A body that takes part: a link of the group, or what the group hangs on.
+/// A body of the layout: a link of the group, or the links before the group as one body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Body {
     Link(usize),
@@ -32,7 +33,7 @@ struct Layout {
 }
 
 impl Layout {
-    /// Sorts out the links; `None` if the group is none of the two.
+    /// Assigns the roles of the links; `None` if the group is neither of the two.
     fn of(mechanism: &Mechanism, group: &Group, pose: &Pose) -> Option<Self> {
         if group.links.len() != 4 {
             return None;
@@ -60,7 +61,7 @@ impl Layout {
                 }
             })
         };
-        // The joint between two bodies, if there is just one.
+        // The joint between two bodies, if there is exactly one.
         let between = |a: Body, b: Body| {
             let both = |&&joint: &&usize| end(joint, a).is_some() && end(joint, b).is_some();
             let mut found = group.inner.iter().chain(&group.outer).filter(both);
@@ -83,14 +84,15 @@ impl Layout {
         Some(Layout { frame, base, leads })
     }
 
-    /// Poses of the four links, in the order of the group, from the base's pose in the frame; `None` if a lead slides free.
+    /// Poses of the four links, in the order of the group, from the base's pose in the frame; `None` if a lead can
+    /// slide freely.
     fn poses(&self, group: &Group, base: &LinkPose) -> Option<Vec<LinkPose>> {
         let mut in_frame = Vec::with_capacity(3);
         for (body, lead) in &self.leads {
             in_frame.push((*body, lead.near.lead.place, lead.pose(base)?));
         }
         let frame = match in_frame.iter().find(|(body, ..)| *body == Body::World) {
-            // The world is a lead, seen from the frame: one point of it tells where the frame is in the world.
+            // Seen from the frame, the world is a lead. One point of it gives the place of the frame in the world.
             Some((_, place, world)) => LinkPose::through(world.point(*place), *place, -world.angle),
             None => LinkPose::GROUND,
         };
@@ -112,10 +114,11 @@ pub(super) fn is_handled(mechanism: &Mechanism, group: &Group, pose: &Pose) -> b
     Layout::of(mechanism, group, pose).is_some()
 }
 
-/// All real configurations of the group, by the angle of its base or, in class IV, of the last of its ternary links.
+/// All real configurations of the group, ordered by the angle of its base or, in class IV, of the last of its ternary
+/// links.
 ///
 /// # Errors
-/// [`ErrorKind::Geometry`] if there is none, [`ErrorKind::Unsupported`] if the group is another than the two.
+/// [`ErrorKind::Geometry`] if there is none, [`ErrorKind::Unsupported`] if the group is neither of the two.
 pub(super) fn configurations(mechanism: &Mechanism, group: &Group, pose: &Pose) -> Result<Vec<Configuration>> {
     let layout = Layout::of(mechanism, group, pose).ok_or_else(|| {
         let (links, class) = (group.links.len(), group.class);
@@ -140,7 +143,7 @@ pub(super) fn configurations(mechanism: &Mechanism, group: &Group, pose: &Pose) 
             .help("check the lengths and the ground points, or start at a crank angle that can be reached"));
     }
     let index = group.links.iter().position(|&link| link == layout.base).expect("the base is a link of the group");
-    // From just below zero: an angle that is zero but for rounding has one place in the order.
+    // Counted from just below zero, so that an angle that is zero to rounding has a unique place in the order.
     let rank = |one: &Configuration| (one.links[index].angle + 1e-9).rem_euclid(TAU);
     all.sort_by(|a, b| rank(a).total_cmp(&rank(b)));
     Ok(all)

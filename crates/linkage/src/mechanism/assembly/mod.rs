@@ -1,8 +1,10 @@
 //! The pose at t = 0: the crank at its angle, then group after group in its assembly mode.
 //!
-//! Dyads are placed in closed form, groups of four links by the zeros of a trigonometric polynomial, which misses
-//! none of their configurations, all other groups by Newton's method from a rough drawing. The formulas here are the trunk's own: the
-//! analytic solvers neither provide nor use them, so that a slip in one of the three shows.
+//! Dyads are placed in closed form.
+//! Groups of four links are placed by the zeros of a trigonometric polynomial, which finds all their configurations.
+//! All other groups are placed by Newton's method from a rough drawing.
+//! The formulas here are independent of those of the analytic solvers, in both directions, so that an error in one of
+//! the three shows.
 
 mod choice;
 mod configurations;
@@ -20,9 +22,9 @@ pub use mode::{AssemblyMode, Choice, Configuration, StartGroup};
 use super::{LinkPose, Mechanism, Pose, Structure};
 use crate::error::{Error, Result};
 
-/// Pose at the start, with the driving links at the world angles `drive_angles` (rad, in the order of
-/// [`Structure::drivers`]) and each group as asked in `wanted` (in the order of [`Structure::groups`]); and the
-/// assembly mode of each group.
+/// The pose at the start, and the assembly mode of each group.
+/// The driving links have the world angles `drive_angles` (rad, in the order of [`Structure::drivers`]).
+/// Each group has the configuration required in `wanted` (in the order of [`Structure::groups`]).
 ///
 /// # Errors
 /// Those of [`first_choices`].
@@ -36,13 +38,15 @@ pub fn first_pose(
     Ok((pose, choices.into_iter().map(|choice| choice.mode).collect()))
 }
 
-/// As [`first_pose`], with what is known of each group's choice.
+/// As [`first_pose`], with details of each group's choice.
 ///
 /// # Errors
-/// [`ErrorKind::Geometry`](crate::ErrorKind::Geometry) if a group's links do not reach each other, if rough places fit two configurations,
-/// contradict the mode asked for, or lead to none; [`ErrorKind::Unsupported`](crate::ErrorKind::Unsupported) for a group whose
-/// configurations are not all known and that is given no rough places; [`ErrorKind::Input`](crate::ErrorKind::Input) if a group is asked for
-/// nothing, or for more configurations than it has.
+/// [`ErrorKind::Geometry`](crate::ErrorKind::Geometry) if a group's links do not reach each other, or if rough places
+/// fit two configurations, contradict the required mode, or lead to no configuration.
+/// [`ErrorKind::Unsupported`](crate::ErrorKind::Unsupported) for a group whose configurations are not all known and
+/// that has no rough places.
+/// [`ErrorKind::Input`](crate::ErrorKind::Input) if nothing is required of a group, or a configuration number that it
+/// does not have.
 pub fn first_choices(
     mechanism: &Mechanism,
     structure: &Structure,
@@ -92,7 +96,7 @@ mod tests {
         let mode = |mode| start(StartGroup { mode: Some(mode), ..StartGroup::default() }).unwrap().0;
         let (left, right) = (mode(AssemblyMode::Left), mode(AssemblyMode::Right));
         assert!(left.closure(&mechanism) < 1e-15 && right.closure(&mechanism) < 1e-15);
-        // A = (0, 1), C = (4, 0): B of the two modes mirrors at the line AC.
+        // A = (0, 1), C = (4, 0). The places of B in the two modes are mirror images at the line AC.
         let (a, axis) = (Vec2::new(0.0, 1.0), Vec2::new(4.0, -1.0).normalize());
         let mirrored = a + axis * (2.0 * axis.dot(&(point_b(&left) - a))) - (point_b(&left) - a);
         assert_relative_eq!(mirrored, point_b(&right), epsilon = 1e-14);

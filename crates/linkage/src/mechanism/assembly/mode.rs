@@ -1,29 +1,29 @@
-//! Assembly modes: which of its real configurations a group takes, and how one is asked for.
+//! Assembly modes: names for the real configurations of a group, and requests for one of them.
 
 use crate::math::Vec2;
 use crate::mechanism::LinkPose;
 use crate::mechanism::pose::SidePoint;
 
-/// Which of its real configurations a group takes.
+/// The assembly mode of a group: which of its real configurations it has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AssemblyMode {
-    /// Of a dyad: the inner joint lies to the left of the line from the first link's outer joint to the second link's.
+    /// Dyad: the inner joint lies to the left of the line from the first link's outer joint to the second link's.
     Left,
-    /// Of a dyad: the inner joint lies to the right of that line.
+    /// Dyad: the inner joint lies to the right of that line.
     Right,
-    /// Of an RRP or RPR dyad: measured along the axis of its prismatic pair, the inner joint lies ahead of the outer pin (RRP), or
-    /// the outer pin of the pair's second link ahead of that of its first (RPR).
+    /// RRP dyad: along the axis of its prismatic pair, the inner joint lies ahead of the outer pin.
+    /// RPR dyad: along that axis, the outer pin of the pair's second link lies ahead of that of its first.
     Ahead,
-    /// Of an RRP or RPR dyad: it lies behind.
+    /// RRP or RPR dyad: it lies behind.
     Behind,
-    /// Of an RPP or PRP dyad, which has one configuration.
+    /// RPP or PRP dyad, which has only one configuration.
     Only,
-    /// Of a higher group: the configuration of the start pose, followed from there.
+    /// Higher group: the configuration of the start pose, followed from there.
     Followed,
 }
 
 impl AssemblyMode {
-    /// The same configuration seen with a dyad's links in the other order.
+    /// The same configuration for a dyad with its links in the other order.
     #[must_use]
     pub fn swapped(self) -> Self {
         match self {
@@ -47,7 +47,7 @@ impl AssemblyMode {
     }
 }
 
-/// One real configuration of a group at a given pose of the links it hangs on.
+/// One real configuration of a group, for a given pose of the links before it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Configuration {
     /// Its mode.
@@ -56,24 +56,24 @@ pub struct Configuration {
     pub links: Vec<LinkPose>,
 }
 
-/// What is asked of one group's first pose. The links stand in the order of [`Group::links`].
+/// The required first pose of one group. The links are in the order of [`Group::links`].
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct StartGroup {
-    /// Assembly mode asked for.
+    /// Required assembly mode.
     pub mode: Option<AssemblyMode>,
-    /// Place of the configuration asked for in the list of [`configurations`](super::configurations), counted from 1.
+    /// Number of the required configuration in the list of [`configurations`](super::configurations), counted from 1.
     pub rank: Option<usize>,
-    /// Points of the group's links and where each roughly is (m).
+    /// Points of the group's links with their approximate places (m).
     pub near: Vec<(SidePoint, Vec2)>,
 }
 
-/// Which configuration a group has taken at the start, and how clear that was.
+/// The configuration of a group at the start, and how clear the choice was.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Choice {
     /// Its assembly mode.
     pub mode: AssemblyMode,
-    /// Largest distance of its points from their rough places (m), if such were given.
+    /// Largest distance of its points from their approximate places (m), if any were given.
     pub nearest_m: Option<f64>,
-    /// The same of the next configuration (m), if there is one and all are known.
+    /// The same for the next configuration (m), if there is one and all are known.
     pub next_m: Option<f64>,
 }

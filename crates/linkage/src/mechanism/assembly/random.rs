@@ -24,7 +24,7 @@ impl Random {
         LinkPose { origin: self.place(), angle: self.number(-3.1, 3.1) }
     }
 
-    /// A joint between links `a` and `b`, either of which may come first, at random places.
+    /// A joint between links `a` and `b`, in random order, at random places.
     pub fn joint(&mut self, name: &str, slides: bool, a: usize, b: usize) -> Joint {
         let [first, second] = if self.yes() { [a, b] } else { [b, a] };
         let side = |link, local| Side { link, local };
@@ -33,7 +33,8 @@ impl Random {
         Joint { name: name.into(), kind, first: side(first, self.place()), second: side(second, self.place()) }
     }
 
-    /// Moves the second side of a joint so that it holds in `pose`: of a revolute one its place, of a prismatic one its axis too.
+    /// Moves the second side of a joint so that the joint is closed in `pose`: the place of a revolute one, place and
+    /// axis of a prismatic one.
     pub fn fitted(&mut self, mut joint: Joint, pose: &Pose) -> Joint {
         let (first, second) = (pose.0[joint.first.link], pose.0[joint.second.link]);
         let back = |v: Vec2| rotated(unit(-second.angle), v);
@@ -48,7 +49,7 @@ impl Random {
     }
 }
 
-/// A mechanism of `count` links and the given joints whose points are the joints' places.
+/// A mechanism of `count` links and the given joints. Its points are the joints' places.
 pub fn mechanism(count: usize, joints: Vec<Joint>) -> Mechanism {
     let link = |index: usize| Link {
         name: if index == 0 { "ground".into() } else { format!("link{index}") },
@@ -66,7 +67,7 @@ pub fn mechanism(count: usize, joints: Vec<Joint>) -> Mechanism {
     Mechanism::new(links, joints).unwrap()
 }
 
-/// The group of `links`, as the structural analysis would find it were all others known.
+/// The group of `links`, as the structural analysis would find it if all other links were known.
 pub fn group(mechanism: &Mechanism, links: &[usize], kind: GroupKind) -> Group {
     let inside = |joint: usize| {
         let joint = &mechanism.joints()[joint];
@@ -78,7 +79,7 @@ pub fn group(mechanism: &Mechanism, links: &[usize], kind: GroupKind) -> Group {
     Group { links: links.into(), inner: all.filter(|&joint| inside(joint) == 2).collect(), outer, class: 2, kind }
 }
 
-/// Largest distance between joints of one link, and between bases (m): what errors are measured by.
+/// Largest distance between joints of one link, and between bases (m). Errors are compared with it.
 pub fn size(mechanism: &Mechanism, pose: &Pose) -> f64 {
     let bases = pose.0.iter().map(|link| link.origin.norm()).fold(0.0, f64::larger);
     mechanism.size().larger(bases)

@@ -1,7 +1,8 @@
-//! A group whose configurations are not all known, started from a rough drawing.
+//! First pose of a group whose configurations are not all known, from a rough drawing.
 //!
-//! Each link is laid through the rough places of its points, through joints with links that are placed already, and along their
-//! axes. From there all joints of the group are closed at once by Newton's method, damped after Levenberg and Marquardt:
+//! Each link is placed by the rough places of its points, by joints with links that are placed already, and by their
+//! axes.
+//! Then Newton's method closes all joints of the group at once, damped after Levenberg and Marquardt:
 //! (J^T J + lambda) dx = -J^T f with the gaps f of all joints, as many as unknowns.
 
 use super::dyads::turn;
@@ -18,9 +19,10 @@ mod tests;
 
 type Near = [(SidePoint, Vec2)];
 
-/// The group counts as closed when no joint is open by more than this share of the mechanism's size: rounding.
+/// The group counts as closed when no joint is open by more than this share of the mechanism's size, which is rounding.
 const CLOSED: f64 = 1e-13;
-/// Most steps of the damped iteration. From a drawing that is right to a tenth of a link it takes about ten.
+/// Largest number of steps of the damped iteration. From a drawing that is right to a tenth of a link it takes about
+/// ten.
 const STEPS: usize = 200;
 
 /// Poses the links of the group near the rough places `near`.
@@ -52,7 +54,8 @@ pub(super) fn place(mechanism: &Mechanism, group: &Group, near: &Near, pose: &mu
     Ok(Choice { mode: AssemblyMode::Followed, nearest_m: Some(farthest), next_m: None })
 }
 
-/// Half the length of the shortest link of the group that carries the point and has a length, else of the longest link of all.
+/// Half the length of the shortest link of the group that carries the point and has a length, otherwise of the longest
+/// link of all.
 fn half_link(mechanism: &Mechanism, group: &Group, point: &str) -> f64 {
     let links = group.links.iter().map(|&link| &mechanism.links()[link]);
     let carriers = links.filter(|link| link.points.iter().any(|own| own.name == point));
@@ -60,7 +63,7 @@ fn half_link(mechanism: &Mechanism, group: &Group, point: &str) -> f64 {
     0.5 * if least.is_finite() { least } else { mechanism.size() }
 }
 
-/// Lays every link of the group as well as the rough places and what is placed allow.
+/// Places every link of the group as well as the rough places and the placed links allow.
 fn lay_out(mechanism: &Mechanism, group: &Group, near: &Near, pose: &mut Pose) -> Result<()> {
     let mut left = group.links.clone();
     while !left.is_empty() {
@@ -83,7 +86,7 @@ fn lay_out(mechanism: &Mechanism, group: &Group, near: &Near, pose: &mut Pose) -
     Ok(())
 }
 
-/// The pose of a link from its rough places and its joints with placed links, if they are enough.
+/// The pose of a link from its rough places and its joints with placed links; `None` if they are not enough.
 fn lay(mechanism: &Mechanism, link: usize, near: &Near, hooks: &[&Joint], pose: &Pose) -> Option<LinkPose> {
     let own = |name: &str| mechanism.links()[link].points.iter().find(|point| point.name == name);
     let rough = near.iter().filter_map(|(point, place)| Some((own(&point.name)?.local, *place)));
@@ -100,7 +103,7 @@ fn lay(mechanism: &Mechanism, link: usize, near: &Near, hooks: &[&Joint], pose: 
         let axis = rotated(unit(pose.0[other].angle), joint.axis_on(other)?);
         Some(turn(joint.axis_on(link)?, axis))
     });
-    // The turn that fits the places best: that of the sum of conj(local) world, as complex numbers.
+    // The rotation that fits the places best: that of the sum of conj(local) world, as complex numbers.
     let fit: Vec2 = places
         .iter()
         .map(|place| (place.0 - local, place.1 - world))
@@ -144,7 +147,7 @@ impl System<'_> {
         [0, 1].map(|k| rotated(unit(pose.0[links[k]].angle), axes[k]))
     }
 
-    /// Rows of the Jacobian, one a gap.
+    /// Rows of the Jacobian, one per gap.
     fn jacobian(&self, pose: &Pose) -> Vec<Vec<f64>> {
         let mut rows = vec![vec![0.0; 3 * self.group.links.len()]; self.unknowns()];
         for (index, joint) in self.joints().enumerate() {
@@ -152,7 +155,7 @@ impl System<'_> {
             let places = sides.map(|side| pose.0[side.link].point(side.local));
             for (k, sign) in [(0, -1.0), (1, 1.0)] {
                 let Some(at) = self.group.links.iter().position(|&link| link == sides[k].link) else { continue };
-                // The place moves by (dx, dy) and by the turn of its arm.
+                // The place moves by (dx, dy) and by the rotation of its arm.
                 let arm = turned(places[k] - pose.0[sides[k].link].origin) / self.size;
                 let moves = [Vec2::new(1.0, 0.0), Vec2::new(0.0, 1.0), arm];
                 for (column, by) in moves.into_iter().enumerate() {
@@ -196,7 +199,7 @@ impl System<'_> {
         moved
     }
 
-    /// Closes all joints; `None` if that does not succeed.
+    /// Closes all joints; `None` if that fails.
     fn close(&self, pose: &mut Pose) -> Option<()> {
         let square = |gaps: &[f64]| gaps.iter().map(|gap| gap * gap).sum::<f64>();
         let n = self.unknowns();
@@ -232,7 +235,7 @@ impl System<'_> {
         self.polish(pose)
     }
 
-    /// A few steps of Newton's method as it is, which keeps all digits that the normal equations lose.
+    /// A few undamped steps of Newton's method. They recover the digits that the normal equations lose.
     fn polish(&self, pose: &mut Pose) -> Option<()> {
         let n = self.unknowns();
         for _ in 0..4 {
@@ -247,7 +250,7 @@ impl System<'_> {
             jacobian.solve(&mut step);
             *pose = self.moved(pose, &step);
         }
-        // Measured as everywhere: axes that point against each other are open.
+        // Usual measure: opposite axes count as open.
         let open = |joint: &Joint| {
             let sides = [joint.first, joint.second];
             let places = sides.map(|side| pose.0[side.link].point(side.local));

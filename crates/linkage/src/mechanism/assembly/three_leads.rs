@@ -1,17 +1,19 @@
 //! A base link on three leads: all its poses.
 //!
-//! Each lead has a pair with the frame (near) and one with the base (far), and leaves the base one condition. With O the place of
-//! the base's reference point, b = e^(i beta) its direction and w the far joint on it:
+//! Each lead has a pair with the frame (near) and one with the base (far), and gives the base one condition. With O the
+//! place of the base's reference point, b = e^(i beta) its direction and w the far joint on it:
 //! - both pairs revolute: O + b w lies on a circle, |O + b w - a| = l;
 //! - near prismatic, far revolute: O + b w lies on a line of the frame, e x (O + b w - a) = h;
 //! - near revolute, far prismatic: the near pin lies on a line of the base, (b e) x (O + b w - a) = h;
 //! - both prismatic: the base's angle is given.
 //!
-//! For a given beta all are circles and lines for O. Measured from the centre of one circle of radius l, X = O - c, the other two
-//! conditions are linear, p1 + q1 . X = p2 + q2 . X = 0 (two circles by their radical line), and |X| = l leaves
-//! |q2 p1 - q1 p2|^2 = l^2 (q1 x q2)^2. In e^(i beta), p has the powers -1 to 1, q has 0 to 1 (circle), 0 (line of the frame) or 1
-//! (line of the base), hence the left side's vector -1 to 2 and its square -3 to 3: a trigonometric polynomial of degree 3, with at
-//! most six zeros, which are all found. Three lines meet in one point where a determinant of degree 2 vanishes.
+//! For a given beta all are circles and lines for O. Measured from the centre of one circle of radius l, X = O - c, the
+//! other two conditions are linear, p1 + q1 . X = p2 + q2 . X = 0 (two circles by their radical line), and |X| = l
+//! leaves |q2 p1 - q1 p2|^2 = l^2 (q1 x q2)^2.
+//! In e^(i beta), p has the powers -1 to 1, and q has 0 to 1 (circle), 0 (line of the frame) or 1 (line of the base).
+//! So the vector on the left has the powers -1 to 2 and its square -3 to 3.
+//! This is a trigonometric polynomial of degree 3 with at most six zeros, and all of them are found.
+//! Three lines meet in one point where a determinant of degree 2 is zero.
 
 mod condition;
 
@@ -25,7 +27,7 @@ use condition::{Condition, Locus};
 /// A pose of the base: place of its reference point and angle.
 type Found = (Vec2, f64);
 
-/// The three conditions, measured from one joint of the frame and one of the base.
+/// The three conditions, relative to one joint of the frame and one of the base.
 pub(super) struct Conditions {
     all: [Condition; 3],
     size: f64,
@@ -41,7 +43,8 @@ impl Conditions {
         Conditions { all, size, frame, base }
     }
 
-    /// All poses of the base in the frame; `None` if it can move while the frame and the leads' lengths are held.
+    /// All poses of the base in the frame; `None` if the base can move although the frame and the leads' lengths are
+    /// fixed.
     pub(super) fn base_poses(&self) -> Option<Vec<LinkPose>> {
         let given: Vec<f64> = self
             .all
@@ -64,7 +67,8 @@ impl Conditions {
         Some(found.into_iter().map(|(o, beta)| LinkPose::through(self.base, self.frame + o, beta)).collect())
     }
 
-    /// p and q of the other two conditions from the centre of the longest lead's circle; that centre and its radius.
+    /// p and q of the other two conditions, measured from the centre of the longest lead's circle; that centre and its
+    /// radius.
     fn reduced(&self, b: Vec2) -> ([(f64, Vec2); 2], Vec2, f64) {
         let length = |one: &Condition| if let Condition::Circle { length, .. } = one { *length } else { -1.0 };
         let pivot = (0..3).max_by(|&i, &j| length(&self.all[i]).total_cmp(&length(&self.all[j]))).unwrap_or(0);
@@ -74,7 +78,7 @@ impl Conditions {
         let linear = |index: usize| match self.all[index].locus(b) {
             Some(Locus::Circle { centre: other, radius: length }) => {
                 let apart = centre - other;
-                // Divided by the size, so that lines and circles weigh alike.
+                // Divided by the size, so that lines and circles have the same weight.
                 let p = apart.norm_squared() + (radius - length) * (radius + length);
                 (p / self.size, apart * (2.0 / self.size))
             }
@@ -97,8 +101,8 @@ impl Conditions {
         for beta in harmonic::zeros(3, self.most(terms), eliminant)? {
             let ([(p1, q1), (p2, q2)], centre, radius) = self.reduced(unit(beta));
             let met = turned(q2 * p1 - q1 * p2) / cross(q1, q2);
-            // Where the two lines are one, the point is either of those where that line meets the circle. To look there always
-            // costs little, and a candidate counts only if it fulfils all conditions.
+            // Where the two lines coincide, the solutions are the points where that line meets the circle. Computing
+            // them always costs little, and a candidate counts only if it satisfies all conditions.
             let (p, q) = if q1.norm() > q2.norm() { (p1, q1) } else { (p2, q2) };
             let foot = -q * (p / q.norm_squared());
             let along = turned(q) * (((radius - foot.norm()) * (radius + foot.norm())).larger(0.0).sqrt() / q.norm());
@@ -132,7 +136,7 @@ impl Conditions {
         Some(found)
     }
 
-    /// The base's angle is given: two conditions are left.
+    /// The base's angle is given, so that two conditions remain.
     fn at_angle(&self, beta: f64) -> Option<Vec<Found>> {
         let mut loci = self.all.iter().filter_map(|one| one.locus(unit(beta)));
         let (first, second) = (loci.next()?, loci.next()?);
@@ -142,7 +146,7 @@ impl Conditions {
             let along_squared = (radius - distance) * (radius + distance);
             let (normal, along) = (q / q.norm(), along_squared.sqrt());
             let foot = centre - normal * distance;
-            // The root of a negative number is no number, and `keep` drops it.
+            // The root of a negative number is NaN, and `keep` drops it.
             [foot + turned(normal) * along, foot - turned(normal) * along]
         };
         let candidates: Vec<Vec2> = match (first, second) {
@@ -170,13 +174,13 @@ impl Conditions {
         Some(found)
     }
 
-    /// Largest of a function of beta at a few places.
+    /// Largest value of a function of beta at a few places.
     fn most(&self, of: impl Fn(f64) -> f64) -> f64 {
         (0..8).map(|k| of(f64::from(k) * std::f64::consts::FRAC_PI_4)).fold(0.0, f64::larger)
     }
 
-    /// Polishes a candidate and adds it, if it fulfils the conditions and is not known yet; or, where Newton's method fails because
-    /// the base can move, a pose near by that does.
+    /// Improves a candidate to rounding and adds it, if it satisfies the conditions and is not known yet.
+    /// Where Newton's method fails because the base can move, adds a nearby pose that satisfies them.
     fn keep(&self, found: &mut Vec<Found>, candidate: Found) {
         let apart = |known: &Found, one: &Found| {
             (known.0 - one.0).norm() > 1e-7 * self.size || (unit(known.1) - unit(one.1)).norm() > 1e-7
@@ -197,8 +201,10 @@ impl Conditions {
         })
     }
 
-    /// Whether the base can move from a pose while all conditions hold: it can if, stepped to either side along what the
-    /// Jacobian leaves free, it gets back to them without coming back. At a double root it does not.
+    /// Whether the base can move from a pose while all conditions hold.
+    /// It can if, after a step to either side along the free direction of the Jacobian, it returns to the conditions
+    /// but not to the pose.
+    /// At a double root it cannot.
     fn is_loose(&self, at: Found) -> bool {
         let rows = self.rows(at).map(|(row, _)| row);
         let product = |a: [f64; 3], b: [f64; 3]| {
@@ -208,7 +214,7 @@ impl Conditions {
         let products = [0, 1, 2].map(|k: usize| product(rows[(k + 1) % 3], rows[(k + 2) % 3]));
         let free = products.into_iter().fold([0.0; 3], |best, one| if norm(one) > norm(best) { one } else { best });
         let volume: f64 = (0..3).map(|k| rows[0][k] * products[0][k]).sum();
-        // A double root is known to half the digits, 1e-7 of the size, and the volume vanishes with it.
+        // A double root is known to half the digits, 1e-7 of the size, and the volume goes to zero with it.
         if volume.abs() > 1e-5 * rows.map(norm).iter().product::<f64>() {
             return false;
         }
@@ -220,8 +226,8 @@ impl Conditions {
         })
     }
 
-    /// Where damped steps lead from a pose, if the conditions hold there. Other than Newton's method they keep to where they are along what
-    /// is free.
+    /// Result of damped steps from a pose, if the conditions hold there. Unlike Newton's method they do not move along
+    /// free directions.
     fn settled(&self, mut pose: Found) -> Option<Found> {
         for _ in 0..30 {
             let (mut normal, mut step) = (Lu::new(3), [0.0; 3]);
@@ -241,11 +247,11 @@ impl Conditions {
         self.rows(pose).iter().all(|(_, gap)| gap.abs() <= 1e-11 * self.size).then_some(pose)
     }
 
-    /// Newton's method; the best point on the way, if it fulfils all conditions and lies near by.
+    /// Newton's method. Returns the best point on the way, if it satisfies all conditions and lies nearby.
     fn polish(&self, start: Found) -> Option<Found> {
         let (mut at, mut best, mut least) = (start, start, f64::INFINITY);
         let mut worse = 0;
-        // Beside a double root the first steps may lead away; at rounding no step is better than the last.
+        // Near a double root the first steps may lead away. At rounding no step is better than the last.
         while worse < 4 {
             let rows = self.rows(at);
             let worst = rows.iter().map(|(_, gap)| gap.abs()).fold(0.0, f64::larger);
@@ -264,13 +270,13 @@ impl Conditions {
             system.solve(&mut step);
             at = (at.0 - Vec2::new(step[0], step[1]) * self.size, at.1 - step[2]);
         }
-        // Lines may cross far away: then rounding is that of far places.
+        // Lines may cross far away. Then rounding is that of far places.
         let reach = self.size + best.0.norm();
         let near = (best.0 - start.0).norm() <= 0.1 * reach && (best.1 - start.1).abs() <= 0.1;
         (least <= CLOSED * reach && near).then_some(best)
     }
 }
 
-/// A pose fulfils the conditions if it misses them by less than this share of the size: rounding, with room for a double root, of which
-/// Newton's method knows half the digits less.
+/// A pose satisfies the conditions if its residuals are below this share of the size.
+/// This is rounding, with a margin for a double root, of which Newton's method finds only half the digits.
 const CLOSED: f64 = 1e-13;

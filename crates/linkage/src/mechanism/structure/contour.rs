@@ -1,10 +1,10 @@
-//! Class of an Assur group by its closed contours.
+//! Class of an Assur group, from its closed contours.
 
 use super::group::Group;
 use crate::mechanism::Mechanism;
 
-/// Number of sides of the highest closed contour of a group: a link with three or more pairs is a contour of as many
-/// sides, and so is every shortest loop of inner joints.
+/// Number of sides of the highest closed contour of a group.
+/// A link with three or more pairs is a contour with as many sides, and so is every shortest loop of inner joints.
 pub(super) fn highest_contour(mechanism: &Mechanism, group: &Group) -> usize {
     let joint = |&index: &usize| &mechanism.joints()[index];
     let pairs_on = |link: usize| group.inner.iter().map(joint).filter(|j| j.on(link).is_some()).count();

@@ -1,26 +1,27 @@
-//! An Assur group and its sort.
+//! An Assur group and its kind.
 
 use crate::mechanism::Mechanism;
 
-/// Sort of an Assur group.
+/// Kind of Assur group.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum GroupKind {
-    /// Dyad with an outer, the inner and an outer revolute pair: class II, order 2, as all dyads.
+    /// Dyad with an outer, the inner and an outer revolute pair: class II, order 2, like all dyads.
     Rrr,
-    /// Dyad with an outer and the inner revolute pair and an outer prismatic one: connecting rod and slider.
+    /// Dyad with an outer revolute pair, the inner revolute pair and an outer prismatic pair: connecting rod and
+    /// slider.
     Rrp,
-    /// Dyad of two outer revolute pairs and an inner prismatic one: swinging guide and block.
+    /// Dyad with two outer revolute pairs and an inner prismatic pair: swinging guide and block.
     Rpr,
-    /// Dyad with an outer revolute pair, the inner and the other outer prismatic.
+    /// Dyad with an outer revolute pair; the inner and the other outer pair are prismatic.
     Rpp,
-    /// Dyad of two outer prismatic pairs and an inner revolute one.
+    /// Dyad with two outer prismatic pairs and an inner revolute pair.
     Prp,
-    /// Any group of more than two links.
+    /// Any group with more than two links.
     Higher,
 }
 
 impl GroupKind {
-    /// Whether a group of this sort has one configuration, whatever its dimensions.
+    /// Whether a group of this kind has only one configuration, whatever its dimensions.
     #[must_use]
     pub fn has_one_configuration(self) -> bool {
         match self {
@@ -29,7 +30,7 @@ impl GroupKind {
         }
     }
 
-    /// Letters of a dyad's pairs from outer over inner to outer; none for higher groups.
+    /// Letters of a dyad's pairs from outer over inner to outer; `None` for higher groups.
     #[must_use]
     pub fn letters(self) -> Option<&'static str> {
         match self {
@@ -50,11 +51,11 @@ pub struct Group {
     pub links: Vec<usize>,
     /// Joints between two of its links.
     pub inner: Vec<usize>,
-    /// Joints with links that are known before it is solved.
+    /// Joints with links that are known before the group is solved.
     pub outer: Vec<usize>,
-    /// Class: 2 for dyads, else the number of sides of its highest closed contour (Artobolevsky).
+    /// Class: 2 for dyads, otherwise the number of sides of its highest closed contour (Artobolevsky).
     pub class: usize,
-    /// Sort of the group.
+    /// Kind of the group.
     pub kind: GroupKind,
 }
 
@@ -73,7 +74,7 @@ impl Group {
         found.next().is_none().then_some(first)
     }
 
-    /// Letters of a dyad's pairs ("RRP"); for higher groups the count of pairs.
+    /// Letters of a dyad's pairs ("RRP"); for higher groups the number of pairs.
     #[must_use]
     pub fn pairs(&self) -> String {
         self.kind.letters().map_or_else(

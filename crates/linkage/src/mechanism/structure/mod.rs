@@ -1,9 +1,11 @@
-//! Structural analysis: mobility and the decomposition into driving links and Assur groups.
+//! Structural analysis: mobility, and the decomposition into driving links and Assur groups.
 //!
-//! Every link has three freedoms, every revolute or prismatic pair takes two and every drive one. The equations are given owners
-//! among the links they touch, three to a link (a matching); a link then depends on the other link of every equation it
-//! owns, and the strongly connected parts of that dependence are the driving links and the Assur groups, in the order in which
-//! they can be solved. The parts do not depend on which matching was found (Dulmage and Mendelsohn 1958).
+//! Every link has three degrees of freedom; every revolute or prismatic pair takes two and every drive one.
+//! Each equation gets an owner among the links it touches, three equations per link (a matching).
+//! A link then depends on the other link of every equation that it owns.
+//! The strongly connected parts of this dependence are the driving links and the Assur groups, in the order in which
+//! they can be solved.
+//! The parts do not depend on which matching was found (Dulmage and Mendelsohn 1958).
 
 mod contour;
 mod group;
@@ -30,11 +32,12 @@ pub struct Structure {
 }
 
 impl Structure {
-    /// Analyses a mechanism driven at the joints `drives`.
+    /// Analyses a mechanism with drives at the joints `drives`.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] if links hang free of the ground, if the mobility is not the number of drives, or if a part is
-    /// over-constrained while another is free; [`ErrorKind::Unsupported`] if a drive does not act on a link hinged to the ground.
+    /// [`ErrorKind::Input`] if links have no connection to the ground, if the mobility is not the number of drives, or
+    /// if a part is over-constrained while another is free.
+    /// [`ErrorKind::Unsupported`] if a drive does not act on a link hinged to the ground.
     pub fn of(mechanism: &Mechanism, drives: &[usize]) -> Result<Self> {
         check_connected(mechanism)?;
         check_sliders(mechanism)?;
@@ -69,14 +72,14 @@ impl Structure {
         Ok(structure)
     }
 
-    /// Whether a revolute joint hinges a driving link to the ground or to a driving link found before.
+    /// Whether a revolute joint hinges a driving link to the ground or to an earlier driving link.
     fn carries(&self, mechanism: &Mechanism, joint: usize, link: usize) -> bool {
         let joint = &mechanism.joints()[joint];
         let base = joint.other(link).link;
         joint.is_pin() && (base == GROUND || self.drivers.iter().any(|&(driving, _)| driving == base))
     }
 
-    /// A driving link is placed after the one that carries it.
+    /// Checks that each driving link comes after the link that carries it.
     fn check_order(&self, mechanism: &Mechanism) -> Result<()> {
         for (index, &(link, joint)) in self.drivers.iter().enumerate() {
             let joint = &mechanism.joints()[joint];
@@ -92,7 +95,7 @@ impl Structure {
         Ok(())
     }
 
-    /// Formula of structure, for example `I(ground, crank) -> II.2 RRR(coupler, rocker)`.
+    /// Structural formula, for example `I(ground, crank) -> II.2 RRR(coupler, rocker)`.
     #[must_use]
     pub fn formula(&self, mechanism: &Mechanism) -> String {
         const ROMAN: [&str; 9] = ["", "I", "II", "III", "IV", "V", "VI", "VII", "VIII"];
@@ -110,7 +113,7 @@ impl Structure {
     }
 }
 
-/// W = 3 n - 2 p: every joint of a lower pair takes two freedoms.
+/// W = 3 n - 2 p: every lower pair takes two degrees of freedom.
 fn mobility(mechanism: &Mechanism) -> i64 {
     let equations: usize = mechanism.joints().iter().map(|joint| joint.kind.equations()).sum();
     3 * (mechanism.links().len() as i64 - 1) - equations as i64
@@ -134,7 +137,8 @@ fn check_connected(mechanism: &Mechanism) -> Result<()> {
     }
 }
 
-/// A closed loop of prismatic pairs alone fixes the angle between its links twice over and leaves it free to slide.
+/// Refuses closed loops of prismatic pairs alone: such a loop fixes the angle between its links twice and leaves it
+/// free to slide.
 fn check_sliders(mechanism: &Mechanism) -> Result<()> {
     let mut part: Vec<usize> = (0..mechanism.links().len()).collect();
     for joint in mechanism.joints().iter().filter(|joint| joint.keeps_angle()) {
@@ -176,7 +180,7 @@ fn unsupported_drive(mechanism: &Mechanism, joint: usize) -> Error {
     .help("drive a link that is hinged to the ground by a revolute joint")
 }
 
-/// The group of `links`, once all links marked in `known` are solved.
+/// The group of `links`, where all links marked in `known` are already solved.
 fn group(mechanism: &Mechanism, links: Vec<usize>, known: &[bool]) -> Group {
     let inside = |link: usize| links.contains(&link);
     let (mut inner, mut outer) = (Vec::new(), Vec::new());
@@ -188,7 +192,7 @@ fn group(mechanism: &Mechanism, links: Vec<usize>, known: &[bool]) -> Group {
             outer.push(index);
         }
     }
-    // A dyad's outer joints stand in the order of its links.
+    // A dyad's outer joints are in the order of its links.
     outer.sort_by_key(|&j| links.iter().position(|&link| mechanism.joints()[j].on(link).is_some()));
     let kind = kind(mechanism, &links, &inner, &outer);
     let mut group = Group { links, inner, outer, class: 2, kind };
@@ -200,7 +204,7 @@ fn kind(mechanism: &Mechanism, links: &[usize], inner: &[usize], outer: &[usize]
     if links.len() != 2 {
         return GroupKind::Higher;
     }
-    // Dyads are known with these two kinds of pairs.
+    // Only these two kinds of pairs occur in known dyads.
     let slides = |&&joint: &&usize| match mechanism.joints()[joint].kind {
         JointKind::Revolute => false,
         JointKind::Prismatic { .. } => true,
@@ -211,7 +215,7 @@ fn kind(mechanism: &Mechanism, links: &[usize], inner: &[usize], outer: &[usize]
         (0, 1) => GroupKind::Rrp,
         (0, _) => GroupKind::Prp,
         (_, 0) => GroupKind::Rpr,
-        // Three prismatic pairs are refused before.
+        // Three prismatic pairs have been refused before.
         (_, _) => GroupKind::Rpp,
     }
 }

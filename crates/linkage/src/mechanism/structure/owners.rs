@@ -1,4 +1,4 @@
-//! Who owns which equation: every equation of a joint or drive goes to one of the two links it touches, three to a link.
+//! Ownership of equations: every equation of a joint or drive goes to one of the two links it touches, three per link.
 
 use petgraph::algo::tarjan_scc;
 use petgraph::graph::{DiGraph, NodeIndex};
@@ -6,9 +6,10 @@ use petgraph::graph::{DiGraph, NodeIndex};
 use crate::error::{Error, ErrorKind, Result};
 use crate::mechanism::{GROUND, Mechanism};
 
-/// Every part of k links, the ground counted among them, may carry at most 3 k - 3 equations (Laman's condition for
-/// plane bodies). Equivalent: with three more copies of any one equation, all equations still find owners among all links,
-/// three to a link (Lee and Streinu, "Pebble game algorithms and sparse graphs", 2008).
+/// Checks Laman's condition for plane bodies: a part of k links, the ground included, carries at most 3 k - 3
+/// equations.
+/// An equivalent condition is tested: with three more copies of any one equation, all equations still find owners among
+/// all links, three per link (Lee and Streinu, "Pebble game algorithms and sparse graphs", 2008).
 pub(super) fn check_sparse(mechanism: &Mechanism, drives: &[usize]) -> Result<()> {
     for (index, joint) in mechanism.joints().iter().enumerate() {
         let mut owners = Owners::unassigned(mechanism, drives, OWNED);
@@ -19,26 +20,26 @@ pub(super) fn check_sparse(mechanism: &Mechanism, drives: &[usize]) -> Result<()
     Ok(())
 }
 
-/// One scalar equation of a joint or of a drive, to be owned by one of the two links it touches.
+/// One scalar equation of a joint or of a drive. One of the two links it touches will own it.
 struct Equation {
     joint: usize,
     of_drive: bool,
     ends: [usize; 2],
 }
 
-/// Equations that one link can own: as many as it has freedoms.
+/// Number of equations that one link can own: its degrees of freedom.
 const OWNED: usize = 3;
 
-/// Which link owns which equation.
+/// The owner of each equation.
 pub(super) struct Owners {
     equations: Vec<Equation>,
     owner: Vec<Option<usize>>,
-    /// Equations that the ground can own.
+    /// Number of equations that the ground can own.
     of_ground: usize,
 }
 
 impl Owners {
-    /// The ground owns nothing: its pose is given.
+    /// Finds owners. The ground owns nothing, because its pose is given.
     pub(super) fn find(mechanism: &Mechanism, drives: &[usize]) -> Result<Self> {
         let mut owners = Owners::unassigned(mechanism, drives, 0);
         owners.assign_all(mechanism)?;
@@ -71,7 +72,7 @@ impl Owners {
         Ok(())
     }
 
-    /// Finds an owner for one equation, moving others along if need be (Kuhn's augmenting paths).
+    /// Finds an owner for one equation; moves other equations if necessary (Kuhn's augmenting paths).
     fn assign(&mut self, equation: usize, visited: &mut [bool]) -> bool {
         for link in self.equations[equation].ends {
             let most = if link == GROUND { self.of_ground } else { OWNED };

@@ -100,7 +100,8 @@ fn two_links_pinned_together_twice_are_over_constrained_and_no_dyad() {
 
 #[test]
 fn a_floating_part_with_one_joint_too_many_is_found() {
-    // Four links in a ring, two of which share a fifth joint: 10 equations where 3*4 - 3 are enough; a loose link makes up for it.
+    // Four links in a ring, two of which share a fifth joint: 10 equations where 3*4 - 3 are enough. A loose link
+    // compensates for it.
     let links = vec![
         link("ground", &[("O", 0.0, 0.0)]),
         link("crank", &[("O", 0.0, 0.0), ("A", 1.0, 0.0)]),

@@ -4,7 +4,7 @@ use crate::assur::groups::guide::turn_between;
 use linkage::math::{Motion, Vec2};
 use linkage::mechanism::{Group, Joint, JointKind, Mechanism, Side};
 
-/// How a link is guided by the one it hangs on with a prismatic joint.
+/// How the parent guides a link with a prismatic joint to it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Guided {
     /// The axis in the parent's frame.
@@ -13,21 +13,22 @@ pub(super) struct Guided {
     pub(super) turn: Vec2,
 }
 
-/// A link of the group, hung on one that is known before it.
+/// A link of the group. A joint connects it to its parent, which is known before it.
 #[derive(Clone, Copy, Debug)]
 pub struct Node {
     /// The link.
     pub link: usize,
-    /// The joint it hangs by.
+    /// The joint to its parent.
     pub joint: usize,
     /// That joint in the link's own frame.
     pub own: Vec2,
-    /// That joint on the link it hangs on.
+    /// That joint on the parent.
     pub parent: Side,
     /// Position of the parent among the nodes; `None` for a link outside the group.
     pub parent_node: Option<usize>,
-    /// Position of the node whose unknown is this link's angle: its own if it hangs by a revolute joint, else its parent's; `None` if
-    /// a link outside the group leads it.
+    /// Position of the node whose unknown is this link's angle.
+    /// It is the node itself if its joint is revolute, otherwise its parent's; `None` if a link outside the group
+    /// leads it.
     pub spin: Option<usize>,
     pub(super) guided: Option<Guided>,
 }
@@ -49,14 +50,14 @@ impl Node {
         Node { link, joint, own, parent, parent_node, spin, guided }
     }
 
-    /// Whether the link hangs by a prismatic joint.
+    /// Whether the joint to the parent is prismatic.
     #[inline]
     #[must_use]
     pub fn is_guided(&self) -> bool {
         self.guided.is_some()
     }
 
-    /// World direction of the prismatic joint that the link hangs by; `None` for a revolute one.
+    /// World direction of the prismatic joint to the parent; `None` for a revolute one.
     #[inline]
     #[must_use]
     pub fn axis(&self, motions: &[Motion]) -> Option<Vec2> {
@@ -78,7 +79,7 @@ pub(super) struct Segment {
 pub struct Closing {
     /// The joint.
     pub joint: usize,
-    /// Nodes of the joint's first and second link; none of a link outside the group.
+    /// Nodes of the joint's first and second link; `None` for a link outside the group.
     pub nodes: [Option<usize>; 2],
     /// The joint on its second link.
     place: Side,
@@ -96,12 +97,12 @@ impl Closing {
     }
 }
 
-/// The group's links in the order in which they are hung, and the joints left over.
+/// The group's links, parents before children, and the remaining joints.
 pub(super) fn contours(mechanism: &Mechanism, group: &Group) -> (Vec<Node>, Vec<Closing>) {
     let joints = mechanism.joints();
     let mut nodes: Vec<Node> = Vec::new();
     let mut used = vec![false; joints.len()];
-    // Breadth first: all outer joints, then inner ones from the links already hung.
+    // Breadth first: all outer joints, then inner ones from the links already in the tree.
     while nodes.len() < group.links.len() {
         let known = |link: usize| !group.links.contains(&link) || nodes.iter().any(|node| node.link == link);
         let hung = |&joint: &usize| {
@@ -113,7 +114,7 @@ pub(super) fn contours(mechanism: &Mechanism, group: &Group) -> (Vec<Node>, Vec<
             }
         };
         let next = || group.outer.iter().chain(&group.inner).filter_map(hung);
-        // Prismatic joints first: so none of them is left over (Prim's spanning tree of smallest weight).
+        // Prismatic joints first, so that none of them remains (Prim's spanning tree of smallest weight).
         let slider = next().find(|&(joint, _)| joints[joint].slides());
         let (joint, link) = slider.or_else(|| next().next()).expect("a group hangs together");
         used[joint] = true;
@@ -129,7 +130,7 @@ fn closing(mechanism: &Mechanism, nodes: &[Node], joint: usize) -> Closing {
     let found = &mechanism.joints()[joint];
     let mut segments = Vec::new();
     let mut way = |side: Side, sign: f64| {
-        // Where sliders carry all links, an outer pin is left over too: the way to it over the link outside is none.
+        // Where sliders carry all links, an outer pin remains too. The way to it over the link outside is empty.
         let node = nodes.iter().position(|node| node.link == side.link);
         let (mut next, mut local, mut end) = (node, side.local, side);
         while let Some(index) = next {

@@ -1,11 +1,16 @@
 //! Any higher group, by Newton's method on its own vector contours.
 //!
-//! The group's links hang on the known ones in a tree of joints, which has all prismatic ones (these cannot form a loop); every
-//! revolute joint left over closes a contour. Unknown are one angle for every link hung by a revolute joint and one slide for every
-//! link hung by a prismatic one, as many as contour equations: the gap of a closing joint is the sum of the link and slide
-//! vectors on either way to it. Its derivative by an angle is the sum of the vectors that turn with it, turned by 90 degrees, and
-//! by a slide it is the axis. Velocities and accelerations follow from the same Jacobian: J q' = -(velocity of
-//! the ends), J q'' = -(acceleration of the ends) + centripetal and Coriolis parts.
+//! A tree of joints connects the group's links to the known ones. It contains all prismatic joints, which cannot
+//! form a loop.
+//! Every remaining revolute joint closes a contour.
+//! The unknowns are one angle for every link with a revolute joint to its parent and one slide for every link with
+//! a prismatic one.
+//! There are as many unknowns as contour equations.
+//! The gap of a closing joint is the sum of the link and slide vectors along both ways to it.
+//! Its derivative by an angle is the sum of the vectors that turn with it, turned by 90 degrees; by a slide it is
+//! the axis.
+//! Velocities and accelerations follow from the same Jacobian: J q' = -(velocity of the ends),
+//! J q'' = -(acceleration of the ends) + centripetal and Coriolis parts.
 
 mod contour;
 
@@ -16,27 +21,31 @@ use linkage::math::dense::Lu;
 use linkage::math::{KeepNan, Motion, Vec2, cross, rotated, turned};
 use linkage::mechanism::{Group, Mechanism};
 
-/// Newton from the last pose needs a few iterations; more mean that it has lost the branch.
+/// Newton's method from the last pose needs a few iterations. If it needs more, it has lost the branch.
 const MAX_ITERATIONS: usize = 10;
-/// Largest turn of a link from the last pose (rad) that is still a continuation; its sine is what is compared. For a slide, the same
-/// share of the mechanism's size.
+/// Largest turn of a link from the last pose (rad) that is accepted as a continuation. Its sine is compared.
+/// For a slide the limit is the same share of the mechanism's size.
 const MAX_TURN: f64 = 0.3;
 
-/// Largest turn of the last iteration (rad): what is left is its square, times the condition of the pose.
+/// Largest turn of the last iteration (rad). The remaining error is its square, times the condition number of the
+/// pose.
 const LAST_CHANGE: f64 = 1e-8;
 
-/// Change of the last iteration (rad) up to which the Jacobian is that of the pose itself, to rounding: predictions from five steps
-/// magnify the rounding of a turn up to 31 times, and come this near on a turn in steps of a tenth of a degree.
+/// Change of the last iteration (rad) up to which the Jacobian is that of the pose itself, to rounding.
+/// Predictions from five steps magnify the rounding of a turn up to 31 times.
+/// In steps of a tenth of a degree they come this near to the solution.
 const SAME_POSE: f64 = 4e-14;
-/// Largest correction of a predicted pose (rad): near a dead point predictions go astray, and what they come to may be another branch.
+/// Largest correction of a predicted pose (rad). Near a dead point predictions are poor, and the corrected pose
+/// may be on another branch.
 const MAX_CORRECTION: f64 = 0.01;
-/// Share of the squared determinant that must be left after a step, as the last step lets expect.
+/// Share of the squared determinant that must be left after a step, as extrapolated from the last step.
 const LEAST_LEFT: f64 = 0.25;
-/// Steps of the driving angle (rad) below which no branch is jumped to any more.
+/// Steps of the driving angle (rad) below which a jump to another branch is no longer possible.
 const SMALLEST_STEP: f64 = 1e-6;
-/// Steps that the next one is predicted from.
+/// Number of steps that a prediction uses.
 const MEMORY: usize = 5;
-/// Weights of the last steps, the newest first, where one to five of them are known: binomial coefficients with alternating signs.
+/// Weights of the last steps, the newest first, for one to five known steps: binomial coefficients with
+/// alternating signs.
 const EXTRAPOLATION: [[f64; MEMORY]; MEMORY] = [
     [1.0, 0.0, 0.0, 0.0, 0.0],
     [2.0, -1.0, 0.0, 0.0, 0.0],
@@ -45,7 +54,7 @@ const EXTRAPOLATION: [[f64; MEMORY]; MEMORY] = [
     [5.0, -10.0, 10.0, -5.0, 1.0],
 ];
 
-/// `direction` turned by a small angle (rad), to the seventh order of it, and of unit length to rounding.
+/// `direction` turned by a small angle (rad), to the seventh order of the angle, and of unit length to rounding.
 #[inline]
 fn slightly_turned(direction: Vec2, angle: f64) -> Vec2 {
     let square = angle * angle;
@@ -54,14 +63,14 @@ fn slightly_turned(direction: Vec2, angle: f64) -> Vec2 {
     rotated(direction, Vec2::new(cosine, sine)).normalize()
 }
 
-/// Angle of a small sine (rad), to the seventh order of it.
+/// Angle of a small sine (rad), to the seventh order of the sine.
 #[inline]
 fn small_arcsine(sine: f64) -> f64 {
     let square = sine * sine;
     sine * (1.0 + square * (1.0 / 6.0 + square * (3.0 / 40.0)))
 }
 
-/// Higher group, ready for solving.
+/// Higher group, prepared for solving.
 #[derive(Clone, Debug)]
 pub struct Chain {
     nodes: Vec<Node>,
@@ -72,17 +81,17 @@ pub struct Chain {
     /// Square of the determinant at the last pose, and its derivative by the driving angle (1/rad).
     square: f64,
     slope: f64,
-    /// Directions of the links at the last pose, to go back to.
+    /// Directions of the links at the last pose, for a return to it.
     kept: Vec<Vec2>,
-    /// Slides at this pose and at the last one, and their rates (m, m, m/s); 0 for revolute joints.
+    /// Slides at this pose and at the last one, and their rates (m, m, m/s). 0 for revolute joints.
     slides: Vec<f64>,
     kept_slides: Vec<f64>,
     speeds: Vec<f64>,
-    /// Length that slides are measured by, so that all unknowns are of one order (m).
+    /// Length by which slides are divided, so that all unknowns are of one order of magnitude (m).
     size: f64,
     is_sliding: bool,
-    /// Changes of the unknowns in the last steps, the newest first, how many of these steps were of one size, and that size (rad of
-    /// the driving angle).
+    /// Changes of the unknowns in the last steps, the newest first; how many of these steps had the same size; and
+    /// that size (rad of the driving angle).
     turned: Vec<[f64; MEMORY]>,
     equal_steps: usize,
     last_step: f64,
@@ -127,7 +136,7 @@ impl Chain {
         &self.closings
     }
 
-    /// Length by which slides are divided among the unknowns (m).
+    /// Length by which the unknowns divide slides (m).
     #[must_use]
     pub fn size(&self) -> f64 {
         self.size
@@ -156,7 +165,7 @@ impl Chain {
         (if segment.local.is_some() { node.link } else { node.parent.link }, node.spin)
     }
 
-    /// Turns every guided link as its parent stands.
+    /// Turns every guided link with its parent.
     fn aim(&self, motions: &mut [Motion]) {
         if !self.is_sliding {
             return;
@@ -168,7 +177,7 @@ impl Chain {
         }
     }
 
-    /// Gaps into `unknown` and their derivatives into the Jacobian.
+    /// Writes the gaps to `unknown` and their derivatives to the Jacobian.
     fn assemble(&mut self, motions: &mut [Motion]) {
         self.aim(motions);
         self.jacobian.clear();
@@ -196,7 +205,7 @@ impl Chain {
         }
     }
 
-    /// Slides of the start pose, which the links still hold when the group is placed for the first time.
+    /// Reads the slides of the start pose, which the links still have when the group is placed for the first time.
     fn read_slides(&mut self, motions: &[Motion]) {
         for (slide, node) in self.slides.iter_mut().zip(&self.nodes) {
             let from = motions[node.parent.link].point(node.parent.local);
@@ -205,8 +214,8 @@ impl Chain {
         }
     }
 
-    /// Positions from those of the last pose, from which the driving angle has moved by `step` (rad); `false`, with the
-    /// links' directions as they were, if the branch cannot be followed there.
+    /// Positions from those of the last pose, after the driving angle has moved by `step` (rad).
+    /// Returns `false`, with the links' directions unchanged, if the branch cannot be followed there.
     pub(super) fn positions(&mut self, step: f64, motions: &mut [Motion]) -> bool {
         if self.slides[0].is_nan() {
             self.read_slides(motions);
@@ -238,13 +247,14 @@ impl Chain {
         followed
     }
 
-    /// Whether a step of the driving angle (rad) has the size of the last one.
+    /// Whether a step of the driving angle (rad) has the same size as the last one.
     fn is_repeated(&self, step: f64) -> bool {
         (step - self.last_step).abs() <= 1e-6 * step.abs()
     }
 
-    /// Turns the links as the last steps let expect, if this one is of the same size, and says whether it was: the polynomial through them goes on, so that its next
-    /// difference vanishes.
+    /// Turns the links as extrapolated from the last steps, if this step has the same size, and returns whether it
+    /// has.
+    /// The polynomial through the last steps is continued, so that its next difference is zero.
     fn predict(&mut self, step: f64, motions: &mut [Motion]) -> bool {
         let repeated = self.is_repeated(step);
         if repeated {
@@ -257,7 +267,7 @@ impl Chain {
         repeated
     }
 
-    /// Keeps the turns of this step for the next prediction.
+    /// Stores the turns of this step for the next prediction.
     fn remember(&mut self, step: f64, motions: &[Motion]) {
         self.equal_steps = if self.is_repeated(step) { self.equal_steps + 1 } else { 1 };
         for (index, node) in self.nodes.iter().enumerate() {
@@ -272,7 +282,7 @@ impl Chain {
         self.last_step = step;
     }
 
-    /// Whether no link has turned or slid farther than a continuation may.
+    /// Whether no link has turned or slid farther than a continuation allows.
     fn is_near(&self, motions: &[Motion]) -> bool {
         let mut slides = self.slides.iter().zip(&self.kept_slides);
         if self.is_sliding && !slides.all(|(now, kept)| (now - kept).abs() <= MAX_TURN * self.size) {
@@ -282,7 +292,7 @@ impl Chain {
         turns.all(|(kept, now)| kept.dot(&now) > 0.0 && cross(*kept, now).abs() <= MAX_TURN)
     }
 
-    /// Newton's method to rounding; leaves the Jacobian factored at the pose it ends in.
+    /// Newton's method to rounding. Leaves the factored Jacobian of the pose in which it ends.
     fn follow(&mut self, allowed: f64, motions: &mut [Motion]) -> bool {
         for _ in 0..MAX_ITERATIONS {
             self.assemble(motions);
@@ -297,7 +307,7 @@ impl Chain {
             for (index, change) in self.unknown.iter().enumerate() {
                 advance(&self.nodes[index], &mut self.slides[index], -change, self.size, motions);
             }
-            // Quadratic convergence: what is left is of the order of the square.
+            // Quadratic convergence: the remaining error is of the order of the square.
             if change < LAST_CHANGE {
                 if change > SAME_POSE {
                     self.assemble(motions);
@@ -311,7 +321,7 @@ impl Chain {
         false
     }
 
-    /// Origins of all links from their directions; `false` if the pose lies beyond a singular one.
+    /// Origins of all links from their directions. Returns `false` if the pose lies beyond a singular one.
     fn hang(&mut self, motions: &mut [Motion]) -> bool {
         self.aim(motions);
         for (node, slide) in self.nodes.iter().zip(&self.slides) {
@@ -329,8 +339,10 @@ impl Chain {
         sign == self.branch
     }
 
-    /// Whether a step may lead over a dead point. The square of the determinant is linear in the driving angle near one; a step on which it would
-    /// lose most of itself must be a smaller one, or it might end on the other side of a gap between two branches.
+    /// Whether a step might lead over a dead point. Near one, the square of the determinant is linear in the
+    /// driving angle.
+    /// A step on which it would lose most of its value must be smaller, or it might end on the other side of a gap
+    /// between two branches.
     fn is_bold(&self, step: f64) -> bool {
         step.abs() > SMALLEST_STEP && self.square + self.slope * step < LEAST_LEFT * self.square
     }
@@ -410,8 +422,8 @@ impl Chain {
         }
     }
 
-    /// The nodes that links outside the group lead in their turning, parents first: no unknown of the group's is their angle, so their
-    /// turning is known before it is solved.
+    /// The nodes whose rotation is led by links outside the group, parents first.
+    /// Their angle is not an unknown of the group, so their rotation is known before the group is solved.
     fn led(&self) -> impl Iterator<Item = &Node> {
         self.nodes.iter().filter(|node| self.is_sliding && node.spin.is_none())
     }
@@ -422,9 +434,11 @@ impl Chain {
         normal * (2.0 * self.speeds[node] * motions[self.nodes[node].parent.link].omega)
     }
 
-    /// Multipliers of the closing joints (forces on their second links, x and y in turn, N) from the generalised forces
-    /// on the unknowns (N m; for a slide, the force along the axis times [`Chain::size`]), in place: J^T lambda = -Q. The pose must
-    /// be the last one solved.
+    /// Multipliers of the closing joints (forces on their second links, x and y in turn, N), in place: J^T lambda
+    /// = -Q.
+    /// The input is the generalised forces on the unknowns (N m; for a slide, the force along the axis times
+    /// [`Chain::size`]).
+    /// The pose must be the last one solved.
     pub fn multipliers(&self, generalised: &mut [f64]) {
         generalised.iter_mut().for_each(|q| *q = -*q);
         self.jacobian.solve_transposed(generalised);

@@ -1,4 +1,5 @@
-//! The chain of dyads that is left when a ground lead drives: the other ground lead and the base link, then lead 3 and the crank.
+//! The chain of dyads that remains when a ground lead drives: the other ground lead and the base link, then lead 3 and
+//! the crank.
 
 use linkage::math::{Vec2, cross, rotated, turned};
 
@@ -20,7 +21,7 @@ pub(super) struct Chain {
     pub(super) leads: [Grounded; 2],
     /// Head of lead 3 in the base link's frame (m).
     pub(super) third: Vec2,
-    /// On which side of the line from the driver's head to the other foot the other head lies: +1 left, -1 right.
+    /// Side of the line from the driver's head to the other foot on which the other head lies: +1 left, -1 right.
     pub(super) side: f64,
 }
 
@@ -49,9 +50,11 @@ pub(super) struct Slopes {
 }
 
 impl Chain {
-    /// First dyad: the driver's head is D, the other foot is G, d = |DG|, b = |DE| on the base link and l the other lead. The
-    /// cosine rule gives E = D + DG (b^2 - l^2 + d^2 +- i sqrt((b + l + d)(b + l - d)(d + b - l)(d - b + l))) / 2 d^2 as complex numbers; the
-    /// root is the fourfold area of the triangle by Heron's formula. `None` if the dyad cannot be assembled.
+    /// First dyad: the driver's head is D, the other foot is G, d = |DG|, b = |DE| on the base link and l the other
+    /// lead.
+    /// The cosine rule gives E = D + DG (b^2 - l^2 + d^2 +- i sqrt((b + l + d)(b + l - d)(d + b - l)(d - b + l))) / 2
+    /// d^2 as complex numbers.
+    /// The root is four times the area of the triangle by Heron's formula. `None` if the dyad cannot be assembled.
     pub(super) fn place(&self, driver: Vec2) -> Option<Place> {
         let [lead, other] = self.leads;
         let head = lead.foot + driver;
@@ -59,7 +62,7 @@ impl Chain {
         let span = other.foot - head;
         let (b, l, d) = (own.norm(), other.length, span.norm());
         let area = (b + l + d) * (b + l - d) * (d + b - l) * (d - b + l);
-        // Written so that NaN is refused too.
+        // Written this way round so that NaN is refused too.
         if !(area >= 0.0) {
             return None;
         }
@@ -71,12 +74,14 @@ impl Chain {
 }
 
 impl Place {
-    /// Sine of the angle between base link and other lead, signed: zero where the conditional driver has a dead point in the first dyad.
+    /// Sine of the angle between base link and other lead, signed. It is zero where the conditional driver has a dead
+    /// point in the first dyad.
     pub(super) fn sine(&self) -> f64 {
         cross(self.base, self.other) / (self.base.norm() * self.other.norm())
     }
 
-    /// From driver + base = FG + other, differentiated once and twice; scalar products with one of the two vectors leave the other's rate.
+    /// From driver + base = FG + other, differentiated once and twice. The scalar product with one of the two vectors
+    /// leaves the rate of the other.
     pub(super) fn slopes(&self) -> Slopes {
         let (p, r) = (self.base, self.other);
         let d = [turned(self.driver), -self.driver];
@@ -89,7 +94,7 @@ impl Place {
     }
 }
 
-/// Direction of a frame in which the vector `local` lies as `world`.
+/// Direction of a frame in which the vector `local` has the world direction `world`.
 pub(super) fn along(local: Vec2, world: Vec2) -> Vec2 {
     Vec2::new(local.dot(&world), cross(local, world)).normalize()
 }

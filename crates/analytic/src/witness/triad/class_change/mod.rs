@@ -1,22 +1,29 @@
 //! The class III group by exchange of the driving link.
 //!
-//! With one of its ground leads as conditional driver the mechanism is a chain of class II dyads: base link and other ground lead, then
-//! lead 3 and crank. The first dyad is placed in closed form, the second asks that the head F of lead 3 lies at its length from the
-//! crank pin C. The crank angle alpha is thus a function of the lead's angle theta, and the true motion follows by inverting it: for a given alpha
-//! the theta at which the second dyad closes, `|F(theta) - C(alpha)| = l_3`, is found between bounds by Newton's method with
-//! bisection, and with q = F - C
+//! With one of its ground leads as conditional driver the mechanism is a chain of class II dyads: base link and other
+//! ground lead, then lead 3 and crank.
+//! The first dyad is placed in closed form. The second requires that the distance from the head F of lead 3 to the
+//! crank pin C is the length of lead 3.
+//! So the crank angle alpha is a function of the lead's angle theta, and the true motion is its inverse.
+//! For a given alpha the theta at which the second dyad closes, `|F(theta) - C(alpha)| = l_3`, is found between bounds
+//! by Newton's method with bisection. With q = F - C
 //!
 //! `d alpha / d theta = (q . F') / (q . C')`, `omega_lead = omega_crank / (d alpha / d theta)`,
 //!
-//! all other rates and the accelerations by differentiating twice along the same chain (class III groups reduced to class II by another
-//! driving link; Artobolevsky, "Theory of mechanisms and machines"). No system of equations is solved.
+//! and all other rates and the accelerations follow by differentiating twice along the same chain (class III groups
+//! reduced to class II by another driving link; Artobolevsky, "Theory of mechanisms and machines"). No system of
+//! equations is solved.
 //!
-//! Dead points. At the limit positions of a ground lead d alpha / d theta is infinite: the conditional driver cannot drive there. There are
-//! two sorts. Where base link and *other* lead are in line, the first dyad is at its limit; then the other ground lead is the driver, and of
-//! the two always that is taken whose first dyad is farther from its limit. Where crank and lead 3 are in line both ground leads stand
-//! still at once, and neither is better; there the second dyad changes from one of its two configurations to the other. Its closing
-//! condition holds for both and is smooth in theta, so that solving it, and not the angle of the dyad, passes such points without notice. What
-//! cannot be passed is a dead point of the group itself, q . F' = 0.
+//! Dead points. At the limit positions of a ground lead d alpha / d theta is infinite: the conditional driver cannot
+//! drive there.
+//! There are two kinds.
+//! Where base link and *other* lead are in line, the first dyad is at its limit. Then the other ground lead is the
+//! driver: of the two, the one is used whose first dyad is farther from its limit.
+//! Where crank and lead 3 are in line, both ground leads stand still at once, and neither is better.
+//! There the second dyad changes from one of its two configurations to the other.
+//! Its closing condition holds for both and is smooth in theta. Solving it, instead of the angle of the dyad, passes
+//! such points without difficulty.
+//! A dead point of the group itself, q . F' = 0, cannot be passed.
 
 mod chain;
 
@@ -29,9 +36,9 @@ use linkage::mechanism::GROUND;
 
 /// Largest turn of the crank between two poses (rad): one degree.
 const TRACKING_STEP: f64 = std::f64::consts::PI / 180.0;
-/// How often a step that fails is halved: down to a millionth of it.
+/// How often a failing step is halved: down to a millionth of it.
 const HALVINGS: u32 = 20;
-/// Largest turn of a link in one step (rad) that is still a continuation.
+/// Largest turn of a link in one step (rad) that is accepted as a continuation.
 const MAX_TURN: f64 = 0.3;
 /// Largest change of the last iteration of Newton's method (rad).
 const LAST_CHANGE: f64 = 1e-9;
@@ -47,8 +54,9 @@ pub struct Transfer {
     pub second: [f64; 4],
     /// The conditional driver: 0, 1 or 2 as in [`Triad::leads`].
     pub driver: usize,
-    /// By so much rounding can grow in the angles, at least 1: the inverse sines of the angle between base link and other lead, and of that
-    /// at which lead 3 meets the path of its head.
+    /// Factor by which rounding can grow in the angles, at least 1.
+    /// It follows from the inverse sines of the angle between base link and other lead, and of the angle between lead 3
+    /// and the path of its head.
     pub condition: f64,
 }
 
@@ -67,16 +75,17 @@ pub struct ClassChange {
     /// World angle of the crank at crank angle zero (rad).
     zero: f64,
     names: String,
-    /// Crank's pivot in the world and its pin from there in the crank's frame (m).
+    /// The crank's pivot in the world, and the vector from there to its pin in the crank's frame (m).
     pivot: Vec2,
     pin: Vec2,
-    /// Places of the ground leads and of lead 3 among the triad's leads.
+    /// Indices of the ground leads and of lead 3 among the triad's leads.
     order: [usize; 3],
     grounded: [Grounded; 2],
     /// Head of lead 3 in the base link's frame, and its length (m).
     third: Vec2,
     length: f64,
-    /// Vectors from foot to head in the frames of the triad's leads, and between the heads of the ground leads in that of the base link.
+    /// Vectors from foot to head in the frames of the triad's leads, then the vector between the heads of the ground
+    /// leads in the frame of the base link.
     locals: [Vec2; 4],
     crank: f64,
     /// World vectors from foot to head of the ground leads.
@@ -87,10 +96,11 @@ pub struct ClassChange {
 }
 
 impl ClassChange {
-    /// At the start pose of the case.
+    /// Starts at the start pose of the case.
     ///
     /// # Errors
-    /// [`ErrorKind::Unsupported`] if the group does not hang with two leads on the ground and with the third on a driving link that turns;
+    /// [`ErrorKind::Unsupported`] unless two leads of the group are attached to the ground and the third to a driving
+    /// link that turns;
     /// [`ErrorKind::Geometry`] if the start pose is a dead point.
     pub fn new(case: &Case, triad: &Triad) -> Result<Self> {
         let (mechanism, drive) = (&case.mechanism, case.crank());
@@ -134,10 +144,11 @@ impl ClassChange {
         Ok(change)
     }
 
-    /// Transfer functions at the crank angle `crank` (rad, as the scenario states it), reached from the last one in small steps.
+    /// Transfer functions at the crank angle `crank` (rad, as the scenario states it), reached from the last one in
+    /// small steps.
     ///
     /// # Errors
-    /// [`ErrorKind::Geometry`] if the branch has a dead point on the way there.
+    /// [`ErrorKind::Geometry`] if the branch has a dead point in between.
     pub fn solve(&mut self, crank: f64) -> Result<&Transfer> {
         let from = self.crank;
         let parts = ((crank - from).abs() / TRACKING_STEP).ceil().larger(1.0);
@@ -194,7 +205,8 @@ impl ClassChange {
         let turn = zero(gap, expected)?;
         let place = chain.place(rotated(unit(turn), before.driver))?;
         let found = self.transfer(driver, &place, closing(&place), pin);
-        // q . F' times the first dyad's area is the determinant of the group; exchanging the ground leads exchanges two columns.
+        // q . F' times the first dyad's area is the determinant of the group.
+        // Exchanging the ground leads exchanges two columns.
         let sense = if driver == 0 { 1.0 } else { -1.0 };
         let branch = (closing(&place).dot(&place.slopes().third[0]) * place.sine() * sense).signum();
         let near = |k: usize| {
@@ -238,11 +250,11 @@ impl ClassChange {
     }
 }
 
-/// The chain cannot be placed.
+/// The error of a chain that cannot be placed.
 struct Ended;
 
-/// The zero next to `guess` (rad) of a function with its derivative, between bounds by Newton's method with bisection. `None` if there
-/// is none within [`MAX_TURN`], or the function ends before it.
+/// The zero next to `guess` (rad) of a function with its derivative, between bounds by Newton's method with bisection.
+/// `None` if there is no zero within [`MAX_TURN`], or the function ends before it.
 fn zero(gap: impl Fn(f64) -> Option<(f64, f64)>, guess: f64) -> Option<f64> {
     let (value, slope) = gap(guess)?;
     if value == 0.0 {

@@ -6,7 +6,7 @@ use crate::mechanism::{Joint, JointKind};
 
 const CASES: usize = 100_000;
 
-/// A dyad of links 3 and 4 on links 1 and 2 that stand at random.
+/// A dyad of links 3 and 4 on links 1 and 2, which have random poses.
 struct Case {
     mechanism: Mechanism,
     group: Group,
@@ -48,7 +48,7 @@ impl Case {
         pose
     }
 
-    /// How far the places of a prismatic `joint` are from its line.
+    /// Distance of the places of a prismatic `joint` from its line.
     fn off_line(&self, pose: &Pose, joint: usize) -> f64 {
         let own = self.joint(joint);
         cross(
@@ -57,8 +57,8 @@ impl Case {
         )
     }
 
-    /// Whether the dyad has configurations, by the zeros of a function that is sampled, not derived: positive if it has, negative if not, by
-    /// how much.
+    /// Whether the dyad has configurations, from the zeros of a sampled function, not of a derived formula.
+    /// Positive if it has, negative if not; the value is the margin.
     fn reach(&self) -> f64 {
         let outer_pin = |joint: usize, link: usize| self.place(&self.pose, joint, self.joint(joint).other(link).link);
         match self.group.kind {
@@ -72,7 +72,8 @@ impl Case {
                 (a + b - c).smaller(a + c - b).smaller(b + c - a)
             }
             GroupKind::Rrp => {
-                // Squared distance of the inner joint from the outer pin as a function of the slide, a parabola by three values.
+                // Squared distance of the inner joint from the outer pin as a function of the slide:
+                // a parabola through three values.
                 let (slider, outer, rod, pin) = if self.joint(0).slides() { (3, 0, 4, 2) } else { (4, 2, 3, 0) };
                 let mut pose = self.with_turned(self.pose.clone(), outer, slider);
                 let axis = self.axis(&pose, outer);
@@ -91,7 +92,8 @@ impl Case {
                 rod.norm() - least.larger(0.0).sqrt()
             }
             GroupKind::Rpr => {
-                // Distance from the line as a function of the common angle: a harmonic plus a constant, by three values.
+                // Distance from the line as a function of the common angle: a harmonic plus a constant,
+                // from three values.
                 let off = |angle: f64| {
                     let mut pose = self.pose.clone();
                     pose.0[3].angle = angle;
@@ -111,7 +113,7 @@ impl Case {
         }
     }
 
-    /// The mode of an assembled dyad by the words of [`AssemblyMode`].
+    /// The mode of an assembled dyad by the definitions of [`AssemblyMode`].
     fn mode(&self, pose: &Pose) -> AssemblyMode {
         let inner = self.place(pose, 1, 3);
         let (a, c) = (self.place(pose, 0, 3), self.place(pose, 2, 4));
@@ -132,8 +134,10 @@ impl Case {
     }
 }
 
-/// Of 100 000 dyads of every kind, in all orders of links and sides: every configuration closes, is of the mode it says and has a
-/// transmission sine of that sign, two are two, and there is none exactly when another criterion says so.
+/// Checks 100 000 dyads of every kind, in all orders of links and sides.
+/// Every configuration closes, has the mode that it reports and a transmission sine of that sign; two configurations
+/// are different.
+/// There is no configuration exactly when an independent criterion says so.
 #[test]
 fn random_dyads_of_every_kind() {
     let kinds = [GroupKind::Rrr, GroupKind::Rrp, GroupKind::Rpr, GroupKind::Rpp, GroupKind::Prp];
@@ -146,7 +150,7 @@ fn random_dyads_of_every_kind() {
             let all = match configurations(&case.mechanism, &case.group, &case.pose) {
                 Ok(all) => all,
                 Err(error) => {
-                    // The criterion rounds otherwise: at the very edge it cannot tell.
+                    // The criterion has different rounding: exactly at the edge it cannot decide.
                     assert!(reach <= 1e-14, "{kind:?}: {error}, but there is room of {reach}");
                     assert!(error.kind() == ErrorKind::Geometry && error.way_out().is_some(), "{error}");
                     continue;
@@ -163,11 +167,11 @@ fn random_dyads_of_every_kind() {
                 })
                 .collect();
             for (one, pose) in all.iter().zip(&poses) {
-                // Two axes that are nearly parallel cross far away: the size is that of the assembled dyad.
+                // Two nearly parallel axes cross far away, so the size is that of the assembled dyad.
                 let size = size(&case.mechanism, pose);
                 let sine = transmission_sine(&case.mechanism, &case.group, pose).unwrap();
                 worst = worst.larger(pose.closure(&case.mechanism) / size);
-                // On the dead point the two modes are one.
+                // At the dead point the two modes are the same.
                 if sine.abs() > 1e-12 {
                     assert_eq!(case.mode(pose), one.mode, "{kind:?} {sine}");
                     if one.mode != AssemblyMode::Only {
@@ -184,12 +188,12 @@ fn random_dyads_of_every_kind() {
         }
         println!("{kind:?}: {some} of {CASES} assembled, closure at worst {worst:.1e} of the size");
         assert!(some > CASES / 5, "{kind:?}: {some}");
-        // 1e-12 as everywhere for closures.
+        // 1e-12 as for all closures.
         assert!(worst <= 1e-12, "{kind:?}: {worst}");
     }
 }
 
-/// Of the two-slider dyads, those whose axes are parallel have no configuration, and a hair beside that they have.
+/// Two-slider dyads with parallel axes have no configuration. With a tiny angle between the axes they have.
 #[test]
 fn parallel_axes_are_refused() {
     for kind in [GroupKind::Rpp, GroupKind::Prp] {

@@ -7,19 +7,19 @@ use crate::math::KeepNan;
 use crate::mechanism::{GROUND, GroupKind, Structure};
 use scan::{Scan, scanned};
 
-/// Pairs of the three leads with frame and base: whether each slides.
+/// Whether each pair of the three leads slides: pair with the frame, pair with the base.
 type Pairs = [[bool; 2]; 3];
 
 const REVOLUTE: Pairs = [[false; 2]; 3];
 
-/// A group of links 2 to 5, hung on the ground and on link 1.
+/// A group of links 2 to 5, attached to the ground and to link 1.
 struct Case {
     mechanism: Mechanism,
     group: Group,
     pose: Pose,
 }
 
-/// `fitted`: the joints hold in the case's pose.
+/// If `fitted`, the joints are closed in the case's pose.
 fn case(random: &mut Random, pairs: Pairs, triad: bool, fitted: bool) -> Case {
     let hook = |random: &mut Random| usize::from(random.yes());
     let ends = if triad {
@@ -48,14 +48,14 @@ fn posed(case: &Case, one: &Configuration) -> Pose {
     pose
 }
 
-/// What came out of many cases.
+/// Results of many cases.
 #[derive(Debug, Default)]
 struct Tally {
-    /// Cases with so many configurations.
+    /// Number of cases by number of configurations.
     counts: [usize; 7],
     /// Largest closure, as a share of the size.
     closure: f64,
-    /// Cases with a root that is double to within 1e-9, which neither method can tell from a near miss.
+    /// Cases with a root that is double to within 1e-9. Neither method can distinguish it from a near miss.
     double: usize,
 }
 
@@ -96,14 +96,14 @@ fn compare(random: &mut Random, pairs: Pairs, triad: bool, cases: usize, tally: 
     }
 }
 
-/// The bounds of every comparison: closure as everywhere; double roots are as rare as their share of the range, 1e-9^(1/2) a root,
-/// times some tens.
+/// The bounds of every comparison. Closure has the usual bound.
+/// Double roots are as rare as their share of the range, 1e-9^(1/2) per root, times some tens.
 fn check(tally: &Tally, cases: usize) {
     assert!(tally.closure <= 1e-12, "{tally:?}");
     assert!(tally.double <= 1 + cases / 200, "{tally:?}");
 }
 
-/// Whether the many groups are asked for that take minutes: `.ci/nightly` does.
+/// Whether to run the many groups that take minutes, as `.ci/nightly` does.
 fn many() -> bool {
     std::env::var_os("LINKPROOF_NIGHTLY").is_some()
 }
@@ -121,7 +121,7 @@ fn as_many_configurations_as_a_scan_finds() {
     }
 }
 
-/// All ways to put prismatic pairs into the leads: at most one lead may have two, or links would slide in a loop.
+/// All ways to put prismatic pairs into the leads. At most one lead may have two, or links would slide in a loop.
 fn sliding() -> impl Iterator<Item = Pairs> {
     let lead = |bits: usize| [bits & 1 == 1, bits & 2 == 2];
     let all = (1..64).map(move |bits: usize| [lead(bits & 3), lead(bits >> 2 & 3), lead(bits >> 4)]);
@@ -144,7 +144,7 @@ fn as_many_configurations_as_a_scan_finds_with_prismatic_pairs() {
     assert_eq!(patterns, 2 * 53);
 }
 
-/// Three parallel leads of equal length carry the base round on circles: every angle of the leads is a configuration.
+/// Three parallel leads of equal length move the base on circles: every angle of the leads is a configuration.
 #[test]
 fn a_group_that_can_move_is_refused() {
     let mut random = Random(3);

@@ -3,7 +3,8 @@ use super::*;
 use crate::math::KeepNan;
 use crate::mechanism::{GroupKind, Side};
 
-/// Two base links 6 and 5, pinned to each other, each on two leads: a group of six links and nine joints that hold in the pose.
+/// Two base links 6 and 5, pinned to each other, each on two leads: a group of six links and nine joints, closed in the
+/// pose.
 fn case(random: &mut Random, slides: impl Fn(&mut Random) -> bool) -> (Mechanism, Group, Pose) {
     let mut pose = Pose((0..7).map(|_| random.pose()).collect());
     pose.0[0] = LinkPose::GROUND;
@@ -39,7 +40,7 @@ fn the_jacobian_is_the_derivative_of_the_gaps() {
     let mut random = Random(21);
     for _ in 0..20 {
         let (mechanism, group, mut pose) = case(&mut random, |random| random.yes());
-        // Away from the closed pose, where all terms count.
+        // Far from the closed pose, where all terms count.
         pose.0[1..].iter_mut().for_each(|link| *link = random.pose());
         let system = System { mechanism: &mechanism, group: &group, size: mechanism.size() };
         let rows = system.jacobian(&pose);
@@ -52,14 +53,14 @@ fn the_jacobian_is_the_derivative_of_the_gaps() {
             let back = system.gaps(&system.moved(&pose, &step));
             for row in 0..18 {
                 let slope = (ahead[row] - back[row]) / (2.0 * h);
-                // Central differences: h^2 times third derivatives, and rounding over h.
+                // Central differences: the error is h^2 times third derivatives, and rounding divided by h.
                 assert!((slope - rows[row][column]).abs() < 1e-8, "{row} {column}: {slope} {}", rows[row][column]);
             }
         }
     }
 }
 
-/// From a drawing that is right to two hundredths, the pose it was drawn from is found, and closes.
+/// A drawing that is right to two hundredths leads to the pose from which it was drawn, and that pose closes.
 #[test]
 fn a_rough_drawing_finds_its_configuration() {
     let mut random = Random(22);
@@ -95,7 +96,7 @@ fn a_rough_drawing_finds_its_configuration() {
         }
     }
     println!("{found} found, {refused} refused of 500");
-    // The rest are drawings nearer to another configuration, or poses near a singular one.
+    // The others are drawings nearer to another configuration, or poses near a singular one.
     assert!(found > 350, "{found}");
 }
 
@@ -106,7 +107,7 @@ fn too_few_places_name_the_link() {
     let near = drawing(&mut random, &mechanism, &group, &pose, 0.0);
     let error = place(&mechanism, &group, &near[..1], &mut pose.clone()).unwrap_err();
     assert!(error.to_string().contains("do not tell where link \"link1\" of the group lies"), "{error}");
-    // Link 1 has its joint with the ground; so has 2; from these 5 follows, and so on.
+    // Links 1 and 2 have joints with the ground. From these 5 follows, and so on.
     let few: Vec<(SidePoint, Vec2)> = ["E1", "F2", "G3", "H4"]
         .iter()
         .map(|name| near.iter().find(|(point, _)| point.name == *name).expect("a point of that name").clone())

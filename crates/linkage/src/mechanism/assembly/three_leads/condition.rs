@@ -1,4 +1,4 @@
-//! What a lead asks of the base, and where the lead lies once the base is placed.
+//! The condition of a lead on the base, and the pose of the lead once the base is placed.
 
 use super::super::dyads::turn;
 use crate::math::angle::wrapped;
@@ -29,7 +29,7 @@ pub struct Lead {
     pub far: Pair,
 }
 
-/// What a lead asks of the base.
+/// The condition of a lead on the base.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Condition {
     Circle { a: Vec2, w: Vec2, length: f64 },
@@ -38,7 +38,7 @@ pub enum Condition {
     Angle(f64),
 }
 
-/// A condition for a given angle: where O may be.
+/// A condition for a given angle: the possible places of O.
 #[derive(Clone, Copy, Debug)]
 pub enum Locus {
     Circle {
@@ -53,7 +53,7 @@ pub enum Locus {
 }
 
 impl Condition {
-    /// That of a lead, with the frame's origin at `frame` and the base's at `base`.
+    /// The condition of a lead, with the frame's origin at `frame` and the base's at `base`.
     pub fn of(lead: &Lead, frame: Vec2, base: Vec2) -> Self {
         let (near, far) = (lead.near, lead.far);
         let span = far.lead.place - near.lead.place;
@@ -69,7 +69,7 @@ impl Condition {
         }
     }
 
-    /// Where O may be for the base's direction `b`; nothing if its angle is given.
+    /// Possible places of O for the base's direction `b`; `None` if the condition fixes its angle.
     pub fn locus(&self, b: Vec2) -> Option<Locus> {
         Some(match *self {
             Condition::Circle { a, w, length } => Locus::Circle { centre: a - rotated(b, w), radius: length },
@@ -84,7 +84,8 @@ impl Condition {
         })
     }
 
-    /// How far O and beta are from fulfilling it (m), and the derivatives by O and beta; the circle's is divided by `size`.
+    /// Residual of the condition for O and beta (m), and its derivatives by O and beta. The circle's is divided by
+    /// `size`.
     pub fn residual(&self, o: Vec2, beta: f64, size: f64) -> (f64, Vec2, f64) {
         let b = unit(beta);
         match *self {
@@ -117,7 +118,7 @@ impl Condition {
 }
 
 impl Lead {
-    /// Pose in the frame, once the base has its own; `None` if it slides free.
+    /// Pose in the frame, once the base has its own; `None` if the lead can slide freely.
     pub fn pose(&self, base: &LinkPose) -> Option<LinkPose> {
         let (near, far) = (self.near, self.far);
         let by_near = turn(near.lead.axis, near.body.axis);
