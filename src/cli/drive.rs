@@ -1,23 +1,19 @@
 //! `linkproof drive`.
 
-use std::fmt::Write;
 use std::path::{Path, PathBuf};
-
-use serde_json::{Value, json};
 
 use super::load::load;
 use super::motor_choice;
 use super::output;
-use super::{drive_graphs, drive_run_up};
-use crate::report::table;
+use crate::report::drive::{self as report, Found};
+use crate::report::drive_graphs::{self, Curves};
+use crate::report::{run_up, table_csv};
 use crate::scenario::Scenario;
 use analytic::AssurSolver;
 use analytic::range::explained;
-use analytic::reduced::means::{self as reduced, Means};
+use analytic::reduced::means as reduced;
 use analytic::reduced::{ACCURACY, Model, RunUp};
-use analytic::steady::course::{Extremes, Row};
-use analytic::steady::regime::At;
-use analytic::steady::{Averaged, Regime};
+use analytic::steady::Averaged;
 use linkage::error::{Error, ErrorKind, Result};
 use workshop::flywheel::Flywheel;
 
@@ -77,22 +73,11 @@ pub(super) struct Args {
     choice: motor_choice::Args,
 }
 
+/// Number of equal intervals between the points of a graph over the period: half a degree each over one turn.
+const PARTS: u32 = 720;
+
 /// Largest number of rows of a table or a run-up.
 const MOST_ROWS: f64 = 1e6;
-
-/// What is known about a drive.
-struct Found {
-    means: Means,
-    extremes: [Extremes; 2],
-    /// Moment of inertia that motor and reducer add to the crank (kg m^2).
-    added: f64,
-    rows: Vec<Row>,
-    /// Speeds of crank and motor by the averaged model, and the steady motion; `None` without a motor.
-    steady: Option<([f64; 2], Regime)>,
-    /// The averaged model, if it has a closed form.
-    averaged: Option<Averaged>,
-    flywheel: Option<Flywheel>,
-}
 
 pub(super) fn drive(args: &Args) -> Result<()> {
     check(args)?;
@@ -108,24 +93,23 @@ fn driven(args: &Args, scenario: &Scenario) -> Result<()> {
     let targets = [&args.run_up, &args.json, &args.svg];
     let told_there = targets.iter().any(|to| to.as_deref() == Some(Path::new("-")));
     if let Some(to) = &args.run_up {
-        let run_up = run_up(args, &model)?;
-        output::write(&drive_run_up::csv(&run_up)?, to)?;
+        let motion = run_up(args, &model)?;
+        output::write(&table_csv::run_up(&motion)?, to)?;
         if told_there && targets[1..].iter().all(|to| to.is_none()) {
             return Ok(());
         }
         if !told_there {
-            output::print(&drive_run_up::told(&run_up))?;
+            output::print(&run_up::text(&motion))?;
         }
     }
     let found = find(args, scenario, &model)?;
     if let Some(to) = &args.svg {
-        let steady = found.steady.as_ref().map(|(_, regime)| regime);
-        output::write(&drive_graphs::draw(scenario, &model, &found.means, &found.extremes, steady)?, to)?;
+        output::write(&drive_graphs::draw(scenario, &found, &curves(scenario, &model, &found)?), to)?;
     }
     match &args.json {
-        Some(to) => output::write(&format!("{}\n", as_json(args, scenario, &found)), to),
+        Some(to) => output::write(&report::json(scenario, &found), to),
         None if told_there => Ok(()),
-        None => output::print(&as_text(args, scenario, &found)),
+        None => output::print(&report::text(scenario, &found, args.table)),
     }
 }
 
@@ -171,117 +155,26 @@ fn find(args: &Args, scenario: &Scenario, model: &Model) -> Result<Found> {
             Some(([sense * speed, sense * speed * motor.ratio], model.regime(&cranks, ACCURACY)?))
         }
     };
-    let flywheel = args.non_uniformity.map(|wanted| Flywheel::of(model, wanted, ACCURACY)).transpose()?;
+    let flywheel = match args.non_uniformity {
+        Some(wanted) => Some((wanted, Flywheel::of(model, wanted, ACCURACY)?)),
+        None => None,
+    };
     let (extremes, rows) = (model.extremes()?, model.rows(&cranks)?);
     Ok(Found { means, extremes, added: model.added_inertia(), rows, steady, averaged, flywheel })
 }
 
-fn as_text(args: &Args, scenario: &Scenario, found: &Found) -> String {
-    let mut text = String::new();
-    let _ = writeln!(text, "{}: {}\n", scenario.name, scenario.title);
-    let names = [("reduced moment of inertia", "kg m^2"), ("reduced moment of resistance", "N m")];
-    let means = [found.means.inertia, found.means.resistance * scenario.case.crank().sense()];
-    for (((name, unit), mean), extremes) in names.into_iter().zip(means).zip(&found.extremes) {
-        let end = |(crank, value): (f64, f64)| format!("{value:.9} {unit} at {:.4} deg", crank.to_degrees());
-        let _ = writeln!(text, "{name}\n  mean      {mean:.9} {unit}");
-        let _ = writeln!(text, "  least     {}\n  greatest  {}", end(extremes.least), end(extremes.greatest));
-    }
-    if found.added > 0.0 {
-        let _ = writeln!(text, "motor and reducer on the crank\n  inertia   {:.9} kg m^2", found.added);
-    }
-    match &found.steady {
-        None => text.push_str("no motor: add a `[motor]` section to learn the steady motion\n"),
-        Some(([crank, motor], regime)) => {
-            let _ = writeln!(text, "averaged model\n  crank     {crank:.6} rad/s\n  motor     {motor:.6} rad/s");
-            match &found.averaged {
-                Some(averaged) => {
-                    let _ = writeln!(text, "  time constant {:.9} s", averaged.time_constant);
-                }
-                None => text.push_str("  time constant: none, the motor's law is not one straight line from rest on\n"),
-            }
-            let _ = writeln!(text, "steady motion\n{}", of_regime(regime));
-        }
-    }
-    if let (Some(flywheel), Some(wanted)) = (&found.flywheel, args.non_uniformity) {
-        let _ = writeln!(text, "flywheel for a non-uniformity of {wanted}\n  inertia   {:.9} kg m^2", flywheel.inertia);
-        let _ = writeln!(text, "{}", of_regime(&flywheel.regime));
-    }
-    if args.table {
-        let _ = writeln!(text, "\n{}", by_angle(found));
-    }
-    text
-}
-
-fn of_regime(regime: &Regime) -> String {
-    let at = |at: &At| format!("{:.9} rad/s at {:.4} deg", at.omega, at.crank.to_degrees());
-    let mut text = String::new();
-    let _ = writeln!(text, "  mean      {:.10} rad/s, period {:.13} s", regime.mean_speed, regime.period);
-    let _ = writeln!(text, "  at start  {:.10} rad/s", regime.start_speed);
-    let _ = writeln!(text, "  slowest   {}\n  fastest   {}", at(&regime.slowest), at(&regime.fastest));
-    let _ = write!(text, "  non-uniformity {:.6}", regime.non_uniformity());
-    text
-}
-
-fn by_angle(found: &Found) -> String {
-    let header = ["crank deg", "I* kg m^2", "dI*/dphi kg m^2", "resistance N m", "omega rad/s", "alpha rad/s^2"];
-    let mut table = table(header, &[0, 1, 2, 3, 4, 5]);
-    for (index, row) in found.rows.iter().enumerate() {
-        let at = found.steady.as_ref().map(|(_, regime)| regime.samples[index]);
-        let steady = |of: fn(At) -> f64| at.map_or("-".into(), |at| format!("{:.6}", of(at)));
-        table.add_row([
-            format!("{:.3}", row.crank.to_degrees()),
-            format!("{:.9}", row.inertia),
-            format!("{:.9}", row.slope),
-            format!("{:.6}", row.resistance),
-            steady(|at| at.omega),
-            steady(|at| at.alpha),
-        ]);
-    }
-    table.to_string()
-}
-
-fn as_json(args: &Args, scenario: &Scenario, found: &Found) -> String {
-    let sense = scenario.case.crank().sense();
-    let extremes = |extremes: &Extremes, mean: f64| {
-        let end = |(crank, value): (f64, f64)| json!({"crank_rad": crank, "value": value});
-        json!({"mean": mean, "least": end(extremes.least), "greatest": end(extremes.greatest)})
-    };
-    let at = |at: &At| json!({"crank_rad": at.crank, "omega_rad_s": at.omega, "alpha_rad_s2": at.alpha});
-    let regime = |regime: &Regime| {
-        json!({
-            "period_s": regime.period, "turns": regime.turns, "mean_rad_s": regime.mean_speed,
-            "at_start_rad_s": regime.start_speed, "slowest": at(&regime.slowest), "fastest": at(&regime.fastest),
-            "non_uniformity": regime.non_uniformity(), "multiplier": regime.multiplier,
-        })
-    };
-    let column = |of: fn(&Row) -> f64| found.rows.iter().map(of).collect::<Vec<f64>>();
-    let mut by_angle = json!({
-        "crank_rad": column(|row| row.crank), "inertia_kg_m2": column(|row| row.inertia),
-        "inertia_slope_kg_m2": column(|row| row.slope), "resistance_N_m": column(|row| row.resistance),
-    });
-    if let Some((_, steady)) = &found.steady {
-        by_angle["omega_rad_s"] = steady.samples.iter().map(|at| at.omega).collect();
-        by_angle["alpha_rad_s2"] = steady.samples.iter().map(|at| at.alpha).collect();
-    }
-    let mut value = json!({
-        "schema": 1, "scenario": scenario.name,
-        "inertia_kg_m2": extremes(&found.extremes[0], found.means.inertia),
-        "resistance_N_m": extremes(&found.extremes[1], sense * found.means.resistance),
-        "motor_and_reducer_kg_m2": found.added,
-        "averaged": found.steady.as_ref().map(|([crank, motor], _)| {
-            let constant = found.averaged.map(|averaged| averaged.time_constant);
-            json!({"crank_rad_s": crank, "motor_rad_s": motor, "time_constant_s": constant})
-        }),
-        "steady": found.steady.as_ref().map(|(_, steady)| regime(steady)),
-        "flywheel": found.flywheel.as_ref().map(|wheel| {
-            json!({"non_uniformity": args.non_uniformity, "inertia_kg_m2": wheel.inertia, "steady": regime(&wheel.regime)})
-        }),
-        "by_angle": by_angle,
-    });
-    if found.steady.is_none() {
-        value["steady_absent"] = Value::from("the scenario has no motor");
-    }
-    serde_json::to_string_pretty(&value).expect("plain values are always JSON")
+/// Data of the graphs: at equal intervals, and at the kinks of the reduced quantities.
+fn curves(scenario: &Scenario, model: &Model, found: &Found) -> Result<Curves> {
+    let (start, sense) = (scenario.case.crank().start, scenario.case.crank().sense());
+    let period = model.kinks().period.unwrap_or(std::f64::consts::TAU);
+    let even: Vec<f64> = (0..=PARTS).map(|k| start + sense * period * (f64::from(k) / f64::from(PARTS))).collect();
+    let kinks = model.kinks().cranks.iter().map(|kink| start + sense * (sense * (kink - start)).rem_euclid(period));
+    let mut cranks: Vec<f64> = even.iter().copied().chain(kinks).collect();
+    cranks.sort_by(|a, b| (sense * a).total_cmp(&(sense * b)));
+    let (rows, slope) = (model.rows(&cranks)?, model.slope_extremes()?);
+    let steady = found.steady.as_ref();
+    let steady = steady.map(|(_, regime)| model.regime_at(regime, &even, ACCURACY)).transpose()?;
+    Ok(Curves { period, rows, slope, steady })
 }
 
 fn run_up(args: &Args, model: &Model) -> Result<RunUp> {

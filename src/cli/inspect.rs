@@ -1,17 +1,13 @@
 //! `linkproof inspect`.
 
-use std::fmt::Write;
 use std::path::PathBuf;
 
-use serde_json::{Value, json};
-
-use super::{modes, output, range};
+use super::output;
+use crate::report::{inspect as report, modes, range};
 use crate::scenario::Scenario;
 use analytic::range::explained;
 use linkage::case::Grid;
 use linkage::error::{Error, ErrorKind, Result};
-use linkage::mechanism::assembly::{Choice, transmission_sine};
-use linkage::mechanism::{GROUND, Joint, Mechanism};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -57,123 +53,16 @@ pub(super) fn inspect(args: &Args) -> Result<()> {
     let range = if args.range { Some(analytic::range::Range::of(case)?) } else { None };
     match &args.json {
         Some(to) => {
-            let mut value = as_json(&scenario);
-            if let Some((crank, modes)) = &modes {
-                value["modes"] = modes::json(&scenario, *crank, modes);
-            }
-            if let Some(range) = &range {
-                value["range"] = range::json(&scenario, range);
-            }
-            let text = serde_json::to_string_pretty(&value).expect("plain values are always JSON");
-            output::write(&format!("{text}\n"), to)
+            let modes = modes.as_ref().map(|(crank, all)| (*crank, all.as_slice()));
+            output::write(&report::json(&scenario, modes, range.as_ref()), to)
         }
         None => {
             let text = match (modes, range) {
                 (Some((crank, modes)), _) => modes::text(&scenario, crank, &modes),
                 (None, Some(range)) => range::text(&scenario, &range),
-                (None, None) => as_text(&scenario),
+                (None, None) => report::text(&scenario),
             };
             output::print(&text)
         }
     }
-}
-
-fn as_text(scenario: &Scenario) -> String {
-    let case = &scenario.case;
-    let (mechanism, structure) = (&case.mechanism, &case.structure);
-    let (links, joints) = (mechanism.links().len() - 1, mechanism.joints().len());
-    let mut text = String::new();
-    let _ = writeln!(text, "{}: {}", scenario.name, scenario.title);
-    if let Some(source) = &scenario.source {
-        let _ = writeln!(text, "source     {source}");
-    }
-    let _ = writeln!(text, "mobility   W = 3*{links} - 2*{joints} = {}", structure.mobility);
-    let _ = writeln!(text, "structure  {}\n\nlinks", structure.formula(mechanism));
-    for (index, (link, pose)) in mechanism.links().iter().zip(&case.start.0).enumerate() {
-        let points: Vec<&str> = link.points.iter().map(|point| point.name.as_str()).collect();
-        let body = if index == GROUND {
-            "fixed".to_string()
-        } else {
-            let at = format!("at {:.3} deg", pose.angle.to_degrees());
-            if link.mass == 0.0 {
-                format!("massless, {at}")
-            } else {
-                format!("m = {} kg, J = {:e} kg m^2, {at}", link.mass, link.inertia)
-            }
-        };
-        let _ = writeln!(text, "  {:14} points {:14} {body}", link.name, points.join(" "));
-    }
-    let _ = writeln!(text, "\njoints");
-    for joint in mechanism.joints() {
-        let [first, second] = ends(mechanism, joint);
-        let driven = if joint.name == mechanism.joints()[case.crank().joint].name { ", driven" } else { "" };
-        let _ = writeln!(text, "  {:14} {}, {first} - {second}{driven}", joint.name, joint.kind.name());
-    }
-    let _ = writeln!(text, "\ngroups at the start (crank {:.3} deg)", case.crank().start.to_degrees());
-    for ((group, &mode), choice) in structure.groups.iter().zip(&case.modes).zip(&scenario.choices) {
-        let transmission = transmission_sine(mechanism, group, &case.start)
-            .map_or_else(String::new, |sine| format!(", transmission angle {:.2} deg", sine.abs().asin().to_degrees()));
-        let _ = writeln!(
-            text,
-            "  {:28} class {}, order {}, {}, mode {}{transmission}{}",
-            group.names(mechanism),
-            group.class,
-            group.order(),
-            group.pairs(),
-            mode.name(),
-            from_rough_place(choice)
-        );
-    }
-    text
-}
-
-/// How far the configuration is from the rough places given in the file, and how far the next one is.
-fn from_rough_place(choice: &Choice) -> String {
-    let mm = |distance: f64| format!("{:.*} mm", if distance < 0.01 { 1 } else { 0 }, distance * 1e3);
-    match (choice.nearest_m, choice.next_m) {
-        (None, _) => String::new(),
-        (Some(nearest), None) => format!(", {} from the rough place", mm(nearest)),
-        (Some(nearest), Some(next)) => {
-            format!(", {} from the rough place, the next configuration {}", mm(nearest), mm(next))
-        }
-    }
-}
-
-fn as_json(scenario: &Scenario) -> Value {
-    let case = &scenario.case;
-    let (mechanism, structure) = (&case.mechanism, &case.structure);
-    let link = |index: usize| mechanism.links()[index].name.clone();
-    let joint = |index: usize| mechanism.joints()[index].name.clone();
-    let links = mechanism.links().iter().zip(&case.start.0).map(|(link, pose)| {
-        let points = link.points.iter().map(|p| json!({"name": p.name, "x_m": p.local.x, "y_m": p.local.y}));
-        json!({
-            "name": link.name, "points": points.collect::<Vec<_>>(), "mass_kg": link.mass, "inertia_kg_m2": link.inertia,
-            "mass_centre": {"x_m": link.mass_centre.x, "y_m": link.mass_centre.y}, "start_angle_rad": pose.angle,
-        })
-    });
-    let joints = mechanism
-        .joints()
-        .iter()
-        .map(|joint| json!({"name": joint.name, "type": joint.kind.name(), "links": ends(mechanism, joint)}));
-    let groups = structure.groups.iter().zip(&case.modes).zip(&scenario.choices).map(|((group, &mode), choice)| {
-        json!({
-            "links": group.links.iter().map(|&l| link(l)).collect::<Vec<_>>(),
-            "inner_joints": group.inner.iter().map(|&j| joint(j)).collect::<Vec<_>>(),
-            "outer_joints": group.outer.iter().map(|&j| joint(j)).collect::<Vec<_>>(),
-            "class": group.class, "order": group.order(), "kind": group.pairs(), "mode": mode.name(),
-            "transmission_angle_rad": transmission_sine(mechanism, group, &case.start).map(|sine| sine.abs().asin()),
-            "from_rough_place_m": choice.nearest_m, "next_from_rough_place_m": choice.next_m,
-        })
-    });
-    let drivers = structure.drivers.iter().map(|&(l, j)| json!({"link": link(l), "joint": joint(j)}));
-    json!({
-        "schema": 1, "scenario": scenario.name, "title": scenario.title, "mobility": structure.mobility,
-        "formula": structure.formula(mechanism), "drivers": drivers.collect::<Vec<_>>(),
-        "groups": groups.collect::<Vec<_>>(), "links": links.collect::<Vec<_>>(), "joints": joints.collect::<Vec<_>>(),
-        "start_crank_rad": case.crank().start,
-    })
-}
-
-fn ends<'a>(mechanism: &'a Mechanism, joint: &Joint) -> [&'a str; 2] {
-    [joint.first, joint.second].map(|side| mechanism.links()[side.link].name.as_str())
 }

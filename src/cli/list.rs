@@ -1,13 +1,11 @@
 //! `linkproof list`.
 
-use std::fmt::Write;
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use super::{advice, output};
-use crate::scenario::Scenario;
-use linkage::error::{Error, ErrorKind, Result};
-use linkage::trajectory::{CHANNELS, Channel};
+use crate::report::lists;
+use crate::scenario::{self, Scenario};
+use linkage::error::Result;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -32,63 +30,16 @@ pub(super) struct Args {
 
 pub(super) fn list(args: &Args) -> Result<()> {
     let text = if args.channels {
-        channels()
+        lists::channels()
     } else if args.solvers {
-        solvers()
+        let (solvers, engines) = (analytic::all(), crate::engines::all(1.0));
+        let engines = engines.iter().map(|engine| (engine.name(), engine.version()));
+        lists::solvers(solvers.iter().map(|solver| solver.name()), engines)
     } else {
-        scenarios(&args.directory)?
+        let files = scenario::files_in(&args.directory)
+            .map_err(|error| error.help("name the directory that holds your scenario files: linkproof list DIR"))?;
+        let all: Vec<_> = files.into_iter().map(|file| (Scenario::load(&file), file)).collect();
+        lists::scenarios(&args.directory, &all, advice::told)
     };
     output::print(&text)
-}
-
-fn scenarios(directory: &Path) -> Result<String> {
-    let entries = fs::read_dir(directory).map_err(|error| {
-        Error::new(ErrorKind::Io, format!("the directory {} cannot be read: {error}", directory.display()))
-            .help("name the directory that holds your scenario files: linkproof list DIR")
-    })?;
-    let mut files: Vec<PathBuf> = entries
-        .filter_map(|entry| entry.ok().map(|entry| entry.path()))
-        .filter(|path| path.extension().is_some_and(|extension| extension == "toml"))
-        .collect();
-    files.sort();
-    let mut text = String::new();
-    for file in &files {
-        let _ = match Scenario::load(file) {
-            Ok(scenario) => writeln!(
-                text,
-                "{}\n    {}\n    {}",
-                file.display(),
-                scenario.title,
-                scenario.case.structure.formula(&scenario.case.mechanism)
-            ),
-            Err(error) => {
-                writeln!(text, "{}\n    cannot be read: {}", file.display(), error.line_by(advice::told))
-            }
-        };
-    }
-    if files.is_empty() {
-        let _ = writeln!(text, "no scenario files (*.toml) in {}", directory.display());
-    }
-    Ok(text)
-}
-
-fn channels() -> String {
-    let mut text = String::new();
-    for kind in &CHANNELS {
-        let of = if kind.subject.is_whole() { "" } else { "NAME" };
-        let name = Channel { of: of.into(), kind }.to_string();
-        let _ = writeln!(text, "{name:40} {:8} {:26} with \"{}\"", kind.unit, kind.quantity, kind.stage.name());
-    }
-    text
-}
-
-fn solvers() -> String {
-    let mut text = String::new();
-    for solver in analytic::all() {
-        let _ = writeln!(text, "{:10} analytic", solver.name());
-    }
-    for engine in crate::engines::all(1.0) {
-        let _ = writeln!(text, "{:10} engine, {}", engine.name(), engine.version());
-    }
-    text
 }

@@ -4,9 +4,8 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
-
 use super::advice;
+use crate::report::errors;
 use linkage::error::{Error, ErrorKind, Result};
 
 /// Path that results may be written to, `-` for standard output. Scenario files are refused: in `--json
@@ -54,28 +53,7 @@ pub(super) fn exit(result: Result<()>) -> u8 {
 
 /// Shows an error on standard error: the line of the file concerned, what was found there, and the way out.
 pub(super) fn show(error: &Error) {
-    let text = render(error);
+    let text = errors::text(error, advice::told);
     // If standard error is closed, nothing can be done.
     let _ = writeln!(io::stderr(), "{text}");
-}
-
-fn render(error: &Error) -> String {
-    let title = match error.scenario_key() {
-        Some(key) => format!("`{key}`: {}", error.message()),
-        None => error.message().to_string(),
-    };
-    let help = error.way_out_by(advice::told);
-    let Some(place) = error.place() else {
-        // The renderer would draw a margin for lines that do not exist.
-        let help = help.map(|help| format!("\n  = help: {help}")).unwrap_or_default();
-        return format!("error: {title}{help}");
-    };
-    let path = place.file.display().to_string();
-    let annotation = AnnotationKind::Primary.span(place.span.clone());
-    let snippet = Snippet::source(place.text.as_str()).path(path.as_str()).annotation(annotation);
-    let mut group = Group::with_title(Level::ERROR.primary_title(title.as_str())).element(snippet);
-    if let Some(help) = help {
-        group = group.element(Level::HELP.message(help));
-    }
-    Renderer::plain().render(&[group])
 }

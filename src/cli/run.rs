@@ -1,6 +1,5 @@
 //! `linkproof run`.
 
-use linkage::math::KeepNan;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -13,8 +12,8 @@ use super::progress::Bar;
 use super::{advice, exit_code, output};
 use crate::compare::Verdict;
 use crate::proof::{EngineProof, Proof, prove_with};
-use crate::record::{self as recorder, Level, LogEntry, Recording, Side};
-use crate::report::{json, residuals, text};
+use crate::record::{self as recorder, Recording, Side};
+use crate::report::{json, recorded, residuals, text};
 use crate::scenario::Scenario;
 use linkage::error::{Error, ErrorKind, Result};
 
@@ -159,7 +158,7 @@ fn write_recording(scenario: &Scenario, proof: &Proof, args: &Args, path: &Path)
         Error::new(ErrorKind::Io, format!("the directory {} cannot be made: {error}", directory.display()))
             .help("name another directory with --record, or use --no-record")
     })?;
-    let mut metadata = metadata(proof);
+    let mut metadata = recorded::metadata(proof);
     if !args.mode.is_empty() {
         // The scenario text in the recording does not contain the modes asked for.
         metadata.insert("modes".into(), args.mode.join(" "));
@@ -169,7 +168,7 @@ fn write_recording(scenario: &Scenario, proof: &Proof, args: &Args, path: &Path)
         let name = if proof.engines.len() == 1 { "engine" } else { engine.info.name };
         sides.extend(engine.trajectory.as_ref().map(|trajectory| Side { name, trajectory }));
     }
-    let log = log(proof);
+    let log = recorded::log(proof, advice::told);
     let recording = Recording {
         name: &scenario.name,
         scenario_text: &scenario.text,
@@ -180,62 +179,6 @@ fn write_recording(scenario: &Scenario, proof: &Proof, args: &Args, path: &Path)
         log: &log,
     };
     recorder::write(&recording, path)
-}
-
-fn metadata(proof: &Proof) -> BTreeMap<String, String> {
-    let mut metadata = BTreeMap::from([
-        ("linkproof".to_string(), env!("CARGO_PKG_VERSION").to_string()),
-        ("reference".into(), proof.reference.into()),
-        ("structure".into(), proof.formula.clone()),
-        ("verdict".into(), proof.verdict.word().into()),
-    ]);
-    for EngineProof { info, .. } in &proof.engines {
-        let (engine, provides) = match proof.engines.len() {
-            1 => ("engine".to_string(), "provides".to_string()),
-            _ => (format!("engine_{}", info.name), format!("provides_{}", info.name)),
-        };
-        let resolution = if info.controls_error { "accuracy" } else { "step_s" };
-        metadata.insert(engine.clone(), info.version.clone());
-        metadata.insert(format!("{engine}_{resolution}"), format!("{:e}", info.settings.resolution));
-        metadata.extend(info.told.iter().map(|(name, value)| (format!("{engine}_{name}"), value.clone())));
-        let provided = info.provides.iter().map(|(stage, how)| (format!("{provides}_{stage}"), json::provision(how)));
-        metadata.extend(provided);
-    }
-    metadata
-}
-
-/// The verdict at the start, and every disagreement at its worst instant.
-fn log(proof: &Proof) -> Vec<LogEntry> {
-    let start = proof.reference_trajectory.times().iter().copied().fold(f64::INFINITY, f64::smaller);
-    let level = |verdict: &Verdict| match verdict {
-        Verdict::Agree { .. } | Verdict::Expected { .. } => Level::Info,
-        Verdict::Inconclusive { .. } => Level::Warning,
-        Verdict::Disagree { .. } => Level::Error,
-    };
-    let why = |verdict: &Verdict| match verdict {
-        Verdict::Agree { .. } | Verdict::Expected { .. } => None,
-        Verdict::Disagree { .. } | Verdict::Inconclusive { .. } => verdict.reason(advice::told),
-    };
-    let mut log = vec![LogEntry {
-        time: start,
-        level: level(&proof.verdict),
-        text: format!("{}: {}", proof.scenario, proof.verdict.word()),
-    }];
-    let channels = proof.engines.iter().flat_map(|engine| &engine.channels);
-    for channel in channels {
-        if let Some(why) = why(&channel.verdict) {
-            let residual = &channel.residual;
-            let text = format!("{}: {why}", residual.channel);
-            log.push(LogEntry { time: residual.worst_time, level: level(&channel.verdict), text });
-        }
-    }
-    for check in proof.all_checks() {
-        if let Some(why) = why(&check.verdict) {
-            let text = format!("{}: {why}", check.name());
-            log.push(LogEntry { time: start, level: level(&check.verdict), text });
-        }
-    }
-    log
 }
 
 fn exit_code(verdict: &Verdict) -> u8 {

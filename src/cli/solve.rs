@@ -10,10 +10,10 @@ use super::load::{load, reference_names};
 use super::output;
 use super::progress::Bar;
 use crate::engines::EngineName;
+use crate::report::table_csv;
 use analytic::range::explained;
 use linkage::case::{Case, Grid};
 use linkage::error::{Error, ErrorKind, Result};
-use linkage::trajectory::Trajectory;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -70,7 +70,7 @@ pub(super) fn solve(args: &Args) -> Result<()> {
         }
     };
     drop(bar);
-    output::write(&csv(&trajectory)?, &args.csv)
+    output::write(&table_csv::solution(&trajectory)?, &args.csv)
 }
 
 /// The error for a time step given to a solver that takes none: it shows a misunderstanding, so it is not ignored.
@@ -92,19 +92,4 @@ fn on_grid(case: &Case, args: &Args) -> Result<Case> {
         Error::new(ErrorKind::Input, message).help("check the unit and size of --crank-deg or --times")
     })?;
     case.on(grid)
-}
-
-/// One row per instant, with 17 significant digits, so that every double is read back exactly.
-fn csv(trajectory: &Trajectory) -> Result<String> {
-    let failed = |error: csv::Error| Error::new(ErrorKind::Io, format!("the table cannot be written: {error}"));
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    let names = trajectory.channels().iter().map(ToString::to_string);
-    writer.write_record(["t_s".to_string(), "crank_rad".to_string()].into_iter().chain(names)).map_err(failed)?;
-    let columns: Vec<&[f64]> =
-        [trajectory.times(), trajectory.cranks()].into_iter().chain(trajectory.iter().map(|(_, v)| v)).collect();
-    for row in 0..trajectory.times().len() {
-        writer.write_record(columns.iter().map(|column| format!("{:.16e}", column[row]))).map_err(failed)?;
-    }
-    let bytes = writer.into_inner().map_err(|error| failed(error.into_error().into()))?;
-    Ok(String::from_utf8(bytes).expect("names and numbers are text"))
 }

@@ -1,19 +1,16 @@
 //! `linkproof tune`.
 
 use linkage::math::KeepNan;
-use std::fmt::Write;
 use std::fs;
 use std::path::PathBuf;
 use std::time::Instant;
 
-use serde_json::json;
-
 use super::engine_args::EngineArgs;
 use super::output;
 use super::progress::Bar;
-use crate::report::table;
+use crate::report::tune as report;
 use crate::scenario::{EngineKeys, Scenario, edit};
-use crate::tune::{Candidate, Tuning, Wish, tune};
+use crate::tune::{Candidate, Wish, tune};
 use linkage::engine::{Engine, Settings};
 use linkage::error::{Advice, Error, ErrorKind, Result};
 
@@ -85,8 +82,12 @@ pub(super) fn run(args: &Args) -> Result<()> {
         })?;
     }
     match &args.json {
-        Some(to) => output::write(&format!("{}\n", as_json(args, &scenario, &found)), to),
-        None => output::print(&as_text(args, &scenario, &found)),
+        Some(to) => output::write(&report::json(&scenario, &found, args.within), to),
+        None => {
+            let section = edit::engine_section(keys(&scenario, &found.best));
+            let place = report::Section { text: &section, file: &args.file, is_written: args.write };
+            output::print(&report::text(&scenario, &found, args.within, &place))
+        }
     }
 }
 
@@ -111,69 +112,4 @@ fn keys(scenario: &Scenario, best: &Candidate) -> (f64, EngineKeys) {
         extrapolated: extrapolated.then_some(true),
     };
     (step, keys)
-}
-
-fn as_text(args: &Args, scenario: &Scenario, found: &Tuning) -> String {
-    let header = ["engine", "step", "sweeps", "substeps", "extrapolated", "route", "error", "worst channel", "price"];
-    let mut table = table(header, &[1, 2, 3, 6, 8]);
-    for candidate in &found.by_engine {
-        let Settings { resolution, sweeps, substeps, route, extrapolated } = candidate.settings;
-        table.add_row([
-            candidate.engine.to_string(),
-            format!("{resolution:.3e}"),
-            sweeps.to_string(),
-            substeps.to_string(),
-            if extrapolated { "yes" } else { "no" }.to_string(),
-            route.name().to_string(),
-            format!("{:.2e}", candidate.verified),
-            candidate.worst.clone(),
-            format!("{:.2}", candidate.price / found.best.price),
-        ]);
-    }
-    let mut text = String::new();
-    let _ = writeln!(text, "{}: {}\n", scenario.name, scenario.title);
-    let _ = writeln!(text, "The cheapest settings within {:e} of every channel's scale:\n{table}\n", args.within);
-    for (name, error) in &found.too_coarse {
-        let _ = match error.is_finite() {
-            true => writeln!(text, "{name} does not meet it: its smallest error was {error:.1e}."),
-            false => {
-                writeln!(text, "{name} does not run it with any settings: `linkproof run --engine {name}` says why.")
-            }
-        };
-    }
-    for name in &found.too_dear {
-        let _ = writeln!(text, "{name} costs more than the cheapest.");
-    }
-    let _ = writeln!(
-        text,
-        "{}: error {:.2e} measured against the reference, {:.2e} expected from its own runs; {} runs.",
-        found.best.engine, found.best.verified, found.predicted, found.runs
-    );
-    let section = edit::engine_section(keys(scenario, &found.best));
-    let place = args.file.display();
-    let _ = match args.write {
-        true => writeln!(text, "\nWritten to {place}:\n\n{section}"),
-        false => writeln!(text, "\nFor {place} (or let --write put it there):\n\n{section}"),
-    };
-    text
-}
-
-fn as_json(args: &Args, scenario: &Scenario, found: &Tuning) -> String {
-    let candidate = |candidate: &Candidate| {
-        let Settings { resolution, sweeps, substeps, route, extrapolated } = candidate.settings;
-        let key = if candidate.controls_error { "accuracy" } else { "dt_s" };
-        json!({
-            "engine": candidate.engine, key: resolution, "sweeps": sweeps,
-            "substeps": substeps, "route": route.name(), "extrapolated": extrapolated,
-            "error": candidate.verified, "worst_channel": candidate.worst, "price_of_best": candidate.price / found.best.price,
-        })
-    };
-    let value = json!({
-        "schema": 1, "scenario": scenario.name, "within": args.within, "runs": found.runs,
-        "best": candidate(&found.best), "expected_error": found.predicted,
-        "engines": found.by_engine.iter().map(candidate).collect::<Vec<_>>(),
-        "too_coarse": found.too_coarse.iter().map(|(name, error)| json!({"engine": name, "smallest_error": error})).collect::<Vec<_>>(),
-        "too_dear": found.too_dear,
-    });
-    serde_json::to_string_pretty(&value).expect("plain values are always JSON")
 }

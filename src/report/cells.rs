@@ -6,7 +6,7 @@ use crate::compare::Verdict;
 use crate::proof::ChannelProof;
 
 /// An empty table without lines; the columns in `numbers` are aligned right.
-pub(crate) fn table<const N: usize>(header: [&str; N], numbers: &[usize]) -> Table {
+pub(super) fn table<const N: usize>(header: [&str; N], numbers: &[usize]) -> Table {
     let mut table = Table::new();
     table.load_style(presets::NOTHING).set_header(header);
     for &index in numbers {

@@ -1,11 +1,29 @@
-//! Presentation of a proof: pure functions of a [`crate::proof::Proof`].
+//! Presentation of the results of every command, as text and as JSON: pure functions of data, without files, clock or
+//! terminal.
 
+pub(crate) mod bearings;
 mod cells;
+pub(crate) mod closed_form;
+pub(crate) mod diagram;
+pub(crate) mod drive;
+pub(crate) mod drive_graphs;
 mod engines;
+pub(crate) mod errors;
+pub(crate) mod inspect;
 pub mod json;
+pub(crate) mod lists;
+pub(crate) mod modes;
+pub(crate) mod motor_choice;
+pub(crate) mod plan;
+mod pretty;
+pub(crate) mod range;
+pub(crate) mod recorded;
 pub mod residuals;
+pub(crate) mod run_up;
+pub(crate) mod synthesis;
+pub(crate) mod table_csv;
 mod tell;
 pub mod text;
+pub(crate) mod tune;
 
-pub(crate) use cells::table;
 pub use tell::Tell;

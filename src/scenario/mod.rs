@@ -81,6 +81,22 @@ pub struct Scenario {
     pub choices: Vec<Choice>,
 }
 
+/// The scenario files (`*.toml`) of a directory, by name.
+///
+/// # Errors
+/// [`ErrorKind::Io`] if the directory cannot be read.
+pub fn files_in(directory: &Path) -> Result<Vec<PathBuf>> {
+    let entries = std::fs::read_dir(directory).map_err(|error| {
+        Error::new(ErrorKind::Io, format!("the directory {} cannot be read: {error}", directory.display()))
+    })?;
+    let mut files: Vec<PathBuf> = entries
+        .filter_map(|entry| entry.ok().map(|entry| entry.path()))
+        .filter(|path| path.extension().is_some_and(|extension| extension == "toml"))
+        .collect();
+    files.sort();
+    Ok(files)
+}
+
 impl Scenario {
     /// Reads the scenario file at `path` and the tables it names.
     ///

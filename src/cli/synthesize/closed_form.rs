@@ -1,18 +1,16 @@
 //! `linkproof synthesize crank-rocker` and `slider-crank`.
 
 use std::f64::consts::TAU;
-use std::fmt::Write;
 use std::path::{Path, PathBuf};
-
-use serde_json::json;
 
 use super::target::{scenario_target, write_scenario};
 use crate::cli::output;
+use crate::report::closed_form::{self as report, Told};
 use crate::scenario::Scenario;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::Vec2;
 use workshop::synthesis::Sheet;
-use workshop::synthesis::crank_rocker::{self, CrankRocker, Extreme};
+use workshop::synthesis::crank_rocker::{self, CrankRocker};
 use workshop::synthesis::slider_crank::{Given, SliderCrank};
 
 /// Where results are written, and what a scenario needs besides dimensions.
@@ -49,7 +47,7 @@ impl Target {
 
     /// Writes the scenario, if one is wanted. Then writes the other results, unless the scenario went to standard
     /// output.
-    fn deliver(&self, scenario: &str, text: &str, json: serde_json::Value) -> Result<()> {
+    fn deliver(&self, scenario: &str, told: &Told) -> Result<()> {
         if let Some(to) = &self.output {
             // An invalid name is found here, not first when the scenario is run.
             Scenario::parse(scenario, to)?;
@@ -59,8 +57,8 @@ impl Target {
             }
         }
         match &self.json {
-            Some(to) => output::write(&format!("{json:#}\n"), to),
-            None => output::print(text),
+            Some(to) => output::write(&told.json, to),
+            None => output::print(&told.text),
         }
     }
 }
@@ -102,24 +100,6 @@ pub(super) fn crank_rocker(args: &CrankRockerArgs) -> Result<()> {
         swing: args.swing_deg.to_radians(),
     };
     let found = CrankRocker::of(wish)?;
-    let mut text = String::from("crank-rocker from two extreme positions\n");
-    let _ = writeln!(
-        text,
-        "  crank OA      {:.15} m\n  coupler AB    {:.15} m\n  rocker CB     {:.15} m",
-        found.crank, found.coupler, wish.rocker
-    );
-    for (name, extreme) in [("stretched", found.stretched), ("folded", found.folded)] {
-        let [crank, rocker] = [extreme.crank, extreme.rocker].map(f64::to_degrees);
-        let _ = writeln!(text, "  {name:13} crank {crank:.9} deg, rocker {rocker:.9} deg");
-    }
-    let _ = writeln!(
-        text,
-        "  transmission  {:.4} deg at least, at crank {:.4} deg\n  time ratio    {:.6}\n  mode          {}",
-        found.transmission.to_degrees(),
-        found.transmission_at.to_degrees(),
-        found.time_ratio,
-        found.mode.name()
-    );
     let comment = format!(
         "linkproof synthesize crank-rocker --crank-pivot-mm {},{} --pivot-mm {},{} --rocker-mm {} --extreme-deg {} --swing-deg {}",
         args.crank_pivot_mm[0],
@@ -132,13 +112,7 @@ pub(super) fn crank_rocker(args: &CrankRockerArgs) -> Result<()> {
     );
     let sheet =
         args.target.sheet("crank_rocker_found", "Crank-rocker from two extreme positions of its rocker", comment)?;
-    let extreme = |extreme: Extreme| json!({"crank_rad": extreme.crank, "rocker_rad": extreme.rocker});
-    let json = json!({
-        "schema": 1, "crank_m": found.crank, "coupler_m": found.coupler, "rocker_m": wish.rocker,
-        "stretched": extreme(found.stretched), "folded": extreme(found.folded), "mode": found.mode.name(),
-        "transmission_rad": found.transmission, "transmission_crank_rad": found.transmission_at, "time_ratio": found.time_ratio,
-    });
-    args.target.deliver(&found.scenario(&sheet), &text, json)
+    args.target.deliver(&found.scenario(&sheet), &report::crank_rocker(&found, wish.rocker))
 }
 
 #[derive(Debug, clap::Args)]
@@ -167,26 +141,10 @@ pub(super) fn slider_crank(args: &SliderCrankArgs) -> Result<()> {
         (None, None) => unreachable!("the parser asks for one of the two"),
     };
     let found = SliderCrank::of(args.stroke_mm / 1e3, args.offset_mm / 1e3, given)?;
-    let mut text = String::from("slider-crank from stroke and offset\n");
-    let _ = writeln!(text, "  crank         {:.15} m\n  rod           {:.15} m", found.crank, found.rod);
-    for (name, [crank, place]) in [("farthest", found.far), ("nearest", found.near)] {
-        let _ = writeln!(text, "  {name:13} crank {:.9} deg, slider {place:.12} m", crank.to_degrees());
-    }
-    let _ = writeln!(
-        text,
-        "  pressure      {:.4} deg at most between rod and slider's line\n  time ratio    {:.6}",
-        found.pressure.to_degrees(),
-        found.time_ratio
-    );
     let comment = format!(
         "linkproof synthesize slider-crank --stroke-mm {} --offset-mm {} {told}",
         args.stroke_mm, args.offset_mm
     );
     let sheet = args.target.sheet("slider_crank_found", "Slider-crank from stroke and offset", comment)?;
-    let end = |[crank, place]: [f64; 2]| json!({"crank_rad": crank, "slider_m": place});
-    let json = json!({
-        "schema": 1, "crank_m": found.crank, "rod_m": found.rod, "farthest": end(found.far), "nearest": end(found.near),
-        "pressure_rad": found.pressure, "time_ratio": found.time_ratio,
-    });
-    args.target.deliver(&found.scenario(&sheet), &text, json)
+    args.target.deliver(&found.scenario(&sheet), &report::slider_crank(&found))
 }

@@ -3,7 +3,6 @@
 mod closed_form;
 mod search;
 mod target;
-mod told;
 
 use linkage::error::Result;
 

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use super::target::{scenario_target, write_scenario};
-use super::told::{self, Story};
 use crate::cli::{output, progress};
+use crate::report::synthesis::{self as report, Story};
 use crate::scenario::task_file::TaskFile;
 use crate::scenario::{Scenario, redraw};
 use linkage::error::{Error, ErrorKind, Result};
@@ -99,7 +99,7 @@ fn comment(args: &Args, task: &Task, achieved: &Achieved) -> String {
         effort.refined,
         effort.evaluations
     );
-    format!("Found by: {command}\n{}", told::summary(task, achieved))
+    format!("Found by: {command}\n{}", report::summary(task, achieved))
 }
 
 pub(super) fn check(args: &CheckArgs) -> Result<()> {
@@ -121,10 +121,10 @@ pub(super) fn check(args: &CheckArgs) -> Result<()> {
 fn tell(target: &Target, story: &Story) -> Result<()> {
     let dash = |to: &Option<PathBuf>| to.as_deref() == Some(Path::new("-"));
     if let Some(to) = &target.svg {
-        output::write(&draw::timing(&told::diagram(story), &story.task.title), to)?;
+        output::write(&draw::timing(&report::diagram(story), &story.task.title), to)?;
     }
     if let Some(to) = &target.json {
-        output::write(&format!("{:#}\n", told::json(story)), to)?;
+        output::write(&report::json(story), to)?;
     }
-    if dash(&target.svg) || dash(&target.json) { Ok(()) } else { output::print(&told::text(story)) }
+    if dash(&target.svg) || dash(&target.json) { Ok(()) } else { output::print(&report::text(story)) }
 }

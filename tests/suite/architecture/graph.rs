@@ -193,6 +193,7 @@ impl<'ast> Visit<'ast> for Finder<'_> {
     }
 
     fn visit_macro(&mut self, call: &'ast syn::Macro) {
+        self.visit_path(&call.path);
         self.macros.extend(call.path.segments.last().map(|segment| segment.ident.to_string()));
         words(call.tokens.clone(), self.paths);
     }

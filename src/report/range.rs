@@ -1,11 +1,11 @@
-//! What `linkproof inspect --range` shows.
+//! How far a mechanism can be followed: limits, singular and extreme positions, transmission angles.
 
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
 use serde_json::{Value, json};
 
-use crate::report::table;
+use super::cells::table;
 use crate::scenario::Scenario;
 use analytic::range::{At, Extent, Extreme, LinkRange, Measure, Range, Singularity};
 
@@ -13,7 +13,7 @@ use analytic::range::{At, Extent, Extreme, LinkRange, Measure, Range, Singularit
 const EXTREMES: usize = 8;
 
 /// The range as text.
-pub(super) fn text(scenario: &Scenario, range: &Range) -> String {
+pub(crate) fn text(scenario: &Scenario, range: &Range) -> String {
     let mut text = String::new();
     let _ = writeln!(text, "{}: {}", scenario.name, scenario.title);
     let _ = writeln!(text, "crank      {}", extent(range));

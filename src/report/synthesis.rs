@@ -2,20 +2,24 @@
 
 use std::fmt::Write;
 
-use serde_json::{Value, json};
+use serde_json::json;
 
-use crate::report::table;
+use super::cells::table;
+use super::pretty::pretty;
 use workshop::diagram::timing::{Stretch, TimingDiagram};
 use workshop::synthesis::achieved::BAND;
 use workshop::synthesis::{Achieved, Found};
 use workshop::task::{Output, Sense, Task};
 
 /// A task, what was achieved, and how it was found.
-pub(super) struct Story<'a> {
-    pub(super) task: &'a Task,
-    pub(super) achieved: &'a Achieved,
+#[derive(Debug)]
+pub(crate) struct Story<'a> {
+    /// The task.
+    pub(crate) task: &'a Task,
+    /// How well the motion keeps it.
+    pub(crate) achieved: &'a Achieved,
     /// What the search found, and the values as written.
-    pub(super) search: Option<(&'a Found, &'a [f64])>,
+    pub(crate) search: Option<(&'a Found, &'a [f64])>,
 }
 
 /// The stroke with its unit.
@@ -27,7 +31,7 @@ fn stroke(task: &Task, achieved: &Achieved) -> String {
 }
 
 /// The main figures, in two lines.
-pub(super) fn summary(task: &Task, achieved: &Achieved) -> String {
+pub(crate) fn summary(task: &Task, achieved: &Achieved) -> String {
     format!(
         "Stroke {}{}. Largest motion in a dwell {:.3} % of the stroke,\n\
          largest way in a wrong sense {:.3} %. Extreme positions within {:.2} deg of the table, dwells short by {:.2} deg at most.",
@@ -42,7 +46,8 @@ pub(super) fn summary(task: &Task, achieved: &Achieved) -> String {
     )
 }
 
-pub(super) fn text(story: &Story) -> String {
+/// The motion and its timing as text.
+pub(crate) fn text(story: &Story) -> String {
     let (task, achieved) = (story.task, story.achieved);
     let mut text = String::new();
     let _ = writeln!(text, "{}: {}\n", task.name, task.title);
@@ -94,7 +99,8 @@ pub(super) fn text(story: &Story) -> String {
     text
 }
 
-pub(super) fn json(story: &Story) -> Value {
+/// The motion and its timing as JSON, schema 1.
+pub(crate) fn json(story: &Story) -> String {
     let (task, achieved) = (story.task, story.achieved);
     let phases = task.timing.phases().iter().zip(&achieved.phases).map(|(phase, done)| {
         json!({
@@ -113,15 +119,16 @@ pub(super) fn json(story: &Story) -> Value {
             "dimensions": dimensions.collect::<Vec<_>>(),
         })
     });
-    json!({
+    let value = json!({
         "schema": 1, "name": task.name, "stroke": achieved.stroke, "forward": achieved.forward,
         "transmission_rad": achieved.transmission, "unrest": achieved.unrest(task), "wrong": achieved.wrong(),
         "late_rad": achieved.late(task), "short_rad": achieved.short(task), "phases": phases.collect::<Vec<_>>(), "search": search,
-    })
+    });
+    pretty(&value)
 }
 
 /// Data of the picture: a point every degree, and the wanted curve where it is known.
-pub(super) fn diagram(story: &Story) -> TimingDiagram {
+pub(crate) fn diagram(story: &Story) -> TimingDiagram {
     let (task, achieved) = (story.task, story.achieved);
     let rows = (0..achieved.turns.len()).step_by((achieved.turns.len() / 720).max(1));
     let stretch = |(phase, done): (&workshop::task::Phase, &workshop::synthesis::achieved::PhaseDone)| Stretch {

@@ -1,8 +1,8 @@
-//! The configurations that `linkproof inspect --modes` lists.
+//! All real configurations of the groups at one crank angle.
 
 use std::fmt::Write;
 
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use crate::scenario::Scenario;
 use analytic::modes::Modes;
@@ -12,7 +12,7 @@ use linkage::mechanism::AssemblyMode;
 const SINGULAR: &str = "the configuration is singular: angular velocities are not determined";
 
 /// The configurations as text.
-pub(super) fn text(scenario: &Scenario, crank: f64, all: &[Modes]) -> String {
+pub(crate) fn text(scenario: &Scenario, crank: f64, all: &[Modes]) -> String {
     let mechanism = &scenario.case.mechanism;
     let mut text = String::new();
     let _ = writeln!(text, "{} at crank angle {:.4} deg", scenario.name, crank.to_degrees());
@@ -54,22 +54,22 @@ pub(super) fn json(scenario: &Scenario, crank: f64, all: &[Modes]) -> Value {
                 let link = &mechanism.links()[link];
                 let points = link.points.iter().map(|point| {
                     let at = pose.point(point.local);
-                    serde_json::json!({"name": point.name, "x_m": at.x, "y_m": at.y})
+                    json!({"name": point.name, "x_m": at.x, "y_m": at.y})
                 });
-                serde_json::json!({"name": link.name, "angle_rad": pose.angle, "omega_rad_s": omega, "points": points.collect::<Vec<_>>()})
+                json!({"name": link.name, "angle_rad": pose.angle, "omega_rad_s": omega, "points": points.collect::<Vec<_>>()})
             });
-            let mut value = serde_json::json!({"mode": mode.mode.name(), "followed": mode.is_followed, "links": links.collect::<Vec<_>>()});
+            let mut value = json!({"mode": mode.mode.name(), "followed": mode.is_followed, "links": links.collect::<Vec<_>>()});
             if mode.omegas.is_none() {
                 value["omega_absent"] = SINGULAR.into();
             }
             value
         });
         let links: Vec<&str> = group.links.iter().map(|&l| mechanism.links()[l].name.as_str()).collect();
-        let mut value = serde_json::json!({"links": links, "all_known": found.unknown.is_none(), "modes": modes.collect::<Vec<_>>()});
+        let mut value = json!({"links": links, "all_known": found.unknown.is_none(), "modes": modes.collect::<Vec<_>>()});
         if let Some(why) = &found.unknown {
             value["others_absent"] = why.as_str().into();
         }
         value
     });
-    serde_json::json!({"crank_rad": crank, "groups": groups.collect::<Vec<_>>()})
+    json!({"crank_rad": crank, "groups": groups.collect::<Vec<_>>()})
 }

@@ -1,0 +1,68 @@
+//! Mechanisms found in closed form.
+
+use std::fmt::Write;
+
+use serde_json::json;
+
+use super::pretty::pretty;
+use workshop::synthesis::crank_rocker::{CrankRocker, Extreme};
+use workshop::synthesis::slider_crank::SliderCrank;
+
+/// A result as text and as JSON.
+#[derive(Debug)]
+pub(crate) struct Told {
+    /// As text.
+    pub(crate) text: String,
+    /// As JSON, schema 1.
+    pub(crate) json: String,
+}
+
+/// A crank-rocker with a rocker of the given length (m).
+pub(crate) fn crank_rocker(found: &CrankRocker, rocker: f64) -> Told {
+    let mut text = String::from("crank-rocker from two extreme positions\n");
+    let _ = writeln!(
+        text,
+        "  crank OA      {:.15} m\n  coupler AB    {:.15} m\n  rocker CB     {:.15} m",
+        found.crank, found.coupler, rocker
+    );
+    for (name, extreme) in [("stretched", found.stretched), ("folded", found.folded)] {
+        let [crank, rocker] = [extreme.crank, extreme.rocker].map(f64::to_degrees);
+        let _ = writeln!(text, "  {name:13} crank {crank:.9} deg, rocker {rocker:.9} deg");
+    }
+    let _ = writeln!(
+        text,
+        "  transmission  {:.4} deg at least, at crank {:.4} deg\n  time ratio    {:.6}\n  mode          {}",
+        found.transmission.to_degrees(),
+        found.transmission_at.to_degrees(),
+        found.time_ratio,
+        found.mode.name()
+    );
+    let extreme = |extreme: Extreme| json!({"crank_rad": extreme.crank, "rocker_rad": extreme.rocker});
+    let json = pretty(&json!({
+        "schema": 1, "crank_m": found.crank, "coupler_m": found.coupler, "rocker_m": rocker,
+        "stretched": extreme(found.stretched), "folded": extreme(found.folded), "mode": found.mode.name(),
+        "transmission_rad": found.transmission, "transmission_crank_rad": found.transmission_at, "time_ratio": found.time_ratio,
+    }));
+    Told { text, json }
+}
+
+/// A slider-crank.
+pub(crate) fn slider_crank(found: &SliderCrank) -> Told {
+    let mut text = String::from("slider-crank from stroke and offset\n");
+    let _ = writeln!(text, "  crank         {:.15} m\n  rod           {:.15} m", found.crank, found.rod);
+    for (name, [crank, place]) in [("farthest", found.far), ("nearest", found.near)] {
+        let _ = writeln!(text, "  {name:13} crank {:.9} deg, slider {place:.12} m", crank.to_degrees());
+    }
+    let _ = writeln!(
+        text,
+        "  pressure      {:.4} deg at most between rod and slider's line\n  time ratio    {:.6}",
+        found.pressure.to_degrees(),
+        found.time_ratio
+    );
+    let end = |[crank, place]: [f64; 2]| json!({"crank_rad": crank, "slider_m": place});
+    let json = pretty(&json!({
+        "schema": 1, "crank_m": found.crank, "rod_m": found.rod, "farthest": end(found.far), "nearest": end(found.near),
+        "pressure_rad": found.pressure, "time_ratio": found.time_ratio,
+    }));
+    Told { text, json }
+}

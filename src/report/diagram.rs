@@ -1,0 +1,84 @@
+//! Velocity and acceleration by the chord method, and their errors.
+
+use std::fmt::Write;
+
+use serde_json::json;
+
+use super::pretty::pretty;
+use crate::scenario::Scenario;
+use workshop::diagram::MotionDiagram;
+use workshop::diagram::draw::significant;
+
+/// The diagram as text: the largest and the mean error of every method.
+pub(crate) fn text(scenario: &Scenario, diagram: &MotionDiagram) -> String {
+    let mut text = String::new();
+    let _ =
+        writeln!(text, "{}: {} over one turn in {} divisions", scenario.name, diagram.course.0[0], diagram.divisions);
+    for (which, channel) in diagram.course.0.iter().enumerate() {
+        let half = significant(diagram.half_range(which));
+        let _ = writeln!(text, "  {:28} half range {half:>10} {}", channel.to_string(), channel.kind.unit);
+    }
+    let header = ["largest error", "rms", "of half range", "order", "order"];
+    let [largest, rms, share, first, second] = header;
+    let _ = writeln!(text, "\n  {:34} {largest:>20} {rms:>20} {share:>14} {first:>6} {second:>6}", "method");
+    for found in &diagram.found {
+        let unit = diagram.course.0[found.method.gives()].kind.unit.symbol();
+        let [first, second] = found.orders.map(|order| order.map_or_else(|| "-".into(), |order| format!("{order:.2}")));
+        let with = |value: f64| format!("{} {unit}", significant(value));
+        let _ = writeln!(
+            text,
+            "  {:34} {:>20} {:>20} {:>12.3} % {first:>6} {second:>6}",
+            found.method.words(),
+            with(found.largest),
+            with(found.rms),
+            found.share * 100.0
+        );
+    }
+    let n = diagram.divisions;
+    let _ =
+        writeln!(text, "\norders: of the rms error, from {n} to {} and from {} to {} divisions", 2 * n, 2 * n, 4 * n);
+    text
+}
+
+/// The points as CSV, one row per point: the method, the place, the value it found and the true value; 17 significant
+/// digits.
+pub(crate) fn points(diagram: &MotionDiagram) -> String {
+    let mut text = String::from("method,channel,crank_rad,t_s,value,exact\n");
+    for found in &diagram.found {
+        let which = found.method.gives();
+        for (&row, value) in found.rows.iter().zip(&found.values) {
+            let numbers = [diagram.cranks[row], diagram.times[row], *value, diagram.exact[which][row]];
+            let numbers = numbers.map(|number| format!("{number:.16e}")).join(",");
+            let _ =
+                writeln!(text, "{},{},{numbers}", found.method.words(), quoted(&diagram.course.0[which].to_string()));
+        }
+    }
+    text
+}
+
+/// A name chosen in the scenario, quoted as a CSV cell.
+fn quoted(name: &str) -> String {
+    if name.contains([',', '"', '\n', '\r']) { format!("\"{}\"", name.replace('"', "\"\"")) } else { name.into() }
+}
+
+/// The diagram as JSON, schema 1.
+pub(crate) fn json(scenario: &Scenario, diagram: &MotionDiagram) -> String {
+    let found = diagram.found.iter().map(|found| {
+        let which = found.method.gives();
+        let points = found.rows.iter().zip(&found.values).map(|(&row, value)| {
+            json!({"crank_rad": diagram.cranks[row], "t_s": diagram.times[row], "value": value, "exact": diagram.exact[which][row]})
+        });
+        json!({
+            "method": found.method.words(), "channel": diagram.course.0[which].to_string(), "largest": found.largest,
+            "rms": found.rms, "share_of_half_range": found.share, "orders": found.orders, "points": points.collect::<Vec<_>>(),
+        })
+    });
+    let course = diagram.course.0.iter().enumerate().map(|(which, channel)| {
+        json!({"channel": channel.to_string(), "unit": channel.kind.unit.symbol(), "half_range": diagram.half_range(which)})
+    });
+    let value = json!({
+        "schema": 1, "scenario": scenario.name, "divisions": diagram.divisions,
+        "course": course.collect::<Vec<_>>(), "methods": found.collect::<Vec<_>>(),
+    });
+    pretty(&value)
+}

@@ -1,0 +1,143 @@
+//! A mechanism reduced to its crank, its steady motion under its motor, its flywheel.
+
+use std::fmt::Write;
+
+use serde_json::{Value, json};
+
+use super::cells::table;
+use super::pretty::pretty;
+use crate::scenario::Scenario;
+use analytic::reduced::means::Means;
+use analytic::steady::course::{Extremes, Row};
+use analytic::steady::regime::At;
+use analytic::steady::{Averaged, Regime};
+use workshop::flywheel::Flywheel;
+
+/// What is known about a drive.
+#[derive(Debug)]
+pub(crate) struct Found {
+    /// Means over a turn of the crank.
+    pub(crate) means: Means,
+    /// Extremes of the reduced moments: of inertia, of resistance.
+    pub(crate) extremes: [Extremes; 2],
+    /// Moment of inertia that motor and reducer add to the crank (kg m^2).
+    pub(crate) added: f64,
+    /// The reduced quantities at the crank angles of the table.
+    pub(crate) rows: Vec<Row>,
+    /// Speeds of crank and motor by the averaged model, and the steady motion; `None` without a motor.
+    pub(crate) steady: Option<([f64; 2], Regime)>,
+    /// The averaged model, if it has a closed form.
+    pub(crate) averaged: Option<Averaged>,
+    /// The coefficient of non-uniformity that was wanted, and its flywheel.
+    pub(crate) flywheel: Option<(f64, Flywheel)>,
+}
+
+/// The drive as text; with `by_angle` also the table by crank angle.
+pub(crate) fn text(scenario: &Scenario, found: &Found, by_angle: bool) -> String {
+    let mut text = String::new();
+    let _ = writeln!(text, "{}: {}\n", scenario.name, scenario.title);
+    let names = [("reduced moment of inertia", "kg m^2"), ("reduced moment of resistance", "N m")];
+    let means = [found.means.inertia, found.means.resistance * scenario.case.crank().sense()];
+    for (((name, unit), mean), extremes) in names.into_iter().zip(means).zip(&found.extremes) {
+        let end = |(crank, value): (f64, f64)| format!("{value:.9} {unit} at {:.4} deg", crank.to_degrees());
+        let _ = writeln!(text, "{name}\n  mean      {mean:.9} {unit}");
+        let _ = writeln!(text, "  least     {}\n  greatest  {}", end(extremes.least), end(extremes.greatest));
+    }
+    if found.added > 0.0 {
+        let _ = writeln!(text, "motor and reducer on the crank\n  inertia   {:.9} kg m^2", found.added);
+    }
+    match &found.steady {
+        None => text.push_str("no motor: add a `[motor]` section to learn the steady motion\n"),
+        Some(([crank, motor], regime)) => {
+            let _ = writeln!(text, "averaged model\n  crank     {crank:.6} rad/s\n  motor     {motor:.6} rad/s");
+            match &found.averaged {
+                Some(averaged) => {
+                    let _ = writeln!(text, "  time constant {:.9} s", averaged.time_constant);
+                }
+                None => text.push_str("  time constant: none, the motor's law is not one straight line from rest on\n"),
+            }
+            let _ = writeln!(text, "steady motion\n{}", of_regime(regime));
+        }
+    }
+    if let Some((wanted, flywheel)) = &found.flywheel {
+        let _ = writeln!(text, "flywheel for a non-uniformity of {wanted}\n  inertia   {:.9} kg m^2", flywheel.inertia);
+        let _ = writeln!(text, "{}", of_regime(&flywheel.regime));
+    }
+    if by_angle {
+        let _ = writeln!(text, "\n{}", angles(found));
+    }
+    text
+}
+
+fn of_regime(regime: &Regime) -> String {
+    let at = |at: &At| format!("{:.9} rad/s at {:.4} deg", at.omega, at.crank.to_degrees());
+    let mut text = String::new();
+    let _ = writeln!(text, "  mean      {:.10} rad/s, period {:.13} s", regime.mean_speed, regime.period);
+    let _ = writeln!(text, "  at start  {:.10} rad/s", regime.start_speed);
+    let _ = writeln!(text, "  slowest   {}\n  fastest   {}", at(&regime.slowest), at(&regime.fastest));
+    let _ = write!(text, "  non-uniformity {:.6}", regime.non_uniformity());
+    text
+}
+
+fn angles(found: &Found) -> String {
+    let header = ["crank deg", "I* kg m^2", "dI*/dphi kg m^2", "resistance N m", "omega rad/s", "alpha rad/s^2"];
+    let mut table = table(header, &[0, 1, 2, 3, 4, 5]);
+    for (index, row) in found.rows.iter().enumerate() {
+        let at = found.steady.as_ref().map(|(_, regime)| regime.samples[index]);
+        let steady = |of: fn(At) -> f64| at.map_or("-".into(), |at| format!("{:.6}", of(at)));
+        table.add_row([
+            format!("{:.3}", row.crank.to_degrees()),
+            format!("{:.9}", row.inertia),
+            format!("{:.9}", row.slope),
+            format!("{:.6}", row.resistance),
+            steady(|at| at.omega),
+            steady(|at| at.alpha),
+        ]);
+    }
+    table.to_string()
+}
+
+/// The drive as JSON, schema 1.
+pub(crate) fn json(scenario: &Scenario, found: &Found) -> String {
+    let sense = scenario.case.crank().sense();
+    let extremes = |extremes: &Extremes, mean: f64| {
+        let end = |(crank, value): (f64, f64)| json!({"crank_rad": crank, "value": value});
+        json!({"mean": mean, "least": end(extremes.least), "greatest": end(extremes.greatest)})
+    };
+    let at = |at: &At| json!({"crank_rad": at.crank, "omega_rad_s": at.omega, "alpha_rad_s2": at.alpha});
+    let regime = |regime: &Regime| {
+        json!({
+            "period_s": regime.period, "turns": regime.turns, "mean_rad_s": regime.mean_speed,
+            "at_start_rad_s": regime.start_speed, "slowest": at(&regime.slowest), "fastest": at(&regime.fastest),
+            "non_uniformity": regime.non_uniformity(), "multiplier": regime.multiplier,
+        })
+    };
+    let column = |of: fn(&Row) -> f64| found.rows.iter().map(of).collect::<Vec<f64>>();
+    let mut by_angle = json!({
+        "crank_rad": column(|row| row.crank), "inertia_kg_m2": column(|row| row.inertia),
+        "inertia_slope_kg_m2": column(|row| row.slope), "resistance_N_m": column(|row| row.resistance),
+    });
+    if let Some((_, steady)) = &found.steady {
+        by_angle["omega_rad_s"] = steady.samples.iter().map(|at| at.omega).collect();
+        by_angle["alpha_rad_s2"] = steady.samples.iter().map(|at| at.alpha).collect();
+    }
+    let mut value = json!({
+        "schema": 1, "scenario": scenario.name,
+        "inertia_kg_m2": extremes(&found.extremes[0], found.means.inertia),
+        "resistance_N_m": extremes(&found.extremes[1], sense * found.means.resistance),
+        "motor_and_reducer_kg_m2": found.added,
+        "averaged": found.steady.as_ref().map(|([crank, motor], _)| {
+            let constant = found.averaged.map(|averaged| averaged.time_constant);
+            json!({"crank_rad_s": crank, "motor_rad_s": motor, "time_constant_s": constant})
+        }),
+        "steady": found.steady.as_ref().map(|(_, steady)| regime(steady)),
+        "flywheel": found.flywheel.as_ref().map(|(wanted, wheel)| {
+            json!({"non_uniformity": wanted, "inertia_kg_m2": wheel.inertia, "steady": regime(&wheel.regime)})
+        }),
+        "by_angle": by_angle,
+    });
+    if found.steady.is_none() {
+        value["steady_absent"] = Value::from("the scenario has no motor");
+    }
+    pretty(&value)
+}

@@ -1,0 +1,77 @@
+//! The reduced quantities and the steady motion of a mechanism as graphs.
+
+use super::drive::Found;
+use crate::scenario::Scenario;
+use analytic::steady::Regime;
+use analytic::steady::course::{Extremes, Row};
+use linkage::math::KeepNan;
+use workshop::diagram::{Graph, Graphs, Mark, draw};
+
+/// Data of the curves.
+#[derive(Debug)]
+pub(crate) struct Curves {
+    /// The crank angle after which the reduced quantities repeat (rad).
+    pub(crate) period: f64,
+    /// The reduced quantities over one period, in the sense of the motion.
+    pub(crate) rows: Vec<Row>,
+    /// Extremes of dI*/dphi.
+    pub(crate) slope: Extremes,
+    /// The steady motion with samples over one period, if there is a motor.
+    pub(crate) steady: Option<Regime>,
+}
+
+/// The graphs as an SVG document.
+pub(crate) fn draw(scenario: &Scenario, found: &Found, curves: &Curves) -> String {
+    let Curves { period, rows, slope, steady } = curves;
+    let (start, sense) = (scenario.case.crank().start, scenario.case.crank().sense());
+    let points = |of: fn(&Row) -> f64| rows.iter().map(|row| [row.crank, of(row)]).collect::<Vec<[f64; 2]>>();
+    let reduced = |[name, symbol, unit]: [&'static str; 3], of: fn(&Row) -> f64, mean, ends: &Extremes| {
+        let marks = [("least", ends.least), ("greatest", ends.greatest)];
+        let marks = marks.map(|(word, (crank, value))| Mark { at: [crank, value], word });
+        let size = ends.least.1.abs().larger(ends.greatest.1.abs());
+        Graph { name, symbol, unit, points: points(of), mean, mean_word: "mean", marks, size }
+    };
+    let mut graphs = vec![
+        reduced(
+            ["reduced moment of inertia", "I*", "kg m^2"],
+            |row| row.inertia,
+            found.means.inertia,
+            &found.extremes[0],
+        ),
+        Graph {
+            // If the inertia is constant, its derivative is only rounding.
+            size: found.extremes[0].greatest.1.larger(slope.greatest.1),
+            // The inertia is periodic, so the mean of its derivative is zero.
+            ..reduced(["derivative of the reduced moment of inertia", "dI*/dφ", "kg m^2"], |row| row.slope, 0.0, slope)
+        },
+        reduced(
+            ["reduced moment of resistance", "M_r", "N m"],
+            |row| row.resistance,
+            sense * found.means.resistance,
+            &found.extremes[1],
+        ),
+    ];
+    let turns = (period / std::f64::consts::TAU).round();
+    let over = if turns > 1.0 { format!("{turns} turns") } else { "one turn".into() };
+    let mut note =
+        format!("over {over} of the crank in the sense of its motion; motor, reducer and flywheel left out of I*");
+    if let Some(regime) = steady {
+        let mut marks = [("slowest", regime.slowest), ("fastest", regime.fastest)]
+            .map(|(word, at)| Mark { at: [at.crank, at.omega], word });
+        // The lower mark in the drawing comes first.
+        marks.sort_by(|a, b| a.at[1].total_cmp(&b.at[1]));
+        graphs.push(Graph {
+            name: "angular velocity of the crank in the steady motion",
+            symbol: "ω",
+            unit: "rad/s",
+            points: regime.samples.iter().map(|at| [at.crank, at.omega]).collect(),
+            mean: regime.mean_speed,
+            mean_word: "mean over time",
+            marks,
+            size: regime.mean_speed,
+        });
+        note += &format!("; non-uniformity {:.6}", regime.non_uniformity());
+    }
+    let graphs = Graphs { period: [start, start + sense * period], graphs, notes: vec![scenario.title.clone(), note] };
+    draw::graphs(&graphs, &scenario.name)
+}

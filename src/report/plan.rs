@@ -1,0 +1,117 @@
+//! Velocity and acceleration plans at one crank angle.
+
+use std::fmt::Write;
+
+use serde_json::json;
+
+use super::pretty::pretty;
+use super::tell::Tell;
+use crate::scenario::Scenario;
+use linkage::case::Case;
+use linkage::error::Result;
+use workshop::diagram::draw::significant;
+use workshop::diagram::{Plan, Plans, SingularPoint};
+
+/// The plans as text. `singular`: the singular points of groups of class IV, or the reason why one was not found.
+/// Advice is worded by `tell`.
+pub(crate) fn text(scenario: &Scenario, plans: &Plans, singular: &[Result<SingularPoint>], tell: Tell) -> String {
+    let mut text = String::new();
+    let _ = writeln!(text, "{} at crank angle {:.4} deg", scenario.name, plans.crank.to_degrees());
+    let _ = writeln!(text, "kinematic diagram   mu_l = {} m/mm", plans.scheme.scale);
+    for link in &plans.scheme.links {
+        let (omega, alpha) = (significant(link.omega), significant(link.alpha));
+        let _ =
+            writeln!(text, "  {} {:14} omega {omega:>10} rad/s   alpha {alpha:>10} rad/s^2", link.number, link.name);
+    }
+    for plan in [&plans.velocity, &plans.acceleration] {
+        let (word, symbol, unit) = (plan.quantity.word(), plan.quantity.symbol(), plan.quantity.unit());
+        let _ =
+            writeln!(text, "\n{word} plan   pole {}, mu_{symbol} = {} ({unit})/mm", plan.quantity.pole(), plan.scale);
+        let _ = writeln!(
+            text,
+            "  {:10} {:10} {:>10} {:>11} {:>11} {:>8}  meaning",
+            "vector",
+            "from, to",
+            unit,
+            format!("x, {unit}"),
+            format!("y, {unit}"),
+            "mm"
+        );
+        for vector in &plan.vectors {
+            let _ = writeln!(
+                text,
+                "  {:10} {:10} {:>10} {:>11} {:>11} {:>8.2}  {}",
+                vector.name,
+                format!("{}, {}", vector.from, vector.to),
+                significant(vector.value.norm()),
+                significant(vector.value.x),
+                significant(vector.value.y),
+                plan.paper(vector),
+                vector.meaning
+            );
+        }
+    }
+    for found in singular {
+        let _ = match found {
+            Ok(point) => singular_text(&mut text, &scenario.case, point),
+            Err(error) => writeln!(text, "\nsingular point: {}", error.line_by(tell)),
+        };
+    }
+    text
+}
+
+fn singular_text(text: &mut String, case: &Case, point: &SingularPoint) -> std::fmt::Result {
+    let shown = |v: linkage::math::Vec2| format!("({}, {})", significant(v.x), significant(v.y));
+    writeln!(text, "\nsingular point of the class IV group   S = {} at {} m", point.lines(), shown(point.at))?;
+    writeln!(text, "  v_S {} m/s on both base links", shown(point.velocity))?;
+    let [first, second] = point.accelerations;
+    writeln!(text, "  a_S {} m/s^2 on the first, {} m/s^2 on the second", shown(first), shown(second))?;
+    for (link, omega, alpha) in point.links {
+        let (name, omega, alpha) = (&case.mechanism.links()[link].name, significant(omega), significant(alpha));
+        writeln!(text, "  {link} {name:14} omega {omega:>10} rad/s   alpha {alpha:>10} rad/s^2")?;
+    }
+    Ok(())
+}
+
+/// The plans as JSON, schema 1. Arguments as in [`text`].
+pub(crate) fn json(scenario: &Scenario, plans: &Plans, singular: &[Result<SingularPoint>], tell: Tell) -> String {
+    let plan = |plan: &Plan| {
+        let vectors = plan.vectors.iter().map(|vector| {
+            json!({
+                "name": vector.name, "from": vector.from, "to": vector.to, "x": vector.value.x, "y": vector.value.y,
+                "size": vector.value.norm(), "paper_mm": plan.paper(vector), "link": vector.link, "meaning": vector.meaning,
+            })
+        });
+        let points = plan.tips.iter().map(|tip| json!({"letter": tip.letter, "x": tip.at.x, "y": tip.at.y}));
+        json!({
+            "unit": plan.quantity.unit(), "pole": plan.quantity.pole(), "scale_per_mm": plan.scale,
+            "points": points.collect::<Vec<_>>(), "vectors": vectors.collect::<Vec<_>>(),
+        })
+    };
+    let scheme = &plans.scheme;
+    let links = scheme.links.iter().map(
+        |link| json!({"number": link.number, "name": link.name, "omega_rad_s": link.omega, "alpha_rad_s2": link.alpha}),
+    );
+    let points = scheme.points.iter().map(|(name, at)| json!({"name": name, "x_m": at.x, "y_m": at.y}));
+    let singular = singular.iter().map(|found| match found {
+        Ok(point) => {
+            let links = point.links.map(|(link, omega, alpha)| {
+                json!({"name": scenario.case.mechanism.links()[link].name, "omega_rad_s": omega, "alpha_rad_s2": alpha})
+            });
+            let [first, second] = point.accelerations;
+            json!({
+                "lines": point.lines(), "x_m": point.at.x, "y_m": point.at.y,
+                "vx_m_s": point.velocity.x, "vy_m_s": point.velocity.y,
+                "accelerations_m_s2": [[first.x, first.y], [second.x, second.y]], "links": links,
+            })
+        }
+        Err(error) => json!({"error": error.line_by(tell)}),
+    });
+    let value = json!({
+        "schema": 1, "scenario": scenario.name, "crank_rad": plans.crank,
+        "diagram": {"scale_m_per_mm": scheme.scale, "links": links.collect::<Vec<_>>(), "points": points.collect::<Vec<_>>()},
+        "velocity": plan(&plans.velocity), "acceleration": plan(&plans.acceleration),
+        "singular_points": singular.collect::<Vec<_>>(),
+    });
+    pretty(&value)
+}

@@ -1,0 +1,67 @@
+//! Metadata and log of the recording of a proof.
+
+use std::collections::BTreeMap;
+
+use super::json;
+use super::tell::Tell;
+use crate::compare::Verdict;
+use crate::proof::{EngineProof, Proof};
+use crate::record::{Level, LogEntry};
+use linkage::math::KeepNan;
+
+/// Versions, settings and verdict, by name.
+pub(crate) fn metadata(proof: &Proof) -> BTreeMap<String, String> {
+    let mut metadata = BTreeMap::from([
+        ("linkproof".to_string(), env!("CARGO_PKG_VERSION").to_string()),
+        ("reference".into(), proof.reference.into()),
+        ("structure".into(), proof.formula.clone()),
+        ("verdict".into(), proof.verdict.word().into()),
+    ]);
+    for EngineProof { info, .. } in &proof.engines {
+        let (engine, provides) = match proof.engines.len() {
+            1 => ("engine".to_string(), "provides".to_string()),
+            _ => (format!("engine_{}", info.name), format!("provides_{}", info.name)),
+        };
+        let resolution = if info.controls_error { "accuracy" } else { "step_s" };
+        metadata.insert(engine.clone(), info.version.clone());
+        metadata.insert(format!("{engine}_{resolution}"), format!("{:e}", info.settings.resolution));
+        metadata.extend(info.told.iter().map(|(name, value)| (format!("{engine}_{name}"), value.clone())));
+        let provided = info.provides.iter().map(|(stage, how)| (format!("{provides}_{stage}"), json::provision(how)));
+        metadata.extend(provided);
+    }
+    metadata
+}
+
+/// The verdict at the start, and every disagreement at its worst instant.
+pub(crate) fn log(proof: &Proof, tell: Tell) -> Vec<LogEntry> {
+    let start = proof.reference_trajectory.times().iter().copied().fold(f64::INFINITY, f64::smaller);
+    let level = |verdict: &Verdict| match verdict {
+        Verdict::Agree { .. } | Verdict::Expected { .. } => Level::Info,
+        Verdict::Inconclusive { .. } => Level::Warning,
+        Verdict::Disagree { .. } => Level::Error,
+    };
+    let why = |verdict: &Verdict| match verdict {
+        Verdict::Agree { .. } | Verdict::Expected { .. } => None,
+        Verdict::Disagree { .. } | Verdict::Inconclusive { .. } => verdict.reason(tell),
+    };
+    let mut log = vec![LogEntry {
+        time: start,
+        level: level(&proof.verdict),
+        text: format!("{}: {}", proof.scenario, proof.verdict.word()),
+    }];
+    let channels = proof.engines.iter().flat_map(|engine| &engine.channels);
+    for channel in channels {
+        if let Some(why) = why(&channel.verdict) {
+            let residual = &channel.residual;
+            let text = format!("{}: {why}", residual.channel);
+            log.push(LogEntry { time: residual.worst_time, level: level(&channel.verdict), text });
+        }
+    }
+    for check in proof.all_checks() {
+        if let Some(why) = why(&check.verdict) {
+            let text = format!("{}: {why}", check.name());
+            log.push(LogEntry { time: start, level: level(&check.verdict), text });
+        }
+    }
+    log
+}

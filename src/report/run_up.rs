@@ -1,0 +1,21 @@
+//! How a run-up ended.
+
+use std::fmt::Write;
+
+use analytic::reduced::{End, RunUp};
+
+/// The end of a run-up as text, with an empty line after it.
+pub(crate) fn text(run_up: &RunUp) -> String {
+    let mut text = match run_up.end {
+        End::Reached => "run-up followed to its end".to_string(),
+        End::Held(t, crank) => format!("run-up: held at {t:.9} s, crank angle {:.6} deg", crank.to_degrees()),
+        End::Limit(t, crank) => {
+            format!("run-up: at a limit of rotation at {t:.9} s, crank angle {:.6} deg", crank.to_degrees())
+        }
+    };
+    if let Some(residual) = run_up.power_residual() {
+        let _ = write!(text, "; motor against reactions: {residual:.1e} of the largest moment");
+    }
+    text.push_str("\n\n");
+    text
+}

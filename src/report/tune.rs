@@ -1,0 +1,90 @@
+//! The cheapest settings of an engine that keep a wanted error.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use serde_json::json;
+
+use super::cells::table;
+use super::pretty::pretty;
+use crate::scenario::Scenario;
+use crate::tune::{Candidate, Tuning};
+use linkage::engine::Settings;
+
+/// The `[engine]` section that a scenario needs for the best settings.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Section<'a> {
+    /// The section itself.
+    pub(crate) text: &'a str,
+    /// The scenario's file.
+    pub(crate) file: &'a Path,
+    /// Whether the section has been written to that file.
+    pub(crate) is_written: bool,
+}
+
+/// The settings as text. `within`: the largest error that was wanted, as a share of each channel's scale.
+pub(crate) fn text(scenario: &Scenario, found: &Tuning, within: f64, section: &Section) -> String {
+    let header = ["engine", "step", "sweeps", "substeps", "extrapolated", "route", "error", "worst channel", "price"];
+    let mut table = table(header, &[1, 2, 3, 6, 8]);
+    for candidate in &found.by_engine {
+        let Settings { resolution, sweeps, substeps, route, extrapolated } = candidate.settings;
+        table.add_row([
+            candidate.engine.to_string(),
+            format!("{resolution:.3e}"),
+            sweeps.to_string(),
+            substeps.to_string(),
+            if extrapolated { "yes" } else { "no" }.to_string(),
+            route.name().to_string(),
+            format!("{:.2e}", candidate.verified),
+            candidate.worst.clone(),
+            format!("{:.2}", candidate.price / found.best.price),
+        ]);
+    }
+    let mut text = String::new();
+    let _ = writeln!(text, "{}: {}\n", scenario.name, scenario.title);
+    let _ = writeln!(text, "The cheapest settings within {:e} of every channel's scale:\n{table}\n", within);
+    for (name, error) in &found.too_coarse {
+        let _ = match error.is_finite() {
+            true => writeln!(text, "{name} does not meet it: its smallest error was {error:.1e}."),
+            false => {
+                writeln!(text, "{name} does not run it with any settings: `linkproof run --engine {name}` says why.")
+            }
+        };
+    }
+    for name in &found.too_dear {
+        let _ = writeln!(text, "{name} costs more than the cheapest.");
+    }
+    let _ = writeln!(
+        text,
+        "{}: error {:.2e} measured against the reference, {:.2e} expected from its own runs; {} runs.",
+        found.best.engine, found.best.verified, found.predicted, found.runs
+    );
+    let Section { text: section, file, is_written } = section;
+    let place = file.display();
+    let _ = match is_written {
+        true => writeln!(text, "\nWritten to {place}:\n\n{section}"),
+        false => writeln!(text, "\nFor {place} (or let --write put it there):\n\n{section}"),
+    };
+    text
+}
+
+/// The settings as JSON, schema 1.
+pub(crate) fn json(scenario: &Scenario, found: &Tuning, within: f64) -> String {
+    let candidate = |candidate: &Candidate| {
+        let Settings { resolution, sweeps, substeps, route, extrapolated } = candidate.settings;
+        let key = if candidate.controls_error { "accuracy" } else { "dt_s" };
+        json!({
+            "engine": candidate.engine, key: resolution, "sweeps": sweeps,
+            "substeps": substeps, "route": route.name(), "extrapolated": extrapolated,
+            "error": candidate.verified, "worst_channel": candidate.worst, "price_of_best": candidate.price / found.best.price,
+        })
+    };
+    let value = json!({
+        "schema": 1, "scenario": scenario.name, "within": within, "runs": found.runs,
+        "best": candidate(&found.best), "expected_error": found.predicted,
+        "engines": found.by_engine.iter().map(candidate).collect::<Vec<_>>(),
+        "too_coarse": found.too_coarse.iter().map(|(name, error)| json!({"engine": name, "smallest_error": error})).collect::<Vec<_>>(),
+        "too_dear": found.too_dear,
+    });
+    pretty(&value)
+}
