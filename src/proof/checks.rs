@@ -1,7 +1,7 @@
 //! Checks besides the comparison of the two sides: closure, side against side, powers.
 
-use super::engines::Runs;
 use super::observe::Observed;
+use super::runs::Runs;
 use crate::compare::{Check, Convergence, magnitudes, residuals};
 use crate::scenario::Scenario;
 use crate::tolerance::{Basis, Origin, Tolerance};

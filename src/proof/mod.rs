@@ -10,6 +10,7 @@ mod oracle;
 mod parties;
 #[cfg(test)]
 mod planted;
+mod runs;
 mod sensitivity;
 
 pub use engines::{ChannelProof, EngineInfo, EngineProof};
@@ -20,7 +21,7 @@ use crate::compare::{Check, Verdict, overall};
 use crate::scenario::Scenario;
 use analytic::range::explained;
 use linkage::case::Case;
-use linkage::error::{Error, ErrorKind, Result};
+use linkage::error::Result;
 use linkage::solver::Solver;
 use linkage::trajectory::Trajectory;
 use observe::observe;
@@ -173,10 +174,4 @@ fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: 
         verdict,
         reference_trajectory: own.trajectory.clone(),
     })
-}
-
-fn unknown<'a>(what: &str, asked: &str, known: impl Iterator<Item = &'a str>) -> Error {
-    let known: Vec<&str> = known.collect();
-    Error::new(ErrorKind::Input, format!("there is no {what} called \"{asked}\""))
-        .help(format!("choose one of: {}", known.join(", ")))
 }

@@ -1,6 +1,5 @@
 //! Options of a proof.
 
-use super::unknown;
 use crate::engines::EngineName;
 use crate::scenario::Scenario;
 use linkage::engine::{Engine, Route, Settings};
@@ -208,4 +207,10 @@ fn named(name: &str, step: f64) -> Result<Box<dyn Engine>> {
         Some(engine) => engine.with_step(step),
         None => Err(unknown("engine", name, EngineName::ALL.iter().map(|engine| engine.name()))),
     }
+}
+
+fn unknown<'a>(what: &str, asked: &str, known: impl Iterator<Item = &'a str>) -> Error {
+    let known: Vec<&str> = known.collect();
+    Error::new(ErrorKind::Input, format!("there is no {what} called \"{asked}\""))
+        .help(format!("choose one of: {}", known.join(", ")))
 }

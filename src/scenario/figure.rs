@@ -1,6 +1,6 @@
 //! Figures of a mechanism: lengths as solved, and quantities over a turn.
 
-use super::oracle::{Correction, number};
+use super::correction::{Correction, number};
 use super::printed::Printed;
 use super::reader::Table;
 use super::unit::{LENGTH, Unit};

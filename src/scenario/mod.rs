@@ -2,6 +2,7 @@
 //! Every error names file, line and key, what was found, and the way out.
 
 pub mod catalogue;
+mod correction;
 pub mod edit;
 mod figure;
 pub mod grid;
@@ -14,6 +15,7 @@ pub mod oracle;
 mod printed;
 mod reader;
 pub mod redraw;
+mod series;
 mod settings;
 mod source;
 mod start;
@@ -25,7 +27,8 @@ pub mod unit;
 mod words;
 
 pub use figure::{Figure, FigureValue, OracleFigure};
-pub use oracle::{ExpectedCell, Oracle, OracleBasis, OraclePoint, OracleSeries};
+pub use oracle::{Oracle, OracleBasis};
+pub use series::{ExpectedCell, OraclePoint, OracleSeries};
 pub use settings::EngineKeys;
 
 use std::path::{Path, PathBuf};

@@ -3,9 +3,10 @@
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use super::oracle::{Correction, ExpectedCell, Known, OraclePoint, OracleSeries, check_apart, digits, finding};
+use super::correction::{Correction, check_apart, digits, finding};
 use super::printed::{Printed, PrintedChannel};
 use super::reader::{Sign, Table};
+use super::series::{ExpectedCell, Known, OraclePoint, OracleSeries};
 use super::source::Source;
 use super::unit::ANGLE;
 use super::words::suggestion;

@@ -1,0 +1,106 @@
+//! Values of one channel that an oracle has, and which channels it may name.
+
+use super::printed::{self, PrintedChannel};
+use super::reader::Table;
+use super::words::suggestion;
+use linkage::case::Wanted;
+use linkage::error::{ErrorKind, Result};
+use linkage::trajectory::{CHANNELS, Channel};
+
+/// Values of one channel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OracleSeries {
+    /// Column of the table, or the channel as the scenario names it.
+    pub name: String,
+    /// The channel.
+    pub channel: Channel,
+    /// Whether the value is the magnitude of a vector; `channel` is then the x component of the vector.
+    pub magnitude: bool,
+    /// Values that must be reproduced, in the order of the table.
+    pub points: Vec<OraclePoint>,
+    /// Values known to be wrong, each with its own finding.
+    pub expected: Vec<ExpectedCell>,
+    /// Finding that says why all values are wrong. They are then listed here and not in the two lists above.
+    pub wrong: Option<(String, Vec<ExpectedCell>)>,
+}
+
+/// One published value.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OraclePoint {
+    /// Crank angle (rad, as the scenario measures it).
+    pub crank: f64,
+    /// Value in the channel's SI unit.
+    pub value: f64,
+    /// Half a unit of the last printed digit, plus the known error of the numbers, in the channel's SI unit.
+    pub bound: f64,
+    /// Number of printed decimals, in the printed unit.
+    pub digits: i32,
+}
+
+/// A printed value that is known to be wrong. It must not be reproduced; the correct value must.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ExpectedCell {
+    /// The value as printed.
+    pub point: OraclePoint,
+    /// The correct value.
+    pub right: OraclePoint,
+    /// Anchor of its finding in `docs/findings.md`.
+    pub finding: String,
+}
+
+/// The channels an oracle may name.
+#[derive(Clone, Copy)]
+pub(super) struct Known<'a> {
+    pub channels: &'a [Channel],
+    pub wanted: Wanted,
+    /// Number of decimals in a table that does not print zeros at the end.
+    pub digits: Option<i32>,
+    /// Known error of the published numbers, in the printed unit.
+    pub slack: f64,
+}
+
+impl Known<'_> {
+    /// The same for a table with this number of decimals, which does not print zeros at the end, and with this known
+    /// error.
+    pub fn of_table(self, digits: Option<i32>, slack: f64) -> Self {
+        Known { digits, slack, ..self }
+    }
+
+    /// The channel under the key `channel` of `table`.
+    pub fn channel(&self, table: &mut Table) -> Result<(String, PrintedChannel)> {
+        let name = table.string("channel")?;
+        let found = PrintedChannel::named(&name).filter(|found| self.channels.contains(&found.channel));
+        let Some(found) = found else {
+            let message = format!("the mechanism has no channel \"{name}\"");
+            return Err(table.wrong(ErrorKind::Input, "channel", message).help(self.help(&name)));
+        };
+        let stage = found.channel.kind.stage;
+        if self.wanted.has(stage) {
+            return Ok((name, found));
+        }
+        let message = format!("this channel is one of the {}, which `channels.want` leaves out", stage.name());
+        let help = format!("add \"{}\" to `want`, or take the published numbers out", stage.name());
+        Err(table.wrong(ErrorKind::Input, "channel", message).help(help))
+    }
+
+    fn help(&self, name: &str) -> String {
+        if let Some(found) = PrintedChannel::named(name) {
+            let subject = found.channel.kind.subject;
+            let mut names: Vec<&str> =
+                self.channels.iter().filter(|c| c.kind.subject == subject).map(|c| &*c.of).collect();
+            names.dedup();
+            return format!("of what moves, {}", suggestion(&found.channel.of, names, "\""));
+        }
+        let subject = name.split('.').next().unwrap_or_default();
+        let kinds = CHANNELS.iter().filter(|kind| kind.subject.word() == subject);
+        let endings: Vec<String> = kinds.flat_map(printed::endings).collect();
+        match name.rsplit_once('.') {
+            Some((of, ending)) if !endings.is_empty() => {
+                format!("after `{of}.`, {}", suggestion(ending, endings.iter().map(String::as_str), "`"))
+            }
+            _ => "channels are named like \"point.A.x_mm\", \"link.crank.angle_deg\", \"link.crank.omega_rad_s\", \
+                  \"joint.A.fx_N\" or \"drive.torque_N_m\""
+                .into(),
+        }
+    }
+}
