@@ -2,5 +2,5 @@
 
 use linkage::error::Advice;
 
-/// Function that words an advice. A program with options names them; [`Advice::to_string`] names none.
+/// Function that words an advice. A program with options names them; `Advice::to_string` names none.
 pub type Tell = fn(&Advice) -> String;

@@ -52,11 +52,11 @@ impl AssemblyMode {
 pub struct Configuration {
     /// Its mode.
     pub mode: AssemblyMode,
-    /// Pose of each of the group's links, in the order of [`Group::links`].
+    /// Pose of each of the group's links, in the order of [`Group::links`](crate::mechanism::Group::links).
     pub links: Vec<LinkPose>,
 }
 
-/// The required first pose of one group. The links are in the order of [`Group::links`].
+/// The required first pose of one group. The links are in the order of [`Group::links`](crate::mechanism::Group::links).
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct StartGroup {
     /// Required assembly mode.
