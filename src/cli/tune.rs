@@ -86,7 +86,8 @@ pub(super) fn run(args: &Args) -> Result<()> {
         None => {
             let section = edit::engine_section(keys(&scenario, &found.best));
             let place = report::Section { text: &section, file: &args.file, is_written: args.write };
-            output::print(&report::text(&scenario, &found, args.within, &place))
+            let hints = report::Hints { why: &|engine| format!("`linkproof run --engine {engine}`"), write: "--write" };
+            output::print(&report::text(&scenario, &found, args.within, &place, hints))
         }
     }
 }

@@ -22,8 +22,17 @@ pub(crate) struct Section<'a> {
     pub(crate) is_written: bool,
 }
 
+/// How a program says what its user can do next.
+#[derive(Clone, Copy)]
+pub(crate) struct Hints<'a> {
+    /// How to learn why an engine does not run: a command, for its name.
+    pub(crate) why: &'a dyn Fn(&str) -> String,
+    /// How to have the section written.
+    pub(crate) write: &'a str,
+}
+
 /// The settings as text. `within`: the largest error that was wanted, as a share of each channel's scale.
-pub(crate) fn text(scenario: &Scenario, found: &Tuning, within: f64, section: &Section) -> String {
+pub(crate) fn text(scenario: &Scenario, found: &Tuning, within: f64, section: &Section, hints: Hints) -> String {
     let header = ["engine", "step", "sweeps", "substeps", "extrapolated", "route", "error", "worst channel", "price"];
     let mut table = table(header, &[1, 2, 3, 6, 8]);
     for candidate in &found.by_engine {
@@ -47,7 +56,7 @@ pub(crate) fn text(scenario: &Scenario, found: &Tuning, within: f64, section: &S
         let _ = match error.is_finite() {
             true => writeln!(text, "{name} does not meet it: its smallest error was {error:.1e}."),
             false => {
-                writeln!(text, "{name} does not run it with any settings: `linkproof run --engine {name}` says why.")
+                writeln!(text, "{name} does not run it with any settings: {} says why.", (hints.why)(name))
             }
         };
     }
@@ -63,7 +72,7 @@ pub(crate) fn text(scenario: &Scenario, found: &Tuning, within: f64, section: &S
     let place = file.display();
     let _ = match is_written {
         true => writeln!(text, "\nWritten to {place}:\n\n{section}"),
-        false => writeln!(text, "\nFor {place} (or let --write put it there):\n\n{section}"),
+        false => writeln!(text, "\nFor {place} (or let {} put it there):\n\n{section}", hints.write),
     };
     text
 }
