@@ -9,6 +9,9 @@ use linkage::engine::Route;
 /// Stands for every engine of this build, in place of a name.
 const ALL: &str = "all";
 
+/// Why a name that came through the parser is found: nothing is dropped in silence.
+const KNOWN: &str = "the argument parser knows all names";
+
 /// The engines and their settings.
 #[derive(Clone, Debug, clap::Args)]
 pub(super) struct EngineArgs {
@@ -39,8 +42,9 @@ pub(super) struct EngineArgs {
 impl EngineArgs {
     /// The options of a proof with these arguments.
     pub(super) fn options(&self, reference: &str) -> Options {
-        let mut options = Options::default().reference(Reference::named(reference).unwrap_or_default());
-        options.engines = self.engine.iter().filter_map(|name| EngineName::named(name)).collect();
+        let mut options = Options::default().reference(Reference::named(reference).expect(KNOWN));
+        options.engines =
+            self.engine.iter().filter(|name| *name != ALL).map(|name| EngineName::named(name).expect(KNOWN)).collect();
         if self.engine.iter().any(|name| name == ALL) {
             options = options.every_engine();
         }
@@ -48,7 +52,7 @@ impl EngineArgs {
         options.accuracy = self.accuracy;
         options.sweeps = self.sweeps;
         options.substeps = self.substeps;
-        options.route = self.route.as_deref().and_then(Route::named);
+        options.route = self.route.as_deref().map(|name| Route::named(name).expect(KNOWN));
         options.extrapolated = self.extrapolate.then_some(true);
         options
     }
