@@ -17,7 +17,7 @@ const CRATES: &[(&str, &str, &str, &str)] = &[
     ("rapier_twin", "crates/rapier-twin", "linkage", "parry2d parry2d-f64 rapier2d rapier2d-f64"),
     ("linkproof_simbody", "crates/simbody", "", ""),
     ("simbody_twin", "crates/simbody-twin", "linkage simbody", ""),
-    ("workshop", "crates/workshop", "analytic linkage", "cobyla quick-xml rand rand_chacha rayon svg"),
+    ("workshop", "crates/workshop", "analytic linkage", "chacha20 cobyla quick-xml rand rayon svg"),
     (
         "linkproof",
         "",
@@ -126,7 +126,7 @@ const HOMES: &[(&str, &str)] = &[
     ("pulp", "analytic::assur"),
     ("cobyla", "workshop::synthesis"),
     ("rand", "workshop::synthesis"),
-    ("rand_chacha", "workshop::synthesis"),
+    ("chacha20", "workshop::synthesis"),
     ("rayon", "workshop::synthesis"),
     ("svg", "workshop::diagram"),
     ("quick_xml", "workshop::export"),

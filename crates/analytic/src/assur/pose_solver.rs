@@ -70,7 +70,6 @@ impl<'a> PoseSolver<'a> {
     /// # Errors
     /// [`ErrorKind::Geometry`] if the crank angle cannot be reached on the branch, with the group and the angle at
     /// which it fails.
-    #[inline]
     pub fn solve(&mut self, crank: f64, omega: f64, alpha: f64, deepest: Stage) -> Result<&State> {
         self.go_to(crank)?;
         if deepest >= Stage::Velocities {

@@ -10,8 +10,8 @@
 mod candidate;
 mod refine;
 
+use chacha20::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
 use super::evaluate::Evaluator;

@@ -2,9 +2,9 @@
 
 use std::cell::RefCell;
 
+use chacha20::ChaCha8Rng;
 use cobyla::{RhoBeg, minimize};
 use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
 
 use super::candidate::{Candidate, free_zero, values};
 use crate::synthesis::evaluate::Evaluator;
