@@ -22,10 +22,6 @@ use linkage::trajectory::{Channel, ChannelKind, Stage};
 use model::Linkage;
 use stopped::stopped;
 
-/// Constraint tolerance as a share of how far the mechanism extends from the origin.
-/// Under prescribed motion the pose follows from the constraints alone, so a looser tolerance has no benefit.
-/// Projections aim at a tenth of it, and rounding prevents a smaller one: on `fourth_class` they fail at 1e-14.
-const TOLERANCE: f64 = 1e-12;
 /// Largest opening of the start pose as a share of the mechanism's size.
 /// It is far more than rounding, and too small to matter.
 const LARGEST_GAP: f64 = 1e-9;
@@ -43,6 +39,10 @@ pub struct Simbody {
 impl Simbody {
     /// Default accuracy. Steps are then about a degree of the crank, so projections start close to their assembly mode.
     pub const ACCURACY: f64 = 1e-8;
+    /// Constraint tolerance as a share of how far the mechanism extends from the origin.
+    /// Under prescribed motion the pose follows from the constraints alone, so a looser tolerance has no benefit.
+    /// Projections aim at a tenth of it, and rounding prevents a smaller one: on `fourth_class` they fail at 1e-14.
+    pub const TOLERANCE: f64 = 1e-12;
 
     /// The engine with the given accuracy of its integrator (a share of the usual coordinates: 1 rad or 1 m).
     #[must_use]
@@ -125,7 +125,7 @@ impl Engine for Simbody {
             ("drive", "prescribed coordinates; under forces, motor and loads at every evaluation".into()),
             ("integrator", "Runge-Kutta-Merson, every step projected".into()),
             ("accuracy", format!("{:e}", self.accuracy)),
-            ("constraint tolerance", format!("{TOLERANCE:e} of the mechanism's reach")),
+            ("constraint tolerance", format!("{:e} of the mechanism's reach", Simbody::TOLERANCE)),
             ("reactions", "mobilizer reactions and multipliers".into()),
         ]
     }
@@ -210,7 +210,7 @@ fn other_loads(case: &Case) -> Vec<Load> {
 /// Largest constraint error (m).
 fn tolerance(case: &Case) -> f64 {
     let size = case.mechanism.size();
-    TOLERANCE * case.start.0.iter().fold(size, |most: f64, pose| most.larger(pose.origin.norm()))
+    Simbody::TOLERANCE * case.start.0.iter().fold(size, |most: f64, pose| most.larger(pose.origin.norm()))
 }
 
 /// Checks that the start pose is closed. Simbody would silently assemble another one nearby.

@@ -22,6 +22,7 @@ const ULPS: f64 = 20.0;
 /// On the shipped run-ups they are 5e-9 to 5e-7 of the scale at 1e-8.
 ///
 /// A constraint error turns a link by that error over its length, so the shortest link is the worst.
+/// The pose amplifies an error of the angles once more in the velocities, and again in accelerations and forces.
 /// Rates of constraints are held to the tolerance times the drive's speed; accelerations follow from both.
 pub(super) fn bound(case: &Case, [tolerance, accuracy]: [f64; 2], channel: &ChannelKind) -> f64 {
     let longest = case.grid.times.iter().fold(0.0, |max: f64, t| max.larger(t.abs()));
@@ -36,17 +37,18 @@ pub(super) fn bound(case: &Case, [tolerance, accuracy]: [f64; 2], channel: &Chan
 
     let place = POSE * tolerance + ULPS * f64::EPSILON * reach;
     let integrated = if case.is_free() { accuracy * case.grid.len() as f64 } else { 0.0 };
-    let angle = place / shortest + f64::EPSILON * turned + integrated;
-    let linear = place + angle * size;
-    let gravity = case.gravity.norm();
-    let force = mass * (linear * speed * speed + angle * gravity);
+    let closed = place / shortest + f64::EPSILON * turned;
+    // Errors of an angle, of a place, and of their derivatives of order `k`.
+    let angle = |k: i32| (POSE.powi(k) * closed + integrated) * speed.powi(k);
+    let linear = |k: i32| POSE.powi(k) * place * speed.powi(k) + angle(k) * size;
+    let force = mass * (linear(2) + (POSE * closed + integrated) * case.gravity.norm());
     match channel.unit {
-        Unit::Radian => angle,
-        Unit::RadianPerSecond => angle * speed,
-        Unit::RadianPerSecondSquared => angle * speed * speed,
-        Unit::Metre => linear,
-        Unit::MetrePerSecond => linear * speed,
-        Unit::MetrePerSecondSquared => linear * speed * speed,
+        Unit::Radian => angle(0),
+        Unit::RadianPerSecond => angle(1),
+        Unit::RadianPerSecondSquared => angle(2),
+        Unit::Metre => linear(0),
+        Unit::MetrePerSecond => linear(1),
+        Unit::MetrePerSecondSquared => linear(2),
         Unit::Newton => force,
         Unit::NewtonMetre => match channel.subject {
             Subject::Frame => force * reach,

@@ -241,8 +241,13 @@ fn regress_14_thirty_two_sweeps_are_as_good_as_a_thousand() {
 #[cfg(feature = "f32")]
 fn regress_60_single_precision_is_within_its_rounding_bound() {
     // Parts of a turn at a few instants: this tests rounding, not convergence.
-    let parts =
-        [("crank_rocker", 0.0, 1.0), ("crank_rocker", 0.0, 0.25), ("ov7_base", 0.0, 0.5), ("quick_return", 0.0, 2.0)];
+    let parts = [
+        ("crank_rocker", 0.0, 1.0),
+        ("crank_rocker", 0.0, 0.25),
+        ("ov7_base", 0.0, 0.5),
+        ("quick_return", 0.0, 2.0),
+        ("scotch_yoke", 0.0, 0.5),
+    ];
     let mut used: std::collections::BTreeMap<(Stage, &str, Option<&str>), f64> = Default::default();
     for (name, from, to) in parts {
         let base = whole(name);
@@ -285,11 +290,11 @@ fn regress_60_single_precision_is_within_its_rounding_bound() {
             }
         }
     }
-    // From above: somewhere each bound is used up to a fiftieth at least. The bound of a slide's moment supposes all masses at the
-    // mechanism's size; the guides of `quick_return` carry a thousandth of that.
+    // From above: somewhere each bound is used up to a fiftieth at least. The bound of a slide's moment supposes all masses
+    // at the mechanism's size; what `quick_return` and `scotch_yoke` guide is lighter and nearer, so a thousandth is asked.
     used.iter().for_each(|(what, share)| println!("{what:?}: {share:.1e}"));
     for (what, share) in &used {
-        let least = if (what.0, what.1) == (Stage::Reactions, "N m") { 1e-4 } else { 1.0 / 50.0 };
+        let least = if (what.0, what.1) == (Stage::Reactions, "N m") { 1e-3 } else { 1.0 / 50.0 };
         assert!(*share >= least, "{what:?}: the bound is {:.0} times what was ever measured", 1.0 / share);
     }
     assert!(used.len() >= 12, "{used:?}");
