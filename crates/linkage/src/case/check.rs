@@ -67,7 +67,7 @@ fn drives(parts: &CaseParts) -> Result<()> {
             return fault(ErrorKind::Input, format!("{names}: joint or link is driven already"));
         }
         if !(drive.zero.is_finite() && drive.start.is_finite() && motion_is_sound(&drive.motion)) {
-            return fault(ErrorKind::Input, format!("{names} has a number that is none: {drive:?}"));
+            return fault(ErrorKind::Input, format!("{names} has a number that is not finite: {drive:?}"));
         }
         if several && drive.constant_speed().is_none() {
             let message = format!("{names} has a speed that changes, beside other drives");
