@@ -4,7 +4,9 @@ use clap::builder::PossibleValuesParser;
 
 use crate::engines::EngineName;
 use crate::proof::{Options, Reference};
-use linkage::engine::Route;
+use crate::scenario::Scenario;
+use linkage::engine::{Engine, Route};
+use linkage::error::Result;
 
 /// Stands for every engine of this build, in place of a name.
 const ALL: &str = "all";
@@ -19,9 +21,17 @@ pub(super) struct EngineArgs {
     /// first]
     #[arg(long, value_name = "ENGINE", value_parser = PossibleValuesParser::new(names_and_all()))]
     pub(super) engine: Vec<String>,
+    #[command(flatten)]
+    settings: SettingArgs,
+}
+
+/// The settings of an engine. What is not given is the scenario's, else the engine's own.
+#[derive(Clone, Debug, clap::Args)]
+#[group(skip)]
+pub(super) struct SettingArgs {
     /// Time step of the engine in seconds [default: the scenario's]
     #[arg(long, value_name = "S", allow_hyphen_values = true)]
-    pub(super) dt: Option<f64>,
+    dt: Option<f64>,
     /// Relative accuracy of an engine that chooses its own steps [default: its tightest]
     #[arg(long, value_name = "ACCURACY", allow_hyphen_values = true)]
     accuracy: Option<f64>,
@@ -48,13 +58,44 @@ impl EngineArgs {
         if self.engine.iter().any(|name| name == ALL) {
             options = options.every_engine();
         }
+        self.settings.set(&mut options);
+        options
+    }
+}
+
+impl SettingArgs {
+    /// Writes the settings given to the options of a proof.
+    fn set(&self, options: &mut Options) {
         options.step = self.dt;
         options.accuracy = self.accuracy;
         options.sweeps = self.sweeps;
         options.substeps = self.substeps;
         options.route = self.route.as_deref().map(|name| Route::named(name).expect(KNOWN));
         options.extrapolated = self.extrapolate.then_some(true);
-        options
+    }
+
+    /// The engine called `name` with these settings, else the scenario's, else its own.
+    ///
+    /// # Errors
+    /// Those of settings that an engine cannot have.
+    pub(super) fn engine(&self, name: &str, scenario: &Scenario) -> Result<Box<dyn Engine>> {
+        let mut options = Options::default().engine(EngineName::named(name).expect(KNOWN));
+        self.set(&mut options);
+        Ok(options.set_engines(scenario)?.remove(0))
+    }
+
+    /// The first option given. An analytic solver has none of them.
+    pub(super) fn given(&self) -> Option<&'static str> {
+        let SettingArgs { dt, accuracy, sweeps, substeps, route, extrapolate } = self;
+        let options = [
+            ("--dt", dt.is_some()),
+            ("--accuracy", accuracy.is_some()),
+            ("--sweeps", sweeps.is_some()),
+            ("--substeps", substeps.is_some()),
+            ("--route", route.is_some()),
+            ("--extrapolate", *extrapolate),
+        ];
+        options.into_iter().find_map(|(option, is_given)| is_given.then_some(option))
     }
 }
 

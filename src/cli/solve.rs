@@ -4,12 +4,11 @@ use std::path::PathBuf;
 
 use clap::builder::PossibleValuesParser;
 
-use super::engine_args::engine_names;
+use super::engine_args::{SettingArgs, engine_names};
 use super::grid::Range;
 use super::load::{load, reference_names};
 use super::output;
 use super::progress::Bar;
-use crate::engines::EngineName;
 use crate::report::table_csv;
 use analytic::range::explained;
 use linkage::case::{Case, Grid};
@@ -20,6 +19,7 @@ Examples:
   linkproof solve scenarios/crank_rocker.toml --with assur
   linkproof solve scenarios/ov7_base.toml --with newton --crank-deg 0:-360:-30 --csv table.csv
   linkproof solve scenarios/crank_rocker.toml --with rapier --dt 1e-4 --times 0:0.46:0.01
+  linkproof solve scenarios/ov7_base.toml --with rapier --sweeps 4096 --extrapolate   settings that the file does not have
   linkproof solve scenarios/crank_rocker.toml --with assur --mode coupler,rocker=right
 
 Columns: t_s, crank_rad, then link.NAME, point.NAME, joint.NAME and drive channels (`linkproof list --channels`).";
@@ -43,9 +43,8 @@ pub(super) struct Args {
     /// `inspect --modes`. May be given for several groups
     #[arg(long, value_name = "LINK,LINK=MODE")]
     mode: Vec<String>,
-    /// Time step of an engine in seconds [default: the scenario's]
-    #[arg(long, value_name = "S", allow_hyphen_values = true)]
-    dt: Option<f64>,
+    #[command(flatten)]
+    settings: SettingArgs,
     /// File to write to, `-` for standard output
     #[arg(long, value_name = "FILE", default_value = "-", value_parser = output::target)]
     csv: PathBuf,
@@ -61,22 +60,20 @@ pub(super) fn solve(args: &Args) -> Result<()> {
     let mut bar = Bar::new(&scenario.name);
     let mut progress = |part| bar.at(part);
     let trajectory = match analytic::named(&args.with) {
-        Some(_) if args.dt.is_some() => return Err(no_step(&args.with)),
-        Some(solver) => solver.solve_with(&case, &mut progress).map_err(|error| explained(&case, error))?,
-        None => {
-            let step = args.dt.unwrap_or(scenario.dt);
-            let engine = EngineName::named(&args.with).expect("the argument parser knows all names");
-            engine.with_step(step)?.solve_with(&case, &mut progress)?
-        }
+        Some(solver) => match args.settings.given() {
+            Some(option) => return Err(no_engine(&args.with, option)),
+            None => solver.solve_with(&case, &mut progress).map_err(|error| explained(&case, error))?,
+        },
+        None => args.settings.engine(&args.with, &scenario)?.solve_with(&case, &mut progress)?,
     };
     drop(bar);
     output::write(&table_csv::solution(&trajectory)?, &args.csv)
 }
 
-/// The error for a time step given to a solver that takes none: it shows a misunderstanding, so it is not ignored.
-fn no_step(solver: &str) -> Error {
-    Error::new(ErrorKind::Input, format!("--dt is the time step of an engine, but {solver} is analytic and has none"))
-        .help(format!("leave --dt out, or solve --with one of: {}", engine_names().join(", ")))
+/// The error for an engine's setting given to an analytic solver: it shows a misunderstanding, so it is not ignored.
+fn no_engine(solver: &str, option: &str) -> Error {
+    Error::new(ErrorKind::Input, format!("{option} is a setting of an engine, but {solver} is analytic and has none"))
+        .help(format!("leave {option} out, or solve --with one of: {}", engine_names().join(", ")))
 }
 
 fn on_grid(case: &Case, args: &Args) -> Result<Case> {

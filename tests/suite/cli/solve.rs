@@ -162,6 +162,45 @@ fn a_step_belongs_to_an_engine() {
     place.refused("solve scenarios/crank_rocker.toml --with assur --dt 1e-3", &["--dt", "assur is analytic", "rapier"]);
 }
 
+/// What `tune --write` writes to `[engine]` holds for `solve` too, and options replace it.
+#[test]
+fn an_engine_solves_with_the_settings_of_the_file_and_options_replace_them() {
+    let place = Place::new();
+    let solve = |file: &str, options: &str| {
+        place.ok(&format!("solve scenarios/{file} --with rapier --crank-deg 90:180:30 {options}"))
+    };
+    let plain = solve("ov7_base.toml", "");
+    for (key, option) in [
+        ("sweeps = 7", "--sweeps 7"),
+        ("substeps = 2", "--substeps 2"),
+        ("route = \"native\"", "--route native"),
+        ("extrapolated = true", "--extrapolate"),
+        ("sweeps = 64\nroute = \"probe\"\nextrapolated = true", "--sweeps 64 --route probe --extrapolate"),
+    ] {
+        place.edited("ov7_base.toml", "set.toml", &[("[engine]\n", &format!("[engine]\n{key}\n"))]);
+        let told = solve("set.toml", "");
+        assert!(told == solve("ov7_base.toml", option), "{key} is not {option}");
+        assert!(told != plain, "{key} has no effect");
+    }
+    place.edited("ov7_base.toml", "set.toml", &[("[engine]\n", "[engine]\nsweeps = 7\n")]);
+    assert!(solve("set.toml", "--sweeps 9") == solve("ov7_base.toml", "--sweeps 9"));
+    place.edited("ov7_base.toml", "set.toml", &[("[engine]\n", "[engine]\nroute = \"guess\"\n")]);
+    place.refused("solve scenarios/set.toml --with rapier", &["no route", "guess", "probe"]);
+}
+
+#[test]
+fn a_setting_of_engines_is_refused_where_no_engine_solves() {
+    let place = Place::new();
+    for option in ["--dt 1e-3", "--accuracy 1e-3", "--sweeps 7", "--substeps 2", "--route probe", "--extrapolate"] {
+        let name = option.split(' ').next().unwrap();
+        for solver in ["assur", "newton"] {
+            let words = [name, &format!("{solver} is analytic"), "rapier"];
+            place.refused(&format!("solve scenarios/crank_rocker.toml --with {solver} {option}"), &words);
+        }
+    }
+    place.refused("solve scenarios/crank_rocker.toml --with rapier --sweeps 0", &["0 sweeps"]);
+}
+
 #[test]
 fn bad_grids_are_refused() {
     let place = Place::new();
