@@ -50,9 +50,7 @@ impl<'a> Scene<'a> {
             .filter(|(_, side)| !side.trajectory.times().is_empty())
             .filter_map(placed)
             .collect();
-        let ground = &mechanism.links()[GROUND].points;
-        let reach = ground.iter().map(|point| point.local.norm()).fold(0.0, f64::larger);
-        let size = if mechanism.size() > 0.0 { mechanism.size() } else { reach.larger(f64::MIN_POSITIVE) };
+        let size = mechanism.size();
         let guides = Guide::all(mechanism, &sides, size);
         (!sides.is_empty()).then_some(Scene { mechanism, sides, size, guides })
     }

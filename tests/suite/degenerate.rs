@@ -1,9 +1,12 @@
 //! Mechanisms in which whole quantities vanish. A proof must neither divide by their rounding nor be inconclusive
 //! because of them.
 
+use crate::common::shipped;
 use crate::common::spec::{Spec, four_bar};
 use linkage::math::Vec2;
-use linkproof::proof::{Options, prove};
+use linkproof::proof::{Options, Proof, Reference, prove};
+use linkproof::scenario::Scenario;
+use std::path::Path;
 
 fn agrees(what: &str, spec: &Spec) {
     let proof = prove(&spec.scenario().unwrap(), &Options::default());
@@ -51,4 +54,46 @@ fn regress_a_mechanism_far_from_the_origin_agrees() {
     for far in [Vec2::new(10.0, -20.0), Vec2::new(1e3, 1e3)] {
         agrees(&format!("at {}, {}", far.x, far.y), &spec.moved(far, 0.7));
     }
+}
+
+/// Symptom: a pendulum hinged at its only point ended in "closure NaN", in "step size became too small", or in "jumped
+/// to another branch" at t = 0. Cause: the mechanism's size was the distance of points alone, here 0.
+#[test]
+fn regress_a_link_of_a_single_point_has_a_size() {
+    let text = shipped("pendulum.toml").text;
+    let free = without(&text, "E = {");
+    for reference in Reference::ALL {
+        agrees_as_written(reference.name(), &free, &Options::default().reference(reference));
+    }
+    // Turned at a constant speed, and from rest by a motor with the mass centre in the pivot, as a flywheel is.
+    let driven = without(&without(&free, "motion ="), "zero_deg");
+    agrees_as_written("driven", &driven, &Options::default());
+    let motor = "motion = \"free\"\ninitial_speed_rad_s = 0\n";
+    let wheel =
+        without(&free, "motion =").replace("zero_deg = -90\n", motor).replace("speed_rad_s = -5", "speed_rad_s = 5");
+    let wheel = format!("{wheel}[motor]\nlaw = \"constant\"\ntorque_N_m = 0.4\nratio = 1\n");
+    for centre in ["0", "1e-3"] {
+        let wheel = wheel.replace("mass_centre = { x_m = 0.5,", &format!("mass_centre = {{ x_m = {centre},"));
+        let proof = proof_of("wheel", &wheel, &Options::default());
+        assert_ne!(proof.verdict.word(), "disagree", "{centre}: {:?}", proof.verdict);
+        assert!(proof.checks.iter().all(|check| check.verdict.word() == "agree"), "{centre}: {:?}", proof.checks);
+    }
+}
+
+/// The text without its lines that begin with `begin`.
+fn without(text: &str, begin: &str) -> String {
+    let kept: Vec<&str> = text.lines().filter(|line| !line.starts_with(begin)).collect();
+    assert!(kept.len() < text.lines().count(), "{begin}");
+    kept.join("\n") + "\n"
+}
+
+fn proof_of(what: &str, text: &str, options: &Options) -> Proof {
+    let scenario =
+        Scenario::parse(text, Path::new("degenerate.toml")).unwrap_or_else(|error| panic!("{what}: {error}"));
+    prove(&scenario, options).unwrap_or_else(|error| panic!("{what}: {error}"))
+}
+
+fn agrees_as_written(what: &str, text: &str, options: &Options) {
+    let proof = proof_of(what, text, options);
+    assert_eq!(proof.verdict.word(), "agree", "{what}: {:?}", proof.verdict);
 }

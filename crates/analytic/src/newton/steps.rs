@@ -77,7 +77,7 @@ impl System<'_> {
     /// Newton's method to rounding, from the pose in `q`. The factored Jacobian is that of the last pose but one (which
     /// differs from the last by rounding).
     pub(super) fn correct(&mut self) -> Result<()> {
-        let size = self.case.mechanism.size().larger(f64::MIN_POSITIVE);
+        let size = self.case.mechanism.size();
         let mut last = f64::INFINITY;
         for _ in 0..MAX_ITERATIONS {
             self.assemble();

@@ -5,7 +5,7 @@
 //! x and y are divided by the size of the mechanism, so that they compare with angles.
 //! Each kind of joint has one function with its rows.
 
-use linkage::math::{Column, KeepNan, Matrix, Vec2, cross, rotated, unit};
+use linkage::math::{Column, Matrix, Vec2, cross, rotated, unit};
 use linkage::mechanism::{EQUATIONS, Group, Joint, JointKind, LinkPose, Mechanism, Pose, Side};
 
 /// A driving link that is geared to the crank: its angle follows that of the crank.
@@ -49,7 +49,7 @@ impl<'a> Constraints<'a> {
         Constraints {
             mechanism,
             origin,
-            size: mechanism.size().larger(f64::MIN_POSITIVE),
+            size: mechanism.size(),
             gearings,
             middles: (0..mechanism.links().len()).map(middle).collect(),
         }

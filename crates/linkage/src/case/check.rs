@@ -156,7 +156,7 @@ fn loads(parts: &CaseParts) -> Result<()> {
             return fault(format!("it acts on link {link}, but there are {count} links"));
         }
         if !sound {
-            return fault(format!("a number is none: {load:?}"));
+            return fault(format!("a number is not finite, or negative where it must not be: {load:?}"));
         }
     }
     Ok(())

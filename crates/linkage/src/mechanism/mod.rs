@@ -40,6 +40,18 @@ impl Link {
         let pairs = self.points.iter().enumerate().flat_map(|(i, a)| self.points[i + 1..].iter().map(move |b| (a, b)));
         pairs.map(|(a, b)| (a.local - b.local).norm()).fold(0.0, f64::larger)
     }
+
+    /// Largest distance between two of its points, its mass centre included (m): the lever arm of forces on the link.
+    /// Of a link that is a single point, as a flywheel is, it is the radius of gyration; 0 without mass.
+    #[must_use]
+    pub fn extent(&self) -> f64 {
+        if self.mass <= 0.0 {
+            return self.size();
+        }
+        let from_centre = self.points.iter().map(|point| (point.local - self.mass_centre).norm());
+        let extent = from_centre.fold(self.size(), f64::larger);
+        if extent > 0.0 { extent } else { (self.inertia / self.mass).sqrt() }
+    }
 }
 
 /// Named point of a link.
@@ -291,10 +303,12 @@ impl Mechanism {
         points.into_iter()
     }
 
-    /// Largest distance between two points of one link (m). Closure gaps are compared with this size.
+    /// Largest extent of a link (m), of the ground its points'. Closure gaps are compared with it.
+    /// It is positive: 1 m where no link has an extent, and no length matters.
     #[must_use]
     pub fn size(&self) -> f64 {
-        self.links.iter().map(Link::size).fold(0.0, f64::larger)
+        let size = self.links.iter().map(Link::extent).fold(0.0, f64::larger);
+        if size > 0.0 { size } else { 1.0 }
     }
 
     /// Whether a link can turn. It cannot if joints that keep the angle connect it with the ground.
@@ -435,5 +449,21 @@ mod tests {
     #[test]
     fn size_is_the_longest_link() {
         assert_eq!(four_bar().size(), 4.0);
+    }
+
+    /// Size of a link hinged at its only point.
+    fn of_single_point(mass: f64, centre: f64, inertia: f64) -> f64 {
+        let mut own = link("a", &[("O", 0.0, 0.0)]);
+        (own.mass, own.mass_centre.x, own.inertia) = (mass, centre, inertia);
+        let links = vec![link("ground", &[("O", 0.0, 0.0)]), own];
+        mechanism(links, &[("O", "O", "ground", "a")]).unwrap().size()
+    }
+
+    #[test]
+    fn size_is_positive_however_few_points_a_link_has() {
+        assert_eq!(of_single_point(2.0, 0.5, 1.0), 0.5);
+        assert_eq!(of_single_point(2.0, 0.0, 8.0), 2.0);
+        assert_eq!(of_single_point(2.0, 0.0, 0.0), 1.0);
+        assert_eq!(of_single_point(0.0, 0.0, 0.0), 1.0);
     }
 }

@@ -45,11 +45,11 @@ fn a_drive_belongs_to_a_moving_link_and_its_joint() {
 #[test]
 fn numbers_of_a_drive_are_such() {
     for value in [f64::NAN, f64::INFINITY] {
-        says(Input, "drive", &["\"crank\"", "none"], |parts| parts.drives.crank_mut().zero = value);
-        says(Input, "drive", &["\"crank\"", "none"], |parts| parts.drives.crank_mut().start = value);
+        says(Input, "drive", &["\"crank\"", "not finite"], |parts| parts.drives.crank_mut().zero = value);
+        says(Input, "drive", &["\"crank\"", "not finite"], |parts| parts.drives.crank_mut().start = value);
     }
     let moved = |motion: DriveMotion| {
-        says(Input, "drive", &["\"crank\"", "none"], |parts| parts.drives.crank_mut().motion = motion);
+        says(Input, "drive", &["\"crank\"", "not finite"], |parts| parts.drives.crank_mut().motion = motion);
     };
     for speed in [0.0, f64::NAN, f64::NEG_INFINITY] {
         moved(DriveMotion::Prescribed { law: MotionLaw::ConstantSpeed(speed), motor: None });
@@ -151,8 +151,8 @@ fn loads_act_on_links_with_numbers() {
         (Load::ResistingForce { at: at(7), force: 1.0 }, "link 7"),
         (Load::Spring { ends: [at(0), at(5)], stiffness: 1.0, free_length: 0.0 }, "link 5"),
         (Load::TorsionDamper { links: [9, 0], damping: 1.0 }, "link 9"),
-        (Load::Resistance { link: 1, moment: -1.0 }, "none"),
-        (Load::TorsionSpring { links: [0, 1], stiffness: f64::NAN, free_angle: 0.0 }, "none"),
+        (Load::Resistance { link: 1, moment: -1.0 }, "not finite"),
+        (Load::TorsionSpring { links: [0, 1], stiffness: f64::NAN, free_angle: 0.0 }, "not finite"),
     ];
     for (load, word) in wrong {
         let sort = load.sort();
