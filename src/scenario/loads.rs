@@ -4,24 +4,26 @@ use super::joints::link;
 use super::reader::{Sign, Table};
 use super::unit::{ANGLE, DAMPING, FORCE, Family, LENGTH, MOMENT, MOMENT_PER_SPEED, STIFFNESS, TORSIONAL_STIFFNESS};
 use super::words::suggestion;
-use linkage::drive::{Acts, Course, Load};
+use linkage::drive::{Acts, Course, Load, LoadSort};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::mechanism::{GROUND, Mechanism, Side};
 use std::f64::consts::TAU;
 
-/// A sort of load: its name in scenario files, and its reader.
-type Sort = (&'static str, fn(&mut Table, &Mechanism) -> Result<Load>);
+/// Reads the keys of a load.
+type Reader = fn(&mut Table, &Mechanism) -> Result<Load>;
 
-const SORTS: [Sort; 8] = [
-    ("resistance", resistance),
-    ("moment", moment),
-    ("force", force),
-    ("resisting_force", resisting_force),
-    ("spring", spring),
-    ("damper", damper),
-    ("torsion_spring", torsion_spring),
-    ("torsion_damper", torsion_damper),
-];
+fn reader(sort: LoadSort) -> Reader {
+    match sort {
+        LoadSort::Resistance => resistance,
+        LoadSort::Moment => moment,
+        LoadSort::Force => force,
+        LoadSort::ResistingForce => resisting_force,
+        LoadSort::Spring => spring,
+        LoadSort::Damper => damper,
+        LoadSort::TorsionSpring => torsion_spring,
+        LoadSort::TorsionDamper => torsion_damper,
+    }
+}
 
 /// Largest number of crank turns after which a table may repeat.
 const MOST_TURNS: i64 = 1000;
@@ -33,11 +35,11 @@ pub fn read(tables: Vec<Table>, mechanism: &Mechanism) -> Result<Vec<Load>> {
 
 fn load(mut table: Table, mechanism: &Mechanism) -> Result<Load> {
     let kind = table.string("type")?;
-    let Some((_, read)) = SORTS.iter().find(|(name, _)| *name == kind) else {
+    let Some(sort) = LoadSort::named(&kind) else {
         let error = table.wrong(ErrorKind::Input, "type", format!("\"{kind}\" is no type of load"));
-        return Err(error.help(suggestion(&kind, SORTS.map(|(name, _)| name), "\"")));
+        return Err(error.help(suggestion(&kind, LoadSort::ALL.map(LoadSort::name), "\"")));
     };
-    let load = read(&mut table, mechanism)?;
+    let load = reader(sort)(&mut table, mechanism)?;
     table.finish()?;
     Ok(load)
 }

@@ -1,5 +1,9 @@
 //! Loads on links other than gravity and inertia. What each does to the links is written here only.
 
+mod sort;
+
+pub use sort::LoadSort;
+
 use super::course::Course;
 use crate::math::{Motion, Vec2, angle, cross};
 use crate::mechanism::{LinkPose, Side};
@@ -104,8 +108,8 @@ pub enum Senses {
 /// The sort of a load and the quantities it depends on: see [`Load::nature`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Nature<'a> {
-    /// Name of the sort in scenario files.
-    pub sort: &'static str,
+    /// The sort.
+    pub sort: LoadSort,
     /// The motion whose sense it depends on.
     pub senses: Senses,
     /// Whether it depends on the size of speeds, not only on their senses.
@@ -243,22 +247,28 @@ impl Load {
     pub fn nature(&self) -> Nature<'_> {
         let plain = |sort| Nature { sort, senses: Senses::Nothing, is_viscous: false, twist: None, courses: &[] };
         match self {
-            &Load::Resistance { link, moment: _ } => Nature { senses: Senses::Link(link), ..plain("resistance") },
+            &Load::Resistance { link, moment: _ } => {
+                Nature { senses: Senses::Link(link), ..plain(LoadSort::Resistance) }
+            }
             Load::Moment { link, moment, acts } => {
                 let senses = match acts {
                     Acts::Always => Senses::Nothing,
                     Acts::CounterClockwise | Acts::Clockwise => Senses::Link(*link),
                 };
-                Nature { senses, courses: std::slice::from_ref(moment), ..plain("moment") }
+                Nature { senses, courses: std::slice::from_ref(moment), ..plain(LoadSort::Moment) }
             }
-            Load::Force { at: _, force, follows: _ } => Nature { courses: force, ..plain("force") },
-            &Load::ResistingForce { at, force: _ } => Nature { senses: Senses::Point(at), ..plain("resisting_force") },
-            Load::Spring { ends: _, stiffness: _, free_length: _ } => plain("spring"),
-            Load::Damper { ends: _, damping: _ } => Nature { is_viscous: true, ..plain("damper") },
+            Load::Force { at: _, force, follows: _ } => Nature { courses: force, ..plain(LoadSort::Force) },
+            &Load::ResistingForce { at, force: _ } => {
+                Nature { senses: Senses::Point(at), ..plain(LoadSort::ResistingForce) }
+            }
+            Load::Spring { ends: _, stiffness: _, free_length: _ } => plain(LoadSort::Spring),
+            Load::Damper { ends: _, damping: _ } => Nature { is_viscous: true, ..plain(LoadSort::Damper) },
             &Load::TorsionSpring { links, stiffness: _, free_angle: _ } => {
-                Nature { twist: Some(links), ..plain("torsion_spring") }
+                Nature { twist: Some(links), ..plain(LoadSort::TorsionSpring) }
             }
-            Load::TorsionDamper { links: _, damping: _ } => Nature { is_viscous: true, ..plain("torsion_damper") },
+            Load::TorsionDamper { links: _, damping: _ } => {
+                Nature { is_viscous: true, ..plain(LoadSort::TorsionDamper) }
+            }
         }
     }
 
@@ -333,7 +343,7 @@ impl Load {
     /// Name of the load's sort in scenario files.
     #[must_use]
     pub fn sort(&self) -> &'static str {
-        self.nature().sort
+        self.nature().sort.name()
     }
 }
 
