@@ -193,7 +193,7 @@ fn start_poses_of_all_scenarios_close_to_rounding() {
             let case = Scenario::load(&path).unwrap().case;
             let reach = case.start.0.iter().fold(case.mechanism.size(), |most, pose| most.larger(pose.origin.norm()));
             let open = case.start.closure(&case.mechanism) / reach;
-            assert!(open <= 1e-12, "{}: {open:e}", path.display());
+            assert_within!(open, 1e-12, "{}", path.display());
             (worst, count) = (worst.larger(open), count + 1);
         }
     }

@@ -277,7 +277,7 @@ fn regress_60_single_precision_is_within_its_rounding_bound() {
                     if route != Route::Probe {
                         let [own, single] =
                             [0, 1].map(|k| engines[k].noise(&case, kind) / super::epsilon(engines[k].as_ref()));
-                        assert!((own / single - 1.0).abs() <= 1e-6, "{}: {own:e} {single:e}", residual.channel);
+                        assert_within!((own / single - 1.0).abs(), 1e-6, "{}: {own:e} {single:e}", residual.channel);
                     }
                     assert_within!(
                         residual.max,

@@ -1,5 +1,6 @@
 //! The equations along the tree against those of all links at once. Both share only the components of the joints.
 
+use crate::common::assert_within;
 use std::path::{Path, PathBuf};
 
 use proptest::prelude::*;
@@ -155,10 +156,10 @@ proptest! {
                 let largest = most(&known).larger(most(&found));
                 let rest = |row: &[f64], right: &f64| row.iter().zip(&found).map(|(a, x)| a * x).sum::<f64>() - right;
                 let rest: Vec<f64> = matrix.iter().zip(&right).map(|(row, right)| rest(row, right)).collect();
-                prop_assert!(most(&rest) <= 1e-12 * largest, "{name}: {:e} of {largest:e}", most(&rest));
+                assert_within!(most(&rest), 1e-12 * largest, "{name}");
                 for (found, known) in found.iter().zip(&known) {
                     let bound = 1e-14 * inverse * largest;
-                    prop_assert!((found - known).abs() <= bound, "{name}: {found} {known}, bound {bound:e}");
+                    assert_within!((found - known).abs(), bound, "{name}: {found} {known}");
                 }
             }
         }
