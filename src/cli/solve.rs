@@ -10,6 +10,7 @@ use super::load::{load, reference_names};
 use super::output;
 use super::progress::Bar;
 use crate::report::table_csv;
+use crate::scenario::grid::only_times;
 use analytic::range::explained;
 use linkage::case::{Case, Grid};
 use linkage::error::{Error, ErrorKind, Result};
@@ -78,6 +79,9 @@ fn no_engine(solver: &str, option: &str) -> Error {
 
 fn on_grid(case: &Case, args: &Args) -> Result<Case> {
     let grid = match (&args.crank_deg, &args.times) {
+        (Some(_), _) if let Some(message) = only_times(case.crank()) => {
+            return Err(Error::new(ErrorKind::Input, message).help("give times by --times FROM:TO:STEP"));
+        }
         (Some(Range(degrees)), _) => {
             let cranks = degrees.iter().map(|angle| angle.to_radians()).collect();
             Grid::of_cranks(case.crank(), cranks)

@@ -34,6 +34,12 @@ pub fn range(from: f64, to: f64, step: f64) -> std::result::Result<Vec<f64>, Str
     Ok((0..=last as usize).map(|k| from + k as f64 * step).collect())
 }
 
+/// Why a grid cannot go by crank angle, if it cannot.
+#[must_use]
+pub fn only_times(drive: &Drive) -> Option<&'static str> {
+    drive.is_free().then_some("the motion is free: when the crank comes to an angle is a result of the forces")
+}
+
 /// The grid of a scenario, by crank angle or by time.
 pub fn read(mut table: Table, drive: &Drive) -> Result<Grid> {
     let Some((family, from)) = table.quantity_in("from", &[&ANGLE, &TIME], Sign::Any)? else {
@@ -42,6 +48,9 @@ pub fn read(mut table: Table, drive: &Drive) -> Result<Grid> {
         ));
     };
     let family = [&ANGLE, &TIME][family];
+    if let (true, Some(message)) = (std::ptr::eq(family, &ANGLE), only_times(drive)) {
+        return Err(table.fault(message).help("give the grid by time (`from_s`, `to_s`, `step_s`)"));
+    }
     let to = table.quantity("to", family, Sign::Any)?;
     let step = table.quantity("step", family, Sign::NotZero)?;
     table.finish()?;

@@ -228,8 +228,9 @@ fn read(root: &mut Table) -> Result<Scenario> {
     let series = oracles.iter().flat_map(|oracle| &oracle.series);
     let published =
         series.flat_map(|series| series.points.iter().chain(series.expected.iter().map(|cell| &cell.point)));
-    let cranks = published.map(|point| point.crank).collect();
-    if let Err(message) = Grid::of_cranks(case.crank(), cranks).check(case.crank()) {
+    let cranks: Vec<f64> = published.map(|point| point.crank).collect();
+    let free = grid::only_times(case.crank()).filter(|_| !cranks.is_empty()).map(String::from);
+    if let Err(message) = free.map_or_else(|| Grid::of_cranks(case.crank(), cranks).check(case.crank()), Err) {
         let error = Error::new(ErrorKind::Input, format!("published numbers: {message}")).key("oracle");
         return Err(error.help("take the numbers out, or give them at crank angles to which the drive comes"));
     }

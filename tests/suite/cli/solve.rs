@@ -223,3 +223,30 @@ fn bad_grids_are_refused() {
     place.refused(&format!("{scenario} magic"), &["magic", "assur, newton, rapier"]);
     place.refused("solve scenarios/crank_rocker.toml", &["--with"]);
 }
+
+/// Symptom: asked for 120 deg, a free motion answered at 147 deg. Cause: angles became times by the nominal speed.
+#[test]
+fn regress_a_free_motion_takes_no_grid_of_crank_angles() {
+    let place = Place::new();
+    for (file, solver) in [("pendulum", "assur"), ("crank_rocker_runup", "newton"), ("double_pendulum", "rapier")] {
+        let words = ["the motion is free", "--times"];
+        place.refused(&format!("solve scenarios/{file}.toml --with {solver} --crank-deg 90:60:-30"), &words);
+    }
+    let by_time = "from_s = 0\nto_s = 3\nstep_s = 0.01";
+    let by_angle = "from_deg = 150\nto_deg = 90\nstep_deg = -30";
+    place.edited("pendulum.toml", "angles.toml", &[(by_time, by_angle)]);
+    for command in ["run scenarios/angles.toml --no-record", "inspect scenarios/angles.toml"] {
+        place.refused(command, &["angles.toml", "grid", "the motion is free", "from_s"]);
+    }
+    let published = "
+[[oracle]]
+name = \"printed\"
+source = \"made up\"
+basis = \"derived\"
+crank_deg = 90
+values = [{ channel = \"link.rod.omega_rad_s\", value = 1, digits = 1 }]
+";
+    let text = fs::read_to_string(place.path("scenarios/pendulum.toml")).unwrap() + published;
+    fs::write(place.path("scenarios/printed.toml"), text).unwrap();
+    place.refused("run scenarios/printed.toml --no-record", &["published numbers", "the motion is free"]);
+}
