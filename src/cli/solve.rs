@@ -20,7 +20,7 @@ Examples:
   linkproof solve scenarios/crank_rocker.toml --with assur
   linkproof solve scenarios/ov7_base.toml --with newton --crank-deg 0:-360:-30 --csv table.csv
   linkproof solve scenarios/crank_rocker.toml --with rapier --dt 1e-4 --times 0:0.46:0.01
-  linkproof solve scenarios/ov7_base.toml --with rapier --sweeps 4096 --extrapolate   settings that the file does not have
+  linkproof solve scenarios/ov7_base.toml --with rapier --sweeps 4096 --extrapolate   other settings of the engine
   linkproof solve scenarios/crank_rocker.toml --with assur --mode coupler,rocker=right
 
 Columns: t_s, crank_rad, then link.NAME, point.NAME, joint.NAME and drive channels (`linkproof list --channels`).";

@@ -78,8 +78,7 @@ pub(super) fn observe(
     let with_power = case.wanted.has(Stage::BalancingMoment);
     let mut power = if with_power { vec![0.0; case.grid.len()] } else { Vec::new() };
     let mut torque = power.clone();
-    let arm = case.drives.iter().fold(0.0, |most: f64, drive| most.larger(case.mechanism.links()[drive.link].extent()));
-    let (size, steady) = (case.mechanism.size(), case.is_steady());
+    let (arm, size, steady) = (case.drive_arm(), case.mechanism.size(), case.is_steady());
     let mut opening = vec![0.0f64; case.grid.len()];
     let (mut reach, mut moment): (f64, f64) = (0.0, 0.0);
     let mut unbalance = Unbalance::default();

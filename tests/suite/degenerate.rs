@@ -8,10 +8,17 @@ use linkproof::proof::{Options, Proof, Reference, prove};
 use linkproof::scenario::Scenario;
 use std::path::Path;
 
-fn agrees(what: &str, spec: &Spec) {
-    let proof = prove(&spec.scenario().unwrap(), &Options::default());
-    let proof = proof.unwrap_or_else(|error| panic!("{what}: {error}"));
+fn proof_of(what: &str, scenario: &Scenario, options: &Options) -> Proof {
+    prove(scenario, options).unwrap_or_else(|error| panic!("{what}: {error}"))
+}
+
+fn agrees_by(what: &str, scenario: &Scenario, options: &Options) {
+    let proof = proof_of(what, scenario, options);
     assert_eq!(proof.verdict.word(), "agree", "{what}: {:?}", proof.verdict);
+}
+
+fn agrees(what: &str, spec: &Spec) {
+    agrees_by(what, &spec.scenario().unwrap(), &Options::default());
 }
 
 /// A parallelogram between its change points. All angular speeds are equal, and all angular accelerations vanish;
@@ -63,18 +70,18 @@ fn regress_a_link_of_a_single_point_has_a_size() {
     let text = shipped("pendulum.toml").text;
     let free = without(&text, "E = {");
     for reference in Reference::ALL {
-        agrees_as_written(reference.name(), &free, &Options::default().reference(reference));
+        agrees_by(reference.name(), &parsed(&free), &Options::default().reference(reference));
     }
     // Turned at a constant speed, and from rest by a motor with the mass centre in the pivot, as a flywheel is.
     let driven = without(&without(&free, "motion ="), "zero_deg");
-    agrees_as_written("driven", &driven, &Options::default());
+    agrees_by("driven", &parsed(&driven), &Options::default());
     let motor = "motion = \"free\"\ninitial_speed_rad_s = 0\n";
     let wheel =
         without(&free, "motion =").replace("zero_deg = -90\n", motor).replace("speed_rad_s = -5", "speed_rad_s = 5");
     let wheel = format!("{wheel}[motor]\nlaw = \"constant\"\ntorque_N_m = 0.4\nratio = 1\n");
     for centre in ["0", "1e-3"] {
         let wheel = wheel.replace("mass_centre = { x_m = 0.5,", &format!("mass_centre = {{ x_m = {centre},"));
-        let proof = proof_of("wheel", &wheel, &Options::default());
+        let proof = proof_of("wheel", &parsed(&wheel), &Options::default());
         assert_ne!(proof.verdict.word(), "disagree", "{centre}: {:?}", proof.verdict);
         assert!(proof.checks.iter().all(|check| check.verdict.word() == "agree"), "{centre}: {:?}", proof.checks);
     }
@@ -87,13 +94,6 @@ fn without(text: &str, begin: &str) -> String {
     kept.join("\n") + "\n"
 }
 
-fn proof_of(what: &str, text: &str, options: &Options) -> Proof {
-    let scenario =
-        Scenario::parse(text, Path::new("degenerate.toml")).unwrap_or_else(|error| panic!("{what}: {error}"));
-    prove(&scenario, options).unwrap_or_else(|error| panic!("{what}: {error}"))
-}
-
-fn agrees_as_written(what: &str, text: &str, options: &Options) {
-    let proof = proof_of(what, text, options);
-    assert_eq!(proof.verdict.word(), "agree", "{what}: {:?}", proof.verdict);
+fn parsed(text: &str) -> Scenario {
+    Scenario::parse(text, Path::new("degenerate.toml")).unwrap_or_else(|error| panic!("{error}"))
 }

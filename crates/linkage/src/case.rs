@@ -10,7 +10,7 @@ use std::ops::Deref;
 
 use crate::Result;
 use crate::drive::{Action, Drive, Load, Motor, Setting, Wrench};
-use crate::math::Motion;
+use crate::math::{KeepNan, Motion};
 use crate::trajectory::{CHANNELS, Channel, Subject};
 
 pub use builder::CaseBuilder;
@@ -152,6 +152,13 @@ impl Case {
     #[must_use]
     pub fn is_steady(&self) -> bool {
         !self.is_free() && self.drives.iter().all(|drive| drive.constant_speed().is_some())
+    }
+
+    /// Lever arm of the balancing moments (m): the extent of the largest driving link.
+    #[must_use]
+    pub fn drive_arm(&self) -> f64 {
+        let extents = self.drives.iter().map(|drive| self.mechanism.links()[drive.link].extent());
+        extents.fold(0.0, f64::larger)
     }
 
     /// Calls `put` with the action of every load on every link, the ground included.

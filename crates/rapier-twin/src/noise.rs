@@ -89,10 +89,7 @@ pub(super) fn bound(case: &Case, engine: &Rapier, channel: &ChannelKind) -> f64 
 /// On the frame they are taken about the origin.
 fn lever(case: &Case, reach: f64, subject: Subject) -> f64 {
     match subject {
-        // The lever arm of a drive is that of the largest driving link.
-        Subject::Drive | Subject::Motor => {
-            case.drives.iter().fold(0.0, |most: f64, drive| most.larger(case.mechanism.links()[drive.link].extent()))
-        }
+        Subject::Drive | Subject::Motor => case.drive_arm(),
         Subject::Frame => reach,
         Subject::Link | Subject::Point | Subject::Joint | Subject::Slider => case.mechanism.size(),
     }

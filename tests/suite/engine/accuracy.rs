@@ -290,8 +290,9 @@ fn regress_60_single_precision_is_within_its_rounding_bound() {
             }
         }
     }
-    // From above: somewhere each bound is used up to a fiftieth at least. The bound of a slide's moment supposes all masses
-    // at the mechanism's size; what `quick_return` and `scotch_yoke` guide is lighter and nearer, so a thousandth is asked.
+    // From above: somewhere each bound is used up to a fiftieth at least.
+    // The bound of a slide's moment supposes all masses at the mechanism's size. What `quick_return` and `scotch_yoke`
+    // guide is lighter and nearer, so a thousandth is asked.
     used.iter().for_each(|(what, share)| println!("{what:?}: {share:.1e}"));
     for (what, share) in &used {
         let least = if (what.0, what.1) == (Stage::Reactions, "N m") { 1e-3 } else { 1.0 / 50.0 };
