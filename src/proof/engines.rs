@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use super::checks;
+use super::known::Known;
 use super::observe::Stopped;
 use super::options::Chosen;
 use super::runs::{self, Bank, Runs};
@@ -83,6 +84,8 @@ pub(super) struct Judge<'a> {
     pub(super) scenario: &'a Scenario,
     /// The reference's trajectory.
     pub(super) reference: &'a Trajectory,
+    /// How well it is known.
+    pub(super) known: &'a Known,
     /// Settings asked for; the search begins with them.
     pub(super) asked: Settings,
 }
@@ -103,10 +106,11 @@ pub(super) fn prove(
     case: &Case,
     chosen: &Chosen,
     reference: &Trajectory,
+    known: &Known,
     progress: &mut dyn FnMut(f64),
 ) -> Result<EngineProof> {
     let engine = chosen.engine.as_ref();
-    let judge = Judge { scenario, reference, asked: engine.settings() };
+    let judge = Judge { scenario, reference, known, asked: engine.settings() };
     let mut bank = Bank::new(case, engine);
     let found = if chosen.free.any() && !engine.controls_error() {
         let search = Settling::new(&judge, &mut bank, engine, chosen.free, chosen.budget);
@@ -161,7 +165,7 @@ impl Judge<'_> {
 
     /// Judges an engine by its runs.
     pub(super) fn judge(&self, engine: &dyn Engine, runs: &Runs) -> Result<Judged> {
-        let channels = judge(self.scenario, engine, self.reference, runs)?;
+        let channels = self.channels(engine, runs)?;
         let checks = checks::of_engine(self.scenario, engine, runs);
         let verdict = overall(channels.iter().map(|c| &c.verdict).chain(checks.iter().map(|c| &c.verdict)));
         let trajectory = runs.single().trajectory.clone();
@@ -170,28 +174,34 @@ impl Judge<'_> {
     }
 }
 
-fn judge(scenario: &Scenario, engine: &dyn Engine, reference: &Trajectory, runs: &Runs) -> Result<Vec<ChannelProof>> {
-    let ladder = runs.ladder();
-    let [_, single, half] = ladder.resolutions;
-    let (case, Settings { resolution, sweeps, .. }) = (&scenario.case, engine.settings());
-    let finest = engine.at(resolution / 2.0);
-    let judged = residuals(reference, single)?.into_iter().map(|residual| {
-        let (channel, kind) = (residual.channel.clone(), residual.channel.kind);
-        let convergence =
-            Convergence::of_channel(ladder, &channel, engine.formal_order(case, kind), finest.noise(case, kind))
-                .expect("all runs of an engine have the same channels");
-        let parts = convergence.parts(engine.noise(case, kind));
-        let basis = convergence.tolerance(resolution, parts, checks::noise_origin(engine)).basis;
-        let verdict = Verdict::of_engine(&residual, &convergence, parts, scenario.engine_rel);
-        let verdict = verdict.from_settings(resolution, engine.controls_error(), sweeps);
-        let verdict = unless_turning_about(case, [reference, single], &residual, resolution, verdict);
-        let [single, half, reference] =
-            [single, half, reference].map(|side| side.column(&channel).expect("all sides have the channel"));
-        let limit = convergence.limit(single, half, kind.periodic);
-        let limit = limit.map(|limit| largest_difference(reference, &limit, kind.periodic));
-        ChannelProof { residual, bound: parts.sum(), parts, convergence, limit, sensitivity: None, basis, verdict }
-    });
-    Ok(judged.collect())
+impl Judge<'_> {
+    fn channels(&self, engine: &dyn Engine, runs: &Runs) -> Result<Vec<ChannelProof>> {
+        let Judge { scenario, reference, known, .. } = *self;
+        let ladder = runs.ladder();
+        let [_, single, half] = ladder.resolutions;
+        let (case, Settings { resolution, sweeps, .. }) = (&scenario.case, engine.settings());
+        let finest = engine.at(resolution / 2.0);
+        let judged = residuals(reference, single)?.into_iter().map(|residual| {
+            let (channel, kind) = (residual.channel.clone(), residual.channel.kind);
+            let convergence =
+                Convergence::of_channel(ladder, &channel, engine.formal_order(case, kind), finest.noise(case, kind))
+                    .expect("all runs of an engine have the same channels");
+            let index =
+                reference.channels().iter().position(|own| *own == channel).expect("residuals are of the reference");
+            let parts =
+                Parts { reference: known.error(kind.stage, index), ..convergence.parts(engine.noise(case, kind)) };
+            let basis = convergence.tolerance(resolution, parts, checks::noise_origin(engine)).basis;
+            let verdict = Verdict::of_engine(&residual, &convergence, parts, scenario.engine_rel);
+            let verdict = verdict.from_settings(resolution, engine.controls_error(), sweeps);
+            let verdict = unless_turning_about(case, [reference, single], &residual, resolution, verdict);
+            let [single, half, reference] =
+                [single, half, reference].map(|side| side.column(&channel).expect("all sides have the channel"));
+            let limit = convergence.limit(single, half, kind.periodic);
+            let limit = limit.map(|limit| largest_difference(reference, &limit, kind.periodic));
+            ChannelProof { residual, bound: parts.sum(), parts, convergence, limit, sensitivity: None, basis, verdict }
+        });
+        Ok(judged.collect())
+    }
 }
 
 /// Adds to an inconclusive verdict how strongly the motion depends on the forces that cause it: `sensitivity`, channel

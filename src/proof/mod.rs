@@ -3,6 +3,7 @@
 mod checks;
 mod dial;
 mod engines;
+mod known;
 mod methods;
 mod observe;
 mod options;
@@ -22,6 +23,7 @@ pub use settle::{End, Search};
 use crate::compare::{Check, Verdict, overall};
 use crate::scenario::Scenario;
 use analytic::range::explained;
+use known::Known;
 use linkage::case::Case;
 use linkage::error::Result;
 use linkage::solver::Solver;
@@ -143,7 +145,11 @@ fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: 
     let [first, second] = analytic::all();
     let sides = [observed(first)?, observed(second)?];
     let own = &sides.iter().find(|(name, _)| *name == main.name()).expect("the reference is one of the sides").1;
-    let mut checks = checks::of_sides(case, &sides);
+    let mut known = Known::of(case, &sides[0].1.trajectory)?;
+    if checks::sides_differ(&sides, &known) {
+        known.measure(case, first)?;
+    }
+    let mut checks = checks::of_sides(case, &sides, &known);
     checks.extend(methods::checks(case, main)?);
     checks.extend(oracle::checks(scenario)?);
 
@@ -152,7 +158,7 @@ fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: 
     let mut proofs = Vec::with_capacity(engines.len());
     for (index, engine) in engines.iter().enumerate() {
         let mut part = |part: f64| progress((index as f64 + part) / engines.len() as f64);
-        let mut proof = engines::prove(scenario, &engine_case, engine, &own.trajectory, &mut part)?;
+        let mut proof = engines::prove(scenario, &engine_case, engine, &own.trajectory, &known, &mut part)?;
         engines::tell_sensitivity(&mut proof, &own.trajectory, &sensitivity);
         proofs.push(proof);
     }

@@ -64,14 +64,14 @@ mod tests {
             extrapolated: Some(1),
             ..EngineKeys::default()
         };
-        let changed = with_engine(text, (2.5e-4, keys.clone())).unwrap();
+        let changed = with_engine(text, (Some(2.5e-4), keys.clone())).unwrap();
         assert!(changed.starts_with("# mine\nname = 'a'  # kept\n\n[engine]\n"), "{changed}");
         assert!(changed.ends_with("[tolerances]\nengine_rel = 1e-2\n"), "{changed}");
         for line in ["dt_s = 0.00025", "name = \"impulse\"", "sweeps = 64", "extrapolated = 1"] {
             assert!(changed.lines().any(|found| found == line), "{line}: {changed}");
         }
         assert!(!changed.contains("step_deg") && !changed.contains("route"), "{changed}");
-        assert!(["name = 'a'\n", "["].iter().all(|text| with_engine(text, (1.0, keys.clone())).is_err()));
-        assert_eq!(engine_section((1.0, EngineKeys::default())), "[engine]\ndt_s = 1.0\n");
+        assert!(["name = 'a'\n", "["].iter().all(|text| with_engine(text, (Some(1.0), keys.clone())).is_err()));
+        assert_eq!(engine_section((Some(1.0), EngineKeys::default())), "[engine]\ndt_s = 1.0\n");
     }
 }
