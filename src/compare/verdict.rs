@@ -167,6 +167,8 @@ pub struct Check {
     pub unit: &'static str,
     /// What the bound rests on.
     pub basis: Basis,
+    /// For a bound that comes from an engine's own runs: its parts, and how the runs converge.
+    pub estimate: Option<(Parts, Convergence)>,
     /// The outcome.
     pub verdict: Verdict,
 }
@@ -177,7 +179,7 @@ impl Check {
     pub fn new(family: impl Into<String>, value: f64, tolerance: Tolerance, unit: &'static str) -> Self {
         let Tolerance { bound, basis } = tolerance;
         let verdict = Verdict::of(value, bound, || beyond(value, bound, unit));
-        Check { family: family.into(), detail: String::new(), value, bound, unit, basis, verdict }
+        Check { family: family.into(), detail: String::new(), value, bound, unit, basis, estimate: None, verdict }
     }
 
     /// A check of a relative number whose bound comes from an engine's own runs. As with channels, it is inconclusive
@@ -194,7 +196,8 @@ impl Check {
         let bound = parts.sum();
         let place = || beyond(value, bound, "");
         let verdict = Verdict::of_estimate(value, 1.0, convergence, parts, wanted, place);
-        Check { family: family.into(), detail: String::new(), value, bound, unit: "", basis, verdict }
+        let estimate = Some((parts, *convergence));
+        Check { family: family.into(), detail: String::new(), value, bound, unit: "", basis, estimate, verdict }
     }
 
     /// States which check of its family this is.

@@ -12,10 +12,12 @@ mod parties;
 mod planted;
 mod runs;
 mod sensitivity;
+mod settle;
 
 pub use engines::{ChannelProof, EngineInfo, EngineProof};
 pub use options::{Options, Reference};
 pub use parties::Dispute;
+pub use settle::{End, Search};
 
 use crate::compare::{Check, Verdict, overall};
 use crate::scenario::Scenario;
@@ -136,7 +138,7 @@ pub fn solve(case: &Case) -> Result<Trajectory> {
 fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: &mut dyn FnMut(f64)) -> Result<Proof> {
     let case = &scenario.case;
     let main = options.reference.solver();
-    let engines = options.set_engines(scenario)?;
+    let engines = options.chosen(scenario)?;
     let observed = |solver: &dyn Solver| -> Result<_> { Ok((solver.name(), observe(case, solver, &mut |_| {})?)) };
     let [first, second] = analytic::all();
     let sides = [observed(first)?, observed(second)?];
@@ -150,7 +152,7 @@ fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: 
     let mut proofs = Vec::with_capacity(engines.len());
     for (index, engine) in engines.iter().enumerate() {
         let mut part = |part: f64| progress((index as f64 + part) / engines.len() as f64);
-        let mut proof = engines::prove(scenario, &engine_case, engine.as_ref(), &own.trajectory, &mut part)?;
+        let mut proof = engines::prove(scenario, &engine_case, engine, &own.trajectory, &mut part)?;
         engines::tell_sensitivity(&mut proof, &own.trajectory, &sensitivity);
         proofs.push(proof);
     }
