@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::engines::usual_step;
 use super::load::load;
 use super::output;
+use crate::engines::usual_step;
 use analytic::AssurSolver;
 use analytic::range::explained;
 use linkage::error::Result;

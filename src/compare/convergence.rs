@@ -14,8 +14,8 @@
 use super::residual::{differences, largest_difference};
 use crate::tolerance::{Basis, Origin, Parts, Tolerance};
 use linkage::error::Result;
-use linkage::math::{KeepNan, largest_size};
 use linkage::math::statistics::rms;
+use linkage::math::{KeepNan, largest_size};
 use linkage::trajectory::{Channel, Trajectory};
 
 /// Share of the formal order by which the observed order may differ for the smaller safety factor. With a tenth, random
@@ -77,7 +77,8 @@ impl Convergence {
             (observed.clamp(0.5, formal), 3.0)
         };
         // Without an order to go by, the coarser difference is as likely as the finer one.
-        let largest = if observed < 0.5 * formal { largest.larger(largest_size(coarse.iter().copied())) } else { largest };
+        let largest =
+            if observed < 0.5 * formal { largest.larger(largest_size(coarse.iter().copied())) } else { largest };
         let error = largest / (1.0 - 0.5f64.powf(order));
         Convergence { observed, formal, error, safety, iteration: 0.0 }
     }

@@ -113,7 +113,13 @@ pub(super) struct Settling<'a, 'b> {
 
 impl<'a, 'b> Settling<'a, 'b> {
     /// A search that begins with the settings of `engine`.
-    pub(super) fn new(judge: &'a Judge<'a>, bank: &'a mut Bank<'b>, engine: &dyn Engine, free: Free, budget: f64) -> Self {
+    pub(super) fn new(
+        judge: &'a Judge<'a>,
+        bank: &'a mut Bank<'b>,
+        engine: &dyn Engine,
+        free: Free,
+        budget: f64,
+    ) -> Self {
         let mut now = engine.settings();
         let [first, most] = engine.sweeps(bank.case).unwrap_or([now.sweeps; 2]);
         if free.sweeps {
@@ -180,7 +186,9 @@ impl<'a, 'b> Settling<'a, 'b> {
         match blame {
             Part::Iteration if self.free.sweeps && self.now.sweeps < self.most_sweeps => next.sweeps *= MORE_SWEEPS,
             Part::Rounding => return Some(End::Rounding),
-            Part::Discretisation | Part::Iteration if self.free.step || self.free.extrapolated => next.resolution *= 0.5,
+            Part::Discretisation | Part::Iteration if self.free.step || self.free.extrapolated => {
+                next.resolution *= 0.5
+            }
             Part::Discretisation | Part::Iteration => return Some(End::Nothing),
         }
         if next.sweeps != self.now.sweeps {

@@ -33,11 +33,7 @@ impl Rapier {
             Build::Multibody => Self::SWEEPS,
             Build::Impulse => Self::IMPULSE_SWEEPS,
         };
-        Rapier {
-            build,
-            precision,
-            settings: Settings { resolution: step, sweeps, substeps, route, extrapolated: 0 },
-        }
+        Rapier { build, precision, settings: Settings { resolution: step, sweeps, substeps, route, extrapolated: 0 } }
     }
 
     /// The same build and precision with other settings, not extrapolated.

@@ -37,7 +37,8 @@ impl Extrapolated {
 /// many of them cancel as there are further runs.
 /// By Neville's scheme: T(k, j) = T(k + 1, j - 1) + (T(k + 1, j - 1) - T(k, j - 1)) / (2^p - 1), p the power that cancels.
 fn weights(order: f64, runs: usize) -> Vec<f64> {
-    let mut rows: Vec<Vec<f64>> = (0..runs).map(|run| (0..runs).map(|k| f64::from(u8::from(k == run))).collect()).collect();
+    let mut rows: Vec<Vec<f64>> =
+        (0..runs).map(|run| (0..runs).map(|k| f64::from(u8::from(k == run))).collect()).collect();
     for time in 1..runs {
         let share = 1.0 / (2f64.powf(order + (time - 1) as f64) - 1.0);
         for run in 0..runs - time {
@@ -194,8 +195,8 @@ mod tests {
     use std::sync::{Arc, Mutex};
 
     use super::*;
-    use crate::engine::Kept;
     use crate::case::Grid;
+    use crate::engine::Kept;
     use crate::error::{Error, ErrorKind};
     use crate::fixtures;
 
@@ -272,8 +273,7 @@ mod tests {
         }
     }
 
-    const ASKED: Settings =
-        Settings { resolution: 0.1, sweeps: 8, substeps: 1, route: Route::Native, extrapolated: 1 };
+    const ASKED: Settings = Settings { resolution: 0.1, sweeps: 8, substeps: 1, route: Route::Native, extrapolated: 1 };
 
     fn counted(fails: Option<(f64, usize)>) -> Counted {
         Counted { settings: Settings { extrapolated: 0, ..ASKED }, runs: Arc::default(), fails }
@@ -378,7 +378,8 @@ mod tests {
         }
         let weights = weights(2.0, 4);
         assert!((weights.iter().sum::<f64>() - 1.0).abs() < 1e-14);
-        let left: f64 = weights.iter().enumerate().map(|(k, weight)| weight * errors(0.1 * 0.5f64.powi(k as i32))).sum();
+        let left: f64 =
+            weights.iter().enumerate().map(|(k, weight)| weight * errors(0.1 * 0.5f64.powi(k as i32))).sum();
         assert!(left.abs() < 1e-16, "{left:e}");
     }
 }

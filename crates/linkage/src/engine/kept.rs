@@ -130,7 +130,9 @@ impl Kept {
 #[must_use]
 pub fn plain_runs(settings: Settings) -> Vec<Settings> {
     let at = |time| settings.resolution * 0.5f64.powi(time);
-    (0..=settings.extrapolated as i32).map(|time| Settings { resolution: at(time), extrapolated: 0, ..settings }).collect()
+    (0..=settings.extrapolated as i32)
+        .map(|time| Settings { resolution: at(time), extrapolated: 0, ..settings })
+        .collect()
 }
 
 impl Solver for Kept {

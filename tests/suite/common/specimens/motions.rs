@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use analytic::{AssurSolver, NewtonSolver};
 use linkage::case::{Case, Wanted};
-use linkage::error::ErrorKind;
+use linkage::error::{Error, ErrorKind};
 use linkage::math::KeepNan;
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
@@ -134,27 +134,35 @@ fn motor(random: &mut Random, speed: f64, moment: f64) -> String {
 }
 
 /// Largest speed of the crank (rad/s) on the grid, the first row at which it is not `safe`, and the largest angle from
-/// the start (rad).
+/// the start (rad). The motion is not followed beyond that row: what comes behind it may be a singular pose.
 fn followed(case: &Case, safe: Safe) -> Result<(f64, Option<usize>, f64), String> {
     let case = case.wanting(Wanted::of(&[Stage::Positions, Stage::Velocities]));
     let link = case.crank().link;
-    let mut rows = vec![(0.0, 0.0); case.grid.len()];
-    let mut keep = |row: usize, state: &State| {
-        rows[row] = (state.angles[link], state.motions[link].omega);
-        Ok(())
+    let begun = case.start.0[link].angle;
+    let follow = |solver: &dyn Solver| {
+        let (mut top, mut moved, mut left) = (0.0f64, 0.0f64, None);
+        let mut look = |row: usize, state: &State| {
+            let turned = state.angles[link] - begun;
+            if !safe.has(case.crank().start + turned) {
+                left = Some(row);
+                return Err(Error::new(ErrorKind::Geometry, "left"));
+            }
+            top = top.larger(state.motions[link].omega.abs());
+            moved = moved.larger(turned.abs());
+            Ok(())
+        };
+        let solved = solver.each(&case, &mut look);
+        if left.is_none() {
+            solved?;
+        }
+        Ok((top, left, moved))
     };
     // What only one side can solve is not the specimen's fault.
-    let solved = AssurSolver.each(&case, &mut keep).or_else(|error| match error.kind() {
-        ErrorKind::Unsupported => NewtonSolver.each(&case, &mut keep),
+    let found = follow(&AssurSolver).or_else(|error: Error| match error.kind() {
+        ErrorKind::Unsupported => follow(&NewtonSolver),
         _ => Err(error),
     });
-    solved.map_err(|error| short(error.message()))?;
-    let begun = case.start.0[link].angle;
-    let crank = |angle: f64| case.crank().start + angle - begun;
-    let left = rows.iter().position(|&(angle, _)| !safe.has(crank(angle)));
-    let top = rows.iter().map(|(_, omega)| omega.abs()).fold(0.0, f64::larger);
-    let moved = rows.iter().map(|(angle, _)| (angle - begun).abs()).fold(0.0, f64::larger);
-    Ok((top, left, moved))
+    found.map_err(|error| short(error.message()))
 }
 
 /// Ends the grid of a motion over time before it leaves the safe range; gives the crank's largest speed.

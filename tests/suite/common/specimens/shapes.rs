@@ -7,6 +7,7 @@ use analytic::AssurSolver;
 use analytic::range::{Extent, FourBar, FourBarType, Range};
 use linkage::case::{Case, Grid, Wanted};
 use linkage::mechanism::GroupKind;
+use linkage::mechanism::assembly::transmission_sine;
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
 
@@ -106,6 +107,11 @@ fn four_bar_of(random: &mut Random, kind: usize) -> (String, Spec) {
 
 /// Follows the mechanism from its start, both ways, as far as it is away from singular poses.
 fn safe(case: &Case) -> Result<Safe, String> {
+    // A start that is no good is found without following anything.
+    let sine = |group| transmission_sine(&case.mechanism, group, &case.start);
+    if case.structure.groups.iter().filter_map(sine).any(|sine| !(sine.abs() >= DEAD)) {
+        return Err("too near a singular pose".into());
+    }
     let range = Range::of(case).map_err(|error| short(error.message()))?;
     let kinds: Vec<bool> = case.structure.groups.iter().map(|group| group.kind == GroupKind::Higher).collect();
     let mut samples: Vec<(f64, bool)> = Vec::new();
