@@ -241,7 +241,7 @@ impl Spec {
     fn near_points(&mut self) -> impl Iterator<Item = &mut Vec2> {
         let asked = self.starts.iter_mut().filter_map(|start| match &mut start.ask {
             Ask::Near(points) => Some(points),
-            _ => None,
+            Ask::Ahead | Ask::Behind => None,
         });
         asked.flatten().map(|(_, at)| at)
     }

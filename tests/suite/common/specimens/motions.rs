@@ -139,7 +139,7 @@ fn followed(case: &Case, safe: Safe) -> Result<(f64, Option<usize>, f64), String
     let case = case.wanting(Wanted::of(&[Stage::Positions, Stage::Velocities]));
     let link = case.crank().link;
     let begun = case.start.0[link].angle;
-    let follow = |solver: &dyn Solver| {
+    let follow = |solver: &dyn Solver| -> linkage::Result<(f64, Option<usize>, f64)> {
         let (mut top, mut moved, mut left) = (0.0f64, 0.0f64, None);
         let mut look = |row: usize, state: &State| {
             let turned = state.angles[link] - begun;
@@ -158,10 +158,10 @@ fn followed(case: &Case, safe: Safe) -> Result<(f64, Option<usize>, f64), String
         Ok((top, left, moved))
     };
     // What only one side can solve is not the specimen's fault.
-    let found = follow(&AssurSolver).or_else(|error: Error| match error.kind() {
-        ErrorKind::Unsupported => follow(&NewtonSolver),
-        _ => Err(error),
-    });
+    let mut found = follow(&AssurSolver);
+    if found.as_ref().is_err_and(|error| error.kind() == ErrorKind::Unsupported) {
+        found = follow(&NewtonSolver);
+    }
     found.map_err(|error| short(error.message()))
 }
 
