@@ -10,9 +10,9 @@ use linkage::engine::{Engine, Settings};
 use linkage::error::{Advice, ErrorKind};
 use linkage::math::KeepNan;
 
-use super::engines::{Judge, Judged};
+use super::judge::{Judge, Judged};
 use super::observe::Stopped;
-use super::runs::{Bank, rungs};
+use super::runs::{Bank, other_sweeps, rungs};
 use crate::compare::Verdict;
 use crate::tolerance::Part;
 
@@ -70,8 +70,12 @@ const THRIFT: f64 = 0.025;
 const AIM: f64 = 0.01;
 /// Extrapolations that are tried: with more, the weights add more rounding than the errors they cancel.
 const MOST_TIMES: usize = 4;
+/// Failed runs after which more sweeps are tried instead of a smaller step.
+const FAILURES: usize = 6;
+/// Share of instants that may be left out because they are too close to a reversal for the step.
+const MOST_LEFT_OUT: f64 = 0.03;
 /// Factor between numbers of sweeps.
-pub(super) const MORE_SWEEPS: usize = 4;
+const MORE_SWEEPS: usize = 4;
 
 impl End {
     /// Puts into an inconclusive verdict what the search has tried, in place of advice to try it.
@@ -138,7 +142,7 @@ impl<'a, 'b> Settling<'a, 'b> {
     pub(super) fn run(mut self, progress: &mut dyn FnMut(f64)) -> Result<(Judged, Search), Stopped> {
         let mut best: Option<Trial> = None;
         let mut failure = None;
-        let (mut round, mut doubted) = (0, false);
+        let (mut round, mut failed, mut doubted) = (0, 0, false);
         let end = loop {
             let left = 0.5f64.powi(round);
             let mut part = |part: f64| progress(1.0 - left + 0.5 * left * part);
@@ -163,7 +167,8 @@ impl<'a, 'b> Settling<'a, 'b> {
                 Err(stopped) if stopped.error.kind() == ErrorKind::Numeric => {
                     failure = Some(stopped);
                     // A run that fails may lack either; most lack a smaller step.
-                    if round % 3 == 0 { Part::Iteration } else { Part::Discretisation }
+                    failed += 1;
+                    if failed % FAILURES == 0 { Part::Iteration } else { Part::Discretisation }
                 }
                 Err(stopped) => return Err(stopped),
             };
@@ -252,7 +257,8 @@ impl<'a, 'b> Settling<'a, 'b> {
         // What the sweeps leave is asked only where the step is not to blame.
         let settings = best.judged.info.settings;
         let engine = self.bank.engine(settings);
-        let other = Judge::other_sweeps(self.bank.case, engine.as_ref(), settings, self.free.sweeps);
+        let share = self.free.sweeps.then_some(MORE_SWEEPS);
+        let other = other_sweeps(self.bank.case, engine.as_ref(), settings.sweeps, share);
         match other {
             Some(_) if best.need <= 1.0 || best.need.is_infinite() => {
                 self.trial(settings, other, &mut |part| progress(0.7 + 0.3 * part))
@@ -282,7 +288,8 @@ fn need(judged: &Judged, wanted: f64) -> (f64, Part) {
         let (parts, convergence) = check.estimate.as_ref()?;
         Some((*parts, 1.0, convergence, &check.verdict))
     });
-    let mut worst = (0.0, Part::Discretisation);
+    // A step that leaves out many instants proves nothing about them.
+    let mut worst = (if judged.too_coarse > MOST_LEFT_OUT { 2.0 } else { 0.0 }, Part::Discretisation);
     for (parts, scale, convergence, verdict) in channels.chain(checks) {
         let share = linkage::math::statistics::share(parts.sum(), wanted * scale);
         let is_open = matches!(verdict, Verdict::Inconclusive { .. });

@@ -6,4 +6,4 @@ mod solver;
 mod steps;
 mod system;
 
-pub use solver::NewtonSolver;
+pub use solver::{NewtonSolver, TightNewtonSolver};
