@@ -172,6 +172,9 @@ impl<'a, 'b> Settling<'a, 'b> {
                 }
                 Err(stopped) => return Err(stopped),
             };
+            if std::env::var_os("TRACE").is_some() {
+                eprintln!("round {round} finest {:e} sweeps {} blame {blame:?} effort {:.2e} best {:?} fail {:?}", self.now.resolution, self.now.sweeps, self.bank.effort, best.as_ref().map(|b| (b.need, b.blame, b.judged.info.settings.resolution, b.judged.info.settings.extrapolated, b.judged.verdict.word())), failure.as_ref().map(|f: &Stopped| f.error.message().chars().take(90).collect::<String>()));
+            }
             if let Some(end) = self.refine(blame) {
                 break end;
             }
@@ -259,11 +262,15 @@ impl<'a, 'b> Settling<'a, 'b> {
         let engine = self.bank.engine(settings);
         let share = self.free.sweeps.then_some(MORE_SWEEPS);
         let other = other_sweeps(self.bank.case, engine.as_ref(), settings.sweeps, share);
-        match other {
-            Some(_) if best.need <= 1.0 || best.need.is_infinite() => {
-                self.trial(settings, other, &mut |part| progress(0.7 + 0.3 * part))
+        if other.is_none() || (best.need > 1.0 && best.need.is_finite()) {
+            return Ok(best);
+        }
+        match self.trial(settings, other, &mut |part| progress(0.7 + 0.3 * part)) {
+            // Sweeps so few that the run fails say that those of the other run are hardly enough.
+            Err(stopped) if stopped.error.kind() == ErrorKind::Numeric => {
+                Ok(Trial { need: f64::INFINITY, blame: Part::Iteration, ..best })
             }
-            Some(_) | None => Ok(best),
+            found => found,
         }
     }
 

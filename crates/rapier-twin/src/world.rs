@@ -199,9 +199,33 @@ pub(super) fn masses(case: &Case) -> Vec<[f64; 2]> {
     masses
 }
 
-/// The same, with flywheels on the driving links whose speed is prescribed.
+/// Masses of a world that only moves, under prescribed speeds: the same for every link, with the moment of inertia of a
+/// rod of the link's extent.
+/// The motion does not depend on them, but the sweeps do: with masses of very different size they hardly converge.
+fn even_masses(case: &Case) -> Vec<[f64; 2]> {
+    let size = case.mechanism.size();
+    let of = |link: &Link| {
+        let extent = link.extent();
+        let length = if extent > 0.0 { extent } else { size };
+        [1.0, length * length / 12.0]
+    };
+    let mut masses: Vec<[f64; 2]> = case.mechanism.links().iter().map(of).collect();
+    masses[GROUND] = [0.0; 2];
+    masses
+}
+
+/// Masses of a world. `read` says whether it reports forces; a world that only moves under prescribed speeds has
+/// [`even_masses`].
+pub(super) fn world_masses(case: &Case, read: bool) -> Vec<[f64; 2]> {
+    if read || case.is_free() { masses_with_flywheels(case) } else { with_flywheels(case, even_masses(case)) }
+}
+
+/// The links' own masses, with flywheels on the driving links whose speed is prescribed.
 pub(super) fn masses_with_flywheels(case: &Case) -> Vec<[f64; 2]> {
-    let mut masses = masses(case);
+    with_flywheels(case, masses(case))
+}
+
+fn with_flywheels(case: &Case, mut masses: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     if case.is_free() {
         return masses;
     }
