@@ -3,6 +3,7 @@
 mod checks;
 mod dial;
 mod engines;
+mod examined;
 mod methods;
 mod observe;
 mod options;
@@ -18,6 +19,7 @@ pub use options::{Options, Reference};
 pub use parties::Dispute;
 
 use crate::compare::{Check, Verdict, overall};
+use crate::diagnosis::Diagnosis;
 use crate::scenario::Scenario;
 use analytic::range::explained;
 use linkage::case::Case;
@@ -58,6 +60,8 @@ pub struct Proof {
     /// Channels in which reference and engines do not all agree; empty with a single engine, whose own verdicts state
     /// it.
     pub disputes: Vec<Dispute>,
+    /// Which party stands alone, since when, and why, if a channel disagrees.
+    pub diagnosis: Option<Diagnosis>,
     /// Verdict on the whole.
     pub verdict: Verdict,
     /// The reference's trajectory.
@@ -168,6 +172,7 @@ fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: 
         title: scenario.title.clone(),
         formula: case.structure.formula(&case.mechanism),
         reference: main.name(),
+        diagnosis: examined::of(case, main, &sides, &checks, &proofs),
         checks,
         engines: proofs,
         disputes,
