@@ -53,9 +53,33 @@ impl Misfit {
         self.0.iter().zip(&other.0).map(|(a, b)| a * b).sum()
     }
 
+    pub(super) fn times(&self, factor: f64) -> Misfit {
+        Misfit(self.0.iter().map(|value| factor * value).collect())
+    }
+
     /// This plus `factor` times the other.
     pub(super) fn plus(&self, factor: f64, other: &Misfit) -> Misfit {
         Misfit(self.0.iter().zip(&other.0).map(|(a, b)| a + factor * b).collect())
+    }
+}
+
+impl Misfit {
+    /// The amounts of `effect` that, added to this, keep everything within its bound; `None` if there are none. Least
+    /// squares do not give them: errors of a suspect are not random.
+    pub(super) fn kept_by(&self, effect: &Misfit) -> Option<[f64; 2]> {
+        let mut range = [f64::NEG_INFINITY, f64::INFINITY];
+        for (own, change) in self.0.iter().zip(&effect.0) {
+            let ends = [(-1.0 - own) / change, (1.0 - own) / change];
+            if *change == 0.0 || ends.iter().any(|end| !end.is_finite()) {
+                if !(own.abs() <= 1.0) {
+                    return None;
+                }
+                continue;
+            }
+            let [low, high] = [ends[0].smaller(ends[1]), ends[0].larger(ends[1])];
+            range = [range[0].larger(low), range[1].smaller(high)];
+        }
+        (range[0] <= range[1] && range[0].is_finite() && range[1].is_finite()).then_some(range)
     }
 }
 
@@ -78,11 +102,6 @@ impl<'a> Bench<'a> {
         };
         let columns = question.judged.iter().filter_map(column).filter(|column| column.bound > 0.0).collect();
         Some(Bench { case, columns, solver: question.solver, left })
-    }
-
-    /// Whether no more cases may be solved.
-    pub(super) fn is_spent(&self) -> bool {
-        self.left.get() == 0
     }
 
     /// What the reference itself leaves.
@@ -136,6 +155,15 @@ impl<'a> Bench<'a> {
         let counts = |before: f64, after: f64| after <= 1.0 && (all || before > EVIDENT);
         let explained = columns().filter(|(column, (before, after))| column.disagrees && counts(**before, **after));
         explained.map(|(column, _)| column.channel.clone()).collect()
+    }
+}
+
+impl Bench<'_> {
+    /// How much a hypothesis that leaves `misfit` changes agreeing channels, in shares of their bounds. Of hypotheses
+    /// that explain as much, the one that claims least is the simplest.
+    pub(super) fn claim(&self, start: &Misfit, misfit: &Misfit) -> f64 {
+        let changes = self.by_column(&misfit.plus(-1.0, start));
+        self.columns.iter().zip(changes).filter(|(column, _)| !column.disagrees).map(|(_, change)| change).sum()
     }
 }
 

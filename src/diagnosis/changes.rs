@@ -18,10 +18,12 @@ use linkage::trajectory::{Channel, Stage};
 const MOST: usize = 120;
 /// Most causes that are confirmed on the whole grid.
 const CONFIRMED: usize = 6;
-/// Knobs whose values are searched, of those that explain most in a first approximation.
-const SEARCHED: usize = 6;
+/// Knobs whose values are tried once, of those that explain most in a first approximation.
+const GUESSED: usize = 12;
+/// Knobs whose values are searched, of those that explain most then.
+const SEARCHED: usize = 5;
 /// Steps of the search for a value.
-const STEPS: usize = 5;
+const STEPS: usize = 6;
 
 /// A change that explains something at the instants of a bench.
 struct Candidate {
@@ -31,28 +33,56 @@ struct Candidate {
     make: Box<dyn Fn(&Case) -> Option<Case>>,
     stage: Option<Stage>,
     explained: Vec<Channel>,
+    /// How much it changes in agreeing channels, in shares of their bounds.
+    claim: f64,
+}
+
+/// The instants on which changes are tried. A free motion is followed for a short time first: later it may depend on
+/// its cause in no simple way, and its solution costs more.
+struct Tries<'a> {
+    soon: Bench<'a>,
+    thin: Bench<'a>,
+    /// What the reference leaves on both.
+    starts: [Misfit; 2],
+    is_free: bool,
+}
+
+impl Tries<'_> {
+    /// What a change leaves. A free motion that it does not explain for a short time is not followed further.
+    fn of(&self, make: &dyn Fn(&Case) -> Option<Case>) -> Option<Misfit> {
+        if self.is_free && !self.soon.tried(&make(&self.soon.case)?)?.fits() {
+            return None;
+        }
+        self.thin.tried(&make(&self.thin.case)?)
+    }
+
+    fn candidate(&self, misfit: &Misfit, rank: Rank, cause: Cause, make: Make) -> Option<Candidate> {
+        let (explained, claim) = (self.thin.explained(&self.starts[1], misfit), self.thin.claim(&self.starts[1], misfit));
+        (!explained.is_empty()).then_some(Candidate { rank, cause, make, stage: None, explained, claim })
+    }
 }
 
 /// Every change that explains disagreeing channels, and the number of cases that were solved.
 pub(super) fn found(question: &Question) -> (Vec<Found>, usize) {
     let left = Rc::new(Cell::new(MOST));
     let whole: Vec<usize> = (0..question.case.grid.len()).collect();
+    let is_free = question.case.is_free();
     let thin = Bench::new(question, &thinned(question), left.clone());
-    let soon = match question.case.is_free() {
-        true => Bench::new(question, &early(question), left.clone()),
-        false => Bench::new(question, &thinned(question), left.clone()),
-    };
+    let soon = Bench::new(question, &if is_free { early(question) } else { thinned(question) }, left.clone());
     let (Some(thin), Some(soon)) = (thin, soon) else { return (Vec::new(), 0) };
-    let start = thin.start();
+    let tries = Tries { starts: [soon.start(), thin.start()], soon, thin, is_free };
     // Differences of rounding size are explained by no change.
-    if start.fits() || !start.worst().is_finite() {
+    if tries.starts[1].fits() || !tries.starts[1].worst().is_finite() {
         return (Vec::new(), 0);
     }
-    let mut candidates = whole_changes(&thin, &start);
-    candidates.extend(numbers(&soon, &thin, &start));
-    candidates.extend(late(question, &thin, &start));
+    let mut candidates = whole_changes(&tries);
+    candidates.extend(numbers(&tries));
+    candidates.extend(late(question, &tries.thin, &tries.starts[1]));
     let solved = MOST - left.get();
-    candidates.sort_by_key(|one| (usize::MAX - one.explained.len(), one.rank));
+    candidates.sort_by(|a, b| {
+        let most = b.explained.len().cmp(&a.explained.len());
+        most.then(a.rank.cmp(&b.rank)).then(a.claim.total_cmp(&b.claim))
+    });
     let mut found = Vec::new();
     let confirming = Rc::new(Cell::new(CONFIRMED));
     let Some(full) = Bench::new(question, &whole, confirming) else { return (Vec::new(), solved) };
@@ -71,34 +101,33 @@ type Make = Box<dyn Fn(&Case) -> Option<Case>>;
 
 /// Changes without a number: another configuration, gravity along another axis, mass centres at joints, no inertia
 /// forces.
-fn whole_changes(bench: &Bench, start: &Misfit) -> Vec<Candidate> {
-    let mut tries: Vec<(Change, Make)> = Vec::new();
-    for (change, other) in others(&bench.case) {
+fn whole_changes(tries: &Tries) -> Vec<Candidate> {
+    let case = &tries.thin.case;
+    let mut all: Vec<(Change, Make)> = Vec::new();
+    for (change, other) in others(case) {
         let (pose, modes) = (other.start.clone(), other.modes.clone());
         let make: Make = Box::new(move |case| {
             let (pose, modes) = (pose.clone(), modes.clone());
             case.with(|parts| (parts.start, parts.modes) = (pose, modes)).ok()
         });
-        tries.push((change, make));
+        all.push((change, make));
     }
-    let gravity = bench.case.gravity;
+    let gravity = case.gravity;
     if gravity.norm() > 0.0 {
         let swapped = Vec2::new(gravity.y, gravity.x);
         let make: Make = Box::new(move |case| case.with(|parts| parts.gravity = swapped).ok());
-        tries.push((Change { part: Part::Gravity, how: How::Swapped }, make));
+        all.push((Change { part: Part::Gravity, how: How::Swapped }, make));
     }
-    let kinematic = is_moved(bench);
-    if !kinematic && !bench.case.is_free() {
-        tries.push((Change { part: Part::InertiaForces, how: How::Missing }, Box::new(without_inertia_forces)));
+    let kinematic = is_moved(&tries.thin);
+    if !kinematic && !tries.is_free {
+        all.push((Change { part: Part::InertiaForces, how: How::Missing }, Box::new(without_inertia_forces)));
     }
-    if kinematic || bench.case.is_free() {
-        tries.extend(mass_centres(&bench.case));
+    if kinematic || tries.is_free {
+        all.extend(mass_centres(case));
     }
-    let tried = tries.into_iter().filter_map(|(change, make)| {
-        let misfit = bench.tried(&make(&bench.case)?)?;
-        let explained = bench.explained(start, &misfit);
-        let cause = Cause::Case(change);
-        (!explained.is_empty()).then_some(Candidate { rank: Rank::Change, cause, make, stage: None, explained })
+    let tried = all.into_iter().filter_map(|(change, make)| {
+        let misfit = tries.of(&make)?;
+        tries.candidate(&misfit, Rank::Change, Cause::Case(change), make)
     });
     tried.collect()
 }
@@ -141,70 +170,95 @@ fn without_inertia_forces(case: &Case) -> Option<Case> {
     Case::new(parts).ok()
 }
 
-/// A knob with its effect: the change of the misfit per unit of its value.
-struct Turned {
-    knob: Knob,
-    effect: Misfit,
-    /// Root of the sum of squares that a change of the value leaves, in a first approximation.
+/// A knob with a guess at its value.
+struct Guess {
+    knob: Rc<Knob>,
+    value: f64,
+    /// Sum of squares that the guess leaves, in a first approximation.
     rest: f64,
 }
 
-/// Parts of the case with another value. The effects are seen on `soon`, the values are found on `thin`.
-fn numbers(soon: &Bench, thin: &Bench, thin_start: &Misfit) -> Vec<Candidate> {
-    let start = soon.start();
-    let (moved, free) = (is_moved(soon), soon.case.is_free());
-    let mut turned: Vec<Turned> = Vec::new();
-    let mut candidates = Vec::new();
-    for knob in knobs::all(&soon.case) {
+/// The knobs that have an effect, with first guesses; those that explain most first.
+fn guesses(tries: &Tries) -> Vec<Guess> {
+    let (bench, start) = (&tries.soon, &tries.starts[0]);
+    let moved = is_moved(bench);
+    let mut found = Vec::new();
+    for knob in knobs::all(&bench.case) {
         // Where the motion is prescribed, what moves nothing explains no motion, and what moves something shows in it.
-        if !free && knob.moves_nothing == moved {
+        if !tries.is_free && knob.moves_nothing == moved {
             continue;
         }
-        let Some(nudged) = knob.at(&soon.case, knob.given + knob.nudge).and_then(|case| soon.tried(&case)) else {
-            continue;
-        };
-        let effect = Misfit(nudged.plus(-1.0, &start).0.iter().map(|change| change / knob.nudge).collect());
+        let nudged = knob.at(&bench.case, knob.given + knob.nudge).and_then(|case| bench.tried(&case));
+        let Some(effect) = nudged.map(|nudged| nudged.plus(-1.0, start).times(1.0 / knob.nudge)) else { continue };
         let square = effect.dot(&effect);
-        if !(square > 0.0) {
-            continue;
+        if square > 0.0 && square.is_finite() {
+            let by = -effect.dot(start) / square;
+            let left = start.plus(by, &effect);
+            found.push(Guess { value: knob.given + by, knob: Rc::new(knob), rest: left.dot(&left) });
         }
-        let by = -effect.dot(&start) / square;
-        let left = start.plus(by, &effect);
-        turned.push(Turned { rest: left.dot(&left).sqrt(), knob, effect });
     }
     // The sort is stable: of equals the simpler knob is first.
-    turned.sort_by(|a, b| a.rest.total_cmp(&b.rest));
-    let linear = |one: &Turned, value: f64| start.plus(value - one.knob.given, &one.effect);
-    let mut searched = 0;
-    for one in turned {
-        let by = -one.effect.dot(&start) / one.effect.dot(&one.effect);
-        let near = one.knob.given + by;
-        // Values with a meaning are tried where they are near in a first approximation; a free motion may depend on
-        // its cause in no simple way, and there they are tried anyway.
-        let is_near = |value: f64| {
-            let close = (value - near).abs() <= 0.05 * value.abs().larger(0.2 * natural(&one.knob));
-            close || linear(&one, value).fits()
-        };
-        let plain: Vec<(f64, How)> =
-            one.knob.plain.iter().filter(|(value, how)| is_near(*value) || (free && is_plain(how))).cloned().collect();
-        let mut known = false;
-        let knob = Rc::new(one.knob);
-        for (value, how) in plain {
-            let Some(misfit) = knob.at(&thin.case, value).and_then(|case| thin.tried(&case)) else { continue };
-            known |= misfit.fits();
-            candidates.extend(candidate(thin, thin_start, &misfit, &knob, value, how, Rank::Change));
+    found.sort_by(|a, b| a.rest.total_cmp(&b.rest));
+    found
+}
+
+/// Parts of the case with another value.
+fn numbers(tries: &Tries) -> Vec<Candidate> {
+    let mut candidates = Vec::new();
+    let mut open = Vec::new();
+    for guess in guesses(tries) {
+        let named = meant(tries, &guess.knob, guess.value, false);
+        match named.iter().any(|one| one.1) {
+            true => {}
+            false if open.len() < GUESSED => open.push(guess),
+            false => {}
         }
-        searched += 1;
-        if known || searched > SEARCHED || thin.is_spent() {
+        candidates.extend(named.into_iter().map(|one| one.0));
+    }
+    // The first approximation may be far off: one real try tells more.
+    for guess in &mut open {
+        let tried = guess.knob.at(&tries.soon.case, guess.value).and_then(|case| tries.soon.tried(&case));
+        guess.rest = tried.map_or(f64::INFINITY, |misfit| misfit.dot(&misfit));
+    }
+    open.sort_by(|a, b| a.rest.total_cmp(&b.rest));
+    for guess in open.into_iter().take(SEARCHED) {
+        let knob = &guess.knob;
+        let Some(mut value) = search(knob, guess.value, &tries.soon, Some(&tries.starts[0])) else { continue };
+        let named = meant(tries, knob, value, true);
+        let is_known = named.iter().any(|one| one.1);
+        candidates.extend(named.into_iter().map(|one| one.0));
+        if is_known {
             continue;
         }
-        if let Some((value, misfit)) = search(&knob, near, thin, thin_start) {
-            let how = knob.told(value);
-            let rank = if matches!(knob.part, Part::StartAngle(_)) { Rank::Shift } else { Rank::Number };
-            candidates.extend(candidate(thin, thin_start, &misfit, &knob, value, how, rank));
+        let on = |value: f64| tries.thin.tried(&knob.at(&tries.thin.case, value)?);
+        let mut misfit = on(value);
+        if tries.is_free && !misfit.as_ref().is_some_and(Misfit::fits) {
+            // Known for a short time only: the whole time tells it better.
+            let Some(better) = search(knob, value, &tries.thin, None) else { continue };
+            (value, misfit) = (better, on(better));
         }
+        let rank = if matches!(knob.part, Part::StartAngle(_)) { Rank::Shift } else { Rank::Number };
+        let how = knob.told(value);
+        candidates.extend(misfit.and_then(|misfit| of_knob(tries, &misfit, knob, value, how, rank)));
     }
     candidates
+}
+
+/// The values with a meaning that are near `value`, tried; and whether each explains everything. `found` says that the
+/// value is more than a first approximation. Where that may be far off, missing and reversed are tried anyway.
+fn meant(tries: &Tries, knob: &Rc<Knob>, value: f64, found: bool) -> Vec<(Candidate, bool)> {
+    let near = |plain: f64| match found {
+        true => (plain - value).abs() <= 1e-2 * plain.abs().larger(1e-2 * natural(knob)),
+        false => (plain - value).abs() <= 0.05 * plain.abs().larger(0.2 * natural(knob)),
+    };
+    let anyway = |how: &How| !found && (knob.is_far || (tries.is_free && is_plain(how)));
+    let plain = knob.plain.iter().filter(|(plain, how)| near(*plain) || anyway(how));
+    let tried = plain.filter_map(|(value, how)| {
+        let misfit = tries.of(&|case| knob.at(case, *value))?;
+        let rank = if matches!(how, How::Times(..)) { Rank::Scale } else { Rank::Change };
+        Some((of_knob(tries, &misfit, knob, *value, how.clone(), rank)?, misfit.fits()))
+    });
+    tried.collect()
 }
 
 /// Whether a way of being different is common enough to be tried at any price.
@@ -216,66 +270,60 @@ fn is_plain(how: &How) -> bool {
     }
 }
 
-fn candidate(
-    bench: &Bench,
-    start: &Misfit,
-    misfit: &Misfit,
-    knob: &Rc<Knob>,
-    value: f64,
-    how: How,
-    rank: Rank,
-) -> Option<Candidate> {
-    let explained = bench.explained(start, misfit);
+fn of_knob(tries: &Tries, misfit: &Misfit, knob: &Rc<Knob>, value: f64, how: How, rank: Rank) -> Option<Candidate> {
     let cause = Cause::Case(Change { part: knob.part.clone(), how });
     let knob = knob.clone();
-    let make: Make = Box::new(move |case| knob.at(case, value));
-    (!explained.is_empty()).then_some(Candidate { rank, cause, make, stage: None, explained })
+    tries.candidate(misfit, rank, cause, Box::new(move |case| knob.at(case, value)))
 }
 
-/// The value of a knob that leaves least, from a first guess, by secants; with no more digits than the bounds allow.
-fn search(knob: &Knob, guess: f64, bench: &Bench, start: &Misfit) -> Option<(f64, Misfit)> {
-    let (mut old, mut before) = (knob.given, start.clone());
+/// The value of a knob that leaves nothing beyond its bound, with as few digits as can be; from a first guess, by
+/// secants. `start` is what the given value leaves, if it may serve as first point.
+fn search(knob: &Knob, guess: f64, bench: &Bench, start: Option<&Misfit>) -> Option<f64> {
+    let on = |value: f64| bench.tried(&knob.at(&bench.case, value)?);
+    let (mut old, mut before) = match start {
+        Some(start) => (knob.given, start.clone()),
+        None => (guess + knob.nudge, on(guess + knob.nudge)?),
+    };
     let mut value = guess;
+    let mut halved = false;
     for _ in 0..STEPS {
-        let misfit = bench.tried(&knob.at(&bench.case, value)?)?;
-        let effect = Misfit(misfit.plus(-1.0, &before).0.iter().map(|change| change / (value - old)).collect());
+        let misfit = on(value)?;
+        let effect = misfit.plus(-1.0, &before).times(1.0 / (value - old));
+        if let Some([low, high]) = misfit.kept_by(&effect) {
+            for tried in within(knob, [value + low, value + high]) {
+                if on(tried)?.fits() {
+                    return Some(tried);
+                }
+            }
+        }
         let square = effect.dot(&effect);
         if !(square > 0.0 && square.is_finite()) {
             return None;
         }
-        let by = -effect.dot(&misfit) / square;
-        if misfit.plus(by, &effect).fits() && by.abs() <= 0.1 * (value - knob.given).abs() {
-            return Some(rounded(knob, value + by, (value, &misfit), &effect, bench));
-        }
         if misfit.dot(&misfit) > before.dot(&before) {
+            // Too far, once: then there is no way.
+            if halved {
+                return None;
+            }
+            (value, halved) = (f64::midpoint(old, value), true);
+            continue;
+        }
+        let by = -effect.dot(&misfit) / square;
+        // It has converged, and something is left.
+        if by.abs() <= 1e-6 * (value - knob.given).abs() {
             return None;
         }
         (old, before, value) = (value, misfit, value + by);
-        if value == old {
-            return None;
-        }
     }
     None
 }
 
-/// The value with the fewest digits that still explains everything, in a first approximation.
-fn rounded(knob: &Knob, best: f64, (at, misfit): (f64, &Misfit), effect: &Misfit, bench: &Bench) -> (f64, Misfit) {
-    let fewest = (2..=9).map(|digits| significant(best, digits)).find(|value| {
-        *value != knob.given && misfit.plus(value - at, effect).fits()
-    });
-    let value = fewest.unwrap_or(best);
-    let tried = |value: f64| bench.tried(&knob.at(&bench.case, value)?);
-    match tried(value).filter(Misfit::fits) {
-        Some(found) => (value, found),
-        None => match tried(best) {
-            Some(found) => (best, found),
-            None => (at, misfit.clone()),
-        },
-    }
-}
-
-fn significant(value: f64, digits: usize) -> f64 {
-    format!("{value:.*e}", digits - 1).parse().unwrap_or(value)
+/// The value of fewest digits within a range, and the middle of the range.
+fn within(knob: &Knob, [low, high]: [f64; 2]) -> Vec<f64> {
+    let middle = f64::midpoint(low, high);
+    let is_inside = |value: &f64| *value >= low && *value <= high && *value != knob.given;
+    let fewest = (1..=9).map(|digits| knob.significant(middle, digits)).find(is_inside);
+    fewest.into_iter().chain([middle]).collect()
 }
 
 /// Values of another instant: of all channels, or of those of one stage.
@@ -296,7 +344,7 @@ fn late_in(question: &Question, bench: &Bench, start: &Misfit, stage: Option<Sta
     let step = question.step;
     let of = |by: f64| bench.tried_in(&shifted(&bench.case, by)?, stage);
     let nudge = step.unwrap_or(1e-5 * span) * 0.25;
-    let mut effect = Misfit(of(nudge)?.plus(-1.0, start).0.iter().map(|change| change / nudge).collect());
+    let mut effect = of(nudge)?.plus(-1.0, start).times(1.0 / nudge);
     let (mut old, mut before) = (0.0, start.clone());
     for _ in 0..STEPS {
         let square = effect.dot(&effect);
@@ -323,7 +371,7 @@ fn late_in(question: &Question, bench: &Bench, start: &Misfit, stage: Option<Sta
         if by == old || misfit.dot(&misfit) > before.dot(&before) {
             return None;
         }
-        effect = Misfit(misfit.plus(-1.0, &before).0.iter().map(|change| change / (by - old)).collect());
+        effect = misfit.plus(-1.0, &before).times(1.0 / (by - old));
         (old, before) = (by, misfit);
     }
     None
@@ -341,7 +389,8 @@ fn late_candidate(
     let cause = Cause::Values { slip: Slip::Late { by, steps, stage }, channels: explained.clone() };
     let rank = if steps.is_some() { Rank::Change } else { Rank::Shift };
     let make: Make = Box::new(move |case| shifted(case, by));
-    (!explained.is_empty()).then_some(Candidate { rank, cause, make, stage, explained })
+    let claim = bench.claim(start, misfit);
+    (!explained.is_empty()).then_some(Candidate { rank, cause, make, stage, explained, claim })
 }
 
 /// The same case asked at instants that are earlier by `by` (s). A free motion has none before it begins.

@@ -24,6 +24,8 @@ pub(super) struct Knob {
     pub(super) nudge: f64,
     /// Whether reactions and moments are all that it changes where the motion is prescribed.
     pub(super) moves_nothing: bool,
+    /// Whether a first approximation tells nothing about values far away.
+    pub(super) is_far: bool,
     turn: Turn,
 }
 
@@ -40,6 +42,14 @@ impl Knob {
         How::Instead { found, given: self.given, unit: self.unit }
     }
 
+    /// The value with a number of significant digits; angles in degrees.
+    pub(super) fn significant(&self, value: f64, digits: usize) -> f64 {
+        match self.unit {
+            "rad" => significant(value.to_degrees(), digits).to_radians(),
+            _ => significant(value, digits),
+        }
+    }
+
     /// A part that counts as `given` and may be multiplied.
     fn amount(part: Part, given: f64, unit: &'static str, turn: Turn) -> Knob {
         let plain = vec![
@@ -50,13 +60,13 @@ impl Knob {
             (1e3 * given, How::Times(1e3, "as g for kg, or m for mm")),
             (1e-3 * given, How::Times(1e-3, "as kg for g, or mm for m")),
         ];
-        Knob { part, given, unit, plain, nudge: 1e-3 * given, moves_nothing: true, turn }
+        Knob { part, given, unit, plain, nudge: 1e-3 * given, moves_nothing: true, is_far: false, turn }
     }
 
     /// A place or an angle, whose size has no meaning; `natural` is what it is measured by.
     fn place(part: Part, given: f64, natural: f64, unit: &'static str, turn: Turn) -> Knob {
         let plain = if given == 0.0 { Vec::new() } else { vec![(-given, How::Reversed)] };
-        Knob { part, given, unit, plain, nudge: 1e-4 * natural, moves_nothing: false, turn }
+        Knob { part, given, unit, plain, nudge: 1e-4 * natural, moves_nothing: false, is_far: false, turn }
     }
 
     fn also(mut self, plain: impl IntoIterator<Item = (f64, How)>) -> Knob {
@@ -220,7 +230,8 @@ fn of_drive(case: &Case, index: usize, drive: &Drive) -> Vec<Knob> {
         // A prescribed motion without speed is no case.
         speed.plain.remove(0);
     }
-    vec![speed, angle]
+    // All of the motion goes by them.
+    vec![Knob { is_far: true, ..speed }, Knob { is_far: true, ..angle }]
 }
 
 fn driven(parts: &mut CaseParts, index: usize, change: impl FnOnce(&mut Drive)) {
@@ -306,4 +317,9 @@ fn along_mut(vector: &mut Vec2, axis: Axis) -> &mut f64 {
 /// Largest of the sizes of the knob's value and its nudge: what a relative change is measured by.
 pub(super) fn natural(knob: &Knob) -> f64 {
     knob.given.abs().larger(1e3 * knob.nudge.abs())
+}
+
+/// A number with so many significant digits.
+pub(super) fn significant(value: f64, digits: usize) -> f64 {
+    format!("{value:.*e}", digits - 1).parse().unwrap_or(value)
 }

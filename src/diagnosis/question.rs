@@ -51,6 +51,8 @@ pub(super) enum Rank {
     Slip,
     /// A change of the case without a free number: something missing, or the other way round.
     Change,
+    /// A part of the case multiplied by a number with a meaning.
+    Scale,
     /// Another instant or angle, by a number that was fitted.
     Shift,
     /// A change of the case by a number that was fitted.

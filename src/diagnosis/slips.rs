@@ -3,6 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::cause::{Cause, Slip};
+use super::knobs::significant;
 use super::question::{Found, Judged, Question, Rank};
 use crate::compare::{differences, magnitudes};
 use linkage::math::{KeepNan, largest_size};
@@ -56,8 +57,11 @@ pub(super) fn found(question: &Question) -> Vec<Found> {
             causes.push(Found { cause, rank: Rank::Slip, explained });
         }
     }
+    let angle = wrong.iter().all(|wrong| wrong.channel.kind.unit == Unit::Radian);
+    let explains_all = |slip: &Slip| wrong.iter().all(|wrong| wrong.is_explained_by(slip));
     for slip in fitted(&wrong) {
-        if wrong.iter().all(|wrong| wrong.is_explained_by(&slip)) {
+        if explains_all(&slip) {
+            let slip = (2..=9).map(|digits| with_digits(&slip, digits, angle)).find(explains_all).unwrap_or(slip);
             let explained: Vec<Channel> = wrong.iter().map(|wrong| wrong.channel.clone()).collect();
             let cause = Cause::Values { slip, channels: explained.clone() };
             causes.push(Found { cause, rank: Rank::Fitted, explained });
@@ -103,6 +107,17 @@ fn fitted(wrong: &[Wrong]) -> Vec<Slip> {
         }
     }
     slips
+}
+
+/// The same slip with so many digits of its number; angles in degrees.
+fn with_digits(slip: &Slip, digits: usize, angle: bool) -> Slip {
+    match slip {
+        Slip::Factor(factor) => Slip::Factor(significant(*factor, digits)),
+        Slip::Offset(by) if angle => Slip::Offset(significant(by.to_degrees(), digits).to_radians()),
+        Slip::Offset(by) => Slip::Offset(significant(*by, digits)),
+        Slip::Sign | Slip::Turns | Slip::Twice | Slip::Half | Slip::Zero => slip.clone(),
+        Slip::Unit { .. } | Slip::PerRadian | Slip::Late { .. } => slip.clone(),
+    }
 }
 
 /// Fewest instants from which a number is fitted.

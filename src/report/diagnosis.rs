@@ -100,7 +100,10 @@ fn slip(slip: &Slip, channels: &[Channel]) -> String {
         Slip::Zero => format!("zero instead of {of}"),
         Slip::Unit { factor: _, told } => format!("another unit, {told}, in {of}"),
         Slip::PerRadian => format!("rates per radian of the crank instead of per second in {of}"),
-        Slip::Offset(by) => format!("{} {unit} added at every instant to {of}", number(*by)),
+        Slip::Offset(by) => {
+            let by = if unit == "rad" { format!("{} deg", number(by.to_degrees())) } else { format!("{} {unit}", number(*by)) };
+            format!("{by} added at every instant to {of}")
+        }
         Slip::Factor(factor) => format!("{} times the values of {of}", number(*factor)),
         Slip::Late { by, steps, stage } => {
             let what = stage.map_or("all channels".to_string(), |stage| stage.name().replace('_', " "));
