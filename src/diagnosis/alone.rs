@@ -61,7 +61,8 @@ pub fn standing(parties: &[Party]) -> Standing {
     let Some(first) = apart.iter().position(|row| row.contains(&true)) else { return Standing::Together };
     // The camp of `first` are those that it does not contradict.
     let (own, others): (Vec<usize>, Vec<usize>) = (0..count).partition(|&other| !apart[first][other]);
-    let split = (0..count).all(|one| (0..count).all(|other| apart[one][other] == (own.contains(&one) != own.contains(&other))));
+    let split =
+        (0..count).all(|one| (0..count).all(|other| apart[one][other] == (own.contains(&one) != own.contains(&other))));
     if !split || count < 3 {
         return Standing::Open(pairs);
     }

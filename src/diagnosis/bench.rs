@@ -180,9 +180,10 @@ pub(super) fn thinned(question: &Question) -> Vec<usize> {
     let ascending = ascending(question.reference.times());
     let mut rows = spread(&ascending);
     for judged in question.judged.iter().filter(|judged| judged.disagrees) {
-        rows.extend(gaps(question, &judged.channel).and_then(|gaps| {
-            (0..gaps.len()).max_by(|&a, &b| gaps[a].abs().total_cmp(&gaps[b].abs()))
-        }));
+        rows.extend(
+            gaps(question, &judged.channel)
+                .and_then(|gaps| (0..gaps.len()).max_by(|&a, &b| gaps[a].abs().total_cmp(&gaps[b].abs()))),
+        );
         if rows.len() >= INSTANTS + INSTANTS / 2 {
             break;
         }

@@ -122,8 +122,10 @@ pub enum How {
     Half,
     /// It is multiplied by a number with a meaning, which the text says.
     Times(f64, &'static str),
-    /// It is at, or about, a joint.
+    /// It is at a joint.
     AtJoint(String),
+    /// It is taken about a joint instead of the mass centre.
+    AboutJoint(String),
     /// Its components, or axes, are exchanged.
     Swapped,
     /// It is the other one: name of an assembly mode, or number of a configuration.

@@ -18,6 +18,8 @@ use linkage::trajectory::{Channel, Stage};
 const MOST: usize = 120;
 /// Most causes that are confirmed on the whole grid.
 const CONFIRMED: usize = 6;
+/// Cases that are solved for it on the whole grid: a value may have to be corrected.
+const WHOLE: usize = 4 * CONFIRMED;
 /// Knobs whose values are tried once, of those that explain most in a first approximation.
 const GUESSED: usize = 12;
 /// Knobs whose values are searched, of those that explain most then.
@@ -30,11 +32,13 @@ struct Candidate {
     rank: Rank,
     cause: Cause,
     /// How it is solved on any grid.
-    make: Box<dyn Fn(&Case) -> Option<Case>>,
+    make: Make,
     stage: Option<Stage>,
     explained: Vec<Channel>,
     /// How much it changes in agreeing channels, in shares of their bounds.
     claim: f64,
+    /// For a value that was found: its part, the value, and the middle of the values that would do.
+    number: Option<(Rc<Knob>, [f64; 2])>,
 }
 
 /// The instants on which changes are tried. A free motion is followed for a short time first: later it may depend on
@@ -57,8 +61,9 @@ impl Tries<'_> {
     }
 
     fn candidate(&self, misfit: &Misfit, rank: Rank, cause: Cause, make: Make) -> Option<Candidate> {
-        let (explained, claim) = (self.thin.explained(&self.starts[1], misfit), self.thin.claim(&self.starts[1], misfit));
-        (!explained.is_empty()).then_some(Candidate { rank, cause, make, stage: None, explained, claim })
+        let (explained, claim) =
+            (self.thin.explained(&self.starts[1], misfit), self.thin.claim(&self.starts[1], misfit));
+        (!explained.is_empty()).then_some(Candidate { rank, cause, make, stage: None, explained, claim, number: None })
     }
 }
 
@@ -84,17 +89,38 @@ pub(super) fn found(question: &Question) -> (Vec<Found>, usize) {
         most.then(a.rank.cmp(&b.rank)).then(a.claim.total_cmp(&b.claim))
     });
     let mut found = Vec::new();
-    let confirming = Rc::new(Cell::new(CONFIRMED));
+    let confirming = Rc::new(Cell::new(WHOLE));
     let Some(full) = Bench::new(question, &whole, confirming) else { return (Vec::new(), solved) };
     let begin = full.start();
     for candidate in candidates.into_iter().take(CONFIRMED) {
         let misfit = (candidate.make)(&full.case).and_then(|case| full.tried_in(&case, candidate.stage));
-        let explained = misfit.map_or(Vec::new(), |misfit| full.explained(&begin, &misfit));
+        let Some(misfit) = misfit else { continue };
+        let (mut cause, mut explained) = (candidate.cause, full.explained(&begin, &misfit));
+        if let Some((knob, values)) = candidate.number.filter(|_| !misfit.fits())
+            && let Some((value, better)) = confirmed(&knob, values, &full, &misfit)
+        {
+            cause = Cause::Case(Change { part: knob.part.clone(), how: knob.told(value) });
+            explained = full.explained(&begin, &better);
+        }
         if !explained.is_empty() {
-            found.push(Found { cause: candidate.cause, rank: candidate.rank, explained });
+            found.push(Found { cause, rank: candidate.rank, explained });
         }
     }
     (found, solved)
+}
+
+/// A value near the one found on the thinned grid that explains everything on the whole grid too.
+fn confirmed(knob: &Knob, [value, middle]: [f64; 2], full: &Bench, misfit: &Misfit) -> Option<(f64, Misfit)> {
+    let on = |value: f64| full.tried(&knob.at(&full.case, value)?);
+    let other = if middle == value { value + knob.nudge * 1e-2 } else { middle };
+    let second = on(other)?;
+    if second.fits() {
+        return Some((other, second));
+    }
+    let effect = second.plus(-1.0, misfit).times(1.0 / (other - value));
+    let [low, high] = second.kept_by(&effect)?;
+    let tried = within(knob, [other + low, other + high]).into_iter().filter_map(|value| Some((value, on(value)?)));
+    tried.into_iter().find(|(_, misfit)| misfit.fits())
 }
 
 type Make = Box<dyn Fn(&Case) -> Option<Case>>;
@@ -223,7 +249,9 @@ fn numbers(tries: &Tries) -> Vec<Candidate> {
     open.sort_by(|a, b| a.rest.total_cmp(&b.rest));
     for guess in open.into_iter().take(SEARCHED) {
         let knob = &guess.knob;
-        let Some(mut value) = search(knob, guess.value, &tries.soon, Some(&tries.starts[0])) else { continue };
+        let Some([mut value, mut middle]) = search(knob, guess.value, &tries.soon, Some(&tries.starts[0])) else {
+            continue;
+        };
         let named = meant(tries, knob, value, true);
         let is_known = named.iter().any(|one| one.1);
         candidates.extend(named.into_iter().map(|one| one.0));
@@ -235,11 +263,12 @@ fn numbers(tries: &Tries) -> Vec<Candidate> {
         if tries.is_free && !misfit.as_ref().is_some_and(Misfit::fits) {
             // Known for a short time only: the whole time tells it better.
             let Some(better) = search(knob, value, &tries.thin, None) else { continue };
-            (value, misfit) = (better, on(better));
+            ([value, middle], misfit) = (better, on(better[0]));
         }
-        let rank = if matches!(knob.part, Part::StartAngle(_)) { Rank::Shift } else { Rank::Number };
         let how = knob.told(value);
-        candidates.extend(misfit.and_then(|misfit| of_knob(tries, &misfit, knob, value, how, rank)));
+        let found = misfit.and_then(|misfit| of_knob(tries, &misfit, knob, value, how, Rank::Number));
+        let number = Some((knob.clone(), [value, middle]));
+        candidates.extend(found.map(|found| Candidate { number, ..found }));
     }
     candidates
 }
@@ -265,7 +294,7 @@ fn meant(tries: &Tries, knob: &Rc<Knob>, value: f64, found: bool) -> Vec<(Candid
 fn is_plain(how: &How) -> bool {
     match how {
         How::Missing | How::Reversed => true,
-        How::Twice | How::Half | How::Times(..) | How::AtJoint(_) => false,
+        How::Twice | How::Half | How::Times(..) | How::AtJoint(_) | How::AboutJoint(_) => false,
         How::Swapped | How::Other(_) | How::Instead { .. } => false,
     }
 }
@@ -276,9 +305,9 @@ fn of_knob(tries: &Tries, misfit: &Misfit, knob: &Rc<Knob>, value: f64, how: How
     tries.candidate(misfit, rank, cause, Box::new(move |case| knob.at(case, value)))
 }
 
-/// The value of a knob that leaves nothing beyond its bound, with as few digits as can be; from a first guess, by
-/// secants. `start` is what the given value leaves, if it may serve as first point.
-fn search(knob: &Knob, guess: f64, bench: &Bench, start: Option<&Misfit>) -> Option<f64> {
+/// The value of a knob that leaves nothing beyond its bound, with as few digits as can be, and the middle of all such
+/// values; from a first guess, by secants. `start` is what the given value leaves, if it may serve as first point.
+fn search(knob: &Knob, guess: f64, bench: &Bench, start: Option<&Misfit>) -> Option<[f64; 2]> {
     let on = |value: f64| bench.tried(&knob.at(&bench.case, value)?);
     let (mut old, mut before) = match start {
         Some(start) => (knob.given, start.clone()),
@@ -292,7 +321,7 @@ fn search(knob: &Knob, guess: f64, bench: &Bench, start: Option<&Misfit>) -> Opt
         if let Some([low, high]) = misfit.kept_by(&effect) {
             for tried in within(knob, [value + low, value + high]) {
                 if on(tried)?.fits() {
-                    return Some(tried);
+                    return Some([tried, value + f64::midpoint(low, high)]);
                 }
             }
         }
@@ -354,7 +383,8 @@ fn late_in(question: &Question, bench: &Bench, start: &Misfit, stage: Option<Sta
         let by = old - effect.dot(&before) / square;
         // A whole or plain part of a step, where it is as good.
         let parts = [0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0].into_iter().flat_map(|part| [part, -part]);
-        let near = step.and_then(|step| parts.map(|part| (part * step, part)).find(|(t, _)| (t - by).abs() < 0.05 * step));
+        let near =
+            step.and_then(|step| parts.map(|part| (part * step, part)).find(|(t, _)| (t - by).abs() < 0.05 * step));
         if let Some((at, part)) = near
             && let Some(misfit) = of(at)
             && let Some(found) = late_candidate(bench, start, &misfit, at, Some(part), stage)
@@ -387,10 +417,14 @@ fn late_candidate(
 ) -> Option<Candidate> {
     let explained = bench.explained(start, misfit);
     let cause = Cause::Values { slip: Slip::Late { by, steps, stage }, channels: explained.clone() };
-    let rank = if steps.is_some() { Rank::Change } else { Rank::Shift };
+    let rank = match (steps, stage) {
+        (Some(_), _) => Rank::Change,
+        (None, None) => Rank::Number,
+        (None, Some(_)) => Rank::Fitted,
+    };
     let make: Make = Box::new(move |case| shifted(case, by));
     let claim = bench.claim(start, misfit);
-    (!explained.is_empty()).then_some(Candidate { rank, cause, make, stage, explained, claim })
+    (!explained.is_empty()).then_some(Candidate { rank, cause, make, stage, explained, claim, number: None })
 }
 
 /// The same case asked at instants that are earlier by `by` (s). A free motion has none before it begins.

@@ -53,7 +53,8 @@ impl Diagnosis {
 #[must_use]
 pub fn diagnose(question: &Question, parties: &[Party]) -> Option<Diagnosis> {
     let since = since(question.reference, question.suspicious, question.judged);
-    let wrong: Vec<Channel> = question.judged.iter().filter(|one| one.disagrees).map(|one| one.channel.clone()).collect();
+    let wrong: Vec<Channel> =
+        question.judged.iter().filter(|one| one.disagrees).map(|one| one.channel.clone()).collect();
     if since.is_empty() || wrong.is_empty() {
         return None;
     }

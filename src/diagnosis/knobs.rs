@@ -93,9 +93,14 @@ pub(super) fn all(case: &Case) -> Vec<Knob> {
     }
     knobs.extend((0..case.loads.len()).map(|index| load(case, index)));
     knobs.extend(motor(case));
-    knobs.push(share(Part::Masses, |link, factor| link.mass *= factor));
-    knobs.push(share(Part::Inertias, |link, factor| link.inertia *= factor));
     let moving = || case.mechanism.links().iter().enumerate().skip(1);
+    // Of a single link all is the same as this one.
+    if moving().filter(|(_, link)| link.mass > 0.0).count() > 1 {
+        knobs.push(share(Part::Masses, |link, factor| link.mass *= factor));
+    }
+    if moving().filter(|(_, link)| link.inertia > 0.0).count() > 1 {
+        knobs.push(share(Part::Inertias, |link, factor| link.inertia *= factor));
+    }
     for (index, link) in moving().filter(|(_, link)| link.mass > 0.0) {
         let turn: Turn = Box::new(move |parts, mass| changed(parts, |links, _| links[index].mass = mass));
         knobs.push(Knob::amount(Part::Mass(link.name.clone()), link.mass, "kg", turn));
@@ -130,9 +135,8 @@ pub(super) fn changed(parts: &mut CaseParts, change: impl FnOnce(&mut [Link], &m
 }
 
 fn share(part: Part, scale: fn(&mut Link, f64)) -> Knob {
-    let turn: Turn = Box::new(move |parts, factor| {
-        changed(parts, |links, _| links.iter_mut().for_each(|link| scale(link, factor)))
-    });
+    let turn: Turn =
+        Box::new(move |parts, factor| changed(parts, |links, _| links.iter_mut().for_each(|link| scale(link, factor))));
     Knob::amount(part, 1.0, "", turn)
 }
 
@@ -157,7 +161,7 @@ fn inertia(case: &Case, index: usize, link: &Link) -> Knob {
     let turn: Turn = Box::new(move |parts, inertia| changed(parts, |links, _| links[index].inertia = inertia));
     let about = case.mechanism.joints().iter().filter_map(|joint| {
         let arm = (joint.on(index)? - link.mass_centre).norm_squared();
-        (arm > 0.0).then(|| (link.inertia + link.mass * arm, How::AtJoint(joint.name.clone())))
+        (arm > 0.0).then(|| (link.inertia + link.mass * arm, How::AboutJoint(joint.name.clone())))
     });
     Knob::amount(Part::Inertia(link.name.clone()), link.inertia, "kg m^2", turn).also(about)
 }
@@ -176,7 +180,8 @@ fn places(case: &Case) -> Vec<(usize, usize)> {
     let joints = case.mechanism.joints();
     for (index, joint) in joints.iter().enumerate() {
         for side in [joint.first, joint.second] {
-            let known = found.iter().any(|&(other, link)| link == side.link && joints[other].on(link) == Some(side.local));
+            let known =
+                found.iter().any(|&(other, link)| link == side.link && joints[other].on(link) == Some(side.local));
             if !known {
                 found.push((index, side.link));
             }
@@ -210,7 +215,8 @@ fn of_drive(case: &Case, index: usize, drive: &Drive) -> Vec<Knob> {
         driven(parts, index, |drive| drive.start = value);
         reassembled(parts)
     });
-    let quarter = [PI / 2.0, -PI / 2.0, PI].map(|by| (drive.start + by, How::Instead { found: drive.start + by, given: drive.start, unit: "rad" }));
+    let quarter = [PI / 2.0, -PI / 2.0, PI]
+        .map(|by| (drive.start + by, How::Instead { found: drive.start + by, given: drive.start, unit: "rad" }));
     let angle = Knob::place(Part::StartAngle(joint.clone()), drive.start, 1.0, "rad", start).also(quarter);
     let speed: Turn = Box::new(move |parts, value| {
         driven(parts, index, |drive| match &mut drive.motion {

@@ -53,9 +53,7 @@ pub(super) enum Rank {
     Change,
     /// A part of the case multiplied by a number with a meaning.
     Scale,
-    /// Another instant or angle, by a number that was fitted.
-    Shift,
-    /// A change of the case by a number that was fitted.
+    /// A change of the case, or another instant, by a number that was fitted.
     Number,
     /// Values changed by a number that was fitted.
     Fitted,

@@ -27,7 +27,8 @@ pub struct Since {
 #[must_use]
 pub fn since(reference: &Trajectory, suspect: &Trajectory, judged: &[Judged]) -> Vec<Since> {
     let rows = ascending(reference.times());
-    let mut found: Vec<Since> = judged.iter().filter_map(|judged| of_channel(reference, suspect, judged, &rows)).collect();
+    let mut found: Vec<Since> =
+        judged.iter().filter_map(|judged| of_channel(reference, suspect, judged, &rows)).collect();
     let excess = |one: &Since| one.difference.abs() / one.bound;
     found.sort_by(|a, b| {
         let stage = a.channel.kind.stage.cmp(&b.channel.kind.stage);

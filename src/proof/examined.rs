@@ -2,11 +2,11 @@
 
 use super::engines::EngineProof;
 use super::observe::Observed;
-use crate::compare::{Check, Verdict, magnitudes};
+use crate::compare::{Check, Verdict, largest_difference, magnitudes};
 use crate::diagnosis::{Diagnosis, Judged, Party, Question, Standing, diagnose, standing};
 use linkage::case::Case;
 use linkage::solver::Solver;
-use linkage::trajectory::{Channel, Trajectory};
+use linkage::trajectory::Channel;
 
 /// Examines the party that stands alone; else the first engine that disagrees; else the side that is not the
 /// reference. `None` if no channel disagrees.
@@ -42,15 +42,16 @@ pub(super) fn of(
         Standing::Alone(name) => Some(name),
         Standing::Together | Standing::Camps(_) | Standing::Open(_) => None,
     };
-    let of_sides = |suspect: &(&'static str, Observed), reference: &Trajectory| {
-        let (suspicious, solver) = (&suspect.1.trajectory, main);
-        let judged = &between;
-        diagnose(&Question { suspect: suspect.0, reference, suspicious, judged, case, solver, step: None }, &parties)
+    let of_sides = |suspect: &(&'static str, Observed), right: &(&'static str, Observed)| {
+        let (reference, suspicious) = (&right.1.trajectory, &suspect.1.trajectory);
+        let solver = analytic::named(right.0).unwrap_or(main);
+        let (suspect, judged) = (suspect.0, &between[..]);
+        diagnose(&Question { suspect, reference, suspicious, judged, case, solver, step: None }, &parties)
     };
     match (alone, engine) {
-        (Some(name), _) if name == one.0 => of_sides(one, &other.1.trajectory),
-        (Some(name), _) if name == other.0 => of_sides(other, &one.1.trajectory),
-        (_, None) => of_sides(other, &one.1.trajectory),
+        (Some(name), _) if name == one.0 => of_sides(one, other),
+        (Some(name), _) if name == other.0 => of_sides(other, one),
+        (_, None) => of_sides(other, one),
         (_, Some(engine)) => {
             let question = Question {
                 suspect: engine.info.name,
@@ -85,10 +86,62 @@ fn side_bounds(sides: &[(&'static str, Observed); 2], checks: &[Check]) -> Vec<J
     let of = |(channel, size): (&Channel, f64)| {
         let stage = channel.kind.stage.name();
         let check = checks.iter().find(|check| check.family == family && check.detail == stage)?;
-        let gap = crate::compare::largest_difference(one.column(channel)?, other.column(channel)?, channel.kind.periodic);
+        let gap = largest_difference(one.column(channel)?, other.column(channel)?, channel.kind.periodic);
         let bound = check.bound * size;
         let disagrees = disagrees(&check.verdict) && !(gap <= bound);
         Some(Judged { channel: channel.clone(), bound, disagrees })
     };
     one.channels().iter().zip(magnitudes(one)).filter_map(of).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+    use crate::diagnosis::{Cause, Slip};
+    use crate::proof::observe::observe;
+    use crate::proof::{Options, checks, prove};
+    use crate::scenario::Scenario;
+    use analytic::{AssurSolver, NewtonSolver};
+    use linkage::trajectory::Trajectory;
+
+    /// The same observations with the opposite balancing moment in the trajectory.
+    fn spoiled(mut side: Observed) -> Observed {
+        let right = &side.trajectory;
+        let moment = Channel::named("drive.torque_N_m").unwrap();
+        let column = |(channel, values): (&Channel, &[f64])| match *channel == moment {
+            true => values.iter().map(|value| -value).collect(),
+            false => values.to_vec(),
+        };
+        let columns = right.iter().map(column).collect();
+        let (times, cranks) = (right.times().to_vec(), right.cranks().to_vec());
+        side.trajectory = Trajectory::new(times, cranks, right.channels().to_vec(), columns).unwrap();
+        side
+    }
+
+    /// The engine decides between the two sides, and the cause is named for the one that is wrong.
+    #[test]
+    fn a_side_that_the_other_side_and_the_engine_contradict_stands_alone() {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/crank_rocker.toml");
+        let scenario = Scenario::load(&path).unwrap();
+        let case = &scenario.case;
+        let right = prove(&scenario, &Options::default()).unwrap();
+        assert!(right.diagnosis.is_none());
+        let seen = |solver: &dyn Solver| {
+            observe(case, solver, &mut |_| {}).unwrap_or_else(|stopped| panic!("{}", stopped.error))
+        };
+        for wrong in ["assur", "newton"] {
+            let side = |name: &'static str, solver: &dyn Solver| match name == wrong {
+                true => (name, spoiled(seen(solver))),
+                false => (name, seen(solver)),
+            };
+            let sides = [side("assur", &AssurSolver), side("newton", &NewtonSolver)];
+            let checks = checks::of_sides(case, &sides);
+            let found = of(case, &AssurSolver, &sides, &checks, &right.engines).expect("the sides disagree");
+            assert_eq!((found.suspect.as_str(), &found.alone), (wrong, &Standing::Alone(wrong.into())));
+            assert!(matches!(found.cause, Some(Cause::Values { slip: Slip::Sign, .. })), "{:?}", found.cause);
+            assert!(found.is_explained());
+        }
+    }
 }

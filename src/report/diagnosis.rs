@@ -23,9 +23,15 @@ pub fn text(diagnosis: &Diagnosis) -> String {
     }
     let wrong = diagnosis.since.len();
     match &diagnosis.cause {
-        None => line("cause", format!("nothing simple: {} changed cases and all simple slips explain none of it", diagnosis.solved)),
+        None => line(
+            "cause",
+            format!("nothing simple: {} changed cases and all simple slips explain none of it", diagnosis.solved),
+        ),
         Some(found) if diagnosis.is_explained() => {
-            line("cause", format!("{}; that explains all {} to within their bounds", cause(found), counted(wrong, "channel")));
+            line(
+                "cause",
+                format!("{}; that explains all {} to within their bounds", cause(found), counted(wrong, "channel")),
+            );
         }
         Some(found) => {
             let left = diagnosis.left_over.len();
@@ -101,7 +107,11 @@ fn slip(slip: &Slip, channels: &[Channel]) -> String {
         Slip::Unit { factor: _, told } => format!("another unit, {told}, in {of}"),
         Slip::PerRadian => format!("rates per radian of the crank instead of per second in {of}"),
         Slip::Offset(by) => {
-            let by = if unit == "rad" { format!("{} deg", number(by.to_degrees())) } else { format!("{} {unit}", number(*by)) };
+            let by = if unit == "rad" {
+                format!("{} deg", number(by.to_degrees()))
+            } else {
+                format!("{} {unit}", number(*by))
+            };
             format!("{by} added at every instant to {of}")
         }
         Slip::Factor(factor) => format!("{} times the values of {of}", number(*factor)),
@@ -125,20 +135,17 @@ pub fn change(change: &Change) -> String {
         How::Twice => format!("{part}: counted twice"),
         How::Half => format!("{part}: counted half"),
         How::Times(factor, told) => format!("{part}: {} times as large, {told}", number(*factor)),
-        How::AtJoint(joint) => match &change.part {
-            Part::Inertia(_) => format!("{part}: taken about joint {joint} instead of the mass centre"),
-            _ => format!("{part}: at joint {joint}"),
-        },
+        How::AtJoint(joint) => format!("{part}: at joint {joint}"),
+        How::AboutJoint(joint) => format!("{part}: taken about joint {joint} instead of the mass centre"),
         How::Swapped => format!("{part}: x and y exchanged"),
         How::Other(mode) => format!("{part}: {mode}"),
         How::Instead { found, given, unit } => {
-            let angle = |value: f64| format!("{} deg", number(value.to_degrees()));
-            let [found, given] = match *unit {
-                "rad" => [*found, *given].map(angle),
-                "" => [*found, *given].map(number),
-                unit => [*found, *given].map(|value| format!("{} {unit}", number(value))),
+            let [found, given, unit] = match *unit {
+                "rad" => [told(found.to_degrees(), given.to_degrees()), number(given.to_degrees()), " deg".into()],
+                "" => [told(*found, *given), number(*given), String::new()],
+                unit => [told(*found, *given), number(*given), format!(" {unit}")],
             };
-            format!("{part}: {found} instead of {given}")
+            format!("{part}: {found}{unit} instead of {given}{unit}")
         }
     }
 }
@@ -168,9 +175,19 @@ fn part(part: &Part) -> String {
     }
 }
 
+/// A number with so many digits that it differs from another.
+fn told(value: f64, other: f64) -> String {
+    let differ = |digits: &usize| with_digits(value, *digits) != with_digits(other, *digits);
+    with_digits(value, (6..15).find(differ).unwrap_or(15))
+}
+
 /// A number with at most six significant digits.
 fn number(value: f64) -> String {
-    let rounded: f64 = format!("{value:.5e}").parse().unwrap_or(value);
+    with_digits(value, 6)
+}
+
+fn with_digits(value: f64, digits: usize) -> String {
+    let rounded: f64 = format!("{value:.*e}", digits - 1).parse().unwrap_or(value);
     if rounded == 0.0 || (1e-4..1e6).contains(&rounded.abs()) { format!("{rounded}") } else { format!("{rounded:e}") }
 }
 

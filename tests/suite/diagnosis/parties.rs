@@ -20,8 +20,11 @@ fn of(parties: &[(&str, f64, f64)]) -> Standing {
         bounds: vec![(Channel::named(FORCE).unwrap(), *bound)],
     };
     let all: &'static [Trajectory] = all.leak();
-    let parties: &'static [(&'static str, f64, f64)] =
-        parties.iter().map(|(name, value, bound)| (&*name.to_string().leak(), *value, *bound)).collect::<Vec<_>>().leak();
+    let parties: &'static [(&'static str, f64, f64)] = parties
+        .iter()
+        .map(|(name, value, bound)| (&*name.to_string().leak(), *value, *bound))
+        .collect::<Vec<_>>()
+        .leak();
     standing(&parties.iter().zip(all).map(party).collect::<Vec<_>>())
 }
 
@@ -62,7 +65,8 @@ fn channels_come_in_the_order_in_which_they_left_their_bounds() {
     let judge = |channel: &Channel| Judged { channel: channel.clone(), bound: 1.0, disagrees: true };
     let judged: Vec<Judged> = right.channels().iter().map(judge).collect();
     let found = since(&right, &wrong, &judged);
-    let told: Vec<(String, f64, usize)> = found.iter().map(|one| (one.channel.to_string(), one.time, one.beyond)).collect();
+    let told: Vec<(String, f64, usize)> =
+        found.iter().map(|one| (one.channel.to_string(), one.time, one.beyond)).collect();
     let expected = [("point.A.y_m", 1.0, 1), ("point.A.x_m", 2.0, 3), ("joint.B.fx_N", 2.0, 1), (FORCE, 2.0, 2)];
     assert_eq!(told, expected.map(|(name, time, beyond)| (name.to_string(), time, beyond)));
     assert_eq!(found[2].difference, -30.0);

@@ -25,9 +25,10 @@ fn changed(case: &Case, which: impl Fn(&str, Stage) -> bool, change: impl Fn(usi
 fn late(case: &Case, by: f64, which: impl Fn(Stage) -> bool) -> Trajectory {
     let times = case.grid.times.iter().map(|t| t - by).collect();
     let (right, other) = (solved(case), solved(&case.on(Grid::of_times(case.crank(), times)).unwrap()));
-    let columns = right.iter().zip(other.iter()).map(|((channel, values), (_, late))| {
-        if which(channel.kind.stage) { late.to_vec() } else { values.to_vec() }
-    });
+    let columns = right
+        .iter()
+        .zip(other.iter())
+        .map(|((channel, values), (_, late))| if which(channel.kind.stage) { late.to_vec() } else { values.to_vec() });
     let columns = columns.collect();
     Trajectory::new(right.times().to_vec(), right.cranks().to_vec(), right.channels().to_vec(), columns).unwrap()
 }
@@ -43,21 +44,37 @@ fn slips_of_values_are_named() {
         let joint = |name: &str, _: Stage| name.starts_with("joint.A.");
         let torque = |name: &str, _: Stage| name == "drive.torque_N_m";
         let one = |name: &str, _: Stage| name == "joint.B.fx_N";
-        add("sign of a reaction", &changed(&case, joint, |_, value| -value), "the opposite sign of joint.A.fx_N, joint.A.fy_N");
+        add(
+            "sign of a reaction",
+            &changed(&case, joint, |_, value| -value),
+            "the opposite sign of joint.A.fx_N, joint.A.fy_N",
+        );
         add("sign of the torque", &changed(&case, torque, |_, value| -value), "the opposite sign of drive.torque_N_m");
         add("half the torque", &changed(&case, torque, |_, value| value / 2.0), "half the values of drive.torque_N_m");
         add("twice a reaction", &changed(&case, joint, |_, value| 2.0 * value), "twice the values of joint.A");
         add("no reaction", &changed(&case, one, |_, _| 0.0), "zero instead of joint.B.fx_N");
-        add("kN", &changed(&case, |_, stage| stage >= Stage::Reactions, |_, value| value / 1e3), "another unit, a thousandth");
+        add(
+            "kN",
+            &changed(&case, |_, stage| stage >= Stage::Reactions, |_, value| value / 1e3),
+            "another unit, a thousandth",
+        );
         let angles = |name: &str, _: Stage| name.ends_with("angle_rad");
         add("degrees", &changed(&case, angles, |_, value| value * 180.0 / PI), "another unit, degrees instead");
         let speeds = |name: &str, _: Stage| name.ends_with("omega_rad_s");
-        add("rpm", &changed(&case, speeds, |_, value| value * 30.0 / PI), "another unit, revolutions per minute instead");
+        add(
+            "rpm",
+            &changed(&case, speeds, |_, value| value * 30.0 / PI),
+            "another unit, revolutions per minute instead",
+        );
         let places = |name: &str, _: Stage| name.starts_with("point.") && name.ends_with("_m");
         add("mm", &changed(&case, places, |_, value| value * 1e3), "another unit, millimetres instead");
         let own = |name: &str, _: Stage| name == "link.rocker.angle_rad" || name == "link.guide.angle_rad";
         add("other zero", &changed(&case, own, |_, value| value + PI / 6.0), "30 deg added at every instant");
-        add("slip of a turn", &changed(&case, own, |row, value| if row > 90 { value + 2.0 * PI } else { value }), "whole turns");
+        add(
+            "slip of a turn",
+            &changed(&case, own, |row, value| if row > 90 { value + 2.0 * PI } else { value }),
+            "whole turns",
+        );
         add("factor", &changed(&case, one, |_, value| 1.25 * value), "1.25 times the values of joint.B.fx_N");
     }
     tally.told("slips of values");
@@ -73,8 +90,16 @@ fn values_of_another_instant_are_named() {
             tally.add(&format!("{name}, {what}"), examined(&case, suspect, Some(1e-3)).as_ref(), expected);
         };
         add("a step late", &late(&case, 1e-3, |_| true), "all channels are 0.001 s, 1 steps too late");
-        add("half a step late", &late(&case, 5e-4, |stage| stage == Stage::Velocities), "velocities are 0.0005 s, 0.5 steps too late");
-        add("a quarter early", &late(&case, -2.5e-4, |stage| stage == Stage::Accelerations), "accelerations are 0.00025 s, 0.25 steps too early");
+        add(
+            "half a step late",
+            &late(&case, 5e-4, |stage| stage == Stage::Velocities),
+            "velocities are 0.0005 s, 0.5 steps too late",
+        );
+        add(
+            "a quarter early",
+            &late(&case, -2.5e-4, |stage| stage == Stage::Accelerations),
+            "accelerations are 0.00025 s, 0.25 steps too early",
+        );
     }
     tally.told("other instants");
     assert!(tally.wrong.is_empty(), "\n{}", tally.wrong.join("\n"));
