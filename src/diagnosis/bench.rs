@@ -104,6 +104,11 @@ impl<'a> Bench<'a> {
         Some(Bench { case, columns, solver: question.solver, left })
     }
 
+    /// Whether a position or a rate is among the disagreeing channels.
+    pub(super) fn is_moved(&self) -> bool {
+        self.columns.iter().any(|column| column.disagrees && column.channel.kind.stage < Stage::Reactions)
+    }
+
     /// What the reference itself leaves.
     pub(super) fn start(&self) -> Misfit {
         self.misfit(|column| Some(column.right.clone())).expect("the reference has its own columns")

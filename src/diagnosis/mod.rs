@@ -11,9 +11,13 @@ mod changes;
 mod configurations;
 mod diagnose;
 mod knobs;
+mod late;
+mod numbers;
 mod question;
 mod since;
 mod slips;
+mod tries;
+mod whole;
 
 pub use alone::{Party, Standing, standing};
 pub use cause::{Axis, Cause, Change, How, Part, Slip};
