@@ -3,8 +3,11 @@
 use std::fmt::Write;
 
 use super::checks;
+use super::known::Known;
 use super::observe::Stopped;
-use super::runs::{Runs, run_ladder};
+use super::options::Chosen;
+use super::runs::{self, Bank, Runs};
+use super::settle::{MORE_SWEEPS, Search, Settling};
 use crate::compare::{Check, Convergence, Residual, Verdict, difference, largest_difference, overall, residuals};
 use crate::scenario::Scenario;
 use crate::tolerance::{Basis, Parts};
@@ -60,6 +63,8 @@ pub struct ChannelProof {
 pub struct EngineProof {
     /// The engine.
     pub info: EngineInfo,
+    /// How its settings were found; `None` if all were given, or if the engine failed.
+    pub search: Option<Search>,
     /// Channels, in the order of columns; none if the engine failed.
     pub channels: Vec<ChannelProof>,
     /// Checks on the engine alone.
@@ -74,20 +79,53 @@ pub struct EngineProof {
     pub failure: Option<Error>,
 }
 
-/// Runs an engine on `case` and compares it with `reference`.
+/// What an engine's runs are judged by.
+pub(super) struct Judge<'a> {
+    pub(super) scenario: &'a Scenario,
+    /// The reference's trajectory.
+    pub(super) reference: &'a Trajectory,
+    /// How well it is known.
+    pub(super) known: &'a Known,
+    /// Settings asked for; the search begins with them.
+    pub(super) asked: Settings,
+}
+
+/// An engine at some settings, judged.
+pub(super) struct Judged {
+    pub(super) info: EngineInfo,
+    pub(super) channels: Vec<ChannelProof>,
+    pub(super) checks: Vec<Check>,
+    pub(super) verdict: Verdict,
+    trajectory: Trajectory,
+    errors: Trajectory,
+}
+
+/// Runs an engine on `case`, at the settings asked for or at those that it finds, and compares it with `reference`.
 pub(super) fn prove(
     scenario: &Scenario,
     case: &Case,
-    engine: &dyn Engine,
+    chosen: &Chosen,
     reference: &Trajectory,
+    known: &Known,
     progress: &mut dyn FnMut(f64),
 ) -> Result<EngineProof> {
-    let info = describe(engine);
-    let runs = match run_ladder(case, engine, progress) {
-        Ok(runs) => runs,
+    let engine = chosen.engine.as_ref();
+    let judge = Judge { scenario, reference, known, asked: engine.settings() };
+    let mut bank = Bank::new(case, engine);
+    let found = if chosen.free.any() && !engine.controls_error() {
+        let search = Settling::new(&judge, &mut bank, engine, chosen.free, chosen.budget);
+        search.run(progress).map(|(judged, search)| (judged, Some(search)))
+    } else {
+        let other = Judge::other_sweeps(case, engine, engine.settings(), false);
+        let runs = bank.runs(engine.settings(), other, progress);
+        runs.and_then(|runs| Ok((judge.judge(engine, &runs)?, None)))
+    };
+    let (judged, search) = match found {
+        Ok(found) => found,
         Err(Stopped { error, kept }) => {
             return Ok(EngineProof {
-                info,
+                info: describe(engine),
+                search: None,
                 channels: Vec::new(),
                 checks: Vec::new(),
                 verdict: Verdict::open(error.message()),
@@ -97,44 +135,73 @@ pub(super) fn prove(
             });
         }
     };
-    let channels = judge(scenario, engine, reference, &runs)?;
-    let checks = checks::of_engine(scenario, engine, &runs);
-    let verdict = overall(channels.iter().map(|c| &c.verdict).chain(checks.iter().map(|c| &c.verdict)));
-    let errors = difference(reference, &runs.single().trajectory)?;
-    let [_, single, _] = runs.resolutions;
-    Ok(EngineProof {
+    let Judged { info, channels, checks, verdict, trajectory, errors } = judged;
+    let mut proof = EngineProof {
         info,
+        search,
         channels,
         checks,
         verdict,
-        trajectory: Some(single.trajectory),
+        trajectory: Some(trajectory),
         errors: Some(errors),
         failure: None,
-    })
+    };
+    if let Some(search) = &proof.search {
+        let (end, budget) = (search.end, search.budget);
+        let channels = proof.channels.iter_mut().map(|channel| &mut channel.verdict);
+        let all = channels.chain(proof.checks.iter_mut().map(|check| &mut check.verdict));
+        all.chain([&mut proof.verdict]).for_each(|verdict| end.tell(verdict, budget));
+    }
+    Ok(proof)
 }
 
-fn judge(scenario: &Scenario, engine: &dyn Engine, reference: &Trajectory, runs: &Runs) -> Result<Vec<ChannelProof>> {
-    let ladder = runs.ladder();
-    let [_, single, half] = ladder.resolutions;
-    let (case, Settings { resolution, sweeps, .. }) = (&scenario.case, engine.settings());
-    let finest = engine.at(resolution / 2.0);
-    let judged = residuals(reference, single)?.into_iter().map(|residual| {
-        let (channel, kind) = (residual.channel.clone(), residual.channel.kind);
-        let convergence =
-            Convergence::of_channel(ladder, &channel, engine.formal_order(case, kind), finest.noise(case, kind))
-                .expect("all runs of an engine have the same channels");
-        let parts = convergence.parts(engine.noise(case, kind));
-        let basis = convergence.tolerance(resolution, parts, checks::noise_origin(engine)).basis;
-        let verdict = Verdict::of_engine(&residual, &convergence, parts, scenario.engine_rel);
-        let verdict = verdict.from_settings(resolution, engine.controls_error(), sweeps);
-        let verdict = unless_turning_about(case, [reference, single], &residual, resolution, verdict);
-        let [single, half, reference] =
-            [single, half, reference].map(|side| side.column(&channel).expect("all sides have the channel"));
-        let limit = convergence.limit(single, half, kind.periodic);
-        let limit = limit.map(|limit| largest_difference(reference, &limit, kind.periodic));
-        ChannelProof { residual, bound: parts.sum(), parts, convergence, limit, sensitivity: None, basis, verdict }
-    });
-    Ok(judged.collect())
+impl Judge<'_> {
+    /// Sweeps of the run that tells what the iteration leaves at `settings`.
+    pub(super) fn other_sweeps(case: &Case, engine: &dyn Engine, settings: Settings, free: bool) -> Option<usize> {
+        let other = runs::other_sweeps(case, engine, settings.sweeps);
+        // A search has made runs with fewer sweeps anyway.
+        other.map(|other| if free && settings.sweeps >= MORE_SWEEPS { settings.sweeps / MORE_SWEEPS } else { other })
+    }
+
+    /// Judges an engine by its runs.
+    pub(super) fn judge(&self, engine: &dyn Engine, runs: &Runs) -> Result<Judged> {
+        let channels = self.channels(engine, runs)?;
+        let checks = checks::of_engine(self.scenario, engine, runs);
+        let verdict = overall(channels.iter().map(|c| &c.verdict).chain(checks.iter().map(|c| &c.verdict)));
+        let trajectory = runs.single().trajectory.clone();
+        let errors = difference(self.reference, &trajectory)?;
+        Ok(Judged { info: describe(engine), channels, checks, verdict, trajectory, errors })
+    }
+}
+
+impl Judge<'_> {
+    fn channels(&self, engine: &dyn Engine, runs: &Runs) -> Result<Vec<ChannelProof>> {
+        let Judge { scenario, reference, known, .. } = *self;
+        let ladder = runs.ladder();
+        let [_, single, half] = ladder.resolutions;
+        let (case, Settings { resolution, sweeps, .. }) = (&scenario.case, engine.settings());
+        let finest = engine.at(resolution / 2.0);
+        let judged = residuals(reference, single)?.into_iter().map(|residual| {
+            let (channel, kind) = (residual.channel.clone(), residual.channel.kind);
+            let convergence =
+                Convergence::of_channel(ladder, &channel, engine.formal_order(case, kind), finest.noise(case, kind))
+                    .expect("all runs of an engine have the same channels");
+            let index =
+                reference.channels().iter().position(|own| *own == channel).expect("residuals are of the reference");
+            let parts =
+                Parts { reference: known.error(kind.stage, index), ..convergence.parts(engine.noise(case, kind)) };
+            let basis = convergence.tolerance(resolution, parts, checks::noise_origin(engine)).basis;
+            let verdict = Verdict::of_engine(&residual, &convergence, parts, scenario.engine_rel);
+            let verdict = verdict.from_settings(resolution, engine.controls_error(), sweeps);
+            let verdict = unless_turning_about(case, [reference, single], &residual, resolution, verdict);
+            let [single, half, reference] =
+                [single, half, reference].map(|side| side.column(&channel).expect("all sides have the channel"));
+            let limit = convergence.limit(single, half, kind.periodic);
+            let limit = limit.map(|limit| largest_difference(reference, &limit, kind.periodic));
+            ChannelProof { residual, bound: parts.sum(), parts, convergence, limit, sensitivity: None, basis, verdict }
+        });
+        Ok(judged.collect())
+    }
 }
 
 /// Adds to an inconclusive verdict how strongly the motion depends on the forces that cause it: `sensitivity`, channel

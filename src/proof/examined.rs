@@ -1,8 +1,9 @@
 //! The diagnosis of a proof that disagrees: its parties, and which of them is examined.
 
 use super::engines::EngineProof;
+use super::known::Known;
 use super::observe::Observed;
-use crate::compare::{Check, Verdict, largest_difference, magnitudes};
+use crate::compare::{Verdict, largest_difference};
 use crate::diagnosis::{Diagnosis, Judged, Party, Question, Standing, diagnose, standing};
 use linkage::case::Case;
 use linkage::solver::Solver;
@@ -14,10 +15,10 @@ pub(super) fn of(
     case: &Case,
     main: &dyn Solver,
     sides: &[(&'static str, Observed); 2],
-    checks: &[Check],
+    known: &Known,
     engines: &[EngineProof],
 ) -> Option<Diagnosis> {
-    let between = side_bounds(sides, checks);
+    let between = side_bounds(sides, known);
     let engine = engines.iter().find(|engine| engine.channels.iter().any(|channel| disagrees(&channel.verdict)));
     if engine.is_none() && !between.iter().any(|judged| judged.disagrees) {
         return None;
@@ -79,19 +80,16 @@ fn judged(engine: &EngineProof) -> Vec<Judged> {
     sure.map(|(_, bound, channel, disagrees)| Judged { channel: channel.clone(), bound, disagrees }).collect()
 }
 
-/// Bounds on the difference of the two sides, from the check of each stage.
-fn side_bounds(sides: &[(&'static str, Observed); 2], checks: &[Check]) -> Vec<Judged> {
+/// Bounds on the difference of the two sides: what they know of their own numbers.
+fn side_bounds(sides: &[(&'static str, Observed); 2], known: &Known) -> Vec<Judged> {
     let [one, other] = [0, 1].map(|side: usize| &sides[side].1.trajectory);
-    let family = format!("{} against {}", sides[0].0, sides[1].0);
-    let of = |(channel, size): (&Channel, f64)| {
-        let stage = channel.kind.stage.name();
-        let check = checks.iter().find(|check| check.family == family && check.detail == stage)?;
+    let of = |(index, channel): (usize, &Channel)| {
         let gap = largest_difference(one.column(channel)?, other.column(channel)?, channel.kind.periodic);
-        let bound = check.bound * size;
-        let disagrees = disagrees(&check.verdict) && !(gap <= bound);
-        Some(Judged { channel: channel.clone(), bound, disagrees })
+        let bound = known.error(channel.kind.stage, index);
+        // Written so that NaN disagrees.
+        Some(Judged { channel: channel.clone(), bound, disagrees: !(gap <= bound) })
     };
-    one.channels().iter().zip(magnitudes(one)).filter_map(of).collect()
+    one.channels().iter().enumerate().filter_map(of).collect()
 }
 
 #[cfg(test)]
@@ -101,7 +99,7 @@ mod tests {
     use super::*;
     use crate::diagnosis::{Cause, Slip};
     use crate::proof::observe::observe;
-    use crate::proof::{Options, checks, prove};
+    use crate::proof::{Options, prove};
     use crate::scenario::Scenario;
     use analytic::{AssurSolver, NewtonSolver};
     use linkage::trajectory::Trajectory;
@@ -137,8 +135,8 @@ mod tests {
                 false => (name, seen(solver)),
             };
             let sides = [side("assur", &AssurSolver), side("newton", &NewtonSolver)];
-            let checks = checks::of_sides(case, &sides);
-            let found = of(case, &AssurSolver, &sides, &checks, &right.engines).expect("the sides disagree");
+            let known = Known::of(case, &sides[0].1.trajectory).unwrap();
+            let found = of(case, &AssurSolver, &sides, &known, &right.engines).expect("the sides disagree");
             assert_eq!((found.suspect.as_str(), &found.alone), (wrong, &Standing::Alone(wrong.into())));
             assert!(matches!(found.cause, Some(Cause::Values { slip: Slip::Sign, .. })), "{:?}", found.cause);
             assert!(found.is_explained());

@@ -4,6 +4,7 @@ mod checks;
 mod dial;
 mod engines;
 mod examined;
+mod known;
 mod methods;
 mod observe;
 mod options;
@@ -13,15 +14,18 @@ mod parties;
 mod planted;
 mod runs;
 mod sensitivity;
+mod settle;
 
 pub use engines::{ChannelProof, EngineInfo, EngineProof};
 pub use options::{Options, Reference};
 pub use parties::Dispute;
+pub use settle::{End, Search};
 
 use crate::compare::{Check, Verdict, overall};
 use crate::diagnosis::Diagnosis;
 use crate::scenario::Scenario;
 use analytic::range::explained;
+use known::Known;
 use linkage::case::Case;
 use linkage::error::Result;
 use linkage::solver::Solver;
@@ -140,12 +144,16 @@ pub fn solve(case: &Case) -> Result<Trajectory> {
 fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: &mut dyn FnMut(f64)) -> Result<Proof> {
     let case = &scenario.case;
     let main = options.reference.solver();
-    let engines = options.set_engines(scenario)?;
+    let engines = options.chosen(scenario)?;
     let observed = |solver: &dyn Solver| -> Result<_> { Ok((solver.name(), observe(case, solver, &mut |_| {})?)) };
     let [first, second] = analytic::all();
     let sides = [observed(first)?, observed(second)?];
     let own = &sides.iter().find(|(name, _)| *name == main.name()).expect("the reference is one of the sides").1;
-    let mut checks = checks::of_sides(case, &sides);
+    let mut known = Known::of(case, &sides[0].1.trajectory)?;
+    if checks::sides_differ(&sides, &known) {
+        known.measure(case, first)?;
+    }
+    let mut checks = checks::of_sides(case, &sides, &known);
     checks.extend(methods::checks(case, main)?);
     checks.extend(oracle::checks(scenario)?);
 
@@ -154,7 +162,7 @@ fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: 
     let mut proofs = Vec::with_capacity(engines.len());
     for (index, engine) in engines.iter().enumerate() {
         let mut part = |part: f64| progress((index as f64 + part) / engines.len() as f64);
-        let mut proof = engines::prove(scenario, &engine_case, engine.as_ref(), &own.trajectory, &mut part)?;
+        let mut proof = engines::prove(scenario, &engine_case, engine, &own.trajectory, &known, &mut part)?;
         engines::tell_sensitivity(&mut proof, &own.trajectory, &sensitivity);
         proofs.push(proof);
     }
@@ -172,7 +180,7 @@ fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: 
         title: scenario.title.clone(),
         formula: case.structure.formula(&case.mechanism),
         reference: main.name(),
-        diagnosis: examined::of(case, main, &sides, &checks, &proofs),
+        diagnosis: examined::of(case, main, &sides, &known, &proofs),
         checks,
         engines: proofs,
         disputes,

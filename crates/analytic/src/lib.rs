@@ -13,7 +13,7 @@ pub mod steady;
 pub mod witness;
 
 pub use assur::PoseSolver;
-pub use assur_solver::AssurSolver;
+pub use assur_solver::{AssurSolver, TightAssurSolver};
 pub use newton::NewtonSolver;
 
 use linkage::solver::Solver;

@@ -125,7 +125,7 @@ fn what_is_nothing_simple_is_called_so() {
             ("a square", changed(case, one, |_, value| value * value.abs() / 100.0)),
         ];
         for (what, suspect) in suspects {
-            let found = examined(case, &suspect, Some(scenario.dt));
+            let found = examined(case, &suspect, Some(1e-3));
             let found = found.expect("it disagrees");
             all += 1;
             let line = format!("{name}, {what}: {}", told(Some(&found)));

@@ -10,6 +10,7 @@
 use super::free::Embedded;
 use super::system::System;
 use crate::motion::free;
+use crate::motion::march::ACCURACY;
 use linkage::case::Case;
 use linkage::error::{Error, Result};
 use linkage::solver::{Progress, Provision, Solver, State, Visit};
@@ -32,7 +33,7 @@ impl Solver for NewtonSolver {
         let mut system = System::new(case);
         if case.is_free() {
             system.settle().map_err(Error::out_of_reach)?;
-            return free::sweep(case, &mut Embedded::new(system), visit, progress);
+            return free::sweep(case, &mut Embedded::new(system), ACCURACY, visit, progress);
         }
         let mut state = State::at_rest(case);
         let rows = case.grid.ascending();
