@@ -4,6 +4,7 @@ mod cases;
 mod engines;
 mod parties;
 mod random;
+mod report;
 mod values;
 
 use std::path::Path;
@@ -109,7 +110,10 @@ fn examined(case: &Case, suspect: &Trajectory, step: Option<f64>) -> Option<Diag
         solver: &analytic::AssurSolver,
         step,
     };
-    diagnose(&question, &[])
+    let begun = std::time::Instant::now();
+    let found = diagnose(&question, &[]);
+    println!("{:.2} s", begun.elapsed().as_secs_f64());
+    found
 }
 
 /// Counts outcomes, prints each, and says what must not be.

@@ -1,7 +1,10 @@
 //! Faults in the case, solved by the analytic side with errors as an engine has them.
 
 use super::{Tally, edited, examined, parsed, text};
+use linkage::case::{Case, Grid};
+use linkage::mechanism::Mechanism;
 use linkage::solver::Solver;
+use linkage::trajectory::Stage;
 
 /// Scenario, place in its text, what stands there instead, and the words that must name it.
 type Fault = (&'static str, &'static str, &'static str, &'static str);
@@ -145,7 +148,7 @@ fn tally(faults: &[Fault], what: &str) -> Tally {
         let case = parsed(name, &right).case;
         let wrong = parsed(name, &edited(&right, from, to)).case.on(case.grid.clone()).unwrap();
         // As an engine does, the faulty side goes by time.
-        let grid = linkage::case::Grid::of_times(wrong.crank(), case.grid.times.clone());
+        let grid = Grid::of_times(wrong.crank(), case.grid.times.clone());
         let suspect = analytic::AssurSolver.solve(&wrong.on(grid).unwrap()).unwrap();
         let found = examined(&case, &suspect, None);
         tally.add(
@@ -167,5 +170,38 @@ fn faults_of_a_prescribed_case_are_named() {
 #[test]
 fn faults_of_a_free_case_are_named() {
     let tally = tally(FREE, "free");
+    assert!(tally.wrong.is_empty(), "\n{}", tally.wrong.join("\n"));
+}
+
+/// Two faults in every shipped scenario that has gravity: no weights, and one link a twentieth too heavy.
+#[test]
+fn faults_in_every_shipped_scenario_are_named() {
+    let mut tally = Tally::default();
+    let mut names: Vec<String> = std::fs::read_dir("scenarios")
+        .unwrap()
+        .filter_map(|entry| Some(entry.unwrap().file_name().to_str()?.strip_suffix(".toml")?.to_string()))
+        .collect();
+    names.sort();
+    for name in names {
+        let case = parsed(&name, &text(&name)).case;
+        let mut add = |what: &str, wrong: &Case, expected: &str| {
+            let grid = Grid::of_times(wrong.crank(), case.grid.times.clone());
+            // A pendulum without gravity and without speed is no motion.
+            let Ok(suspect) = analytic::AssurSolver.solve(&wrong.on(grid).unwrap()) else { return };
+            tally.add(&format!("{name}, {what}"), examined(&case, &suspect, None).as_ref(), expected);
+        };
+        if case.gravity.norm() > 0.0 {
+            add("no gravity", &case.with(|parts| parts.gravity *= 0.0).unwrap(), "gravity: missing");
+        }
+        let link = case.mechanism.links().len() - 1;
+        let mut links = case.mechanism.links().to_vec();
+        if links[link].mass > 0.0 && case.wanted.has(Stage::Reactions) {
+            links[link].mass *= 1.05;
+            let heavy = Mechanism::new(links, case.mechanism.joints().to_vec()).unwrap();
+            let expected = format!("mass of {}: ", case.mechanism.links()[link].name);
+            add("too heavy", &case.with(|parts| parts.mechanism = heavy).unwrap(), &expected);
+        }
+    }
+    tally.told("shipped scenarios");
     assert!(tally.wrong.is_empty(), "\n{}", tally.wrong.join("\n"));
 }
