@@ -25,8 +25,9 @@ pub(super) fn found(question: &Question) -> (Vec<Found>, usize) {
     let is_free = question.case.is_free();
     let thin = Bench::new(question, &thinned(question), left.clone());
     let soon = Bench::new(question, &if is_free { early(question) } else { thinned(question) }, left.clone());
-    let (Some(thin), Some(soon)) = (thin, soon) else { return (Vec::new(), 0) };
-    let tries = Tries { starts: [soon.start(), thin.start()], soon, thin, is_free };
+    let first = Bench::new(question, &[0], Rc::new(Cell::new(MOST)));
+    let (Some(thin), Some(soon), Some(first)) = (thin, soon, first) else { return (Vec::new(), 0) };
+    let tries = Tries { first, starts: [soon.start(), thin.start()], soon, thin, is_free };
     // Differences of rounding size are explained by no change.
     if tries.starts[1].fits() || !tries.starts[1].worst().is_finite() {
         return (Vec::new(), 0);

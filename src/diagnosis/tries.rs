@@ -28,6 +28,8 @@ pub(super) struct Candidate {
 /// The instants on which changes are tried. A free motion is followed for a short time first: later it may depend on
 /// its cause in no simple way, and its solution costs more.
 pub(super) struct Tries<'a> {
+    /// The first instant, which costs nothing: another configuration shows there, and may lead nowhere.
+    pub(super) first: Bench<'a>,
     pub(super) soon: Bench<'a>,
     pub(super) thin: Bench<'a>,
     /// What the reference leaves on both.
@@ -38,6 +40,9 @@ pub(super) struct Tries<'a> {
 impl Tries<'_> {
     /// What a change leaves. A free motion that it does not explain for a short time is not followed further.
     pub(super) fn of(&self, make: &dyn Fn(&Case) -> Option<Case>) -> Option<Misfit> {
+        if self.is_free && !self.first.tried(&make(&self.first.case)?)?.fits() {
+            return None;
+        }
         if self.is_free && !self.soon.tried(&make(&self.soon.case)?)?.fits() {
             return None;
         }
