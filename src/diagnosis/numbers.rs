@@ -48,6 +48,11 @@ fn guesses(tries: &Tries) -> Vec<Guess> {
     found
 }
 
+/// Whether a place is not guessed far away: a mechanism of such dimensions hardly moves, and to find that out takes long.
+fn is_likely(guess: &Guess) -> bool {
+    guess.knob.moves_nothing || guess.knob.is_far || (guess.value - guess.knob.given).abs() <= natural(&guess.knob)
+}
+
 /// Parts of the case with another value.
 pub(super) fn numbers(tries: &Tries) -> Vec<Candidate> {
     let mut candidates = Vec::new();
@@ -56,7 +61,7 @@ pub(super) fn numbers(tries: &Tries) -> Vec<Candidate> {
         let named = meant(tries, &guess.knob, guess.value, false);
         match named.iter().any(|one| one.1) {
             true => {}
-            false if open.len() < GUESSED => open.push(guess),
+            false if open.len() < GUESSED && is_likely(&guess) => open.push(guess),
             false => {}
         }
         candidates.extend(named.into_iter().map(|one| one.0));
