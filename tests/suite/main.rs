@@ -36,6 +36,7 @@ mod scenario_docs;
 mod simbody;
 mod slider_limits;
 mod sliders_closed_form;
+mod specimens;
 mod start;
 mod stories;
 mod synthesis;

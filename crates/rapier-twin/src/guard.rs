@@ -145,6 +145,11 @@ impl<'a> Guard<'a> {
         self.step = step;
     }
 
+    /// Sets whether the velocities after a step leave out what has closed the gaps.
+    pub(super) fn set_stabilised(&mut self, stabilised: bool) {
+        self.world.set_stabilised(stabilised);
+    }
+
     /// Moves all links into the given poses; velocities stay as they are.
     pub(super) fn place(&mut self, poses: &[LinkPose]) {
         self.world.place(poses);
@@ -302,6 +307,9 @@ mod tests {
         }
         fn set_step(&mut self, step: f64) {
             self.world.set_step(step);
+        }
+        fn set_stabilised(&mut self, stabilised: bool) {
+            self.world.set_stabilised(stabilised);
         }
         fn set_drive(&mut self, drive: usize, omega: f64) {
             self.world.set_drive(drive, omega);

@@ -120,6 +120,13 @@ pub trait World {
     /// Sets the time step (s).
     fn set_step(&mut self, step: f64);
 
+    /// Sets whether the velocities after a step leave out what has closed the gaps of the loops.
+    ///
+    /// Rapier then solves all constraints a second time, and goes on with velocities along the constraints at the START
+    /// of the step. They are not those that moved the bodies: in a free motion each step loses momentum across the
+    /// constraints of one pose and regains it across those of the next one.
+    fn set_stabilised(&mut self, stabilised: bool);
+
     /// Sets the angular velocity (rad/s, counter-clockwise positive) that a drive gives its link.
     /// The drive is given by its index in [`drives`](linkage::case::CaseParts::drives).
     fn set_drive(&mut self, drive: usize, omega: f64);
