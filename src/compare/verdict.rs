@@ -129,7 +129,9 @@ impl Verdict {
         }
         match Verdict::of(value, bound, place) {
             // Where the bound proves nothing, nothing close to it is disproven.
-            Verdict::Agree { .. } | Verdict::Disagree { .. } if bound > wanted * scale && value <= DISPROVEN * bound => {
+            Verdict::Agree { .. } | Verdict::Disagree { .. }
+                if bound > wanted * scale && value <= DISPROVEN * bound =>
+            {
                 let (why, advice) = way_out(parts);
                 let reason = format!(
                     "the engine's error may reach {:.1e} of the channel's scale, more than the {wanted:.0e} that still proves something{why}",

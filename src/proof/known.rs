@@ -115,6 +115,11 @@ impl Known {
         self.rounding(stage, row) + share(integration, self.magnitudes[channel])
     }
 
+    /// Largest difference allowed between the sides in a channel over the run, in the channel's unit.
+    pub(super) fn between(&self, stage: Stage, channel: usize) -> f64 {
+        self.error(stage, channel) + self.integration[1][channel]
+    }
+
     /// Largest error allowed to the reference in a channel over the run, in the channel's unit.
     pub(super) fn error(&self, stage: Stage, channel: usize) -> f64 {
         let rows = 0..self.conditions.len().max(1);

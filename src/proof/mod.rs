@@ -4,6 +4,7 @@ mod checks;
 mod dial;
 mod doubt;
 mod engines;
+mod examined;
 mod judge;
 mod known;
 mod methods;
@@ -24,6 +25,7 @@ pub use parties::Dispute;
 pub use settle::{End, Search};
 
 use crate::compare::{Check, Verdict, overall};
+use crate::diagnosis::Diagnosis;
 use crate::scenario::Scenario;
 use analytic::range::explained;
 use known::Known;
@@ -65,6 +67,8 @@ pub struct Proof {
     /// Channels in which reference and engines do not all agree; empty with a single engine, whose own verdicts state
     /// it.
     pub disputes: Vec<Dispute>,
+    /// Which party stands alone, since when, and why, if a channel disagrees.
+    pub diagnosis: Option<Diagnosis>,
     /// Verdict on the whole.
     pub verdict: Verdict,
     /// The reference's trajectory.
@@ -180,6 +184,7 @@ fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: 
         title: scenario.title.clone(),
         formula: case.structure.formula(&case.mechanism),
         reference: main.name(),
+        diagnosis: examined::of(case, main, &sides, &known, &proofs),
         checks,
         engines: proofs,
         disputes,

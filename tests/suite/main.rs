@@ -13,6 +13,7 @@ mod batch;
 mod cli;
 mod common;
 mod degenerate;
+mod diagnosis;
 mod dynamics;
 mod engine;
 mod export;

@@ -186,7 +186,7 @@ fn the_twin_goes_on_with_the_velocities_that_moved_it() {
     let reference = solve(&AssurSolver, &case);
     let angle = |channel: &Channel| channel.kind.unit == Unit::Radian;
     let settings = |own| Settings { resolution: 5e-4, extrapolated: 1, sweeps: 16, ..own };
-    let found = solve(twin("rapier", &scenario, settings).as_ref(), &case);
+    let found = solve(twin("rapier", settings).as_ref(), &case);
     let worst = worst(&reference, &found, angle);
     assert_within!(worst, 3e-5, "{worst:e}");
 }

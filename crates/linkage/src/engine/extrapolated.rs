@@ -42,8 +42,9 @@ fn weights(order: f64, runs: usize) -> Vec<f64> {
     for time in 1..runs {
         let share = 1.0 / (2f64.powf(order + (time - 1) as f64) - 1.0);
         for run in 0..runs - time {
-            for k in 0..runs {
-                rows[run][k] = rows[run + 1][k] + (rows[run + 1][k] - rows[run][k]) * share;
+            let (coarse, fine) = rows.split_at_mut(run + 1);
+            for (weight, fine) in coarse[run].iter_mut().zip(&fine[0]) {
+                *weight = fine + (fine - *weight) * share;
             }
         }
     }
