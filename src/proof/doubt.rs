@@ -15,6 +15,11 @@ use super::runs::Runs;
 /// Number of steps around a jump in which an engine's values are doubtful.
 const STEPS: f64 = 8.0;
 
+/// Share of a drive's top speed that counts as standstill: the rounding of a law's formula, with room.
+const STANDSTILL: f64 = 1e-9;
+/// Number of instants that may be left out whatever the step: the two ends of a motion.
+const ENDS: usize = 2;
+
 /// The doubtful instants of an engine's runs.
 pub(super) struct Doubt {
     /// Whether rates are doubtful, by row of the grid.
@@ -74,7 +79,8 @@ impl Doubt {
 
     /// Share of instants that are left out and would not be with a finer step.
     pub(super) fn too_coarse(&self) -> f64 {
-        self.by_step.iter().filter(|&&out| out).count() as f64 / self.by_step.len().max(1) as f64
+        let out = self.by_step.iter().filter(|&&out| out).count().saturating_sub(ENDS);
+        out as f64 / self.by_step.len().max(1) as f64
     }
 }
 
@@ -89,8 +95,9 @@ fn drive_turns(case: &Case, t: f64, reach: f64) -> bool {
         DriveMotion::Free { .. } => false,
         DriveMotion::Prescribed { .. } => {
             let jumps = drive.jump().is_some_and(|jump| (t - jump).abs() <= reach);
+            let least = STANDSTILL * drive.top_speed().abs();
             let speeds = [t - reach, t, t + reach].map(|t| drive.at(t).omega);
-            jumps || speeds.iter().any(|speed| !(speed * speeds[1] > 0.0))
+            jumps || speeds.iter().any(|speed| !(speed.abs() > least && speed * speeds[1] > 0.0))
         }
     })
 }

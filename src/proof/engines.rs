@@ -7,11 +7,13 @@ use super::known::Known;
 use super::observe::{Observed, Stopped};
 use super::options::Chosen;
 use super::runs::{Bank, other_sweeps};
-use super::settle::{Search, Settling};
+use super::settle::{End, Free, Search, Settling};
 use crate::compare::{Check, Verdict};
+use crate::engines::coarse_step;
 use crate::scenario::Scenario;
 use linkage::case::Case;
-use linkage::error::{Error, Result};
+use linkage::engine::Settings;
+use linkage::error::{Advice, Error, Result};
 use linkage::trajectory::Trajectory;
 
 /// One engine's part of a proof.
@@ -31,6 +33,8 @@ pub struct EngineProof {
     pub trajectory: Option<Trajectory>,
     /// Engine minus reference; `None` if the engine failed.
     pub errors: Option<Trajectory>,
+    /// Whether all channels are judged at an instant, by row of the grid; empty if the engine failed.
+    pub kept: Vec<bool>,
     /// Why there is no comparison.
     pub failure: Option<Error>,
 }
@@ -68,11 +72,12 @@ pub(super) fn prove(
                 verdict: Verdict::open(error.message()),
                 trajectory: kept.map(|kept| *kept),
                 errors: None,
+                kept: Vec::new(),
                 failure: Some(error),
             });
         }
     };
-    let Judged { info, channels, checks, verdict, trajectory, errors, too_coarse: _ } = judged;
+    let Judged { info, channels, checks, verdict, trajectory, errors, too_coarse: _, kept } = judged;
     let mut proof = EngineProof {
         info,
         search,
@@ -81,8 +86,20 @@ pub(super) fn prove(
         verdict,
         trajectory: Some(trajectory),
         errors: Some(errors),
+        kept,
         failure: None,
     };
+    let is_open = matches!(proof.verdict, Verdict::Inconclusive { .. });
+    if is_open && !chosen.free.step && !engine.controls_error() {
+        let advice = tried(&judge, &mut bank, chosen);
+        let channels = proof.channels.iter_mut().map(|channel| &mut channel.verdict);
+        for verdict in channels.chain(proof.checks.iter_mut().map(|check| &mut check.verdict)).chain([&mut proof.verdict])
+        {
+            if let Verdict::Inconclusive { advice: own, .. } = verdict {
+                own.push(advice.clone());
+            }
+        }
+    }
     if let Some(search) = &proof.search {
         let (end, budget) = (search.end, search.budget);
         let channels = proof.channels.iter_mut().map(|channel| &mut channel.verdict);
@@ -90,6 +107,26 @@ pub(super) fn prove(
         all.chain([&mut proof.verdict]).for_each(|verdict| end.tell(verdict, budget));
     }
     Ok(proof)
+}
+
+/// What a run finds that is free to choose its settings, as advice for one that was not and is inconclusive.
+fn tried(judge: &Judge, bank: &mut Bank, chosen: &Chosen) -> Advice {
+    let case = bank.case;
+    let engine = chosen.engine.at(coarse_step(case));
+    let judge = Judge { asked: engine.settings(), ..*judge };
+    let free = Free { step: true, sweeps: true, extrapolated: true };
+    let found = Settling::new(&judge, bank, engine.as_ref(), free, chosen.budget).run(&mut |_| {});
+    let Ok((judged, search)) = found else { return Advice::FreeSettings };
+    let Settings { resolution, sweeps, extrapolated, .. } = judged.info.settings;
+    let outcome = match (&judged.verdict, search.end) {
+        (Verdict::Inconclusive { .. }, End::Budget) => "the work allowed is not enough there either".into(),
+        (Verdict::Inconclusive { .. }, _) => "nothing is proven there either".into(),
+        (verdict, _) => format!("the verdict there is {}", verdict.word()),
+    };
+    Advice::Text(format!(
+        "leave the step to the proof: it takes {resolution:.2e} s with {sweeps} sweeps, extrapolated {extrapolated} \
+         times, and {outcome}"
+    ))
 }
 
 /// Adds to an inconclusive verdict how strongly the motion depends on the forces that cause it: `sensitivity`, channel

@@ -5,9 +5,9 @@ use super::known::Known;
 use super::observe::Observed;
 use crate::compare::{Verdict, largest_difference};
 use crate::diagnosis::{Diagnosis, Judged, Party, Question, Standing, diagnose, standing};
-use linkage::case::Case;
+use linkage::case::{Case, Grid};
 use linkage::solver::Solver;
-use linkage::trajectory::Channel;
+use linkage::trajectory::{Channel, Trajectory};
 
 /// Examines the party that stands alone; else the first engine that disagrees; else the side that is not the
 /// reference. `None` if no channel disagrees.
@@ -23,28 +23,33 @@ pub(super) fn of(
     if engine.is_none() && !between.iter().any(|judged| judged.disagrees) {
         return None;
     }
-    let mut parties: Vec<Party> = sides
-        .iter()
-        .map(|(name, side)| {
-            // The bound is on the difference of the two.
-            let bounds = between.iter().map(|judged| (judged.channel.clone(), judged.bound / 2.0)).collect();
-            Party { name, trajectory: &side.trajectory, bounds }
-        })
-        .collect();
-    parties.extend(engines.iter().filter_map(|engine| {
+    // Instants that are not judged are not explained.
+    let keep = engine.map_or_else(|| vec![true; case.grid.len()], |engine| engine.kept.clone());
+    let thin = |trajectory: &Trajectory| trajectory.at_rows(&keep);
+    let own = sides.each_ref().map(|(name, side)| (*name, thin(&side.trajectory)));
+    let case = &case.on(Grid::of_times(case.crank(), own[0].1.times().to_vec())).ok()?;
+    let ran = engines.iter().filter(|engine| engine.failure.is_none());
+    let ran: Vec<(&EngineProof, Trajectory)> =
+        ran.filter_map(|engine| Some((engine, thin(engine.trajectory.as_ref()?)))).collect();
+
+    // The bound is on the difference of the two.
+    let halves: Vec<_> = between.iter().map(|judged| (judged.channel.clone(), judged.bound / 2.0)).collect();
+    let mut parties: Vec<Party> =
+        own.iter().map(|(name, trajectory)| Party { name, trajectory, bounds: halves.clone() }).collect();
+    parties.extend(ran.iter().map(|(engine, trajectory)| {
         let bounds = judged(engine).into_iter().map(|judged| (judged.channel, judged.bound)).collect();
-        Some(Party { name: engine.info.name, trajectory: engine.trajectory.as_ref()?, bounds })
+        Party { name: engine.info.name, trajectory, bounds }
     }));
-    let [one, other] = match sides[0].0 == main.name() {
-        true => [&sides[0], &sides[1]],
-        false => [&sides[1], &sides[0]],
+    let [one, other] = match own[0].0 == main.name() {
+        true => [&own[0], &own[1]],
+        false => [&own[1], &own[0]],
     };
     let alone = match standing(&parties) {
         Standing::Alone(name) => Some(name),
         Standing::Together | Standing::Camps(_) | Standing::Open(_) => None,
     };
-    let of_sides = |suspect: &(&'static str, Observed), right: &(&'static str, Observed)| {
-        let (reference, suspicious) = (&right.1.trajectory, &suspect.1.trajectory);
+    let of_sides = |suspect: &(&'static str, Trajectory), right: &(&'static str, Trajectory)| {
+        let (reference, suspicious) = (&right.1, &suspect.1);
         let solver = analytic::named(right.0).unwrap_or(main);
         let (suspect, judged) = (suspect.0, &between[..]);
         diagnose(&Question { suspect, reference, suspicious, judged, case, solver, step: None }, &parties)
@@ -54,10 +59,11 @@ pub(super) fn of(
         (Some(name), _) if name == other.0 => of_sides(other, one),
         (_, None) => of_sides(other, one),
         (_, Some(engine)) => {
+            let (_, suspicious) = ran.iter().find(|(own, _)| own.info.name == engine.info.name)?;
             let question = Question {
                 suspect: engine.info.name,
-                reference: &one.1.trajectory,
-                suspicious: engine.trajectory.as_ref()?,
+                reference: &one.1,
+                suspicious,
                 judged: &judged(engine),
                 case,
                 solver: main,
@@ -102,7 +108,6 @@ mod tests {
     use crate::proof::{Options, prove};
     use crate::scenario::Scenario;
     use analytic::{AssurSolver, NewtonSolver};
-    use linkage::trajectory::Trajectory;
 
     /// The same observations with the opposite balancing moment in the trajectory.
     fn spoiled(mut side: Observed) -> Observed {

@@ -81,6 +81,8 @@ pub(super) struct Judged {
     pub(super) errors: Trajectory,
     /// Share of instants left out because the step is too coarse for them.
     pub(super) too_coarse: f64,
+    /// Whether forces are judged, by row of the grid.
+    pub(super) kept: Vec<bool>,
 }
 
 
@@ -93,8 +95,8 @@ impl Judge<'_> {
         let verdict = overall(channels.iter().map(|c| &c.verdict).chain(checks.iter().map(|c| &c.verdict)));
         let trajectory = runs.single().trajectory.clone();
         let errors = difference(self.reference, &trajectory)?;
-        let too_coarse = doubt.too_coarse();
-        Ok(Judged { info: describe(engine), channels, checks, verdict, trajectory, errors, too_coarse })
+        let (too_coarse, kept) = (doubt.too_coarse(), doubt.keeps(Stage::Reactions));
+        Ok(Judged { info: describe(engine), channels, checks, verdict, trajectory, errors, too_coarse, kept })
     }
 
     fn channels(&self, engine: &dyn Engine, runs: &Runs, doubt: &Doubt) -> Result<Vec<ChannelProof>> {

@@ -70,6 +70,8 @@ const THRIFT: f64 = 0.025;
 const AIM: f64 = 0.01;
 /// Extrapolations that are tried: with more, the weights add more rounding than the errors they cancel.
 const MOST_TIMES: usize = 4;
+/// Coarsest step that is tried against rounding, in units of the first one.
+const COARSEST: f64 = 16.0;
 /// Failed runs after which more sweeps are tried instead of a smaller step.
 const FAILURES: usize = 6;
 /// Share of instants that may be left out because they are too close to a reversal for the step.
@@ -85,9 +87,9 @@ impl End {
             return;
         }
         let (why, way_out) = match self {
-            End::Decided => return,
+            // The settings that are given decide, and its own advice holds.
+            End::Decided | End::Nothing => return,
             End::Rounding => ("a finer step adds more rounding than it takes away", vec![Advice::OtherEngine]),
-            End::Nothing => ("the settings that are left to choose have no better value", vec![Advice::FreeSettings]),
             End::Budget => ("the work that was allowed is done", vec![Advice::MoreWork { to: 10.0 * budget }]),
         };
         reason.push_str("; ");
@@ -112,6 +114,8 @@ pub(super) struct Settling<'a, 'b> {
     /// Present settings; the step is the finest one of all runs.
     now: Settings,
     most_sweeps: usize,
+    /// Step of the coarsest run.
+    coarsest: f64,
     budget: f64,
 }
 
@@ -132,7 +136,8 @@ impl<'a, 'b> Settling<'a, 'b> {
         // The finest of the first three runs.
         let times = if free.extrapolated { 0 } else { now.extrapolated };
         now.resolution *= 0.5f64.powi(times as i32 + 1);
-        Settling { judge, bank, free, now, most_sweeps: most, budget }
+        let coarsest = 2.0 * engine.settings().resolution;
+        Settling { judge, bank, free, now, most_sweeps: most, coarsest, budget }
     }
 
     /// Runs the engine until it is decided, or until nothing is left to try.
@@ -172,9 +177,6 @@ impl<'a, 'b> Settling<'a, 'b> {
                 }
                 Err(stopped) => return Err(stopped),
             };
-            if std::env::var_os("TRACE").is_some() {
-                eprintln!("round {round} finest {:e} sweeps {} blame {blame:?} effort {:.2e} best {:?} fail {:?}", self.now.resolution, self.now.sweeps, self.bank.effort, best.as_ref().map(|b| (b.need, b.blame, b.judged.info.settings.resolution, b.judged.info.settings.extrapolated, b.judged.verdict.word())), failure.as_ref().map(|f: &Stopped| f.error.message().chars().take(90).collect::<String>()));
-            }
             if let Some(end) = self.refine(blame) {
                 break end;
             }
@@ -193,6 +195,11 @@ impl<'a, 'b> Settling<'a, 'b> {
         let mut next = self.now;
         match blame {
             Part::Iteration if self.free.sweeps && self.now.sweeps < self.most_sweeps => next.sweeps *= MORE_SWEEPS,
+            // Coarser runs, extrapolated more often, have less rounding.
+            Part::Rounding if self.free.step && self.coarsest < COARSEST * self.judge.asked.resolution => {
+                self.coarsest *= 2.0;
+                return None;
+            }
             Part::Rounding | Part::Reference => return Some(End::Rounding),
             Part::Discretisation | Part::Iteration if self.free.step || self.free.extrapolated => {
                 next.resolution *= 0.5
@@ -227,7 +234,7 @@ impl<'a, 'b> Settling<'a, 'b> {
         };
         let close = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-6;
         let is_open = |settings: &Settings| match self.free.step {
-            true => 2.0 * settings.resolution <= 2.0 * self.judge.asked.resolution * 1.000_001,
+            true => 2.0 * settings.resolution <= self.coarsest * 1.000_001,
             false => close(settings.resolution, asked.resolution),
         };
         times.rev().map(at).filter(is_open).collect()
