@@ -31,6 +31,7 @@ mod range;
 mod rapier;
 mod record;
 mod scenario_docs;
+mod setting_off;
 #[cfg(feature = "simbody")]
 mod simbody;
 mod slider_limits;

@@ -7,12 +7,15 @@ use linkage::drive::{Branch, Wrench};
 use linkage::engine::Settings;
 use linkage::engine::bodies::check_inertias;
 use linkage::error::Result;
-use linkage::math::KeepNan;
+use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::GROUND;
 use linkage::solver::State;
 
 /// Rotation (rad) of the fastest free link in the tiny step that makes the start velocities consistent.
 const SETTLING_TURN: f64 = 1e-4;
+
+/// Share of the fastest link's speed below which a link rests at the beginning.
+const STANDSTILL: f64 = 1e-9;
 
 /// Motor and loads of a case in free motion.
 #[derive(Debug)]
@@ -48,6 +51,9 @@ impl Acting {
             *before = if window.newest() > 0 { motion.omega } else { f64::NAN };
         }
         window.newest_motion(case, &mut self.state);
+        if window.newest() == 0 {
+            self.begin_exactly(case);
+        }
         let State { motions, angles, .. } = &self.state;
         let (before, setting_off) = (&self.before, &self.setting_off);
         // A link may reverse within the step.
@@ -74,9 +80,30 @@ impl Acting {
         }
     }
 
-    /// Whether a load depends on the sense of rotation of a link that is at rest at the beginning.
+    /// Gives driving links their exact speeds at t = 0, and no speed to links at rest.
+    /// The tiny step before the motion leaves rounding there, whose sign must not choose a sense of motion.
+    fn begin_exactly(&mut self, case: &Case) {
+        let motions = &mut self.state.motions;
+        for drive in &case.drives {
+            motions[drive.link].omega = drive.initial_speed();
+        }
+        let fastest = motions.iter().fold(0.0f64, |most, motion| most.larger(motion.omega.abs()));
+        let moving = case.drives.iter().any(|drive| drive.initial_speed() != 0.0);
+        for motion in motions {
+            if !moving || motion.omega.abs() <= STANDSTILL * fastest {
+                motion.omega = 0.0;
+            }
+            if !moving {
+                motion.velocity = Vec2::zeros();
+            }
+        }
+    }
+
+    /// Whether a load, or the losses of a reducer, depend on the sense of rotation of a link that is at rest at the
+    /// beginning.
     fn must_try(&self, case: &Case) -> bool {
-        let mut sensed = case.loads.iter().filter_map(linkage::drive::Load::sensed_link);
+        let losses = case.crank().moving_motor().is_some_and(|motor| motor.efficiency < 1.0);
+        let mut sensed = case.loads.iter().filter_map(linkage::drive::Load::sensed_link).chain(losses.then_some(case.crank().link));
         sensed.any(|link| self.state.motions[link].omega == 0.0)
     }
 
@@ -89,7 +116,11 @@ impl Acting {
         let holds = |branch: &Branch| omega >= branch.speeds[0] && omega < branch.speeds[1];
         let branch = match self.branch {
             Some(branch) if holds(&branch) => branch,
-            _ => *self.branch.insert(motor.branch(omega, 1.0)),
+            _ => {
+                // From rest towards the speeds that the trial step has reached.
+                let towards = if omega == 0.0 { sense * self.setting_off[case.crank().link] } else { 0.0 };
+                *self.branch.insert(motor.branch(omega, if towards < 0.0 { -1.0 } else { 1.0 }))
+            }
         };
         let (moment, slope) = (branch.moment(omega), branch.slope(omega));
         if slope < 0.0 {
@@ -102,7 +133,8 @@ impl Acting {
 
 /// Gives worlds at the start pose the velocities of the driving links there.
 /// Returns the window of the motion that begins.
-/// If a load depends on the sense of rotation of a link at rest, one step is tried without that load and then undone.
+/// If a load, or the losses of a reducer, depend on the sense of rotation of a link at rest, one step is tried and then undone.
+/// In it the load does not act, and power flows from the motor.
 ///
 /// # Errors
 /// Those of [`Guard::step`].
@@ -117,6 +149,11 @@ pub(super) fn begin(case: &Case, acting: &mut Acting, worlds: &mut [Guard], sett
         for (link, speed) in acting.setting_off.iter_mut().enumerate().skip(1) {
             *speed = (world.angle(link) - case.start.0[link].angle) / step;
         }
+        let fastest = acting.setting_off.iter().fold(0.0f64, |most, speed| most.larger(speed.abs()));
+        for speed in acting.setting_off.iter_mut().filter(|speed| speed.abs() <= STANDSTILL * fastest) {
+            *speed = 0.0;
+        }
+        acting.branch = None;
         settle(case, worlds, step)?;
     }
     Ok(window)
