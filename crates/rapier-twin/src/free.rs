@@ -1,5 +1,7 @@
 //! Motor and loads of a free motion. They are set again before every step, from the engine's own state.
 
+use super::added::Added;
+use super::build::Precision;
 use super::guard::Guard;
 use super::window::Window;
 use linkage::case::Case;
@@ -17,6 +19,10 @@ const SETTLING_TURN: f64 = 1e-4;
 /// Share of the fastest link's speed below which a link rests at the beginning.
 const STANDSTILL: f64 = 1e-9;
 
+/// Largest number of trials of the first step for the accelerations in it, and their last change over themselves.
+const MOST_TRIALS: usize = 200;
+const GUESSED: f64 = 1e-9;
+
 /// Motor and loads of a case in free motion.
 #[derive(Debug)]
 pub(super) struct Acting {
@@ -26,21 +32,30 @@ pub(super) struct Acting {
     /// Speeds that links at rest reach in the trial step, where one was made.
     setting_off: Vec<f64>,
     loads: Vec<Wrench>,
+    /// The same with those of added masses.
+    relieved: Vec<Wrench>,
     branch: Option<Branch>,
+    /// One for each world.
+    added: Vec<Option<Added>>,
 }
 
 impl Acting {
     /// # Errors
     /// Those of [`check_inertias`].
-    pub(super) fn new(case: &Case) -> Result<Self> {
-        check_inertias(case, "Rapier")?;
+    pub(super) fn new(case: &Case, precision: Precision, worlds: &[Guard]) -> Result<Self> {
+        if precision != Precision::Double {
+            // Second differences of its positions are rounding and cannot take away what an added mass does.
+            check_inertias(case, "Rapier in single precision")?;
+        }
         let links = case.mechanism.links().len();
         Ok(Acting {
             state: State::at_rest(case),
             before: vec![f64::NAN; links],
             setting_off: vec![0.0; links],
             loads: vec![Wrench::ZERO; links],
+            relieved: vec![Wrench::ZERO; links],
             branch: None,
+            added: worlds.iter().map(|guard| Added::of(case, guard.world().tree())).collect(),
         })
     }
 
@@ -74,8 +89,15 @@ impl Acting {
         case.loads_with(motions, angles, sensed, &mut self.loads);
         let motor = self.motor(case);
         self.loads[GROUND] = Wrench::ZERO;
-        for guard in worlds {
-            guard.put_loads(&self.loads);
+        for (guard, added) in worlds.iter_mut().zip(&mut self.added) {
+            match added {
+                Some(added) => {
+                    added.follow(window);
+                    added.relieve(case, &self.loads, &mut self.relieved);
+                    guard.put_loads(&self.relieved);
+                }
+                None => guard.put_loads(&self.loads),
+            }
             guard.drive_freely(ends, motor);
         }
     }
@@ -142,6 +164,7 @@ pub(super) fn begin(case: &Case, acting: &mut Acting, worlds: &mut [Guard], sett
     let step = settings.resolution;
     settle(case, worlds, step)?;
     let window = Window::beginning(case, settings, &worlds[0]);
+    guess(case, acting, &window, worlds, step)?;
     acting.act(case, &window, worlds, [0.0, step]);
     if acting.must_try(case) {
         worlds[0].step(step)?;
@@ -155,8 +178,31 @@ pub(super) fn begin(case: &Case, acting: &mut Acting, worlds: &mut [Guard], sett
         }
         acting.branch = None;
         settle(case, worlds, step)?;
+        guess(case, acting, &window, worlds, step)?;
     }
     Ok(window)
+}
+
+/// Tries the first step until the accelerations in it, by which added masses are taken away, no longer change.
+/// Every trial is undone.
+fn guess(case: &Case, acting: &mut Acting, window: &Window, worlds: &mut [Guard], step: f64) -> Result<()> {
+    for _ in 0..MOST_TRIALS {
+        if acting.added.iter().all(Option::is_none) {
+            break;
+        }
+        acting.act(case, window, worlds, [0.0, step]);
+        worlds[0].step(step)?;
+        let own = &worlds[0];
+        let mut change = 0.0f64;
+        for added in acting.added.iter_mut().flatten() {
+            change = change.larger(added.guess(case, |link| window.next_acceleration(own, link)));
+        }
+        settle(case, worlds, step)?;
+        if change <= GUESSED {
+            break;
+        }
+    }
+    Ok(())
 }
 
 /// Places worlds at the start with the velocities of the driving links there.
