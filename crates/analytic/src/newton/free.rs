@@ -89,9 +89,7 @@ impl<'a> Embedded<'a> {
 
     fn check_branch(&self) -> Result<()> {
         let system = &self.system;
-        if system.jacobian.determinant_sign() != system.branch {
-            return Err(system.lost("the mechanism has passed a dead point on the way there"));
-        }
+        system.check_signs()?;
         let size = system.case.mechanism.size();
         for (index, (q, predicted)) in system.q.iter().zip(&system.predicted).enumerate() {
             let allowed = JUMP * if index % 3 == 2 { 1.0 } else { size };

@@ -16,6 +16,10 @@ use linkage::trajectory::Stage;
 pub(super) const TRACKING_STEP: f64 = PI / 90.0;
 /// How often a failing step is halved: down to a millionth of it.
 const HALVINGS: u32 = 20;
+/// Share of a block's determinant in the largest that columns of the same lengths can have, below which a pose is singular.
+/// A dyad's share is about a tenth of the sine of its transmission angle. Angles are known to about the rounding over this sine, and
+/// the sine is then all rounding.
+const SINGULAR: f64 = 1e-8;
 /// Newton's method from a predicted pose converges in two or three iterations. If it needs more, something is wrong.
 const MAX_ITERATIONS: usize = 12;
 
@@ -23,7 +27,8 @@ impl System<'_> {
     /// Corrects the pose at t = 0 to rounding and fixes the branch there.
     pub(super) fn settle(&mut self) -> Result<()> {
         self.correct()?;
-        self.branch = self.jacobian.determinant_sign();
+        self.branch = self.jacobian.signs().collect();
+        self.check_singular()?;
         self.differentiate();
         Ok(())
     }
@@ -43,6 +48,7 @@ impl System<'_> {
         }
         // The last part ends at t itself, not at a rounded neighbour.
         self.step_to(t, HALVINGS)?;
+        self.check_singular()?;
         if self.stage >= Stage::Reactions {
             self.find_loads(Case::loads_on);
             self.multipliers();
@@ -151,11 +157,26 @@ impl System<'_> {
         self.jacobian.solve_transposed(&mut self.lambda);
     }
 
-    /// Refuses a pose on another branch: one beyond a singular pose, or one far from the prediction.
-    pub(super) fn check_branch(&self, dt: f64) -> Result<()> {
-        if self.jacobian.determinant_sign() != self.branch {
+    /// Refuses a pose beyond a singular one: every block keeps the sign of its determinant.
+    pub(super) fn check_signs(&self) -> Result<()> {
+        if !self.jacobian.signs().eq(self.branch.iter().copied()) {
             return Err(self.lost("the mechanism has passed a dead point on the way there"));
         }
+        Ok(())
+    }
+
+    /// Refuses a singular pose.
+    pub(super) fn check_singular(&self) -> Result<()> {
+        // Written so that NaN is refused too.
+        if !(self.jacobian.smallest_share() > SINGULAR) {
+            return Err(self.lost("the pose is singular there (dead point or change point)"));
+        }
+        Ok(())
+    }
+
+    /// Refuses a pose on another branch: one beyond a singular pose, or one far from the prediction.
+    pub(super) fn check_branch(&self, dt: f64) -> Result<()> {
+        self.check_signs()?;
         // Places are checked too: where axes become parallel, a slider returns from infinity on the other side.
         let size = self.case.mechanism.size();
         for (index, rate) in self.rate.iter().enumerate() {
