@@ -5,7 +5,7 @@ use super::build::Precision;
 use super::guard::Guard;
 use super::window::Window;
 use linkage::case::Case;
-use linkage::drive::{Branch, Wrench};
+use linkage::drive::{Branch, Load, Wrench};
 use linkage::engine::Settings;
 use linkage::engine::bodies::check_inertias;
 use linkage::error::Result;
@@ -73,7 +73,7 @@ impl Acting {
         let (before, setting_off) = (&self.before, &self.setting_off);
         // A link may reverse within the step.
         // Its load is then the mean of the loads before and after the reversal, weighted with their shares of the step.
-        let sensed = |_: usize, load: &linkage::drive::Load, link: usize, crank: f64| {
+        let sensed = |_: usize, load: &Load, link: usize, crank: f64| {
             let now = motions[link].omega;
             if now == 0.0 {
                 return load.moment_in(setting_off[link], crank);
@@ -125,7 +125,7 @@ impl Acting {
     /// beginning.
     fn must_try(&self, case: &Case) -> bool {
         let losses = case.crank().moving_motor().is_some_and(|motor| motor.efficiency < 1.0);
-        let mut sensed = case.loads.iter().filter_map(linkage::drive::Load::sensed_link).chain(losses.then_some(case.crank().link));
+        let mut sensed = case.loads.iter().filter_map(Load::sensed_link).filter(|&link| case.can_turn(link)).chain(losses.then_some(case.crank().link));
         sensed.any(|link| self.state.motions[link].omega == 0.0)
     }
 

@@ -5,7 +5,7 @@
 //! The share of the differences alone is therefore computed and subtracted.
 //! It follows from the Newton-Euler equations with the engine's own accelerations.
 
-use super::added;
+use super::bare;
 use super::newton_euler::NewtonEuler;
 use super::tree::Tree;
 use super::world::{masses, masses_with_flywheels};
@@ -33,7 +33,7 @@ impl Ghost {
         if case.is_free() {
             // Loads in the world already take away the effect of added masses.
             for (link, extra) in extra.iter_mut().enumerate() {
-                let [mass, inertia] = added::to_link(case, link, &tree);
+                let [mass, inertia] = bare::to_link(case, link, &tree);
                 extra[0] -= mass;
                 extra[1] -= inertia;
             }

@@ -5,6 +5,7 @@
 //! The transient of the first steps has therefore decayed before anything is read.
 
 mod added;
+mod bare;
 mod build;
 mod double;
 mod engine;

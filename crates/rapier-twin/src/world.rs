@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::added;
+use super::bare;
 use super::tree::Tree;
 use linkage::case::Case;
 use linkage::drive::Wrench;
@@ -182,10 +182,10 @@ const FLYWHEEL: f64 = 1.0;
 /// Under a prescribed speed the motion does not depend on the masses.
 /// What they add to the reactions is subtracted again ([`Ghost`](super::ghost::Ghost)).
 /// In a free motion the crank also carries rotor and gearbox. Stand-ins depend on the world's tree there, and loads take
-/// away what they do ([`added`]).
+/// away what they do ([`added`](super::added)).
 pub(super) fn masses(case: &Case, tree: &Tree) -> Vec<[f64; 2]> {
     let of = |(index, link): (usize, &Link)| {
-        let [mass, inertia] = if case.is_free() { added::to_link(case, index, tree) } else { stand_in(case, index) };
+        let [mass, inertia] = if case.is_free() { bare::to_link(case, index, tree) } else { stand_in(case, index) };
         [link.mass + mass, link.inertia + inertia]
     };
     let mut masses: Vec<[f64; 2]> = case.mechanism.links().iter().enumerate().map(of).collect();

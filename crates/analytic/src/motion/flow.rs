@@ -52,6 +52,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
         let zeros = || vec![0.0; drives];
         let held = Held { motor: 0.0, added: case.crank().moving_inertia(), senses: vec![0.0; case.loads.len()] };
         let sensed = case.loads.iter().enumerate().filter_map(|(index, load)| Some((index, load.sensed_link()?)));
+        let sensed = sensed.filter(|&(_, link)| case.can_turn(link));
         let inputs = Inputs { angles: zeros(), speeds: zeros(), accelerations: zeros() };
         Pieces {
             case,
@@ -245,7 +246,7 @@ impl<const N: usize> Flow<N> for Pieces<'_, N> {
         let Some(load) = self.case.loads.get(bound) else {
             return self.branch_margin(bound - self.case.loads.len(), y);
         };
-        let Some(link) = load.sensed_link() else { return f64::INFINITY };
+        let Some(link) = load.sensed_link().filter(|&link| self.case.can_turn(link)) else { return f64::INFINITY };
         let work = &mut *self.work.borrow_mut();
         self.put(&mut work.inputs, t, y);
         match work.side.spin(&work.inputs, link) {

@@ -82,6 +82,7 @@ impl<'a> Embedded<'a> {
             system.predicted.copy_from_slice(&system.q);
             system.correct()?;
             self.check_branch()?;
+            self.system.check_singular()?;
             self.find_columns();
         }
         Ok(())

@@ -27,8 +27,10 @@ pub(super) struct System<'a> {
     pub(super) branch: Vec<f64>,
     pub(super) residual: Vec<f64>,
     pub(super) predicted: Vec<f64>,
-    /// Coordinates before the step, for a return to them.
+    /// Coordinates, velocities and accelerations before the step, for a return to them.
     pub(super) before: Vec<f64>,
+    pub(super) rate_before: Vec<f64>,
+    pub(super) second_before: Vec<f64>,
     /// The driving links at the present time: angles in the world, angular velocities and accelerations.
     pub(super) inputs: Vec<DriveState>,
     /// Motions and angles of all links, for their loads, and the loads themselves.
@@ -61,6 +63,8 @@ impl<'a> System<'a> {
             residual: zeros(),
             predicted: zeros(),
             before: zeros(),
+            rate_before: zeros(),
+            second_before: zeros(),
             motions: vec![Motion::REST; links.len() + 1],
             angles: vec![0.0; links.len() + 1],
             loads: vec![Wrench::ZERO; links.len() + 1],
