@@ -34,6 +34,7 @@ mod scenario_docs;
 mod setting_off;
 #[cfg(feature = "simbody")]
 mod simbody;
+mod singular;
 mod slider_limits;
 mod sliders_closed_form;
 mod start;

@@ -79,4 +79,3 @@ fn regress_a_weight_that_turns_the_motor_back_meets_its_losses() {
         }
     }
 }
-

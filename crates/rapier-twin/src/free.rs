@@ -125,7 +125,12 @@ impl Acting {
     /// beginning.
     fn must_try(&self, case: &Case) -> bool {
         let losses = case.crank().moving_motor().is_some_and(|motor| motor.efficiency < 1.0);
-        let mut sensed = case.loads.iter().filter_map(Load::sensed_link).filter(|&link| case.can_turn(link)).chain(losses.then_some(case.crank().link));
+        let mut sensed = case
+            .loads
+            .iter()
+            .filter_map(Load::sensed_link)
+            .filter(|&link| case.can_turn(link))
+            .chain(losses.then_some(case.crank().link));
         sensed.any(|link| self.state.motions[link].omega == 0.0)
     }
 

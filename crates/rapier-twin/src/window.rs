@@ -207,7 +207,8 @@ impl Window {
     /// Acceleration of a link's mass centre and its angular acceleration (x, y, angle) in the newest step: second
     /// differences of positions.
     pub(super) fn newest_acceleration(&self, link: usize) -> [f64; WIDTH] {
-        let [now, before, earlier] = [0, 1, 2].map(|back| &self.ring.row(self.newest() - back)[link * WIDTH..][..WIDTH]);
+        let [now, before, earlier] =
+            [0, 1, 2].map(|back| &self.ring.row(self.newest() - back)[link * WIDTH..][..WIDTH]);
         [0, 1, 2].map(|c| (now[c] - 2.0 * before[c] + earlier[c]) / (self.step * self.step))
     }
 

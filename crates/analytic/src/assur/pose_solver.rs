@@ -61,8 +61,17 @@ impl<'a> PoseSolver<'a> {
         let step = if plan.is_closed_form() { CLOSED_FORM_STEP } else { FOLLOWED_STEP };
         let (statics, state) = (Kinetostatics::of(case, &plan), State::at_start(case));
         let inputs = vec![0.0; case.drives.len()];
-        let mut solver =
-            PoseSolver { case, plan, statics, state, turns: None, inputs, crank: case.crank().start, step, watch: Watch::default() };
+        let mut solver = PoseSolver {
+            case,
+            plan,
+            statics,
+            state,
+            turns: None,
+            inputs,
+            crank: case.crank().start,
+            step,
+            watch: Watch::default(),
+        };
         solver.step_to(case.crank().start, 0)?;
         if case.loads.iter().any(Load::needs_angles) {
             solver.turns = Some(Turns::from(&case.start, &solver.state.motions));
