@@ -90,7 +90,7 @@ fn told(engine: &dyn Engine, case: &Case) -> String {
         settings.route.name(),
         settings.sweeps,
         settings.substeps,
-        if settings.extrapolated { ", extrapolated" } else { "" }
+        if settings.extrapolated > 0 { ", extrapolated" } else { "" }
     )
 }
 

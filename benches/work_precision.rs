@@ -66,12 +66,12 @@ fn main() {
     let reference = AssurSolver.solve(&scenario.case).unwrap_or_else(|error| panic!("{error}"));
     let omega = scenario.case.crank().at(0.0).omega.abs();
     let mut rows = Vec::new();
-    for engine in linkproof::engines::all(scenario.dt) {
+    for engine in linkproof::engines::all(1e-3) {
         let resolutions: Vec<(f64, String)> = match engine.controls_error() {
             true => ACCURACIES.map(|accuracy| (accuracy, format!("{accuracy:e}"))).to_vec(),
             false => STEPS.map(|degrees: f64| (degrees.to_radians() / omega, format!("{degrees} deg"))).to_vec(),
         };
-        let ways: &[bool] = if engine.controls_error() { &[false] } else { &[false, true] };
+        let ways: &[usize] = if engine.controls_error() { &[0] } else { &[0, 1] };
         for &route in engine.routes() {
             for &extrapolated in ways {
                 for (resolution, told) in &resolutions {
@@ -92,7 +92,7 @@ fn main() {
     println!("|---|---|---|---|---|---|---|---|---|---|");
     for row in rows {
         let Row { engine, settings, resolution, errors, seconds } = row;
-        let extrapolated = if settings.extrapolated { "yes" } else { "" };
+        let extrapolated = if settings.extrapolated > 0 { "yes" } else { "" };
         let [positions, velocities, accelerations, reactions] = errors.map(|error| format!("{error:.1e}"));
         println!(
             "| {engine} | {} | {} | {resolution} | {extrapolated} | {positions} | {velocities} | {accelerations} | {reactions} | {:.1} |",

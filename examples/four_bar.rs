@@ -29,7 +29,7 @@ fn main() -> Result<(), Error> {
     if let Some((row, force)) = largest {
         println!("largest reaction in B: {force:.2} N at {:.0} deg", solution.cranks()[row].to_degrees());
     }
-    let proof = prove(&Scenario::of_case("four_bar", case, 5e-4)?, &Options::default())?;
+    let proof = prove(&Scenario::of_case("four_bar", case)?, &Options::default())?;
     println!("{}", proof.verdict.word());
     Ok(())
 }

@@ -50,7 +50,7 @@ fn main() {
         let engine = linkproof::engines::named(name, step).unwrap_or_else(|| panic!("no engine {name}"));
         for route in at(3, "differences,native,probe").split(',') {
             let route = Route::named(route).expect("a route");
-            for extrapolated in at(4, "plain,extrapolated").split(',').map(|word| word == "extrapolated") {
+            for extrapolated in at(4, "plain,extrapolated").split(',').map(|word| usize::from(word == "extrapolated")) {
                 let sweeps = at(5, &engine.settings().sweeps.to_string()).parse().expect("a number of sweeps");
                 let engine = engine.with(Settings { route, extrapolated, sweeps, ..engine.settings() });
                 row(engine.as_ref(), case, &truth);
@@ -75,10 +75,5 @@ fn row(engine: &dyn Engine, case: &Case, truth: &Trajectory) {
         }
     }
     let Settings { route, extrapolated, .. } = engine.settings();
-    println!(
-        "{:12} {:12} {:>6} {seconds:>8.3}{text}",
-        engine.name(),
-        route.name(),
-        if extrapolated { "yes" } else { "no" }
-    );
+    println!("{:12} {:12} {:>6} {seconds:>8.3}{text}", engine.name(), route.name(), extrapolated);
 }

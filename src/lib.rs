@@ -35,7 +35,7 @@
 //!     .crank("O", 10.0)
 //!     .mode(&["coupler", "rocker"], AssemblyMode::Left)
 //!     .build()?;
-//! let proof = prove(&Scenario::of_case("four_bar", case, 5e-4)?, &Options::default())?;
+//! let proof = prove(&Scenario::of_case("four_bar", case)?, &Options::default())?;
 //! # assert_eq!(proof.verdict.word(), "agree");
 //! # Ok::<(), linkproof::parts::Error>(())
 //! ```
@@ -47,6 +47,8 @@
 pub mod cli;
 #[doc(hidden)]
 pub mod compare;
+#[doc(hidden)]
+pub mod diagnosis;
 #[doc(hidden)]
 pub mod engines;
 #[doc(hidden)]

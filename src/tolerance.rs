@@ -77,6 +77,7 @@ impl Basis {
             Basis::Wanted(_) => Origin::Wanted,
             Basis::Truncation { parts, noise, .. } => match parts.largest() {
                 Part::Rounding => *noise,
+                Part::Reference => Origin::Wanted,
                 Part::Discretisation | Part::Iteration => Origin::Estimated,
             },
             Basis::Digits { origin, .. } => *origin,
@@ -94,6 +95,8 @@ pub struct Parts {
     pub iteration: f64,
     /// Rounding: reduced by neither.
     pub rounding: f64,
+    /// Error of the reference itself: how well the analytic sides know the number.
+    pub reference: f64,
 }
 
 /// One of the [`Parts`].
@@ -105,19 +108,24 @@ pub enum Part {
     Iteration,
     /// See [`Parts::rounding`].
     Rounding,
+    /// See [`Parts::reference`].
+    Reference,
 }
 
 impl Parts {
     /// The bound: the sum of its parts.
     #[must_use]
     pub fn sum(&self) -> f64 {
-        self.discretisation + self.iteration + self.rounding
+        self.discretisation + self.iteration + self.rounding + self.reference
     }
 
     /// The largest part.
     #[must_use]
     pub fn largest(&self) -> Part {
-        if self.rounding >= self.discretisation && self.rounding >= self.iteration {
+        let own = self.discretisation + self.iteration + self.rounding;
+        if self.reference > own {
+            Part::Reference
+        } else if self.rounding >= self.discretisation && self.rounding >= self.iteration {
             Part::Rounding
         } else if self.iteration >= self.discretisation {
             Part::Iteration
@@ -132,7 +140,7 @@ impl fmt::Display for Basis {
         match self {
             Basis::Wanted(why) => write!(f, "wanted: {why}"),
             Basis::Truncation { observed, formal, resolution, safety, parts, noise } => {
-                let Parts { discretisation, iteration, rounding } = parts;
+                let Parts { discretisation, iteration, rounding, reference } = parts;
                 let order = match observed.is_nan() {
                     true => format!("below round-off, order {formal} assumed"),
                     false => format!("observed order {observed:.2} (formal {formal})"),
@@ -140,7 +148,7 @@ impl fmt::Display for Basis {
                 write!(
                     f,
                     "{}: truncation, {order} at resolutions {:e}, {resolution:e} and {:e}, safety factor {safety}; \
-                     discretisation {discretisation:.1e}, iteration {iteration:.1e}, rounding {rounding:.1e} ({})",
+                     discretisation {discretisation:.1e}, iteration {iteration:.1e}, rounding {rounding:.1e} ({}), reference {reference:.1e}",
                     self.origin().word(),
                     2.0 * resolution,
                     resolution / 2.0,
@@ -175,12 +183,12 @@ mod tests {
 
     #[test]
     fn a_bound_that_is_rounding_in_the_main_says_how_its_rounding_is_known() {
-        let estimated = truncation(Parts { discretisation: 1.0, iteration: 0.0, rounding: 0.5 });
-        let measured = truncation(Parts { discretisation: 0.5, iteration: 0.0, rounding: 1.0 });
+        let estimated = truncation(Parts { discretisation: 1.0, rounding: 0.5, ..Parts::default() });
+        let measured = truncation(Parts { discretisation: 0.5, rounding: 1.0, ..Parts::default() });
         assert_eq!([estimated.origin(), measured.origin()], [Origin::Estimated, Origin::Measured]);
         assert!(estimated.to_string().starts_with("estimated: truncation, observed order 2.00"));
         assert!(measured.to_string().starts_with("measured: "));
-        assert!(measured.to_string().ends_with("rounding 1.0e0 (measured)"));
+        assert!(measured.to_string().ends_with("rounding 1.0e0 (measured), reference 0.0e0"));
     }
 
     #[test]

@@ -11,6 +11,8 @@ pub(super) fn told(advice: &Advice) -> String {
         Advice::LooserAccuracy { to } => format!("choose a looser accuracy{}", option("--accuracy", Some(*to))),
         Advice::MoreSweeps { to: None } => "raise the number of sweeps (--sweeps)".into(),
         Advice::MoreSweeps { to: Some(to) } => format!("raise the number of sweeps, such as --sweeps {to}"),
+        Advice::FreeSettings => "leave out the engine's settings, and the run finds its own".into(),
+        Advice::MoreWork { to } => format!("allow more work, such as --budget {to:e}"),
         Advice::OtherEngine => format!("{advice}: `linkproof list --solvers` names them"),
         Advice::OtherRoute { routes } => {
             let options: Vec<String> = routes.iter().map(|route| format!("--route {route}")).collect();

@@ -23,6 +23,9 @@ pub(super) struct EngineArgs {
     pub(super) engine: Vec<String>,
     #[command(flatten)]
     settings: SettingArgs,
+    /// Work allowed for finding the settings that are not given, in steps without sweeps [default: 4e6]
+    #[arg(long, value_name = "STEPS", value_parser = work)]
+    budget: Option<f64>,
 }
 
 /// The settings of an engine. What is not given is the scenario's, else the engine's own.
@@ -44,9 +47,9 @@ pub(super) struct SettingArgs {
     /// Route by which reactions and balancing moment are computed
     #[arg(long, value_name = "ROUTE", value_parser = PossibleValuesParser::new(Route::ALL.map(Route::name)))]
     route: Option<String>,
-    /// Combine the runs at the step and at half of it, so that the leading error cancels
-    #[arg(long)]
-    extrapolate: bool,
+    /// Combine runs at the step and at halves of it, so that the leading errors cancel: once if no number is given
+    #[arg(long, value_name = "TIMES", num_args = 0..=1, default_missing_value = "1", require_equals = true)]
+    extrapolate: Option<usize>,
 }
 
 impl EngineArgs {
@@ -59,8 +62,15 @@ impl EngineArgs {
             options = options.every_engine();
         }
         self.settings.set(&mut options);
+        options.budget = self.budget;
         options
     }
+}
+
+/// Reads an amount of work.
+fn work(text: &str) -> std::result::Result<f64, String> {
+    let steps: f64 = text.parse().map_err(|error| format!("{error}"))?;
+    if steps > 0.0 { Ok(steps) } else { Err("the work must be greater than 0".into()) }
 }
 
 impl SettingArgs {
@@ -71,7 +81,7 @@ impl SettingArgs {
         options.sweeps = self.sweeps;
         options.substeps = self.substeps;
         options.route = self.route.as_deref().map(|name| Route::named(name).expect(KNOWN));
-        options.extrapolated = self.extrapolate.then_some(true);
+        options.extrapolated = self.extrapolate;
     }
 
     /// The engine called `name` with these settings, else the scenario's, else its own.
@@ -93,7 +103,7 @@ impl SettingArgs {
             ("--sweeps", sweeps.is_some()),
             ("--substeps", substeps.is_some()),
             ("--route", route.is_some()),
-            ("--extrapolate", *extrapolate),
+            ("--extrapolate", extrapolate.is_some()),
         ];
         options.into_iter().find_map(|(option, is_given)| is_given.then_some(option))
     }

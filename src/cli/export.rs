@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::load::load;
 use super::output;
+use crate::engines::usual_step;
 use analytic::AssurSolver;
 use analytic::range::explained;
 use linkage::error::Result;
@@ -39,7 +40,7 @@ pub(super) struct Args {
 
 pub(super) fn export(args: &Args) -> Result<()> {
     let scenario = load(&args.file, &args.mode)?;
-    let (case, dt) = (&scenario.case, args.dt.unwrap_or(scenario.dt));
+    let (case, dt) = (&scenario.case, args.dt.or(scenario.dt).unwrap_or_else(|| usual_step(&scenario.case)));
     let text = mjcf::mjcf(case, &AssurSolver, &scenario.name, dt).map_err(|error| explained(case, error))?;
     match args.mjcf.as_ref().and_then(Option::as_ref) {
         Some(to) => output::write(&text, to),

@@ -101,16 +101,16 @@ fn of_argument(error: Error) -> Error {
 }
 
 /// What the scenario must state to run a candidate: its step (s), and its other keys.
-fn keys(scenario: &Scenario, best: &Candidate) -> (f64, EngineKeys) {
+fn keys(scenario: &Scenario, best: &Candidate) -> (Option<f64>, EngineKeys) {
     let Settings { resolution, sweeps, substeps, route, extrapolated } = best.settings;
     // For an engine that chooses its own steps, the scenario's step stays: it belongs to the other engines.
-    let step = if best.controls_error { scenario.dt } else { resolution };
+    let step = if best.controls_error { scenario.dt } else { Some(resolution) };
     let keys = EngineKeys {
         name: Some(best.engine.into()),
         sweeps: (sweeps > 0).then_some(sweeps),
         substeps: (substeps > 1).then_some(substeps),
         route: Some(route.name().into()),
-        extrapolated: extrapolated.then_some(true),
+        extrapolated: (extrapolated > 0).then_some(extrapolated),
     };
     (step, keys)
 }

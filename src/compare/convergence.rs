@@ -14,8 +14,8 @@
 use super::residual::{differences, largest_difference};
 use crate::tolerance::{Basis, Origin, Parts, Tolerance};
 use linkage::error::Result;
-use linkage::math::largest_size;
 use linkage::math::statistics::rms;
+use linkage::math::{KeepNan, largest_size};
 use linkage::trajectory::{Channel, Trajectory};
 
 /// Share of the formal order by which the observed order may differ for the smaller safety factor. With a tenth, random
@@ -30,8 +30,8 @@ const BEARS_OUT: f64 = 0.1;
 pub struct Ladder<'a> {
     /// Runs at double, single and half the step (or accuracy).
     pub resolutions: [&'a Trajectory; 3],
-    /// Run at the single step with half the sweeps; `None` for an engine that does not iterate.
-    pub fewer_sweeps: Option<&'a Trajectory>,
+    /// Run at the single step with another number of sweeps; `None` for an engine that does not iterate.
+    pub other_sweeps: Option<&'a Trajectory>,
 }
 
 /// Safety factor on the difference between all and half the sweeps: see the module's text.
@@ -48,7 +48,7 @@ pub struct Convergence {
     pub error: f64,
     /// Safety factor.
     pub safety: f64,
-    /// Largest difference between all and half the sweeps, in the channel's unit; 0 for an engine that does not
+    /// Largest difference to the run with other sweeps, in the channel's unit; 0 for an engine that does not
     /// iterate.
     pub iteration: f64,
 }
@@ -61,7 +61,7 @@ impl Convergence {
         let coarse = differences(double, single, periodic);
         let fine = differences(single, half, periodic);
         let largest = largest_size(fine.iter().copied());
-        let (before, after) = (rms(coarse), rms(fine));
+        let (before, after) = (rms(coarse.iter().copied()), rms(fine.iter().copied()));
         let quotient = (before / after).log2();
         // NaN stands only for differences that are rounding. Other values that are not a number show no convergence.
         let observed = match quotient.is_nan() {
@@ -76,6 +76,9 @@ impl Convergence {
         } else {
             (observed.clamp(0.5, formal), 3.0)
         };
+        // Without an order to go by, the coarser difference is as likely as the finer one.
+        let largest =
+            if observed < 0.5 * formal { largest.larger(largest_size(coarse.iter().copied())) } else { largest };
         let error = largest / (1.0 - 0.5f64.powf(order));
         Convergence { observed, formal, error, safety, iteration: 0.0 }
     }
@@ -87,16 +90,16 @@ impl Convergence {
         let [double, single, half] = runs.resolutions.map(|run| run.column(channel));
         let (double, single, half, periodic) = (double?, single?, half?, channel.kind.periodic);
         let found = Convergence::of(double, single, half, periodic, formal, noise);
-        let fewer = match runs.fewer_sweeps {
+        let fewer = match runs.other_sweeps {
             Some(run) => Some(run.column(channel)?),
             None => None,
         };
-        Some(found.with_fewer_sweeps(single, fewer, periodic))
+        Some(found.with_other_sweeps(single, fewer, periodic))
     }
 
-    /// Adds the difference between all and half the sweeps of the middle run, if there is a run with half of them.
+    /// Adds the difference between the middle run and one with half its sweeps or fewer, if there is such a run.
     #[must_use]
-    pub fn with_fewer_sweeps(self, single: &[f64], fewer: Option<&[f64]>, periodic: bool) -> Self {
+    pub fn with_other_sweeps(self, single: &[f64], fewer: Option<&[f64]>, periodic: bool) -> Self {
         let iteration = fewer.map_or(0.0, |fewer| largest_difference(fewer, single, periodic));
         Convergence { iteration, ..self }
     }
@@ -123,7 +126,8 @@ impl Convergence {
     /// unit.
     #[must_use]
     pub fn parts(&self, noise: f64) -> Parts {
-        Parts { discretisation: self.safety * self.error, iteration: SWEEPS_SAFETY * self.iteration, rounding: noise }
+        let (discretisation, iteration) = (self.safety * self.error, SWEEPS_SAFETY * self.iteration);
+        Parts { discretisation, iteration, rounding: noise, reference: 0.0 }
     }
 
     /// Bound on the error of the middle run at `resolution`, the sum of `parts`; `noise` says how their rounding is
@@ -196,7 +200,7 @@ mod tests {
         // Half the sweeps leave 0.1 of 1, all leave 0.01: the bound must allow this besides the step's error.
         let values = single.column(&single.channels()[0]).unwrap();
         let fewer = of(&[values[0] + 0.09, values[1]]);
-        let ladder = Ladder { resolutions: [&double, &single, &half], fewer_sweeps: Some(&fewer) };
+        let ladder = Ladder { resolutions: [&double, &single, &half], other_sweeps: Some(&fewer) };
         let found = Convergence::of_channel(ladder, &single.channels()[0], 2.0, 0.0).unwrap();
         assert!((found.iteration - 0.09).abs() < 1e-15);
         assert!(found.parts(0.0).sum() >= 2e-3 + 0.01);
@@ -214,7 +218,7 @@ mod tests {
             assert!(found.limit(&runs[1], &runs[2], false).is_none(), "{place}: {found:?}");
         }
         let found = Convergence::of(&[1.0], &[1.0], &[1.0], false, 2.0, 1.0);
-        let found = found.with_fewer_sweeps(&[1.0, 1.0], Some(&[f64::NAN, 1.0]), false);
+        let found = found.with_other_sweeps(&[1.0, 1.0], Some(&[f64::NAN, 1.0]), false);
         assert!(found.parts(0.0).sum().is_nan(), "{found:?}");
     }
 

@@ -108,7 +108,8 @@ pub fn difference(reference: &Trajectory, other: &Trajectory) -> Result<Trajecto
 }
 
 /// Values of `theirs` minus `ours`.
-pub(super) fn differences(ours: &[f64], theirs: &[f64], periodic: bool) -> Vec<f64> {
+#[must_use]
+pub fn differences(ours: &[f64], theirs: &[f64], periodic: bool) -> Vec<f64> {
     let turns = match (periodic, ours.first(), theirs.first()) {
         (true, Some(a), Some(b)) => TAU * ((b - a) / TAU).round(),
         _ => 0.0,

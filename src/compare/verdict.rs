@@ -118,7 +118,8 @@ impl Verdict {
             let reason = "the grid has no extent that an error could be measured by; give it more than one instant";
             return Verdict::open(reason);
         }
-        if !convergence.is_trusted() {
+        // Runs that hardly differ need no order: see `NEGLIGIBLE`.
+        if !convergence.is_trusted() && !(bound <= NEGLIGIBLE * wanted * scale) {
             let (why, advice) = way_out(parts);
             let reason = format!(
                 "the engine converges with order {:.2} instead of {:.0} here: its error cannot be estimated{why}",
@@ -127,7 +128,10 @@ impl Verdict {
             return Verdict::Inconclusive { reason, advice };
         }
         match Verdict::of(value, bound, place) {
-            Verdict::Agree { .. } if bound > wanted * scale => {
+            // Where the bound proves nothing, nothing close to it is disproven.
+            Verdict::Agree { .. } | Verdict::Disagree { .. }
+                if bound > wanted * scale && value <= DISPROVEN * bound =>
+            {
                 let (why, advice) = way_out(parts);
                 let reason = format!(
                     "the engine's error may reach {:.1e} of the channel's scale, more than the {wanted:.0e} that still proves something{why}",
@@ -143,12 +147,21 @@ impl Verdict {
     }
 }
 
+/// Share of the widest conclusive bound below which a bound needs no order of convergence. Where runs at three steps
+/// differ that little, rounding or the end of an iteration decides the order, and the bound is ten times the larger
+/// difference.
+const NEGLIGIBLE: f64 = 0.1;
+/// Factor on a bound that is too wide to prove agreement: beyond it a number is disproven all the same. It is the larger
+/// safety factor of the estimate once more.
+const DISPROVEN: f64 = 3.0;
+
 /// The largest part of an engine's error, to be added to a reason, and how to make it smaller.
 fn way_out(parts: Parts) -> (&'static str, Vec<Advice>) {
     match parts.largest() {
         Part::Rounding => ("; most of it is rounding", vec![Advice::LargerStep { to: None }, Advice::DoublePrecision]),
         Part::Iteration => ("; most of it is left by the sweeps", vec![Advice::MoreSweeps { to: None }]),
         Part::Discretisation => ("", vec![Advice::SmallerStep { to: None }]),
+        Part::Reference => ("; most of it is the reference's own", vec![Advice::ShortenGrid]),
     }
 }
 
@@ -167,6 +180,8 @@ pub struct Check {
     pub unit: &'static str,
     /// What the bound rests on.
     pub basis: Basis,
+    /// For a bound that comes from an engine's own runs: its parts, and how the runs converge.
+    pub estimate: Option<(Parts, Convergence)>,
     /// The outcome.
     pub verdict: Verdict,
 }
@@ -177,7 +192,7 @@ impl Check {
     pub fn new(family: impl Into<String>, value: f64, tolerance: Tolerance, unit: &'static str) -> Self {
         let Tolerance { bound, basis } = tolerance;
         let verdict = Verdict::of(value, bound, || beyond(value, bound, unit));
-        Check { family: family.into(), detail: String::new(), value, bound, unit, basis, verdict }
+        Check { family: family.into(), detail: String::new(), value, bound, unit, basis, estimate: None, verdict }
     }
 
     /// A check of a relative number whose bound comes from an engine's own runs. As with channels, it is inconclusive
@@ -194,7 +209,8 @@ impl Check {
         let bound = parts.sum();
         let place = || beyond(value, bound, "");
         let verdict = Verdict::of_estimate(value, 1.0, convergence, parts, wanted, place);
-        Check { family: family.into(), detail: String::new(), value, bound, unit: "", basis, verdict }
+        let estimate = Some((parts, *convergence));
+        Check { family: family.into(), detail: String::new(), value, bound, unit: "", basis, estimate, verdict }
     }
 
     /// States which check of its family this is.
@@ -308,11 +324,11 @@ mod tests {
                 panic!("{other:?}")
             }
         };
-        let (_, advice) = told(Parts { discretisation: 0.5, iteration: 0.1, rounding: 0.1 });
+        let (_, advice) = told(Parts { discretisation: 0.5, iteration: 0.1, rounding: 0.1, reference: 0.0 });
         assert_eq!(advice, [Advice::SmallerStep { to: None }]);
-        let (reason, advice) = told(Parts { discretisation: 0.1, iteration: 0.5, rounding: 0.1 });
+        let (reason, advice) = told(Parts { discretisation: 0.1, iteration: 0.5, rounding: 0.1, reference: 0.0 });
         assert!(reason.ends_with("left by the sweeps") && advice == [Advice::MoreSweeps { to: None }], "{reason}");
-        let (reason, advice) = told(Parts { discretisation: 0.1, iteration: 0.1, rounding: 0.5 });
+        let (reason, advice) = told(Parts { discretisation: 0.1, iteration: 0.1, rounding: 0.5, reference: 0.0 });
         assert!(reason.ends_with("most of it is rounding"), "{reason}");
         assert_eq!(advice, [Advice::LargerStep { to: None }, Advice::DoublePrecision]);
     }

@@ -1,8 +1,9 @@
 //! Checks besides the comparison of the two sides: closure, side against side, powers.
 
+use super::known::Known;
 use super::observe::Observed;
 use super::runs::Runs;
-use crate::compare::{Check, Convergence, magnitudes, residuals};
+use crate::compare::{Check, Convergence, difference};
 use crate::scenario::Scenario;
 use crate::tolerance::{Basis, Origin, Tolerance};
 use linkage::case::Case;
@@ -17,22 +18,12 @@ const CLOSURE: f64 = 1e-13;
 /// Wanted of an analytic side: balancing moment computed in two ways, relative to the moments in its balance.
 const TWO_WAYS: f64 = 1e-11;
 
-/// Wanted: relative difference between the two analytic sides. Each derivative, and each linear solve for forces,
-/// multiplies the rounding of its input by the condition of the pose, here at most a hundred.
-fn side_bound(stage: Stage) -> f64 {
-    match stage {
-        Stage::Positions => 1e-12,
-        Stage::Velocities | Stage::Accelerations => 1e-11,
-        Stage::Reactions | Stage::BalancingMoment => 1e-10,
-    }
-}
-
 pub(super) fn rounding(bound: f64, why: &'static str) -> Tolerance {
     Tolerance { bound, basis: Basis::Wanted(why) }
 }
 
 /// Checks on the two analytic sides, by name.
-pub(super) fn of_sides(case: &Case, sides: &[(&'static str, Observed); 2]) -> Vec<Check> {
+pub(super) fn of_sides(case: &Case, sides: &[(&'static str, Observed); 2], known: &Known) -> Vec<Check> {
     let size = case.mechanism.size();
     let mut checks = Vec::new();
     for (name, side) in sides {
@@ -45,7 +36,7 @@ pub(super) fn of_sides(case: &Case, sides: &[(&'static str, Observed); 2]) -> Ve
             "",
         ));
     }
-    checks.extend(between_sides(sides));
+    checks.extend(between_sides(sides, known));
     for (name, side) in sides.iter().filter(|(_, side)| !side.power.is_empty()) {
         let tolerance = rounding(TWO_WAYS, "sums of a few forces and powers");
         let name = format!("balancing moment from equilibrium and from powers ({name})");
@@ -65,21 +56,56 @@ pub(super) fn of_sides(case: &Case, sides: &[(&'static str, Observed); 2]) -> Ve
     checks
 }
 
-fn between_sides(sides: &[(&'static str, Observed); 2]) -> Vec<Check> {
+/// One channel at the instant at which its difference uses the largest share of what is allowed.
+struct Worst<'a> {
+    channel: &'a Channel,
+    row: usize,
+    /// The difference over the size of the channel's numbers, and what is allowed.
+    relative: f64,
+    allowed: f64,
+}
+
+impl Worst<'_> {
+    fn used(&self) -> f64 {
+        let used = share(self.relative, self.allowed);
+        if used.is_nan() { f64::INFINITY } else { used }
+    }
+}
+
+/// Every channel of side 1 at its worst instant.
+fn worst_instants<'a>(sides: &'a [(&'static str, Observed); 2], known: &Known) -> Vec<Worst<'a>> {
+    let [reference, other] = [0, 1].map(|side| &sides[side].1.trajectory);
+    let errors = difference(reference, other).expect("both sides stand on one grid");
+    let of = |(index, channel): (usize, &'a Channel)| {
+        let values = errors.column(channel).expect("both sides have all channels");
+        let at = |(row, &value): (usize, &f64)| Worst {
+            channel,
+            row,
+            relative: share(value.abs(), known.magnitude(index)),
+            allowed: known.apart(channel.kind.stage, index, row),
+        };
+        values.iter().enumerate().map(at).max_by(|a, b| a.used().total_cmp(&b.used())).expect("there is an instant")
+    };
+    reference.channels().iter().enumerate().map(of).collect()
+}
+
+/// Whether the two sides differ by more than what is allowed.
+pub(super) fn sides_differ(sides: &[(&'static str, Observed); 2], known: &Known) -> bool {
+    worst_instants(sides, known).iter().any(|worst| !(worst.used() <= 1.0))
+}
+
+fn between_sides(sides: &[(&'static str, Observed); 2], known: &Known) -> Vec<Check> {
+    let all = worst_instants(sides, known);
     let reference = &sides[0].1.trajectory;
-    let residuals = residuals(reference, &sides[1].1.trajectory).expect("both sides stand on one grid");
-    let relative: Vec<f64> =
-        residuals.iter().zip(magnitudes(reference)).map(|(residual, size)| share(residual.max, size)).collect();
     let of_stage = |stage: Stage| {
-        let own = residuals.iter().zip(&relative).filter(|(residual, _)| residual.channel.kind.stage == stage);
-        let (worst, &relative) = own.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
-        let tolerance = rounding(side_bound(stage), "two solvers without a common equation, each good to rounding");
-        let check = Check::new(format!("{} against {}", sides[0].0, sides[1].0), relative, tolerance, "");
-        Some(
-            check
-                .of(stage.name())
-                .located(|| format!("in {} at crank angle {:.3} deg", worst.channel, worst.worst_crank.to_degrees())),
-        )
+        let own = all.iter().filter(|worst| worst.channel.kind.stage == stage);
+        let worst = own.max_by(|a, b| a.used().total_cmp(&b.used()))?;
+        let why = "two solvers without a common equation, each good to the rounding of its poses and to the error of \
+                   the integration that a tighter run shows";
+        let tolerance = rounding(worst.allowed, why);
+        let check = Check::new(format!("{} against {}", sides[0].0, sides[1].0), worst.relative, tolerance, "");
+        let crank = reference.cranks()[worst.row].to_degrees();
+        Some(check.of(stage.name()).located(|| format!("in {} at crank angle {crank:.3} deg", worst.channel)))
     };
     Stage::ALL.into_iter().filter_map(of_stage).collect()
 }
@@ -157,8 +183,8 @@ impl Vanishing<'_> {
         let [double, single, half] = [0, 1, 2].map(|k| (self.of)(&runs.resolutions[k]));
         let order = engine.formal_order(case, self.kind);
         let found = Convergence::of(&double, &single, &half, false, order, noise(engine.at(resolution / 2.0).as_ref()));
-        let fewer = runs.fewer_sweeps.as_ref().map(self.of);
-        let found = found.with_fewer_sweeps(&single, fewer.as_deref(), false);
+        let other = runs.other_sweeps.as_deref().map(self.of);
+        let found = found.with_other_sweeps(&single, other.as_deref(), false);
         let parts = found.parts(noise(engine));
         let basis = found.tolerance(resolution, parts, noise_origin(engine)).basis;
         let basis = Basis::Noted(Box::new(basis), self.note);

@@ -1,65 +1,26 @@
-//! One engine against the reference: its runs, the estimate of their error, and the verdict channel by channel.
+//! One engine against the reference: at the settings asked for, or at those that it finds.
 
 use std::fmt::Write;
 
-use super::checks;
-use super::observe::Stopped;
-use super::runs::{Runs, run_ladder};
-use crate::compare::{Check, Convergence, Residual, Verdict, difference, largest_difference, overall, residuals};
+use super::judge::{ChannelProof, EngineInfo, Judge, Judged, describe};
+use super::known::Known;
+use super::observe::{Observed, Stopped};
+use super::options::Chosen;
+use super::runs::{Bank, other_sweeps};
+use super::settle::{Search, Settling};
+use crate::compare::{Check, Verdict};
 use crate::scenario::Scenario;
-use crate::tolerance::{Basis, Parts};
 use linkage::case::Case;
-use linkage::drive::Load;
-use linkage::engine::{Engine, Settings};
 use linkage::error::{Error, Result};
-use linkage::solver::Provision;
-use linkage::trajectory::{CHANNELS, Channel, Stage, Trajectory};
-
-/// What is known about an engine that was run.
-#[derive(Clone, Debug, PartialEq)]
-pub struct EngineInfo {
-    /// Name, as on the command line.
-    pub name: &'static str,
-    /// Software and version behind it.
-    pub version: String,
-    /// Its settings.
-    pub settings: Settings,
-    /// Whether its resolution is an accuracy, not a step.
-    pub controls_error: bool,
-    /// Settings that influence the result, by name, as text.
-    pub told: Vec<(&'static str, String)>,
-    /// How it provides each sort of channel: stage and provision.
-    pub provides: Vec<(&'static str, Provision)>,
-}
-
-/// Comparison of one channel.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ChannelProof {
-    /// Residual of the engine against the reference.
-    pub residual: Residual,
-    /// Bound, in the channel's unit.
-    pub bound: f64,
-    /// What the bound is made of, in the channel's unit.
-    pub parts: Parts,
-    /// Convergence of the engine in this channel.
-    pub convergence: Convergence,
-    /// Largest difference between the limit of the engine's runs and the reference, in the channel's unit; `None` where
-    /// the runs have no limit that can be estimated.
-    pub limit: Option<f64>,
-    /// For a free motion: largest change over the run, as a share of the scale, per share of change in gravity and
-    /// motor torque.
-    pub sensitivity: Option<f64>,
-    /// What the bound rests on.
-    pub basis: Basis,
-    /// The outcome.
-    pub verdict: Verdict,
-}
+use linkage::trajectory::Trajectory;
 
 /// One engine's part of a proof.
 #[derive(Clone, Debug)]
 pub struct EngineProof {
     /// The engine.
     pub info: EngineInfo,
+    /// How its settings were found; `None` if all were given, or if the engine failed.
+    pub search: Option<Search>,
     /// Channels, in the order of columns; none if the engine failed.
     pub channels: Vec<ChannelProof>,
     /// Checks on the engine alone.
@@ -74,20 +35,34 @@ pub struct EngineProof {
     pub failure: Option<Error>,
 }
 
-/// Runs an engine on `case` and compares it with `reference`.
+/// Runs an engine on `case`, at the settings asked for or at those that it finds, and compares it with `reference`.
 pub(super) fn prove(
     scenario: &Scenario,
     case: &Case,
-    engine: &dyn Engine,
-    reference: &Trajectory,
+    chosen: &Chosen,
+    reference: &Observed,
+    known: &Known,
     progress: &mut dyn FnMut(f64),
 ) -> Result<EngineProof> {
-    let info = describe(engine);
-    let runs = match run_ladder(case, engine, progress) {
-        Ok(runs) => runs,
+    let engine = chosen.engine.as_ref();
+    let asked = engine.settings();
+    let judge = Judge { scenario, reference: &reference.trajectory, senses: &reference.senses, known, asked };
+    let mut bank = Bank::new(case, engine);
+    // A step that cannot be is refused by the engine.
+    let is_step = asked.resolution > 0.0 && asked.resolution.is_finite();
+    let found = if chosen.free.any() && !engine.controls_error() && is_step {
+        let search = Settling::new(&judge, &mut bank, engine, chosen.free, chosen.budget);
+        search.run(progress).map(|(judged, search)| (judged, Some(search)))
+    } else {
+        let runs = bank.runs(asked, other_sweeps(case, engine, asked.sweeps, None), progress);
+        runs.and_then(|runs| Ok((judge.judge(engine, &runs)?, None)))
+    };
+    let (judged, search) = match found {
+        Ok(found) => found,
         Err(Stopped { error, kept }) => {
             return Ok(EngineProof {
-                info,
+                info: describe(engine),
+                search: None,
                 channels: Vec::new(),
                 checks: Vec::new(),
                 verdict: Verdict::open(error.message()),
@@ -97,44 +72,24 @@ pub(super) fn prove(
             });
         }
     };
-    let channels = judge(scenario, engine, reference, &runs)?;
-    let checks = checks::of_engine(scenario, engine, &runs);
-    let verdict = overall(channels.iter().map(|c| &c.verdict).chain(checks.iter().map(|c| &c.verdict)));
-    let errors = difference(reference, &runs.single().trajectory)?;
-    let [_, single, _] = runs.resolutions;
-    Ok(EngineProof {
+    let Judged { info, channels, checks, verdict, trajectory, errors, too_coarse: _ } = judged;
+    let mut proof = EngineProof {
         info,
+        search,
         channels,
         checks,
         verdict,
-        trajectory: Some(single.trajectory),
+        trajectory: Some(trajectory),
         errors: Some(errors),
         failure: None,
-    })
-}
-
-fn judge(scenario: &Scenario, engine: &dyn Engine, reference: &Trajectory, runs: &Runs) -> Result<Vec<ChannelProof>> {
-    let ladder = runs.ladder();
-    let [_, single, half] = ladder.resolutions;
-    let (case, Settings { resolution, sweeps, .. }) = (&scenario.case, engine.settings());
-    let finest = engine.at(resolution / 2.0);
-    let judged = residuals(reference, single)?.into_iter().map(|residual| {
-        let (channel, kind) = (residual.channel.clone(), residual.channel.kind);
-        let convergence =
-            Convergence::of_channel(ladder, &channel, engine.formal_order(case, kind), finest.noise(case, kind))
-                .expect("all runs of an engine have the same channels");
-        let parts = convergence.parts(engine.noise(case, kind));
-        let basis = convergence.tolerance(resolution, parts, checks::noise_origin(engine)).basis;
-        let verdict = Verdict::of_engine(&residual, &convergence, parts, scenario.engine_rel);
-        let verdict = verdict.from_settings(resolution, engine.controls_error(), sweeps);
-        let verdict = unless_turning_about(case, [reference, single], &residual, resolution, verdict);
-        let [single, half, reference] =
-            [single, half, reference].map(|side| side.column(&channel).expect("all sides have the channel"));
-        let limit = convergence.limit(single, half, kind.periodic);
-        let limit = limit.map(|limit| largest_difference(reference, &limit, kind.periodic));
-        ChannelProof { residual, bound: parts.sum(), parts, convergence, limit, sensitivity: None, basis, verdict }
-    });
-    Ok(judged.collect())
+    };
+    if let Some(search) = &proof.search {
+        let (end, budget) = (search.end, search.budget);
+        let channels = proof.channels.iter_mut().map(|channel| &mut channel.verdict);
+        let all = channels.chain(proof.checks.iter_mut().map(|check| &mut check.verdict));
+        all.chain([&mut proof.verdict]).for_each(|verdict| end.tell(verdict, budget));
+    }
+    Ok(proof)
 }
 
 /// Adds to an inconclusive verdict how strongly the motion depends on the forces that cause it: `sensitivity`, channel
@@ -154,78 +109,5 @@ pub(super) fn tell_sensitivity(proof: &mut EngineProof, reference: &Trajectory, 
                 );
             }
         }
-    }
-}
-
-/// Number of steps around a jump of the drive's acceleration in which the engine's values are doubtful.
-const JUMP_STEPS: f64 = 8.0;
-
-/// A disagreement in a force is inconclusive where a load jumps. So is one in a velocity, an acceleration or a force
-/// where the drive's acceleration jumps.
-fn unless_turning_about(
-    case: &Case,
-    sides: [&Trajectory; 2],
-    residual: &Residual,
-    resolution: f64,
-    verdict: Verdict,
-) -> Verdict {
-    if residual.channel.kind.stage < Stage::Velocities {
-        return verdict;
-    }
-    // Differences and impulses extend over a few steps to either side.
-    let jump = case.crank().jump().filter(|jump| (residual.worst_time - jump).abs() <= JUMP_STEPS * resolution);
-    if let (Verdict::Disagree { place }, Some(jump)) = (&verdict, jump) {
-        let reason = format!(
-            "{place}, but at {jump} s the drive's acceleration jumps: leave the instants about it out of the grid"
-        );
-        return Verdict::open(reason);
-    }
-    if residual.channel.kind.stage < Stage::Reactions {
-        return verdict;
-    }
-    match (&verdict, turning_about(case, sides, residual.worst_time)) {
-        (Verdict::Disagree { place }, Some(link)) => Verdict::open(format!(
-            "{place}, but there link \"{link}\" turns about and its load jumps: leave that instant out of the grid"
-        )),
-        _ => verdict,
-    }
-}
-
-/// The link whose load changes sign at an instant: the link, or its loaded point, moves one way on one side and the
-/// opposite way on the other. The load jumps there, so the smallest error of the engine causes a difference of twice
-/// the load.
-fn turning_about<'a>(case: &'a Case, sides: [&Trajectory; 2], time: f64) -> Option<&'a str> {
-    let row = sides[0].times().iter().position(|&t| t == time)?;
-    let value = |side: &Trajectory, name: &str| Some(side.column(&Channel::named(name)?)?[row]);
-    let both = |name: &str| Some([value(sides[0], name)?, value(sides[1], name)?]);
-    let links = case.mechanism.links();
-    let turns = |load: &Load| {
-        let link = load.sensed_link()?;
-        let [ours, theirs] = both(&format!("link.{}.omega_rad_s", links[link].name))?;
-        (ours * theirs <= 0.0).then_some(link)
-    };
-    let turns_back = |load: &Load| {
-        let at = load.sensed_point()?;
-        let named = links[at.link].points.iter().find(|point| point.local == at.local)?;
-        let [x, y] = ["vx", "vy"].map(|way| both(&format!("point.{}.{way}_m_s", named.name)));
-        let ([x, other_x], [y, other_y]) = (x?, y?);
-        (x * other_x + y * other_y <= 0.0).then_some(at.link)
-    };
-    let turning = case.loads.iter().find_map(|load| turns(load).or_else(|| turns_back(load)))?;
-    Some(links[turning].name.as_str())
-}
-
-fn describe(engine: &dyn Engine) -> EngineInfo {
-    let provides = Stage::ALL.map(|stage| {
-        let kind = CHANNELS.iter().find(|kind| kind.stage == stage).expect("every stage has a channel");
-        (stage.name(), engine.provides(&Channel { of: String::new(), kind }))
-    });
-    EngineInfo {
-        name: engine.name(),
-        version: engine.version(),
-        settings: engine.settings(),
-        controls_error: engine.controls_error(),
-        told: engine.told(),
-        provides: provides.into(),
     }
 }

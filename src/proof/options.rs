@@ -1,6 +1,7 @@
 //! Options of a proof.
 
-use crate::engines::EngineName;
+use super::settle::{self, Free};
+use crate::engines::{self, EngineName};
 use crate::scenario::Scenario;
 use linkage::engine::{Engine, Route, Settings};
 use linkage::error::{Error, ErrorKind, Result};
@@ -76,8 +77,17 @@ pub struct Options {
     pub substeps: Option<usize>,
     /// Route by which reactions and balancing moment are computed.
     pub route: Option<Route>,
-    /// Whether the engine's state is combined from two steps, so that the leading error cancels.
-    pub extrapolated: Option<bool>,
+    /// How often the engine's state is extrapolated to step zero: 1 combines runs at the step and at half of it.
+    pub extrapolated: Option<usize>,
+    /// Work allowed for finding settings that are not given, in steps without sweeps; the default is enough for most.
+    pub budget: Option<f64>,
+}
+
+/// An engine with its settings, and those that the proof may change.
+pub(crate) struct Chosen {
+    pub(crate) engine: Box<dyn Engine>,
+    pub(crate) free: Free,
+    pub(crate) budget: f64,
 }
 
 impl Options {
@@ -137,10 +147,17 @@ impl Options {
         self
     }
 
-    /// Sets whether the engine's state is combined from two steps.
+    /// Sets how often the engine's state is extrapolated to step zero.
     #[must_use]
-    pub fn extrapolated(mut self, extrapolated: bool) -> Self {
-        self.extrapolated = Some(extrapolated);
+    pub fn extrapolated(mut self, times: usize) -> Self {
+        self.extrapolated = Some(times);
+        self
+    }
+
+    /// Sets the work allowed for finding settings that are not given, in steps without sweeps.
+    #[must_use]
+    pub fn budget(mut self, steps: f64) -> Self {
+        self.budget = Some(steps);
         self
     }
 
@@ -150,8 +167,29 @@ impl Options {
     /// [`ErrorKind::Input`] if an engine or a route of the scenario is not known, or if a number cannot be a setting;
     /// [`ErrorKind::Unsupported`] for an engine that this build does not have.
     pub(crate) fn set_engines(&self, scenario: &Scenario) -> Result<Vec<Box<dyn Engine>>> {
+        let step = self.step.or(scenario.dt).unwrap_or_else(|| engines::usual_step(&scenario.case));
+        self.engines_at(scenario, step)
+    }
+
+    /// The engines of a proof. Settings that neither the options nor the scenario give are free.
+    ///
+    /// # Errors
+    /// Those of [`Options::set_engines`].
+    pub(crate) fn chosen(&self, scenario: &Scenario) -> Result<Vec<Chosen>> {
+        let given = self.step.or(scenario.dt);
         let own = &scenario.engine;
-        let step = self.step.unwrap_or(scenario.dt);
+        let free = Free {
+            step: given.is_none(),
+            sweeps: self.sweeps.or(own.sweeps).is_none(),
+            extrapolated: self.extrapolated.or(own.extrapolated).is_none(),
+        };
+        let budget = self.budget.unwrap_or(settle::BUDGET);
+        let engines = self.engines_at(scenario, given.unwrap_or_else(|| engines::coarse_step(&scenario.case)))?;
+        Ok(engines.into_iter().map(|engine| Chosen { engine, free, budget }).collect())
+    }
+
+    fn engines_at(&self, scenario: &Scenario, step: f64) -> Result<Vec<Box<dyn Engine>>> {
+        let own = &scenario.engine;
         let chosen = match (self.engines.as_slice(), &own.name) {
             ([], None) => vec![EngineName::Rapier.with_step(step)?],
             ([], Some(name)) => vec![named(name, step).map_err(|error| error.key("engine.name"))?],

@@ -3,7 +3,10 @@
 
 use std::path::Path;
 
+use super::known::Known;
 use super::observe::{Observed, observe};
+use super::options::Chosen;
+use super::settle::{self, Free};
 use super::{checks, engines, methods, oracle};
 use crate::compare::{Check, magnitudes};
 use crate::proof::{EngineProof, Options, prove};
@@ -17,6 +20,9 @@ use linkage::mechanism::GROUND;
 use linkage::solver::{Progress, Provision, Solver, State, Visit};
 use linkage::trajectory::{Channel, ChannelKind};
 use rapier_twin::Rapier;
+
+/// Step of the engines (s).
+const STEP: f64 = 1e-3;
 
 /// Effect of a fault of a given size on every state.
 type Fault = fn(&mut State, f64);
@@ -76,6 +82,10 @@ impl Engine for Planted<dyn Engine> {
         self.inner.routes()
     }
 
+    fn sweeps(&self, case: &Case) -> Option<[usize; 2]> {
+        self.inner.sweeps(case)
+    }
+
     fn formal_order(&self, case: &Case, channel: &ChannelKind) -> f64 {
         self.inner.formal_order(case, channel)
     }
@@ -101,6 +111,11 @@ fn assur(fault: Fault, size: f64) -> Planted<dyn Solver> {
     Planted { fault, size, inner: Box::new(AssurSolver) }
 }
 
+fn knowing(case: &Case) -> Known {
+    let [first, second] = [seen(case, &AssurSolver), seen(case, &NewtonSolver)];
+    Known::of(case, [("assur", &first.trajectory), ("newton", &second.trajectory)]).unwrap()
+}
+
 /// The check whose name begins with `name`.
 fn named<'a>(checks: &'a [Check], name: &str) -> &'a Check {
     let names: Vec<String> = checks.iter().map(Check::name).collect();
@@ -113,6 +128,7 @@ fn nothing(_: &mut State, _: f64) {}
 fn every_check_of_the_two_sides_finds_three_times_its_bound_and_passes_a_fifth() {
     let case = parsed("crank_rocker", &text("crank_rocker")).case;
     let [truth, other] = [seen(&case, &AssurSolver), seen(&case, &NewtonSolver)];
+    let known = knowing(&case);
     let largest = |name: &str| {
         let place = truth.trajectory.channels().iter().position(|channel| channel.to_string() == name).unwrap();
         magnitudes(&truth.trajectory)[place]
@@ -146,7 +162,7 @@ fn every_check_of_the_two_sides_finds_three_times_its_bound_and_passes_a_fifth()
     for (name, fault, bound) in planted {
         for (share, word) in [(3.0, "disagree"), (0.2, "agree")] {
             let sides = [("assur", seen(&case, &assur(fault, share * bound))), ("newton", other.clone())];
-            let found = checks::of_sides(&case, &sides);
+            let found = checks::of_sides(&case, &sides, &known);
             let check = named(&found, name);
             assert_eq!(check.verdict.word(), word, "{name} at {share}: {:e} of {:e}", check.value, check.bound);
         }
@@ -158,6 +174,7 @@ fn every_check_of_the_two_sides_finds_three_times_its_bound_and_passes_a_fifth()
 fn what_is_not_a_number_at_one_instant_disagrees() {
     let case = parsed("crank_rocker", &text("crank_rocker")).case;
     let [truth, other] = [seen(&case, &AssurSolver), seen(&case, &NewtonSolver)];
+    let known = knowing(&case);
     type Spoil = fn(&mut Observed);
     let spoiled: [(&str, Spoil); 5] = [
         ("closure of all joints (assur)", |side| side.opening[7] = f64::NAN),
@@ -169,7 +186,7 @@ fn what_is_not_a_number_at_one_instant_disagrees() {
     for (name, spoil) in spoiled {
         let mut side = truth.clone();
         spoil(&mut side);
-        let found = checks::of_sides(&case, &[("assur", side), ("newton", other.clone())]);
+        let found = checks::of_sides(&case, &[("assur", side), ("newton", other.clone())], &known);
         assert_eq!(named(&found, name).verdict.word(), "disagree", "{name}");
     }
     // A NaN that is in no channel still reaches the closure.
@@ -215,11 +232,13 @@ fn every_class_three_method_finds_a_wrong_group_and_stands_in_the_proof() {
 }
 
 fn engine_proof(scenario: &Scenario, fault: Fault, size: f64) -> EngineProof {
-    let reference = AssurSolver.solve(&scenario.case).unwrap();
-    let rapier = Rapier::all(scenario.dt).into_iter().next().unwrap();
+    let reference = seen(&scenario.case, &AssurSolver);
+    let rapier = Rapier::all(STEP).into_iter().next().unwrap();
     let inner = Box::new(rapier) as Box<dyn Engine>;
-    let engine: Planted<dyn Engine> = Planted { fault, size, inner };
-    engines::prove(scenario, &scenario.case, &engine, &reference, &mut |_| {}).unwrap()
+    let engine: Box<dyn Engine> = Box::new(Planted { fault, size, inner });
+    let chosen = Chosen { engine, free: Free::default(), budget: settle::BUDGET };
+    let known = knowing(&scenario.case);
+    engines::prove(scenario, &scenario.case, &chosen, &reference, &known, &mut |_| {}).unwrap()
 }
 
 /// An opening that does not vanish with the step, and a moment that disagrees with its powers. Both are far below 1 %

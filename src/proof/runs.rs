@@ -1,17 +1,20 @@
 //! An engine's runs, from which its error is estimated.
 
+use std::sync::Arc;
+
 use super::observe::{Observed, Stopped, observe};
 use crate::compare::Ladder;
 use linkage::case::Case;
-use linkage::engine::{Engine, Settings};
+use linkage::engine::{Engine, Kept, Settings, plain_runs};
 use linkage::error::Advice;
+use linkage::math::KeepNan;
 
-/// An engine's runs.
+/// The runs that judge an engine at some settings.
 pub(super) struct Runs {
     /// Runs at double, single and half the resolution.
-    pub(super) resolutions: [Observed; 3],
-    /// Run at the single resolution with half the sweeps; `None` for an engine that does not iterate.
-    pub(super) fewer_sweeps: Option<Observed>,
+    pub(super) resolutions: [Arc<Observed>; 3],
+    /// Run at the single resolution with another number of sweeps; `None` for an engine that does not iterate.
+    pub(super) other_sweeps: Option<Arc<Observed>>,
 }
 
 impl Runs {
@@ -22,54 +25,142 @@ impl Runs {
     pub(super) fn ladder(&self) -> Ladder<'_> {
         Ladder {
             resolutions: [0, 1, 2].map(|k| &self.resolutions[k].trajectory),
-            fewer_sweeps: self.fewer_sweeps.as_ref().map(|run| &run.trajectory),
+            other_sweeps: self.other_sweeps.as_ref().map(|run| &run.trajectory),
         }
     }
 }
 
-/// Runs the engine at double, single and half the resolution, and with half the sweeps.
-pub(super) fn run_ladder(
-    case: &Case,
-    engine: &dyn Engine,
-    progress: &mut dyn FnMut(f64),
-) -> std::result::Result<Runs, Stopped> {
-    let settings = engine.settings();
-    let iterates = settings.sweeps > 1;
-    // The finest run costs twice the single step, the coarsest half of it.
-    let whole = if iterates { 4.0 } else { 3.5 };
-    let (asked, sweeps) = (settings.resolution, settings.sweeps / 2);
-    let at = |factor: f64| Settings { resolution: asked * factor, ..settings };
-    // The single step runs first: if it fails, its message is the useful one.
-    let mut rungs = vec![settings, at(0.5), at(2.0)];
-    if iterates {
-        rungs.push(Settings { sweeps, ..settings });
+/// Sweeps of the run that a run with `sweeps` is compared with: a share of them, half unless `share` says otherwise, or
+/// two where there is no less. `None` where the iteration leaves nothing.
+pub(super) fn other_sweeps(case: &Case, engine: &dyn Engine, sweeps: usize, share: Option<usize>) -> Option<usize> {
+    let [_, most] = engine.sweeps(case)?;
+    match (sweeps, share) {
+        (1, _) if most == 1 => None,
+        (1, _) => Some(2),
+        (sweeps, Some(share)) if sweeps >= share => Some(sweeps / share),
+        (sweeps, _) => Some(sweeps / 2),
     }
-    let rungs = engine.ladder(&rungs);
-    let mut done = 0.0;
-    let mut run = |rung: usize, cost: f64| {
-        let observed = observe(case, rungs[rung].as_ref(), &mut |part| progress((done + cost * part) / whole));
-        done += cost;
-        observed
-    };
-    let unit = if engine.controls_error() { "" } else { " s" };
-    let of_ladder = |what: String| move |stopped: Stopped| in_ladder(stopped, &what, engine);
-    let single = run(0, 1.0)?;
-    let half = run(1, 2.0).map_err(of_ladder(format!("at {:e}{unit}", asked / 2.0)))?;
-    let double = run(2, 0.5).map_err(of_ladder(format!("at {:e}{unit}", asked * 2.0)))?;
-    let fewer_sweeps = match iterates {
-        true => Some(run(3, 0.5).map_err(of_ladder(format!("with {sweeps} sweeps")))?),
-        false => None,
-    };
-    Ok(Runs { resolutions: [double, single, half], fewer_sweeps })
+}
+
+/// All runs of one engine on one case. Each is made and observed once.
+pub(super) struct Bank<'a> {
+    pub(super) case: &'a Case,
+    kept: Kept,
+    seen: Vec<(Settings, Arc<Observed>)>,
+    /// Work done so far: see [`effort`].
+    pub(super) effort: f64,
+    /// Settings of the plain runs made so far.
+    made: Vec<Settings>,
+}
+
+/// Work of a sweep, in units of the work of a step without sweeps: measured on a four-bar, where the sweeps of a step
+/// cost as much as its rest at about twenty of them.
+const SWEEP: f64 = 0.05;
+
+/// Work of the plain runs that an engine at `settings` consists of, in steps without sweeps. It is counted, not timed, so
+/// that the same input gives the same work.
+pub(super) fn effort(case: &Case, settings: Settings) -> f64 {
+    let ends = case.grid.times.iter().fold([0.0f64; 2], |[first, last], &t| [first.smaller(t), last.larger(t)]);
+    let of = |run: Settings| (ends[1] - ends[0]) / run.resolution * (1.0 + SWEEP * run.sweeps as f64);
+    plain_runs(settings).into_iter().map(of).sum()
+}
+
+impl<'a> Bank<'a> {
+    pub(super) fn new(case: &'a Case, engine: &dyn Engine) -> Self {
+        Bank { case, kept: Kept::new(engine), seen: Vec::new(), effort: 0.0, made: Vec::new() }
+    }
+
+    /// The engine at `settings`. Its runs are those of the bank.
+    pub(super) fn engine(&self, settings: Settings) -> Box<dyn Engine> {
+        self.kept.with(settings)
+    }
+
+    /// Makes the runs that are missing for all `settings`, side by side.
+    pub(super) fn prepare(&mut self, settings: &[Settings], progress: &mut dyn FnMut(f64)) {
+        for plain in settings.iter().copied().flat_map(plain_runs) {
+            if !self.made.contains(&plain) {
+                self.made.push(plain);
+                self.effort += effort(self.case, plain);
+            }
+        }
+        self.kept.prepare(self.case, settings, progress);
+    }
+
+    /// Work that [`Bank::prepare`] would do.
+    pub(super) fn missing(&self, settings: &[Settings]) -> f64 {
+        let mut new: Vec<Settings> = Vec::new();
+        for plain in settings.iter().copied().flat_map(plain_runs) {
+            if !self.made.contains(&plain) && !new.contains(&plain) {
+                new.push(plain);
+            }
+        }
+        new.into_iter().map(|plain| effort(self.case, plain)).sum()
+    }
+
+    /// Number of plain runs made so far.
+    pub(super) fn count(&self) -> usize {
+        self.made.len()
+    }
+
+    /// Forgets all runs with other numbers of sweeps.
+    pub(super) fn keep_sweeps(&mut self, sweeps: &[usize]) {
+        self.kept.retain(|settings| sweeps.contains(&settings.sweeps));
+        self.seen.retain(|(settings, _)| sweeps.contains(&settings.sweeps));
+        self.made.retain(|settings| sweeps.contains(&settings.sweeps));
+    }
+
+    /// The run at `settings`, observed.
+    fn observed(&mut self, settings: Settings) -> Result<Arc<Observed>, Stopped> {
+        if let Some((_, seen)) = self.seen.iter().find(|(own, _)| *own == settings) {
+            return Ok(Arc::clone(seen));
+        }
+        let seen = Arc::new(observe(self.case, self.engine(settings).as_ref(), &mut |_| {})?);
+        self.seen.push((settings, Arc::clone(&seen)));
+        Ok(seen)
+    }
+
+    /// The runs that judge the engine at `settings`: those at double, single and half the resolution, and one with
+    /// `other` sweeps.
+    pub(super) fn runs(
+        &mut self,
+        settings: Settings,
+        other: Option<usize>,
+        progress: &mut dyn FnMut(f64),
+    ) -> Result<Runs, Stopped> {
+        let rungs = rungs(settings, other);
+        self.prepare(&rungs, progress);
+        // The single step comes first: if it fails, its message is the useful one.
+        let single = self.observed(settings)?;
+        let controls_error = self.kept.controls_error();
+        let unit = if controls_error { "" } else { " s" };
+        let mut auxiliary = |rung: Settings| {
+            let what = match rung.sweeps == settings.sweeps {
+                true => format!("at {:e}{unit}", rung.resolution),
+                false => format!("with {} sweeps", rung.sweeps),
+            };
+            let failed = |stopped| in_ladder(stopped, &what, settings, controls_error);
+            self.observed(rung).map_err(failed)
+        };
+        let half = auxiliary(rungs[1])?;
+        let double = auxiliary(rungs[2])?;
+        let other_sweeps = rungs.get(3).map(|&rung| auxiliary(rung)).transpose()?;
+        Ok(Runs { resolutions: [double, single, half], other_sweeps })
+    }
+}
+
+/// Settings of the runs that judge an engine at `settings`, the single resolution first, then half and double.
+pub(super) fn rungs(settings: Settings, other_sweeps: Option<usize>) -> Vec<Settings> {
+    let at = |factor: f64| Settings { resolution: settings.resolution * factor, ..settings };
+    let other = other_sweeps.map(|sweeps| Settings { sweeps, ..settings });
+    [settings, at(0.5), at(2.0)].into_iter().chain(other).collect()
 }
 
 /// The same failure, with a message that says which auxiliary run failed: the user did not ask for that run.
-fn in_ladder(stopped: Stopped, what: &str, engine: &dyn Engine) -> Stopped {
-    let Settings { resolution, sweeps, .. } = engine.settings();
+fn in_ladder(stopped: Stopped, what: &str, asked: Settings, controls_error: bool) -> Stopped {
     let told = |message: &str| {
         format!("the run {what}, from which the error of the run asked for is estimated, failed: {message}")
     };
     // Values to try start from the settings that the user asked for.
-    let advised = |advice: Advice| advice.from_settings(resolution, engine.controls_error(), sweeps);
+    let advised = |advice: Advice| advice.from_settings(asked.resolution, controls_error, asked.sweeps);
     Stopped { error: stopped.error.map_message(told).map_advice(advised), kept: None }
 }

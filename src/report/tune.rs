@@ -42,7 +42,7 @@ pub(crate) fn text(scenario: &Scenario, found: &Tuning, within: f64, section: &S
             format!("{resolution:.3e}"),
             sweeps.to_string(),
             substeps.to_string(),
-            if extrapolated { "yes" } else { "no" }.to_string(),
+            extrapolated.to_string(),
             route.name().to_string(),
             format!("{:.2e}", candidate.verified),
             candidate.worst.clone(),

@@ -69,8 +69,8 @@ pub struct Scenario {
     pub text: String,
     /// The problem, in SI.
     pub case: Case,
-    /// Step of the engine (s).
-    pub dt: f64,
+    /// Step of the engine (s), if the scenario gives one.
+    pub dt: Option<f64>,
     /// The other keys of the engine.
     pub engine: EngineKeys,
     /// Largest discretisation error of the engine, as a share of a channel's scale, at which agreement is still a
@@ -126,19 +126,14 @@ impl Scenario {
     }
 
     /// The scenario of a case that was built in code: without a file, without published numbers, with the engine's own
-    /// settings. `name` must be usable in file names; `step` is the engine's time step (s).
+    /// settings, which the proof finds. `name` must be usable in file names.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] for a name with other characters than lower-case letters, digits and `_`, and for a step
-    /// that is not above zero.
-    pub fn of_case(name: &str, case: Case, step: f64) -> Result<Scenario> {
+    /// [`ErrorKind::Input`] for a name with other characters than lower-case letters, digits and `_`.
+    pub fn of_case(name: &str, case: Case) -> Result<Scenario> {
         if !is_name(name) {
             let message = format!("\"{name}\" cannot be the name of a scenario");
             return Err(Error::new(ErrorKind::Input, message).key("name").help(NAME_HELP));
-        }
-        if !(step > 0.0 && step.is_finite()) {
-            let message = format!("the engine's time step is {step} s");
-            return Err(Error::new(ErrorKind::Input, message).help("give a finite number above zero"));
         }
         Ok(Scenario {
             name: name.into(),
@@ -149,7 +144,7 @@ impl Scenario {
             choices: case.modes.iter().map(|&mode| Choice { mode, nearest_m: None, next_m: None }).collect(),
             starts: vec![StartGroup::default(); case.structure.groups.len()],
             case,
-            dt: step,
+            dt: None,
             engine: EngineKeys::default(),
             engine_rel: settings::ENGINE_REL,
             oracles: Vec::new(),
@@ -202,7 +197,7 @@ fn read(root: &mut Table) -> Result<Scenario> {
     let (drives, motor) = (root.needed_tables("drive")?, root.optional_table("motor")?);
     let (gravity, loads) = (root.optional_table("gravity")?, root.tables("loads")?);
     let (mut start, grid, channels) = (root.table("start")?, root.table("grid")?, root.optional_table("channels")?);
-    let (engine, tolerances) = (root.table("engine")?, root.optional_table("tolerances")?);
+    let (engine, tolerances) = (root.optional_table("engine")?, root.optional_table("tolerances")?);
     let oracles = root.tables("oracle")?;
     root.finish()?;
 

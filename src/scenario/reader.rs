@@ -170,6 +170,11 @@ impl<'a> Table<'a> {
         self.required(key, value)
     }
 
+    /// Whether a key is there with `true` or `false`.
+    pub fn is_boolean(&self, key: &str) -> bool {
+        self.entries.iter().any(|entry| entry.key == key && entry.value.get_ref().as_bool().is_some())
+    }
+
     /// `true` or `false`, if the key is there.
     pub fn optional_boolean(&mut self, key: &str) -> Result<Option<bool>> {
         let Some(value) = self.take(key) else { return Ok(None) };

@@ -40,18 +40,19 @@ pub struct EngineKeys {
     pub substeps: Option<usize>,
     /// Route by which reactions and balancing moment are computed.
     pub route: Option<String>,
-    /// Whether runs at the step and at half the step are combined.
-    pub extrapolated: Option<bool>,
+    /// How often the engine's state is extrapolated to step zero.
+    pub extrapolated: Option<usize>,
 }
 
-/// Step of the engine (s), and its other keys.
-pub fn engine(mut table: Table, drive: &Drive) -> Result<(f64, EngineKeys)> {
+/// Step of the engine (s), if it is given, and its other keys. What is not given is found by the proof.
+pub fn engine(table: Option<Table>, drive: &Drive) -> Result<(Option<f64>, EngineKeys)> {
+    let Some(mut table) = table else { return Ok((None, EngineKeys::default())) };
     let keys = EngineKeys {
         name: table.optional_string("name")?,
         sweeps: count(&mut table, "sweeps")?,
         substeps: count(&mut table, "substeps")?,
         route: table.optional_string("route")?,
-        extrapolated: table.optional_boolean("extrapolated")?,
+        extrapolated: times(&mut table)?,
     };
     Ok((engine_step(table, drive)?, keys))
 }
@@ -67,8 +68,26 @@ fn count(table: &mut Table, key: &str) -> Result<Option<usize>> {
     }
 }
 
-/// Step of the engine (s).
-fn engine_step(mut table: Table, drive: &Drive) -> Result<f64> {
+/// How often the state is extrapolated: `true` once, `false` not at all, or a number.
+fn times(table: &mut Table) -> Result<Option<usize>> {
+    let key = "extrapolated";
+    if table.is_boolean(key) {
+        return Ok(table.optional_boolean(key)?.map(usize::from));
+    }
+    let Some(number) = table.optional_integer(key)? else { return Ok(None) };
+    match usize::try_from(number) {
+        Ok(times) if times <= MOST_TIMES => Ok(Some(times)),
+        _ => Err(table
+            .wrong(ErrorKind::Input, key, format!("found {number} extrapolations"))
+            .help(format!("give a whole number from 0 to {MOST_TIMES}, or true for 1"))),
+    }
+}
+
+/// More extrapolations than this need steps too fine to run.
+const MOST_TIMES: usize = 8;
+
+/// Step of the engine (s), if it is given.
+fn engine_step(mut table: Table, drive: &Drive) -> Result<Option<f64>> {
     let time = table.optional_quantity("dt", &TIME, Sign::Positive)?;
     let angle = table.optional_quantity("step", &ANGLE, Sign::NotZero)?;
     table.finish()?;
@@ -80,12 +99,10 @@ fn engine_step(mut table: Table, drive: &Drive) -> Result<f64> {
             let error = table.wrong(ErrorKind::Input, "step", "the engine's step is given twice");
             return Err(error.help("keep either `dt` (a time) or `step` (a crank angle)"));
         }
-        (None, None) => {
-            return Err(table.fault("the engine's step is missing").help("add `dt_s` (or `dt_ms`), or `step_deg`"));
-        }
+        (None, None) => return Ok(None),
     };
     if dt.is_finite() && dt > 0.0 {
-        Ok(dt)
+        Ok(Some(dt))
     } else {
         Err(table.fault(format!("the engine's step would be {dt} s")).help("check the step and `drive.speed`"))
     }

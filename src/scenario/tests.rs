@@ -56,7 +56,7 @@ fn ov7_base_is_read_whole() {
     assert_eq!(case.structure.formula(&case.mechanism), formula);
     assert_eq!((case.grid.len(), case.grid.cranks[90]), (361, -90f64.to_radians()));
     assert!(case.grid.times.iter().all(|&time| time >= 0.0));
-    assert!((scenario.dt - 0.78f64.to_radians() / 97.2).abs() < 1e-18);
+    assert_eq!((scenario.dt, &scenario.engine), (None, &EngineKeys::default()));
     let columns: Vec<usize> = scenario.oracles.iter().map(|oracle| oracle.series.len()).collect();
     assert_eq!(columns, [10, 10, 10, 7, 7, 7]);
     let rows = scenario.oracles.iter().flat_map(|oracle| &oracle.series).map(|series| series.points.len());
@@ -81,7 +81,7 @@ fn crank_rocker_starts_where_two_circles_meet() {
     let crank = &scenario.case.mechanism.links()[1];
     let about_pivot = crank.inertia + crank.mass * crank.mass_centre.norm_squared();
     assert!((about_pivot - 2.6 * a.norm_squared() / 3.0).abs() < 1e-18, "I_O = m l^2 / 3");
-    assert_eq!((scenario.dt, scenario.engine_rel, scenario.case.grid.len()), (1e-3, 1e-2, 361));
+    assert_eq!((scenario.dt, scenario.engine_rel, scenario.case.grid.len()), (None, 1e-2, 361));
     let names: Vec<&str> = scenario.oracles.iter().map(|oracle| oracle.name.as_str()).collect();
     assert_eq!(
         names,
@@ -148,12 +148,12 @@ fn units_change_nothing_but_the_text() {
     let other = edited(&[
         ("C = { x_mm = 150, y_mm = 15 }", "C = { x_m = 0.15, y_m = 0.015 }"),
         ("mass_kg = 2.6", "mass_g = 2600"),
-        ("dt_s = 1e-3", "step_rad = -0.013613568165555769"),
+        ("[grid]", "[engine]\nstep_rad = -0.013613568165555769\n[grid]"),
         ("B = { x_mm = 250, y_mm = 0 }", "B = { from = \"C\", length_m = 0.25, angle_rad = 0 }"),
     ]);
     assert_eq!(other.case.mechanism, plain.case.mechanism);
     assert_eq!(other.case.start, plain.case.start);
-    assert!((other.dt - 1e-3).abs() < 1e-17);
+    assert!((other.dt.unwrap() - 1e-3).abs() < 1e-17);
     let by_time = edited(&[("from_deg = 0\nto_deg = 360\nstep_deg = 1", "from_s = 0\nto_s = 0.4\nstep_ms = 100")]);
     assert_eq!(by_time.case.grid.times, [0.0, 0.1, 0.2, 3.0 * 0.1, 0.4]);
     assert!((by_time.case.grid.cranks[1] - 78f64.to_radians()).abs() < 1e-15);

@@ -9,7 +9,7 @@ use super::ways::{sweeps, ways};
 use crate::compare::{Convergence, Ladder, residuals};
 use crate::proof::Options;
 use linkage::case::Case;
-use linkage::engine::{Engine, Settings};
+use linkage::engine::{Engine, Kept, Settings};
 use linkage::error::{ErrorKind, Result};
 use linkage::trajectory::{Channel, Trajectory};
 
@@ -247,11 +247,11 @@ impl Bench<'_> {
             rungs.push(Settings { sweeps: settings.sweeps * 2, ..settings });
         }
         self.runs += rungs.len();
-        let ladder = engine.ladder(&rungs);
-        let runs: Result<Vec<Trajectory>> = ladder.iter().map(|rung| rung.solve(self.case)).collect();
+        let kept = Kept::new(engine);
+        let runs: Result<Vec<Trajectory>> = rungs.iter().map(|&rung| kept.with(rung).solve(self.case)).collect();
         let runs = runs?;
         let [double, single, half] = [0, 1, 2].map(|k| &runs[k]);
-        let ladder = Ladder { resolutions: [double, single, half], fewer_sweeps: runs.get(3) };
+        let ladder = Ladder { resolutions: [double, single, half], other_sweeps: runs.get(3) };
         let finest = engine.at(settings.resolution / 2.0);
         let mut predicted: f64 = 0.0;
         for residual in residuals(self.reference, single)? {

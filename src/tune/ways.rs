@@ -24,7 +24,7 @@ pub(super) fn ways(engine: &dyn Engine, case: &Case, options: &Options) -> Vec<S
         (Some(_), _) | (None, _) => vec![substeps],
     };
     let extrapolated = match options.extrapolated {
-        None if !engine.controls_error() => vec![true, false],
+        None if !engine.controls_error() => vec![1, 0],
         Some(_) | None => vec![extrapolated],
     };
     let mut ways = Vec::new();

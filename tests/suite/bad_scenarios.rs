@@ -295,7 +295,10 @@ fn grid_channels_and_engine() {
         bad!("dt_s = 1e-3" => "dt_s = 0", INPUT, at "dt_s = 0", key "engine.dt_s", ["a time must be positive"]),
         bad!("dt_s = 1e-3" => "dt_s = 1e-3\nstep_deg = 1", INPUT, at "step_deg = 1\n\n[tol", key "engine.step_deg",
             ["given twice"]),
-        bad!("dt_s = 1e-3\n" => "", INPUT, at "[engine]", key "engine", ["step is missing", "`dt_s`"]),
+        bad!("dt_s = 1e-3" => "extrapolated = 9", INPUT, at "extrapolated = 9", key "engine.extrapolated",
+            ["9 extrapolations", "from 0 to 8", "true for 1"]),
+        bad!("dt_s = 1e-3" => "extrapolated = \"no\"", INPUT, at "extrapolated", key "engine.extrapolated",
+            ["a whole number"]),
     ]);
 }
 

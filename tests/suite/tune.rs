@@ -46,7 +46,7 @@ fn wishes_that_make_no_sense_say_so() {
 #[test]
 fn a_wish_beyond_rounding_tells_how_far_the_engine_comes() {
     let scenario = shipped("crank_rocker.toml");
-    let options = Options::default().engine(EngineName::Rapier).extrapolated(false).sweeps(64).substeps(1);
+    let options = Options::default().engine(EngineName::Rapier).extrapolated(0).sweeps(64).substeps(1);
     let error = tuned(&scenario, 1e-15, &["accelerations"], &options).unwrap_err();
     assert!(error.message().contains("rapier comes to"), "{error}");
 }
@@ -55,7 +55,7 @@ fn a_wish_beyond_rounding_tells_how_far_the_engine_comes() {
 #[test]
 fn only_the_channels_asked_for_decide() {
     let scenario = shipped("crank_rocker.toml");
-    let options = Options::default().engine(EngineName::Rapier).extrapolated(false).substeps(1);
+    let options = Options::default().engine(EngineName::Rapier).extrapolated(0).substeps(1);
     let positions = tuned(&scenario, 1e-4, &["positions"], &options).unwrap();
     let all = tuned(&scenario, 1e-4, &[], &options).unwrap();
     assert!(positions.best.price < all.best.price, "{:?} {:?}", positions.best, all.best);

@@ -3,6 +3,7 @@
 use crate::assur::PoseSolver;
 use crate::assur::transfer::TransferSide;
 use crate::motion::free;
+use crate::motion::march::TIGHTER;
 use crate::reduced::{self, ACCURACY, End, Model, run_up};
 use linkage::case::Case;
 use linkage::drive::Load;
@@ -25,7 +26,7 @@ impl Solver for AssurSolver {
 
     fn sweep(&self, case: &Case, visit: Visit, progress: Progress) -> Result<()> {
         if case.is_free() {
-            return free_motion(case, visit, progress);
+            return free_motion(case, ACCURACY, visit, progress);
         }
         let mut poses = PoseSolver::counting_turns(case)?;
         let deepest = case.wanted.deepest();
@@ -39,17 +40,39 @@ impl Solver for AssurSolver {
     }
 }
 
+/// Side 1 with a tighter integration of motions under forces. Its difference from [`AssurSolver`] is the error that the
+/// integration leaves there, which both sides share. A prescribed motion is not integrated.
+#[derive(Clone, Copy, Debug)]
+pub struct TightAssurSolver;
+
+impl Solver for TightAssurSolver {
+    fn name(&self) -> &'static str {
+        AssurSolver.name()
+    }
+
+    fn provides(&self, channel: &Channel) -> Provision {
+        AssurSolver.provides(channel)
+    }
+
+    fn sweep(&self, case: &Case, visit: Visit, progress: Progress) -> Result<()> {
+        match case.is_free() {
+            true => free_motion(case, TIGHTER * ACCURACY, visit, progress),
+            false => AssurSolver.sweep(case, visit, progress),
+        }
+    }
+}
+
 /// Motion under forces. One degree of freedom: its reduced equation of motion. Several: the transfer functions.
-fn free_motion(case: &Case, visit: Visit, progress: Progress) -> Result<()> {
+fn free_motion(case: &Case, accuracy: f64, visit: Visit, progress: Progress) -> Result<()> {
     if !case.drives.further().is_empty() || case.loads.iter().any(Load::is_viscous) {
-        return free::sweep(case, &mut TransferSide::new(case)?, visit, progress);
+        return free::sweep(case, &mut TransferSide::new(case)?, accuracy, visit, progress);
     }
     free::check(case)?;
     let rows = case.grid.ascending();
     let mut times: Vec<f64> = rows.iter().map(|&row| case.grid.times[row]).collect();
     times.dedup();
     let model = Model::of(case)?;
-    let (motion, end) = reduced::motion(&model, case.crank().initial_speed(), &times, ACCURACY)?;
+    let (motion, end) = reduced::motion(&model, case.crank().initial_speed(), &times, accuracy)?;
     if motion.len() < times.len() {
         return Err(ended(end));
     }

@@ -13,8 +13,8 @@ pub mod steady;
 pub mod witness;
 
 pub use assur::PoseSolver;
-pub use assur_solver::AssurSolver;
-pub use newton::NewtonSolver;
+pub use assur_solver::{AssurSolver, TightAssurSolver};
+pub use newton::{NewtonSolver, TightNewtonSolver};
 
 use linkage::solver::Solver;
 

@@ -2,12 +2,16 @@
 
 use super::build::{Build, Precision};
 use super::rapier::Rapier;
+use super::tree::Tree;
 use super::{noise, run};
 use linkage::case::Case;
 use linkage::engine::{Engine, Extrapolated, Route, Settings};
 use linkage::error::Result;
 use linkage::solver::{Progress, Provision, Solver, Visit};
 use linkage::trajectory::{Channel, ChannelKind, Stage};
+
+/// More sweeps are not worth trying: loops that they do not close have other faults.
+const MOST_SWEEPS: usize = 65_536;
 
 impl Engine for Rapier {
     fn version(&self) -> String {
@@ -24,11 +28,24 @@ impl Engine for Rapier {
 
     fn with(&self, settings: Settings) -> Box<dyn Engine> {
         let plain = self.set(settings);
-        if settings.extrapolated { Box::new(Extrapolated::new(Box::new(plain))) } else { Box::new(plain) }
+        match settings.extrapolated {
+            0 => Box::new(plain),
+            times => Box::new(Extrapolated::new(Box::new(plain), times)),
+        }
     }
 
     fn routes(&self) -> &'static [Route] {
         &Route::ALL
+    }
+
+    fn sweeps(&self, case: &Case) -> Option<[usize; 2]> {
+        let alone = case.drives.len() == 1 && Tree::of(&case.mechanism).cut.is_empty();
+        match self.build {
+            // A tree with one motor is solved exactly in one sweep.
+            Build::Multibody if alone => Some([1, 1]),
+            Build::Multibody => Some([16, MOST_SWEEPS]),
+            Build::Impulse => Some([64, MOST_SWEEPS]),
+        }
     }
 
     fn formal_order(&self, case: &Case, channel: &ChannelKind) -> f64 {

@@ -212,15 +212,19 @@ fn guess(case: &Case, acting: &mut Acting, window: &Window, worlds: &mut [Guard]
 
 /// Places worlds at the start with the velocities of the driving links there.
 /// A tiny step with rigid drives makes all other velocities consistent.
+/// They leave out what closes the gaps: over a tiny step even the gaps of rounding would give a speed.
+/// From then on velocities are those that move the bodies.
 fn settle(case: &Case, worlds: &mut [Guard], step: f64) -> Result<()> {
     let fastest = case.drives.iter().fold(0.0f64, |most, drive| most.larger(drive.initial_speed().abs()));
     for guard in worlds {
         guard.set_step(if fastest > 0.0 { SETTLING_TURN / fastest } else { SETTLING_TURN * step });
         guard.drive_from_start();
+        guard.set_stabilised(true);
         guard.place(&case.start.0);
         guard.step(0.0)?;
         guard.place(&case.start.0);
         guard.set_step(step);
+        guard.set_stabilised(false);
     }
     Ok(())
 }

@@ -33,17 +33,13 @@ impl Rapier {
             Build::Multibody => Self::SWEEPS,
             Build::Impulse => Self::IMPULSE_SWEEPS,
         };
-        Rapier {
-            build,
-            precision,
-            settings: Settings { resolution: step, sweeps, substeps, route, extrapolated: false },
-        }
+        Rapier { build, precision, settings: Settings { resolution: step, sweeps, substeps, route, extrapolated: 0 } }
     }
 
     /// The same build and precision with other settings, not extrapolated.
     #[must_use]
     pub fn set(&self, settings: Settings) -> Self {
-        Rapier { settings: Settings { extrapolated: false, ..settings }, ..*self }
+        Rapier { settings: Settings { extrapolated: 0, ..settings }, ..*self }
     }
 
     /// Both builds in double precision, and in single precision if the feature `f32` is on. The default is first.

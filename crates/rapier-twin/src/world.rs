@@ -121,6 +121,13 @@ pub trait World {
     /// Sets the time step (s).
     fn set_step(&mut self, step: f64);
 
+    /// Sets whether the velocities after a step leave out what has closed the gaps of the loops.
+    ///
+    /// Rapier then solves all constraints a second time, and goes on with velocities along the constraints at the START
+    /// of the step. They are not those that moved the bodies: in a free motion each step loses momentum across the
+    /// constraints of one pose and regains it across those of the next one.
+    fn set_stabilised(&mut self, stabilised: bool);
+
     /// Sets the angular velocity (rad/s, counter-clockwise positive) that a drive gives its link.
     /// The drive is given by its index in [`drives`](linkage::case::CaseParts::drives).
     fn set_drive(&mut self, drive: usize, omega: f64);
@@ -194,9 +201,33 @@ pub(super) fn masses(case: &Case, tree: &Tree) -> Vec<[f64; 2]> {
     masses
 }
 
-/// The same, with flywheels on the driving links whose speed is prescribed.
+/// Masses of a world that only moves, under prescribed speeds: the same for every link, with the moment of inertia of a
+/// rod of the link's extent.
+/// The motion does not depend on them, but the sweeps do: with masses of very different size they hardly converge.
+fn even_masses(case: &Case) -> Vec<[f64; 2]> {
+    let size = case.mechanism.size();
+    let of = |link: &Link| {
+        let extent = link.extent();
+        let length = if extent > 0.0 { extent } else { size };
+        [1.0, length * length / 12.0]
+    };
+    let mut masses: Vec<[f64; 2]> = case.mechanism.links().iter().map(of).collect();
+    masses[GROUND] = [0.0; 2];
+    masses
+}
+
+/// Masses of a world. `read` says whether it reports forces; a world that only moves under prescribed speeds has
+/// [`even_masses`].
+pub(super) fn world_masses(case: &Case, tree: &Tree, read: bool) -> Vec<[f64; 2]> {
+    if read || case.is_free() { masses_with_flywheels(case, tree) } else { with_flywheels(case, even_masses(case)) }
+}
+
+/// The links' own masses, with flywheels on the driving links whose speed is prescribed.
 pub(super) fn masses_with_flywheels(case: &Case, tree: &Tree) -> Vec<[f64; 2]> {
-    let mut masses = masses(case, tree);
+    with_flywheels(case, masses(case, tree))
+}
+
+fn with_flywheels(case: &Case, mut masses: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     if case.is_free() {
         return masses;
     }

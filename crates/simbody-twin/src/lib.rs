@@ -89,7 +89,7 @@ impl Engine for Simbody {
 
     fn settings(&self) -> Settings {
         let (resolution, route) = (self.accuracy, Route::Native);
-        Settings { resolution, sweeps: 0, substeps: 1, route, extrapolated: false }
+        Settings { resolution, sweeps: 0, substeps: 1, route, extrapolated: 0 }
     }
 
     fn with(&self, settings: Settings) -> Box<dyn Engine> {
@@ -104,6 +104,10 @@ impl Engine for Simbody {
 
     fn routes(&self) -> &'static [Route] {
         &[Route::Native]
+    }
+
+    fn sweeps(&self, _: &Case) -> Option<[usize; 2]> {
+        None
     }
 
     fn formal_order(&self, _: &Case, _: &ChannelKind) -> f64 {

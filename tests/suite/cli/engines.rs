@@ -57,13 +57,14 @@ fn settings_of_the_scenario_are_used_and_the_command_line_goes_first() {
     let place = Place::new();
     let path = place.path("scenarios/crank_rocker.toml");
     let text = fs::read_to_string(&path).unwrap();
-    fs::write(&path, text.replace("dt_s = 1e-3", "dt_s = 1e-3\nsweeps = 256\nextrapolated = true")).unwrap();
+    fs::write(&path, text.replace("[grid]", "[engine]\ndt_s = 1e-3\nsweeps = 256\nextrapolated = true\n[grid]"))
+        .unwrap();
     let sweeps = |outcome: super::tools::Outcome| outcome.json()["runs"][0]["engines"][0]["settings"]["sweeps"].clone();
     assert_eq!(sweeps(place.run("run scenarios/crank_rocker.toml --no-record --json -")), "256");
     assert_eq!(sweeps(place.run("run scenarios/crank_rocker.toml --no-record --json - --sweeps 512")), "512");
-    fs::write(&path, text.replace("dt_s = 1e-3", "dt_s = 1e-3\nname = \"bullet\"")).unwrap();
+    fs::write(&path, text.replace("[grid]", "[engine]\ndt_s = 1e-3\nname = \"bullet\"\n[grid]")).unwrap();
     place.refused("run scenarios/crank_rocker.toml", &["engine.name", "bullet", "rapier"]);
-    fs::write(&path, text.replace("dt_s = 1e-3", "dt_s = 1e-3\nsweeps = -4")).unwrap();
+    fs::write(&path, text.replace("[grid]", "[engine]\nsweeps = -4\n[grid]")).unwrap();
     place.refused("run scenarios/crank_rocker.toml", &["engine.sweeps", "found -4"]);
 }
 

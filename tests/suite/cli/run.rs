@@ -303,8 +303,8 @@ fn scenarios_of_one_name_do_not_overwrite_each_other() {
 #[test]
 fn channels_that_are_not_wanted_are_neither_compared_nor_checked() {
     let place = Place::new();
-    let only = "[channels]\nwant = [\"positions\", \"velocities\"]\n\n[engine]";
-    place.edited("crank_rocker.toml", "few.toml", &[("[engine]", only)]);
+    let only = "[channels]\nwant = [\"positions\", \"velocities\"]\n\n[grid]";
+    place.edited("crank_rocker.toml", "few.toml", &[("[grid]", only)]);
     let document = place.run("run scenarios/few.toml --no-record --json -").json();
     let run = &document["runs"][0];
     assert_eq!((run["verdict"].as_str(), run["engines"][0]["channels"].as_array().unwrap().len()), (Some("agree"), 30));

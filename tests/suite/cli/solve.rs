@@ -133,9 +133,9 @@ fn channels_that_are_not_wanted_have_no_column() {
         ("\"positions\", \"velocities\"", "angle_rad omega_rad_s x_m y_m vx_m_s vy_m_s"),
         ("\"positions\", \"velocities\", \"reactions\"", "angle_rad omega_rad_s x_m y_m vx_m_s vy_m_s fx_N fy_N"),
     ] {
-        let wanted = format!("[channels]\nwant = [{want}]\n[engine]");
+        let wanted = format!("[channels]\nwant = [{want}]\n[grid]");
         // The scenario's published numbers need more than positions, so all of them are removed.
-        place.edited("crank_rocker.toml", "few.toml", &[("[engine]", &wanted)]);
+        place.edited("crank_rocker.toml", "few.toml", &[("[grid]", &wanted)]);
         let text = fs::read_to_string(place.path("scenarios/few.toml")).unwrap();
         let text = text.split("[[oracle]]").next().unwrap();
         fs::write(place.path("scenarios/few.toml"), text).unwrap();
@@ -177,14 +177,14 @@ fn an_engine_solves_with_the_settings_of_the_file_and_options_replace_them() {
         ("extrapolated = true", "--extrapolate"),
         ("sweeps = 64\nroute = \"probe\"\nextrapolated = true", "--sweeps 64 --route probe --extrapolate"),
     ] {
-        place.edited("ov7_base.toml", "set.toml", &[("[engine]\n", &format!("[engine]\n{key}\n"))]);
+        place.edited("ov7_base.toml", "set.toml", &[("[grid]\n", &format!("[engine]\n{key}\n[grid]\n"))]);
         let told = solve("set.toml", "");
         assert!(told == solve("ov7_base.toml", option), "{key} is not {option}");
         assert!(told != plain, "{key} has no effect");
     }
-    place.edited("ov7_base.toml", "set.toml", &[("[engine]\n", "[engine]\nsweeps = 7\n")]);
+    place.edited("ov7_base.toml", "set.toml", &[("[grid]\n", "[engine]\nsweeps = 7\n[grid]\n")]);
     assert!(solve("set.toml", "--sweeps 9") == solve("ov7_base.toml", "--sweeps 9"));
-    place.edited("ov7_base.toml", "set.toml", &[("[engine]\n", "[engine]\nroute = \"guess\"\n")]);
+    place.edited("ov7_base.toml", "set.toml", &[("[grid]\n", "[engine]\nroute = \"guess\"\n[grid]\n")]);
     place.refused("solve scenarios/set.toml --with rapier", &["no route", "guess", "probe"]);
 }
 

@@ -21,7 +21,7 @@ fn whole(name: &str) -> Case {
 }
 
 /// The engine at a step of 0.08 deg of the crank.
-fn fine(name: &str, case: &Case, route: Route, extrapolated: bool) -> Box<dyn Engine> {
+fn fine(name: &str, case: &Case, route: Route, extrapolated: usize) -> Box<dyn Engine> {
     let engine = linkproof::engines::named(name, 0.08f64.to_radians() / case.crank().at(0.0).omega.abs()).unwrap();
     engine.with(Settings { route, extrapolated, sweeps: SWEEPS, ..engine.settings() })
 }
@@ -42,7 +42,7 @@ fn regress_61_errors_of_every_route_are_as_measured() {
     let truth = solve(&AssurSolver, &case);
     let routes = [(Route::Differences, 5.5e-6, 1e-7), (Route::Native, 3.5e-3, 1e-6), (Route::Probe, 7.5e-6, 1e-7)];
     for (route, plain, extrapolated) in routes {
-        for (extrapolated, bounds) in [(false, [2e-6, plain]), (true, [1e-9, extrapolated])] {
+        for (extrapolated, bounds) in [(0, [2e-6, plain]), (1, [1e-9, extrapolated])] {
             let run = solve(fine("rapier", &case, route, extrapolated).as_ref(), &case);
             let found = worst(&residuals(&truth, &run).unwrap());
             eprintln!(
@@ -99,7 +99,7 @@ fn gap_of_a_step(case: &Case, state: &State, step: f64) -> f64 {
 #[test]
 fn regress_64_loops_open_by_the_local_error_of_a_step() {
     let case = whole("crank_rocker");
-    let engine = fine("rapier", &case, Route::Differences, false);
+    let engine = fine("rapier", &case, Route::Differences, 0);
     let step = engine.settings().resolution;
     let most = |of: &[f64]| of.iter().copied().fold(0.0, f64::larger);
     for (substeps, bound) in [(1, 1.1e-7), (2, 2.75e-8)] {
@@ -115,7 +115,7 @@ fn regress_64_loops_open_by_the_local_error_of_a_step() {
         assert_within!(most(&measured), bound, "{:e}", most(&measured));
         assert_within!(off, 0.03 * most(&told), "{substeps} substeps: {off:e} of {:e}", most(&told));
     }
-    let extrapolated = fine("rapier", &case, Route::Differences, true);
+    let extrapolated = fine("rapier", &case, Route::Differences, 1);
     let measured = most(&of_states(extrapolated.as_ref(), &case, |state| gap(&case, state)));
     eprintln!("closure gap extrapolated: {measured:.1e} of the size");
     assert_within!(measured, 1e-10, "{measured:e}");
@@ -135,7 +135,7 @@ fn regress_70_two_substeps_meet_every_figure_at_once() {
     // The shares found are of half the range.
     let of_range = |found: [f64; 2]| found.map(|share| 0.5 * share);
     for (route, extrapolated, bound) in
-        [(Route::Differences, false, 3e-6), (Route::Differences, true, 1e-7), (Route::Probe, false, 1e-6)]
+        [(Route::Differences, 0, 3e-6), (Route::Differences, 1, 1e-7), (Route::Probe, 0, 1e-6)]
     {
         let run = solve(engine(route, extrapolated).as_ref(), &case);
         let [angles, forces] = of_range(worst(&residuals(&truth, &run).unwrap()));
@@ -145,7 +145,7 @@ fn regress_70_two_substeps_meet_every_figure_at_once() {
         assert_within!(angles, 1e-6, "{route:?} {extrapolated}: {angles:e}, {forces:e}");
         assert_within!(forces, bound, "{route:?} {extrapolated}: {angles:e}, {forces:e}");
     }
-    let gaps = of_states(engine(Route::Differences, false).as_ref(), &case, |state| gap(&case, state));
+    let gaps = of_states(engine(Route::Differences, 0).as_ref(), &case, |state| gap(&case, state));
     let largest = gaps.into_iter().fold(0.0, f64::larger);
     assert_within!(largest, 1e-7, "{largest:e}");
 }
@@ -160,7 +160,7 @@ fn regress_64_a_crank_half_as_long_leaves_less_than_a_ten_millionth() {
     let half = linkproof::scenario::Scenario::parse(&half, std::path::Path::new("half.toml")).unwrap().case;
     let half = half.wanting(Wanted::of(&[Stage::Positions]));
     let gaps = [&whole_crank, &half].map(|case| {
-        let run = of_states(fine("rapier", case, Route::Differences, false).as_ref(), case, |state| gap(case, state));
+        let run = of_states(fine("rapier", case, Route::Differences, 0).as_ref(), case, |state| gap(case, state));
         run.into_iter().fold(0.0, f64::larger)
     });
     eprintln!("closure gap with the whole crank {:.3e}, with half of it {:.3e}", gaps[0], gaps[1]);
@@ -175,7 +175,7 @@ fn regress_62_orders_and_extrapolation_of_all_classes() {
     for name in ["ov7_base", "ov7_new", "fourth_class", "quick_return", "scotch_yoke"] {
         let case = whole(name);
         let truth = solve(&AssurSolver, &case);
-        let engine = fine("rapier", &case, Route::Differences, false);
+        let engine = fine("rapier", &case, Route::Differences, 0);
         let runs = [1.0, 0.5].map(|part| solve(engine.at(part * engine.settings().resolution).as_ref(), &case));
         for residual in residuals(&truth, &runs[1]).unwrap() {
             let kind = residual.channel.kind;
@@ -190,7 +190,7 @@ fn regress_62_orders_and_extrapolation_of_all_classes() {
             let order = observed_order(&truth, [&runs[0], &runs[1]], &residual.channel).unwrap().unwrap();
             assert_within!((order - 2.0).abs(), wide, "{name} {}: order {order}", residual.channel);
         }
-        let run = solve(fine("rapier", &case, Route::Differences, true).as_ref(), &case);
+        let run = solve(fine("rapier", &case, Route::Differences, 1).as_ref(), &case);
         let found = worst(&residuals(&truth, &run).unwrap());
         assert_within!(found[0], 1e-7, "{name}: {found:?}");
         assert_within!(found[1], 1e-5, "{name}: {found:?}");
@@ -203,7 +203,7 @@ fn regress_62_orders_and_extrapolation_of_all_classes() {
 fn regress_63_extrapolation_raises_the_order_by_one() {
     let case = whole("crank_rocker");
     let truth = solve(&AssurSolver, &case);
-    let engine = fine("rapier", &case, Route::Native, true);
+    let engine = fine("rapier", &case, Route::Native, 1);
     let runs = [8.0, 4.0].map(|part| solve(engine.at(part * engine.settings().resolution).as_ref(), &case));
     let mut seen = 0;
     for residual in residuals(&truth, &runs[1]).unwrap() {

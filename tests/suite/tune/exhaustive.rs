@@ -71,7 +71,7 @@ fn rows(space: &Space) -> Vec<Box<dyn Engine>> {
     let mut rows = Vec::new();
     for engine in linkproof::engines::all(1e-3).into_iter().filter(|engine| !engine.controls_error()) {
         for &route in engine.routes() {
-            for extrapolated in [false, true] {
+            for extrapolated in [0, 1] {
                 for substeps in [1, 2] {
                     for &sweeps in space.sweeps {
                         let own = engine.settings();

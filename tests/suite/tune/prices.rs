@@ -61,8 +61,5 @@ pub fn price_of(case: &Case, engine: &dyn Engine) -> f64 {
         };
         steps + instants * costs.instant
     };
-    match settings.extrapolated {
-        true => run(settings.resolution) + run(0.5 * settings.resolution),
-        false => run(settings.resolution),
-    }
+    (0..=settings.extrapolated as i32).map(|time| run(settings.resolution * 0.5f64.powi(time))).sum()
 }

@@ -7,7 +7,7 @@
 //! motion, and pieces end exactly where the sense changes.
 
 use super::flow::{self, Pieces};
-use super::march::{ACCURACY, MOST_EMPTY, Place, Step, Stop, march};
+use super::march::{MOST_EMPTY, Place, Step, Stop, march};
 use super::side::Side;
 use linkage::case::Case;
 use linkage::error::{Error, ErrorKind, Result};
@@ -42,17 +42,17 @@ pub(crate) fn check(case: &Case) -> Result<()> {
     Ok(())
 }
 
-/// Follows the motion over the case's grid.
+/// Follows the motion over the case's grid, with the error `accuracy` allowed in each step.
 ///
 /// # Errors
 /// Those of [`check`] and of the side; [`ErrorKind::Numeric`] where a resistance holds the mechanism.
-pub(crate) fn sweep(case: &Case, side: &mut dyn Side, visit: Visit, progress: Progress) -> Result<()> {
+pub(crate) fn sweep(case: &Case, side: &mut dyn Side, accuracy: f64, visit: Visit, progress: Progress) -> Result<()> {
     check(case)?;
     match case.drives.free().count() {
-        1 => run::<2>(case, side, visit, progress),
-        2 => run::<4>(case, side, visit, progress),
-        3 => run::<6>(case, side, visit, progress),
-        _ => run::<8>(case, side, visit, progress),
+        1 => run::<2>(case, side, accuracy, visit, progress),
+        2 => run::<4>(case, side, accuracy, visit, progress),
+        3 => run::<6>(case, side, accuracy, visit, progress),
+        _ => run::<8>(case, side, accuracy, visit, progress),
     }
 }
 
@@ -68,7 +68,13 @@ fn located(error: Error, t: f64, crank: f64) -> Error {
     )
 }
 
-fn run<const N: usize>(case: &Case, side: &mut dyn Side, visit: Visit, progress: Progress) -> Result<()> {
+fn run<const N: usize>(
+    case: &Case,
+    side: &mut dyn Side,
+    accuracy: f64,
+    visit: Visit,
+    progress: Progress,
+) -> Result<()> {
     let rows = case.grid.ascending();
     let mut targets: Vec<f64> = rows.iter().map(|&row| case.grid.times[row]).collect();
     targets.dedup();
@@ -97,7 +103,7 @@ fn run<const N: usize>(case: &Case, side: &mut dyn Side, visit: Visit, progress:
     while place.x < last {
         let from = place.x;
         let mut at_step = |pieces: &Pieces<N>, &[_, (t, y)]: &Step<N>| reach(pieces, t, &y);
-        let stop = march(&pieces, &mut place, &targets, ACCURACY, &mut at_step);
+        let stop = march(&pieces, &mut place, &targets, accuracy, &mut at_step);
         let drive = case.drives.free().next().expect("a drive is free").1;
         let turned = place.y[0] - drive.zero;
         let stop = stop.map_err(|error| located(error, place.x, turned))?;

@@ -20,6 +20,9 @@ pub(crate) type Method<const N: usize> = ExplicitRungeKutta<Ordinary, DormandPri
 /// Relative and absolute error allowed in each step, by the step's own estimate.
 /// The estimate is cautious: the run-up of `crank_rocker` is then exact to 2e-14 rad.
 pub const ACCURACY: f64 = 1e-11;
+/// Share of [`ACCURACY`] that the tighter runs allow, which show the error of the others. With still less, rounding takes
+/// over.
+pub(crate) const TIGHTER: f64 = 0.01;
 /// Speed (rad/s) of a crank at rest that is about to turn. It marks the sense of motion; its square underflows to zero.
 pub(crate) const SETTING_OFF: f64 = 1e-200;
 /// Largest number of consecutive pieces that take no time. With more, the motion does not get away from a kink.

@@ -7,4 +7,4 @@ mod solver;
 mod steps;
 mod system;
 
-pub use solver::NewtonSolver;
+pub use solver::{NewtonSolver, TightNewtonSolver};

@@ -150,6 +150,16 @@ pub fn is_singular(mechanism: &Mechanism, group: &Group, pose: &Pose) -> bool {
     !(measure::of(&constraints.block(&jacobian, group), mechanism, group, pose).determinant.abs() > SINGULAR)
 }
 
+/// Condition number of a pose: the product of those of all groups, because errors pass from group to group.
+/// 1 for a mechanism without groups.
+#[must_use]
+pub fn condition(mechanism: &Mechanism, groups: &[Group], pose: &Pose) -> f64 {
+    let constraints = Constraints::of(mechanism, Vec2::zeros(), Vec::new());
+    let jacobian = constraints.at(&constraints.coordinates_of(pose)).jacobian;
+    let of = |group| measure::of(&constraints.block(&jacobian, group), mechanism, group, pose).condition;
+    groups.iter().map(of).product()
+}
+
 /// All poses in ascending order of the crank angle.
 fn both_ways(tracker: &Tracker, start: &Point) -> Result<(Vec<Point>, Extent)> {
     let forwards = tracker.follow(start, 1.0)?;

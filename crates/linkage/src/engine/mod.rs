@@ -2,10 +2,11 @@
 
 pub mod bodies;
 mod extrapolated;
+mod kept;
 mod settings;
-mod shared;
 
 pub use extrapolated::Extrapolated;
+pub use kept::{Kept, plain_runs};
 pub use settings::{Route, Settings};
 
 use crate::case::Case;
@@ -28,13 +29,6 @@ pub trait Engine: Solver {
         self.with(Settings { resolution, ..self.settings() })
     }
 
-    /// The engine with each of some settings, to solve one case with one after the other, each once.
-    /// Results are those of [`Engine::with`].
-    /// Runs that several of these engines need are computed once, and kept until the last of them has used them.
-    fn ladder(&self, rungs: &[Settings]) -> Vec<Box<dyn Engine>> {
-        rungs.iter().map(|&settings| self.with(settings)).collect()
-    }
-
     /// Whether [`Settings::resolution`] is an accuracy that the engine keeps by choosing its own steps, instead of a
     /// time step.
     fn controls_error(&self) -> bool {
@@ -43,6 +37,10 @@ pub trait Engine: Solver {
 
     /// Available routes to reactions and balancing moment, the cheapest first.
     fn routes(&self) -> &'static [Route];
+
+    /// The fewest and the most sweeps worth trying for a case; `None` for an engine that does not iterate.
+    /// Both are 1 where the iteration has nothing to converge to.
+    fn sweeps(&self, case: &Case) -> Option<[usize; 2]>;
 
     /// Order of convergence expected of a channel of a case, with the present route and extrapolation.
     fn formal_order(&self, case: &Case, channel: &ChannelKind) -> f64;

@@ -43,8 +43,9 @@ pub struct Settings {
     pub substeps: usize,
     /// The route to reactions and balancing moment.
     pub route: Route,
-    /// Whether the state is combined from runs at the full and at half the step, so that the leading error cancels.
-    pub extrapolated: bool,
+    /// How often the state is extrapolated to step zero: `n` combines runs at h, h / 2, ..., h / 2^n, so that the `n`
+    /// leading errors cancel. 0 for a plain run.
+    pub extrapolated: usize,
 }
 
 #[cfg(test)]

@@ -34,6 +34,13 @@ pub enum Advice {
         /// A number to try, if the present one is known.
         to: Option<usize>,
     },
+    /// Settings left for the proof to choose, instead of given ones.
+    FreeSettings,
+    /// More work for the search of settings.
+    MoreWork {
+        /// Work to allow, in steps without sweeps.
+        to: f64,
+    },
     /// An engine in double precision.
     DoublePrecision,
     /// Another engine.
@@ -96,6 +103,8 @@ impl Advice {
             other @ (Advice::Text(_)
             | Advice::TighterAccuracy { .. }
             | Advice::LooserAccuracy { .. }
+            | Advice::FreeSettings
+            | Advice::MoreWork { .. }
             | Advice::DoublePrecision
             | Advice::OtherEngine
             | Advice::OtherRoute { .. }
@@ -147,6 +156,8 @@ impl fmt::Display for Advice {
             Advice::LooserAccuracy { to } => write!(f, "choose a looser accuracy, such as {to:e}"),
             Advice::MoreSweeps { to: None } => f.write_str("raise the number of sweeps"),
             Advice::MoreSweeps { to: Some(to) } => write!(f, "raise the number of sweeps, such as to {to}"),
+            Advice::FreeSettings => f.write_str("leave out the engine's settings, so that the proof finds them"),
+            Advice::MoreWork { to } => write!(f, "allow more work, such as {to:e} steps"),
             Advice::DoublePrecision => f.write_str("take an engine in double precision"),
             Advice::OtherEngine => f.write_str("take another engine"),
             Advice::OtherRoute { routes } => {

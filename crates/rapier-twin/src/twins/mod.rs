@@ -14,7 +14,7 @@ use rapier::prelude::{
 };
 
 use crate::tree::Tree;
-use crate::world::{LinkAngle, LinkFrame, masses_with_flywheels};
+use crate::world::{LinkAngle, LinkFrame, world_masses};
 use linkage::case::Case;
 use linkage::engine::Settings;
 use linkage::error::{Error, ErrorKind, Result};
@@ -82,7 +82,7 @@ impl Twin {
     /// [`ErrorKind::Unsupported`] if Rapier refuses a joint.
     pub(crate) fn new(case: &Case, tree: Tree, settings: &Settings, read: bool) -> Result<Self> {
         let mechanism = &case.mechanism;
-        let masses = masses_with_flywheels(case, &tree);
+        let masses = world_masses(case, &tree, read);
         let mut world = PhysicsWorld::new();
         world.gravity = joints::vector(case.gravity);
         world.integration_parameters = joints::parameters(settings);

@@ -102,6 +102,12 @@ impl World for Twin {
         self.world.integration_parameters.dt = real(step);
     }
 
+    fn set_stabilised(&mut self, stabilised: bool) {
+        let parameters = &mut self.world.integration_parameters;
+        let sweeps = parameters.num_internal_pgs_iterations;
+        parameters.num_internal_stabilization_iterations = if stabilised { sweeps } else { 0 };
+    }
+
     fn set_drive(&mut self, drive: usize, omega: f64) {
         let motor = &self.motors[drive];
         let turn = omega * self.substep();

@@ -1,0 +1,206 @@
+//! An engine that remembers its runs.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, mpsc};
+
+use super::{Engine, Extrapolated, Route, Settings};
+use crate::case::Case;
+use crate::error::{Error, Result};
+use crate::solver::{Progress, Provision, Solver, State, Visit};
+use crate::trajectory::{Channel, ChannelKind};
+
+/// An engine that makes every run once, and hands out the states it has kept when the run is asked for again.
+/// Engines made from it by [`Engine::with`] share its runs, extrapolated ones too.
+/// Runs are those of one case; a run of another case empties the store.
+pub struct Kept {
+    inner: Box<dyn Engine>,
+    store: Arc<Store>,
+}
+
+#[derive(Default)]
+struct Store(Mutex<Runs>);
+
+#[derive(Default)]
+struct Runs {
+    case: Option<Case>,
+    runs: Vec<Run>,
+}
+
+#[derive(Clone)]
+struct Run {
+    settings: Settings,
+    /// States by row of the grid; `None` for rows that a failed run did not reach.
+    states: Arc<Vec<Option<State>>>,
+    failed: Option<Error>,
+}
+
+impl Store {
+    /// A thread that panicked while it held the lock left whole runs.
+    fn lock(&self) -> MutexGuard<'_, Runs> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn find(&self, settings: Settings, case: &Case) -> Option<Run> {
+        let mut all = self.lock();
+        if all.case.as_ref() != Some(case) {
+            (all.case, all.runs) = (Some(case.clone()), Vec::new());
+        }
+        all.runs.iter().find(|run| run.settings == settings).cloned()
+    }
+}
+
+impl Kept {
+    /// Remembers the runs of an engine, whatever its settings.
+    #[must_use]
+    pub fn new(engine: &dyn Engine) -> Self {
+        let plain = Settings { extrapolated: 0, ..engine.settings() };
+        Kept { inner: engine.with(plain), store: Arc::default() }
+    }
+
+    /// Makes the runs at all of these settings that are still missing, on as many threads as the machine has cores.
+    /// Their results do not depend on the number of threads. A run that fails is kept with its failure.
+    /// `progress` receives the finished share of all of them.
+    pub fn prepare(&self, case: &Case, settings: &[Settings], progress: Progress) {
+        let mut missing: Vec<Settings> = Vec::new();
+        for asked in settings {
+            for plain in plain_runs(*asked) {
+                if self.store.find(plain, case).is_none() && !missing.contains(&plain) {
+                    missing.push(plain);
+                }
+            }
+        }
+        // The longest run first, so that no core waits for it at the end.
+        let cost = |settings: &Settings| (settings.sweeps as f64 + 8.0) / settings.resolution;
+        missing.sort_by(|a, b| cost(b).total_cmp(&cost(a)));
+        let whole: f64 = missing.iter().map(cost).sum();
+        let threads = std::thread::available_parallelism().map_or(1, usize::from).min(missing.len());
+        if threads < 2 {
+            let mut done = 0.0;
+            for settings in &missing {
+                let share = cost(settings) / whole;
+                self.run(case, *settings, &mut |part| progress(done + share * part));
+                done += share;
+            }
+            return;
+        }
+        let next = AtomicUsize::new(0);
+        let (tell, told) = mpsc::channel::<(usize, f64)>();
+        std::thread::scope(|scope| {
+            for _ in 0..threads {
+                let (tell, next, missing) = (tell.clone(), &next, &missing);
+                scope.spawn(move || {
+                    while let Some(settings) = missing.get(next.fetch_add(1, Ordering::Relaxed)) {
+                        let index = missing.iter().position(|own| own == settings).unwrap_or(0);
+                        // Nobody may listen any more; the run goes on.
+                        self.run(case, *settings, &mut |part| {
+                            let _ = tell.send((index, part));
+                        });
+                    }
+                });
+            }
+            drop(tell);
+            let mut parts = vec![0.0f64; missing.len()];
+            for (index, part) in told {
+                parts[index] = part;
+                progress(missing.iter().zip(&parts).map(|(settings, part)| cost(settings) * part).sum::<f64>() / whole);
+            }
+        });
+    }
+
+    /// Forgets the runs whose settings are not wanted any more.
+    pub fn retain(&self, wanted: impl Fn(&Settings) -> bool) {
+        self.store.lock().runs.retain(|run| wanted(&run.settings));
+    }
+
+    /// Makes a plain run and keeps it.
+    fn run(&self, case: &Case, settings: Settings, progress: Progress) -> Run {
+        let mut states = vec![None; case.grid.len()];
+        let mut keep = |row: usize, state: &State| {
+            states[row] = Some(state.clone());
+            Ok(())
+        };
+        let failed = self.inner.with(settings).sweep(case, &mut keep, progress).err();
+        let run = Run { settings, states: Arc::new(states), failed };
+        self.store.lock().runs.push(run.clone());
+        run
+    }
+}
+
+/// Settings of the plain runs that an engine with `settings` is made of.
+#[must_use]
+pub fn plain_runs(settings: Settings) -> Vec<Settings> {
+    let at = |time| settings.resolution * 0.5f64.powi(time);
+    (0..=settings.extrapolated as i32)
+        .map(|time| Settings { resolution: at(time), extrapolated: 0, ..settings })
+        .collect()
+}
+
+impl Solver for Kept {
+    fn name(&self) -> &'static str {
+        self.inner.name()
+    }
+
+    fn provides(&self, channel: &Channel) -> Provision {
+        self.inner.provides(channel)
+    }
+
+    fn sweep(&self, case: &Case, visit: Visit, progress: Progress) -> Result<()> {
+        let settings = self.inner.settings();
+        let run = match self.store.find(settings, case) {
+            Some(run) => run,
+            None => self.run(case, settings, progress),
+        };
+        for row in case.grid.ascending() {
+            run.states[row].as_ref().map_or(Ok(()), |state| visit(row, state))?;
+        }
+        progress(1.0);
+        run.failed.map_or(Ok(()), Err)
+    }
+}
+
+impl Engine for Kept {
+    fn version(&self) -> String {
+        self.inner.version()
+    }
+
+    fn settings(&self) -> Settings {
+        self.inner.settings()
+    }
+
+    fn with(&self, settings: Settings) -> Box<dyn Engine> {
+        let plain = self.inner.with(Settings { extrapolated: 0, ..settings });
+        let kept = Box::new(Kept { inner: plain, store: Arc::clone(&self.store) });
+        match settings.extrapolated {
+            times if times > 0 && !self.controls_error() => Box::new(Extrapolated::new(kept, times)),
+            _ => kept,
+        }
+    }
+
+    fn controls_error(&self) -> bool {
+        self.inner.controls_error()
+    }
+
+    fn routes(&self) -> &'static [Route] {
+        self.inner.routes()
+    }
+
+    fn sweeps(&self, case: &Case) -> Option<[usize; 2]> {
+        self.inner.sweeps(case)
+    }
+
+    fn formal_order(&self, case: &Case, channel: &ChannelKind) -> f64 {
+        self.inner.formal_order(case, channel)
+    }
+
+    fn noise(&self, case: &Case, channel: &ChannelKind) -> f64 {
+        self.inner.noise(case, channel)
+    }
+
+    fn is_noise_measured(&self) -> bool {
+        self.inner.is_noise_measured()
+    }
+
+    fn told(&self) -> Vec<(&'static str, String)> {
+        self.inner.told()
+    }
+}

@@ -1,0 +1,129 @@
+//! How well the analytic sides know their own numbers.
+//!
+//! Rounding grows with the condition of the pose: from positions to velocities once, to accelerations and forces once
+//! more each. A motion under forces has the error of its integration besides, which both sides share: a third, tighter
+//! run shows it.
+//!
+//! No bound on anything else is less than this.
+
+use crate::compare::{largest_difference, magnitudes};
+use analytic::range::condition;
+use analytic::{AssurSolver, TightAssurSolver, TightNewtonSolver};
+use linkage::case::Case;
+use linkage::error::Result;
+use linkage::math::KeepNan;
+use linkage::math::statistics::share;
+use linkage::mechanism::{LinkPose, Pose};
+use linkage::solver::{Solver, State};
+use linkage::trajectory::{Channel, Stage, Trajectory};
+
+/// Wanted: relative error of an analytic side in well conditioned poses. Each derivative, and each linear solve for
+/// forces, multiplies the rounding of its input by the condition of the pose, here at most some tens.
+fn usual(stage: Stage) -> f64 {
+    match stage {
+        Stage::Positions => 1e-12,
+        Stage::Velocities | Stage::Accelerations => 1e-11,
+        Stage::Reactions | Stage::BalancingMoment => 1e-10,
+    }
+}
+
+/// Power of the condition number that the rounding of a stage grows with.
+fn power(stage: Stage) -> i32 {
+    match stage {
+        Stage::Positions => 1,
+        Stage::Velocities => 2,
+        Stage::Accelerations | Stage::Reactions | Stage::BalancingMoment => 3,
+    }
+}
+
+/// Rounding of a position in a pose of condition number 1, in units in the last place.
+const ULPS: f64 = 16.0;
+
+/// Error of the integration over the difference to the tighter run: the tighter run has an error too.
+const SAFETY: f64 = 2.0;
+
+/// Errors allowed to the analytic sides, channel by channel.
+pub(super) struct Known {
+    /// Size of the numbers in every channel, in its unit.
+    magnitudes: Vec<f64>,
+    /// Error of the integration in every channel, in its unit, of the reference and of the other side; zeros for a
+    /// prescribed motion.
+    integration: [Vec<f64>; 2],
+    /// Condition number of the pose at every instant, so far in a motion under forces; empty as long as nobody needs it.
+    conditions: Vec<f64>,
+}
+
+impl Known {
+    /// What both sides' trajectories are known to, the reference's first.
+    ///
+    /// # Errors
+    /// Those of the tighter runs.
+    pub(super) fn of(case: &Case, sides: [(&'static str, &Trajectory); 2]) -> Result<Self> {
+        let integration = |(name, trajectory): (&'static str, &Trajectory)| -> Result<Vec<f64>> {
+            if !case.is_free() {
+                return Ok(vec![0.0; trajectory.channels().len()]);
+            }
+            let tight = match name == AssurSolver.name() {
+                true => TightAssurSolver.solve(case)?,
+                false => TightNewtonSolver.solve(case)?,
+            };
+            let of = |((channel, ours), (_, theirs)): ((&Channel, &[f64]), (_, &[f64]))| {
+                SAFETY * largest_difference(ours, theirs, channel.kind.periodic)
+            };
+            Ok(trajectory.iter().zip(tight.iter()).map(of).collect())
+        };
+        let [reference, other] = sides;
+        let integration = [integration(reference)?, integration(other)?];
+        Ok(Known { magnitudes: magnitudes(reference.1), integration, conditions: Vec::new() })
+    }
+
+    /// Measures the condition of every pose, for a trajectory whose errors exceed those of well conditioned poses.
+    ///
+    /// # Errors
+    /// Those of the solver.
+    pub(super) fn measure(&mut self, case: &Case, solver: &dyn Solver) -> Result<()> {
+        let mut conditions = vec![1.0; case.grid.len()];
+        let mut worst: f64 = 1.0;
+        let mut visit = |row: usize, state: &State| {
+            let frames = state.motions.iter().zip(&state.angles);
+            let pose = Pose(frames.map(|(motion, &angle)| LinkPose { origin: motion.origin, angle }).collect());
+            let own = condition(&case.mechanism, &case.structure.groups, &pose);
+            // What a motion under forces has lost once, it does not get back.
+            worst = if case.is_free() { worst.larger(own) } else { own };
+            conditions[row] = worst;
+            Ok(())
+        };
+        solver.each(case, &mut visit)?;
+        self.conditions = conditions;
+        Ok(())
+    }
+
+    /// Size of the numbers in a channel of the reference, in its unit.
+    pub(super) fn magnitude(&self, channel: usize) -> f64 {
+        self.magnitudes[channel]
+    }
+
+    /// Relative rounding allowed in a stage at an instant.
+    fn rounding(&self, stage: Stage, row: usize) -> f64 {
+        let condition = self.conditions.get(row).copied().unwrap_or(1.0);
+        usual(stage).larger(ULPS * f64::EPSILON * condition.powi(power(stage)))
+    }
+
+    /// Relative difference allowed between the sides in a channel of a stage at an instant.
+    pub(super) fn apart(&self, stage: Stage, channel: usize, row: usize) -> f64 {
+        let integration = self.integration[0][channel] + self.integration[1][channel];
+        self.rounding(stage, row) + share(integration, self.magnitudes[channel])
+    }
+
+    /// Largest difference allowed between the sides in a channel over the run, in the channel's unit.
+    pub(super) fn between(&self, stage: Stage, channel: usize) -> f64 {
+        self.error(stage, channel) + self.integration[1][channel]
+    }
+
+    /// Largest error allowed to the reference in a channel over the run, in the channel's unit.
+    pub(super) fn error(&self, stage: Stage, channel: usize) -> f64 {
+        let rows = 0..self.conditions.len().max(1);
+        let rounding = rows.map(|row| self.rounding(stage, row)).fold(0.0, f64::larger);
+        rounding * self.magnitudes[channel] + self.integration[0][channel]
+    }
+}

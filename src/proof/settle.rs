@@ -1,0 +1,329 @@
+//! An engine that finds its own settings: coarse first, refined by what is to blame, until every channel is conclusive.
+//!
+//! Each round has one run more, at half the finest step so far. Its runs are combined in all ways: the engine as it is,
+//! extrapolated once, twice, ..., each judged at the step that leaves the finest run to tell the error. The best of them
+//! counts. A channel that is not conclusive blames its step, its sweeps or its rounding.
+//!
+//! Everything is decided by the engine's own runs and by counted work, so that the same input gives the same settings.
+
+use linkage::engine::{Engine, Settings};
+use linkage::error::{Advice, ErrorKind};
+use linkage::math::KeepNan;
+
+use super::judge::{Judge, Judged};
+use super::observe::Stopped;
+use super::runs::{Bank, other_sweeps, rungs};
+use crate::compare::Verdict;
+use crate::tolerance::Part;
+
+/// Settings that a proof may choose.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub(crate) struct Free {
+    /// The time step.
+    pub(crate) step: bool,
+    /// The sweeps of the iteration.
+    pub(crate) sweeps: bool,
+    /// How often runs are extrapolated.
+    pub(crate) extrapolated: bool,
+}
+
+impl Free {
+    /// Whether there is anything to choose.
+    pub(crate) fn any(self) -> bool {
+        self.step || self.sweeps || self.extrapolated
+    }
+}
+
+/// How the settings of an engine were found.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Search {
+    /// Number of runs that were made, each at another step or with other sweeps.
+    pub runs: usize,
+    /// Work done, in steps without sweeps; twenty sweeps count as one step more.
+    pub effort: f64,
+    /// Work that was allowed, in the same unit.
+    pub budget: f64,
+    /// Why the search ended.
+    pub end: End,
+}
+
+/// Why a search of settings ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum End {
+    /// Every channel has the aimed accuracy, or is conclusive and the work for more is spent.
+    Decided,
+    /// A finer step would add more rounding than it takes away.
+    Rounding,
+    /// The work that was allowed is done.
+    Budget,
+    /// The settings that are left to choose have no better value.
+    Nothing,
+}
+
+/// Work allowed by default, in steps without sweeps.
+pub(crate) const BUDGET: f64 = 4e6;
+/// Work within which a conclusive result is refined further, to the aimed accuracy.
+const THRIFT: f64 = 0.025;
+/// Share of the widest conclusive bound that is aimed at: a proof a hundred times sharper costs little with
+/// extrapolation.
+const AIM: f64 = 0.01;
+/// Extrapolations that are tried: with more, the weights add more rounding than the errors they cancel.
+const MOST_TIMES: usize = 4;
+/// Failed runs after which more sweeps are tried instead of a smaller step.
+const FAILURES: usize = 6;
+/// Share of instants that may be left out because they are too close to a reversal for the step.
+const MOST_LEFT_OUT: f64 = 0.03;
+/// Factor between numbers of sweeps.
+const MORE_SWEEPS: usize = 4;
+
+impl End {
+    /// Puts into an inconclusive verdict what the search has tried, in place of advice to try it.
+    pub(super) fn tell(self, verdict: &mut Verdict, budget: f64) {
+        let Verdict::Inconclusive { reason, advice } = verdict else { return };
+        if advice.is_empty() {
+            return;
+        }
+        let (why, way_out) = match self {
+            End::Decided => return,
+            End::Rounding => ("a finer step adds more rounding than it takes away", vec![Advice::OtherEngine]),
+            End::Nothing => ("the settings that are left to choose have no better value", vec![Advice::FreeSettings]),
+            End::Budget => ("the work that was allowed is done", vec![Advice::MoreWork { to: 10.0 * budget }]),
+        };
+        reason.push_str("; ");
+        reason.push_str(why);
+        *advice = way_out;
+    }
+}
+
+/// One way to combine the runs made so far, judged.
+struct Trial {
+    judged: Judged,
+    /// Largest bound over what is wanted; infinite where an error cannot be estimated.
+    need: f64,
+    blame: Part,
+}
+
+/// The state of a search.
+pub(super) struct Settling<'a, 'b> {
+    judge: &'a Judge<'a>,
+    bank: &'a mut Bank<'b>,
+    free: Free,
+    /// Present settings; the step is the finest one of all runs.
+    now: Settings,
+    most_sweeps: usize,
+    budget: f64,
+}
+
+impl<'a, 'b> Settling<'a, 'b> {
+    /// A search that begins with the settings of `engine`.
+    pub(super) fn new(
+        judge: &'a Judge<'a>,
+        bank: &'a mut Bank<'b>,
+        engine: &dyn Engine,
+        free: Free,
+        budget: f64,
+    ) -> Self {
+        let mut now = engine.settings();
+        let [first, most] = engine.sweeps(bank.case).unwrap_or([now.sweeps; 2]);
+        if free.sweeps {
+            now.sweeps = first;
+        }
+        // The finest of the first three runs.
+        let times = if free.extrapolated { 0 } else { now.extrapolated };
+        now.resolution *= 0.5f64.powi(times as i32 + 1);
+        Settling { judge, bank, free, now, most_sweeps: most, budget }
+    }
+
+    /// Runs the engine until it is decided, or until nothing is left to try.
+    ///
+    /// # Errors
+    /// The failure of the last run, if no run can be judged.
+    pub(super) fn run(mut self, progress: &mut dyn FnMut(f64)) -> Result<(Judged, Search), Stopped> {
+        let mut best: Option<Trial> = None;
+        let mut failure = None;
+        let (mut round, mut failed, mut doubted) = (0, 0, false);
+        let end = loop {
+            let left = 0.5f64.powi(round);
+            let mut part = |part: f64| progress(1.0 - left + 0.5 * left * part);
+            round += 1;
+            let blame = match self.round(&mut part) {
+                Ok(trial) => {
+                    let disagrees = trial.judged.verdict.word() == "disagree";
+                    let (decided, sharp) = (trial.need <= 1.0, trial.need <= AIM);
+                    let thrift = self.bank.effort > THRIFT * self.budget;
+                    let blame = trial.blame;
+                    let better = best.as_ref().is_none_or(|best| disagrees || trial.need < best.need);
+                    if better {
+                        best = Some(trial);
+                    }
+                    // A disagreement counts if the next refinement bears it out.
+                    if decided && (sharp || thrift) && (!disagrees || doubted) {
+                        break End::Decided;
+                    }
+                    doubted = disagrees && decided;
+                    blame
+                }
+                Err(stopped) if stopped.error.kind() == ErrorKind::Numeric => {
+                    failure = Some(stopped);
+                    // A run that fails may lack either; most lack a smaller step.
+                    failed += 1;
+                    if failed % FAILURES == 0 { Part::Iteration } else { Part::Discretisation }
+                }
+                Err(stopped) => return Err(stopped),
+            };
+            if std::env::var_os("TRACE").is_some() {
+                eprintln!(
+                    "round {round} finest {:e} sweeps {} blame {blame:?} effort {:.2e} best {:?} fail {:?}",
+                    self.now.resolution,
+                    self.now.sweeps,
+                    self.bank.effort,
+                    best.as_ref().map(|b| (
+                        b.need,
+                        b.blame,
+                        b.judged.info.settings.resolution,
+                        b.judged.info.settings.extrapolated,
+                        b.judged.verdict.word()
+                    )),
+                    failure.as_ref().map(|f: &Stopped| f.error.message().chars().take(90).collect::<String>())
+                );
+            }
+            if let Some(end) = self.refine(blame) {
+                break end;
+            }
+        };
+        progress(1.0);
+        let search = Search { runs: self.bank.count(), effort: self.bank.effort, budget: self.budget, end };
+        match (best, failure) {
+            (Some(best), _) => Ok((best.judged, search)),
+            (None, Some(stopped)) => Err(stopped),
+            (None, None) => unreachable!("a round ends with a trial or a failure"),
+        }
+    }
+
+    /// Changes the settings by what is to blame. Returns why it cannot.
+    fn refine(&mut self, blame: Part) -> Option<End> {
+        let mut next = self.now;
+        match blame {
+            Part::Iteration if self.free.sweeps && self.now.sweeps < self.most_sweeps => next.sweeps *= MORE_SWEEPS,
+            Part::Rounding | Part::Reference => return Some(End::Rounding),
+            Part::Discretisation | Part::Iteration if self.free.step || self.free.extrapolated => {
+                next.resolution *= 0.5
+            }
+            Part::Discretisation | Part::Iteration => return Some(End::Nothing),
+        }
+        if next.sweeps != self.now.sweeps {
+            self.bank.keep_sweeps(&[next.sweeps, self.now.sweeps]);
+        }
+        // Where the step is given, as many extrapolations as are worth trying.
+        let finest_of_all = self.judge.asked.resolution * 0.5f64.powi(MOST_TIMES as i32 + 1);
+        if !self.free.step && next.resolution < finest_of_all * 0.99 {
+            return Some(End::Nothing);
+        }
+        let previous = std::mem::replace(&mut self.now, next);
+        let wanted: Vec<Settings> = self.candidates().into_iter().flat_map(|settings| rungs(settings, None)).collect();
+        if self.bank.effort + self.bank.missing(&wanted) > self.budget {
+            self.now = previous;
+            return Some(End::Budget);
+        }
+        None
+    }
+
+    /// Settings of all combinations that the finest run judges, the one extrapolated most often first.
+    fn candidates(&self) -> Vec<Settings> {
+        let asked = self.judge.asked;
+        let times = if self.free.extrapolated { 0..=MOST_TIMES } else { asked.extrapolated..=asked.extrapolated };
+        let at = |times: usize| Settings {
+            resolution: self.now.resolution * 2f64.powi(times as i32 + 1),
+            extrapolated: times,
+            ..self.now
+        };
+        let close = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-6;
+        let is_open = |settings: &Settings| match self.free.step {
+            true => 2.0 * settings.resolution <= 2.0 * self.judge.asked.resolution * 1.000_001,
+            false => close(settings.resolution, asked.resolution),
+        };
+        times.rev().map(at).filter(is_open).collect()
+    }
+
+    /// Makes the runs of a round and judges their combinations. The best one is returned.
+    fn round(&mut self, progress: &mut dyn FnMut(f64)) -> Result<Trial, Stopped> {
+        let mut best: Option<Trial> = None;
+        let mut failure = None;
+        let candidates = self.candidates();
+        let all: Vec<Settings> = candidates.iter().flat_map(|&settings| rungs(settings, None)).collect();
+        self.bank.prepare(&all, &mut |part| progress(0.7 * part));
+        for settings in candidates {
+            let trial = match self.trial(settings, None, &mut |_| {}) {
+                Ok(trial) => trial,
+                Err(stopped) => {
+                    failure = Some(stopped);
+                    continue;
+                }
+            };
+            if best.as_ref().is_none_or(|best| trial.need < best.need) {
+                let sharp = trial.need <= AIM;
+                best = Some(trial);
+                if sharp {
+                    break;
+                }
+            }
+        }
+        let Some(best) = best else { return Err(failure.expect("every round has a candidate")) };
+        // What the sweeps leave is asked only where the step is not to blame.
+        let settings = best.judged.info.settings;
+        let engine = self.bank.engine(settings);
+        let share = self.free.sweeps.then_some(MORE_SWEEPS);
+        let other = other_sweeps(self.bank.case, engine.as_ref(), settings.sweeps, share);
+        if other.is_none() || (best.need > 1.0 && best.need.is_finite()) {
+            return Ok(best);
+        }
+        match self.trial(settings, other, &mut |part| progress(0.7 + 0.3 * part)) {
+            // Sweeps so few that the run fails say that those of the other run are hardly enough.
+            Err(stopped) if stopped.error.kind() == ErrorKind::Numeric => {
+                Ok(Trial { need: f64::INFINITY, blame: Part::Iteration, ..best })
+            }
+            found => found,
+        }
+    }
+
+    fn trial(
+        &mut self,
+        settings: Settings,
+        other: Option<usize>,
+        progress: &mut dyn FnMut(f64),
+    ) -> Result<Trial, Stopped> {
+        let runs = self.bank.runs(settings, other, progress)?;
+        let judged = self.judge.judge(self.bank.engine(settings).as_ref(), &runs)?;
+        let (need, blame) = need(&judged, self.judge.scenario.engine_rel);
+        Ok(Trial { judged, need, blame })
+    }
+}
+
+/// The largest bound of a channel or check over what is wanted, `wanted` of its scale, and the part that is to blame.
+/// Where the runs do not bear the bound out, it is infinite.
+fn need(judged: &Judged, wanted: f64) -> (f64, Part) {
+    let channels = judged.channels.iter().map(|own| (own.parts, own.residual.scale, &own.convergence, &own.verdict));
+    let checks = judged.checks.iter().filter_map(|check| {
+        let (parts, convergence) = check.estimate.as_ref()?;
+        Some((*parts, 1.0, convergence, &check.verdict))
+    });
+    // A step that leaves out many instants proves nothing about them.
+    let mut worst = (if judged.too_coarse > MOST_LEFT_OUT { 2.0 } else { 0.0 }, Part::Discretisation);
+    for (parts, scale, convergence, verdict) in channels.chain(checks) {
+        let share = linkage::math::statistics::share(parts.sum(), wanted * scale);
+        let is_open = matches!(verdict, Verdict::Inconclusive { .. });
+        let own = match convergence.is_trusted() {
+            // Open for another reason than its bound: no setting changes that.
+            true if is_open && share <= 1.0 => 0.0,
+            false if is_open => f64::INFINITY,
+            true | false => share,
+        };
+        if !(own <= worst.0) {
+            // Where no order is seen, the sweeps are to blame as soon as they leave a part that counts.
+            let sweeps = own.is_infinite() && 10.0 * parts.iteration > parts.discretisation;
+            worst = (own.larger(0.0), if sweeps { Part::Iteration } else { parts.largest() });
+        }
+    }
+    worst
+}
