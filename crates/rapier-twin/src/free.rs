@@ -19,6 +19,8 @@ const SETTLING_TURN: f64 = 1e-4;
 /// Share of the fastest link's speed below which a link rests at the beginning.
 const STANDSTILL: f64 = 1e-9;
 
+/// Number of tiny steps that take back a trial.
+const UNDOING: usize = 8;
 /// Largest number of trials of the first step for the accelerations in it, and their last change over themselves.
 const MOST_TRIALS: usize = 200;
 const GUESSED: f64 = 1e-9;
@@ -182,7 +184,7 @@ pub(super) fn begin(case: &Case, acting: &mut Acting, worlds: &mut [Guard], sett
             *speed = 0.0;
         }
         acting.branch = None;
-        settle(case, worlds, step)?;
+        undo(case, worlds, step)?;
         guess(case, acting, &window, worlds, step)?;
     }
     Ok(window)
@@ -202,12 +204,18 @@ fn guess(case: &Case, acting: &mut Acting, window: &Window, worlds: &mut [Guard]
         for added in acting.added.iter_mut().flatten() {
             change = change.larger(added.guess(case, |link| window.next_acceleration(own, link)));
         }
-        settle(case, worlds, step)?;
+        undo(case, worlds, step)?;
         if change <= GUESSED {
             break;
         }
     }
     Ok(())
+}
+
+/// Takes back a trial step. Every tiny step starts from the velocities and impulses of the step before: several of them
+/// leave nothing of the trial.
+fn undo(case: &Case, worlds: &mut [Guard], step: f64) -> Result<()> {
+    (0..UNDOING).try_for_each(|_| settle(case, worlds, step))
 }
 
 /// Places worlds at the start with the velocities of the driving links there.
