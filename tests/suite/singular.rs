@@ -201,3 +201,36 @@ fn what_turns_a_little_keeps_its_sense() {
     assert!(case.can_turn(2));
     assert!(shipped("crank_rocker.toml").case.can_turn(2));
 }
+
+/// A crank whose pins lie on its own axis moves nothing.
+#[test]
+fn regress_a_crank_without_length_is_refused() {
+    let error = four_bar([0.4, 0.0, 0.4, 0.4], true).scenario().unwrap_err();
+    assert!(error.message().contains("moves nothing"), "{error}");
+    assert!(error.scenario_key().is_some(), "{error}");
+}
+
+/// Beyond a dead point of the followed branch, configurations are found by the other way round.
+#[test]
+fn regress_configurations_are_found_the_other_way_round() {
+    // The crank swings between 41 and 319 deg: its links reach each other from d = 0.3 to 0.9 only.
+    let lengths = [0.4f64, 0.4, 0.3, 0.6];
+    let limit = ((0.16f64 + 0.16 - 0.09) / 0.32).acos().to_degrees();
+    let case = at(lengths, true, limit + 10.0, &[limit + 10.0]);
+    let there = (limit + 20.0 - 360.0).to_radians();
+    let modes = analytic::modes::all(&case, there).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(modes[0].modes.iter().filter(|mode| mode.is_followed).count(), 1);
+}
+
+/// Ten loops, of which side 1 first follows all poses round (that took 2.7 s once, growing with the third power).
+#[test]
+fn a_long_chain_starts() {
+    let text = swinging(10).replace("to_s = 2", "to_s = 0.01").replace("step_s = 0.1", "step_s = 0.01");
+    let case = Scenario::parse(&text, Path::new("long.toml")).unwrap_or_else(|error| panic!("{error}")).case;
+    let [one, two] = SIDES.map(|side| side.solve(&case).unwrap_or_else(|error| panic!("{}: {error}", side.name())));
+    for ((channel, a), (_, b)) in one.iter().zip(two.iter()) {
+        for (a, b) in a.iter().zip(b) {
+            assert_within!((a - b).abs() / (1.0 + a.abs()), 1e-10, "{channel}: {a} {b}");
+        }
+    }
+}
