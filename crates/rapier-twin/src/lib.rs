@@ -22,6 +22,7 @@ mod ring;
 mod run;
 #[cfg(feature = "f32")]
 mod single;
+mod steer;
 mod window;
 pub mod world;
 

@@ -13,6 +13,7 @@ use rapier::prelude::{
     RigidBodyHandle,
 };
 
+use crate::steer::steered;
 use crate::tree::Tree;
 use crate::world::{LinkAngle, LinkFrame, world_masses};
 use linkage::case::Case;
@@ -110,8 +111,14 @@ impl Twin {
         let cuts = tree.cut.iter().map(|&index| {
             let joint = mechanism.joints()[index].clone();
             let links = [joint.first.link, joint.second.link];
-            let (first, second) = (hold(links[0], links[1]), hold(links[1], links[0]));
-            let handle = world.impulse_joints.insert(first, second, joints::between(&joint, links), true);
+            // Forces are read in the joint's own order and axes.
+            let steered = if read { None } else { steered(&tree, mechanism, &masses, &joint) };
+            let (order, between) = match steered {
+                None => (links, joints::between(&joint, links)),
+                Some((order, axis)) => (order, joints::steered(&joint, order, axis)),
+            };
+            let (first, second) = (hold(order[0], order[1]), hold(order[1], order[0]));
+            let handle = world.impulse_joints.insert(first, second, between, true);
             let plain = links.into_iter().filter(|&link| link != GROUND).all(plain);
             Cut { joint, index, handle, plain, start: frame::Frame::default() }
         });
