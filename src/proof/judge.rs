@@ -85,7 +85,6 @@ pub(super) struct Judged {
     pub(super) kept: Vec<bool>,
 }
 
-
 impl Judge<'_> {
     /// Judges an engine by its runs.
     pub(super) fn judge(&self, engine: &dyn Engine, runs: &Runs) -> Result<Judged> {

@@ -32,8 +32,10 @@ mod range;
 mod rapier;
 mod record;
 mod scenario_docs;
+mod setting_off;
 #[cfg(feature = "simbody")]
 mod simbody;
+mod singular;
 mod slider_limits;
 mod sliders_closed_form;
 mod specimens;

@@ -46,7 +46,7 @@ impl<'a> Guard<'a> {
     /// Supervises a world in its start pose with the time step `step` (s).
     pub(super) fn new(case: &'a Case, world: Box<dyn World>, step: f64) -> Self {
         let size = case.mechanism.size();
-        let masses = masses(case);
+        let masses = masses(case, world.tree());
         let energy = masses.iter().map(|[mass, inertia]| 0.5 * (mass * size * size + inertia)).sum::<f64>();
         let mut guard = Guard {
             case,

@@ -52,6 +52,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
         let zeros = || vec![0.0; drives];
         let held = Held { motor: 0.0, added: case.crank().moving_inertia(), senses: vec![0.0; case.loads.len()] };
         let sensed = case.loads.iter().enumerate().filter_map(|(index, load)| Some((index, load.sensed_link()?)));
+        let sensed = sensed.filter(|&(_, link)| case.can_turn(link));
         let inputs = Inputs { angles: zeros(), speeds: zeros(), accelerations: zeros() };
         Pieces {
             case,
@@ -104,10 +105,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
     pub(super) fn enter(&self, place: &mut Place<N>, bound: Option<usize>) -> Result<()> {
         let work = &mut *self.work.borrow_mut();
         let stood = match bound.map(|bound| (bound, bound.checked_sub(self.case.loads.len()))) {
-            None => {
-                self.choose_branch(place, 1.0);
-                self.begin_senses(work, place)?
-            }
+            None => return self.begin(work, place),
             Some((_, Some(end))) => {
                 // Exactly on the bound; otherwise the same piece would be chosen again.
                 let speeds = self.branch.get().map_or([0.0; 2], |branch| branch.speeds);
@@ -117,10 +115,34 @@ impl<'a, const N: usize> Pieces<'a, N> {
             }
             Some((bound, None)) => self.sensed.iter().copied().filter(|&(index, _)| index == bound).collect(),
         };
+        self.go_on(work, place, &stood)
+    }
+
+    /// Chooses senses and branch at the beginning of the motion.
+    /// From rest the motor drives the crank, unless the other forces then turn it back: power flows to the motor.
+    fn begin(&self, work: &mut Work, place: &Place<N>) -> Result<()> {
+        self.choose_branch(place, 1.0);
+        let stood = self.begin_senses(work, place)?;
+        self.go_on(work, place, &stood)?;
+        let forwards = self.branch.get();
+        if self.crank_speed(&place.y) == 0.0 && self.crank_acceleration(work) < 0.0 {
+            self.choose_branch(place, -1.0);
+            if self.branch.get() != forwards {
+                self.go_on(work, place, &stood)?;
+                if self.crank_acceleration(work) > 0.0 {
+                    return Err(self.is_held(place, self.case.crank().link, "the losses of the reducer hold"));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Accelerations at a place where loads in `stood` have links at rest.
+    fn go_on(&self, work: &mut Work, place: &Place<N>, stood: &[(usize, usize)]) -> Result<()> {
         self.origin.set(place.y);
         match stood.is_empty() {
             true => self.accelerate(work, place.x, &place.y),
-            false => self.set_off(work, place, &stood),
+            false => self.set_off(work, place, stood),
         }
     }
 
@@ -161,14 +183,14 @@ impl<'a, const N: usize> Pieces<'a, N> {
         self.accelerate(work, place.x, &place.y)?;
         let goes = |index: usize, link: usize| work.side.link_rates(link)[1] * work.held.senses[index] >= 0.0;
         match stood.iter().find(|&&(index, link)| !goes(index, link)) {
-            Some(&(_, link)) => Err(self.is_held(place, link)),
+            Some(&(_, link)) => Err(self.is_held(place, link, "its resistance holds")),
             None => Ok(()),
         }
     }
 
-    fn is_held(&self, place: &Place<N>, link: usize) -> Error {
+    fn is_held(&self, place: &Place<N>, link: usize, what: &str) -> Error {
         let name = &self.case.mechanism.links()[link].name;
-        let message = format!("the resistance of link \"{name}\" holds it at t = {:.6} s", place.x);
+        let message = format!("{what} link \"{name}\" at rest at t = {:.6} s", place.x);
         Error::new(ErrorKind::Numeric, message)
             .at_time(place.x)
             .of_link(name)
@@ -178,6 +200,11 @@ impl<'a, const N: usize> Pieces<'a, N> {
     /// The crank's speed in the motor's sense. Wherever there is a branch, the crank is the first free driving link.
     fn crank_speed(&self, y: &[f64; N]) -> f64 {
         self.case.crank().sense() * y[N / 2]
+    }
+
+    /// The crank's acceleration in the motor's sense, from the last evaluation.
+    fn crank_acceleration(&self, work: &Work) -> f64 {
+        self.case.crank().sense() * work.inputs.accelerations[0]
     }
 
     /// Distance of the motor's speed from the bounds of its branch, positive inside.
@@ -219,7 +246,7 @@ impl<const N: usize> Flow<N> for Pieces<'_, N> {
         let Some(load) = self.case.loads.get(bound) else {
             return self.branch_margin(bound - self.case.loads.len(), y);
         };
-        let Some(link) = load.sensed_link() else { return f64::INFINITY };
+        let Some(link) = load.sensed_link().filter(|&link| self.case.can_turn(link)) else { return f64::INFINITY };
         let work = &mut *self.work.borrow_mut();
         self.put(&mut work.inputs, t, y);
         match work.side.spin(&work.inputs, link) {

@@ -1,5 +1,6 @@
 //! Side 2: all constraints of the mechanism at once, by Newton's method and Lagrange multipliers.
 
+mod blocks;
 mod constraint;
 mod free;
 mod solver;

@@ -83,7 +83,7 @@ impl Twin {
     /// [`ErrorKind::Unsupported`] if Rapier refuses a joint.
     pub(crate) fn new(case: &Case, tree: Tree, settings: &Settings, read: bool) -> Result<Self> {
         let mechanism = &case.mechanism;
-        let masses = world_masses(case, read);
+        let masses = world_masses(case, &tree, read);
         let mut world = PhysicsWorld::new();
         world.gravity = joints::vector(case.gravity);
         world.integration_parameters = joints::parameters(settings);
