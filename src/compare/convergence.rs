@@ -1,4 +1,4 @@
-//! Error of an engine, estimated from its own runs: at three resolutions, and with half the sweeps.
+//! Error of an engine, estimated from its own runs: at three resolutions, and with fewer sweeps.
 //!
 //! Let e1 = y(2h) - y(h) and e2 = y(h) - y(h/2). The observed order is p = log2(|e1| / |e2|). The error of the run at h
 //! is estimated as |e2| 2^p / (2^p - 1) (Richardson), times a safety factor. The factor is 1.25 with the formal order
@@ -9,7 +9,8 @@
 //!
 //! Sweeps converge geometrically. Half of the sweeps leave a share q of the initial error, all of them leave q^2, and
 //! the two runs differ by q - q^2. The remaining error is q / (1 - q) of this difference. The factor 3 covers q up to
-//! 3/4 (ASME V&V 20 also counts the iteration error separately).
+//! 3/4 (ASME V&V 20 also counts the iteration error separately). A run with a quarter of the sweeps leaves q where all
+//! leave q^4: the factor then covers q^3 up to 3/4.
 
 use super::residual::{differences, largest_difference};
 use crate::tolerance::{Basis, Origin, Parts, Tolerance};
@@ -34,7 +35,7 @@ pub struct Ladder<'a> {
     pub other_sweeps: Option<&'a Trajectory>,
 }
 
-/// Safety factor on the difference between all and half the sweeps: see the module's text.
+/// Safety factor on the difference between all and fewer sweeps: see the module's text.
 const SWEEPS_SAFETY: f64 = 3.0;
 
 /// What the runs show about the error of the middle run, in one channel.
@@ -83,7 +84,7 @@ impl Convergence {
         Convergence { observed, formal, error, safety, iteration: 0.0 }
     }
 
-    /// The estimate for one channel of three trajectories on one grid, and of a fourth one with half the sweeps of the
+    /// The estimate for one channel of three trajectories on one grid, and of a fourth one with other sweeps than the
     /// middle run. `None` if one of them does not have the channel.
     #[must_use]
     pub fn of_channel(runs: Ladder<'_>, channel: &Channel, formal: f64, noise: f64) -> Option<Self> {
