@@ -163,7 +163,11 @@ impl<'a, 'b> Settling<'a, 'b> {
                     let (decided, sharp) = (trial.need <= 1.0, trial.need <= AIM);
                     let thrift = self.bank.effort > THRIFT * self.budget;
                     let blame = trial.blame;
-                    let better = best.as_ref().is_none_or(|best| disagrees || trial.need < best.need);
+                    // A later round speaks for itself where it disagrees, or no longer does.
+                    let better = best.as_ref().is_none_or(|best| {
+                        let refuted = decided && !best.judged.against().is_empty();
+                        disagrees || refuted || trial.need < best.need
+                    });
                     if better {
                         best = Some(trial);
                     }
