@@ -9,13 +9,13 @@ use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 
-/// Largest crank angle between two poses (rad). Over such a step no link turns so far that its turns could be
+/// Largest turn of a driving link between two poses (rad). Over such a step no link turns so far that its turns could be
 /// miscounted.
-const CLOSED_FORM_STEP: f64 = std::f64::consts::PI / 12.0;
+pub(super) const CLOSED_FORM_STEP: f64 = std::f64::consts::PI / 12.0;
 /// The same where Newton's method follows a group from pose to pose.
-const FOLLOWED_STEP: f64 = std::f64::consts::PI / 90.0;
+pub(super) const FOLLOWED_STEP: f64 = std::f64::consts::PI / 90.0;
 /// How often a failing step is halved: down to a millionth of it.
-const HALVINGS: u32 = 20;
+pub(super) const HALVINGS: u32 = 20;
 
 /// Goes from crank angle to crank angle on one branch and solves the pose there, without allocation.
 #[derive(Debug)]

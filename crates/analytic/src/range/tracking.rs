@@ -70,6 +70,10 @@ pub(super) struct Track {
 /// Distance from the crank's pivot, in sizes of the mechanism, beyond which a link counts as going to infinity.
 const FAR: f64 = 50.0;
 
+/// The same from which on steps grow with the distance. With the mechanism's extent as the unit of length, they stay as
+/// long as they are.
+const NEAR: f64 = 3.0;
+
 /// Follows the curve of one case.
 #[derive(Debug)]
 pub(super) struct Tracker<'a> {
@@ -231,7 +235,7 @@ impl<'a> Tracker<'a> {
         while points.len() < MOST_POINTS {
             let here = &points[points.len() - 1];
             let Some((next, step)) = self.step(here, longest) else { return self.met(points) };
-            longest = (2.0 * step).smaller(LONGEST);
+            longest = (2.0 * step).smaller(LONGEST * self.extent(&next.q));
             if self.crank_rate(&next) * sense <= 0.0 {
                 let limit = self.zero(here, &next, |point| self.crank_rate(point));
                 let singularity = self.singularity(Kind::DeadPoint, &limit);
@@ -252,7 +256,7 @@ impl<'a> Tracker<'a> {
                 }
             }
             let is_near = next.sigma < MEET;
-            let is_far = next.q.iter().enumerate().any(|(k, x)| k % 3 < 2 && x.abs() > FAR);
+            let is_far = self.extent(&next.q) > FAR / NEAR;
             points.push(next);
             if is_far {
                 return self.escaped(points);
@@ -264,10 +268,31 @@ impl<'a> Tracker<'a> {
         Err(lost(self.crank_of(&points[points.len() - 1].q)))
     }
 
+    /// Distance of the farthest link from the crank's pivot, in [`NEAR`] sizes of the mechanism; at least 1.
+    fn extent(&self, q: &Column) -> f64 {
+        q.iter().enumerate().filter(|(k, _)| k % 3 < 2).fold(1.0, |most, (_, x)| most.larger(x.abs() / NEAR))
+    }
+
+    /// Lower bound on the distance to another branch.
+    /// The smallest singular value is small where links are far away, although nothing is near: the axes that lead them
+    /// there are almost parallel. So it is taken times the extent. The groups without a far link are not
+    /// larger; their determinants bound them.
+    fn clearance(&self, here: &Point) -> f64 {
+        let extent = self.extent(&here.q);
+        let all = here.sigma * extent;
+        if extent == 1.0 {
+            return all;
+        }
+        let is_far = |link: &usize| here.q.rows(3 * link - 3, 2).amax() > NEAR;
+        let groups = self.case.structure.groups.iter().zip(&here.measures);
+        let near = groups.filter(|(group, _)| !group.links.iter().any(is_far));
+        near.fold(all, |least, (_, measure)| least.smaller(measure.determinant.abs()))
+    }
+
     /// One step of at most `longest`, which passes no singular pose except one limit of rotation. `None` where branches
     /// meet.
     fn step(&self, here: &Point, longest: f64) -> Option<(Point, f64)> {
-        let mut step = longest.smaller(SAFE * here.sigma);
+        let mut step = longest.smaller(SAFE * self.clearance(here));
         while step >= SHORTEST {
             if let Some(next) = self.advance(here, step) {
                 let changed = |a: f64, b: f64| a * b <= 0.0;
