@@ -72,7 +72,14 @@ const FAR: f64 = 50.0;
 
 /// The same from which on steps grow with the distance. With the mechanism's extent as the unit of length, they stay as
 /// long as they are.
-const NEAR: f64 = 3.0;
+const NEAR: f64 = 2.0;
+/// Change of the extrapolated pose at which links go to infinity, when the nearest pose is left out (rad).
+/// Below it the poses farther out tell nothing more.
+const SETTLED: f64 = 1e-9;
+/// Growth of the extent between two such extrapolations.
+const FARTHER: f64 = 1.2;
+/// Largest number of poses from which a singular pose is extrapolated.
+const MOST_KNOWN: usize = 9;
 
 /// Follows the curve of one case.
 #[derive(Debug)]
@@ -231,7 +238,7 @@ impl<'a> Tracker<'a> {
         }
         let mut points = vec![first];
         let mut turns = 1;
-        let mut longest = LONGEST;
+        let (mut longest, mut tried) = (LONGEST, FARTHER);
         while points.len() < MOST_POINTS {
             let here = &points[points.len() - 1];
             let Some((next, step)) = self.step(here, longest) else { return self.met(points) };
@@ -256,10 +263,13 @@ impl<'a> Tracker<'a> {
                 }
             }
             let is_near = next.sigma < MEET;
-            let is_far = self.extent(&next.q) > FAR / NEAR;
+            let extent = self.extent(&next.q);
             points.push(next);
-            if is_far {
-                return self.escaped(points);
+            if extent > tried {
+                tried = extent * FARTHER;
+                if extent > FAR / NEAR || self.is_settled(&points) {
+                    return self.escaped(points);
+                }
             }
             if is_near {
                 return self.met(points);
@@ -315,6 +325,7 @@ impl<'a> Tracker<'a> {
         let last = &points[points.len() - 1];
         let Some(group) = weakest(&last.measures) else { return Err(lost(self.crank_of(&last.q))) };
         let known = by_determinant(&points, group);
+        let known: Vec<(f64, Column)> = known.into_iter().map(|(x, point)| (x, point.q.clone())).collect();
         let q = if known.len() < 3 { last.q.clone() } else { neville_at_zero(&known) };
         let moved = (&q - &last.q).norm();
         let q = if moved < 1e-3 { q } else { last.q.clone() };
@@ -328,8 +339,30 @@ impl<'a> Tracker<'a> {
         Ok(Track { points, end: End::Limit(singularity) })
     }
 
+    /// Whether the pose at which links go to infinity is known to rounding, so that nothing lies between: angles of
+    /// all links, and determinants, which have kept their signs.
+    fn is_settled(&self, points: &[Point]) -> bool {
+        let last = &points[points.len() - 1];
+        let Some(group) = weakest(&last.measures) else { return false };
+        let known = by_determinant(points, group);
+        if known.len() < MOST_KNOWN {
+            return false;
+        }
+        let known: Vec<(f64, Column)> = known.into_iter().map(|(x, point)| (x, self.finite(point))).collect();
+        let [now, before] = [&known[..], &known[1..]].map(neville_at_zero);
+        let keeps_sign = |other: usize| now[other] * last.measures[other].determinant > 0.0;
+        (&now - before).amax() < SETTLED && (0..last.measures.len()).all(|other| other == group || keeps_sign(other))
+    }
+
+    /// What stays finite where links go to infinity: determinants of all groups, then angles of all links (rad).
+    fn finite(&self, point: &Point) -> Column {
+        let angles = (1..self.case.mechanism.links().len()).map(|link| point.q[Constraints::angle(link)]);
+        let all: Vec<f64> = point.measures.iter().map(|measure| measure.determinant).chain(angles).collect();
+        Column::from_vec(all)
+    }
+
     /// The end of a track along which a slide grows without bound. The crank angle is a smooth function of the
-    /// determinant there too.
+    /// determinant there too, and so are the angles of all links and the measures of the other groups.
     fn escaped(&self, mut points: Vec<Point>) -> Result<Track> {
         let last = &points[points.len() - 1];
         let Some(group) = weakest(&last.measures) else { return Err(lost(self.crank_of(&last.q))) };
@@ -337,8 +370,15 @@ impl<'a> Tracker<'a> {
         if known.len() < 3 {
             return Err(lost(self.crank_of(&last.q)));
         }
+        let known: Vec<(f64, Column)> = known.into_iter().map(|(x, point)| (x, self.finite(point))).collect();
+        let found = neville_at_zero(&known);
         let mut end = last.clone();
-        end.q[self.crank] = neville_at_zero(&known)[self.crank];
+        for (measure, determinant) in end.measures.iter_mut().zip(found.iter()) {
+            measure.determinant = *determinant;
+        }
+        for (link, angle) in (1..self.case.mechanism.links().len()).zip(found.iter().skip(end.measures.len())) {
+            end.q[Constraints::angle(link)] = *angle;
+        }
         end.measures[group] = Measure { determinant: 0.0, condition: f64::MAX };
         let singularity = self.singularity(Kind::ParallelAxes, &end);
         points.push(end);
@@ -360,15 +400,15 @@ impl<'a> Tracker<'a> {
     }
 }
 
-/// Coordinates of the last regular poses by the determinant of a group.
+/// The last regular poses by the determinant of a group.
 /// The nearest to zero comes first; each is half as far again as the one before.
-fn by_determinant(points: &[Point], group: usize) -> Vec<(f64, &Column)> {
-    let mut known: Vec<(f64, &Column)> = Vec::new();
+fn by_determinant(points: &[Point], group: usize) -> Vec<(f64, &Point)> {
+    let mut known: Vec<(f64, &Point)> = Vec::new();
     for point in points.iter().rev().filter(|point| point.sigma > 1e-4) {
         let determinant = point.measures[group].determinant;
         let apart = known.last().is_none_or(|(nearer, _)| determinant.abs() > 1.5 * nearer.abs());
-        if apart && known.len() < 9 {
-            known.push((determinant, &point.q));
+        if apart && known.len() < MOST_KNOWN {
+            known.push((determinant, point));
         }
     }
     known
@@ -406,8 +446,8 @@ fn tangent(jacobian: &Matrix, along: &Column) -> Column {
 }
 
 /// Value at zero of the polynomial through (x, column) pairs with different x.
-fn neville_at_zero(known: &[(f64, &Column)]) -> Column {
-    let mut row: Vec<Column> = known.iter().map(|(_, q)| (*q).clone()).collect();
+fn neville_at_zero(known: &[(f64, Column)]) -> Column {
+    let mut row: Vec<Column> = known.iter().map(|(_, q)| q.clone()).collect();
     for level in 1..known.len() {
         for k in 0..known.len() - level {
             let (x0, x1) = (known[k].0, known[k + level].0);
