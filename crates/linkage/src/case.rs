@@ -9,8 +9,9 @@ mod parts;
 use std::ops::Deref;
 
 use crate::Result;
-use crate::drive::{Action, Drive, Load, Motor, Setting, Wrench};
-use crate::math::{KeepNan, Motion};
+use crate::drive::load::sense_of;
+use crate::drive::{Action, Drive, Load, Motor, Senses, Setting, Wrench};
+use crate::math::{KeepNan, Motion, Vec2};
 use crate::trajectory::{CHANNELS, Channel, Subject};
 
 pub use builder::CaseBuilder;
@@ -196,6 +197,21 @@ impl Case {
         sensed: impl Fn(usize, &Load, usize, f64) -> f64,
         out: &mut [Wrench],
     ) {
+        self.loads_along(motions, angles, sensed, |_, velocity| sense_of(velocity), out);
+    }
+
+    /// The same, and `way` gives the direction of motion (unit vector, or zero) of the point of every load that depends
+    /// on one.
+    /// `way` receives the number of the load and the point's velocity (m/s).
+    #[inline]
+    pub fn loads_along(
+        &self,
+        motions: &[Motion],
+        angles: &[f64],
+        sensed: impl Fn(usize, &Load, usize, f64) -> f64,
+        way: impl Fn(usize, Vec2) -> Vec2,
+        out: &mut [Wrench],
+    ) {
         out.fill(Wrench::ZERO);
         if self.loads.is_empty() {
             return;
@@ -208,9 +224,14 @@ impl Case {
             out[action.link].moment += action.about(centre);
         };
         for (index, load) in self.loads.iter().enumerate() {
-            match load.sensed_link() {
-                Some(link) => add(Action::of_moment(link, sensed(index, load, link, setting.crank))),
-                None => load.act(&setting, &mut add),
+            match load.nature().senses {
+                Senses::Link(link) => add(Action::of_moment(link, sensed(index, load, link, setting.crank))),
+                Senses::Point(at) => {
+                    let motion = &motions[at.link];
+                    let force = load.force_in(way(index, motion.point_velocity(at.local)));
+                    add(Action { link: at.link, force, place: motion.point(at.local), moment: 0.0 });
+                }
+                Senses::Nothing => load.act(&setting, &mut add),
             }
         }
     }

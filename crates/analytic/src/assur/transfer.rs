@@ -9,14 +9,13 @@ use super::forces::Kinetostatics;
 use super::pose_solver::{CLOSED_FORM_STEP, FOLLOWED_STEP, HALVINGS};
 use super::turns::Turns;
 use crate::assur::groups::{Misfit, OutOfReach, Plan};
-use crate::motion::march::SETTING_OFF;
 use crate::motion::side::{Held, Inputs, Side, embed, loads_held};
 use linkage::case::Case;
 use linkage::drive::Wrench;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::dense::Lu;
 use linkage::math::{KeepNan, Vec2};
-use linkage::mechanism::GROUND;
+use linkage::mechanism::{self, GROUND};
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 
@@ -163,7 +162,7 @@ impl Side for TransferSide<'_> {
         self.plan.accelerations(&inputs.accelerations, &mut self.state.motions);
         if !self.case.loads.is_empty() {
             self.find_angles(&inputs.angles);
-            loads_held(self.case, &self.state.motions, &self.state.angles, &held.senses, &mut self.loads);
+            loads_held(self.case, &self.state.motions, &self.state.angles, held, &mut self.loads);
         }
         let links = self.case.mechanism.links();
         self.matrix.clear();
@@ -198,6 +197,15 @@ impl Side for TransferSide<'_> {
         Ok(self.state.motions[link].omega)
     }
 
+    fn velocity(&mut self, inputs: &Inputs, at: mechanism::Side) -> Result<Vec2> {
+        self.spin(inputs, at.link)?;
+        Ok(self.state.motions[at.link].point_velocity(at.local))
+    }
+
+    fn acceleration(&self, at: mechanism::Side) -> Vec2 {
+        self.state.motions[at.link].point_acceleration(at.local)
+    }
+
     fn link_rates(&self, link: usize) -> [f64; 2] {
         let motion = &self.state.motions[link];
         [motion.omega, motion.alpha]
@@ -206,16 +214,7 @@ impl Side for TransferSide<'_> {
     fn fill(&mut self, inputs: &Inputs, state: &mut State) -> Result<()> {
         self.find_angles(&inputs.angles);
         if self.case.wanted.deepest() >= Stage::Reactions {
-            // At the instant of starting from rest, loads act against the motion that begins.
-            let setting_off = inputs.speeds.iter().all(|&speed| speed == 0.0);
-            if setting_off {
-                let begun: Vec<f64> = inputs.accelerations.iter().map(|alpha| SETTING_OFF.copysign(*alpha)).collect();
-                self.plan.velocities(&begun, &mut self.state.motions);
-            }
-            self.statics.solve(self.case, &self.plan, &mut self.state);
-            if setting_off {
-                self.plan.velocities(&inputs.speeds, &mut self.state.motions);
-            }
+            self.statics.solve_under(&self.loads, self.case, &self.plan, &mut self.state);
         }
         state.clone_from(&self.state);
         Ok(())

@@ -20,8 +20,6 @@ pub(crate) type Method<const N: usize> = ExplicitRungeKutta<Ordinary, DormandPri
 /// Relative and absolute error allowed in each step, by the step's own estimate.
 /// The estimate is cautious: the run-up of `crank_rocker` is then exact to 2e-14 rad.
 pub const ACCURACY: f64 = 1e-11;
-/// Speed (rad/s) of a crank at rest that is about to turn. It marks the sense of motion; its square underflows to zero.
-pub(crate) const SETTING_OFF: f64 = 1e-200;
 /// Largest number of consecutive pieces that take no time. With more, the motion does not get away from a kink.
 pub(crate) const MOST_EMPTY: usize = 8;
 /// Largest number of steps of one piece. A hundred turns of a mechanism take some ten thousand.

@@ -182,8 +182,8 @@ pub fn polished<E>(
 
 /// A length at which the value is zero, by at most `steps` secants, the first through `known` and a `guess`, both
 /// positive.
-/// Ends where a secant would change the length by no more than four roundings. A change by more than the length itself
-/// is not made.
+/// Ends where a secant would change the length by no more than four roundings. A change by more than the length itself,
+/// or by more than the change before, is not made: between two values of rounding a secant leads anywhere.
 ///
 /// # Errors
 /// The first of `value`.
@@ -194,11 +194,13 @@ pub fn secants<E>(
     mut value: impl FnMut(f64) -> Result<f64, E>,
 ) -> Result<f64, E> {
     let mut last = (guess, value(guess)?);
+    let mut most = guess;
     for _ in 0..steps {
         let change = last.1 * (last.0 - known.0) / (last.1 - known.1);
-        if !(change.abs() > 4.0 * f64::EPSILON * last.0 && change.abs() < last.0) {
+        if !(change.abs() > 4.0 * f64::EPSILON * last.0 && change.abs() < most) {
             break;
         }
+        most = change.abs();
         known = last;
         let at = last.0 - change;
         last = (at, value(at)?);
