@@ -48,6 +48,8 @@ pub mod cli;
 #[doc(hidden)]
 pub mod compare;
 #[doc(hidden)]
+pub mod diagnosis;
+#[doc(hidden)]
 pub mod engines;
 #[doc(hidden)]
 pub mod proof;

@@ -44,7 +44,9 @@ pub(super) struct Args {
 }
 
 pub(super) fn plan(args: &Args) -> Result<()> {
-    let scenario = Scenario::load(&args.file)?.nominal();
+    let scenario = Scenario::load(&args.file)?;
+    let is_free = scenario.case.is_free();
+    let scenario = scenario.nominal();
     let case = &scenario.case;
     let crank = args.crank_deg.map_or(case.crank().start, f64::to_radians);
     let solver = analytic::named(&args.with).expect("the argument parser knows all names");
@@ -61,6 +63,6 @@ pub(super) fn plan(args: &Args) -> Result<()> {
     }
     match &args.json {
         Some(to) => output::write(&report::json(&scenario, &plans, &singular, advice::told), to),
-        None => output::print(&report::text(&scenario, &plans, &singular, advice::told)),
+        None => output::print(&report::text(&scenario, is_free, &plans, &singular, advice::told)),
     }
 }

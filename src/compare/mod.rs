@@ -5,5 +5,5 @@ pub mod residual;
 pub mod verdict;
 
 pub use convergence::{Convergence, Ladder};
-pub use residual::{Residual, difference, largest_difference, magnitudes, residuals, scales};
+pub use residual::{Residual, difference, differences, largest_difference, magnitudes, residuals, scales};
 pub use verdict::{Check, Verdict, overall};

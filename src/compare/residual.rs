@@ -11,6 +11,9 @@ use linkage::trajectory::{Channel, Trajectory, Unit};
 /// coordinate come from its neighbours, not from its own motion.
 const SMALLEST_SHARE: f64 = 1e-3;
 
+/// Smallest scale of a rate, a force or a moment, as a share of its own largest value.
+const SMALLEST_OWN_SHARE: f64 = 0.1;
+
 /// Distribution of the absolute differences in one channel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Residual {
@@ -40,15 +43,32 @@ impl Residual {
     }
 }
 
-/// Scale of every channel: half the range of its values over the run, but at least a thousandth of the natural size of
-/// its quantity. The natural size is the widest such half range among the quantity's channels, or, if larger, the value
-/// that follows from the crank's motion and the widest half ranges of places and forces. So a quantity that vanishes in
-/// the whole mechanism is measured too.
+/// Scale of every channel: half the range of its values over the run. It is at least a thousandth of the natural size of
+/// its quantity, and of a rate, a force or a moment at least a tenth of its largest value, so that a constant one is
+/// measured by itself. Coordinates have no such value, because their origin is arbitrary.
+///
+/// The natural size is the widest half range among the quantity's channels, or their largest value if they are no
+/// coordinates, or, if larger, the value that follows from the crank's motion and the sizes of places and forces. So a
+/// quantity that vanishes in the whole mechanism is measured too.
 #[must_use]
 pub fn scales(trajectory: &Trajectory) -> Vec<f64> {
     let halves: Vec<f64> = trajectory.iter().map(|(_, values)| half_range(values)).collect();
-    let natural = natural(trajectory, &halves, half_range(trajectory.cranks()));
-    halves.iter().zip(natural).map(|(half, natural)| half.larger(SMALLEST_SHARE * natural)).collect()
+    let largest = trajectory.iter().map(|(channel, values)| match channel.kind.unit {
+        Unit::Radian | Unit::Metre => 0.0,
+        Unit::RadianPerSecond
+        | Unit::RadianPerSecondSquared
+        | Unit::MetrePerSecond
+        | Unit::MetrePerSecondSquared
+        | Unit::Newton
+        | Unit::NewtonMetre => largest_size(values.iter().copied()),
+    });
+    let own: Vec<[f64; 2]> = halves.iter().copied().zip(largest).map(|(half, largest)| [half, largest]).collect();
+    let sizes: Vec<f64> = own.iter().map(|[half, largest]| half.larger(*largest)).collect();
+    let natural = natural(trajectory, &sizes, half_range(trajectory.cranks()));
+    let of = |([half, largest], natural): (&[f64; 2], f64)| {
+        half.larger(SMALLEST_OWN_SHARE * largest).larger(SMALLEST_SHARE * natural)
+    };
+    own.iter().zip(natural).map(of).collect()
 }
 
 /// Size of the numbers in every channel, which its rounding is proportional to. It is the largest absolute value among
@@ -108,7 +128,8 @@ pub fn difference(reference: &Trajectory, other: &Trajectory) -> Result<Trajecto
 }
 
 /// Values of `theirs` minus `ours`.
-pub(super) fn differences(ours: &[f64], theirs: &[f64], periodic: bool) -> Vec<f64> {
+#[must_use]
+pub fn differences(ours: &[f64], theirs: &[f64], periodic: bool) -> Vec<f64> {
     let turns = match (periodic, ours.first(), theirs.first()) {
         (true, Some(a), Some(b)) => TAU * ((b - a) / TAU).round(),
         _ => 0.0,
@@ -177,6 +198,9 @@ mod tests {
     fn a_nearly_constant_channel_is_measured_by_its_family() {
         let a = trajectory(&[("joint.A.fx_N", vec![-500.0, 500.0]), ("joint.A.fy_N", vec![1.0, 1.0])]);
         assert_eq!(scales(&a), [500.0, 0.5]);
+        // A constant force is measured by itself.
+        let b = trajectory(&[("joint.A.fx_N", vec![-500.0, 500.0]), ("joint.A.fy_N", vec![30.0, 30.0])]);
+        assert_eq!(scales(&b), [500.0, 3.0]);
     }
 
     #[test]
@@ -204,7 +228,7 @@ mod tests {
 
     #[test]
     fn no_difference_is_a_share_of_zero_without_a_scale_too() {
-        let still = trajectory(&[("joint.A.fx_N", vec![1.0, 1.0])]);
+        let still = trajectory(&[("joint.A.fx_N", vec![0.0, 0.0])]);
         let found = residuals(&still, &still).unwrap();
         assert_eq!((found[0].scale, found[0].share()), (0.0, 0.0));
     }

@@ -129,7 +129,9 @@ impl Verdict {
         }
         match Verdict::of(value, bound, place) {
             // Where the bound proves nothing, nothing close to it is disproven.
-            Verdict::Agree { .. } | Verdict::Disagree { .. } if bound > wanted * scale && value <= DISPROVEN * bound => {
+            Verdict::Agree { .. } | Verdict::Disagree { .. }
+                if bound > wanted * scale && value <= DISPROVEN * bound =>
+            {
                 let (why, advice) = way_out(parts);
                 let reason = format!(
                     "the engine's error may reach {:.1e} of the channel's scale, more than the {wanted:.0e} that still proves something{why}",
@@ -345,8 +347,14 @@ mod tests {
     fn an_engine_that_does_not_converge_or_is_too_coarse_proves_nothing() {
         assert_eq!(judged(1e-4, 2.0, 1e-3).word(), "agree");
         assert_eq!(judged(1e-2, 2.0, 1e-3).word(), "disagree");
-        assert_eq!(judged(1e-4, 0.3, 1e-3).word(), "inconclusive");
+        assert_eq!(judged(1e-4, 0.3, 2e-3).word(), "inconclusive");
+        // A tenth of what is wanted needs no order.
+        assert_eq!(judged(1e-4, 0.3, 9e-4).word(), "agree");
+        assert_eq!(judged(1e-3, 0.3, 9e-4).word(), "disagree");
         assert_eq!(judged(1e-4, 2.0, 5e-2).word(), "inconclusive");
+        // A bound that proves nothing disproves nothing that is close to it.
+        assert_eq!(judged(6e-2, 2.0, 5e-2).word(), "inconclusive");
+        assert_eq!(judged(2e-1, 2.0, 5e-2).word(), "disagree");
         assert_eq!(judged(1e-4, f64::NAN, 1e-3).word(), "agree");
     }
 
@@ -360,7 +368,7 @@ mod tests {
         assert_eq!(check(2e-3, 2.0, 1e-3).word(), "disagree");
         assert_eq!(check(f64::NAN, 2.0, 1e-3).word(), "disagree");
         assert_eq!(check(1e-4, 2.0, f64::NAN).word(), "disagree");
-        assert_eq!(check(1e-4, 0.3, 1e-3).word(), "inconclusive");
+        assert_eq!(check(1e-4, 0.3, 2e-3).word(), "inconclusive");
         assert_eq!(check(1e-4, 2.0, 5e-2).word(), "inconclusive");
     }
 

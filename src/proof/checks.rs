@@ -82,7 +82,7 @@ fn worst_instants<'a>(sides: &'a [(&'static str, Observed); 2], known: &Known) -
             channel,
             row,
             relative: share(value.abs(), known.magnitude(index)),
-            allowed: known.share(channel.kind.stage, index, row),
+            allowed: known.apart(channel.kind.stage, index, row),
         };
         values.iter().enumerate().map(at).max_by(|a, b| a.used().total_cmp(&b.used())).expect("there is an instant")
     };

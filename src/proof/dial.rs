@@ -26,6 +26,8 @@ impl Proof {
         }
         let analytic = overall(self.checks.iter().map(|check| &check.verdict));
         self.verdict = overall([&analytic].into_iter().chain(self.engines.iter().map(|engine| &engine.verdict)));
+        // A diagnosis belongs to the bounds that it was made with.
+        self.diagnosis = self.diagnosis.filter(|_| dial == 1.0);
         self
     }
 }

@@ -7,11 +7,12 @@
 //! No bound on anything else is less than this.
 
 use crate::compare::{largest_difference, magnitudes};
-use analytic::TightAssurSolver;
 use analytic::range::condition;
+use analytic::{AssurSolver, TightAssurSolver, TightNewtonSolver};
 use linkage::case::Case;
 use linkage::error::Result;
 use linkage::math::KeepNan;
+use linkage::math::statistics::share;
 use linkage::mechanism::{LinkPose, Pose};
 use linkage::solver::{Solver, State};
 use linkage::trajectory::{Channel, Stage, Trajectory};
@@ -41,33 +42,39 @@ const ULPS: f64 = 16.0;
 /// Error of the integration over the difference to the tighter run: the tighter run has an error too.
 const SAFETY: f64 = 2.0;
 
-/// Errors allowed to an analytic side, channel by channel.
+/// Errors allowed to the analytic sides, channel by channel.
 pub(super) struct Known {
     /// Size of the numbers in every channel, in its unit.
     magnitudes: Vec<f64>,
-    /// Error of the integration in every channel, in its unit; zeros for a prescribed motion.
-    integration: Vec<f64>,
+    /// Error of the integration in every channel, in its unit, of the reference and of the other side; zeros for a
+    /// prescribed motion.
+    integration: [Vec<f64>; 2],
     /// Condition number of the pose at every instant, so far in a motion under forces; empty as long as nobody needs it.
     conditions: Vec<f64>,
 }
 
 impl Known {
-    /// What side 1's trajectory is known to.
+    /// What both sides' trajectories are known to, the reference's first.
     ///
     /// # Errors
-    /// Those of the tighter run.
-    pub(super) fn of(case: &Case, reference: &Trajectory) -> Result<Self> {
-        let integration = match case.is_free() {
-            false => vec![0.0; reference.channels().len()],
-            true => {
-                let tight = TightAssurSolver.solve(case)?;
-                let of = |((channel, ours), (_, theirs)): ((&Channel, &[f64]), (_, &[f64]))| {
-                    SAFETY * largest_difference(ours, theirs, channel.kind.periodic)
-                };
-                reference.iter().zip(tight.iter()).map(of).collect()
+    /// Those of the tighter runs.
+    pub(super) fn of(case: &Case, sides: [(&'static str, &Trajectory); 2]) -> Result<Self> {
+        let integration = |(name, trajectory): (&'static str, &Trajectory)| -> Result<Vec<f64>> {
+            if !case.is_free() {
+                return Ok(vec![0.0; trajectory.channels().len()]);
             }
+            let tight = match name == AssurSolver.name() {
+                true => TightAssurSolver.solve(case)?,
+                false => TightNewtonSolver.solve(case)?,
+            };
+            let of = |((channel, ours), (_, theirs)): ((&Channel, &[f64]), (_, &[f64]))| {
+                SAFETY * largest_difference(ours, theirs, channel.kind.periodic)
+            };
+            Ok(trajectory.iter().zip(tight.iter()).map(of).collect())
         };
-        Ok(Known { magnitudes: magnitudes(reference), integration, conditions: Vec::new() })
+        let [reference, other] = sides;
+        let integration = [integration(reference)?, integration(other)?];
+        Ok(Known { magnitudes: magnitudes(reference.1), integration, conditions: Vec::new() })
     }
 
     /// Measures the condition of every pose, for a trajectory whose errors exceed those of well conditioned poses.
@@ -96,17 +103,27 @@ impl Known {
         self.magnitudes[channel]
     }
 
-    /// Relative error allowed in a channel of a stage at an instant.
-    pub(super) fn share(&self, stage: Stage, channel: usize, row: usize) -> f64 {
+    /// Relative rounding allowed in a stage at an instant.
+    fn rounding(&self, stage: Stage, row: usize) -> f64 {
         let condition = self.conditions.get(row).copied().unwrap_or(1.0);
-        let rounding = usual(stage).larger(ULPS * f64::EPSILON * condition.powi(power(stage)));
-        rounding + linkage::math::statistics::share(self.integration[channel], self.magnitudes[channel])
+        usual(stage).larger(ULPS * f64::EPSILON * condition.powi(power(stage)))
     }
 
-    /// Largest error allowed in a channel over the run, in its unit.
+    /// Relative difference allowed between the sides in a channel of a stage at an instant.
+    pub(super) fn apart(&self, stage: Stage, channel: usize, row: usize) -> f64 {
+        let integration = self.integration[0][channel] + self.integration[1][channel];
+        self.rounding(stage, row) + share(integration, self.magnitudes[channel])
+    }
+
+    /// Largest difference allowed between the sides in a channel over the run, in the channel's unit.
+    pub(super) fn between(&self, stage: Stage, channel: usize) -> f64 {
+        self.error(stage, channel) + self.integration[1][channel]
+    }
+
+    /// Largest error allowed to the reference in a channel over the run, in the channel's unit.
     pub(super) fn error(&self, stage: Stage, channel: usize) -> f64 {
         let rows = 0..self.conditions.len().max(1);
-        let share = rows.map(|row| self.share(stage, channel, row)).fold(0.0, f64::larger);
-        share * self.magnitudes[channel]
+        let rounding = rows.map(|row| self.rounding(stage, row)).fold(0.0, f64::larger);
+        rounding * self.magnitudes[channel] + self.integration[0][channel]
     }
 }

@@ -2,7 +2,10 @@
 
 mod checks;
 mod dial;
+mod doubt;
 mod engines;
+mod examined;
+mod judge;
 mod known;
 mod methods;
 mod observe;
@@ -15,12 +18,14 @@ mod runs;
 mod sensitivity;
 mod settle;
 
-pub use engines::{ChannelProof, EngineInfo, EngineProof};
+pub use engines::EngineProof;
+pub use judge::{ChannelProof, EngineInfo};
 pub use options::{Options, Reference};
 pub use parties::Dispute;
 pub use settle::{End, Search};
 
 use crate::compare::{Check, Verdict, overall};
+use crate::diagnosis::Diagnosis;
 use crate::scenario::Scenario;
 use analytic::range::explained;
 use known::Known;
@@ -62,6 +67,8 @@ pub struct Proof {
     /// Channels in which reference and engines do not all agree; empty with a single engine, whose own verdicts state
     /// it.
     pub disputes: Vec<Dispute>,
+    /// Which party stands alone, since when, and why, if a channel disagrees.
+    pub diagnosis: Option<Diagnosis>,
     /// Verdict on the whole.
     pub verdict: Verdict,
     /// The reference's trajectory.
@@ -145,7 +152,8 @@ fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: 
     let [first, second] = analytic::all();
     let sides = [observed(first)?, observed(second)?];
     let own = &sides.iter().find(|(name, _)| *name == main.name()).expect("the reference is one of the sides").1;
-    let mut known = Known::of(case, &sides[0].1.trajectory)?;
+    let (other, beside) = sides.iter().find(|(name, _)| *name != main.name()).expect("there are two sides");
+    let mut known = Known::of(case, [(main.name(), &own.trajectory), (other, &beside.trajectory)])?;
     if checks::sides_differ(&sides, &known) {
         known.measure(case, first)?;
     }
@@ -158,7 +166,7 @@ fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: 
     let mut proofs = Vec::with_capacity(engines.len());
     for (index, engine) in engines.iter().enumerate() {
         let mut part = |part: f64| progress((index as f64 + part) / engines.len() as f64);
-        let mut proof = engines::prove(scenario, &engine_case, engine, &own.trajectory, &known, &mut part)?;
+        let mut proof = engines::prove(scenario, &engine_case, engine, own, &known, &mut part)?;
         engines::tell_sensitivity(&mut proof, &own.trajectory, &sensitivity);
         proofs.push(proof);
     }
@@ -176,6 +184,7 @@ fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: 
         title: scenario.title.clone(),
         formula: case.structure.formula(&case.mechanism),
         reference: main.name(),
+        diagnosis: examined::of(case, main, &sides, &known, &proofs),
         checks,
         engines: proofs,
         disputes,

@@ -4,7 +4,8 @@ use analytic::witness::{momentum, power};
 use linkage::case::Case;
 use linkage::error::Error;
 use linkage::math::statistics::share;
-use linkage::math::{KeepNan, largest_size};
+use linkage::math::{KeepNan, Vec2, largest_size};
+use linkage::mechanism::Side;
 use linkage::solver::{Sampler, Solver, State};
 use linkage::trajectory::{Stage, Trajectory};
 
@@ -14,6 +15,9 @@ pub(super) struct Observed {
     pub(super) trajectory: Trajectory,
     /// Largest distance between the two sides of a joint (m) at every instant.
     pub(super) opening: Vec<f64>,
+    /// What the loads that depend on a sense of motion sense at every instant: the angular velocity of a link (rad/s, as
+    /// x) or the velocity of a point (m/s), load by load.
+    pub(super) senses: Vec<Vec<Vec2>>,
     /// Largest distance of a joint from the origin (m).
     pub(super) reach: f64,
     /// Balancing moment from the balance of powers (N m) at every instant; empty if no balancing moment is wanted. For
@@ -80,9 +84,16 @@ pub(super) fn observe(
     let mut torque = power.clone();
     let (arm, size, steady) = (case.drive_arm(), case.mechanism.size(), case.is_steady());
     let mut opening = vec![0.0f64; case.grid.len()];
+    let mut senses = vec![Vec::new(); case.grid.len()];
     let (mut reach, mut moment): (f64, f64) = (0.0, 0.0);
     let mut unbalance = Unbalance::default();
     let mut visit = |row: usize, state: &State| {
+        let sensed = case.loads.iter().filter_map(|load| {
+            let of_link = |link: usize| Vec2::new(state.motions[link].omega, 0.0);
+            let of_point = |at: Side| state.motions[at.link].point_velocity(at.local);
+            load.sensed_link().map(of_link).or_else(|| load.sensed_point().map(of_point))
+        });
+        senses[row] = sensed.collect();
         for joint in case.mechanism.joints() {
             let sides = [joint.first, joint.second];
             let places = sides.map(|side| state.motions[side.link].point(side.local));
@@ -119,6 +130,7 @@ pub(super) fn observe(
     Ok(Observed {
         trajectory: sampler.finish(case)?,
         opening,
+        senses,
         reach,
         power,
         torque,

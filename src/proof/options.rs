@@ -181,7 +181,8 @@ impl Options {
         let free = Free {
             step: given.is_none(),
             sweeps: self.sweeps.or(own.sweeps).is_none(),
-            extrapolated: self.extrapolated.or(own.extrapolated).is_none(),
+            // Extrapolation takes finer steps: a step that is given is kept to.
+            extrapolated: given.is_none() && self.extrapolated.or(own.extrapolated).is_none(),
         };
         let budget = self.budget.unwrap_or(settle::BUDGET);
         let engines = self.engines_at(scenario, given.unwrap_or_else(|| engines::coarse_step(&scenario.case)))?;

@@ -54,12 +54,7 @@ fn of_series(scenario: &Scenario) -> Result<Vec<Check>> {
 
 /// The checks of one series: one for all correct values together, and one for each value that is known to be wrong. If
 /// all values are known to be wrong, they have one check together.
-fn of_one(
-    oracle: &Oracle,
-    series: &OracleSeries,
-    [solved, other]: [&Trajectory; 2],
-    side: &str,
-) -> Result<Vec<Check>> {
+fn of_one(oracle: &Oracle, series: &OracleSeries, [solved, other]: [&Trajectory; 2], side: &str) -> Result<Vec<Check>> {
     let values = column(oracle, series, solved)?;
     let others = column(oracle, series, other)?;
     let size = solved.channels().iter().zip(magnitudes(solved)).find(|(own, _)| **own == series.channel);

@@ -111,6 +111,11 @@ fn assur(fault: Fault, size: f64) -> Planted<dyn Solver> {
     Planted { fault, size, inner: Box::new(AssurSolver) }
 }
 
+fn knowing(case: &Case) -> Known {
+    let [first, second] = [seen(case, &AssurSolver), seen(case, &NewtonSolver)];
+    Known::of(case, [("assur", &first.trajectory), ("newton", &second.trajectory)]).unwrap()
+}
+
 /// The check whose name begins with `name`.
 fn named<'a>(checks: &'a [Check], name: &str) -> &'a Check {
     let names: Vec<String> = checks.iter().map(Check::name).collect();
@@ -123,7 +128,7 @@ fn nothing(_: &mut State, _: f64) {}
 fn every_check_of_the_two_sides_finds_three_times_its_bound_and_passes_a_fifth() {
     let case = parsed("crank_rocker", &text("crank_rocker")).case;
     let [truth, other] = [seen(&case, &AssurSolver), seen(&case, &NewtonSolver)];
-    let known = Known::of(&case, &truth.trajectory).unwrap();
+    let known = knowing(&case);
     let largest = |name: &str| {
         let place = truth.trajectory.channels().iter().position(|channel| channel.to_string() == name).unwrap();
         magnitudes(&truth.trajectory)[place]
@@ -169,7 +174,7 @@ fn every_check_of_the_two_sides_finds_three_times_its_bound_and_passes_a_fifth()
 fn what_is_not_a_number_at_one_instant_disagrees() {
     let case = parsed("crank_rocker", &text("crank_rocker")).case;
     let [truth, other] = [seen(&case, &AssurSolver), seen(&case, &NewtonSolver)];
-    let known = Known::of(&case, &truth.trajectory).unwrap();
+    let known = knowing(&case);
     type Spoil = fn(&mut Observed);
     let spoiled: [(&str, Spoil); 5] = [
         ("closure of all joints (assur)", |side| side.opening[7] = f64::NAN),
@@ -227,12 +232,12 @@ fn every_class_three_method_finds_a_wrong_group_and_stands_in_the_proof() {
 }
 
 fn engine_proof(scenario: &Scenario, fault: Fault, size: f64) -> EngineProof {
-    let reference = AssurSolver.solve(&scenario.case).unwrap();
+    let reference = seen(&scenario.case, &AssurSolver);
     let rapier = Rapier::all(STEP).into_iter().next().unwrap();
     let inner = Box::new(rapier) as Box<dyn Engine>;
     let engine: Box<dyn Engine> = Box::new(Planted { fault, size, inner });
     let chosen = Chosen { engine, free: Free::default(), budget: settle::BUDGET };
-    let known = Known::of(&scenario.case, &reference).unwrap();
+    let known = knowing(&scenario.case);
     engines::prove(scenario, &scenario.case, &chosen, &reference, &known, &mut |_| {}).unwrap()
 }
 

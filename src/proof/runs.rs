@@ -30,14 +30,15 @@ impl Runs {
     }
 }
 
-/// Sweeps of the run that a run with `sweeps` is compared with: half of them, or two with one.
-/// `None` where the iteration leaves nothing.
-pub(super) fn other_sweeps(case: &Case, engine: &dyn Engine, sweeps: usize) -> Option<usize> {
+/// Sweeps of the run that a run with `sweeps` is compared with: a share of them, half unless `share` says otherwise, or
+/// two where there is no less. `None` where the iteration leaves nothing.
+pub(super) fn other_sweeps(case: &Case, engine: &dyn Engine, sweeps: usize, share: Option<usize>) -> Option<usize> {
     let [_, most] = engine.sweeps(case)?;
-    match sweeps {
-        1 if most == 1 => None,
-        1 => Some(2),
-        sweeps => Some(sweeps / 2),
+    match (sweeps, share) {
+        (1, _) if most == 1 => None,
+        (1, _) => Some(2),
+        (sweeps, Some(share)) if sweeps >= share => Some(sweeps / share),
+        (sweeps, _) => Some(sweeps / 2),
     }
 }
 

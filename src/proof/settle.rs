@@ -10,9 +10,9 @@ use linkage::engine::{Engine, Settings};
 use linkage::error::{Advice, ErrorKind};
 use linkage::math::KeepNan;
 
-use super::engines::{Judge, Judged};
+use super::judge::{Judge, Judged};
 use super::observe::Stopped;
-use super::runs::{Bank, rungs};
+use super::runs::{Bank, other_sweeps, rungs};
 use crate::compare::Verdict;
 use crate::tolerance::Part;
 
@@ -70,8 +70,14 @@ const THRIFT: f64 = 0.025;
 const AIM: f64 = 0.01;
 /// Extrapolations that are tried: with more, the weights add more rounding than the errors they cancel.
 const MOST_TIMES: usize = 4;
+/// Coarsest step that is tried against rounding, in units of the first one.
+const COARSEST: f64 = 16.0;
+/// Failed runs after which more sweeps are tried instead of a smaller step.
+const FAILURES: usize = 6;
+/// Share of instants that may be left out because they are too close to a reversal for the step.
+const MOST_LEFT_OUT: f64 = 0.03;
 /// Factor between numbers of sweeps.
-pub(super) const MORE_SWEEPS: usize = 4;
+const MORE_SWEEPS: usize = 4;
 
 impl End {
     /// Puts into an inconclusive verdict what the search has tried, in place of advice to try it.
@@ -81,9 +87,9 @@ impl End {
             return;
         }
         let (why, way_out) = match self {
-            End::Decided => return,
+            // The settings that are given decide, and its own advice holds.
+            End::Decided | End::Nothing => return,
             End::Rounding => ("a finer step adds more rounding than it takes away", vec![Advice::OtherEngine]),
-            End::Nothing => ("the settings that are left to choose have no better value", vec![Advice::FreeSettings]),
             End::Budget => ("the work that was allowed is done", vec![Advice::MoreWork { to: 10.0 * budget }]),
         };
         reason.push_str("; ");
@@ -108,6 +114,8 @@ pub(super) struct Settling<'a, 'b> {
     /// Present settings; the step is the finest one of all runs.
     now: Settings,
     most_sweeps: usize,
+    /// Step of the coarsest run.
+    coarsest: f64,
     budget: f64,
 }
 
@@ -128,7 +136,8 @@ impl<'a, 'b> Settling<'a, 'b> {
         // The finest of the first three runs.
         let times = if free.extrapolated { 0 } else { now.extrapolated };
         now.resolution *= 0.5f64.powi(times as i32 + 1);
-        Settling { judge, bank, free, now, most_sweeps: most, budget }
+        let coarsest = 2.0 * engine.settings().resolution;
+        Settling { judge, bank, free, now, most_sweeps: most, coarsest, budget }
     }
 
     /// Runs the engine until it is decided, or until nothing is left to try.
@@ -138,7 +147,7 @@ impl<'a, 'b> Settling<'a, 'b> {
     pub(super) fn run(mut self, progress: &mut dyn FnMut(f64)) -> Result<(Judged, Search), Stopped> {
         let mut best: Option<Trial> = None;
         let mut failure = None;
-        let (mut round, mut doubted) = (0, false);
+        let (mut round, mut failed, mut doubted) = (0, 0, false);
         let end = loop {
             let left = 0.5f64.powi(round);
             let mut part = |part: f64| progress(1.0 - left + 0.5 * left * part);
@@ -163,7 +172,8 @@ impl<'a, 'b> Settling<'a, 'b> {
                 Err(stopped) if stopped.error.kind() == ErrorKind::Numeric => {
                     failure = Some(stopped);
                     // A run that fails may lack either; most lack a smaller step.
-                    if round % 3 == 0 { Part::Iteration } else { Part::Discretisation }
+                    failed += 1;
+                    if failed % FAILURES == 0 { Part::Iteration } else { Part::Discretisation }
                 }
                 Err(stopped) => return Err(stopped),
             };
@@ -185,6 +195,11 @@ impl<'a, 'b> Settling<'a, 'b> {
         let mut next = self.now;
         match blame {
             Part::Iteration if self.free.sweeps && self.now.sweeps < self.most_sweeps => next.sweeps *= MORE_SWEEPS,
+            // Coarser runs, extrapolated more often, have less rounding.
+            Part::Rounding if self.free.step && self.coarsest < COARSEST * self.judge.asked.resolution => {
+                self.coarsest *= 2.0;
+                return None;
+            }
             Part::Rounding | Part::Reference => return Some(End::Rounding),
             Part::Discretisation | Part::Iteration if self.free.step || self.free.extrapolated => {
                 next.resolution *= 0.5
@@ -219,7 +234,7 @@ impl<'a, 'b> Settling<'a, 'b> {
         };
         let close = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-6;
         let is_open = |settings: &Settings| match self.free.step {
-            true => 2.0 * settings.resolution <= 2.0 * self.judge.asked.resolution * 1.000_001,
+            true => 2.0 * settings.resolution <= self.coarsest * 1.000_001,
             false => close(settings.resolution, asked.resolution),
         };
         times.rev().map(at).filter(is_open).collect()
@@ -252,12 +267,17 @@ impl<'a, 'b> Settling<'a, 'b> {
         // What the sweeps leave is asked only where the step is not to blame.
         let settings = best.judged.info.settings;
         let engine = self.bank.engine(settings);
-        let other = Judge::other_sweeps(self.bank.case, engine.as_ref(), settings, self.free.sweeps);
-        match other {
-            Some(_) if best.need <= 1.0 || best.need.is_infinite() => {
-                self.trial(settings, other, &mut |part| progress(0.7 + 0.3 * part))
+        let share = self.free.sweeps.then_some(MORE_SWEEPS);
+        let other = other_sweeps(self.bank.case, engine.as_ref(), settings.sweeps, share);
+        if other.is_none() || (best.need > 1.0 && best.need.is_finite()) {
+            return Ok(best);
+        }
+        match self.trial(settings, other, &mut |part| progress(0.7 + 0.3 * part)) {
+            // Sweeps so few that the run fails say that those of the other run are hardly enough.
+            Err(stopped) if stopped.error.kind() == ErrorKind::Numeric => {
+                Ok(Trial { need: f64::INFINITY, blame: Part::Iteration, ..best })
             }
-            Some(_) | None => Ok(best),
+            found => found,
         }
     }
 
@@ -282,7 +302,8 @@ fn need(judged: &Judged, wanted: f64) -> (f64, Part) {
         let (parts, convergence) = check.estimate.as_ref()?;
         Some((*parts, 1.0, convergence, &check.verdict))
     });
-    let mut worst = (0.0, Part::Discretisation);
+    // A step that leaves out many instants proves nothing about them.
+    let mut worst = (if judged.too_coarse > MOST_LEFT_OUT { 2.0 } else { 0.0 }, Part::Discretisation);
     for (parts, scale, convergence, verdict) in channels.chain(checks) {
         let share = linkage::math::statistics::share(parts.sum(), wanted * scale);
         let is_open = matches!(verdict, Verdict::Inconclusive { .. });

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::diagnosis;
 use super::tell::Tell;
 use crate::compare::{Check, Verdict};
 use crate::proof::{ChannelProof, Dispute, EngineProof, Proof};
@@ -32,6 +33,8 @@ struct Run {
     engines: Vec<Engine>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     disputes: Vec<DisputeRow>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    diagnosis: Option<diagnosis::Row>,
     #[serde(skip_serializing_if = "Option::is_none")]
     recording: Option<String>,
 }
@@ -181,6 +184,11 @@ fn run(proof: &Proof, recording: Option<String>, tell: Tell) -> Run {
         checks: proof.checks.iter().map(|own| check(own, tell)).collect(),
         engines: proof.engines.iter().map(|own| engine(own, tell)).collect(),
         disputes: proof.disputes.iter().map(dispute).collect(),
+        diagnosis: proof
+            .diagnosis
+            .as_ref()
+            .filter(|_| matches!(proof.verdict, Verdict::Disagree { .. }))
+            .map(diagnosis::row),
         recording,
     }
 }

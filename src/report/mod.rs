@@ -4,6 +4,7 @@
 pub(crate) mod bearings;
 mod cells;
 pub(crate) mod closed_form;
+pub mod diagnosis;
 pub(crate) mod diagram;
 pub(crate) mod drive;
 pub(crate) mod drive_graphs;

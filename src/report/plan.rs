@@ -13,10 +13,23 @@ use workshop::diagram::draw::significant;
 use workshop::diagram::{Plan, Plans, SingularPoint};
 
 /// The plans as text. `singular`: the singular points of groups of class IV, or the reason why one was not found.
-/// Advice is worded by `tell`.
-pub(crate) fn text(scenario: &Scenario, plans: &Plans, singular: &[Result<SingularPoint>], tell: Tell) -> String {
+/// `is_free` says that forces decide the motion, while the scenario's case is the nominal one. Advice is worded by `tell`.
+pub(crate) fn text(
+    scenario: &Scenario,
+    is_free: bool,
+    plans: &Plans,
+    singular: &[Result<SingularPoint>],
+    tell: Tell,
+) -> String {
     let mut text = String::new();
     let _ = writeln!(text, "{} at crank angle {:.4} deg", scenario.name, plans.crank.to_degrees());
+    if is_free {
+        let speed = significant(scenario.case.crank().top_speed());
+        let _ = writeln!(
+            text,
+            "the motion is free: these plans are of the nominal motion, the crank turning at {speed} rad/s"
+        );
+    }
     let _ = writeln!(text, "kinematic diagram   mu_l = {} m/mm", plans.scheme.scale);
     for link in &plans.scheme.links {
         let (omega, alpha) = (significant(link.omega), significant(link.alpha));

@@ -5,6 +5,7 @@ use std::fmt::Write;
 use comfy_table::Table;
 
 use super::cells::{share, table, used};
+use super::diagnosis;
 use super::engines;
 use super::tell::Tell;
 use crate::compare::{Check, Verdict};
@@ -44,6 +45,9 @@ pub fn proof(proof: &Proof, tell: Tell) -> String {
     expected(proof, &mut text);
     reasons(proof, tell, &mut text);
     let _ = writeln!(text, "\n{}", sentence(&proof.verdict, proof));
+    if let (Some(found), Verdict::Disagree { .. }) = (&proof.diagnosis, &proof.verdict) {
+        let _ = writeln!(text, "\n{}", diagnosis::text(found));
+    }
     text
 }
 

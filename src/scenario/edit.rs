@@ -71,7 +71,9 @@ mod tests {
             assert!(changed.lines().any(|found| found == line), "{line}: {changed}");
         }
         assert!(!changed.contains("step_deg") && !changed.contains("route"), "{changed}");
-        assert!(["name = 'a'\n", "["].iter().all(|text| with_engine(text, (Some(1.0), keys.clone())).is_err()));
+        let added = with_engine("name = 'a'\n", (Some(1.0), EngineKeys::default())).unwrap();
+        assert!(added.contains("[engine]\ndt_s = 1.0"), "{added}");
+        assert!(["engine = 1\n", "["].iter().all(|text| with_engine(text, (Some(1.0), keys.clone())).is_err()));
         assert_eq!(engine_section((Some(1.0), EngineKeys::default())), "[engine]\ndt_s = 1.0\n");
     }
 }

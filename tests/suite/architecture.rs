@@ -54,10 +54,11 @@ const ROOMS: &[(&str, &str)] = &[
     ("workshop::task", ""),
     ("linkproof::cli", "compare engines proof record report scenario tune"),
     ("linkproof::compare", "tolerance"),
+    ("linkproof::diagnosis", "compare"),
     ("linkproof::engines", ""),
-    ("linkproof::proof", "compare engines scenario tolerance"),
+    ("linkproof::proof", "compare diagnosis engines scenario tolerance"),
     ("linkproof::record", ""),
-    ("linkproof::report", "compare proof record scenario tune"),
+    ("linkproof::report", "compare diagnosis proof record scenario tune"),
     ("linkproof::scenario", ""),
     ("linkproof::tolerance", ""),
     ("linkproof::tune", "compare proof scenario"),
@@ -77,6 +78,8 @@ const NEVER: &[(&str, &str)] = &[
         "linkproof::report",
         "analytic::assur analytic::assur_solver analytic::motion analytic::newton rapier_twin simbody_twin",
     ),
+    // It solves changed cases with the solver that it is given.
+    ("linkproof::diagnosis", "analytic rapier_twin simbody_twin workshop linkage::engine"),
     ("linkproof::scenario", "analytic rapier_twin simbody_twin linkage::solver"),
     ("linkproof::tolerance", "analytic rapier_twin simbody_twin workshop linkage"),
     // Engines come from one list only.

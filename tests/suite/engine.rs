@@ -7,6 +7,7 @@ mod grids;
 mod limits;
 mod native;
 mod pendulum;
+mod point_masses;
 mod prismatic;
 mod substeps;
 

@@ -3,6 +3,7 @@
 use crate::assur::PoseSolver;
 use crate::assur::transfer::TransferSide;
 use crate::motion::free;
+use crate::motion::march::TIGHTER;
 use crate::reduced::{self, ACCURACY, End, Model, run_up};
 use linkage::case::Case;
 use linkage::drive::Load;
@@ -38,9 +39,6 @@ impl Solver for AssurSolver {
         Ok(())
     }
 }
-
-/// Share of [`ACCURACY`] that [`TightAssurSolver`] allows in a step. With still less, rounding takes over.
-const TIGHTER: f64 = 0.01;
 
 /// Side 1 with a tighter integration of motions under forces. Its difference from [`AssurSolver`] is the error that the
 /// integration leaves there, which both sides share. A prescribed motion is not integrated.

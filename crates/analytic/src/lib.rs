@@ -14,7 +14,7 @@ pub mod witness;
 
 pub use assur::PoseSolver;
 pub use assur_solver::{AssurSolver, TightAssurSolver};
-pub use newton::NewtonSolver;
+pub use newton::{NewtonSolver, TightNewtonSolver};
 
 use linkage::solver::Solver;
 

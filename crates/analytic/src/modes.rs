@@ -1,5 +1,7 @@
 //! All real configurations of every group at one crank angle.
 
+use std::f64::consts::TAU;
+
 use super::range::is_singular;
 use crate::PoseSolver;
 use crate::assur::groups::Plan;
@@ -32,6 +34,21 @@ pub struct Modes {
     pub unknown: Option<String>,
 }
 
+/// Goes to a crank angle (rad), or to the same pose of the crank by the other way round if a dead point lies on the way.
+/// Returns the angle reached.
+fn reached(case: &Case, crank: f64) -> Result<(PoseSolver<'_>, f64)> {
+    let mut poses = PoseSolver::counting_turns(case)?;
+    let Err(error) = poses.solve(crank, 1.0, 0.0, Stage::Positions) else { return Ok((poses, crank)) };
+    if error.kind() == ErrorKind::Geometry && case.drives.further().is_empty() {
+        let other = crank - TAU.copysign(crank - case.crank().start);
+        let mut round = PoseSolver::counting_turns(case)?;
+        if round.solve(other, 1.0, 0.0, Stage::Positions).is_ok() {
+            return Ok((round, other));
+        }
+    }
+    Err(error)
+}
+
 /// The real configurations of every group (in the order of the structure) at the crank angle `crank` (rad, as the
 /// scenario states it).
 /// For each group the links before it have the pose that the case follows.
@@ -40,7 +57,7 @@ pub struct Modes {
 /// [`ErrorKind::Geometry`] if the crank angle cannot be reached on the case's branch.
 pub fn all(case: &Case, crank: f64) -> Result<Vec<Modes>> {
     let mechanism = &case.mechanism;
-    let mut poses = PoseSolver::counting_turns(case)?;
+    let (mut poses, crank) = reached(case, crank)?;
     let t = case.crank().time_of(crank);
     let omega = if case.is_steady() { case.crank().at(t).omega } else { case.crank().top_speed() };
     let (angles, omegas) =

@@ -5,6 +5,7 @@ mod builder;
 mod check;
 mod grid;
 mod parts;
+mod turning;
 
 use std::ops::Deref;
 
@@ -12,18 +13,22 @@ use crate::Result;
 use crate::drive::load::sense_of;
 use crate::drive::{Action, Drive, Load, Motor, Senses, Setting, Wrench};
 use crate::math::{KeepNan, Motion, Vec2};
+use crate::mechanism::Side;
 use crate::trajectory::{CHANNELS, Channel, Subject};
 
 pub use builder::CaseBuilder;
 pub use grid::Grid;
 pub use parts::{CaseParts, Wanted};
 
+/// Share of the fastest link's angular velocity below which a speed is rounding and tells no sense of motion.
+const STANDSTILL: f64 = 1e-12;
+
 /// A problem that any solver can take: parts that have been checked to fit together.
 ///
 /// Read the parts as fields, for example `case.mechanism`.
 /// Nothing changes them in place: [`Case::with`] and its like make another case and check it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Case(CaseParts);
+pub struct Case(CaseParts, Vec<bool>);
 
 impl Deref for Case {
     type Target = CaseParts;
@@ -49,7 +54,8 @@ impl Case {
     /// Also the errors of [`Structure::of`](crate::mechanism::Structure::of) and [`Grid::check`].
     pub fn new(parts: CaseParts) -> Result<Case> {
         check::all(&parts)?;
-        Ok(Case(parts))
+        let turning = turning::turning(&parts);
+        Ok(Case(parts, turning))
     }
 
     /// The case of these parts, without any check. For tests that plant a fault and ask which check finds it.
@@ -57,7 +63,8 @@ impl Case {
     #[doc(hidden)]
     #[must_use]
     pub fn unchecked(parts: CaseParts) -> Case {
-        Case(parts)
+        let turning = turning::turning(&parts);
+        Case(parts, turning)
     }
 
     /// The parts. Change them and make a new case of them with [`Case::new`].
@@ -82,13 +89,13 @@ impl Case {
     /// Those of [`Grid::check`].
     pub fn on(&self, grid: Grid) -> Result<Case> {
         check::grid(&grid, self.crank())?;
-        Ok(Case(CaseParts { grid, ..self.0.clone() }))
+        Ok(Case(CaseParts { grid, ..self.0.clone() }, self.1.clone()))
     }
 
     /// The same problem with other channels wanted.
     #[must_use]
     pub fn wanting(&self, wanted: Wanted) -> Case {
-        Case(CaseParts { wanted, ..self.0.clone() })
+        Case(CaseParts { wanted, ..self.0.clone() }, self.1.clone())
     }
 
     /// The same problem with another motor of the crank, or without one.
@@ -102,7 +109,7 @@ impl Case {
     /// The same problem with every drive in its nominal motion. Questions about crank angles refer to this motion.
     #[must_use]
     pub fn nominal(&self) -> Case {
-        Case(CaseParts { drives: self.drives.map(Drive::nominal), ..self.0.clone() })
+        Case(CaseParts { drives: self.drives.map(Drive::nominal), ..self.0.clone() }, self.1.clone())
     }
 
     /// The same problem with the crank turning at its drive's top speed all the time.
@@ -110,7 +117,7 @@ impl Case {
     pub fn at_top_speed(&self) -> Case {
         let mut drives = self.drives.clone();
         *drives.crank_mut() = self.crank().at_top_speed();
-        Case(CaseParts { drives, ..self.0.clone() })
+        Case(CaseParts { drives, ..self.0.clone() }, self.1.clone())
     }
 
     /// The wanted channels in the order of columns: links, points, joints, sliders, frame, drive, further drives.
@@ -169,8 +176,36 @@ impl Case {
     pub fn each_load(&self, motions: &[Motion], angles: &[f64], mut put: impl FnMut(Action)) {
         let setting = self.setting(motions, angles);
         for load in &self.loads {
-            load.act(&setting, &mut put);
+            match load.nature().senses {
+                Senses::Nothing => load.act(&setting, &mut put),
+                Senses::Link(link) => {
+                    put(Action::of_moment(link, load.moment_in(self.spin(motions, link), setting.crank)));
+                }
+                Senses::Point(at) if self.moves(motions, at) => load.act(&setting, &mut put),
+                Senses::Point(_) => {}
+            }
         }
+    }
+
+    /// Whether a link can turn. A slider on the ground and the coupler of a parallelogram only translate.
+    #[inline]
+    #[must_use]
+    pub fn can_turn(&self, link: usize) -> bool {
+        self.1[link]
+    }
+
+    /// Angular velocity of a link (rad/s) as far as it tells a sense of rotation.
+    /// It is zero for a link that cannot turn, and where it is rounding beside the fastest link's.
+    #[must_use]
+    pub fn spin(&self, motions: &[Motion], link: usize) -> f64 {
+        let omega = motions[link].omega;
+        if self.can_turn(link) && omega.abs() > STANDSTILL * fastest(motions) { omega } else { 0.0 }
+    }
+
+    /// Whether a point of a link moves, by more than the rounding of the mechanism's speeds.
+    fn moves(&self, motions: &[Motion], at: Side) -> bool {
+        let speed = motions[at.link].point_velocity(at.local).norm();
+        speed > STANDSTILL * fastest(motions) * self.mechanism.size()
     }
 
     #[inline]
@@ -184,10 +219,11 @@ impl Case {
     /// Arguments as in [`Case::each_load`]; `out` has one entry per link.
     #[inline]
     pub fn loads_on(&self, motions: &[Motion], angles: &[f64], out: &mut [Wrench]) {
-        self.loads_with(motions, angles, |_, load, link, crank| load.moment_in(motions[link].omega, crank), out);
+        self.loads_with(motions, angles, |_, load, link, crank| load.moment_in(self.spin(motions, link), crank), out);
     }
 
     /// The same, but `sensed` gives the moment (N m) of every load that depends on the sense of a link's rotation.
+    /// It is not asked for links that cannot turn: no such load acts on them.
     /// `sensed` receives the number of the load, the load, the link and the crank angle (rad).
     #[inline]
     pub fn loads_with(
@@ -202,7 +238,7 @@ impl Case {
 
     /// The same, and `way` gives the direction of motion (unit vector, or zero) of the point of every load that depends
     /// on one.
-    /// `way` receives the number of the load and the point's velocity (m/s).
+    /// `way` receives the number of the load and the point's velocity (m/s), which is zero where it is rounding.
     #[inline]
     pub fn loads_along(
         &self,
@@ -225,13 +261,17 @@ impl Case {
         };
         for (index, load) in self.loads.iter().enumerate() {
             match load.nature().senses {
-                Senses::Link(link) => add(Action::of_moment(link, sensed(index, load, link, setting.crank))),
+                Senses::Nothing => load.act(&setting, &mut add),
+                Senses::Link(link) if self.can_turn(link) => {
+                    add(Action::of_moment(link, sensed(index, load, link, setting.crank)));
+                }
                 Senses::Point(at) => {
                     let motion = &motions[at.link];
-                    let force = load.force_in(way(index, motion.point_velocity(at.local)));
+                    let velocity = if self.moves(motions, at) { motion.point_velocity(at.local) } else { Vec2::zeros() };
+                    let force = load.force_in(way(index, velocity));
                     add(Action { link: at.link, force, place: motion.point(at.local), moment: 0.0 });
                 }
-                Senses::Nothing => load.act(&setting, &mut add),
+                Senses::Link(_) => {}
             }
         }
     }
@@ -243,4 +283,9 @@ impl Case {
         self.each_load(motions, angles, |action| power += action.power(&motions[action.link]));
         power
     }
+}
+
+/// Largest angular velocity of a link, without sign (rad/s).
+fn fastest(motions: &[Motion]) -> f64 {
+    motions.iter().fold(0.0, |most, motion| most.larger(motion.omega.abs()))
 }

@@ -1,11 +1,12 @@
 //! Rapier as an engine and as a solver: its answers to the two traits.
 
 use super::build::{Build, Precision};
+use super::newton_euler::NewtonEuler;
 use super::rapier::Rapier;
 use super::tree::Tree;
 use super::{noise, run};
 use linkage::case::Case;
-use linkage::engine::{Engine, Extrapolated, Route, Settings};
+use linkage::engine::{Engine, Extrapolated, Route, Settings, Statics};
 use linkage::error::Result;
 use linkage::solver::{Progress, Provision, Solver, Visit};
 use linkage::trajectory::{Channel, ChannelKind, Stage};
@@ -46,6 +47,14 @@ impl Engine for Rapier {
             Build::Multibody => Some([16, MOST_SWEEPS]),
             Build::Impulse => Some([64, MOST_SWEEPS]),
         }
+    }
+
+    fn statics(&self, case: &Case) -> Option<Statics> {
+        if self.settings.route != Route::Differences || case.wanted.deepest() < Stage::Reactions {
+            return None;
+        }
+        let mut equations = NewtonEuler::new(case);
+        Some(Box::new(move |case, state, t| equations.solve(case, state, t)))
     }
 
     fn formal_order(&self, case: &Case, channel: &ChannelKind) -> f64 {

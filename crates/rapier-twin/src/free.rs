@@ -1,18 +1,29 @@
 //! Motor and loads of a free motion. They are set again before every step, from the engine's own state.
 
+use super::added::Added;
+use super::build::Precision;
 use super::guard::Guard;
 use super::window::Window;
 use linkage::case::Case;
-use linkage::drive::{Branch, Wrench};
+use linkage::drive::{Branch, Load, Wrench};
 use linkage::engine::Settings;
 use linkage::engine::bodies::check_inertias;
 use linkage::error::Result;
-use linkage::math::KeepNan;
+use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::GROUND;
 use linkage::solver::State;
 
 /// Rotation (rad) of the fastest free link in the tiny step that makes the start velocities consistent.
 const SETTLING_TURN: f64 = 1e-4;
+
+/// Share of the fastest link's speed below which a link rests at the beginning.
+const STANDSTILL: f64 = 1e-9;
+
+/// Number of tiny steps that take back a trial.
+const UNDOING: usize = 8;
+/// Largest number of trials of the first step for the accelerations in it, and their last change over themselves.
+const MOST_TRIALS: usize = 200;
+const GUESSED: f64 = 1e-9;
 
 /// Motor and loads of a case in free motion.
 #[derive(Debug)]
@@ -23,21 +34,30 @@ pub(super) struct Acting {
     /// Speeds that links at rest reach in the trial step, where one was made.
     setting_off: Vec<f64>,
     loads: Vec<Wrench>,
+    /// The same with those of added masses.
+    relieved: Vec<Wrench>,
     branch: Option<Branch>,
+    /// One for each world.
+    added: Vec<Option<Added>>,
 }
 
 impl Acting {
     /// # Errors
     /// Those of [`check_inertias`].
-    pub(super) fn new(case: &Case) -> Result<Self> {
-        check_inertias(case, "Rapier")?;
+    pub(super) fn new(case: &Case, precision: Precision, worlds: &[Guard]) -> Result<Self> {
+        if precision != Precision::Double {
+            // Second differences of its positions are rounding and cannot take away what an added mass does.
+            check_inertias(case, "Rapier in single precision")?;
+        }
         let links = case.mechanism.links().len();
         Ok(Acting {
             state: State::at_rest(case),
             before: vec![f64::NAN; links],
             setting_off: vec![0.0; links],
             loads: vec![Wrench::ZERO; links],
+            relieved: vec![Wrench::ZERO; links],
             branch: None,
+            added: worlds.iter().map(|guard| Added::of(case, guard.world().tree())).collect(),
         })
     }
 
@@ -48,11 +68,14 @@ impl Acting {
             *before = if window.newest() > 0 { motion.omega } else { f64::NAN };
         }
         window.newest_motion(case, &mut self.state);
+        if window.newest() == 0 {
+            self.begin_exactly(case);
+        }
         let State { motions, angles, .. } = &self.state;
         let (before, setting_off) = (&self.before, &self.setting_off);
         // A link may reverse within the step.
         // Its load is then the mean of the loads before and after the reversal, weighted with their shares of the step.
-        let sensed = |_: usize, load: &linkage::drive::Load, link: usize, crank: f64| {
+        let sensed = |_: usize, load: &Load, link: usize, crank: f64| {
             let now = motions[link].omega;
             if now == 0.0 {
                 return load.moment_in(setting_off[link], crank);
@@ -68,15 +91,48 @@ impl Acting {
         case.loads_with(motions, angles, sensed, &mut self.loads);
         let motor = self.motor(case);
         self.loads[GROUND] = Wrench::ZERO;
-        for guard in worlds {
-            guard.put_loads(&self.loads);
+        for (guard, added) in worlds.iter_mut().zip(&mut self.added) {
+            match added {
+                Some(added) => {
+                    added.follow(window);
+                    added.relieve(case, &self.loads, &mut self.relieved);
+                    guard.put_loads(&self.relieved);
+                }
+                None => guard.put_loads(&self.loads),
+            }
             guard.drive_freely(ends, motor);
         }
     }
 
-    /// Whether a load depends on the sense of rotation of a link that is at rest at the beginning.
+    /// Gives driving links their exact speeds at t = 0, and no speed to links at rest.
+    /// The tiny step before the motion leaves rounding there, whose sign must not choose a sense of motion.
+    fn begin_exactly(&mut self, case: &Case) {
+        let motions = &mut self.state.motions;
+        for drive in &case.drives {
+            motions[drive.link].omega = drive.initial_speed();
+        }
+        let fastest = motions.iter().fold(0.0f64, |most, motion| most.larger(motion.omega.abs()));
+        let moving = case.drives.iter().any(|drive| drive.initial_speed() != 0.0);
+        for motion in motions {
+            if !moving || motion.omega.abs() <= STANDSTILL * fastest {
+                motion.omega = 0.0;
+            }
+            if !moving {
+                motion.velocity = Vec2::zeros();
+            }
+        }
+    }
+
+    /// Whether a load, or the losses of a reducer, depend on the sense of rotation of a link that is at rest at the
+    /// beginning.
     fn must_try(&self, case: &Case) -> bool {
-        let mut sensed = case.loads.iter().filter_map(linkage::drive::Load::sensed_link);
+        let losses = case.crank().moving_motor().is_some_and(|motor| motor.efficiency < 1.0);
+        let mut sensed = case
+            .loads
+            .iter()
+            .filter_map(Load::sensed_link)
+            .filter(|&link| case.can_turn(link))
+            .chain(losses.then_some(case.crank().link));
         sensed.any(|link| self.state.motions[link].omega == 0.0)
     }
 
@@ -89,7 +145,11 @@ impl Acting {
         let holds = |branch: &Branch| omega >= branch.speeds[0] && omega < branch.speeds[1];
         let branch = match self.branch {
             Some(branch) if holds(&branch) => branch,
-            _ => *self.branch.insert(motor.branch(omega, 1.0)),
+            _ => {
+                // From rest towards the speeds that the trial step has reached.
+                let towards = if omega == 0.0 { sense * self.setting_off[case.crank().link] } else { 0.0 };
+                *self.branch.insert(motor.branch(omega, if towards < 0.0 { -1.0 } else { 1.0 }))
+            }
         };
         let (moment, slope) = (branch.moment(omega), branch.slope(omega));
         if slope < 0.0 {
@@ -102,7 +162,8 @@ impl Acting {
 
 /// Gives worlds at the start pose the velocities of the driving links there.
 /// Returns the window of the motion that begins.
-/// If a load depends on the sense of rotation of a link at rest, one step is tried without that load and then undone.
+/// If a load, or the losses of a reducer, depend on the sense of rotation of a link at rest, one step is tried and then undone.
+/// In it the load does not act, and power flows from the motor.
 ///
 /// # Errors
 /// Those of [`Guard::step`].
@@ -110,6 +171,7 @@ pub(super) fn begin(case: &Case, acting: &mut Acting, worlds: &mut [Guard], sett
     let step = settings.resolution;
     settle(case, worlds, step)?;
     let window = Window::beginning(case, settings, &worlds[0]);
+    guess(case, acting, &window, worlds, step)?;
     acting.act(case, &window, worlds, [0.0, step]);
     if acting.must_try(case) {
         worlds[0].step(step)?;
@@ -117,9 +179,43 @@ pub(super) fn begin(case: &Case, acting: &mut Acting, worlds: &mut [Guard], sett
         for (link, speed) in acting.setting_off.iter_mut().enumerate().skip(1) {
             *speed = (world.angle(link) - case.start.0[link].angle) / step;
         }
-        settle(case, worlds, step)?;
+        let fastest = acting.setting_off.iter().fold(0.0f64, |most, speed| most.larger(speed.abs()));
+        for speed in acting.setting_off.iter_mut().filter(|speed| speed.abs() <= STANDSTILL * fastest) {
+            *speed = 0.0;
+        }
+        acting.branch = None;
+        undo(case, worlds, step)?;
+        guess(case, acting, &window, worlds, step)?;
     }
     Ok(window)
+}
+
+/// Tries the first step until the accelerations in it, by which added masses are taken away, no longer change.
+/// Every trial is undone.
+fn guess(case: &Case, acting: &mut Acting, window: &Window, worlds: &mut [Guard], step: f64) -> Result<()> {
+    for _ in 0..MOST_TRIALS {
+        if acting.added.iter().all(Option::is_none) {
+            break;
+        }
+        acting.act(case, window, worlds, [0.0, step]);
+        worlds[0].step(step)?;
+        let own = &worlds[0];
+        let mut change = 0.0f64;
+        for added in acting.added.iter_mut().flatten() {
+            change = change.larger(added.guess(case, |link| window.next_acceleration(own, link)));
+        }
+        undo(case, worlds, step)?;
+        if change <= GUESSED {
+            break;
+        }
+    }
+    Ok(())
+}
+
+/// Takes back a trial step. Every tiny step starts from the velocities and impulses of the step before: several of them
+/// leave nothing of the trial.
+fn undo(case: &Case, worlds: &mut [Guard], step: f64) -> Result<()> {
+    (0..UNDOING).try_for_each(|_| settle(case, worlds, step))
 }
 
 /// Places worlds at the start with the velocities of the driving links there.

@@ -5,7 +5,9 @@
 //! The share of the differences alone is therefore computed and subtracted.
 //! It follows from the Newton-Euler equations with the engine's own accelerations.
 
+use super::bare;
 use super::newton_euler::NewtonEuler;
+use super::tree::Tree;
 use super::world::{masses, masses_with_flywheels};
 use linkage::case::Case;
 use linkage::error::Result;
@@ -23,10 +25,19 @@ impl Ghost {
     /// `None` if there is neither.
     pub(super) fn of(case: &Case, unloaded: bool) -> Option<Self> {
         // A flywheel adds a moment only while it is accelerated.
-        let masses = if case.is_steady() { masses(case) } else { masses_with_flywheels(case) };
+        let tree = Tree::none(&case.mechanism);
+        let masses = if case.is_steady() { masses(case, &tree) } else { masses_with_flywheels(case, &tree) };
         let links = case.mechanism.links().iter().zip(masses);
-        let extra: Vec<[f64; 2]> =
+        let mut extra: Vec<[f64; 2]> =
             links.map(|(link, [mass, inertia])| [mass - link.mass, inertia - link.inertia]).collect();
+        if case.is_free() {
+            // Loads in the world already take away the effect of added masses.
+            for (link, extra) in extra.iter_mut().enumerate() {
+                let [mass, inertia] = bare::to_link(case, link, &tree);
+                extra[0] -= mass;
+                extra[1] -= inertia;
+            }
+        }
         let unloaded = unloaded && !case.loads.is_empty();
         let any = unloaded || extra.iter().flatten().any(|&extra| extra != 0.0);
         // What the engine lacks is subtracted with the opposite sign.

@@ -4,6 +4,8 @@
 //! It first drives itself backwards to shortly before the first output time, and then forwards.
 //! The transient of the first steps has therefore decayed before anything is read.
 
+mod added;
+mod bare;
 mod build;
 mod double;
 mod engine;
@@ -20,6 +22,7 @@ mod ring;
 mod run;
 #[cfg(feature = "f32")]
 mod single;
+mod steer;
 mod window;
 pub mod world;
 

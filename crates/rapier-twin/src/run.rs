@@ -117,8 +117,7 @@ impl<'a> Run<'a> {
             Build::Multibody => Tree::covering(mechanism),
             Build::Impulse => vec![Tree::none(mechanism)],
         };
-        let acting = if case.is_free() { Some(Acting::new(case)?) } else { None };
-        if let (Some(_), Some(Route::Probe)) = (&acting, route) {
+        if let (true, Some(Route::Probe)) = (case.is_free(), route) {
             let message = "the motion is free, but a probe needs prescribed speeds";
             return Err(Error::new(ErrorKind::Unsupported, message)
                 .help(Advice::OtherRoute { routes: &["differences", "native"] }));
@@ -130,6 +129,7 @@ impl<'a> Run<'a> {
             .map(|tree| Ok(Guard::new(case, engine.world(case, tree, native)?, settings.resolution)))
             .collect();
         let worlds = worlds?;
+        let acting = if case.is_free() { Some(Acting::new(case, engine.precision, &worlds)?) } else { None };
         // One step lies before the beginning of a free motion.
         let reports_from = if acting.is_some() { start - 1 } else { start };
         let reader = match route {

@@ -204,6 +204,22 @@ impl Window {
         }
     }
 
+    /// Acceleration of a link's mass centre and its angular acceleration (x, y, angle) in the newest step: second
+    /// differences of positions.
+    pub(super) fn newest_acceleration(&self, link: usize) -> [f64; WIDTH] {
+        let [now, before, earlier] =
+            [0, 1, 2].map(|back| &self.ring.row(self.newest() - back)[link * WIDTH..][..WIDTH]);
+        [0, 1, 2].map(|c| (now[c] - 2.0 * before[c] + earlier[c]) / (self.step * self.step))
+    }
+
+    /// The same for a step to the place that `guard` has reached from the newest one.
+    pub(super) fn next_acceleration(&self, guard: &Guard, link: usize) -> [f64; WIDTH] {
+        let [now, before] = [0, 1].map(|back| &self.ring.row(self.newest() - back)[link * WIDTH..][..WIDTH]);
+        let centre = guard.centres()[link];
+        let next = [centre.x, centre.y, guard.frames()[link].angle()];
+        [0, 1, 2].map(|c| (next[c] - 2.0 * now[c] + before[c]) / (self.step * self.step))
+    }
+
     /// Poses of all links `back` seconds before `t`.
     pub(super) fn poses(&self, case: &Case, t: f64, back: f64, into: &mut Vec<LinkPose>) {
         let place = self.place(t);

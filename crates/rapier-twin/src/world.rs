@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use super::bare;
 use super::tree::Tree;
 use linkage::case::Case;
 use linkage::drive::Wrench;
@@ -187,10 +188,11 @@ const FLYWHEEL: f64 = 1.0;
 /// Rapier cannot move a body without them.
 /// Under a prescribed speed the motion does not depend on the masses.
 /// What they add to the reactions is subtracted again ([`Ghost`](super::ghost::Ghost)).
-/// In a free motion they are the links' own, and the crank also carries rotor and gearbox.
-pub(super) fn masses(case: &Case) -> Vec<[f64; 2]> {
+/// In a free motion the crank also carries rotor and gearbox. Stand-ins depend on the world's tree there, and loads take
+/// away what they do ([`added`](super::added)).
+pub(super) fn masses(case: &Case, tree: &Tree) -> Vec<[f64; 2]> {
     let of = |(index, link): (usize, &Link)| {
-        let [mass, inertia] = stand_in(case, index);
+        let [mass, inertia] = if case.is_free() { bare::to_link(case, index, tree) } else { stand_in(case, index) };
         [link.mass + mass, link.inertia + inertia]
     };
     let mut masses: Vec<[f64; 2]> = case.mechanism.links().iter().enumerate().map(of).collect();
@@ -199,9 +201,33 @@ pub(super) fn masses(case: &Case) -> Vec<[f64; 2]> {
     masses
 }
 
-/// The same, with flywheels on the driving links whose speed is prescribed.
-pub(super) fn masses_with_flywheels(case: &Case) -> Vec<[f64; 2]> {
-    let mut masses = masses(case);
+/// Masses of a world that only moves, under prescribed speeds: the same for every link, with the moment of inertia of a
+/// rod of the link's extent.
+/// The motion does not depend on them, but the sweeps do: with masses of very different size they hardly converge.
+fn even_masses(case: &Case) -> Vec<[f64; 2]> {
+    let size = case.mechanism.size();
+    let of = |link: &Link| {
+        let extent = link.extent();
+        let length = if extent > 0.0 { extent } else { size };
+        [1.0, length * length / 12.0]
+    };
+    let mut masses: Vec<[f64; 2]> = case.mechanism.links().iter().map(of).collect();
+    masses[GROUND] = [0.0; 2];
+    masses
+}
+
+/// Masses of a world. `read` says whether it reports forces; a world that only moves under prescribed speeds has
+/// [`even_masses`].
+pub(super) fn world_masses(case: &Case, tree: &Tree, read: bool) -> Vec<[f64; 2]> {
+    if read || case.is_free() { masses_with_flywheels(case, tree) } else { with_flywheels(case, even_masses(case)) }
+}
+
+/// The links' own masses, with flywheels on the driving links whose speed is prescribed.
+pub(super) fn masses_with_flywheels(case: &Case, tree: &Tree) -> Vec<[f64; 2]> {
+    with_flywheels(case, masses(case, tree))
+}
+
+fn with_flywheels(case: &Case, mut masses: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     if case.is_free() {
         return masses;
     }

@@ -3,10 +3,12 @@
 pub mod dial;
 pub mod four_link;
 pub mod higher;
+pub mod loads;
 pub mod random;
 pub mod sketch;
 pub mod sliders;
 pub mod spec;
+pub mod specimens;
 
 pub(crate) use dial::assert_within;
 use linkage::case::{Case, Grid};

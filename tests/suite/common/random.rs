@@ -17,7 +17,7 @@ use super::spec::{Ask, Dyad, Spec, Start};
 /// Limits of the mechanisms' size (m) and of the turn of their links (rad).
 pub const REACH: f64 = 4.0;
 /// Smallest sine of a transmission angle: 10 degrees.
-const DEAD: f64 = 0.17364817766693033;
+pub const DEAD: f64 = 0.17364817766693033;
 /// Smallest distance of the outer pins of an RPR dyad (m): as short as the shortest link.
 const CLOSE: f64 = 0.1;
 
@@ -85,7 +85,7 @@ pub fn sort(random: &mut Random, allowed: &[[bool; 3]]) -> [bool; 3] {
 }
 
 /// A crank and `dyads` dyads, each joined to one of the last links and to any other link or the ground.
-fn chain(random: &mut Random, allowed: &[[bool; 3]], dyads: usize) -> (Spec, Vec<LinkPose>) {
+pub fn chain(random: &mut Random, allowed: &[[bool; 3]], dyads: usize) -> (Spec, Vec<LinkPose>) {
     let mut sketch = Sketch::new(random, [0.1, 1.0]);
     for _ in 0..dyads {
         let count = sketch.poses.len();

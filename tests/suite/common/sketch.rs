@@ -6,7 +6,7 @@ use linkage::mechanism::LinkPose;
 use proptest::prelude::Rng;
 use proptest::test_runner::{RngAlgorithm, TestRng};
 
-use super::spec::{Body, Guide, Pin, Spec};
+use super::spec::{Body, Guide, Other, Pin, Spec};
 
 /// Source of random numbers.
 pub struct Random(TestRng);
@@ -15,6 +15,20 @@ impl Random {
     /// The numbers that follow from `seed`.
     pub fn from_seed(seed: u8) -> Self {
         Random(TestRng::from_seed(RngAlgorithm::ChaCha, &[seed; 32]))
+    }
+
+    /// The numbers of one of many samples that follow from one seed.
+    pub fn of_sample(seed: u64, index: u64) -> Self {
+        let mut bytes = [0; 32];
+        bytes[..8].copy_from_slice(&seed.to_le_bytes());
+        bytes[8..16].copy_from_slice(&index.to_le_bytes());
+        bytes[31] = 1;
+        Random(TestRng::from_seed(RngAlgorithm::ChaCha, &bytes))
+    }
+
+    /// A positive number whose logarithm is uniform.
+    pub fn decades(&mut self, from: f64, to: f64) -> f64 {
+        10f64.powf(self.number(from.log10(), to.log10()))
     }
 
     /// The next number.
@@ -86,7 +100,8 @@ impl<'a> Sketch<'a> {
             dyads: Vec::new(),
             starts: Vec::new(),
             grid: (start - 0.3, 0.05, 12),
-            dt: 1e-3,
+            dt: Some(1e-3),
+            other: Other::default(),
         };
         let mut sketch = Sketch { random, spec, poses: vec![LinkPose::GROUND], turning: vec![0], joints: 0 };
         let pivot = sketch.random.vector(0.0, 0.5);

@@ -94,13 +94,29 @@ pub struct Spec {
     pub starts: Vec<Start>,
     /// First crank angle, step and number of steps of the grid.
     pub grid: (f64, f64, usize),
-    pub dt: f64,
+    /// The engine's step; `None` leaves the section out.
+    pub dt: Option<f64>,
+    pub other: Other,
+}
+
+/// What only some mechanisms have.
+#[derive(Clone, Debug, Default)]
+pub struct Other {
+    /// Name of the scenario; "test" if it is empty.
+    pub name: String,
+    /// Keys of the drive that replace its speed: a motion law, or a free motion.
+    pub drive: String,
+    /// Further sections: a motor, loads.
+    pub sections: String,
+    /// Last instant and number of steps of a grid by time, which replaces the one by crank angles.
+    pub times: Option<(f64, usize)>,
 }
 
 impl Spec {
     /// The scenario as text. The driven joint is the first revolute one.
     pub fn toml(&self) -> String {
-        let mut text = String::from("format = 1\nname = \"test\"\ntitle = \"test\"\n[ground.points]\n");
+        let name = if self.other.name.is_empty() { "test" } else { &self.other.name };
+        let mut text = format!("format = 1\nname = \"{name}\"\ntitle = \"{name}\"\n[ground.points]\n");
         let place = |v: Vec2| format!("{{ x_m = {:?}, y_m = {:?} }}", v.x, v.y);
         for (name, at) in &self.ground {
             writeln!(text, "{name} = {}", place(*at)).unwrap();
@@ -130,12 +146,17 @@ impl Spec {
         } else {
             text.extend(pins.chain(guides));
         }
-        let (driven, speed, zero) = (&self.pins[0].name, self.speed, self.zero);
-        writeln!(text, "[drive]\njoint = \"{driven}\"\nspeed_rad_s = {speed:?}\nzero_rad = {zero:?}").unwrap();
+        let (driven, zero) = (&self.pins[0].name, self.zero);
+        let motion = match self.other.drive.as_str() {
+            "" => format!("speed_rad_s = {:?}", self.speed),
+            keys => keys.trim_end().into(),
+        };
+        writeln!(text, "[drive]\njoint = \"{driven}\"\n{motion}\nzero_rad = {zero:?}").unwrap();
         writeln!(text, "[gravity]\nx_m_s2 = {:?}\ny_m_s2 = {:?}", self.gravity.x, self.gravity.y).unwrap();
         for (link, moment) in &self.loads {
             writeln!(text, "[[loads]]\ntype = \"resistance\"\nlink = \"{link}\"\nmoment_N_m = {moment:?}").unwrap();
         }
+        text.push_str(&self.other.sections);
         writeln!(text, "[start]\ncrank_rad = {:?}", self.start).unwrap();
         for Dyad { links: [a, b], left } in &self.dyads {
             let mode = if *left { "left" } else { "right" };
@@ -155,10 +176,16 @@ impl Spec {
                 }
             }
         }
-        let (from, step, count) = self.grid;
-        let to = from + step * count as f64;
-        writeln!(text, "[grid]\nfrom_rad = {from:?}\nto_rad = {to:?}\nstep_rad = {step:?}").unwrap();
-        writeln!(text, "[engine]\ndt_s = {:?}", self.dt).unwrap();
+        if let Some((to, count)) = self.other.times {
+            writeln!(text, "[grid]\nfrom_s = 0\nto_s = {to:?}\nstep_s = {:?}", to / count as f64).unwrap();
+        } else {
+            let (from, step, count) = self.grid;
+            let to = from + step * count as f64;
+            writeln!(text, "[grid]\nfrom_rad = {from:?}\nto_rad = {to:?}\nstep_rad = {step:?}").unwrap();
+        }
+        if let Some(dt) = self.dt {
+            writeln!(text, "[engine]\ndt_s = {dt:?}").unwrap();
+        }
         text
     }
 
@@ -198,10 +225,23 @@ impl Spec {
         other
     }
 
+    /// The same mechanism with all lengths times `factor`, masses unchanged. Sections of text keep their numbers.
+    pub fn larger(&self, factor: f64) -> Spec {
+        let mut other = self.clone();
+        let points = other.links.iter_mut().flat_map(|body| &mut body.points).chain(&mut other.ground);
+        points.for_each(|(_, at)| *at *= factor);
+        for (_, centre, inertia) in other.links.iter_mut().filter_map(|body| body.mass.as_mut()) {
+            *centre *= factor;
+            *inertia *= factor * factor;
+        }
+        other.near_points().for_each(|at| *at *= factor);
+        other
+    }
+
     fn near_points(&mut self) -> impl Iterator<Item = &mut Vec2> {
         let asked = self.starts.iter_mut().filter_map(|start| match &mut start.ask {
             Ask::Near(points) => Some(points),
-            _ => None,
+            Ask::Ahead | Ask::Behind => None,
         });
         asked.flatten().map(|(_, at)| at)
     }
@@ -249,6 +289,7 @@ pub fn four_bar([base, crank, coupler, rocker]: [f64; 4], left: bool) -> Spec {
         dyads: vec![Dyad { links: ["coupler".into(), "rocker".into()], left }],
         starts: Vec::new(),
         grid: (0.0, std::f64::consts::PI / 36.0, 72),
-        dt: 1e-3,
+        dt: Some(1e-3),
+        other: Other::default(),
     }
 }

@@ -186,7 +186,7 @@ fn the_twin_goes_on_with_the_velocities_that_moved_it() {
     let reference = solve(&AssurSolver, &case);
     let angle = |channel: &Channel| channel.kind.unit == Unit::Radian;
     let settings = |own| Settings { resolution: 5e-4, extrapolated: 1, sweeps: 16, ..own };
-    let found = solve(twin("rapier", &scenario, settings).as_ref(), &case);
+    let found = solve(twin("rapier", settings).as_ref(), &case);
     let worst = worst(&reference, &found, angle);
     assert_within!(worst, 3e-5, "{worst:e}");
 }
@@ -198,7 +198,7 @@ fn an_ill_conditioned_run_up_is_inconclusive_with_its_sensitivity() {
     let mut scenario = shipped("crank_rocker_runup.toml");
     let motor = Motor { inertia: Default::default(), ..scenario.case.crank().motor().unwrap().clone() };
     scenario.case = scenario.case.with_motor(Some(motor)).unwrap();
-    let proof = prove(&scenario, &Options::default().engine(EngineName::Rapier)).unwrap();
+    let proof = prove(&scenario, &Options::default().engine(EngineName::Rapier).step(1e-4)).unwrap();
     assert!(matches!(proof.verdict, Verdict::Inconclusive { .. }), "{:?}", proof.verdict);
     let unclear: Vec<_> = proof.engine().channels.iter().filter(|c| c.verdict.word() == "inconclusive").collect();
     assert!(!unclear.is_empty());
@@ -244,7 +244,7 @@ fn what_a_free_motion_cannot_be_asked_says_so() {
         assert!(error.message().contains("hold"), "{}: {error}", solver.name());
         assert!(error.way_out().unwrap().contains("torque"), "{error}");
     }
-    // A motion that begins at t = 0 is not continued backwards, and a stand-in does not move a link without inertia.
+    // A motion that begins at t = 0 is not continued backwards, and not every engine moves a link without inertia.
     let mut links = case.mechanism.links().to_vec();
     let coupler = case.mechanism.link_named("coupler").unwrap();
     links[coupler].inertia = 0.0;
@@ -257,7 +257,7 @@ fn what_a_free_motion_cannot_be_asked_says_so() {
         let error = solver.solve(&before).unwrap_err();
         assert!(error.message().contains("an instant at -0.1 s"), "{}: {error}", solver.name());
     }
-    for solver in solvers {
+    for solver in solvers.filter(|solver| solver.name().ends_with("-f32") || solver.name() == "simbody") {
         let error = solver.solve(&bare).unwrap_err();
         assert!(error.message().contains("link \"coupler\" has no mass or no moment"), "{}: {error}", solver.name());
     }

@@ -1,7 +1,6 @@
 //! Random mechanisms of dyads of all kinds under random loads of all kinds.
 
 use linkage::math::KeepNan;
-use std::fmt::Write;
 
 use analytic::{self, witness::momentum, witness::power};
 use linkage::case::Case;
@@ -9,76 +8,14 @@ use linkage::trajectory::Stage;
 use linkproof::compare::residuals;
 use linkproof::scenario::Scenario;
 
+use crate::common::loads::Sizes;
 use crate::common::random::{for_each, within};
 use crate::common::sketch::Random;
-use crate::common::{assert_within, shipped, states};
+use crate::common::{self, assert_within, shipped, states};
 
-/// Six loads of random kinds, as text.
+/// Six loads of random sorts, as text.
 pub fn loads(random: &mut Random, case: &Case) -> String {
-    let links = case.mechanism.links();
-    let mut text = String::new();
-    for _ in 0..6 {
-        let moving = 1 + random.index(links.len() - 1);
-        let other = (moving + 1 + random.index(links.len() - 1)) % links.len();
-        let (link, second) = (&links[moving], &links[other]);
-        let pair = format!("links = [{:?}, {:?}]", link.name, second.name);
-        let point = &link.points[random.index(link.points.len())].name;
-        let far = second.points.iter().find(|far| far.name != *point);
-        let size = random.number(10.0, 100.0);
-        let table = |random: &mut Random, names: &[&str]| {
-            let row = |random: &mut Random, k: usize| {
-                let mut row = format!("crank_deg = {:?}", -400.0 + 110.0 * k as f64 + random.number(0.0, 100.0));
-                for name in names {
-                    write!(row, ", {name} = {:?}", random.number(-50.0, 50.0)).unwrap();
-                }
-                format!("{{ {row} }}")
-            };
-            let rows: Vec<String> = (0..6).map(|k| row(random, k)).collect();
-            let interpolation = if random.yes() { "smooth" } else { "linear" };
-            format!("turns = 2\ninterpolation = {interpolation:?}\ntable = [{}]", rows.join(", "))
-        };
-        let acts = if case.mechanism.can_turn(moving) {
-            ["always", "clockwise", "counter-clockwise"][random.index(3)]
-        } else {
-            "always"
-        };
-        let own = match (random.index(8), far) {
-            (0, _) if case.mechanism.can_turn(moving) => {
-                format!("type = \"resistance\"\nlink = {:?}\nmoment_N_m = {size:?}", link.name)
-            }
-            (0 | 1, _) => format!(
-                "type = \"moment\"\nlink = {:?}\nacts = {acts:?}\n{}",
-                link.name,
-                table(random, &["moment_N_m"])
-            ),
-            (2, _) => {
-                let frame = if random.yes() { "link" } else { "world" };
-                let table = table(random, &["x_N", "y_N"]);
-                format!("type = \"force\"\nlink = {:?}\npoint = {point:?}\nframe = {frame:?}\n{table}", link.name)
-            }
-            (3, _) => {
-                let hinged =
-                    case.mechanism.joints().iter().any(|joint| joint.on(0).is_some() && joint.on(moving).is_some());
-                let sort = if hinged {
-                    "type = \"force\"\nx_N = 3\ny_N = -20".into()
-                } else {
-                    format!("type = \"resisting_force\"\nforce_N = {size:?}")
-                };
-                format!("{sort}\nlink = {:?}\npoint = {point:?}", link.name)
-            }
-            (4, Some(far)) => format!(
-                "type = \"spring\"\n{pair}\npoints = [{point:?}, {:?}]\nstiffness_N_m = {size:?}\nfree_length_m = 0.4",
-                far.name
-            ),
-            (5, Some(far)) => {
-                format!("type = \"damper\"\n{pair}\npoints = [{point:?}, {:?}]\ndamping_N_s_m = {size:?}", far.name)
-            }
-            (6, _) => format!("type = \"torsion_spring\"\n{pair}\nstiffness_N_m_rad = {size:?}\nfree_angle_deg = 20"),
-            _ => format!("type = \"torsion_damper\"\n{pair}\ndamping_N_m_s = {size:?}"),
-        };
-        writeln!(text, "[[loads]]\n{own}").unwrap();
-    }
-    text
+    common::loads::loads(random, case, 6, Sizes { force: 50.0, length: 1.0, speed: 1.0 })
 }
 
 /// The scenario of a sample under other loads.

@@ -2,10 +2,11 @@
 
 use super::forces::Kinetostatics;
 use super::turns::Turns;
-use crate::assur::groups::{Misfit, OutOfReach, Plan};
+use crate::assur::groups::{Clearance, Misfit, OutOfReach, Plan, SINGULAR};
 use linkage::case::Case;
 use linkage::drive::{Load, Wrench};
 use linkage::error::{Advice, Error, ErrorKind, Result};
+use linkage::math::{KeepNan, Motion};
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 
@@ -18,6 +19,13 @@ pub(super) const FOLLOWED_STEP: f64 = std::f64::consts::PI / 90.0;
 const NUDGE: f64 = 1e-7;
 /// How often a failing step is halved: down to a millionth of it.
 pub(super) const HALVINGS: u32 = 20;
+
+/// Clearance of a dyad below which a change point may lie within a step.
+const NARROW: f64 = 0.8;
+/// A clearance that is this many times the change over the rest of the way cannot fall to zero on it.
+const CLEAR: f64 = 4.0;
+/// What a singular pose is.
+const MEET: &str = "there the links of the group do not hold it, or two of its branches meet";
 
 /// Goes from crank angle to crank angle on one branch and solves the pose there, without allocation.
 #[derive(Debug)]
@@ -32,6 +40,17 @@ pub struct PoseSolver<'a> {
     inputs: Vec<f64>,
     crank: f64,
     step: f64,
+    watch: Watch,
+}
+
+/// What is watched so that no step passes over a change point.
+/// A closed form keeps the sign of a dyad's sine, and there the branch that it takes has a corner.
+#[derive(Debug, Default)]
+struct Watch {
+    motions: Vec<Motion>,
+    /// Clearances at the last pose, per unit of the crank's speed.
+    last: Vec<Option<Clearance>>,
+    now: Vec<Option<Clearance>>,
 }
 
 impl<'a> PoseSolver<'a> {
@@ -44,8 +63,17 @@ impl<'a> PoseSolver<'a> {
         let step = if plan.is_closed_form() { CLOSED_FORM_STEP } else { FOLLOWED_STEP };
         let (statics, state) = (Kinetostatics::of(case, &plan), State::at_start(case));
         let inputs = vec![0.0; case.drives.len()];
-        let mut solver =
-            PoseSolver { case, plan, statics, state, turns: None, inputs, crank: case.crank().start, step };
+        let mut solver = PoseSolver {
+            case,
+            plan,
+            statics,
+            state,
+            turns: None,
+            inputs,
+            crank: case.crank().start,
+            step,
+            watch: Watch::default(),
+        };
         solver.step_to(case.crank().start, 0)?;
         if case.loads.iter().any(Load::needs_angles) {
             solver.turns = Some(Turns::from(&case.start, &solver.state.motions));
@@ -163,9 +191,73 @@ impl<'a> PoseSolver<'a> {
     fn place(&mut self, target: f64) -> std::result::Result<(), OutOfReach> {
         self.turn(target);
         self.plan.positions(&self.inputs, &mut self.state.motions)?;
+        self.keep_clear(target)?;
         self.crank = target;
         if let Some(turns) = &mut self.turns {
             turns.count(&self.state.motions);
+        }
+        Ok(())
+    }
+
+    /// Finds the clearances of a crank angle whose positions are known.
+    fn find_clearances(&mut self, crank: f64) {
+        let from = std::mem::replace(&mut self.crank, crank);
+        self.drive(1.0);
+        self.crank = from;
+        let Watch { motions, now, .. } = &mut self.watch;
+        motions.clone_from(&self.state.motions);
+        self.plan.velocities(&self.inputs, motions);
+        now.clear();
+        now.extend(self.plan.clearances(motions));
+    }
+
+    /// Refuses a step that passes over a change point: there a clearance falls to zero and rises again.
+    #[inline]
+    fn keep_clear(&mut self, target: f64) -> std::result::Result<(), OutOfReach> {
+        self.find_clearances(target);
+        let sense = target - self.crank;
+        for group in 0..self.watch.last.len() {
+            if let (Some(before), Some(after)) = (self.watch.last[group], self.watch.now[group])
+                && before.sine.smaller(after.sine) < NARROW
+                && before.rate * sense < 0.0
+                && after.rate * sense > 0.0
+            {
+                self.search(group, target, [before, after])?;
+                // The search has left another pose and its clearances.
+                self.turn(target);
+                self.plan.positions(&self.inputs, &mut self.state.motions)?;
+                self.find_clearances(target);
+            }
+        }
+        let Watch { last, now, .. } = &mut self.watch;
+        std::mem::swap(last, now);
+        Ok(())
+    }
+
+    /// Searches the smallest clearance of a group between the present crank angle and `target`, by bisection of its
+    /// slope. It is refused where it is zero to rounding.
+    #[cold]
+    fn search(&mut self, group: usize, target: f64, ends: [Clearance; 2]) -> std::result::Result<(), OutOfReach> {
+        let ([mut low, mut high], [mut before, mut after]) = ([self.crank, target], ends);
+        let sense = target - self.crank;
+        while (high - low).abs() > 8.0 * f64::EPSILON * high.abs().larger(1.0) {
+            let reach = before.rate.abs().larger(after.rate.abs()) * (high - low).abs();
+            if before.sine.smaller(after.sine) > CLEAR * reach {
+                return Ok(());
+            }
+            let middle = 0.5 * (low + high);
+            self.turn(middle);
+            match self.plan.positions(&self.inputs, &mut self.state.motions) {
+                Ok(()) => {}
+                Err(OutOfReach { why: Misfit::Lost, .. }) => return Ok(()),
+                Err(_) => return Err(OutOfReach { group, why: Misfit::Passed { crank: middle } }),
+            }
+            self.find_clearances(middle);
+            let Some(now) = self.watch.now[group] else { return Ok(()) };
+            if now.sine < 10.0 * SINGULAR {
+                return Err(OutOfReach { group, why: Misfit::Passed { crank: middle } });
+            }
+            if now.rate * sense < 0.0 { (low, before) = (middle, now) } else { (high, after) = (middle, now) }
         }
         Ok(())
     }
@@ -216,6 +308,18 @@ impl<'a> PoseSolver<'a> {
                 "{assembled}: its outer pins are {distance:.6} m apart, its slider holds them at least {shortest:.6} m apart"
             ),
             Misfit::Parallel => format!("{assembled}: its two axes are parallel there"),
+            Misfit::Singular => format!("the group ({group}) is singular at crank angle {degrees:.4} deg: {MEET}"),
+            Misfit::Passed { crank } => {
+                let degrees = crank.to_degrees();
+                return Error::new(
+                    ErrorKind::Geometry,
+                    format!("the group ({group}) passes a change point at crank angle {degrees:.4} deg: {MEET}"),
+                )
+                .at_crank(crank)
+                .of_group(group)
+                .help(Advice::ShortenGrid)
+                .or_help("change a length by a little");
+            }
             Misfit::Lost => format!(
                 "the group ({group}) cannot be followed beyond crank angle {degrees:.4} deg: it has a dead point there"
             ),

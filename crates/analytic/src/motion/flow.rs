@@ -42,9 +42,12 @@ pub(super) fn start<const N: usize>(case: &Case) -> [f64; N] {
 /// A load that depends on a sense of motion, by its number, and that motion.
 type Sensed = (usize, Senses);
 
-/// The motion whose sense a load depends on.
-fn sensed(load: &Load) -> Senses {
-    load.nature().senses
+/// The motion whose sense a load depends on, unless its link never turns.
+fn sensed(case: &Case, load: &Load) -> Senses {
+    match load.nature().senses {
+        Senses::Link(link) if !case.can_turn(link) => Senses::Nothing,
+        senses => senses,
+    }
 }
 
 /// A motion in pieces: first-order equations of the free driving links' angles and speeds.
@@ -123,7 +126,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
             senses: vec![0.0; loads],
             ways: vec![Vec2::zeros(); loads],
         };
-        let sensed = case.loads.iter().map(sensed).enumerate();
+        let sensed = case.loads.iter().map(|load| sensed(case, load)).enumerate();
         let inputs = Inputs { angles: zeros(), speeds: zeros(), accelerations: zeros() };
         Pieces {
             case,
@@ -178,10 +181,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
     pub(super) fn enter(&self, place: &mut Place<N>, bound: Option<usize>) -> Result<()> {
         let work = &mut *self.work.borrow_mut();
         let stood = match bound.map(|bound| (bound, bound.checked_sub(self.case.loads.len()))) {
-            None => {
-                self.choose_branch(place, 1.0);
-                self.begin_senses(work, place)?
-            }
+            None => return self.begin(work, place),
             Some((_, Some(end))) => {
                 // Exactly on the bound; otherwise the same piece would be chosen again.
                 let speeds = self.branch.get().map_or([0.0; 2], |branch| branch.speeds);
@@ -192,10 +192,34 @@ impl<'a, const N: usize> Pieces<'a, N> {
             Some((bound, None)) => self.stopped(work, place, bound)?,
         };
         self.entered.set(place.x);
+        self.go_on(work, place, &stood)
+    }
+
+    /// Chooses senses and branch at the beginning of the motion.
+    /// From rest the motor drives the crank, unless the other forces then turn it back: power flows to the motor.
+    fn begin(&self, work: &mut Work, place: &Place<N>) -> Result<()> {
+        self.choose_branch(place, 1.0);
+        let stood = self.begin_senses(work, place)?;
+        self.go_on(work, place, &stood)?;
+        let forwards = self.branch.get();
+        if self.crank_speed(&place.y) == 0.0 && self.crank_acceleration(work) < 0.0 {
+            self.choose_branch(place, -1.0);
+            if self.branch.get() != forwards {
+                self.go_on(work, place, &stood)?;
+                if self.crank_acceleration(work) > 0.0 {
+                    return Err(self.is_held(place, self.case.crank().link, "the losses of the reducer hold"));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Accelerations at a place where loads in `stood` have links at rest.
+    fn go_on(&self, work: &mut Work, place: &Place<N>, stood: &[Sensed]) -> Result<()> {
         self.origin.set(place.y);
         match stood.is_empty() {
             true => self.accelerate(work, place.x, &place.y),
-            false => self.set_off(work, place, &stood),
+            false => self.set_off(work, place, stood),
         }
     }
 
@@ -209,9 +233,11 @@ impl<'a, const N: usize> Pieces<'a, N> {
     /// Senses at the beginning. Returns the entries of `sensed` that stand still.
     fn begin_senses(&self, work: &mut Work, place: &Place<N>) -> Result<Vec<Sensed>> {
         self.put(&mut work.inputs, place.x, &place.y);
+        let fastest = work.inputs.speeds.iter().fold(0.0f64, |most, speed| most.larger(speed.abs()));
         let mut stood = Vec::new();
         for &own in &self.sensed {
-            if self.look(work, own)? == 0.0 {
+            let size = if matches!(own.1, Senses::Point(_)) { self.case.mechanism.size() } else { 1.0 };
+            if self.look(work, own)? <= AT_REST * fastest * size {
                 stood.push(own);
             } else {
                 work.take_sense(own)?;
@@ -284,7 +310,9 @@ impl<'a, const N: usize> Pieces<'a, N> {
             (!is_idle && !(second.dot(&work.held.sense(own)) >= 0.0)).then_some(own)
         };
         match stood.iter().enumerate().find_map(is_held) {
-            Some((_, Senses::Link(link) | Senses::Point(Side { link, .. }))) => Err(self.is_held(place, link)),
+            Some((_, Senses::Link(link) | Senses::Point(Side { link, .. }))) => {
+                Err(self.is_held(place, link, "its resistance holds"))
+            }
             Some((_, Senses::Nothing)) | None => Ok(()),
         }
     }
@@ -350,9 +378,9 @@ impl<'a, const N: usize> Pieces<'a, N> {
         Ok(())
     }
 
-    fn is_held(&self, place: &Place<N>, link: usize) -> Error {
+    fn is_held(&self, place: &Place<N>, link: usize, what: &str) -> Error {
         let name = &self.case.mechanism.links()[link].name;
-        let message = format!("the resistance of link \"{name}\" holds it at t = {:.6} s", place.x);
+        let message = format!("{what} link \"{name}\" at rest at t = {:.6} s", place.x);
         Error::new(ErrorKind::Numeric, message)
             .at_time(place.x)
             .of_link(name)
@@ -362,6 +390,11 @@ impl<'a, const N: usize> Pieces<'a, N> {
     /// The crank's speed in the motor's sense. Wherever there is a branch, the crank is the first free driving link.
     fn crank_speed(&self, y: &[f64; N]) -> f64 {
         self.case.crank().sense() * y[N / 2]
+    }
+
+    /// The crank's acceleration in the motor's sense, from the last evaluation.
+    fn crank_acceleration(&self, work: &Work) -> f64 {
+        self.case.crank().sense() * work.inputs.accelerations[0]
     }
 
     /// Distance of the motor's speed from the bounds of its branch, positive inside.
@@ -403,7 +436,7 @@ impl<const N: usize> Flow<N> for Pieces<'_, N> {
         let Some(load) = self.case.loads.get(bound) else {
             return self.branch_margin(bound - self.case.loads.len(), y);
         };
-        let senses = sensed(load);
+        let senses = sensed(self.case, load);
         if senses == Senses::Nothing {
             return f64::INFINITY;
         }

@@ -49,6 +49,18 @@ pub(crate) fn sweep(case: &Case, side: &mut dyn Side, accuracy: f64, visit: Visi
     }
 }
 
+/// An error of the integration at a time (s) and crank angle (rad). Errors of a side say the crank angle themselves.
+fn located(error: Error, t: f64, crank: f64) -> Error {
+    if error.message().starts_with("crank angle") {
+        return error.at_time(t);
+    }
+    let message = format!("t = {t:.6} s, crank angle {:.4} deg: {}", crank.to_degrees(), error.message());
+    Error::new(error.kind(), message).at_time(t).at_crank(crank).help(
+        "let the grid end before; where masses nearly vanish at a crank angle, give the crank or the rotor a moment of \
+         inertia",
+    )
+}
+
 fn run<const N: usize>(
     case: &Case,
     side: &mut dyn Side,
@@ -84,7 +96,11 @@ fn run<const N: usize>(
     while place.x < last {
         let from = place.x;
         let mut at_step = |pieces: &Pieces<N>, &[_, (t, y)]: &Step<N>| reach(pieces, t, &y);
-        let Stop::Bound(bound) = march(&pieces, &mut place, &targets, accuracy, &mut at_step)? else { break };
+        let stop = march(&pieces, &mut place, &targets, accuracy, &mut at_step);
+        let drive = case.drives.free().next().expect("a drive is free").1;
+        let turned = place.y[0] - drive.zero;
+        let stop = stop.map_err(|error| located(error, place.x, turned))?;
+        let Stop::Bound(bound) = stop else { break };
         empty = if place.x > from { 0 } else { empty + 1 };
         if empty > MOST_EMPTY {
             let message = format!("the motion does not get away from t = {from:.9} s, where a sense of motion changes");

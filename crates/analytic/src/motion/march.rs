@@ -20,10 +20,17 @@ pub(crate) type Method<const N: usize> = ExplicitRungeKutta<Ordinary, DormandPri
 /// Relative and absolute error allowed in each step, by the step's own estimate.
 /// The estimate is cautious: the run-up of `crank_rocker` is then exact to 2e-14 rad.
 pub const ACCURACY: f64 = 1e-11;
+/// Share of [`ACCURACY`] that the tighter runs allow, which show the error of the others. With still less, rounding takes
+/// over.
+pub(crate) const TIGHTER: f64 = 0.01;
 /// Largest number of consecutive pieces that take no time. With more, the motion does not get away from a kink.
 pub(crate) const MOST_EMPTY: usize = 8;
 /// Largest number of steps of one piece. A hundred turns of a mechanism take some ten thousand.
 const MOST_STEPS: usize = 10_000_000;
+/// Steps below this share of the way are short, and so many of them in a row end the march.
+/// They would never get past a singular pose, near which accelerations are rounding or errors.
+const SHORTEST: f64 = 1e-9;
+const MOST_SHORT: usize = 400;
 /// Factor by which a step may be longer than planned to reach a target at once, so that no tiny step is left.
 const STRETCH: f64 = 1.001;
 /// Bisections of a step for a first estimate of the place where a bound is passed.
@@ -87,6 +94,8 @@ pub(crate) fn march<const N: usize, F: Flow<N>>(
     let mut method: Method<N> = ExplicitRungeKutta::dop853().rtol(accuracy).atol(accuracy).max_steps(MOST_STEPS).h0(h0);
     let begun = method.init(flow, place.x, last, &place.y);
     checked(flow, begun, place.x)?;
+    let mut refused = None;
+    let mut short = 0;
     loop {
         let (from, wished) = (method.t(), method.h());
         let cut = wished * STRETCH >= target - from;
@@ -94,7 +103,17 @@ pub(crate) fn march<const N: usize, F: Flow<N>>(
             method.set_h(target - from);
         }
         let taken = method.step(flow);
-        checked(flow, taken, from)?;
+        // An error in a trial step only shortens the step; but steps that stay short do not get past it.
+        let fault = flow.fault();
+        if let Err(why) = taken {
+            return Err(fault.or(refused).unwrap_or_else(|| lost(from, &format!("{why:?}"))));
+        }
+        let is_short = method.h() <= SHORTEST * from.abs().larger(last - begun_at);
+        (short, refused) = if is_short { (short + 1, fault.or(refused)) } else { (0, fault) };
+        if short > MOST_SHORT {
+            let why = "its steps become too small, as at a singular pose (dead point or change point)";
+            return Err(refused.unwrap_or_else(|| lost(from, why)));
+        }
         if matches!(method.status(), Status::RejectedStep) {
             continue;
         }

@@ -82,6 +82,7 @@ impl<'a> Embedded<'a> {
             system.predicted.copy_from_slice(&system.q);
             system.correct()?;
             self.check_branch()?;
+            self.system.check_singular()?;
             self.find_columns();
         }
         Ok(())
@@ -89,9 +90,7 @@ impl<'a> Embedded<'a> {
 
     fn check_branch(&self) -> Result<()> {
         let system = &self.system;
-        if system.jacobian.determinant_sign() != system.branch {
-            return Err(system.lost("the mechanism has passed a dead point on the way there"));
-        }
+        system.check_signs()?;
         let size = system.case.mechanism.size();
         for (index, (q, predicted)) in system.q.iter().zip(&system.predicted).enumerate() {
             let allowed = JUMP * if index % 3 == 2 { 1.0 } else { size };

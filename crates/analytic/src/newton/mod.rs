@@ -1,9 +1,10 @@
 //! Side 2: all constraints of the mechanism at once, by Newton's method and Lagrange multipliers.
 
+mod blocks;
 mod constraint;
 mod free;
 mod solver;
 mod steps;
 mod system;
 
-pub use solver::NewtonSolver;
+pub use solver::{NewtonSolver, TightNewtonSolver};

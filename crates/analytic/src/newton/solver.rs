@@ -10,7 +10,7 @@
 use super::free::Embedded;
 use super::system::System;
 use crate::motion::free;
-use crate::motion::march::ACCURACY;
+use crate::motion::march::{ACCURACY, TIGHTER};
 use linkage::case::Case;
 use linkage::error::{Error, Result};
 use linkage::solver::{Progress, Provision, Solver, State, Visit};
@@ -30,11 +30,10 @@ impl Solver for NewtonSolver {
     }
 
     fn sweep(&self, case: &Case, visit: Visit, progress: Progress) -> Result<()> {
-        let mut system = System::new(case);
         if case.is_free() {
-            system.settle().map_err(Error::out_of_reach)?;
-            return free::sweep(case, &mut Embedded::new(system), ACCURACY, visit, progress);
+            return free_motion(case, ACCURACY, visit, progress);
         }
+        let mut system = System::new(case);
         let mut state = State::at_rest(case);
         let rows = case.grid.ascending();
         // From the start in both directions: first the rows at and after t = 0, then those before it, backwards.
@@ -59,4 +58,32 @@ impl Solver for NewtonSolver {
         }
         Ok(())
     }
+}
+
+/// Side 2 with a tighter integration of motions under forces: see
+/// [`TightAssurSolver`](crate::TightAssurSolver).
+#[derive(Clone, Copy, Debug)]
+pub struct TightNewtonSolver;
+
+impl Solver for TightNewtonSolver {
+    fn name(&self) -> &'static str {
+        NewtonSolver.name()
+    }
+
+    fn provides(&self, channel: &Channel) -> Provision {
+        NewtonSolver.provides(channel)
+    }
+
+    fn sweep(&self, case: &Case, visit: Visit, progress: Progress) -> Result<()> {
+        match case.is_free() {
+            true => free_motion(case, TIGHTER * ACCURACY, visit, progress),
+            false => NewtonSolver.sweep(case, visit, progress),
+        }
+    }
+}
+
+fn free_motion(case: &Case, accuracy: f64, visit: Visit, progress: Progress) -> Result<()> {
+    let mut system = System::new(case);
+    system.settle().map_err(Error::out_of_reach)?;
+    free::sweep(case, &mut Embedded::new(system), accuracy, visit, progress)
 }

@@ -14,8 +14,16 @@ use linkage::trajectory::Stage;
 
 /// Largest turn of the crank between two poses (rad). A prediction over this step stays on the branch.
 pub(super) const TRACKING_STEP: f64 = PI / 90.0;
-/// How often a failing step is halved: down to a millionth of it.
-const HALVINGS: u32 = 20;
+/// How often a failing step is halved. Near a dead point speeds grow without limit, and steps must shrink with what is
+/// left to it.
+const HALVINGS: u32 = 40;
+/// Largest change of a link's velocity over a step beyond what its acceleration says, as a share of the largest velocity.
+/// Where two branches cross, the velocity jumps from one to the other however small the step is.
+const VELOCITY_JUMP: f64 = 0.1;
+/// Share of a block's determinant in the largest that columns of the same lengths can have, below which a pose is singular.
+/// A dyad's share is about a tenth of the sine of its transmission angle.
+/// Angles are known to about the rounding over this sine, so that below it the sine itself is mostly rounding.
+const SINGULAR: f64 = 1e-8;
 /// Newton's method from a predicted pose converges in two or three iterations. If it needs more, something is wrong.
 const MAX_ITERATIONS: usize = 12;
 
@@ -23,7 +31,8 @@ impl System<'_> {
     /// Corrects the pose at t = 0 to rounding and fixes the branch there.
     pub(super) fn settle(&mut self) -> Result<()> {
         self.correct()?;
-        self.branch = self.jacobian.determinant_sign();
+        self.branch = self.jacobian.signs().collect();
+        self.check_singular()?;
         self.differentiate();
         Ok(())
     }
@@ -43,6 +52,7 @@ impl System<'_> {
         }
         // The last part ends at t itself, not at a rounded neighbour.
         self.step_to(t, HALVINGS)?;
+        self.check_singular()?;
         if self.stage >= Stage::Reactions {
             self.find_loads(Case::loads_on);
             self.multipliers();
@@ -54,19 +64,24 @@ impl System<'_> {
     pub(super) fn step_to(&mut self, t: f64, halvings: u32) -> Result<()> {
         let (from, dt) = (self.time, t - self.time);
         self.before.copy_from_slice(&self.q);
+        self.rate_before.copy_from_slice(&self.rate);
+        self.second_before.copy_from_slice(&self.second);
         for i in 0..self.q.len() {
             self.q[i] += dt * (self.rate[i] + 0.5 * dt * self.second[i]);
         }
         self.set_time(t);
         self.predicted.copy_from_slice(&self.q);
-        match self.correct().and_then(|()| self.check_branch(dt)) {
-            Ok(()) => {
-                self.differentiate();
-                Ok(())
-            }
+        let followed = self.correct().and_then(|()| self.check_branch(dt)).and_then(|()| {
+            self.differentiate();
+            self.check_velocities(dt)
+        });
+        match followed {
+            Ok(()) => Ok(()),
             Err(error) if halvings == 0 => Err(error),
             Err(_) => {
                 self.q.copy_from_slice(&self.before);
+                self.rate.copy_from_slice(&self.rate_before);
+                self.second.copy_from_slice(&self.second_before);
                 self.set_time(from);
                 self.step_to(from + dt / 2.0, halvings - 1)?;
                 self.step_to(t, halvings - 1)
@@ -151,17 +166,48 @@ impl System<'_> {
         self.jacobian.solve_transposed(&mut self.lambda);
     }
 
-    /// Refuses a pose on another branch: one beyond a singular pose, or one far from the prediction.
-    pub(super) fn check_branch(&self, dt: f64) -> Result<()> {
-        if self.jacobian.determinant_sign() != self.branch {
+    /// Refuses a pose beyond a singular one: every block keeps the sign of its determinant.
+    pub(super) fn check_signs(&self) -> Result<()> {
+        if !self.jacobian.signs().eq(self.branch.iter().copied()) {
             return Err(self.lost("the mechanism has passed a dead point on the way there"));
         }
+        Ok(())
+    }
+
+    /// Refuses a singular pose.
+    pub(super) fn check_singular(&self) -> Result<()> {
+        // Written so that NaN is refused too.
+        if !(self.jacobian.smallest_share() > SINGULAR) {
+            return Err(self.lost("the pose is singular there (dead point or change point)"));
+        }
+        Ok(())
+    }
+
+    /// Refuses a pose on another branch: one beyond a singular pose, or one far from the prediction.
+    pub(super) fn check_branch(&self, dt: f64) -> Result<()> {
+        self.check_signs()?;
         // Places are checked too: where axes become parallel, a slider returns from infinity on the other side.
         let size = self.case.mechanism.size();
         for (index, rate) in self.rate.iter().enumerate() {
             let allowed = (dt * rate).abs() + if index % 3 == 2 { TRACKING_STEP } else { size };
             if !((self.q[index] - self.predicted[index]).abs() <= allowed) {
                 return Err(self.lost("the solution has jumped to another branch"));
+            }
+        }
+        Ok(())
+    }
+
+    /// Refuses a step over which velocities jump: it has turned onto another branch at a change point.
+    fn check_velocities(&self, dt: f64) -> Result<()> {
+        let size = self.case.mechanism.size();
+        let unit = |index: usize| if index % 3 == 2 { 1.0 } else { size };
+        let rates = [&self.rate, &self.rate_before];
+        let largest = rates.into_iter().flat_map(|rates| rates.iter().enumerate());
+        let largest = largest.fold(0.0f64, |most, (index, rate)| most.larger(rate.abs() / unit(index)));
+        for (index, rate) in self.rate.iter().enumerate() {
+            let jump = rate - (self.rate_before[index] + 0.5 * dt * (self.second_before[index] + self.second[index]));
+            if !(jump.abs() <= VELOCITY_JUMP * largest * unit(index)) {
+                return Err(self.lost("velocities jump there (change point)"));
             }
         }
         Ok(())
@@ -182,7 +228,13 @@ impl System<'_> {
 
     pub(super) fn lost(&self, why: &str) -> Error {
         let (crank, t) = (self.inputs[0].angle - self.case.crank().zero, self.time);
-        let message = format!("crank angle {:.4} deg, t = {t:.6} s: {why}", crank.to_degrees());
+        let degrees = crank.to_degrees();
+        // In a free motion only the integrator knows the time.
+        if self.case.is_free() {
+            let message = format!("crank angle {degrees:.4} deg: {why}");
+            return Error::new(ErrorKind::Numeric, message).at_crank(crank).help("let the grid end before");
+        }
+        let message = format!("crank angle {degrees:.4} deg, t = {t:.6} s: {why}");
         Error::new(ErrorKind::Numeric, message).at_time(t).at_crank(crank).help(Advice::ShortenGrid)
     }
 }

@@ -2,9 +2,9 @@
 
 use std::f64::consts::TAU;
 
+use super::blocks::Blocks;
 use linkage::case::Case;
 use linkage::drive::{Drive, DriveState, Wrench};
-use linkage::math::dense::Lu;
 use linkage::math::{Motion, Vec2, rotated, turned, unit};
 use linkage::mechanism::{EQUATIONS, Joint, Side};
 use linkage::trajectory::Stage;
@@ -22,13 +22,15 @@ pub(super) struct System<'a> {
     pub(super) lambda: Vec<f64>,
     /// For every joint: see [`twist`].
     pub(super) twists: Vec<f64>,
-    pub(super) jacobian: Lu,
-    /// Sign of the Jacobian's determinant on the followed branch.
-    pub(super) branch: f64,
+    pub(super) jacobian: Blocks,
+    /// Signs of the determinants of the Jacobian's blocks on the followed branch.
+    pub(super) branch: Vec<f64>,
     pub(super) residual: Vec<f64>,
     pub(super) predicted: Vec<f64>,
-    /// Coordinates before the step, for a return to them.
+    /// Coordinates, velocities and accelerations before the step, for a return to them.
     pub(super) before: Vec<f64>,
+    pub(super) rate_before: Vec<f64>,
+    pub(super) second_before: Vec<f64>,
     /// The driving links at the present time: angles in the world, angular velocities and accelerations.
     pub(super) inputs: Vec<DriveState>,
     /// Motions and angles of all links, for their loads, and the loads themselves.
@@ -56,11 +58,13 @@ impl<'a> System<'a> {
             second: zeros(),
             lambda: zeros(),
             twists: case.mechanism.joints().iter().map(|joint| twist(case, joint)).collect(),
-            jacobian: Lu::new(n),
-            branch: 0.0,
+            jacobian: Blocks::of(case),
+            branch: Vec::new(),
             residual: zeros(),
             predicted: zeros(),
             before: zeros(),
+            rate_before: zeros(),
+            second_before: zeros(),
             motions: vec![Motion::REST; links.len() + 1],
             angles: vec![0.0; links.len() + 1],
             loads: vec![Wrench::ZERO; links.len() + 1],

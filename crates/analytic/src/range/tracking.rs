@@ -8,6 +8,7 @@
 //! The smallest singular value of the Jacobian is a lower bound on the distance to another branch.
 //! Steps are kept below it, so that no step jumps to another branch.
 
+use std::cell::RefCell;
 use std::f64::consts::TAU;
 
 use super::constraints::{Constraints, Gearing};
@@ -16,11 +17,15 @@ use super::singularity::{Kind, Singularity};
 use linkage::case::Case;
 use linkage::drive::Drive;
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::dense::Lu;
 use linkage::math::root::{self, Close};
 use linkage::math::{Column, KeepNan, Matrix, unit};
 
 /// Longest step: two degrees, where only the crank turns.
 const LONGEST: f64 = std::f64::consts::PI / 90.0;
+/// Largest number of inverse iterations for the smallest singular value, and the relative change at which it has settled.
+const MOST_ITERATIONS: usize = 60;
+const SETTLED: f64 = 1e-3;
 /// Largest ratio of a step to the smallest singular value.
 /// The derivatives of the equations are at most of order one in sizes of the mechanism, so that another branch is
 /// farther away.
@@ -75,7 +80,7 @@ const FAR: f64 = 50.0;
 const NEAR: f64 = 2.0;
 /// Change of the extrapolated pose at which links go to infinity, when the nearest pose is left out (rad).
 /// Below it the poses farther out tell nothing more.
-const SETTLED: f64 = 1e-9;
+const AGREED: f64 = 1e-9;
 /// Growth of the extent between two such extrapolations.
 const FARTHER: f64 = 1.2;
 /// Largest number of poses from which a singular pose is extrapolated.
@@ -90,6 +95,8 @@ pub(super) struct Tracker<'a> {
     crank: usize,
     /// Signs that make every group's determinant positive at the start.
     signs: Vec<f64>,
+    /// Direction of the smallest singular value of the last pose, from which that of the next is found.
+    weakest: RefCell<Column>,
 }
 
 impl<'a> Tracker<'a> {
@@ -107,6 +114,7 @@ impl<'a> Tracker<'a> {
             constraints,
             crank: Constraints::angle(drive.link),
             signs: vec![1.0; case.structure.groups.len()],
+            weakest: RefCell::new(any_direction(q.len())),
         };
         let mut along = Column::zeros(q.len());
         along[tracker.crank] = 1.0;
@@ -156,7 +164,7 @@ impl<'a> Tracker<'a> {
     fn point(&self, q: Column, along: &Column) -> Point {
         let jacobian = self.constraints.at(&q).jacobian;
         let tangent = tangent(&jacobian, along);
-        let sigma = bordered(&jacobian, &tangent).singular_values().min();
+        let sigma = smallest_singular_value(&bordered(&jacobian, &tangent), &mut self.weakest.borrow_mut());
         let groups = self.case.structure.groups.iter().zip(&self.signs);
         let pose = self.constraints.pose(&q);
         let measures = groups.map(|(group, sign)| {
@@ -176,7 +184,7 @@ impl<'a> Tracker<'a> {
             let ahead = across.dot(&(&q - from)) - distance;
             let rows = equations.residual.len();
             let rest = equations.residual.insert_row(rows, ahead);
-            let step = bordered(&equations.jacobian, across).lu().solve(&rest)?;
+            let step = solved(&bordered(&equations.jacobian, across), rest)?;
             let change = step.norm();
             if !(change <= most) {
                 return None;
@@ -351,7 +359,7 @@ impl<'a> Tracker<'a> {
         let known: Vec<(f64, Column)> = known.into_iter().map(|(x, point)| (x, self.finite(point))).collect();
         let [now, before] = [&known[..], &known[1..]].map(neville_at_zero);
         let keeps_sign = |other: usize| now[other] * last.measures[other].determinant > 0.0;
-        (&now - before).amax() < SETTLED && (0..last.measures.len()).all(|other| other == group || keeps_sign(other))
+        (&now - before).amax() < AGREED && (0..last.measures.len()).all(|other| other == group || keeps_sign(other))
     }
 
     /// What stays finite where links go to infinity: determinants of all groups, then angles of all links (rad).
@@ -435,11 +443,59 @@ fn bordered(jacobian: &Matrix, row: &Column) -> Matrix {
     square
 }
 
+/// A factored matrix. Every joint has two links, so that few of its entries are not zero, and elimination skips the others:
+/// its effort grows with the square of the number of links, that of a dense decomposition with the cube.
+fn factored(matrix: &Matrix) -> Option<Lu> {
+    let mut lu = Lu::new(matrix.nrows());
+    for (column, entries) in matrix.column_iter().enumerate() {
+        for (row, &value) in entries.iter().enumerate().filter(|(_, value)| **value != 0.0) {
+            lu.add(row, column, value);
+        }
+    }
+    lu.factor().then_some(lu)
+}
+
+/// A direction that is orthogonal to none that occurs.
+fn any_direction(n: usize) -> Column {
+    Column::from_fn(n, |row, _| 1.0 + (row as f64).sin()).normalize()
+}
+
+/// Solution for this right-hand side; `None` if the matrix is singular to working precision.
+fn solved(matrix: &Matrix, mut right: Column) -> Option<Column> {
+    factored(matrix)?.solve(right.as_mut_slice());
+    Some(right)
+}
+
+/// Smallest singular value, by inverse iteration; 0 for a matrix that is singular to working precision.
+/// The iteration starts from the direction `x` and leaves the one that belongs to the value.
+fn smallest_singular_value(matrix: &Matrix, x: &mut Column) -> f64 {
+    let Some(lu) = factored(matrix) else { return 0.0 };
+    // A little of every direction, so that none is missed.
+    *x = (&*x + any_direction(matrix.nrows()) * 1e-3).normalize();
+    let mut largest = 0.0f64;
+    for _ in 0..MOST_ITERATIONS {
+        lu.solve_transposed(x.as_mut_slice());
+        lu.solve(x.as_mut_slice());
+        let grown = x.norm();
+        if !(grown.is_finite() && grown > 0.0) {
+            *x = any_direction(matrix.nrows());
+            return 0.0;
+        }
+        *x /= grown;
+        let change = (grown - largest).abs();
+        largest = grown;
+        if change <= SETTLED * grown {
+            break;
+        }
+    }
+    1.0 / largest.sqrt()
+}
+
 /// Unit vector that the Jacobian maps to zero, on the side of `along`; `along` itself if there are several.
 fn tangent(jacobian: &Matrix, along: &Column) -> Column {
     let mut ahead = Column::zeros(along.len());
     ahead[along.len() - 1] = 1.0;
-    match bordered(jacobian, along).lu().solve(&ahead) {
+    match solved(&bordered(jacobian, along), ahead) {
         Some(solved) if solved.norm().is_finite() => solved.normalize(),
         _ => along.clone(),
     }

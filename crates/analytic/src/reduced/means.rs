@@ -86,7 +86,8 @@ pub fn kinks(case: &Case) -> Result<Kinks> {
     };
     let mut poses = PoseSolver::new(case)?;
     let mut cranks = Vec::new();
-    for link in range.links.iter().filter(|link| case.loads.iter().any(|load| load.sensed_link() == Some(link.link))) {
+    let sensed = |link: usize| case.can_turn(link) && case.loads.iter().any(|load| load.sensed_link() == Some(link));
+    for link in range.links.iter().filter(|link| sensed(link.link)) {
         for extreme in &link.extremes {
             // A flat extreme keeps its first estimate.
             let crank = root::polished(extreme.crank, POLISHING, 1e-6, |crank| -> Result<(f64, f64)> {

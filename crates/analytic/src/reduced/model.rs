@@ -95,6 +95,7 @@ impl<'a> Model<'a> {
         check_loads(case, &kinks)?;
         let steady = case.loads.iter().filter(|load| load.sensed_link().is_none()).cloned();
         let sensed = case.loads.iter().filter_map(|load| Some((load.sensed_link()?, load.clone())));
+        let sensed = sensed.filter(|&(link, _)| case.can_turn(link));
         let mut model = Model {
             case,
             masses: masses.collect(),

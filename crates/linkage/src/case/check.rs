@@ -5,7 +5,7 @@ use super::parts::CaseParts;
 use crate::drive::{Course, Drive, DriveMotion, Load, MotionLaw, Motor, MotorLaw};
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::{KeepNan, unit};
-use crate::mechanism::{AssemblyMode, GROUND, GroupKind, JointKind, LinkPose, Side, Structure};
+use crate::mechanism::{AssemblyMode, GROUND, GroupKind, JointKind, LinkPose, Mechanism, Side, Structure};
 
 /// Largest opening of a joint in a start pose, as a share of the farthest place in it.
 /// First poses of all shipped scenarios leave less than 1e-15 (`tests/suite/start.rs`).
@@ -62,6 +62,13 @@ fn drives(parts: &CaseParts) -> Result<()> {
                 return fault(ErrorKind::Unsupported, format!("{names}: the joint is prismatic, but a drive turns"));
             }
         }
+        if moves_nothing(&parts.mechanism, drive) {
+            let message = format!("{names} moves nothing: all joints of the link lie on one point");
+            return Err(Error::new(ErrorKind::Geometry, message)
+                .key(format!("links.{}", link.name))
+                .of_link(&link.name)
+                .help("give the crank a length"));
+        }
         let before = &parts.drives[..index];
         if before.iter().any(|other| other.joint == drive.joint || other.link == drive.link) {
             return fault(ErrorKind::Input, format!("{names}: joint or link is driven already"));
@@ -83,6 +90,21 @@ fn drives(parts: &CaseParts) -> Result<()> {
         }
     }
     Ok(())
+}
+
+/// Length, as a share of the mechanism's size, below which a crank is a point.
+const POINT: f64 = 1e-12;
+
+/// Whether a driving link carries others, but all of them by pins on its own axis.
+fn moves_nothing(mechanism: &Mechanism, drive: &Drive) -> bool {
+    let own = mechanism.joints()[drive.joint].on(drive.link);
+    let others = || mechanism.joints().iter().enumerate().filter(|&(index, _)| index != drive.joint);
+    let mut carried = others().filter_map(|(_, joint)| Some((joint.kind, joint.on(drive.link)?))).peekable();
+    carried.peek().is_some()
+        && carried.all(|(kind, place)| match kind {
+            JointKind::Revolute => own.is_some_and(|own| (place - own).norm() <= POINT * mechanism.size()),
+            JointKind::Prismatic { .. } => false,
+        })
 }
 
 fn motion_is_sound(motion: &DriveMotion) -> bool {

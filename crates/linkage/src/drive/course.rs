@@ -39,6 +39,17 @@ impl Course {
         }
     }
 
+    /// The same course times `factor`.
+    #[must_use]
+    pub fn times(&self, factor: f64) -> Self {
+        match self {
+            Course::Constant(value) => Course::Constant(factor * value),
+            Course::Table { function, turns } => {
+                Course::Table { function: Arc::new(function.times(factor)), turns: *turns }
+            }
+        }
+    }
+
     /// The crank angles (rad) between which the function is one polynomial, over one period, and the period in turns.
     /// `None` for a constant.
     #[must_use]

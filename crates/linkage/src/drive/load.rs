@@ -1,5 +1,6 @@
 //! Loads on links other than gravity and inertia. What each does to the links is written here only.
 
+mod amount;
 mod sort;
 
 pub use sort::LoadSort;

@@ -1,7 +1,7 @@
 //! Richardson extrapolation of any engine with a fixed step to step zero (Richardson 1911).
 //! The engine solves at h, h / 2, h / 4, ...; their states are combined so that the leading errors cancel.
 
-use super::{Engine, Route, Settings};
+use super::{Engine, Route, Settings, Statics};
 use crate::case::Case;
 use crate::error::Result;
 use crate::math::{Motion, Vec2, unit};
@@ -42,8 +42,9 @@ fn weights(order: f64, runs: usize) -> Vec<f64> {
     for time in 1..runs {
         let share = 1.0 / (2f64.powf(order + (time - 1) as f64) - 1.0);
         for run in 0..runs - time {
-            for k in 0..runs {
-                rows[run][k] = rows[run + 1][k] + (rows[run + 1][k] - rows[run][k]) * share;
+            let (coarse, fine) = rows.split_at_mut(run + 1);
+            for (weight, fine) in coarse[run].iter_mut().zip(&fine[0]) {
+                *weight = fine + (fine - *weight) * share;
             }
         }
     }
@@ -136,10 +137,14 @@ impl Solver for Extrapolated {
         }
         let weights = Weights::of(self.coarsest(), case, self.runs.len());
         let mut combined = State::at_rest(case);
+        let mut statics = self.coarsest().statics(case);
         let mut combine = |row: usize, state: &State| {
             let coarser = states.iter().map(|run| run[row].as_ref().expect("all runs visit the same rows"));
             let all: Vec<&State> = coarser.chain([state]).collect();
             weights.combine(case, &all, &mut combined);
+            if let Some(statics) = &mut statics {
+                statics(case, &mut combined, case.grid.times[row])?;
+            }
             visit(row, &combined)
         };
         let cost = 2f64.powi(coarser.len() as i32);
@@ -166,6 +171,10 @@ impl Engine for Extrapolated {
 
     fn sweeps(&self, case: &Case) -> Option<[usize; 2]> {
         self.coarsest().sweeps(case)
+    }
+
+    fn statics(&self, case: &Case) -> Option<Statics> {
+        self.coarsest().statics(case)
     }
 
     fn formal_order(&self, case: &Case, channel: &ChannelKind) -> f64 {

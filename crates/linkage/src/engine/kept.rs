@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, mpsc};
 
-use super::{Engine, Extrapolated, Route, Settings};
+use super::{Engine, Extrapolated, Route, Settings, Statics};
 use crate::case::Case;
 use crate::error::{Error, Result};
 use crate::solver::{Progress, Provision, Solver, State, Visit};
@@ -186,6 +186,10 @@ impl Engine for Kept {
 
     fn sweeps(&self, case: &Case) -> Option<[usize; 2]> {
         self.inner.sweeps(case)
+    }
+
+    fn statics(&self, case: &Case) -> Option<Statics> {
+        self.inner.statics(case)
     }
 
     fn formal_order(&self, case: &Case, channel: &ChannelKind) -> f64 {

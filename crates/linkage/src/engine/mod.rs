@@ -10,8 +10,12 @@ pub use kept::{Kept, plain_runs};
 pub use settings::{Route, Settings};
 
 use crate::case::Case;
-use crate::solver::Solver;
+use crate::error::Result;
+use crate::solver::{Solver, State};
 use crate::trajectory::ChannelKind;
+
+/// Writes the forces that belong to the motion of a state at a time (s) into that state.
+pub type Statics = Box<dyn FnMut(&Case, &mut State, f64) -> Result<()>>;
 
 /// An engine: a solver that integrates numerically, with settings that decide its accuracy.
 pub trait Engine: Solver {
@@ -41,6 +45,13 @@ pub trait Engine: Solver {
     /// The fewest and the most sweeps worth trying for a case; `None` for an engine that does not iterate.
     /// Both are 1 where the iteration has nothing to converge to.
     fn sweeps(&self, case: &Case) -> Option<[usize; 2]>;
+
+    /// Reactions and balancing moments of a motion by the engine's route, if they follow from the motion alone; `None` if
+    /// they come from the engine itself. An extrapolated motion then has the forces that belong to it.
+    fn statics(&self, case: &Case) -> Option<Statics> {
+        let _ = case;
+        None
+    }
 
     /// Order of convergence expected of a channel of a case, with the present route and extrapolation.
     fn formal_order(&self, case: &Case, channel: &ChannelKind) -> f64;

@@ -75,6 +75,11 @@ impl Lu {
         (0..self.n).fold(self.swap_sign, |product, k| product * self.a[k * self.n + k])
     }
 
+    /// Pivots of the factored matrix in the order of elimination. Their product is the determinant except for its sign.
+    pub fn pivots(&self) -> impl Iterator<Item = f64> + '_ {
+        (0..self.n).map(|k| self.a[k * self.n + k])
+    }
+
     /// Sign of the determinant of the factored matrix, +1 or -1. Correct even where the determinant itself would
     /// underflow.
     #[must_use]

@@ -69,6 +69,13 @@ impl Piecewise {
         [a + d * (b + d * (c + d * e)), b + d * (2.0 * c + d * 3.0 * e), 2.0 * c + d * 6.0 * e]
     }
 
+    /// The same function times `factor`.
+    #[must_use]
+    pub fn times(&self, factor: f64) -> Self {
+        let pieces = self.pieces.iter().map(|piece| piece.map(|coefficient| factor * coefficient)).collect();
+        Piecewise { pieces, knots: self.knots.clone(), periodic: self.periodic }
+    }
+
     /// The knots. For a periodic function those of one period, both ends included.
     #[must_use]
     pub fn knots(&self) -> &[f64] {

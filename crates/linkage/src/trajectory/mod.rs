@@ -83,6 +83,31 @@ impl Trajectory {
         self.column(&Channel::named(name)?)
     }
 
+    /// The rows of the grid that `keep` holds.
+    #[must_use]
+    pub fn at_rows(&self, keep: &[bool]) -> Trajectory {
+        self.part(keep, |_| true)
+    }
+
+    /// The channels of one stage at the rows of the grid that `keep` holds.
+    #[must_use]
+    pub fn of_stage(&self, stage: Stage, keep: &[bool]) -> Trajectory {
+        self.part(keep, |channel| channel.kind.stage == stage)
+    }
+
+    fn part(&self, keep: &[bool], wanted: impl Fn(&Channel) -> bool) -> Trajectory {
+        let thin = |values: &[f64]| -> Vec<f64> {
+            values.iter().zip(keep).filter(|(_, kept)| **kept).map(|(value, _)| *value).collect()
+        };
+        let own = || self.iter().filter(|(channel, _)| wanted(channel));
+        Trajectory {
+            times: thin(&self.times),
+            cranks: thin(&self.cranks),
+            channels: own().map(|(channel, _)| channel.clone()).collect(),
+            columns: own().map(|(_, values)| thin(values)).collect(),
+        }
+    }
+
     /// Channels with their values, in the order of columns.
     pub fn iter(&self) -> impl Iterator<Item = (&Channel, &[f64])> {
         self.channels.iter().zip(self.columns.iter().map(Vec::as_slice))

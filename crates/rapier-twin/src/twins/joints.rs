@@ -41,6 +41,11 @@ pub(super) fn between(joint: &Joint, links: [usize; 2]) -> GenericJoint {
     }
 }
 
+/// A revolute joint between `links` whose rows lie along and across the direction `axis` of the first of them.
+pub(super) fn steered(joint: &Joint, links: [usize; 2], axis: Vec2) -> GenericJoint {
+    holding(JointAxesMask::LOCKED_REVOLUTE_AXES, joint, links).local_axis1(vector(axis)).build()
+}
+
 /// A moving body with the given mass (kg) and moment of inertia (kg m^2).
 pub(super) fn body(link: &Link, [mass, inertia]: [f64; 2]) -> RigidBodyBuilder {
     RigidBodyBuilder::dynamic()

@@ -13,8 +13,9 @@ use rapier::prelude::{
     RigidBodyHandle,
 };
 
+use crate::steer::steered;
 use crate::tree::Tree;
-use crate::world::{LinkAngle, LinkFrame, masses_with_flywheels};
+use crate::world::{LinkAngle, LinkFrame, world_masses};
 use linkage::case::Case;
 use linkage::engine::Settings;
 use linkage::error::{Error, ErrorKind, Result};
@@ -82,7 +83,7 @@ impl Twin {
     /// [`ErrorKind::Unsupported`] if Rapier refuses a joint.
     pub(crate) fn new(case: &Case, tree: Tree, settings: &Settings, read: bool) -> Result<Self> {
         let mechanism = &case.mechanism;
-        let masses = masses_with_flywheels(case);
+        let masses = world_masses(case, &tree, read);
         let mut world = PhysicsWorld::new();
         world.gravity = joints::vector(case.gravity);
         world.integration_parameters = joints::parameters(settings);
@@ -110,8 +111,14 @@ impl Twin {
         let cuts = tree.cut.iter().map(|&index| {
             let joint = mechanism.joints()[index].clone();
             let links = [joint.first.link, joint.second.link];
-            let (first, second) = (hold(links[0], links[1]), hold(links[1], links[0]));
-            let handle = world.impulse_joints.insert(first, second, joints::between(&joint, links), true);
+            // Forces are read in the joint's own order and axes.
+            let steered = if read { None } else { steered(&tree, mechanism, &masses, &joint) };
+            let (order, between) = match steered {
+                None => (links, joints::between(&joint, links)),
+                Some((order, axis)) => (order, joints::steered(&joint, order, axis)),
+            };
+            let (first, second) = (hold(order[0], order[1]), hold(order[1], order[0]));
+            let handle = world.impulse_joints.insert(first, second, between, true);
             let plain = links.into_iter().filter(|&link| link != GROUND).all(plain);
             Cut { joint, index, handle, plain, start: frame::Frame::default() }
         });

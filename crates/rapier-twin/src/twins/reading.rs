@@ -67,6 +67,10 @@ impl Twin {
     pub(super) fn read_torque(&self, drive: usize) -> f64 {
         let motor = &self.motors[drive];
         let joint = self.world.impulse_joints.get(motor.handle).expect("the motor exists");
+        if joint.data.motor_axes.is_empty() {
+            // Rapier leaves a motor that is off the impulse of the last step in which it was on.
+            return 0.0;
+        }
         -wide(joint.data.motors[2].impulse) / self.substep() * motor.sense
     }
 }

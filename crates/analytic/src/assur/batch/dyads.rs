@@ -137,7 +137,13 @@ impl Reader<'_> {
             centre: body.mass_centre - pole,
             inertia: body.inertia,
             hanging: hanging.map(|joint| self.action(joint, link, pole)).collect(),
-            loads: self.case.loads.iter().filter(|load| load.sensed_link() == Some(link)).cloned().collect(),
+            loads: self
+                .case
+                .loads
+                .iter()
+                .filter(|load| load.sensed_link() == Some(link) && self.case.can_turn(link))
+                .cloned()
+                .collect(),
         }
     }
 

@@ -26,9 +26,29 @@ pub enum Misfit {
     },
     /// RPP, PRP: the two axes are parallel.
     Parallel,
+    /// The pose is singular: a dead point, or a change point where two branches meet.
+    Singular,
+    /// The step to the pose has passed a change point.
+    Passed {
+        /// Crank angle of the change point (rad, as the scenario states it).
+        crank: f64,
+    },
     /// A higher group whose branch could not be followed.
     Lost,
 }
+
+/// How far a dyad is from a singular pose.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Clearance {
+    /// Sine of the transmission angle, or what it is for the dyad: from 0 (singular) to about 1.
+    pub sine: f64,
+    /// Its rate in time (1/s).
+    pub rate: f64,
+}
+
+/// Clearance below which a pose is singular.
+/// The angles of a dyad are known to rounding over this sine: below it the sine itself is mostly rounding.
+pub const SINGULAR: f64 = 1e-7;
 
 /// Sine of the angle between two axes below which it is zero to rounding.
 const PARALLEL: f64 = 1e-14;

@@ -13,7 +13,7 @@ mod rrp;
 mod rrr;
 
 pub use chain::{Chain, Closing, Node};
-pub use misfit::Misfit;
+pub use misfit::{Clearance, Misfit, SINGULAR};
 pub use prp::Prp;
 pub use rpp::Rpp;
 pub use rpr::Rpr;
@@ -128,6 +128,17 @@ impl Plan {
             placed.map_err(|why| OutOfReach { group, why })?;
         }
         Ok(())
+    }
+
+    /// How far every group is from a singular pose at which two of its branches meet. Velocities must be known.
+    /// `None` for groups that watch the sign of a determinant themselves.
+    pub fn clearances<'a>(&'a self, motions: &'a [Motion]) -> impl Iterator<Item = Option<Clearance>> + 'a {
+        self.steps.iter().map(|step| match step {
+            Step::Rrr(dyad) => Some(dyad.clearance(motions)),
+            Step::Rrp(dyad) => Some(dyad.clearance(motions)),
+            Step::Rpr(dyad) => Some(dyad.clearance(motions)),
+            Step::Rpp(_) | Step::Prp(_) | Step::Chain(_) => None,
+        })
     }
 
     /// Velocities of all links. Positions must be known. `omegas` are those of the driving links (rad/s).

@@ -8,7 +8,7 @@
 //! Artobolevsky, "Theory of mechanisms and machines", kinematics of class II groups of the third kind.
 
 use super::guide::turn_between;
-use super::misfit::Misfit;
+use super::misfit::{Clearance, Misfit, SINGULAR};
 use super::pin::Pin;
 use linkage::math::{Motion, Vec2, cross, rotated, turned};
 use linkage::mechanism::{AssemblyMode, Group, Mechanism};
@@ -22,6 +22,8 @@ pub struct Rpr {
     /// Distance of the second pin from the line through the first pin along the axis, positive to its left.
     across: f64,
     sense: f64,
+    /// Size of the mechanism, with which the distance of the pins along the axis is compared (m).
+    size: f64,
 }
 
 impl Rpr {
@@ -38,7 +40,7 @@ impl Rpr {
         let axes = sides.map(|side| inner.axis_on(side.link).expect("the inner joint is prismatic"));
         let off = |k: usize| cross(axes[k], sides[k].local - pins[k].own);
         let sense = if mode == AssemblyMode::Behind { -1.0 } else { 1.0 };
-        Rpr { pins, axes, across: off(0) - off(1), sense }
+        Rpr { pins, axes, across: off(0) - off(1), sense, size: mechanism.size() }
     }
 
     #[inline]
@@ -50,6 +52,9 @@ impl Rpr {
         // Coincident pins have no direction: the second condition refuses them.
         if !(along_squared >= 0.0 && squared > 0.0) {
             return Err(Misfit::Swing { distance: squared.sqrt(), shortest: self.across.abs() });
+        }
+        if along_squared <= SINGULAR * SINGULAR * self.size * self.size {
+            return Err(Misfit::Singular);
         }
         let local = Vec2::new(self.sense * along_squared.sqrt(), self.across);
         let axis = turn_between(d, local) / squared;
@@ -64,6 +69,14 @@ impl Rpr {
     fn along(&self, motions: &[Motion]) -> (Vec2, f64) {
         let axis = rotated(motions[self.pins[0].link].direction, self.axes[0]);
         (axis, axis.dot(&(self.pins[1].place(motions) - self.pins[0].place(motions))))
+    }
+
+    /// How far the dyad is from a singular pose. Velocities must be known.
+    pub(super) fn clearance(&self, motions: &[Motion]) -> Clearance {
+        let (axis, along) = self.along(motions);
+        let [v1, v2] = self.pins.map(|pin| pin.velocity(motions));
+        let slide = axis.dot(&(v2 - v1)) + motions[self.pins[0].link].omega * self.across;
+        Clearance { sine: along.abs() / self.size, rate: along.signum() * slide / self.size }
     }
 
     #[inline]

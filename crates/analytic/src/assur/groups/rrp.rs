@@ -9,7 +9,7 @@
 
 use super::guide::{Guide, turn_between};
 use super::half::of_dyad;
-use super::misfit::Misfit;
+use super::misfit::{Clearance, Misfit, SINGULAR};
 use super::pin::Pin;
 use linkage::math::{Motion, Vec2, turned};
 use linkage::mechanism::{AssemblyMode, Group, Mechanism};
@@ -54,10 +54,21 @@ impl Rrp {
         if !(along_squared >= 0.0) {
             return Err(Misfit::Guide { distance: across.abs(), length: squared.sqrt() });
         }
+        if along_squared <= SINGULAR * SINGULAR * squared {
+            return Err(Misfit::Singular);
+        }
         let r = axis * (self.sense * along_squared.sqrt()) + turned(axis) * across;
         self.rod.put(turn_between(r, self.span) / squared, motions);
         self.guide.put(self.inner, pin + r, motions);
         Ok(())
+    }
+
+    /// How far the dyad is from a singular pose. Velocities must be known.
+    pub(super) fn clearance(&self, motions: &[Motion]) -> Clearance {
+        let (axis, r, length) = (self.guide.axis(motions), motions[self.rod.link].arm(self.span), self.span.norm());
+        let turn = motions[self.guide.base.link].omega - motions[self.rod.link].omega;
+        let cosine = axis.dot(&r) / length;
+        Clearance { sine: cosine.abs(), rate: cosine.signum() * turned(axis).dot(&r) / length * turn }
     }
 
     #[inline]

@@ -7,7 +7,7 @@
 //! They follow from the vector contour of the group, for example Artobolevsky, "Theory of mechanisms and machines",
 //! chapter on the kinematics of class II groups.
 
-use super::misfit::Misfit;
+use super::misfit::{Clearance, Misfit, SINGULAR};
 use linkage::math::{Motion, Vec2, cross, turned};
 use linkage::mechanism::{AssemblyMode, Group, Mechanism, Side};
 
@@ -84,6 +84,10 @@ impl Rrr {
             let [l1, l2] = self.squared.map(f64::sqrt);
             return Err(Misfit::Span { distance: d_squared.sqrt(), reach: [(l1 - l2).abs(), l1 + l2] });
         }
+        // The sine of the transmission angle: cross(r1, r2) / (l1 l2).
+        if across_squared * d_squared * d_squared <= SINGULAR * SINGULAR * self.squared[0] * self.squared[1] {
+            return Err(Misfit::Singular);
+        }
         let r1 = d * along + turned(d) * (self.side * across_squared.sqrt());
         self.spans = [r1, r1 - d];
         for (k, (pivot, r)) in [p1, p2].into_iter().zip(self.spans).enumerate() {
@@ -95,6 +99,14 @@ impl Rrr {
             motion.origin = pivot - self.outers[k];
         }
         Ok(())
+    }
+
+    /// How far the dyad is from a singular pose. Velocities must be known.
+    pub(super) fn clearance(&self, motions: &[Motion]) -> Clearance {
+        let ([r1, r2], lengths) = (self.spans, (self.squared[0] * self.squared[1]).sqrt());
+        let (sine, cosine) = (cross(r1, r2) / lengths, r1.dot(&r2) / lengths);
+        let turn = motions[self.arms[1].link].omega - motions[self.arms[0].link].omega;
+        Clearance { sine: sine.abs(), rate: sine.signum() * cosine * turn }
     }
 
     #[inline]

@@ -128,3 +128,45 @@ fn moments_in_a_sense_are_those_of_the_action() {
         }
     }
 }
+
+#[test]
+fn loads_of_another_amount_act_in_proportion() {
+    let moments = |loads: &[Load], omega: f64| -> f64 {
+        loads
+            .iter()
+            .flat_map(|load| act(load, &motions(omega), &[0.0, 0.4], 0.7))
+            .map(|action| action.about(Vec2::zeros()))
+            .sum()
+    };
+    let table = Course::table(&[(0.0, 1.0), (2.0, 5.0)], 1, false);
+    let ends = [side(0, 1.0, 2.0), side(1, 0.5, 0.1)];
+    let loads = [
+        Load::Resistance { link: 1, moment: 100.0 },
+        Load::Moment { link: 1, moment: table.clone(), acts: Acts::Clockwise },
+        Load::Force { at: side(1, 0.2, 0.3), force: [table, Course::Constant(3.0)], follows: true },
+        Load::ResistingForce { at: side(1, 0.2, 0.3), force: 7.0 },
+        Load::Spring { ends, stiffness: 20.0, free_length: 0.3 },
+        Load::Damper { ends, damping: 4.0 },
+    ];
+    for load in &loads {
+        for omega in [2.0, -1.5] {
+            // The ground's share would cancel the other end's.
+            let one = moments(std::slice::from_ref(load), omega);
+            for factor in [0.0, 0.5, 3.0, -2.0] {
+                match load.times(factor) {
+                    Some(scaled) => approx::assert_relative_eq!(moments(&scaled, omega), factor * one, epsilon = 1e-12),
+                    None => assert!(factor < 0.0 && matches!(load, Load::ResistingForce { .. })),
+                }
+            }
+        }
+    }
+    let twist = [
+        Load::TorsionSpring { links: [0, 1], stiffness: 2.0, free_angle: 0.1 },
+        Load::TorsionDamper { links: [0, 1], damping: 2.0 },
+    ];
+    for load in twist {
+        let on_second = |load: &Load| act(load, &motions(2.0), &[0.0, 0.4], 0.7)[1].moment;
+        let doubled = load.times(2.0).unwrap();
+        approx::assert_relative_eq!(on_second(&doubled[0]), 2.0 * on_second(&load), epsilon = 1e-12);
+    }
+}

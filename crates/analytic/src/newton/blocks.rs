@@ -1,0 +1,146 @@
+//! The Jacobian of all constraints, block by block.
+//!
+//! Ordered by driving links and groups, it is block-triangular: a driving link does not depend on the groups, and no
+//! group on a later one. Elimination within the diagonal blocks alone keeps it so.
+//! A group near a singular pose then cannot spoil what does not depend on it: with one elimination over all rows,
+//! rounding of its large accelerations entered those of the crank's own pin.
+//! Every block also has a determinant of its own. That of the whole keeps its sign where two of them change theirs.
+
+use linkage::case::Case;
+use linkage::math::KeepNan;
+use linkage::math::dense::Lu;
+use linkage::mechanism::EQUATIONS;
+
+/// One diagonal block: a driving link, or a group.
+#[derive(Clone, Debug)]
+struct Block {
+    rows: Vec<usize>,
+    columns: Vec<usize>,
+    matrix: Lu,
+    /// Euclidean norm of every column of the block.
+    norms: Vec<f64>,
+    /// Entries of these rows in columns of earlier blocks.
+    beside: Vec<(usize, usize, f64)>,
+    right: Vec<f64>,
+}
+
+/// A block-triangular square matrix: factored in place, again and again.
+#[derive(Clone, Debug)]
+pub(super) struct Blocks {
+    blocks: Vec<Block>,
+    /// Block and place in it of every row and of every column.
+    of_row: Vec<(usize, usize)>,
+    of_column: Vec<(usize, usize)>,
+    solution: Vec<f64>,
+}
+
+impl Blocks {
+    /// Storage for the equations of a case; all coefficients zero.
+    pub(super) fn of(case: &Case) -> Self {
+        let joints = case.mechanism.joints().len();
+        let mut parts: Vec<(Vec<usize>, Vec<usize>)> = Vec::new();
+        let rows_of = |joint: usize| EQUATIONS * joint..EQUATIONS * (joint + 1);
+        let columns_of = |link: usize| 3 * (link - 1)..3 * link;
+        for (index, drive) in case.drives.iter().enumerate() {
+            let rows = rows_of(drive.joint).chain([EQUATIONS * joints + index]).collect();
+            parts.push((rows, columns_of(drive.link).collect()));
+        }
+        for group in &case.structure.groups {
+            let rows = group.outer.iter().chain(&group.inner).flat_map(|&joint| rows_of(joint)).collect();
+            parts.push((rows, group.links.iter().flat_map(|&link| columns_of(link)).collect()));
+        }
+        let n = 3 * (case.mechanism.links().len() - 1);
+        let (mut of_row, mut of_column) = (vec![(0, 0); n], vec![(0, 0); n]);
+        let blocks = parts.into_iter().enumerate().map(|(block, (rows, columns))| {
+            debug_assert_eq!(rows.len(), columns.len(), "a block is square");
+            rows.iter().enumerate().for_each(|(place, &row)| of_row[row] = (block, place));
+            columns.iter().enumerate().for_each(|(place, &column)| of_column[column] = (block, place));
+            let size = rows.len();
+            let (matrix, zeros) = (Lu::new(size), vec![0.0; size]);
+            Block { rows, columns, matrix, norms: zeros.clone(), beside: Vec::new(), right: zeros }
+        });
+        Blocks { blocks: blocks.collect(), of_row, of_column, solution: vec![0.0; n] }
+    }
+
+    /// Sets all coefficients to zero.
+    pub(super) fn clear(&mut self) {
+        for block in &mut self.blocks {
+            block.matrix.clear();
+            block.norms.fill(0.0);
+            block.beside.clear();
+        }
+    }
+
+    /// Adds `value` to the coefficient in `row`, `column`.
+    #[inline]
+    pub(super) fn add(&mut self, row: usize, column: usize, value: f64) {
+        let (block, place) = self.of_row[row];
+        let (beside, local) = self.of_column[column];
+        let own = &mut self.blocks[block];
+        if beside == block {
+            own.matrix.add(place, local, value);
+            own.norms[local] = own.norms[local].hypot(value);
+        } else {
+            debug_assert!(beside < block, "no block depends on a later one");
+            own.beside.push((place, column, value));
+        }
+    }
+
+    /// Factors all blocks. Returns false if one of them is singular to working precision, or not finite.
+    #[must_use]
+    pub(super) fn factor(&mut self) -> bool {
+        self.blocks.iter_mut().all(|block| block.matrix.factor())
+    }
+
+    /// The smallest share that a block's determinant is of the largest one that columns of these lengths
+    /// can have. Unlike rows, a column has one unit.
+    pub(super) fn smallest_share(&self) -> f64 {
+        let share = |block: &Block| {
+            // The determinant itself could underflow.
+            let pivots = block.matrix.pivots().map(f64::abs);
+            pivots.zip(&block.norms).map(|(pivot, norm)| pivot / norm).product::<f64>()
+        };
+        self.blocks.iter().map(share).fold(f64::INFINITY, f64::smaller)
+    }
+
+    /// Sign of every block's determinant, +1 or -1.
+    pub(super) fn signs(&self) -> impl Iterator<Item = f64> + '_ {
+        self.blocks.iter().map(|block| block.matrix.determinant_sign())
+    }
+
+    /// Solves A x = b for the factored matrix; `b` is replaced by `x`.
+    pub(super) fn solve(&mut self, b: &mut [f64]) {
+        let Blocks { blocks, solution, .. } = self;
+        for Block { rows, columns, matrix, beside, right, .. } in blocks {
+            for (right, &row) in right.iter_mut().zip(&*rows) {
+                *right = b[row];
+            }
+            for &(place, column, value) in &*beside {
+                right[place] -= value * solution[column];
+            }
+            matrix.solve(right);
+            for (&column, x) in columns.iter().zip(&*right) {
+                solution[column] = *x;
+            }
+        }
+        b.copy_from_slice(solution);
+    }
+
+    /// Solves A^T x = b for the factored matrix; `y` is replaced by `x`.
+    pub(super) fn solve_transposed(&mut self, y: &mut [f64]) {
+        let Blocks { blocks, solution, .. } = self;
+        for Block { rows, columns, matrix, beside, right, .. } in blocks.iter_mut().rev() {
+            for (right, &column) in right.iter_mut().zip(&*columns) {
+                *right = y[column];
+            }
+            matrix.solve_transposed(right);
+            for (&row, x) in rows.iter().zip(&*right) {
+                solution[row] = *x;
+            }
+            for &(place, column, value) in &*beside {
+                y[column] -= value * right[place];
+            }
+        }
+        y.copy_from_slice(solution);
+    }
+}

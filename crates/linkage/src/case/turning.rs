@@ -1,0 +1,69 @@
+//! Which links can turn at all, from the joints and the start pose.
+//!
+//! Links that slide on each other keep their angle. In a parallelogram opposite links do too, and a chain of them passes it
+//! on. Whatever keeps the ground's angle only translates: its angular velocity is zero, and what a solver finds there is
+//! rounding. No load may take a sense of rotation from it.
+
+use super::CaseParts;
+use crate::math::Vec2;
+use crate::mechanism::{GROUND, Joint};
+
+/// Difference of two opposite sides of a parallelogram, as a share of the mechanism's size, that is rounding.
+const EQUAL: f64 = 1e-12;
+
+/// A link that connects two others by revolute joints: these two, the world places of the joints, and the link itself.
+struct Bridge {
+    ends: [usize; 2],
+    places: [Vec2; 2],
+    link: usize,
+}
+
+/// For every link, whether it can turn while the mechanism stays on the branch of its start pose.
+pub(super) fn turning(parts: &CaseParts) -> Vec<bool> {
+    let mechanism = &parts.mechanism;
+    let mut classes: Vec<usize> = (0..mechanism.links().len()).collect();
+    let mut unite = |a: usize, b: usize| {
+        let (from, to) = (classes[a], classes[b]);
+        classes.iter_mut().filter(|class| **class == from).for_each(|class| *class = to);
+    };
+    for joint in mechanism.joints().iter().filter(|joint| joint.keeps_angle()) {
+        unite(joint.first.link, joint.second.link);
+    }
+    let bridges = bridges(parts);
+    let equal = EQUAL * mechanism.size();
+    for (index, one) in bridges.iter().enumerate() {
+        for other in bridges[index + 1..].iter().filter(|other| other.link != one.link) {
+            // The sides between the two bridges on both of the links that they connect.
+            let sides = match other.ends {
+                ends if ends == one.ends => [other.places[0] - one.places[0], other.places[1] - one.places[1]],
+                [second, first] if [first, second] == one.ends => {
+                    [other.places[1] - one.places[0], other.places[0] - one.places[1]]
+                }
+                _ => continue,
+            };
+            if (sides[0] - sides[1]).norm() <= equal && sides[0].norm() > equal {
+                unite(one.ends[0], one.ends[1]);
+                unite(one.link, other.link);
+            }
+        }
+    }
+    classes.iter().map(|&class| class != classes[GROUND]).collect()
+}
+
+fn bridges(parts: &CaseParts) -> Vec<Bridge> {
+    let (links, joints) = (parts.mechanism.links(), parts.mechanism.joints());
+    let mut found = Vec::new();
+    for link in 0..links.len() {
+        let on: Vec<&Joint> = joints.iter().filter(|joint| !joint.keeps_angle() && joint.on(link).is_some()).collect();
+        for (index, first) in on.iter().enumerate() {
+            for second in &on[index + 1..] {
+                let ends = [first, second].map(|joint| joint.other(link));
+                if ends[0].link != ends[1].link {
+                    let places = ends.map(|end| parts.start.0[end.link].point(end.local));
+                    found.push(Bridge { ends: ends.map(|end| end.link), places, link });
+                }
+            }
+        }
+    }
+    found
+}

@@ -1,0 +1,69 @@
+//! Masses that a free motion needs in Rapier but not in the case, and the loads that take their effect away.
+//!
+//! Rapier divides by the mass and by the moment of inertia of a separate body: a point mass could not turn there.
+//! In a multibody a point mass may stay one, unless it lies in a joint: the whole chain's mass matrix is regular.
+//! A link that lacks what it needs gets an added mass or moment of inertia, and with it the load m a + J alpha - m g of the added part.
+//! With the true accelerations the motion is that of the case: (M + M') a = f + M' a is M a = f.
+//! A step knows the accelerations of the step before. The error is of first order, as that of the whole step is.
+//! It decays from step to step, because no added mass is larger than the whole: M' / (M + M') is below 1.
+
+use super::bare::to_link;
+use super::tree::Tree;
+use super::window::Window;
+use linkage::case::Case;
+use linkage::drive::Wrench;
+use linkage::math::{KeepNan, Vec2};
+
+/// Added masses in one world of a free motion, and the accelerations by which their effect is taken away.
+#[derive(Debug)]
+pub(super) struct Added {
+    masses: Vec<[f64; 2]>,
+    /// Accelerations of mass centres and angles in the last step: x, y, angle.
+    accelerations: Vec<[f64; 3]>,
+}
+
+impl Added {
+    /// The added masses in a world with this tree; `None` if no link needs one.
+    pub(super) fn of(case: &Case, tree: &Tree) -> Option<Self> {
+        let links = 0..case.mechanism.links().len();
+        let masses: Vec<[f64; 2]> = links.map(|link| to_link(case, link, tree)).collect();
+        let accelerations = vec![[0.0; 3]; masses.len()];
+        masses.iter().flatten().any(|&mass| mass > 0.0).then_some(Added { masses, accelerations })
+    }
+
+    /// Takes the accelerations of the window's last step. Before the first step those of the last trial stay.
+    pub(super) fn follow(&mut self, window: &Window) {
+        if window.newest() > 0 {
+            for (link, own) in self.accelerations.iter_mut().enumerate().skip(1) {
+                *own = window.newest_acceleration(link);
+            }
+        }
+    }
+
+    /// Takes the accelerations of a trial step from the start.
+    /// Returns the largest change of an added load over the largest added load; both as forces at the mechanism's size.
+    pub(super) fn guess(&mut self, case: &Case, mut of: impl FnMut(usize) -> [f64; 3]) -> f64 {
+        let size = case.mechanism.size();
+        let (mut change, mut all) = (0.0f64, 0.0f64);
+        for (link, (own, masses)) in self.accelerations.iter_mut().zip(&self.masses).enumerate().skip(1) {
+            let now = of(link);
+            let load = |of: [f64; 3]| {
+                let force = masses[0] * Vec2::new(of[0], of[1]).norm();
+                force.larger(masses[1] * of[2].abs() / size)
+            };
+            change = change.larger(load([0, 1, 2].map(|k| now[k] - own[k])));
+            all = all.larger(load(now));
+            *own = now;
+        }
+        if all > 0.0 { change / all } else { 0.0 }
+    }
+
+    /// Writes to `relieved` the loads and those that take the effect of the added masses away.
+    pub(super) fn relieve(&self, case: &Case, loads: &[Wrench], relieved: &mut [Wrench]) {
+        relieved.copy_from_slice(loads);
+        for ((load, [mass, inertia]), [x, y, alpha]) in relieved.iter_mut().zip(&self.masses).zip(&self.accelerations) {
+            load.force += (Vec2::new(*x, *y) - case.gravity) * *mass;
+            load.moment += inertia * alpha;
+        }
+    }
+}

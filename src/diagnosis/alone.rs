@@ -1,0 +1,74 @@
+//! Which of several parties contradicts the others.
+
+use crate::compare::largest_difference;
+use linkage::trajectory::{Channel, Trajectory};
+
+/// One party: its results and how wrong they may be.
+#[derive(Clone, Debug)]
+pub struct Party<'a> {
+    /// Name for reports.
+    pub name: &'a str,
+    /// Its results.
+    pub trajectory: &'a Trajectory,
+    /// Bound on its error in every channel in which it is judged, in the channel's unit. It has no say in others.
+    pub bounds: Vec<(Channel, f64)>,
+}
+
+impl Party<'_> {
+    fn bound(&self, channel: &Channel) -> Option<f64> {
+        self.bounds.iter().find(|(own, _)| own == channel).map(|(_, bound)| *bound)
+    }
+
+    /// Whether the two differ in a channel by more than both may be wrong.
+    fn contradicts(&self, other: &Party) -> bool {
+        self.trajectory.iter().any(|(channel, ours)| {
+            let (Some(own), Some(theirs)) = (self.bound(channel), other.bound(channel)) else { return false };
+            let Some(values) = other.trajectory.column(channel) else { return false };
+            // Written so that NaN counts as a difference.
+            !(largest_difference(ours, values, channel.kind.periodic) <= own + theirs)
+        })
+    }
+}
+
+/// How the parties stand to each other.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Standing {
+    /// No two of them contradict each other.
+    Together,
+    /// One contradicts all others, and these do not contradict each other.
+    Alone(String),
+    /// Two camps: within each nobody contradicts, across them everybody does.
+    Camps([Vec<String>; 2]),
+    /// Some contradict each other, but no line can be drawn between them: of two parties only one can be right, and
+    /// nothing says which.
+    Open(Vec<[String; 2]>),
+}
+
+/// How the parties stand to each other.
+#[must_use]
+pub fn standing(parties: &[Party]) -> Standing {
+    let count = parties.len();
+    let mut apart = vec![vec![false; count]; count];
+    let mut pairs = Vec::new();
+    for one in 0..count {
+        for other in one + 1..count {
+            if parties[one].contradicts(&parties[other]) {
+                (apart[one][other], apart[other][one]) = (true, true);
+                pairs.push([parties[one].name.to_string(), parties[other].name.to_string()]);
+            }
+        }
+    }
+    let Some(first) = apart.iter().position(|row| row.contains(&true)) else { return Standing::Together };
+    // The camp of `first` are those that it does not contradict.
+    let (own, others): (Vec<usize>, Vec<usize>) = (0..count).partition(|&other| !apart[first][other]);
+    let split =
+        (0..count).all(|one| (0..count).all(|other| apart[one][other] == (own.contains(&one) != own.contains(&other))));
+    if !split || count < 3 {
+        return Standing::Open(pairs);
+    }
+    let names = |camp: &[usize]| camp.iter().map(|&index| parties[index].name.to_string()).collect::<Vec<_>>();
+    match (own.as_slice(), others.as_slice()) {
+        ([one], _) | (_, [one]) => Standing::Alone(parties[*one].name.to_string()),
+        (own, others) => Standing::Camps([names(own), names(others)]),
+    }
+}

@@ -1,0 +1,231 @@
+//! The suspect's values at some instants, and how far a changed case is from them.
+
+use std::cell::Cell;
+use std::rc::Rc;
+
+use super::question::Question;
+use super::slips::KNOWN;
+use crate::compare::{differences, magnitudes};
+use linkage::case::{Case, Grid};
+use linkage::math::statistics::ascending;
+use linkage::math::{KeepNan, largest_size};
+use linkage::solver::Solver;
+use linkage::trajectory::{Channel, Stage, Trajectory};
+
+/// A channel that counts.
+pub(super) struct Column {
+    pub(super) channel: Channel,
+    pub(super) bound: f64,
+    pub(super) disagrees: bool,
+    /// The suspect's values.
+    values: Vec<f64>,
+    /// The reference's.
+    right: Vec<f64>,
+}
+
+/// Some instants of the grid with the suspect's values there.
+pub(super) struct Bench<'a> {
+    /// The case on these instants.
+    pub(super) case: Case,
+    pub(super) columns: Vec<Column>,
+    solver: &'a dyn Solver,
+    /// How many cases may still be solved.
+    left: Rc<Cell<usize>>,
+}
+
+/// What is left of the suspect's differences under a hypothesis, in shares of the bounds: column after column, instant
+/// after instant.
+#[derive(Clone, Debug)]
+pub(super) struct Misfit(pub(super) Vec<f64>);
+
+impl Misfit {
+    /// The largest share of a bound.
+    pub(super) fn worst(&self) -> f64 {
+        largest_size(self.0.iter().copied())
+    }
+
+    /// Whether everything is within its bound.
+    pub(super) fn fits(&self) -> bool {
+        self.worst() <= 1.0
+    }
+
+    pub(super) fn dot(&self, other: &Misfit) -> f64 {
+        self.0.iter().zip(&other.0).map(|(a, b)| a * b).sum()
+    }
+
+    pub(super) fn times(&self, factor: f64) -> Misfit {
+        Misfit(self.0.iter().map(|value| factor * value).collect())
+    }
+
+    /// This plus `factor` times the other.
+    pub(super) fn plus(&self, factor: f64, other: &Misfit) -> Misfit {
+        Misfit(self.0.iter().zip(&other.0).map(|(a, b)| a + factor * b).collect())
+    }
+}
+
+impl Misfit {
+    /// The amounts of `effect` that, added to this, keep everything within its bound; `None` if there are none. Least
+    /// squares do not give them: errors of a suspect are not random.
+    pub(super) fn kept_by(&self, effect: &Misfit) -> Option<[f64; 2]> {
+        let mut range = [f64::NEG_INFINITY, f64::INFINITY];
+        for (own, change) in self.0.iter().zip(&effect.0) {
+            let ends = [(-1.0 - own) / change, (1.0 - own) / change];
+            if *change == 0.0 || ends.iter().any(|end| !end.is_finite()) {
+                if !(own.abs() <= 1.0) {
+                    return None;
+                }
+                continue;
+            }
+            let [low, high] = [ends[0].smaller(ends[1]), ends[0].larger(ends[1])];
+            range = [range[0].larger(low), range[1].smaller(high)];
+        }
+        (range[0] <= range[1] && range[0].is_finite() && range[1].is_finite()).then_some(range)
+    }
+}
+
+impl<'a> Bench<'a> {
+    /// The question at the given rows of its grid. `left` is the number of cases that may still be solved.
+    pub(super) fn new(question: &Question<'a>, rows: &[usize], left: Rc<Cell<usize>>) -> Option<Self> {
+        let grid = &question.case.grid;
+        let of_rows = |values: &[f64]| rows.iter().map(|&row| values[row]).collect::<Vec<f64>>();
+        let case = question.case.on(Grid { times: of_rows(&grid.times), cranks: of_rows(&grid.cranks) }).ok()?;
+        let sizes = magnitudes(question.reference);
+        let column = |judged: &super::question::Judged| {
+            let place = question.reference.channels().iter().position(|own| *own == judged.channel)?;
+            Some(Column {
+                channel: judged.channel.clone(),
+                bound: judged.bound.larger(KNOWN * sizes[place]),
+                disagrees: judged.disagrees,
+                values: of_rows(question.suspicious.column(&judged.channel)?),
+                right: of_rows(question.reference.column(&judged.channel)?),
+            })
+        };
+        let columns = question.judged.iter().filter_map(column).filter(|column| column.bound > 0.0).collect();
+        Some(Bench { case, columns, solver: question.solver, left })
+    }
+
+    /// Whether a position or a rate is among the disagreeing channels.
+    pub(super) fn is_moved(&self) -> bool {
+        self.columns.iter().any(|column| column.disagrees && column.channel.kind.stage < Stage::Reactions)
+    }
+
+    /// What the reference itself leaves.
+    pub(super) fn start(&self) -> Misfit {
+        self.misfit(|column| Some(column.right.clone())).expect("the reference has its own columns")
+    }
+
+    /// What a changed case leaves. `None` if it cannot be solved, or no more may be.
+    pub(super) fn tried(&self, case: &Case) -> Option<Misfit> {
+        let found = self.solved(case)?;
+        self.misfit(|column| found.column(&column.channel).map(<[f64]>::to_vec))
+    }
+
+    /// The same, with the changed case taken in the channels of one stage only, or in all of them.
+    pub(super) fn tried_in(&self, case: &Case, stage: Option<Stage>) -> Option<Misfit> {
+        let found = self.solved(case)?;
+        self.misfit(|column| match stage.is_none_or(|stage| column.channel.kind.stage == stage) {
+            true => found.column(&column.channel).map(<[f64]>::to_vec),
+            false => Some(column.right.clone()),
+        })
+    }
+
+    fn solved(&self, case: &Case) -> Option<Trajectory> {
+        self.left.set(self.left.get().checked_sub(1)?);
+        self.solver.solve(case).ok()
+    }
+
+    fn misfit(&self, expected: impl Fn(&Column) -> Option<Vec<f64>>) -> Option<Misfit> {
+        let mut all = Vec::with_capacity(self.columns.len() * self.case.grid.len());
+        for column in &self.columns {
+            let gaps = differences(&expected(column)?, &column.values, column.channel.kind.periodic);
+            all.extend(gaps.iter().map(|gap| gap / column.bound));
+        }
+        Some(Misfit(all))
+    }
+
+    /// For every column, the largest share of its bound in a misfit.
+    pub(super) fn by_column(&self, misfit: &Misfit) -> Vec<f64> {
+        misfit.0.chunks(self.case.grid.len()).map(|values| largest_size(values.iter().copied())).collect()
+    }
+
+    /// Disagreeing channels that a hypothesis explains, after it has left `misfit`. Empty if it spoils an agreeing
+    /// channel. A channel that was hardly beyond its bound is no evidence, unless all others are explained too.
+    pub(super) fn explained(&self, start: &Misfit, misfit: &Misfit) -> Vec<Channel> {
+        let all = misfit.fits();
+        let [before, after] = [start, misfit].map(|misfit| self.by_column(misfit));
+        let columns = || self.columns.iter().zip(before.iter().zip(&after));
+        if columns().any(|(column, (_, after))| !column.disagrees && !(*after <= 1.0)) {
+            return Vec::new();
+        }
+        let counts = |before: f64, after: f64| after <= 1.0 && (all || before > EVIDENT);
+        let explained = columns().filter(|(column, (before, after))| column.disagrees && counts(**before, **after));
+        explained.map(|(column, _)| column.channel.clone()).collect()
+    }
+}
+
+impl Bench<'_> {
+    /// How much a hypothesis that leaves `misfit` changes agreeing channels, in shares of their bounds. Of hypotheses
+    /// that explain as much, the one that claims least is the simplest.
+    pub(super) fn claim(&self, start: &Misfit, misfit: &Misfit) -> f64 {
+        let changes = self.by_column(&misfit.plus(-1.0, start));
+        self.columns.iter().zip(changes).filter(|(column, _)| !column.disagrees).map(|(_, change)| change).sum()
+    }
+}
+
+/// Times its bound that a channel is off before a cause that explains it counts, where the cause does not explain all.
+const EVIDENT: f64 = 3.0;
+
+/// Instants of a bench, besides the worst of each channel.
+const INSTANTS: usize = 32;
+/// How far beyond its bound a free motion is followed at first: later it may depend on its cause in no simple way.
+const EARLY: f64 = 100.0;
+
+/// Rows of the whole grid, thinned, with the worst instants of the disagreeing channels.
+pub(super) fn thinned(question: &Question) -> Vec<usize> {
+    let ascending = ascending(question.reference.times());
+    let mut rows = spread(&ascending);
+    for judged in question.judged.iter().filter(|judged| judged.disagrees) {
+        rows.extend(
+            gaps(question, &judged.channel)
+                .and_then(|gaps| (0..gaps.len()).max_by(|&a, &b| gaps[a].abs().total_cmp(&gaps[b].abs()))),
+        );
+        if rows.len() >= INSTANTS + INSTANTS / 2 {
+            break;
+        }
+    }
+    in_order(rows)
+}
+
+/// The same, but of a time in which the differences are still small.
+pub(super) fn early(question: &Question) -> Vec<usize> {
+    let ascending = ascending(question.reference.times());
+    let mut end = ascending.len();
+    for judged in question.judged.iter().filter(|judged| judged.disagrees) {
+        let Some(gaps) = gaps(question, &judged.channel) else { continue };
+        let far = ascending.iter().position(|&row| gaps[row].abs() > EARLY * judged.bound);
+        end = end.min(far.unwrap_or(end));
+    }
+    let rows = spread(&ascending[..end.max(INSTANTS).min(ascending.len())]);
+    in_order(rows)
+}
+
+fn gaps(question: &Question, channel: &Channel) -> Option<Vec<f64>> {
+    let (right, found) = (question.reference.column(channel)?, question.suspicious.column(channel)?);
+    Some(differences(right, found, channel.kind.periodic))
+}
+
+fn spread(rows: &[usize]) -> Vec<usize> {
+    let last = rows.len().saturating_sub(1);
+    match rows.len() > INSTANTS {
+        true => (0..INSTANTS).map(|k| rows[k * last / (INSTANTS - 1)]).collect(),
+        false => rows.to_vec(),
+    }
+}
+
+/// Each row once, the first of the grid before all others: whole turns are counted from it.
+fn in_order(mut rows: Vec<usize>) -> Vec<usize> {
+    rows.push(0);
+    rows.sort_unstable();
+    rows.dedup();
+    rows
+}

@@ -1,0 +1,200 @@
+//! Numbers of the case that are different.
+
+use std::rc::Rc;
+
+use super::bench::{Bench, Misfit};
+use super::cause::{Cause, Change, How};
+use super::knobs::{self, Knob, natural};
+use super::question::Rank;
+use super::tries::{Candidate, Tries};
+use linkage::math::KeepNan;
+
+/// Knobs whose values are tried once, of those that explain most in a first approximation.
+const GUESSED: usize = 12;
+/// Knobs whose values are searched, of those that explain most then.
+const SEARCHED: usize = 5;
+/// Steps of the search for a value.
+const STEPS: usize = 6;
+
+/// A knob with a guess at its value.
+struct Guess {
+    knob: Rc<Knob>,
+    value: f64,
+    /// Sum of squares that the guess leaves, in a first approximation.
+    rest: f64,
+}
+
+/// The knobs that have an effect, with first guesses; those that explain most first.
+fn guesses(tries: &Tries) -> Vec<Guess> {
+    let (bench, start) = (&tries.soon, &tries.starts[0]);
+    let moved = bench.is_moved();
+    let mut found = Vec::new();
+    for knob in knobs::all(&bench.case) {
+        // Where the motion is prescribed, what moves nothing explains no motion, and what moves something shows in it.
+        if !tries.is_free && knob.moves_nothing == moved {
+            continue;
+        }
+        let nudged = knob.at(&bench.case, knob.given + knob.nudge).and_then(|case| bench.tried(&case));
+        let Some(effect) = nudged.map(|nudged| nudged.plus(-1.0, start).times(1.0 / knob.nudge)) else { continue };
+        let square = effect.dot(&effect);
+        if square > 0.0 && square.is_finite() {
+            let by = -effect.dot(start) / square;
+            let left = start.plus(by, &effect);
+            found.push(Guess { value: knob.given + by, knob: Rc::new(knob), rest: left.dot(&left) });
+        }
+    }
+    // The sort is stable: of equals the simpler knob is first.
+    found.sort_by(|a, b| a.rest.total_cmp(&b.rest));
+    found
+}
+
+/// Whether a place is not guessed far away: a mechanism of such dimensions hardly moves, and to find that out takes long.
+fn is_likely(guess: &Guess) -> bool {
+    guess.knob.moves_nothing || guess.knob.is_far || (guess.value - guess.knob.given).abs() <= natural(&guess.knob)
+}
+
+/// Parts of the case with another value.
+pub(super) fn numbers(tries: &Tries) -> Vec<Candidate> {
+    let mut candidates = Vec::new();
+    let mut open = Vec::new();
+    for guess in guesses(tries) {
+        let named = meant(tries, &guess.knob, guess.value, false);
+        match named.iter().any(|one| one.1) {
+            true => {}
+            false if open.len() < GUESSED && is_likely(&guess) => open.push(guess),
+            false => {}
+        }
+        candidates.extend(named.into_iter().map(|one| one.0));
+    }
+    // The first approximation may be far off: one real try tells more.
+    for guess in &mut open {
+        let tried = guess.knob.at(&tries.soon.case, guess.value).and_then(|case| tries.soon.tried(&case));
+        guess.rest = tried.map_or(f64::INFINITY, |misfit| misfit.dot(&misfit));
+    }
+    open.sort_by(|a, b| a.rest.total_cmp(&b.rest));
+    for guess in open.into_iter().take(SEARCHED) {
+        let knob = &guess.knob;
+        let Some([mut value, mut middle]) = search(knob, guess.value, &tries.soon, Some(&tries.starts[0])) else {
+            continue;
+        };
+        let named = meant(tries, knob, value, true);
+        let is_known = named.iter().any(|one| one.1);
+        candidates.extend(named.into_iter().map(|one| one.0));
+        if is_known {
+            continue;
+        }
+        let on = |value: f64| tries.thin.tried(&knob.at(&tries.thin.case, value)?);
+        let mut misfit = on(value);
+        if tries.is_free && !misfit.as_ref().is_some_and(Misfit::fits) {
+            // Known for a short time only: the whole time tells it better.
+            let Some(better) = search(knob, value, &tries.thin, None) else { continue };
+            ([value, middle], misfit) = (better, on(better[0]));
+        }
+        let how = knob.told(value);
+        let found = misfit.and_then(|misfit| of_knob(tries, &misfit, knob, value, how, Rank::Number));
+        let number = Some((knob.clone(), [value, middle]));
+        candidates.extend(found.map(|found| Candidate { number, ..found }));
+    }
+    candidates
+}
+
+/// The values with a meaning that are near `value`, tried; and whether each explains everything. `found` says that the
+/// value is more than a first approximation. Where that may be far off, missing and reversed are tried anyway.
+fn meant(tries: &Tries, knob: &Rc<Knob>, value: f64, found: bool) -> Vec<(Candidate, bool)> {
+    let near = |plain: f64| match found {
+        true => (plain - value).abs() <= 1e-2 * plain.abs().larger(1e-2 * natural(knob)),
+        false => (plain - value).abs() <= 0.05 * plain.abs().larger(0.2 * natural(knob)),
+    };
+    let anyway = |how: &How| !found && (knob.is_far || (tries.is_free && is_plain(how)));
+    let plain = knob.plain.iter().filter(|(plain, how)| near(*plain) || anyway(how));
+    let tried = plain.filter_map(|(value, how)| {
+        let misfit = tries.of(&|case| knob.at(case, *value))?;
+        let rank = if matches!(how, How::Times(..)) { Rank::Scale } else { Rank::Change };
+        Some((of_knob(tries, &misfit, knob, *value, how.clone(), rank)?, misfit.fits()))
+    });
+    tried.collect()
+}
+
+/// Whether a way of being different is common enough to be tried at any price.
+fn is_plain(how: &How) -> bool {
+    match how {
+        How::Missing | How::Reversed => true,
+        How::Twice | How::Half | How::Times(..) | How::AtJoint(_) | How::AboutJoint(_) => false,
+        How::Swapped | How::Other(_) | How::Instead { .. } => false,
+    }
+}
+
+fn of_knob(tries: &Tries, misfit: &Misfit, knob: &Rc<Knob>, value: f64, how: How, rank: Rank) -> Option<Candidate> {
+    let cause = Cause::Case(Change { part: knob.part.clone(), how });
+    let knob = knob.clone();
+    tries.candidate(misfit, rank, cause, Box::new(move |case| knob.at(case, value)))
+}
+
+/// The value of a knob that leaves nothing beyond its bound, with as few digits as can be, and the middle of all such
+/// values; from a first guess, by secants. `start` is what the given value leaves, if it may serve as first point.
+fn search(knob: &Knob, guess: f64, bench: &Bench, start: Option<&Misfit>) -> Option<[f64; 2]> {
+    let on = |value: f64| bench.tried(&knob.at(&bench.case, value)?);
+    let (mut old, mut before) = match start {
+        Some(start) => (knob.given, start.clone()),
+        None => (guess + knob.nudge, on(guess + knob.nudge)?),
+    };
+    let mut value = guess;
+    let mut halved = false;
+    for _ in 0..STEPS {
+        let misfit = on(value)?;
+        let effect = misfit.plus(-1.0, &before).times(1.0 / (value - old));
+        if let Some([low, high]) = misfit.kept_by(&effect) {
+            for tried in within(knob, [value + low, value + high]) {
+                if on(tried)?.fits() {
+                    return Some([tried, value + f64::midpoint(low, high)]);
+                }
+            }
+        }
+        let square = effect.dot(&effect);
+        if !(square > 0.0 && square.is_finite()) {
+            return None;
+        }
+        if misfit.dot(&misfit) > before.dot(&before) {
+            // Too far, once: then there is no way.
+            if halved {
+                return None;
+            }
+            (value, halved) = (f64::midpoint(old, value), true);
+            continue;
+        }
+        let by = -effect.dot(&misfit) / square;
+        // It has converged, and something is left.
+        if by.abs() <= 1e-6 * (value - knob.given).abs() {
+            return None;
+        }
+        (old, before, value) = (value, misfit, value + by);
+    }
+    None
+}
+
+/// The value of fewest digits within a range, and the middle of the range.
+fn within(knob: &Knob, [low, high]: [f64; 2]) -> Vec<f64> {
+    let middle = f64::midpoint(low, high);
+    let is_inside = |value: &f64| *value >= low && *value <= high && *value != knob.given;
+    let fewest = (1..=9).map(|digits| knob.significant(middle, digits)).find(is_inside);
+    fewest.into_iter().chain([middle]).collect()
+}
+
+/// A value near the one found on the thinned grid that explains everything on the whole grid too.
+pub(super) fn confirmed(
+    knob: &Knob,
+    [value, middle]: [f64; 2],
+    full: &Bench,
+    misfit: &Misfit,
+) -> Option<(f64, Misfit)> {
+    let on = |value: f64| full.tried(&knob.at(&full.case, value)?);
+    let other = if middle == value { value + knob.nudge * 1e-2 } else { middle };
+    let second = on(other)?;
+    if second.fits() {
+        return Some((other, second));
+    }
+    let effect = second.plus(-1.0, misfit).times(1.0 / (other - value));
+    let [low, high] = second.kept_by(&effect)?;
+    let tried = within(knob, [other + low, other + high]).into_iter().filter_map(|value| Some((value, on(value)?)));
+    tried.into_iter().find(|(_, misfit)| misfit.fits())
+}

@@ -1,0 +1,60 @@
+//! What a diagnosis is asked, and the candidates that answer it.
+
+use super::cause::Cause;
+use linkage::case::Case;
+use linkage::solver::Solver;
+use linkage::trajectory::{Channel, Trajectory};
+
+/// A channel of the suspect that is judged by a bound.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Judged {
+    /// The channel.
+    pub channel: Channel,
+    /// Bound on the suspect's error, in the channel's unit.
+    pub bound: f64,
+    /// Whether it is beyond the bound.
+    pub disagrees: bool,
+}
+
+/// What is to be diagnosed.
+pub struct Question<'a> {
+    /// Name of the suspect.
+    pub suspect: &'a str,
+    /// What is held to be right.
+    pub reference: &'a Trajectory,
+    /// What contradicts it, on the same grid.
+    pub suspicious: &'a Trajectory,
+    /// All channels whose bounds can be relied on, the agreeing ones too: a cause must not spoil them.
+    pub judged: &'a [Judged],
+    /// The reference's case, on the grid of both trajectories.
+    pub case: &'a Case,
+    /// Solver that tries changed cases; accurate to far below the bounds.
+    pub solver: &'a dyn Solver,
+    /// Time step of the suspect (s), if it has one.
+    pub step: Option<f64>,
+}
+
+/// A cause, and what it explains.
+#[derive(Clone, Debug)]
+pub(super) struct Found {
+    pub(super) cause: Cause,
+    /// How simple it is; 0 is the simplest.
+    pub(super) rank: Rank,
+    /// The disagreeing channels that it explains to within their bounds.
+    pub(super) explained: Vec<Channel>,
+}
+
+/// How simple a cause is, the simplest first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Rank {
+    /// A slip without a free number: sign, unit, twice, half.
+    Slip,
+    /// A change of the case without a free number: something missing, or the other way round.
+    Change,
+    /// A part of the case multiplied by a number with a meaning.
+    Scale,
+    /// A change of the case, or another instant, by a number that was fitted.
+    Number,
+    /// Values changed by a number that was fitted.
+    Fitted,
+}

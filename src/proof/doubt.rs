@@ -1,0 +1,118 @@
+//! Instants at which channels jump, so that an engine's value depends on the smallest error of its motion.
+//!
+//! Where a drive reverses, or its acceleration jumps, differences over a few steps to either side are not those of the
+//! motion: rates, accelerations and forces are not judged there.
+//! Where a link reverses whose load depends on the sense of its motion, the load jumps: forces are not judged there, nor
+//! accelerations if forces decide the motion.
+
+use linkage::case::Case;
+use linkage::drive::DriveMotion;
+use linkage::math::Vec2;
+use linkage::trajectory::Stage;
+
+use super::runs::Runs;
+
+/// Number of steps around a jump in which an engine's values are doubtful.
+const STEPS: f64 = 8.0;
+
+/// Share of a drive's top speed that counts as standstill: the rounding of a law's formula, with room.
+const STANDSTILL: f64 = 1e-9;
+/// Number of instants that may be left out whatever the step: the two ends of a motion.
+const ENDS: usize = 2;
+
+/// The doubtful instants of an engine's runs.
+pub(super) struct Doubt {
+    /// Whether rates are doubtful, by row of the grid.
+    rates: Vec<bool>,
+    /// Whether accelerations are.
+    accelerations: Vec<bool>,
+    /// Whether forces are.
+    forces: Vec<bool>,
+    /// Whether a finer step would help, by row.
+    by_step: Vec<bool>,
+}
+
+impl Doubt {
+    /// `senses` are what loads sense in the reference, by row; `resolution` is the step of the run that is judged.
+    pub(super) fn of(case: &Case, senses: &[Vec<Vec2>], runs: &Runs, resolution: f64) -> Self {
+        let times = &case.grid.times;
+        let reach = STEPS * 2.0 * resolution;
+        let mut doubt = Doubt {
+            rates: vec![false; times.len()],
+            accelerations: vec![false; times.len()],
+            forces: vec![false; times.len()],
+            by_step: vec![false; times.len()],
+        };
+        for (row, &t) in times.iter().enumerate() {
+            if drive_turns(case, t, reach) {
+                for list in [&mut doubt.rates, &mut doubt.accelerations, &mut doubt.forces] {
+                    list[row] = true;
+                }
+                // In the very instant no step helps.
+                doubt.by_step[row] = !drive_turns(case, t, 0.0);
+            }
+            let against = |run: &[Vec<Vec2>]| senses[row].iter().zip(&run[row]).any(|(a, b)| against(*a, *b));
+            if runs.resolutions.iter().any(|run| against(&run.senses)) {
+                doubt.forces[row] = true;
+            }
+        }
+        if case.is_free() {
+            for t in reversals(times, senses) {
+                for (row, _) in times.iter().enumerate().filter(|(_, own)| (*own - t).abs() <= reach) {
+                    (doubt.forces[row], doubt.accelerations[row], doubt.by_step[row]) = (true, true, true);
+                }
+            }
+        }
+        doubt
+    }
+
+    /// Whether a channel of a stage is judged, by row.
+    pub(super) fn keeps(&self, stage: Stage) -> Vec<bool> {
+        let out = match stage {
+            Stage::Positions => return vec![true; self.rates.len()],
+            Stage::Velocities => &self.rates,
+            Stage::Accelerations => &self.accelerations,
+            Stage::Reactions | Stage::BalancingMoment => &self.forces,
+        };
+        out.iter().map(|out| !out).collect()
+    }
+
+    /// Share of instants that are left out and would not be with a finer step.
+    pub(super) fn too_coarse(&self) -> f64 {
+        let out = self.by_step.iter().filter(|&&out| out).count().saturating_sub(ENDS);
+        out as f64 / self.by_step.len().max(1) as f64
+    }
+}
+
+/// Whether two velocities are not of one sense. Standstill on both sides is one sense.
+fn against(a: Vec2, b: Vec2) -> bool {
+    a.dot(&b) <= 0.0 && (a != Vec2::zeros() || b != Vec2::zeros())
+}
+
+/// Whether a drive with a law reverses, or its acceleration jumps, within `reach` (s) of `t` (s).
+fn drive_turns(case: &Case, t: f64, reach: f64) -> bool {
+    case.drives.iter().any(|drive| match &drive.motion {
+        DriveMotion::Free { .. } => false,
+        DriveMotion::Prescribed { .. } => {
+            let jumps = drive.jump().is_some_and(|jump| (t - jump).abs() <= reach);
+            let least = STANDSTILL * drive.top_speed().abs();
+            let speeds = [t - reach, t, t + reach].map(|t| drive.at(t).omega);
+            jumps || speeds.iter().any(|speed| !(speed.abs() > least && speed * speeds[1] > 0.0))
+        }
+    })
+}
+
+/// Times at which something that a load senses reverses, by straight lines between the instants.
+fn reversals(times: &[f64], senses: &[Vec<Vec2>]) -> Vec<f64> {
+    let mut rows: Vec<usize> = (0..times.len()).collect();
+    rows.sort_by(|&a, &b| times[a].total_cmp(&times[b]));
+    let mut found = Vec::new();
+    for pair in rows.windows(2) {
+        let [from, to] = [pair[0], pair[1]];
+        for (a, b) in senses[from].iter().zip(&senses[to]).filter(|(a, b)| against(**a, **b)) {
+            let (before, after) = (a.norm(), b.norm());
+            found.push(times[from] + (times[to] - times[from]) * (before / (before + after)));
+        }
+    }
+    found
+}

@@ -1,0 +1,172 @@
+//! Judgement of one engine at some settings, by its runs: the estimate of their error, and the verdict channel by
+//! channel.
+
+use super::checks;
+use super::doubt::Doubt;
+use super::known::Known;
+use super::runs::Runs;
+use crate::compare::{
+    Check, Convergence, Ladder, Residual, Verdict, difference, largest_difference, overall, residuals, scales,
+};
+use crate::scenario::Scenario;
+use crate::tolerance::{Basis, Parts};
+use linkage::engine::{Engine, Settings};
+use linkage::error::Result;
+use linkage::math::Vec2;
+use linkage::solver::Provision;
+use linkage::trajectory::{CHANNELS, Channel, Stage, Trajectory};
+
+/// What is known about an engine that was run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EngineInfo {
+    /// Name, as on the command line.
+    pub name: &'static str,
+    /// Software and version behind it.
+    pub version: String,
+    /// Its settings.
+    pub settings: Settings,
+    /// Whether its resolution is an accuracy, not a step.
+    pub controls_error: bool,
+    /// Settings that influence the result, by name, as text.
+    pub told: Vec<(&'static str, String)>,
+    /// How it provides each sort of channel: stage and provision.
+    pub provides: Vec<(&'static str, Provision)>,
+}
+
+/// Comparison of one channel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ChannelProof {
+    /// Residual of the engine against the reference.
+    pub residual: Residual,
+    /// Bound, in the channel's unit.
+    pub bound: f64,
+    /// What the bound is made of, in the channel's unit.
+    pub parts: Parts,
+    /// Convergence of the engine in this channel.
+    pub convergence: Convergence,
+    /// Largest difference between the limit of the engine's runs and the reference, in the channel's unit; `None` where
+    /// the runs have no limit that can be estimated.
+    pub limit: Option<f64>,
+    /// For a free motion: largest change over the run, as a share of the scale, per share of change in gravity and
+    /// motor torque.
+    pub sensitivity: Option<f64>,
+    /// Number of instants that are not judged: there a drive or a loaded link reverses, and the channel jumps.
+    pub left_out: usize,
+    /// What the bound rests on.
+    pub basis: Basis,
+    /// The outcome.
+    pub verdict: Verdict,
+}
+
+/// What an engine's runs are judged by.
+pub(super) struct Judge<'a> {
+    pub(super) scenario: &'a Scenario,
+    /// The reference's trajectory.
+    pub(super) reference: &'a Trajectory,
+    /// What loads sense in it, instant by instant.
+    pub(super) senses: &'a [Vec<Vec2>],
+    /// How well it is known.
+    pub(super) known: &'a Known,
+    /// Settings asked for; the search begins with them.
+    pub(super) asked: Settings,
+}
+
+/// An engine at some settings, judged.
+pub(super) struct Judged {
+    pub(super) info: EngineInfo,
+    pub(super) channels: Vec<ChannelProof>,
+    pub(super) checks: Vec<Check>,
+    pub(super) verdict: Verdict,
+    pub(super) trajectory: Trajectory,
+    pub(super) errors: Trajectory,
+    /// Share of instants left out because the step is too coarse for them.
+    pub(super) too_coarse: f64,
+    /// Whether forces are judged, by row of the grid.
+    pub(super) kept: Vec<bool>,
+}
+
+impl Judge<'_> {
+    /// Judges an engine by its runs.
+    pub(super) fn judge(&self, engine: &dyn Engine, runs: &Runs) -> Result<Judged> {
+        let doubt = Doubt::of(&self.scenario.case, self.senses, runs, engine.settings().resolution);
+        let channels = self.channels(engine, runs, &doubt)?;
+        let checks = checks::of_engine(self.scenario, engine, runs);
+        let verdict = overall(channels.iter().map(|c| &c.verdict).chain(checks.iter().map(|c| &c.verdict)));
+        let trajectory = runs.single().trajectory.clone();
+        let errors = difference(self.reference, &trajectory)?;
+        let (too_coarse, kept) = (doubt.too_coarse(), doubt.keeps(Stage::Reactions));
+        Ok(Judged { info: describe(engine), channels, checks, verdict, trajectory, errors, too_coarse, kept })
+    }
+
+    fn channels(&self, engine: &dyn Engine, runs: &Runs, doubt: &Doubt) -> Result<Vec<ChannelProof>> {
+        let scales = scales(self.reference);
+        let mut all = Vec::with_capacity(self.reference.channels().len());
+        // Channels of one stage are judged at the same instants.
+        for stage in Stage::ALL {
+            let keep = doubt.keeps(stage);
+            let left_out = keep.iter().filter(|&&kept| !kept).count();
+            let thin = |trajectory: &Trajectory| trajectory.of_stage(stage, &keep);
+            let ladder = runs.ladder();
+            let resolutions = ladder.resolutions.map(thin);
+            let other = ladder.other_sweeps.map(thin);
+            let [double, single, half] = &resolutions;
+            let ladder = Ladder { resolutions: [double, single, half], other_sweeps: other.as_ref() };
+            let reference = thin(self.reference);
+            for residual in residuals(&reference, single)? {
+                let index = self.reference.channels().iter().position(|own| *own == residual.channel);
+                let index = index.expect("residuals are of the reference");
+                let residual = Residual { scale: scales[index], ..residual };
+                all.push((index, self.channel(engine, ladder, &reference, residual, index, left_out)));
+            }
+        }
+        all.sort_by_key(|(index, _)| *index);
+        Ok(all.into_iter().map(|(_, proof)| proof).collect())
+    }
+
+    fn channel(
+        &self,
+        engine: &dyn Engine,
+        ladder: Ladder<'_>,
+        reference: &Trajectory,
+        residual: Residual,
+        index: usize,
+        left_out: usize,
+    ) -> ChannelProof {
+        let (case, Settings { resolution, sweeps, .. }) = (&self.scenario.case, engine.settings());
+        let (channel, kind) = (residual.channel.clone(), residual.channel.kind);
+        let noise = engine.at(resolution / 2.0).noise(case, kind);
+        let convergence = Convergence::of_channel(ladder, &channel, engine.formal_order(case, kind), noise)
+            .expect("all runs of an engine have the same channels");
+        let parts =
+            Parts { reference: self.known.error(kind.stage, index), ..convergence.parts(engine.noise(case, kind)) };
+        let basis = convergence.tolerance(resolution, parts, checks::noise_origin(engine)).basis;
+        let verdict = match reference.times().is_empty() {
+            true => Verdict::open("a drive or a loaded link reverses at every instant"),
+            false => Verdict::of_engine(&residual, &convergence, parts, self.scenario.engine_rel),
+        };
+        let verdict = verdict.from_settings(resolution, engine.controls_error(), sweeps);
+        let [_, single, half] = ladder.resolutions;
+        let [single, half, reference] =
+            [single, half, reference].map(|side| side.column(&channel).expect("all sides have the channel"));
+        let limit = convergence.limit(single, half, kind.periodic);
+        let limit = limit.map(|limit| largest_difference(reference, &limit, kind.periodic));
+        let bound = parts.sum();
+        ChannelProof { residual, bound, parts, convergence, limit, sensitivity: None, left_out, basis, verdict }
+    }
+}
+
+/// What is known about an engine.
+pub(super) fn describe(engine: &dyn Engine) -> EngineInfo {
+    let provides = Stage::ALL.map(|stage| {
+        let kind = CHANNELS.iter().find(|kind| kind.stage == stage).expect("every stage has a channel");
+        (stage.name(), engine.provides(&Channel { of: String::new(), kind }))
+    });
+    EngineInfo {
+        name: engine.name(),
+        version: engine.version(),
+        settings: engine.settings(),
+        controls_error: engine.controls_error(),
+        told: engine.told(),
+        provides: provides.into(),
+    }
+}

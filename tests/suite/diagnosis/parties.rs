@@ -1,0 +1,73 @@
+//! Who stands alone, since when, and in which channels first.
+
+use linkage::trajectory::{Channel, Trajectory};
+use linkproof::diagnosis::{Judged, Party, Standing, since, standing};
+
+fn trajectory(rows: &[(&str, Vec<f64>)]) -> Trajectory {
+    let times: Vec<f64> = (0..rows[0].1.len()).map(|row| row as f64).collect();
+    let channels = rows.iter().map(|(name, _)| Channel::named(name).unwrap()).collect();
+    Trajectory::new(times.clone(), times, channels, rows.iter().map(|(_, values)| values.clone()).collect()).unwrap()
+}
+
+const FORCE: &str = "joint.A.fx_N";
+
+/// How parties of one value and one bound each stand to each other.
+fn of(parties: &[(&str, f64, f64)]) -> Standing {
+    let all: Vec<Trajectory> = parties.iter().map(|(_, value, _)| trajectory(&[(FORCE, vec![*value])])).collect();
+    let party = |((name, _, bound), trajectory): (&(&'static str, f64, f64), &'static Trajectory)| Party {
+        name,
+        trajectory,
+        bounds: vec![(Channel::named(FORCE).unwrap(), *bound)],
+    };
+    let all: &'static [Trajectory] = all.leak();
+    let parties: &'static [(&'static str, f64, f64)] = parties
+        .iter()
+        .map(|(name, value, bound)| (&*name.to_string().leak(), *value, *bound))
+        .collect::<Vec<_>>()
+        .leak();
+    standing(&parties.iter().zip(all).map(party).collect::<Vec<_>>())
+}
+
+#[test]
+fn the_one_that_all_others_contradict_stands_alone() {
+    let alone = |name: &str| Standing::Alone(name.into());
+    assert_eq!(of(&[("side 1", 1.0, 1e-9), ("side 2", 1.0, 1e-9), ("engine", 2.0, 0.1)]), alone("engine"));
+    assert_eq!(of(&[("side 1", 1.5, 1e-9), ("side 2", 1.0, 1e-9), ("engine", 1.0, 0.1)]), alone("side 1"));
+    assert_eq!(of(&[("side 1", 1.0, 1e-9), ("side 2", 1.0, 1e-9), ("engine", 1.05, 0.1)]), Standing::Together);
+}
+
+#[test]
+fn two_camps_and_what_cannot_be_told() {
+    let camps = of(&[("a", 1.0, 0.1), ("b", 1.0, 0.1), ("c", 2.0, 0.1), ("d", 2.0, 0.1)]);
+    let names = |names: [&str; 2]| names.map(String::from).to_vec();
+    assert_eq!(camps, Standing::Camps([names(["a", "b"]), names(["c", "d"])]));
+    // The engine is too coarse to say which of the two sides is wrong.
+    let open = of(&[("side 1", 1.0, 1e-9), ("side 2", 1.01, 1e-9), ("engine", 1.0, 0.1)]);
+    assert_eq!(open, Standing::Open(vec![names(["side 1", "side 2"]).try_into().unwrap()]));
+    assert!(matches!(of(&[("a", 1.0, 0.1), ("b", 2.0, 0.1), ("c", 3.0, 0.1)]), Standing::Open(_)));
+    assert!(matches!(of(&[("a", 1.0, 0.1), ("b", 2.0, 0.1)]), Standing::Open(_)));
+}
+
+#[test]
+fn channels_come_in_the_order_in_which_they_left_their_bounds() {
+    let right = trajectory(&[
+        (FORCE, vec![0.0; 5]),
+        ("joint.B.fx_N", vec![0.0; 5]),
+        ("point.A.x_m", vec![0.0; 5]),
+        ("point.A.y_m", vec![0.0; 5]),
+    ]);
+    let wrong = trajectory(&[
+        (FORCE, vec![0.0, 0.0, 3.0, 0.0, 3.0]),
+        ("joint.B.fx_N", vec![0.0, 0.0, -30.0, 0.0, 0.0]),
+        ("point.A.x_m", vec![0.0, 0.0, 2.0, 2.0, 2.0]),
+        ("point.A.y_m", vec![0.0, 2.0, 0.0, 0.0, 0.5]),
+    ]);
+    let judge = |channel: &Channel| Judged { channel: channel.clone(), bound: 1.0, disagrees: true };
+    let judged: Vec<Judged> = right.channels().iter().map(judge).collect();
+    let found = since(&right, &wrong, &judged);
+    let told: Vec<(String, f64, usize)> =
+        found.iter().map(|one| (one.channel.to_string(), one.time, one.beyond)).collect();
+    let expected = [("point.A.y_m", 1.0, 1), ("point.A.x_m", 2.0, 3), ("joint.B.fx_N", 2.0, 1), (FORCE, 2.0, 2)];
+    assert_eq!(told, expected.map(|(name, time, beyond)| (name.to_string(), time, beyond)));
+    assert_eq!(found[2].difference, -30.0);
+}

@@ -1,0 +1,61 @@
+//! What is shown of a diagnosis, and where.
+
+use super::{edited, parsed, text};
+use linkage::error::Advice;
+use linkproof::proof::{Options, Proof, prove_against};
+use linkproof::report::json::Document;
+use linkproof::report::text::proof as told;
+
+fn against(from: &str, to: &str) -> Proof {
+    let right = text("crank_rocker");
+    let wrong = parsed("crank_rocker", &edited(&right, from, to)).case;
+    prove_against(&parsed("crank_rocker", &right), &wrong, &Options::default()).unwrap()
+}
+
+#[test]
+fn a_diagnosis_stands_under_the_verdict_and_in_the_json() {
+    let proof = against("y_m_s2 = -9.81", "y_m_s2 = 0");
+    let report = told(&proof, Advice::to_string);
+    println!("{report}");
+    let (verdict, diagnosis) = (report.find("\nDISAGREE").unwrap(), report.find("\nDiagnosis of rapier:").unwrap());
+    assert!(verdict < diagnosis);
+    for line in [
+        "\n  alone     rapier; all others agree with each other",
+        "\n  since     t = 0.000000 s, crank angle 0.000 deg, first in joint.",
+        "\n  cause     gravity: missing; that explains all ",
+    ] {
+        assert!(report.contains(line), "{line}");
+    }
+    let mut document = Document::new();
+    document.add(&proof, None);
+    let json: serde_json::Value = serde_json::from_str(&document.text()).unwrap();
+    let found = &json["runs"][0]["diagnosis"];
+    assert_eq!((&found["suspect"], &found["alone"]), (&"rapier".into(), &"rapier".into()));
+    assert_eq!((&found["cause"], &found["explained"]), (&"gravity: missing".into(), &true.into()));
+    let times: Vec<f64> = found["since"].as_array().unwrap().iter().map(|one| one["t_s"].as_f64().unwrap()).collect();
+    assert!(!times.is_empty() && times.is_sorted());
+}
+
+#[test]
+fn without_a_disagreement_there_is_no_diagnosis() {
+    let proof = against("y_m_s2 = -9.81", "y_m_s2 = -9.810");
+    assert!(proof.diagnosis.is_none() && !told(&proof, Advice::to_string).contains("Diagnosis"));
+    let mut document = Document::new();
+    document.add(&proof, None);
+    assert!(!document.text().contains("diagnosis"));
+}
+
+/// Two faults at once: none is named as the cause of everything.
+#[test]
+fn two_faults_at_once_have_no_single_cause() {
+    let right = text("crank_rocker");
+    let once = edited(&right, "mass_kg = 34.7", "mass_kg = 36");
+    let twice = edited(&once, "moment_N_m = 100", "moment_N_m = 130");
+    let wrong = parsed("crank_rocker", &twice).case;
+    let proof = prove_against(&parsed("crank_rocker", &right), &wrong, &Options::default()).unwrap();
+    let found = proof.diagnosis.as_ref().unwrap();
+    assert!(!found.is_explained() && !found.left_over.is_empty(), "{:?}", found.cause);
+    let report = told(&proof, Advice::to_string);
+    println!("{}", &report[report.find("Diagnosis").unwrap()..]);
+    assert!(report.contains("\n  cause     no"));
+}

@@ -1,0 +1,103 @@
+//! Links without a moment of inertia, or without a mass, in free motion. Textbooks are full of them.
+
+use std::path::Path;
+
+use crate::common::{assert_within, shipped, states};
+use analytic::AssurSolver;
+use linkage::case::Case;
+use linkage::engine::{Route, Settings};
+use linkage::math::KeepNan;
+use linkage::solver::State;
+use linkproof::scenario::Scenario;
+
+fn case_of(text: &str) -> Case {
+    Scenario::parse(text, Path::new("point_masses.toml")).unwrap_or_else(|error| panic!("{error}")).case
+}
+
+/// A shipped scenario whose lines that begin with one of `begins` are replaced, or left out where the new line is empty.
+fn with(name: &str, changes: &[(&str, &str)]) -> Case {
+    let text = shipped(name).text;
+    let mut kept = Vec::new();
+    for line in text.lines() {
+        match changes.iter().find(|(begin, _)| line.starts_with(begin)) {
+            Some((_, "")) => {}
+            Some((_, new)) => kept.push(*new),
+            None => kept.push(line),
+        }
+    }
+    case_of(&(kept.join("\n") + "\n"))
+}
+
+/// Largest distances from the known states: angular accelerations over the largest, forces over the largest.
+fn errors(known: &[State], found: &[State]) -> [f64; 2] {
+    let (mut errors, mut scales) = ([0.0f64; 2], [0.0f64; 2]);
+    for (known, found) in known.iter().zip(found) {
+        for (a, b) in known.motions.iter().zip(&found.motions) {
+            (errors[0], scales[0]) = (errors[0].larger((a.alpha - b.alpha).abs()), scales[0].larger(a.alpha.abs()));
+        }
+        for (a, b) in known.forces.iter().zip(&found.forces) {
+            (errors[1], scales[1]) = (errors[1].larger((a - b).norm()), scales[1].larger(a.norm()));
+        }
+    }
+    [errors[0] / scales[0], errors[1] / scales[1]]
+}
+
+/// Both builds in double precision, by both routes, approach the analytic side with order 1 and from t = 0 on.
+fn approaches(what: &str, case: &Case, step: f64, bound: f64) {
+    let times = [0.0, 0.0004, 0.0008];
+    let known = states(&AssurSolver, case, &times).unwrap_or_else(|error| panic!("{what}: {error}"));
+    for name in ["rapier", "impulse"] {
+        for route in [Route::Differences, Route::Native] {
+            let of = |step: f64| {
+                let engine = linkproof::engines::named(name, step).unwrap();
+                // Impulses of the first steps between bodies of their own take most sweeps: with 4096 a thousandth is left.
+                let many = if name == "impulse" && route == Route::Native { 4 } else { 1 };
+                let own = engine.settings();
+                let engine = engine.with(Settings { route, sweeps: many * own.sweeps, ..own });
+                let found = states(engine.as_ref(), case, &times);
+                errors(&known, &found.unwrap_or_else(|error| panic!("{what}: {name}: {error}")))
+            };
+            let [coarse, fine] = [of(step), of(step / 2.0)];
+            for (what_of, coarse, fine) in [("alpha", coarse[0], fine[0]), ("force", coarse[1], fine[1])] {
+                let message = format!("{what}: {name} {route:?} {what_of}: {coarse:e} {fine:e}");
+                assert_within!(fine, bound, "{message}");
+                // Halving the step halves the error; below a tenth of the bound rounding may have its part.
+                assert!(fine <= 0.65 * coarse || fine <= 0.1 * bound, "{message}");
+            }
+        }
+    }
+}
+
+/// Symptom: Rapier refused links without a moment of inertia in free motion, as "cannot move it under forces".
+#[test]
+fn regress_point_masses_move_under_forces() {
+    approaches("pendulum", &with("pendulum.toml", &[("inertia_kg_m2", "")]), 2e-5, 2e-2);
+    approaches("double pendulum", &with("double_pendulum.toml", &[("inertia_kg_m2", "")]), 2e-5, 2e-2);
+    let rods = [("inertia_kg_m2 = 0.8356", ""), ("inertia_kg_m2 = 0.74", "")];
+    approaches("crank and rocker", &with("crank_rocker_runup.toml", &rods), 2e-5, 3e-3);
+}
+
+/// A link without any mass, in the tree or at the end of it, between others or on the ground.
+#[test]
+fn massless_links_move_under_forces() {
+    let rocker = [("mass_kg = 33.3", ""), ("inertia_kg_m2 = 0.74", ""), ("mass_centre = { x_mm = 250", "")];
+    approaches("rocker", &with("crank_rocker_runup.toml", &rocker), 2e-5, 3e-3);
+    let coupler = [("mass_kg = 34.7", ""), ("inertia_kg_m2 = 0.8356", ""), ("mass_centre = { x_m = 0.1735", "")];
+    approaches("coupler", &with("crank_rocker_runup.toml", &coupler), 2e-5, 3e-3);
+    let crank = [("mass_kg = 2.6", ""), ("inertia_kg_m2 = 0.000146", ""), ("mass_centre = { x_m = 0.0129", "")];
+    approaches("crank", &with("crank_rocker_runup.toml", &crank), 2e-5, 3e-3);
+}
+
+/// Symptom: without a motor, reactions read from the engine held a driving moment of 1e-4 of what holds the mechanism at
+/// rest. Cause: Rapier keeps the impulse of a motor that has been switched off.
+#[test]
+fn regress_a_free_link_without_motor_has_no_driving_moment() {
+    let case = with("pendulum.toml", &[]);
+    for name in ["rapier", "impulse"] {
+        let engine = linkproof::engines::named(name, 1e-4).unwrap();
+        let engine = engine.with(Settings { route: Route::Native, ..engine.settings() });
+        for state in states(engine.as_ref(), &case, &[0.01, 0.1]).unwrap() {
+            assert_eq!(state.torques[0], 0.0, "{name}");
+        }
+    }
+}
