@@ -181,12 +181,16 @@ fn shortened<const N: usize, F: Flow<N>>(
     bound: usize,
 ) -> Result<(f64, [f64; N])> {
     let known = (method.t() - x, flow.margin(bound, method.t(), method.y()));
-    let mut end = (x, y);
+    let mut best = ((x, y), f64::INFINITY);
     root::secants(known, h, CORRECTIONS, |h| -> Result<f64> {
-        end = (x + h, one_step(flow, x, &y, h)?);
-        Ok(flow.margin(bound, end.0, &end.1))
+        let end = (x + h, one_step(flow, x, &y, h)?);
+        let margin = flow.margin(bound, end.0, &end.1);
+        if margin.abs() <= best.1 {
+            best = (end, margin.abs());
+        }
+        Ok(margin)
     })?;
-    Ok(end)
+    Ok(best.0)
 }
 
 /// State after one step of a given length, whatever its error estimate, because it is part of an accepted step.
