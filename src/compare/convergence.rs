@@ -77,9 +77,14 @@ impl Convergence {
         } else {
             (observed.clamp(0.5, formal), 3.0)
         };
-        // Without an order to go by, the coarser difference is as likely as the finer one.
-        let largest =
-            if observed < 0.5 * formal { largest.larger(largest_size(coarse.iter().copied())) } else { largest };
+        // Without an order to go by, the coarser difference is as likely as the finer one. Where only the finer one is
+        // rounding, the coarser one tells what it should be.
+        let before = largest_size(coarse.iter().copied());
+        let largest = match observed {
+            _ if observed.is_nan() => largest.larger(before * 0.5f64.powf(order)),
+            _ if observed < 0.5 * formal => largest.larger(before),
+            _ => largest,
+        };
         let error = largest / (1.0 - 0.5f64.powf(order));
         Convergence { observed, formal, error, safety, iteration: 0.0 }
     }

@@ -124,8 +124,8 @@ fn tried(judge: &Judge, bank: &mut Bank, chosen: &Chosen) -> Advice {
         (verdict, _) => format!("the verdict there is {}", verdict.word()),
     };
     Advice::Text(format!(
-        "leave the step to the proof: it takes {resolution:.2e} s with {sweeps} sweeps, extrapolated {extrapolated} \
-         times, and {outcome}"
+        "leave the step to the proof: it takes {resolution:.2e} s, {sweeps} sweeps and {extrapolated} extrapolations, and \
+         {outcome}"
     ))
 }
 

@@ -147,26 +147,34 @@ impl<'a, 'b> Settling<'a, 'b> {
     pub(super) fn run(mut self, progress: &mut dyn FnMut(f64)) -> Result<(Judged, Search), Stopped> {
         let mut best: Option<Trial> = None;
         let mut failure = None;
-        let (mut round, mut failed, mut doubted) = (0, 0, false);
+        let (mut round, mut failed) = (0, 0);
+        // What disagrees in the last round, and what did so in two rounds running.
+        let (mut against, mut borne_out): (Vec<String>, Vec<String>) = (Vec::new(), Vec::new());
         let end = loop {
             let left = 0.5f64.powi(round);
             let mut part = |part: f64| progress(1.0 - left + 0.5 * left * part);
             round += 1;
             let blame = match self.round(&mut part) {
                 Ok(trial) => {
-                    let disagrees = trial.judged.verdict.word() == "disagree";
+                    let now = trial.judged.against();
+                    borne_out = now.iter().filter(|name| against.contains(name)).cloned().collect();
+                    against = now;
+                    let disagrees = !against.is_empty();
                     let (decided, sharp) = (trial.need <= 1.0, trial.need <= AIM);
                     let thrift = self.bank.effort > THRIFT * self.budget;
                     let blame = trial.blame;
-                    let better = best.as_ref().is_none_or(|best| disagrees || trial.need < best.need);
+                    // A later round speaks for itself where it disagrees, or no longer does.
+                    let better = best.as_ref().is_none_or(|best| {
+                        let refuted = decided && !best.judged.against().is_empty();
+                        disagrees || refuted || trial.need < best.need
+                    });
                     if better {
                         best = Some(trial);
                     }
                     // A disagreement counts if the next refinement bears it out.
-                    if decided && (sharp || thrift) && (!disagrees || doubted) {
+                    if decided && (sharp || thrift) && (!disagrees || !borne_out.is_empty()) {
                         break End::Decided;
                     }
-                    doubted = disagrees && decided;
                     blame
                 }
                 Err(stopped) if stopped.error.kind() == ErrorKind::Numeric => {
@@ -184,7 +192,10 @@ impl<'a, 'b> Settling<'a, 'b> {
         progress(1.0);
         let search = Search { runs: self.bank.count(), effort: self.bank.effort, budget: self.budget, end };
         match (best, failure) {
-            (Some(best), _) => Ok((best.judged, search)),
+            (Some(mut best), _) => {
+                best.judged.doubt(&borne_out);
+                Ok((best.judged, search))
+            }
             (None, Some(stopped)) => Err(stopped),
             (None, None) => unreachable!("a round ends with a trial or a failure"),
         }
@@ -269,7 +280,8 @@ impl<'a, 'b> Settling<'a, 'b> {
         let engine = self.bank.engine(settings);
         let share = self.free.sweeps.then_some(MORE_SWEEPS);
         let other = other_sweeps(self.bank.case, engine.as_ref(), settings.sweeps, share);
-        if other.is_none() || (best.need > 1.0 && best.need.is_finite()) {
+        let disagrees = !best.judged.against().is_empty();
+        if other.is_none() || (best.need > 1.0 && best.need.is_finite() && !disagrees) {
             return Ok(best);
         }
         match self.trial(settings, other, &mut |part| progress(0.7 + 0.3 * part)) {
