@@ -15,7 +15,7 @@
 use super::residual::{differences, largest_difference};
 use crate::tolerance::{Basis, Origin, Parts, Tolerance};
 use linkage::error::Result;
-use linkage::math::statistics::rms;
+use linkage::math::statistics::{rms, share};
 use linkage::math::{KeepNan, largest_size};
 use linkage::trajectory::{Channel, Trajectory};
 
@@ -31,8 +31,9 @@ const BEARS_OUT: f64 = 0.1;
 pub struct Ladder<'a> {
     /// Runs at double, single and half the step (or accuracy).
     pub resolutions: [&'a Trajectory; 3],
-    /// Run at the single step with another number of sweeps; `None` for an engine that does not iterate.
-    pub other_sweeps: Option<&'a Trajectory>,
+    /// Run at the single step with another number of sweeps, and one with as many times fewer again; `None` for an engine
+    /// that does not iterate, and where there is no such run.
+    pub other_sweeps: [Option<&'a Trajectory>; 2],
 }
 
 /// Safety factor on the difference between all and fewer sweeps: see the module's text.
@@ -96,17 +97,29 @@ impl Convergence {
         let [double, single, half] = runs.resolutions.map(|run| run.column(channel));
         let (double, single, half, periodic) = (double?, single?, half?, channel.kind.periodic);
         let found = Convergence::of(double, single, half, periodic, formal, noise);
-        let fewer = match runs.other_sweeps {
-            Some(run) => Some(run.column(channel)?),
-            None => None,
-        };
-        Some(found.with_other_sweeps(single, fewer, periodic))
+        let mut others = [None; 2];
+        for (column, run) in others.iter_mut().zip(runs.other_sweeps) {
+            if let Some(run) = run {
+                *column = Some(run.column(channel)?);
+            }
+        }
+        Some(found.with_other_sweeps(single, others, periodic))
     }
 
-    /// Adds the difference between the middle run and one with half its sweeps or fewer, if there is such a run.
+    /// Adds the difference between the middle run and one with half its sweeps or fewer, if there is such a run. A third
+    /// run with as many times fewer again shows which share of the difference is left from one number of sweeps to the
+    /// next: the middle run has at most this share of it.
     #[must_use]
-    pub fn with_other_sweeps(self, single: &[f64], fewer: Option<&[f64]>, periodic: bool) -> Self {
-        let iteration = fewer.map_or(0.0, |fewer| largest_difference(fewer, single, periodic));
+    pub fn with_other_sweeps(self, single: &[f64], others: [Option<&[f64]>; 2], periodic: bool) -> Self {
+        let apart = |a: &[f64], b: &[f64]| largest_difference(a, b, periodic);
+        let iteration = match others {
+            [None, _] => 0.0,
+            [Some(fewer), None] => apart(fewer, single),
+            [Some(fewer), Some(fewest)] => {
+                let (last, before) = (apart(fewer, single), apart(fewest, fewer));
+                last * share(last, before).smaller(1.0)
+            }
+        };
         Convergence { iteration, ..self }
     }
 
@@ -206,7 +219,7 @@ mod tests {
         // Half the sweeps leave 0.1 of 1, all leave 0.01: the bound must allow this besides the step's error.
         let values = single.column(&single.channels()[0]).unwrap();
         let fewer = of(&[values[0] + 0.09, values[1]]);
-        let ladder = Ladder { resolutions: [&double, &single, &half], other_sweeps: Some(&fewer) };
+        let ladder = Ladder { resolutions: [&double, &single, &half], other_sweeps: [Some(&fewer), None] };
         let found = Convergence::of_channel(ladder, &single.channels()[0], 2.0, 0.0).unwrap();
         assert!((found.iteration - 0.09).abs() < 1e-15);
         assert!(found.parts(0.0).sum() >= 2e-3 + 0.01);
@@ -224,7 +237,7 @@ mod tests {
             assert!(found.limit(&runs[1], &runs[2], false).is_none(), "{place}: {found:?}");
         }
         let found = Convergence::of(&[1.0], &[1.0], &[1.0], false, 2.0, 1.0);
-        let found = found.with_other_sweeps(&[1.0, 1.0], Some(&[f64::NAN, 1.0]), false);
+        let found = found.with_other_sweeps(&[1.0, 1.0], [Some(&[f64::NAN, 1.0]), None], false);
         assert!(found.parts(0.0).sum().is_nan(), "{found:?}");
     }
 

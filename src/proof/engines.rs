@@ -58,7 +58,7 @@ pub(super) fn prove(
         let search = Settling::new(&judge, &mut bank, engine, chosen.free, chosen.budget);
         search.run(progress).map(|(judged, search)| (judged, Some(search)))
     } else {
-        let runs = bank.runs(asked, other_sweeps(case, engine, asked.sweeps, None), progress);
+        let runs = bank.runs(asked, [other_sweeps(case, engine, asked.sweeps, None), None], progress);
         runs.and_then(|runs| Ok((judge.judge(engine, &runs)?, None)))
     };
     let (judged, search) = match found {

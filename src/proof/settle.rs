@@ -226,7 +226,7 @@ impl<'a, 'b> Settling<'a, 'b> {
             return Some(End::Nothing);
         }
         let previous = std::mem::replace(&mut self.now, next);
-        let wanted: Vec<Settings> = self.candidates().into_iter().flat_map(|settings| rungs(settings, None)).collect();
+        let wanted: Vec<Settings> = self.candidates().into_iter().flat_map(|settings| rungs(settings, [None; 2])).collect();
         if self.bank.effort + self.bank.missing(&wanted) > self.budget {
             self.now = previous;
             return Some(End::Budget);
@@ -256,10 +256,10 @@ impl<'a, 'b> Settling<'a, 'b> {
         let mut best: Option<Trial> = None;
         let mut failure = None;
         let candidates = self.candidates();
-        let all: Vec<Settings> = candidates.iter().flat_map(|&settings| rungs(settings, None)).collect();
+        let all: Vec<Settings> = candidates.iter().flat_map(|&settings| rungs(settings, [None; 2])).collect();
         self.bank.prepare(&all, &mut |part| progress(0.7 * part));
         for settings in candidates {
-            let trial = match self.trial(settings, None, &mut |_| {}) {
+            let trial = match self.trial(settings, [None; 2], &mut |_| {}) {
                 Ok(trial) => trial,
                 Err(stopped) => {
                     failure = Some(stopped);
@@ -284,19 +284,28 @@ impl<'a, 'b> Settling<'a, 'b> {
         if other.is_none() || (best.need > 1.0 && best.need.is_finite() && !disagrees) {
             return Ok(best);
         }
-        match self.trial(settings, other, &mut |part| progress(0.7 + 0.3 * part)) {
+        let found = match self.trial(settings, [other, None], &mut |part| progress(0.7 + 0.2 * part)) {
             // Sweeps so few that the run fails say that those of the other run are hardly enough.
             Err(stopped) if stopped.error.kind() == ErrorKind::Numeric => {
-                Ok(Trial { need: f64::INFINITY, blame: Part::Iteration, ..best })
+                return Ok(Trial { need: f64::INFINITY, blame: Part::Iteration, ..best });
             }
-            found => found,
+            found => found?,
+        };
+        // A third run tells how fast the sweeps converge, before they are multiplied.
+        let fewest = other.map(|other| other / MORE_SWEEPS).filter(|&fewest| fewest > 0 && self.free.sweeps);
+        if fewest.is_none() || found.blame != Part::Iteration || found.need <= AIM {
+            return Ok(found);
+        }
+        match self.trial(settings, [other, fewest], &mut |part| progress(0.9 + 0.1 * part)) {
+            Err(stopped) if stopped.error.kind() == ErrorKind::Numeric => Ok(found),
+            better => better,
         }
     }
 
     fn trial(
         &mut self,
         settings: Settings,
-        other: Option<usize>,
+        other: [Option<usize>; 2],
         progress: &mut dyn FnMut(f64),
     ) -> Result<Trial, Stopped> {
         let runs = self.bank.runs(settings, other, progress)?;
