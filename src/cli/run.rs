@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 use clap::builder::PossibleValuesParser;
 
 use super::engine_args::EngineArgs;
-use super::load::{load, reference_names};
+use super::grid::GridArgs;
+use super::load::{StartArgs, reference_names};
 use super::progress::Bar;
 use super::{advice, exit_code, output};
 use crate::compare::Verdict;
@@ -28,6 +29,8 @@ Examples:
   linkproof run scenarios/crank_rocker.toml --engine all       every engine side by side, and who stands alone
   linkproof run scenarios/ov7_base.toml --sweeps 4096 --extrapolate   other settings of the engine
   linkproof run scenarios/fourth_class.toml --no-record --mode link_2,link_3,link_4,link_5=2   another configuration
+  linkproof run scenarios/crank_rocker.toml --no-record --start-crank-deg 90 --crank-deg 90:450:2   another start and grid
+  linkproof run scenarios/crank_rocker_runup.toml --no-record --times 0,0.01,0.05,0.1   only these instants
   linkproof run scenarios/*.toml --no-record --json out.json   no recording, results for a script
 
 Exit codes: 0 all agree, 1 something disagrees, 2 bad input or usage, 3 nothing proven either way.";
@@ -43,11 +46,10 @@ pub(super) struct Args {
     reference: String,
     #[command(flatten)]
     engine: EngineArgs,
-    /// Start a group in another assembly mode than the file states, or in the configuration with that number in
-    /// `inspect --modes`; published numbers belong to the file's own modes and are then left out. May be given for
-    /// several groups
-    #[arg(long, value_name = "LINK,LINK=MODE")]
-    mode: Vec<String>,
+    #[command(flatten)]
+    grid: GridArgs,
+    #[command(flatten)]
+    start: StartArgs,
     /// Multiply every bound by this factor, to see how close a proof is to its bounds; 0 judges as usual and prints
     /// every residual beside its bound
     #[arg(long, hide = true, value_name = "FACTOR", value_parser = dial)]
@@ -114,7 +116,7 @@ fn dial(text: &str) -> std::result::Result<f64, String> {
 }
 
 fn prove_file(args: &Args, file: &Path, quiet: bool) -> Result<(Scenario, Proof)> {
-    let scenario = load(file, &args.mode)?;
+    let scenario = args.grid.on(args.start.load(file)?)?;
     let options = args.engine.options(&args.reference);
     let mut bar = Bar::new(&scenario.name);
     let proof = prove_with(&scenario, &options, &mut |part| bar.at(part))?;
@@ -188,10 +190,12 @@ fn write_recording(scenario: &Scenario, proof: &Proof, args: &Args, path: &Path)
             .help("name another directory with --record, or use --no-record")
     })?;
     let mut metadata = recorded::metadata(proof);
-    if !args.mode.is_empty() {
-        // The scenario text in the recording does not contain the modes asked for.
-        metadata.insert("modes".into(), args.mode.join(" "));
+    // The scenario text in the recording does not contain what is asked for on the command line.
+    if !args.start.mode.is_empty() {
+        metadata.insert("modes".into(), args.start.mode.join(" "));
     }
+    metadata.extend(args.start.start_crank_deg.map(|degrees| ("start_crank_deg".into(), degrees.to_string())));
+    metadata.extend(args.grid.told().map(|(name, values)| (format!("grid_{name}"), values.to_string())));
     let mut sides = vec![Side { name: "reference", trajectory: &proof.reference_trajectory }];
     for engine in &proof.engines {
         let name = if proof.engines.len() == 1 { "engine" } else { engine.info.name };
