@@ -193,7 +193,10 @@ impl<'a, 'b> Settling<'a, 'b> {
         let search = Search { runs: self.bank.count(), effort: self.bank.effort, budget: self.budget, end };
         match (best, failure) {
             (Some(mut best), _) => {
-                best.judged.doubt(&borne_out);
+                // At a given step there is no finer run: its own estimate counts.
+                if self.free.step {
+                    best.judged.doubt(&borne_out);
+                }
                 Ok((best.judged, search))
             }
             (None, Some(stopped)) => Err(stopped),
