@@ -136,7 +136,8 @@ impl Judge<'_> {
             let resolutions = ladder.resolutions.map(thin);
             let others = ladder.other_sweeps.map(|run| run.map(thin));
             let [double, single, half] = &resolutions;
-            let ladder = Ladder { resolutions: [double, single, half], other_sweeps: others.each_ref().map(Option::as_ref) };
+            let ladder =
+                Ladder { resolutions: [double, single, half], other_sweeps: others.each_ref().map(Option::as_ref) };
             let reference = thin(self.reference);
             for residual in residuals(&reference, single)? {
                 let index = self.reference.channels().iter().position(|own| *own == residual.channel);

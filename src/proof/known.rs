@@ -61,11 +61,7 @@ impl Known {
     ///
     /// # Errors
     /// Those of the tighter runs.
-    pub(super) fn of(
-        case: &Case,
-        sides: [(&'static str, &Trajectory); 2],
-        sensitivity: &[f64],
-    ) -> Result<Self> {
+    pub(super) fn of(case: &Case, sides: [(&'static str, &Trajectory); 2], sensitivity: &[f64]) -> Result<Self> {
         let integration = |(name, trajectory): (&'static str, &Trajectory)| -> Result<Vec<f64>> {
             if !case.is_free() {
                 return Ok(vec![0.0; trajectory.channels().len()]);

@@ -226,7 +226,8 @@ impl<'a, 'b> Settling<'a, 'b> {
             return Some(End::Nothing);
         }
         let previous = std::mem::replace(&mut self.now, next);
-        let wanted: Vec<Settings> = self.candidates().into_iter().flat_map(|settings| rungs(settings, [None; 2])).collect();
+        let wanted: Vec<Settings> =
+            self.candidates().into_iter().flat_map(|settings| rungs(settings, [None; 2])).collect();
         if self.bank.effort + self.bank.missing(&wanted) > self.budget {
             self.now = previous;
             return Some(End::Budget);

@@ -68,7 +68,9 @@ pub fn read(mut table: Table, drive: &Drive) -> Result<Grid> {
     let (family, points) = match (ranged, lists.as_slice()) {
         (None, [(base, family, values)]) => {
             let points = listed(values.clone()).map_err(|message| {
-                table.wrong(ErrorKind::Input, base, message).help("give every instant once, for example `times_s = [0, 0.1, 0.3]`")
+                table
+                    .wrong(ErrorKind::Input, base, message)
+                    .help("give every instant once, for example `times_s = [0, 0.1, 0.3]`")
             })?;
             (*family, points)
         }
