@@ -10,7 +10,7 @@
 //! Sweeps converge geometrically. Half of the sweeps leave a share q of the initial error, all of them leave q^2, and
 //! the two runs differ by q - q^2. The remaining error is q / (1 - q) of this difference. The factor 3 covers q up to
 //! 3/4 (ASME V&V 20 also counts the iteration error separately). A run with a quarter of the sweeps leaves q where all
-//! leave q^4: the factor then covers q^3 up to 3/4.
+//! leave q^4: the factor then covers q^3 up to 3/4. A third run shows the share itself.
 
 use super::residual::{differences, largest_difference};
 use crate::tolerance::{Basis, Origin, Parts, Tolerance};
