@@ -267,7 +267,8 @@ impl Case {
                 }
                 Senses::Point(at) => {
                     let motion = &motions[at.link];
-                    let velocity = if self.moves(motions, at) { motion.point_velocity(at.local) } else { Vec2::zeros() };
+                    let velocity =
+                        if self.moves(motions, at) { motion.point_velocity(at.local) } else { Vec2::zeros() };
                     let force = load.force_in(way(index, velocity));
                     add(Action { link: at.link, force, place: motion.point(at.local), moment: 0.0 });
                 }

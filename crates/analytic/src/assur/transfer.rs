@@ -120,7 +120,9 @@ impl<'a> TransferSide<'a> {
                 "the group ({group}) cannot be followed beyond crank angle {degrees:.4} deg: it has a dead point there"
             ),
             Misfit::Singular | Misfit::Passed { .. } => {
-                format!("the group ({group}) is singular at crank angle {degrees:.4} deg: two of its branches meet there")
+                format!(
+                    "the group ({group}) is singular at crank angle {degrees:.4} deg: two of its branches meet there"
+                )
             }
             Misfit::Span { .. } | Misfit::Guide { .. } | Misfit::Swing { .. } | Misfit::Parallel => {
                 format!("the group ({group}) cannot be assembled at crank angle {degrees:.4} deg")

@@ -282,9 +282,8 @@ impl<'a, const N: usize> Pieces<'a, N> {
         let begun: Vec<Vec2> = stood.iter().map(|&own| work.second(own)).collect();
         let ahead = self.ahead(work, place, stood);
         // At its own dead centre a link or a point has no acceleration, and its load does no work at first.
-        let idle = |second: Vec2, k: usize, (after, rates): &(f64, Vec<Vec2>)| {
-            second.norm() * after < 0.5 * rates[k].norm()
-        };
+        let idle =
+            |second: Vec2, k: usize, (after, rates): &(f64, Vec<Vec2>)| second.norm() * after < 0.5 * rates[k].norm();
         let is_idle = |k: usize| ahead.as_ref().is_some_and(|found| idle(begun[k], k, found));
         let is_idle: Vec<bool> = (0..stood.len()).map(is_idle).collect();
         for (k, &(index, senses)) in stood.iter().enumerate() {
