@@ -1,25 +1,87 @@
-//! Ranges on the command line.
+//! Grids on the command line.
 
 use std::str::FromStr;
 
-use crate::scenario::grid::range;
+use crate::scenario::Scenario;
+use crate::scenario::grid::{listed, range};
+use linkage::case::{Case, Grid};
+use linkage::error::{Error, ErrorKind, Result};
 
-/// `FROM:TO:STEP`, both ends included.
+/// The instants of a command, instead of the scenario's grid.
+#[derive(Clone, Debug, clap::Args)]
+#[group(skip)]
+pub(super) struct GridArgs {
+    /// Crank angles in degrees, measured as in the scenario, instead of its grid: ranges and single values, separated
+    /// by commas
+    #[arg(long, value_name = "FROM:TO:STEP", allow_hyphen_values = true, conflicts_with = "times")]
+    crank_deg: Option<Values>,
+    /// Times in seconds, instead of the scenario's grid: ranges and single values, separated by commas
+    #[arg(long, value_name = "FROM:TO:STEP", allow_hyphen_values = true)]
+    times: Option<Values>,
+}
+
+impl GridArgs {
+    /// The scenario with the grid given, else with its own.
+    pub(super) fn on(&self, scenario: Scenario) -> Result<Scenario> {
+        let case = self.case(&scenario.case)?;
+        Ok(Scenario { case, ..scenario })
+    }
+
+    fn case(&self, case: &Case) -> Result<Case> {
+        let crank = case.crank();
+        let (grid, help) = match (&self.crank_deg, &self.times) {
+            (Some(Values { values, .. }), _) => {
+                let cranks = values.iter().map(|angle| angle.to_radians()).collect();
+                let help = match crank.is_free() {
+                    true => "give times by --times FROM:TO:STEP",
+                    false => "check the unit and size of --crank-deg",
+                };
+                (Grid::of_cranks(crank, cranks), help)
+            }
+            (None, Some(Values { values, .. })) => {
+                (Grid::of_times(crank, values.clone()), "check the unit and size of --times")
+            }
+            (None, None) => return Ok(case.clone()),
+        };
+        grid.check(crank).map_err(|message| Error::new(ErrorKind::Input, message).help(help))?;
+        case.on(grid)
+    }
+
+    /// The grid given, as name and text; `None` if it is the scenario's.
+    pub(super) fn told(&self) -> Option<(&'static str, &str)> {
+        match &self.crank_deg {
+            Some(values) => Some(("crank_deg", &values.text)),
+            None => self.times.as_ref().map(|values| ("times_s", values.text.as_str())),
+        }
+    }
+}
+
+/// Values and ranges `FROM:TO:STEP` with both ends included, separated by commas.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Range(pub(super) Vec<f64>);
+pub(super) struct Values {
+    text: String,
+    values: Vec<f64>,
+}
 
-impl FromStr for Range {
+const EXPECTED: &str = "expected FROM:TO:STEP or values separated by commas, for example 0:360:30 or 0,45,90";
+
+impl FromStr for Values {
     type Err = String;
 
-    fn from_str(text: &str) -> Result<Self, String> {
-        let parts: Vec<&str> = text.split(':').collect();
-        let [from, to, step] = parts.as_slice() else {
-            return Err(format!("found \"{text}\", expected FROM:TO:STEP, for example 0:360:30"));
+    fn from_str(text: &str) -> std::result::Result<Self, String> {
+        let number = |part: &str| -> std::result::Result<f64, String> {
+            part.trim().parse().map_err(|_| format!("\"{part}\" is not a number; {EXPECTED}"))
         };
-        let number = |part: &str| -> Result<f64, String> {
-            part.trim().parse().map_err(|_| format!("\"{part}\" is not a number; expected FROM:TO:STEP"))
-        };
-        Ok(Range(range(number(from)?, number(to)?, number(step)?)?))
+        let mut values = Vec::new();
+        for item in text.split(',') {
+            let parts: Vec<&str> = item.split(':').collect();
+            match parts.as_slice() {
+                [value] => values.extend(range(number(value)?, number(value)?, 1.0)?),
+                [from, to, step] => values.extend(range(number(from)?, number(to)?, number(step)?)?),
+                _ => return Err(format!("found \"{item}\", {EXPECTED}")),
+            }
+        }
+        Ok(Values { text: text.into(), values: listed(values)? })
     }
 }
 
@@ -27,15 +89,26 @@ impl FromStr for Range {
 mod tests {
     use super::*;
 
+    fn values(text: &str) -> std::result::Result<Vec<f64>, String> {
+        text.parse().map(|found: Values| found.values)
+    }
+
     #[test]
     fn ranges_include_both_ends() {
-        assert_eq!("0:-90:-30".parse(), Ok(Range(vec![0.0, -30.0, -60.0, -90.0])));
+        assert_eq!(values("0:-90:-30"), Ok(vec![0.0, -30.0, -60.0, -90.0]));
+    }
+
+    #[test]
+    fn values_and_ranges_may_be_listed() {
+        assert_eq!(values("0, 0.1,0.3"), Ok(vec![0.0, 0.1, 0.3]));
+        assert_eq!(values("-70"), Ok(vec![-70.0]));
+        assert_eq!(values("0:20:10,45,90"), Ok(vec![0.0, 10.0, 20.0, 45.0, 90.0]));
     }
 
     #[test]
     fn bad_ranges_say_what_is_expected() {
-        for text in ["0:360", "a:1:2", "0:360:0", "0:360:-1", "0:1:nan", "0:1e99:1e-9", ""] {
-            let message = text.parse::<Range>().unwrap_err();
+        for text in ["0:360", "a:1:2", "0:360:0", "0:360:-1", "0:1:nan", "0:1e99:1e-9", "", "0,,1", "inf", "0:10:5,5"] {
+            let message = values(text).unwrap_err();
             assert!(!message.is_empty(), "{text}");
         }
     }

@@ -2,13 +2,51 @@
 
 use std::path::Path;
 
-use crate::scenario::Scenario;
-use linkage::error::Result;
+use crate::scenario::{Asked, Scenario};
+use linkage::error::{Error, ErrorKind, Result};
+
+/// Another start than that of the file.
+#[derive(Clone, Debug, clap::Args)]
+#[group(skip)]
+pub(super) struct StartArgs {
+    /// Start a group in another assembly mode than the file states, or in the configuration with that number in
+    /// `inspect --modes`; published numbers belong to the file's own modes and are then left out. May be given for
+    /// several groups
+    #[arg(long, value_name = "LINK,LINK=MODE")]
+    pub(super) mode: Vec<String>,
+    /// Crank angle at t = 0 in degrees, measured as in the scenario, instead of the `crank` of its `[start]`; published
+    /// numbers stay if the start lies on the file's own branch
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = finite)]
+    pub(super) start_crank_deg: Option<f64>,
+}
+
+impl StartArgs {
+    /// Reads a scenario with this start.
+    pub(super) fn load(&self, file: &Path) -> Result<Scenario> {
+        as_asked(file, &self.mode, self.start_crank_deg)
+    }
+}
+
+/// Reads a finite number.
+fn finite(text: &str) -> std::result::Result<f64, String> {
+    let value: f64 = text.parse().map_err(|error| format!("{error}"))?;
+    if value.is_finite() { Ok(value) } else { Err("the angle is not finite; expected a number of degrees".into()) }
+}
 
 /// Reads a scenario and starts its groups in the given `modes`.
 pub(super) fn load(file: &Path, modes: &[String]) -> Result<Scenario> {
-    let scenario = Scenario::load(file)?;
-    if modes.is_empty() { Ok(scenario) } else { scenario.with_modes(modes).map_err(|error| error.key("--mode")) }
+    as_asked(file, modes, None)
+}
+
+fn as_asked(file: &Path, modes: &[String], start_deg: Option<f64>) -> Result<Scenario> {
+    let asked = Asked { modes: modes.to_vec(), crank: start_deg.map(f64::to_radians) };
+    Scenario::load_as(file, &asked).map_err(|error| of_mode(&asked, error))
+}
+
+/// An error that has no place in the file is one of the modes asked for.
+pub(super) fn of_mode(asked: &Asked, error: Error) -> Error {
+    let is_asked = !asked.modes.is_empty() && error.place().is_none() && error.kind() != ErrorKind::Io;
+    if is_asked { error.key("--mode") } else { error }
 }
 
 /// Names of the analytic solvers, the default first.

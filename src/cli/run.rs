@@ -7,24 +7,30 @@ use std::path::{Path, PathBuf};
 use clap::builder::PossibleValuesParser;
 
 use super::engine_args::EngineArgs;
-use super::load::{load, reference_names};
+use super::grid::GridArgs;
+use super::load::{StartArgs, reference_names};
 use super::progress::Bar;
 use super::{advice, exit_code, output};
 use crate::compare::Verdict;
 use crate::proof::{EngineProof, Proof, prove_with};
 use crate::record::{self as recorder, Recording, Side};
 use crate::report::{json, recorded, residuals, text};
-use crate::scenario::Scenario;
+use crate::scenario::edit::with_engine;
+use crate::scenario::{EngineKeys, Scenario};
+use linkage::engine::Settings;
 use linkage::error::{Error, ErrorKind, Result};
 
 const EXAMPLES: &str = "\
 Examples:
   linkproof run scenarios/crank_rocker.toml
-  linkproof run scenarios/crank_rocker.toml --dt 1e-4          a finer engine step
+  linkproof run scenarios/crank_rocker.toml --dt 1e-4          this step of the engine, not one that the run finds
+  linkproof run mine.toml --write                              keep the settings that the run has found in the file
   linkproof run scenarios/*.toml --reference newton            the other analytic side as reference
   linkproof run scenarios/crank_rocker.toml --engine all       every engine side by side, and who stands alone
   linkproof run scenarios/ov7_base.toml --sweeps 4096 --extrapolate   other settings of the engine
   linkproof run scenarios/fourth_class.toml --no-record --mode link_2,link_3,link_4,link_5=2   another configuration
+  linkproof run scenarios/crank_rocker.toml --no-record --start-crank-deg 90 --crank-deg 90:450:2   another start and grid
+  linkproof run scenarios/crank_rocker_runup.toml --no-record --times 0,0.01,0.05,0.1   only these instants
   linkproof run scenarios/*.toml --no-record --json out.json   no recording, results for a script
 
 Exit codes: 0 all agree, 1 something disagrees, 2 bad input or usage, 3 nothing proven either way.";
@@ -40,11 +46,10 @@ pub(super) struct Args {
     reference: String,
     #[command(flatten)]
     engine: EngineArgs,
-    /// Start a group in another assembly mode than the file states, or in the configuration with that number in
-    /// `inspect --modes`; published numbers belong to the file's own modes and are then left out. May be given for
-    /// several groups
-    #[arg(long, value_name = "LINK,LINK=MODE")]
-    mode: Vec<String>,
+    #[command(flatten)]
+    grid: GridArgs,
+    #[command(flatten)]
+    start: StartArgs,
     /// Multiply every bound by this factor, to see how close a proof is to its bounds; 0 judges as usual and prints
     /// every residual beside its bound
     #[arg(long, hide = true, value_name = "FACTOR", value_parser = dial)]
@@ -52,6 +57,9 @@ pub(super) struct Args {
     /// Directory that the recordings (MCAP) are written to
     #[arg(long, value_name = "DIR", default_value = "recordings")]
     record: PathBuf,
+    /// Write the settings that the proof has found to the `[engine]` section of the scenario file
+    #[arg(long)]
+    write: bool,
     /// Write no recording
     #[arg(long, conflicts_with = "record")]
     no_record: bool,
@@ -108,11 +116,14 @@ fn dial(text: &str) -> std::result::Result<f64, String> {
 }
 
 fn prove_file(args: &Args, file: &Path, quiet: bool) -> Result<(Scenario, Proof)> {
-    let scenario = load(file, &args.mode)?;
+    let scenario = args.grid.on(args.start.load(file)?)?;
     let options = args.engine.options(&args.reference);
     let mut bar = Bar::new(&scenario.name);
     let proof = prove_with(&scenario, &options, &mut |part| bar.at(part))?;
     drop(bar);
+    if args.write {
+        write_settings(file, &scenario, &proof)?;
+    }
     let proof = match args.tolerance_scale {
         Some(dial) if dial > 0.0 => proof.with_bounds_scaled(dial),
         _ => proof,
@@ -124,6 +135,26 @@ fn prove_file(args: &Args, file: &Path, quiet: bool) -> Result<(Scenario, Proof)
         }
     }
     Ok((scenario, proof))
+}
+
+/// Writes the settings of the first engine to the scenario file, if the proof has found them.
+fn write_settings(file: &Path, scenario: &Scenario, proof: &Proof) -> Result<()> {
+    let engine = proof.engine();
+    if engine.search.is_none() {
+        return Ok(());
+    }
+    let Settings { resolution, sweeps, extrapolated, .. } = engine.info.settings;
+    let keys = EngineKeys {
+        name: Some(engine.info.name.into()),
+        sweeps: Some(sweeps),
+        extrapolated: Some(extrapolated),
+        ..scenario.engine.clone()
+    };
+    let text = with_engine(&scenario.text, (Some(resolution), keys))?;
+    fs::write(file, text).map_err(|error| {
+        Error::new(ErrorKind::Io, format!("{} cannot be written: {error}", file.display()))
+            .help("check that the file may be written to")
+    })
 }
 
 /// Records a proof, unless recording is off. `written` holds the recordings of this command: path and scenario.
@@ -159,10 +190,12 @@ fn write_recording(scenario: &Scenario, proof: &Proof, args: &Args, path: &Path)
             .help("name another directory with --record, or use --no-record")
     })?;
     let mut metadata = recorded::metadata(proof);
-    if !args.mode.is_empty() {
-        // The scenario text in the recording does not contain the modes asked for.
-        metadata.insert("modes".into(), args.mode.join(" "));
+    // The scenario text in the recording does not contain what is asked for on the command line.
+    if !args.start.mode.is_empty() {
+        metadata.insert("modes".into(), args.start.mode.join(" "));
     }
+    metadata.extend(args.start.start_crank_deg.map(|degrees| ("start_crank_deg".into(), degrees.to_string())));
+    metadata.extend(args.grid.told().map(|(name, values)| (format!("grid_{name}"), values.to_string())));
     let mut sides = vec![Side { name: "reference", trajectory: &proof.reference_trajectory }];
     for engine in &proof.engines {
         let name = if proof.engines.len() == 1 { "engine" } else { engine.info.name };

@@ -58,7 +58,7 @@ pub(super) fn prove(
         let search = Settling::new(&judge, &mut bank, engine, chosen.free, chosen.budget);
         search.run(progress).map(|(judged, search)| (judged, Some(search)))
     } else {
-        let runs = bank.runs(asked, other_sweeps(case, engine, asked.sweeps, None), progress);
+        let runs = bank.runs(asked, [other_sweeps(case, engine, asked.sweeps, None), None], progress);
         runs.and_then(|runs| Ok((judge.judge(engine, &runs)?, None)))
     };
     let (judged, search) = match found {
@@ -93,7 +93,8 @@ pub(super) fn prove(
     if is_open && !chosen.free.step && !engine.controls_error() {
         let advice = tried(&judge, &mut bank, chosen);
         let channels = proof.channels.iter_mut().map(|channel| &mut channel.verdict);
-        for verdict in channels.chain(proof.checks.iter_mut().map(|check| &mut check.verdict)).chain([&mut proof.verdict])
+        for verdict in
+            channels.chain(proof.checks.iter_mut().map(|check| &mut check.verdict)).chain([&mut proof.verdict])
         {
             if let Verdict::Inconclusive { advice: own, .. } = verdict {
                 own.push(advice.clone());
@@ -124,8 +125,8 @@ fn tried(judge: &Judge, bank: &mut Bank, chosen: &Chosen) -> Advice {
         (verdict, _) => format!("the verdict there is {}", verdict.word()),
     };
     Advice::Text(format!(
-        "leave the step to the proof: it takes {resolution:.2e} s with {sweeps} sweeps, extrapolated {extrapolated} \
-         times, and {outcome}"
+        "leave the step to the proof: it takes {resolution:.2e} s, {sweeps} sweeps and {extrapolated} extrapolations, and \
+         {outcome}"
     ))
 }
 

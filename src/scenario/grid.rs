@@ -1,7 +1,7 @@
 //! `[grid]`: the instants at which a solution is wanted.
 
 use super::reader::{Sign, Table};
-use super::unit::{ANGLE, TIME};
+use super::unit::{ANGLE, Family, TIME};
 use linkage::case::Grid;
 use linkage::drive::Drive;
 use linkage::error::{ErrorKind, Result};
@@ -34,35 +34,79 @@ pub fn range(from: f64, to: f64, step: f64) -> std::result::Result<Vec<f64>, Str
     Ok((0..=last as usize).map(|k| from + k as f64 * step).collect())
 }
 
-/// Why a grid cannot go by crank angle, if it cannot.
-#[must_use]
-pub fn only_times(drive: &Drive) -> Option<&'static str> {
-    drive.is_free().then_some("the motion is free: when the crank comes to an angle is a result of the forces")
+/// Checks the values of a list of instants.
+///
+/// # Errors
+/// A message if there is none, or too many, or one of them stands twice.
+pub fn listed(values: Vec<f64>) -> std::result::Result<Vec<f64>, String> {
+    if values.is_empty() {
+        return Err("the list is empty".into());
+    }
+    if values.len() > MOST {
+        return Err(format!("the list has more than {MOST} values"));
+    }
+    let mut sorted = values.clone();
+    sorted.sort_by(f64::total_cmp);
+    match sorted.windows(2).find(|pair| pair[0] == pair[1]) {
+        Some(pair) => Err(format!("the list has the value {} twice", pair[0])),
+        None => Ok(values),
+    }
 }
 
-/// The grid of a scenario, by crank angle or by time.
+/// Keys of a grid that lists its values.
+const LISTS: [(&str, &'static Family); 2] = [("angles", &ANGLE), ("times", &TIME)];
+
+const BY_TIME: &str = "give the grid by time (`from_s`, `to_s`, `step_s`, or a list `times_s`)";
+
+/// The grid of a scenario, by crank angle or by time: a range or a list.
 pub fn read(mut table: Table, drive: &Drive) -> Result<Grid> {
-    let Some((family, from)) = table.quantity_in("from", &[&ANGLE, &TIME], Sign::Any)? else {
-        return Err(table.fault("`from_deg`, `from_rad`, `from_s` or `from_ms` is missing").help(
-            "a grid goes by crank angle (`from_deg`, `to_deg`, `step_deg`) or by time (`from_s`, `to_s`, `step_s`)",
-        ));
-    };
-    let family = [&ANGLE, &TIME][family];
-    if let (true, Some(message)) = (std::ptr::eq(family, &ANGLE), only_times(drive)) {
-        return Err(table.fault(message).help("give the grid by time (`from_s`, `to_s`, `step_s`)"));
+    let mut lists = Vec::new();
+    for (base, family) in LISTS {
+        lists.extend(table.optional_quantities(base, family)?.map(|values| (base, family, values)));
     }
+    let ranged = table.quantity_in("from", &[&ANGLE, &TIME], Sign::Any)?;
+    let (family, points) = match (ranged, lists.as_slice()) {
+        (None, [(base, family, values)]) => {
+            let points = listed(values.clone()).map_err(|message| {
+                table
+                    .wrong(ErrorKind::Input, base, message)
+                    .help("give every instant once, for example `times_s = [0, 0.1, 0.3]`")
+            })?;
+            (*family, points)
+        }
+        (Some((family, from)), []) => {
+            let family = [&ANGLE, &TIME][family];
+            (family, ranged_points(&mut table, family, from)?)
+        }
+        (None, []) => {
+            return Err(table.fault("`from_deg`, `from_rad`, `from_s` or `from_ms` is missing").help(
+                "a grid goes by crank angle (`from_deg`, `to_deg`, `step_deg`) or by time (`from_s`, `to_s`, `step_s`), \
+                 or lists its values (`angles_deg`, `times_s`)",
+            ));
+        }
+        (_, [.., (base, _, _)]) => {
+            let message = "the grid is given twice";
+            let help = "keep one of: a range (`from`, `to`, `step`), a list of crank angles (`angles`), a list of times (`times`)";
+            return Err(table.wrong(ErrorKind::Input, base, message).help(help));
+        }
+    };
+    table.finish()?;
+    let by_angle = std::ptr::eq(family, &ANGLE);
+    let grid = if by_angle { Grid::of_cranks(drive, points) } else { Grid::of_times(drive, points) };
+    let help = match by_angle && drive.is_free() {
+        true => BY_TIME,
+        false => "check the unit and size of the grid and of `drive.speed`",
+    };
+    grid.check(drive).map_err(|message| table.fault(message).help(help))?;
+    Ok(grid)
+}
+
+fn ranged_points(table: &mut Table, family: &'static Family, from: f64) -> Result<Vec<f64>> {
     let to = table.quantity("to", family, Sign::Any)?;
     let step = table.quantity("step", family, Sign::NotZero)?;
-    table.finish()?;
-    let points = range(from, to, step).map_err(|message| {
+    range(from, to, step).map_err(|message| {
         table.wrong(ErrorKind::Input, "step", message).help("check `from`, `to` and the size and sign of `step`")
-    })?;
-    let grid =
-        if std::ptr::eq(family, &ANGLE) { Grid::of_cranks(drive, points) } else { Grid::of_times(drive, points) };
-    match grid.check(drive) {
-        Ok(()) => Ok(grid),
-        Err(message) => Err(table.fault(message).help("check the unit and size of the grid and of `drive.speed`")),
-    }
+    })
 }
 
 #[cfg(test)]
@@ -82,6 +126,14 @@ mod tests {
     fn a_turn_by_degrees_has_361_points() {
         assert_eq!(range(0.0, 360f64.to_radians(), 1f64.to_radians()).unwrap().len(), 361);
         assert_eq!(range(0.0, -360f64.to_radians(), -1f64.to_radians()).unwrap().len(), 361);
+    }
+
+    #[test]
+    fn lists_keep_their_order_and_have_every_value_once() {
+        assert_eq!(listed(vec![0.3, 0.0, 0.1]), Ok(vec![0.3, 0.0, 0.1]));
+        assert!(listed(Vec::new()).unwrap_err().contains("empty"));
+        assert!(listed(vec![0.1, 0.2, 0.1]).unwrap_err().contains("0.1 twice"));
+        assert!(listed(vec![0.0, -0.0]).unwrap_err().contains("twice"));
     }
 
     #[test]

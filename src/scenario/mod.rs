@@ -1,6 +1,7 @@
 //! Scenario files: TOML in, a [`Case`] out. Only this module converts units; docs/scenario.md describes the format.
 //! Every error names file, line and key, what was found, and the way out.
 
+mod asked;
 pub mod catalogue;
 mod correction;
 pub mod edit;
@@ -26,6 +27,7 @@ mod tests;
 pub mod unit;
 mod words;
 
+pub use asked::{Asked, Undecided};
 pub use figure::{Figure, FigureValue, OracleFigure};
 pub use oracle::{Oracle, OracleBasis};
 pub use series::{ExpectedCell, OraclePoint, OracleSeries};
@@ -37,7 +39,7 @@ use self::reader::{Sign, Table};
 use self::source::Source;
 use linkage::case::{Case, CaseParts, Grid};
 use linkage::error::{Error, ErrorKind, Result};
-use linkage::mechanism::assembly::{Choice, first_choices};
+use linkage::mechanism::assembly::{Choice, group_of};
 use linkage::mechanism::{Mechanism, StartGroup, Structure};
 
 /// Version of the file format that this crate reads.
@@ -106,11 +108,7 @@ impl Scenario {
     /// # Errors
     /// [`ErrorKind::Io`] if a file cannot be read, else as [`Scenario::parse`].
     pub fn load(path: &Path) -> Result<Scenario> {
-        let text = std::fs::read_to_string(path).map_err(|error| {
-            Error::new(ErrorKind::Io, format!("the scenario {} cannot be read: {error}", path.display()))
-                .help("give the path of a scenario file, such as scenarios/crank_rocker.toml")
-        })?;
-        Scenario::parse(&text, path)
+        Scenario::load_as(path, &Asked::default())
     }
 
     /// Reads a scenario from its text. Tables of published numbers are searched in the directory of `path`.
@@ -120,9 +118,32 @@ impl Scenario {
     /// taken, [`ErrorKind::Unsupported`] for what this version does not solve, [`ErrorKind::Io`] for a table that
     /// cannot be read; all with the place in the file and the key.
     pub fn parse(text: &str, path: &Path) -> Result<Scenario> {
-        let source = Source { path, text };
-        let tree = source.tree()?;
-        read(&mut Table::root(&source, &tree)).map_err(|error| source.located(tree.get_ref(), error))
+        Ok(parse(text, path, &Asked::default(), false)?.0)
+    }
+
+    /// Reads the scenario file at `path` with another start.
+    ///
+    /// Published numbers belong to the file's own branch: on another one they are left out.
+    /// With another crank angle at t = 0, so are those that depend on it: distances at t = 0, and values over the crank
+    /// angle if the crank's speed changes, if there are further drives, or if a torsional spring counts turns from the
+    /// start.
+    ///
+    /// # Errors
+    /// Those of [`Scenario::load`], and [`ErrorKind::Input`] without a place in the file if a group, its mode or its
+    /// number is not known.
+    pub fn load_as(path: &Path, asked: &Asked) -> Result<Scenario> {
+        Ok(parse(&text_of(path)?, path, asked, false)?.0)
+    }
+
+    /// As [`Scenario::load_as`], for a list of configurations: groups for which the file does not decide are placed in
+    /// one of their configurations, and are returned with the reason, in the order of the structure.
+    ///
+    /// # Errors
+    /// Those of [`Scenario::load_as`], except that nothing decides for a group.
+    pub fn load_to_list(path: &Path, asked: &Asked) -> Result<(Scenario, Vec<Undecided>)> {
+        let (scenario, mut undecided) = parse(&text_of(path)?, path, asked, true)?;
+        undecided.sort_by_key(|undecided| undecided.group);
+        Ok((scenario, undecided))
     }
 
     /// The scenario of a case that was built in code: without a file, without published numbers, with the engine's own
@@ -156,38 +177,26 @@ impl Scenario {
     pub fn nominal(self) -> Scenario {
         Scenario { case: self.case.nominal(), ..self }
     }
-
-    /// The same scenario with other starts for some groups. Each of `asked` is `LINK,LINK=MODE` or `LINK,LINK=NUMBER`.
-    /// The links of a group and its mode are named as in the file; in another order of the links, left and right are
-    /// exchanged. NUMBER is the place in the list of [`configurations`](linkage::mechanism::assembly::configurations),
-    /// counted from 1. If the start pose changes, the published numbers are left out, because they belong to the
-    /// scenario's own pose.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Input`] if a group, its mode or its number is not known; those of [`first_choices`] for the groups
-    /// after it.
-    pub fn with_modes(&self, asked: &[String]) -> Result<Scenario> {
-        let mut changed = self.clone();
-        let case = &self.case;
-        for text in asked {
-            let (index, start) = start::asked(text, &case.mechanism, &case.structure)?;
-            changed.starts[index] = start;
-        }
-        let angles = case.drives.world_angles(case.crank().start);
-        let (pose, choices) = first_choices(&case.mechanism, &case.structure, &angles, &changed.starts)?;
-        if pose != case.start {
-            changed.oracles.clear();
-        }
-        changed.case = case.with(|parts| {
-            parts.modes = choices.iter().map(|choice| choice.mode).collect();
-            parts.start = pose;
-        })?;
-        changed.choices = choices;
-        Ok(changed)
-    }
 }
 
-fn read(root: &mut Table) -> Result<Scenario> {
+fn text_of(path: &Path) -> Result<String> {
+    std::fs::read_to_string(path).map_err(|error| {
+        Error::new(ErrorKind::Io, format!("the scenario {} cannot be read: {error}", path.display()))
+            .help("give the path of a scenario file, such as scenarios/crank_rocker.toml")
+    })
+}
+
+fn parse(text: &str, path: &Path, asked: &Asked, lists: bool) -> Found {
+    let source = Source { path, text };
+    let tree = source.tree()?;
+    read(&mut Table::root(&source, &tree), asked, lists).map_err(|error| source.located(tree.get_ref(), error))?
+}
+
+/// What a file with another start gives: the scenario and the groups that are not decided, or an error of what was
+/// asked for, which has no place in the file.
+type Found = std::result::Result<(Scenario, Vec<Undecided>), Error>;
+
+fn read(root: &mut Table, asked: &Asked, lists: bool) -> Result<Found> {
     check_format(root)?;
     let name = name(root)?;
     let title = root.string("title")?;
@@ -204,34 +213,63 @@ fn read(root: &mut Table) -> Result<Scenario> {
     let links = links::read(ground, links)?;
     let joints = joints::read(joints, &links)?;
     let mechanism = Mechanism::new(links, joints)?;
-    let crank = start.quantity("crank", &unit::ANGLE, Sign::Any)?;
+    let own_crank = start.quantity("crank", &unit::ANGLE, Sign::Any)?;
+    let crank = asked.crank.unwrap_or(own_crank);
     let groups = start.tables("groups")?;
     start.finish()?;
     let drives = motion::drives(drives, motor, &mechanism, crank)?;
     let loads = loads::read(loads, &mechanism)?;
     let gravity = motion::gravity(gravity)?;
     let structure = Structure::of(&mechanism, &drives.joints())?;
-    let starts = start::groups(&start, groups, &mechanism, &structure)?;
+    let groups_asked = match asked.groups(&mechanism, &structure) {
+        Ok(groups) => groups,
+        Err(error) => return Ok(Err(error)),
+    };
+    let starts = start::groups(&start, groups, &mechanism, &structure, &groups_asked)?;
     let grid = grid::read(grid, drives.crank())?;
     let wanted = settings::wanted(channels)?;
     let (dt, engine) = settings::engine(engine, drives.crank())?;
     let engine_rel = settings::engine_rel(tolerances)?;
-    let (start, choices) = first_choices(&mechanism, &structure, &drives.world_angles(crank), &starts)?;
+    let placing = asked::Start {
+        mechanism: &mechanism,
+        structure: &structure,
+        drives: &drives,
+        crank: own_crank,
+        starts: &starts,
+        lists,
+    };
+    let placed = match placing.placed(crank, &groups_asked) {
+        Ok(placed) => placed,
+        Err(error)
+            if groups_asked.iter().any(|(index, _)| group_of(&mechanism, &structure, &error) == Some(*index)) =>
+        {
+            return Ok(Err(error));
+        }
+        Err(error) => return Err(error),
+    };
+    let (starts, choices, undecided) = (placed.starts, placed.choices, placed.undecided);
     let modes = choices.iter().map(|choice| choice.mode).collect();
+    let start = placed.pose;
     let case = Case::new(CaseParts { mechanism, structure, drives, loads, gravity, start, modes, grid, wanted })?;
-    let oracles = oracle::read(oracles, &case)?;
+    let mut oracles = oracle::read(oracles, &case)?;
+    if !placed.is_own_branch {
+        oracles.clear();
+    } else if crank != own_crank {
+        oracles = oracles.into_iter().filter_map(|oracle| oracle.from_another_start(&case)).collect();
+    }
     let series = oracles.iter().flat_map(|oracle| &oracle.series);
     let published =
         series.flat_map(|series| series.points.iter().chain(series.expected.iter().map(|cell| &cell.point)));
     let cranks: Vec<f64> = published.map(|point| point.crank).collect();
-    let free = grid::only_times(case.crank()).filter(|_| !cranks.is_empty()).map(String::from);
-    if let Err(message) = free.map_or_else(|| Grid::of_cranks(case.crank(), cranks).check(case.crank()), Err) {
+    if let Err(message) = Grid::of_cranks(case.crank(), cranks).check(case.crank()) {
         let error = Error::new(ErrorKind::Input, format!("published numbers: {message}")).key("oracle");
         return Err(error.help("take the numbers out, or give them at crank angles to which the drive comes"));
     }
     let source = root.source();
     let (path, text) = (source.path.to_path_buf(), source.text.to_string());
-    Ok(Scenario { name, title, source: cited, path, text, case, dt, engine, engine_rel, oracles, starts, choices })
+    let scenario =
+        Scenario { name, title, source: cited, path, text, case, dt, engine, engine_rel, oracles, starts, choices };
+    Ok(Ok((scenario, undecided)))
 }
 
 fn check_format(root: &mut Table) -> Result<()> {

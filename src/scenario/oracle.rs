@@ -1,6 +1,7 @@
 //! `[[oracle]]`: numbers that the mechanism must reproduce, each with the bound that its digits give.
 
 use super::correction::{Correction, number};
+use super::figure::Figure;
 use super::figure::{self, OracleFigure};
 use super::printed::{Printed, PrintedChannel};
 use super::reader::{Sign, Table};
@@ -36,6 +37,20 @@ pub enum OracleBasis {
     Recomputed,
     /// Derived from given data by a formula.
     Derived,
+}
+
+impl Oracle {
+    /// What holds for a case that starts at another crank angle of the same branch; `None` if nothing does.
+    pub(super) fn from_another_start(mut self, case: &Case) -> Option<Oracle> {
+        self.figures.retain(|figure| !matches!(figure.figure, Figure::Distance(_)));
+        // A further drive or a changing speed ties the crank angle to time, and a torsional spring to turns from the
+        // start.
+        let winds = |load: &linkage::drive::Load| load.nature().twist.is_some();
+        if !case.is_steady() || !case.drives.further().is_empty() || case.loads.iter().any(winds) {
+            self.series.clear();
+        }
+        (!self.series.is_empty() || !self.figures.is_empty()).then_some(self)
+    }
 }
 
 impl OracleBasis {

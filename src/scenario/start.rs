@@ -9,20 +9,24 @@ use linkage::math::Vec2;
 use linkage::mechanism::pose::SidePoint;
 use linkage::mechanism::{AssemblyMode, Group, GroupKind, Mechanism, Side, StartGroup, Structure};
 
-/// The start asked for each group, in the order of the structure. `start` is the table that contains the groups.
+/// The start that the file asks for each group, in the order of the structure. `start` is the table that contains the
+/// groups. Those that are `asked` for elsewhere may be missing.
 pub fn groups(
     start: &Table,
     tables: Vec<Table>,
     mechanism: &Mechanism,
     structure: &Structure,
+    asked: &[(usize, StartGroup)],
 ) -> Result<Vec<StartGroup>> {
     let mut wanted: Vec<Option<StartGroup>> = vec![None; structure.groups.len()];
     for table in tables {
         let (index, group) = group(table, mechanism, structure, &wanted)?;
         wanted[index] = Some(group);
     }
+    let is_asked = |index: usize| asked.iter().any(|(other, _)| *other == index);
+    let groups = structure.groups.iter().enumerate();
     let missing: Vec<&Group> =
-        structure.groups.iter().zip(&wanted).filter(|(_, wanted)| wanted.is_none()).map(|(group, _)| group).collect();
+        groups.filter(|&(index, _)| wanted[index].is_none() && !is_asked(index)).map(|(_, group)| group).collect();
     // A group that no version of the file could start is left to the first pose, which reports it.
     match missing.iter().find(|group| !modes_of(group.kind).is_empty()) {
         None => Ok(wanted.into_iter().map(Option::unwrap_or_default).collect()),

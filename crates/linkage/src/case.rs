@@ -203,7 +203,8 @@ impl Case {
     }
 
     /// Whether a point of a link moves, by more than the rounding of the mechanism's speeds.
-    fn moves(&self, motions: &[Motion], at: Side) -> bool {
+    #[must_use]
+    pub fn moves(&self, motions: &[Motion], at: Side) -> bool {
         let speed = motions[at.link].point_velocity(at.local).norm();
         speed > STANDSTILL * fastest(motions) * self.mechanism.size()
     }

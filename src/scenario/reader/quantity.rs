@@ -1,9 +1,10 @@
 //! Quantities: numbers whose key ends in their unit.
 
+use toml::Spanned;
 use toml::de::DeValue;
 
 use super::{Entry, Table, found};
-use crate::scenario::unit::Family;
+use crate::scenario::unit::{Family, Unit};
 use crate::scenario::words::choice;
 use linkage::error::{Error, Result};
 
@@ -54,35 +55,58 @@ impl Table<'_> {
         families: &[&'static Family],
         sign: Sign,
     ) -> Result<Option<(usize, f64)>> {
-        let spellings: Vec<String> = families.iter().flat_map(|family| family.keys(base)).collect();
-        let mut present = self.entries.iter().filter(|entry| spellings.iter().any(|spelling| spelling == entry.key));
-        let (first, second) = (present.next(), present.next());
-        let Some(entry) = first else {
-            let wrong = self.misspelt_unit(base, families[0], &spellings);
-            self.asked.extend(spellings);
-            return wrong.map_or(Ok(None), Err);
-        };
-        if let Some(second) = second {
-            return Err(self
-                .wrong_entry(second, format!("`{}` and `{}` are both given", entry.key, second.key))
-                .help("keep one of the two"));
-        }
-        let (key, number) = (entry.key, self.finite(entry.key, entry.value)?);
-        let unit = |(index, family): (usize, &&'static Family)| Some((index, *family, family.unit_of(base, key)?));
-        let (index, family, unit) =
-            families.iter().enumerate().find_map(unit).expect("the key is one of the spellings");
+        let Some((index, at, unit)) = self.spelled(base, families)? else { return Ok(None) };
+        let entry = &self.entries[at];
+        let number = self.finite(entry.key, entry.value)?;
         if let Some((rule, way_out)) = sign.broken_by(number) {
             let found = found(self.source, entry.value);
-            let message = format!("found {found}, but {} {rule} here", family.noun);
+            let message = format!("found {found}, but {} {rule} here", families[index].noun);
             return Err(self.wrong_entry(entry, message).help(way_out));
         }
         let value = unit.to_si(number);
         if !value.is_finite() {
-            return Err(self.mistyped(key, entry.value, "a finite number"));
+            return Err(self.mistyped(entry.key, entry.value, "a finite number"));
         }
-        self.asked.extend(spellings);
-        self.used.push(key);
+        self.used.push(entry.key);
         Ok(Some((index, value)))
+    }
+
+    /// Array of quantities under one of the spellings of `base` in `family`, in SI; `None` if there is none.
+    pub fn optional_quantities(&mut self, base: &str, family: &'static Family) -> Result<Option<Vec<f64>>> {
+        let Some((_, at, unit)) = self.spelled(base, &[family])? else { return Ok(None) };
+        let Entry { key, value, .. } = self.entries[at];
+        let array = value.get_ref().as_array().ok_or_else(|| self.mistyped(key, value, "an array of numbers"))?;
+        let si = |element: &Spanned<DeValue>| {
+            let number = unit.to_si(self.finite(key, element)?);
+            if number.is_finite() { Ok(number) } else { Err(self.mistyped(key, element, "a finite number")) }
+        };
+        let values = array.iter().map(si).collect::<Result<_>>()?;
+        self.used.push(key);
+        Ok(Some(values))
+    }
+
+    /// The one entry that spells `base` in a unit of the families: index of its family, its own index, and the unit.
+    /// All spellings are recorded as asked for.
+    fn spelled(&mut self, base: &str, families: &[&'static Family]) -> Result<Option<(usize, usize, &'static Unit)>> {
+        let spellings: Vec<String> = families.iter().flat_map(|family| family.keys(base)).collect();
+        let is_spelling = |entry: &Entry| spellings.iter().any(|spelling| spelling == entry.key);
+        let mut present = (0..self.entries.len()).filter(|&at| is_spelling(&self.entries[at]));
+        let (first, second) = (present.next(), present.next());
+        let Some(at) = first else {
+            let wrong = self.misspelt_unit(base, families[0], &spellings);
+            self.asked.extend(spellings);
+            return wrong.map_or(Ok(None), Err);
+        };
+        let key = self.entries[at].key;
+        if let Some(second) = second.map(|second| &self.entries[second]) {
+            return Err(self
+                .wrong_entry(second, format!("`{key}` and `{}` are both given", second.key))
+                .help("keep one of the two"));
+        }
+        let unit = |(index, family): (usize, &&'static Family)| Some((index, at, family.unit_of(base, key)?));
+        let found = families.iter().enumerate().find_map(unit).expect("the key is one of the spellings");
+        self.asked.extend(spellings);
+        Ok(Some(found))
     }
 
     /// The error for a key that is `base` without its unit or with an unknown unit.

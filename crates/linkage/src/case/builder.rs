@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::{Case, CaseParts, Grid, Wanted};
-use crate::drive::{Drive, Drives, Load, MotionLaw};
+use crate::drive::{Drive, DriveMotion, Drives, Load, MotionLaw, Motor};
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::{Vec2, unit};
 use crate::mechanism::{
@@ -49,12 +49,14 @@ pub struct CaseBuilder {
     links: Vec<Link>,
     masses: Vec<(String, f64, Vec2, f64)>,
     joints: Vec<Wish>,
-    cranks: Vec<(String, MotionLaw)>,
+    cranks: Vec<(String, DriveMotion)>,
+    motor: Option<Motor>,
     start: f64,
     modes: Vec<(Vec<String>, AssemblyMode)>,
     gravity: Vec2,
     loads: Vec<Load>,
     instants: usize,
+    times: Option<Vec<f64>>,
     wanted: Wanted,
 }
 
@@ -73,11 +75,13 @@ impl CaseBuilder {
             masses: Vec::new(),
             joints: Vec::new(),
             cranks: Vec::new(),
+            motor: None,
             start: 0.0,
             modes: Vec::new(),
             gravity: Vec2::zeros(),
             loads: Vec::new(),
             instants: 360,
+            times: None,
             wanted: Wanted::ALL,
         }
     }
@@ -134,7 +138,23 @@ impl CaseBuilder {
     /// A driving link that follows a motion law.
     #[must_use]
     pub fn driven(mut self, joint: &str, law: MotionLaw) -> Self {
-        self.cranks.push((joint.into(), law));
+        self.cranks.push((joint.into(), DriveMotion::Prescribed { law, motor: None }));
+        self
+    }
+
+    /// A driving link whose motion forces decide, with its speed at t = 0 and its nominal speed (rad/s,
+    /// counter-clockwise positive, the nominal one not zero), as in [`DriveMotion::Free`].
+    /// It is hinged to the ground or to a driving link named before.
+    #[must_use]
+    pub fn free(mut self, joint: &str, initial_speed: f64, nominal_speed: f64) -> Self {
+        self.cranks.push((joint.into(), DriveMotion::Free { initial_speed, nominal_speed, motor: None }));
+        self
+    }
+
+    /// The motor of the crank. Default: none.
+    #[must_use]
+    pub fn motor(mut self, motor: Motor) -> Self {
+        self.motor = Some(motor);
         self
     }
 
@@ -166,10 +186,18 @@ impl CaseBuilder {
         self
     }
 
-    /// Number of equal parts into which the wanted instants divide one turn of the crank. Default: 360.
+    /// Number of equal parts into which the wanted instants divide one turn of the crank, or the time of one turn at
+    /// the nominal speed if the crank is free. Default: 360.
     #[must_use]
     pub fn instants(mut self, parts: usize) -> Self {
         self.instants = parts;
+        self
+    }
+
+    /// The wanted instants (s), in place of those of [`CaseBuilder::instants`].
+    #[must_use]
+    pub fn times(mut self, times: &[f64]) -> Self {
+        self.times = Some(times.to_vec());
         self
     }
 
@@ -201,8 +229,7 @@ impl CaseBuilder {
         let structure = Structure::of(&mechanism, &drives.joints())?;
         let starts = self.starts(&mechanism, &structure)?;
         let (start, modes) = first_pose(&mechanism, &structure, &drives.world_angles(self.start), &starts)?;
-        let turn = |part: usize| self.start + drives.crank().sense() * TAU * part as f64 / self.instants.max(1) as f64;
-        let grid = Grid::of_cranks(drives.crank(), (0..=self.instants).map(turn).collect());
+        let grid = self.grid(drives.crank());
         let (gravity, loads, wanted) = (self.gravity, self.loads, self.wanted);
         Case::new(CaseParts { mechanism, structure, drives, loads, gravity, start, modes, grid, wanted })
     }
@@ -229,19 +256,40 @@ impl CaseBuilder {
         Ok(Joint { name: wish.name.clone(), kind, first: side(&wish.sides[0])?, second: side(&wish.sides[1])? })
     }
 
+    /// The instants: the times given, or equal parts of a turn.
+    fn grid(&self, crank: &Drive) -> Grid {
+        let share = |part: usize| part as f64 / self.instants.max(1) as f64;
+        let parts = 0..=self.instants;
+        match &self.times {
+            Some(times) => Grid::of_times(crank, times.clone()),
+            None if crank.is_free() => {
+                let period = TAU / crank.top_speed().abs();
+                Grid::of_times(crank, parts.map(|part| period * share(part)).collect())
+            }
+            None => {
+                let sense = crank.sense();
+                let turn = |part: usize| self.start + sense * TAU * part as f64 / self.instants.max(1) as f64;
+                Grid::of_cranks(crank, parts.map(turn).collect())
+            }
+        }
+    }
+
     fn drives(&self, mechanism: &Mechanism) -> Result<Drives> {
-        let drive = |(name, law): &(String, MotionLaw)| -> Result<Drive> {
+        let mut all: Vec<Drive> = Vec::with_capacity(self.cranks.len());
+        for (name, motion) in &self.cranks {
             let known = mechanism.joints().iter().map(|joint| joint.name.as_str());
             let joint = mechanism.joint_named(name).ok_or_else(|| unknown("joint", name, "drive", known))?;
             let Joint { first, second, .. } = mechanism.joints()[joint];
-            let link = if first.link == GROUND { second.link } else { first.link };
-            Ok(Drive::prescribed(joint, link, 0.0, self.start, law.clone()))
-        };
-        let mut all = self.cranks.iter().map(drive).collect::<Result<Vec<Drive>>>()?;
+            let carries = |link: usize| link == GROUND || all.iter().any(|before| before.link == link);
+            let link = if carries(first.link) { second.link } else { first.link };
+            all.push(Drive { joint, link, zero: 0.0, start: self.start, motion: motion.clone() });
+        }
         if all.is_empty() {
-            return Err(missing("drive", "nothing drives the mechanism", "name the driven joint with `crank`"));
+            let help = "name the driven joint with `crank`, `driven` or `free`";
+            return Err(missing("drive", "nothing drives the mechanism", help));
         }
         let crank = all.remove(0);
+        let crank = if self.motor.is_some() { crank.with_motor(self.motor.clone()) } else { crank };
         Ok(Drives::new(crank, all))
     }
 
@@ -334,6 +382,42 @@ mod tests {
             .build()
             .unwrap();
         assert!((case.start.0[3].origin.x - 0.5).abs() < 1e-15, "{:?}", case.start);
+    }
+
+    /// Cause: the instants of a free motion were laid by crank angles, to which it comes at times of its own.
+    #[test]
+    fn a_free_motion_has_instants_by_time() {
+        let left = |builder: CaseBuilder| builder.mode(&["coupler", "rocker"], AssemblyMode::Left);
+        let case = left(four_bar().free("O", 0.5, -4.0)).instants(8).build().unwrap();
+        assert!(case.crank().is_free() && case.crank().initial_speed() == 0.5 && case.crank().motor().is_none());
+        assert_eq!(case.grid, Grid::of_times(case.crank(), (0..=8).map(|k| TAU / 4.0 * f64::from(k) / 8.0).collect()));
+        let case = left(four_bar().free("O", 0.0, 4.0)).times(&[0.0, 0.3, 0.1]).build().unwrap();
+        assert_eq!(case.grid.times, [0.0, 0.3, 0.1]);
+        // Asked for by crank angle, it is refused wherever the grid comes from.
+        let angles = Grid::of_cranks(case.crank(), vec![0.0, 1.0]);
+        assert!(case.on(angles.clone()).unwrap_err().to_string().contains("the motion is free"));
+        assert!(case.with(|parts| parts.grid = angles).unwrap_err().to_string().contains("the motion is free"));
+        // A prescribed crank takes times too, and a free link may hang on a free one.
+        let prescribed = left(four_bar().crank("O", 2.0)).times(&[0.5]).build().unwrap();
+        assert_eq!((prescribed.grid.times[0], prescribed.grid.cranks[0]), (0.5, 1.0));
+        let pendulum = Case::builder()
+            .ground(&[("O", [0.0; 2])])
+            .link("lower", &[("A", [0.0; 2]), ("B", [1.0, 0.0])])
+            .link("upper", &[("O", [0.0; 2]), ("A", [1.0, 0.0])])
+            .pin("O", "ground", "upper")
+            .pin("A", "lower", "upper")
+            .free("O", 0.0, 1.0)
+            .free("A", 0.0, 1.0);
+        let drives = pendulum.build().unwrap().into_parts().drives;
+        assert_eq!([drives[0].link, drives[1].link], [2, 1]);
+    }
+
+    #[test]
+    fn a_motor_of_the_builder_moves_its_crank() {
+        let motor = Motor::ideal(crate::drive::MotorLaw::Constant { torque: 2.0 }, 1.0);
+        let built =
+            four_bar().free("O", 0.0, 4.0).motor(motor.clone()).mode(&["coupler", "rocker"], AssemblyMode::Left);
+        assert_eq!(built.build().unwrap().crank().moving_motor(), Some(&motor));
     }
 
     #[test]

@@ -24,9 +24,12 @@ impl Grid {
     }
 
     /// Grid of the given crank angles (rad, as the scenario states them).
+    /// When a free crank comes to an angle is a result of the forces: its grid has no times (NaN), and
+    /// [`Grid::check`] refuses it.
     #[must_use]
     pub fn of_cranks(drive: &Drive, cranks: Vec<f64>) -> Self {
-        let times = cranks.iter().map(|&angle| drive.time_of(angle)).collect();
+        let time = |&angle: &f64| if drive.is_free() { f64::NAN } else { drive.time_of(angle) };
+        let times = cranks.iter().map(time).collect();
         Grid { times, cranks }
     }
 
@@ -50,8 +53,14 @@ impl Grid {
     /// defined at all of them.
     ///
     /// # Errors
-    /// A message that says how far the grid reaches, or where the law ends.
+    /// A message that says how far the grid reaches, where the law ends, or that the crank is free and the grid is one
+    /// of crank angles.
     pub fn check(&self, drive: &Drive) -> std::result::Result<(), String> {
+        let has_angles_alone =
+            self.times.iter().all(|t| t.is_nan()) && self.cranks.iter().all(|crank| crank.is_finite());
+        if drive.is_free() && !self.is_empty() && has_angles_alone {
+            return Err("the motion is free: when the crank comes to an angle is a result of the forces".into());
+        }
         if drive.constant_speed().is_none() {
             let name = drive.law_name();
             if self.times.iter().any(|t| t.is_nan()) && self.cranks.iter().all(|crank| crank.is_finite()) {

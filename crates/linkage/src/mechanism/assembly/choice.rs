@@ -88,6 +88,16 @@ fn contradiction(wanted: &StartGroup, mode: AssemblyMode) -> Error {
         .help("correct the mode or the rough place; the wrong branch is never chosen silently")
 }
 
+/// Largest distance of a configuration's points from their rough places (m).
+pub(super) fn distance(group: &Group, wanted: &StartGroup, one: &Configuration) -> f64 {
+    let distances = wanted.near.iter().map(|(point, guess)| {
+        let index = group.links.iter().position(|&link| link == point.side.link);
+        let links = &one.links[index.expect("the point is on a link of the group")];
+        (links.point(point.side.local) - guess).norm()
+    });
+    distances.fold(0.0, f64::larger)
+}
+
 /// The configuration nearest to the rough places, with its largest distance from them and that of the next
 /// configuration (m).
 fn nearest<'a>(
@@ -96,15 +106,7 @@ fn nearest<'a>(
     wanted: &StartGroup,
     all: &'a [Configuration],
 ) -> Result<(&'a Configuration, f64, Option<f64>)> {
-    let distance = |one: &Configuration| {
-        let distances = wanted.near.iter().map(|(point, guess)| {
-            let index = group.links.iter().position(|&link| link == point.side.link);
-            let links = &one.links[index.expect("the point is on a link of the group")];
-            (links.point(point.side.local) - guess).norm()
-        });
-        distances.fold(0.0, f64::larger)
-    };
-    let mut order: Vec<(f64, &Configuration)> = all.iter().map(|one| (distance(one), one)).collect();
+    let mut order: Vec<(f64, &Configuration)> = all.iter().map(|one| (distance(group, wanted, one), one)).collect();
     order.sort_by(|a, b| a.0.total_cmp(&b.0));
     // Places that are less than twice as near to one configuration as to the next do not distinguish them. Neither do
     // places that are farther from all configurations than the size of the mechanism.
@@ -120,7 +122,7 @@ fn nearest<'a>(
                 named(b.mode, "next")
             ),
         )
-        .help("give a place nearer to the configuration you mean, or its mode"));
+        .help(Advice::Configuration { give: "a place nearer to the configuration you mean, or its mode".into() }));
     }
     let next = order.get(1).map(|&(distance, _)| distance);
     match order[..] {

@@ -6,6 +6,7 @@
 //! The formulas here are independent of those of the analytic solvers, in both directions, so that an error in one of
 //! the three shows.
 
+mod blame;
 mod choice;
 mod configurations;
 mod dyads;
@@ -16,6 +17,7 @@ mod random;
 mod rough;
 mod three_leads;
 
+pub use blame::{Blame, blame, blamed, group_of};
 pub use configurations::{configurations, transmission_sine};
 pub use mode::{AssemblyMode, Choice, Configuration, StartGroup};
 

@@ -1,0 +1,110 @@
+//! Which group is to blame if one cannot be placed: perhaps not that one, but an earlier one in the wrong configuration.
+
+use super::{StartGroup, configurations, first_choices};
+use crate::error::{Advice, Error, ErrorKind, Part};
+use crate::mechanism::{AssemblyMode, Group, Mechanism, Structure};
+
+/// A group whose configuration leaves no place for a later one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Blame {
+    /// Index of the group in the structure.
+    pub group: usize,
+    /// Number of the configuration in which the later group can be placed, counted from 1.
+    pub rank: usize,
+    /// Its mode.
+    pub mode: AssemblyMode,
+}
+
+/// Index of the group that an error of [`first_choices`] is about.
+#[must_use]
+pub fn group_of(mechanism: &Mechanism, structure: &Structure, error: &Error) -> Option<usize> {
+    match error.part() {
+        Some(Part::Group(names)) => structure.groups.iter().position(|group| group.names(mechanism) == *names),
+        Some(Part::Link(_) | Part::Joint(_)) | None => None,
+    }
+}
+
+/// The one earlier group that, in another configuration, lets the group of `error` be placed. The other arguments are
+/// those with which [`first_choices`] gave the error.
+///
+/// A group whose own rough places confirm its configuration is not blamed.
+#[must_use]
+pub fn blame(
+    mechanism: &Mechanism,
+    structure: &Structure,
+    drive_angles: &[f64],
+    wanted: &[StartGroup],
+    error: &Error,
+) -> Option<Blame> {
+    let failed = group_of(mechanism, structure, error).filter(|_| error.kind() == ErrorKind::Geometry)?;
+    let upto = |last: usize| Structure { groups: structure.groups[..=last].to_vec(), ..structure.clone() };
+    let part = upto(failed);
+    let mut own = wanted.to_vec();
+    own[failed].near.clear();
+    // Without its rough places the group may be placed where it stands. Then they must speak clearly for the change.
+    let stands = first_choices(mechanism, &part, drive_angles, &own).is_ok();
+    for (index, group) in
+        part.groups[..failed].iter().enumerate().rev().filter(|(index, _)| wanted[*index].near.is_empty())
+    {
+        let before = Structure { groups: structure.groups[..index].to_vec(), ..structure.clone() };
+        let Ok((pose, _)) = first_choices(mechanism, &before, drive_angles, wanted) else { continue };
+        let Ok(all) = configurations(mechanism, group, &pose) else { continue };
+        for (number, one) in all.iter().enumerate() {
+            let mut other = wanted.to_vec();
+            other[index] = StartGroup { rank: Some(number + 1), ..StartGroup::default() };
+            let Ok((_, choices)) = first_choices(mechanism, &part, drive_angles, &other) else { continue };
+            let is_nearer = || clearly_nearer(mechanism, &part, drive_angles, wanted, choices[failed].nearest_m);
+            if !stands || is_nearer() {
+                return Some(Blame { group: index, rank: number + 1, mode: one.mode });
+            }
+        }
+    }
+    None
+}
+
+/// Whether `found` (m) from the rough places of the last group is less than half of what any of its configurations
+/// reaches without a change of an earlier group.
+fn clearly_nearer(
+    mechanism: &Mechanism,
+    part: &Structure,
+    drive_angles: &[f64],
+    wanted: &[StartGroup],
+    found: Option<f64>,
+) -> bool {
+    let last = part.groups.len() - 1;
+    let before = Structure { groups: part.groups[..last].to_vec(), ..part.clone() };
+    let group = &part.groups[last];
+    let least = first_choices(mechanism, &before, drive_angles, wanted)
+        .and_then(|(pose, _)| configurations(mechanism, group, &pose))
+        .map(|all| {
+            let off = all.iter().map(|one| super::choice::distance(group, &wanted[last], one));
+            off.fold(f64::INFINITY, crate::math::KeepNan::smaller)
+        });
+    matches!((found, least), (Some(found), Ok(least)) if 2.0 * found < least)
+}
+
+/// `error` as one about the group to blame. It keeps what was found and says in which configuration the group fits.
+#[must_use]
+pub fn blamed(mechanism: &Mechanism, structure: &Structure, blame: &Blame, error: &Error) -> Error {
+    let names = |group: &Group| group.names(mechanism);
+    let own = names(&structure.groups[blame.group]);
+    let later = match error.part() {
+        Some(Part::Group(names) | Part::Link(names) | Part::Joint(names)) => names.clone(),
+        None => String::new(),
+    };
+    let fits = match blame.mode {
+        AssemblyMode::Followed | AssemblyMode::Only => format!("configuration {}", blame.rank),
+        AssemblyMode::Left | AssemblyMode::Right | AssemblyMode::Ahead | AssemblyMode::Behind => {
+            format!("mode \"{}\"", blame.mode.name())
+        }
+    };
+    let message = format!(
+        "the configuration of the group ({own}) leaves no place for the group ({later}), which {fits} does: {}",
+        error.message()
+    );
+    let give = format!("{fits} of the group ({own}), or check the lengths and rough places of ({later})");
+    Error::new(error.kind(), message)
+        .help(Advice::Configuration { give })
+        .key(format!("start.groups ({own})"))
+        .of_group(own)
+}

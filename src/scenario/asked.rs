@@ -1,0 +1,225 @@
+//! What is asked for in place of the file's own start: assembly modes, and the crank angle at t = 0.
+
+use super::start;
+use linkage::drive::Drives;
+use linkage::error::{Advice, Error, ErrorKind, Result};
+use linkage::math::unit;
+use linkage::mechanism::assembly::{Choice, blame, blamed, first_choices, group_of};
+use linkage::mechanism::pose::SidePoint;
+use linkage::mechanism::{Group, GroupKind, Mechanism, Pose, Side, StartGroup, Structure};
+
+/// A start other than that of the scenario file. The default asks for nothing.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Asked {
+    /// Groups and their modes, each `LINK,LINK=MODE` or `LINK,LINK=NUMBER`.
+    /// The links of a group and its mode are named as in the file; in another order of the links, left and right are
+    /// exchanged. NUMBER is the place in the list of [`configurations`](linkage::mechanism::assembly::configurations)
+    /// at the start, counted from 1.
+    pub modes: Vec<String>,
+    /// Crank angle at t = 0 (rad), in place of `crank` in `[start]`.
+    /// Modes of the file hold at that angle too. Rough places (`near`) belong to the file's own angle: the
+    /// configuration that they choose there is followed to the angle asked for.
+    pub crank: Option<f64>,
+}
+
+/// A group for which the file does not decide between the configurations.
+#[derive(Clone, Debug)]
+pub struct Undecided {
+    /// Index of the group in the structure.
+    pub group: usize,
+    /// Why it is not decided.
+    pub why: Error,
+}
+
+/// A mechanism at its start.
+pub(super) struct Placed {
+    pub pose: Pose,
+    pub choices: Vec<Choice>,
+    pub starts: Vec<StartGroup>,
+    /// Whether the pose lies on the branch that the file itself starts on.
+    pub is_own_branch: bool,
+    pub undecided: Vec<Undecided>,
+}
+
+/// The mechanism and the start that the file gives it.
+pub(super) struct Start<'a> {
+    pub mechanism: &'a Mechanism,
+    pub structure: &'a Structure,
+    pub drives: &'a Drives,
+    /// Crank angle at t = 0 that the file states (rad).
+    pub crank: f64,
+    /// What the file requires of each group.
+    pub starts: &'a [StartGroup],
+    /// Whether a group that cannot be decided is placed in one of its configurations, for a list of all of them.
+    pub lists: bool,
+}
+
+/// Largest step of the crank in which a configuration is followed (rad).
+const STEP: f64 = std::f64::consts::PI / 180.0;
+
+/// Largest difference of two directions in the same pose.
+const SAME: f64 = 1e-9;
+
+impl Asked {
+    /// The groups and starts asked for.
+    pub fn groups(&self, mechanism: &Mechanism, structure: &Structure) -> Result<Vec<(usize, StartGroup)>> {
+        self.modes.iter().map(|text| start::asked(text, mechanism, structure)).collect()
+    }
+}
+
+impl Start<'_> {
+    /// Places all groups: those in `groups` as asked for, the others as the file says; `crank` is the crank angle at
+    /// t = 0 (rad).
+    ///
+    /// # Errors
+    /// Those of [`first_choices`], with the group to blame, and [`ErrorKind::Geometry`] if the file's configuration
+    /// cannot be followed to the angle.
+    pub fn placed(&self, crank: f64, groups: &[(usize, StartGroup)]) -> Result<Placed> {
+        let moved = crank != self.crank;
+        if groups.is_empty() && !moved {
+            let (pose, choices, starts, undecided) = self.settled(crank, self.starts.to_vec())?;
+            return Ok(Placed { pose, choices, starts, is_own_branch: undecided.is_empty(), undecided });
+        }
+        let own = first_choices(self.mechanism, self.structure, &self.angles(self.crank), self.starts);
+        let is_asked = |index: usize| groups.iter().any(|(asked, _)| *asked == index);
+        let mut starts = self.starts.to_vec();
+        let mut followed = None;
+        if moved {
+            followed = own.as_ref().ok().and_then(|own| self.followed(own, crank));
+            for (index, group) in self.structure.groups.iter().enumerate().filter(|(index, _)| !is_asked(*index)) {
+                starts[index] = match (&own, &followed, &starts[index]) {
+                    (_, _, start) if start.near.is_empty() => start.clone(),
+                    (_, _, start) if start.mode.is_some() => StartGroup { near: Vec::new(), ..start.clone() },
+                    (Ok((_, choices)), _, _) if group.kind != GroupKind::Higher => {
+                        StartGroup { mode: Some(choices[index].mode), ..StartGroup::default() }
+                    }
+                    (Ok(_), Some(pose), _) => self.standing(group, pose),
+                    (Ok(_), None, _) => return Err(self.lost(group, crank)),
+                    (Err(error), _, _) => return Err(self.blamed(self.crank, self.starts, error.clone())),
+                };
+            }
+        }
+        for (index, start) in groups {
+            starts[*index] = start.clone();
+        }
+        let (pose, choices, starts, undecided) = self.settled(crank, starts)?;
+        let is_own_branch = own.is_ok_and(|(own, _)| {
+            let own = if moved { followed } else { Some(own) };
+            undecided.is_empty() && own.is_some_and(|own| is_same(&own, &pose))
+        });
+        Ok(Placed { pose, choices, starts, is_own_branch, undecided })
+    }
+
+    /// World angles of the driving links at t = 0 with the crank at `crank` (rad).
+    fn angles(&self, crank: f64) -> Vec<f64> {
+        let angle = |(index, drive): (usize, &linkage::drive::Drive)| {
+            drive.world_angle(if index == 0 { crank } else { drive.start })
+        };
+        self.drives.iter().enumerate().map(angle).collect()
+    }
+
+    /// Pose, choices and starts. For a list, groups that cannot be decided get a number.
+    #[expect(clippy::type_complexity, reason = "the parts of one result, taken apart at once")]
+    fn settled(
+        &self,
+        crank: f64,
+        mut starts: Vec<StartGroup>,
+    ) -> Result<(Pose, Vec<Choice>, Vec<StartGroup>, Vec<Undecided>)> {
+        let angles = self.angles(crank);
+        let mut undecided: Vec<Undecided> = Vec::new();
+        loop {
+            let error = match first_choices(self.mechanism, self.structure, &angles, &starts) {
+                Ok((pose, choices)) => return Ok((pose, choices, starts, undecided)),
+                Err(error) => error,
+            };
+            let found = blame(self.mechanism, self.structure, &angles, &starts, &error);
+            let why = match &found {
+                Some(found) => blamed(self.mechanism, self.structure, found, &error),
+                None => error,
+            };
+            let (group, rank) = match found {
+                Some(found) => (Some(found.group), found.rank),
+                None => (group_of(self.mechanism, self.structure, &why), 1),
+            };
+            match group {
+                Some(group)
+                    if self.lists
+                        && why.kind() == ErrorKind::Geometry
+                        && undecided.iter().all(|before| before.group != group) =>
+                {
+                    starts[group] = StartGroup { rank: Some(rank), ..StartGroup::default() };
+                    undecided.push(Undecided { group, why });
+                }
+                Some(_) | None => return Err(undecided.into_iter().next().map_or(why, |first| first.why)),
+            }
+        }
+    }
+
+    fn blamed(&self, crank: f64, starts: &[StartGroup], error: Error) -> Error {
+        match blame(self.mechanism, self.structure, &self.angles(crank), starts, &error) {
+            Some(found) => blamed(self.mechanism, self.structure, &found, &error),
+            None => error,
+        }
+    }
+
+    /// The pose of the file's own configuration with the crank at `crank` (rad): straight on, or by the other way round
+    /// if there is no way straight on. A dyad keeps its mode, a higher group goes on from step to step.
+    fn followed(&self, own: &(Pose, Vec<Choice>), crank: f64) -> Option<Pose> {
+        let other = crank - std::f64::consts::TAU.copysign(crank - self.crank);
+        self.walked(own, crank).or_else(|| self.walked(own, other))
+    }
+
+    fn walked(&self, (pose, choices): &(Pose, Vec<Choice>), crank: f64) -> Option<Pose> {
+        let way = crank - self.crank;
+        let has_higher = self.structure.groups.iter().any(|group| group.kind == GroupKind::Higher);
+        let steps = if has_higher { (way.abs() / STEP).ceil().max(1.0) as usize } else { 1 };
+        let mut pose = pose.clone();
+        for step in 1..=steps {
+            let angles = self.angles(self.crank + way * step as f64 / steps as f64);
+            let wanted: Vec<StartGroup> = self
+                .structure
+                .groups
+                .iter()
+                .zip(choices)
+                .map(|(group, choice)| match group.kind {
+                    GroupKind::Higher => self.standing(group, &pose),
+                    GroupKind::Rrr | GroupKind::Rrp | GroupKind::Rpr | GroupKind::Rpp | GroupKind::Prp => {
+                        StartGroup { mode: Some(choice.mode), ..StartGroup::default() }
+                    }
+                })
+                .collect();
+            pose = first_choices(self.mechanism, self.structure, &angles, &wanted).ok()?.0;
+        }
+        Some(pose)
+    }
+
+    /// The start of a group where it stands in `pose`.
+    fn standing(&self, group: &Group, pose: &Pose) -> StartGroup {
+        let of_link = |&link: &usize| {
+            self.mechanism.links()[link].points.iter().map(move |point| {
+                let side = Side { link, local: point.local };
+                (SidePoint { name: point.name.clone(), side }, pose.0[link].point(point.local))
+            })
+        };
+        StartGroup { near: group.links.iter().flat_map(of_link).collect(), ..StartGroup::default() }
+    }
+
+    fn lost(&self, group: &Group, crank: f64) -> Error {
+        let names = group.names(self.mechanism);
+        let message = format!(
+            "the configuration of the group ({names}) at the start, crank angle {:.4} deg, cannot be followed to {:.4} deg",
+            self.crank.to_degrees(),
+            crank.to_degrees()
+        );
+        let give = "an angle nearer to the file's start, or ask for a configuration by its number".to_string();
+        Error::new(ErrorKind::Geometry, message)
+            .help(Advice::Configuration { give })
+            .key(format!("start.groups ({names})"))
+            .of_group(names)
+    }
+}
+
+/// Whether two poses are the same but for rounding and whole turns.
+fn is_same(one: &Pose, other: &Pose) -> bool {
+    one.0.iter().zip(&other.0).all(|(a, b)| (unit(a.angle) - unit(b.angle)).norm() <= SAME)
+}
