@@ -200,6 +200,6 @@ y_m_s2 = -9.81
 crank_deg = 90
 [[start.groups]]
 links = ["coupler", "rocker"]
-mode = "right"
+mode = "left"
 [grid]
 "#;
