@@ -93,7 +93,8 @@ pub(super) fn prove(
     if is_open && !chosen.free.step && !engine.controls_error() {
         let advice = tried(&judge, &mut bank, chosen);
         let channels = proof.channels.iter_mut().map(|channel| &mut channel.verdict);
-        for verdict in channels.chain(proof.checks.iter_mut().map(|check| &mut check.verdict)).chain([&mut proof.verdict])
+        for verdict in
+            channels.chain(proof.checks.iter_mut().map(|check| &mut check.verdict)).chain([&mut proof.verdict])
         {
             if let Verdict::Inconclusive { advice: own, .. } = verdict {
                 own.push(advice.clone());

@@ -240,7 +240,9 @@ fn read(root: &mut Table, asked: &Asked, lists: bool) -> Result<Found> {
     };
     let placed = match placing.placed(crank, &groups_asked) {
         Ok(placed) => placed,
-        Err(error) if groups_asked.iter().any(|(index, _)| group_of(&mechanism, &structure, &error) == Some(*index)) => {
+        Err(error)
+            if groups_asked.iter().any(|(index, _)| group_of(&mechanism, &structure, &error) == Some(*index)) =>
+        {
             return Ok(Err(error));
         }
         Err(error) => return Err(error),

@@ -1,6 +1,7 @@
 //! `[[oracle]]`: numbers that the mechanism must reproduce, each with the bound that its digits give.
 
 use super::correction::{Correction, number};
+use super::figure::Figure;
 use super::figure::{self, OracleFigure};
 use super::printed::{Printed, PrintedChannel};
 use super::reader::{Sign, Table};
@@ -8,7 +9,6 @@ use super::series::{ExpectedCell, Known, OraclePoint, OracleSeries};
 use super::table_file;
 use super::unit::ANGLE;
 use super::words::suggestion;
-use super::figure::Figure;
 use linkage::case::{Case, Wanted};
 use linkage::error::{ErrorKind, Result};
 

@@ -415,7 +415,8 @@ mod tests {
     #[test]
     fn a_motor_of_the_builder_moves_its_crank() {
         let motor = Motor::ideal(crate::drive::MotorLaw::Constant { torque: 2.0 }, 1.0);
-        let built = four_bar().free("O", 0.0, 4.0).motor(motor.clone()).mode(&["coupler", "rocker"], AssemblyMode::Left);
+        let built =
+            four_bar().free("O", 0.0, 4.0).motor(motor.clone()).mode(&["coupler", "rocker"], AssemblyMode::Left);
         assert_eq!(built.build().unwrap().crank().moving_motor(), Some(&motor));
     }
 

@@ -56,7 +56,8 @@ impl Grid {
     /// A message that says how far the grid reaches, where the law ends, or that the crank is free and the grid is one
     /// of crank angles.
     pub fn check(&self, drive: &Drive) -> std::result::Result<(), String> {
-        let has_angles_alone = self.times.iter().all(|t| t.is_nan()) && self.cranks.iter().all(|crank| crank.is_finite());
+        let has_angles_alone =
+            self.times.iter().all(|t| t.is_nan()) && self.cranks.iter().all(|crank| crank.is_finite());
         if drive.is_free() && !self.is_empty() && has_angles_alone {
             return Err("the motion is free: when the crank comes to an angle is a result of the forces".into());
         }

@@ -43,7 +43,8 @@ pub fn blame(
     own[failed].near.clear();
     // Without its rough places the group may be placed where it stands. Then they must speak clearly for the change.
     let stands = first_choices(mechanism, &part, drive_angles, &own).is_ok();
-    for (index, group) in part.groups[..failed].iter().enumerate().rev().filter(|(index, _)| wanted[*index].near.is_empty())
+    for (index, group) in
+        part.groups[..failed].iter().enumerate().rev().filter(|(index, _)| wanted[*index].near.is_empty())
     {
         let before = Structure { groups: structure.groups[..index].to_vec(), ..structure.clone() };
         let Ok((pose, _)) = first_choices(mechanism, &before, drive_angles, wanted) else { continue };
@@ -98,7 +99,7 @@ pub fn blamed(mechanism: &Mechanism, structure: &Structure, blame: &Blame, error
         }
     };
     let message = format!(
-        "the configuration of the group ({own}) leaves no place for the group ({later}), which {fits} does: {}",
+        "this configuration of the group ({own}) leaves no place for the group ({later}), but {fits} does: {}",
         error.message()
     );
     let give = format!("{fits} of the group ({own}), or check the lengths and rough places of ({later})");
