@@ -41,7 +41,7 @@ pub enum Basis {
     /// Chosen: wanted of a number that only rounding should keep from zero. The text says why rounding allows this
     /// bound.
     Wanted(&'static str),
-    /// Error of the engine, estimated from its own runs at three resolutions and with half the sweeps.
+    /// Error of the engine, estimated from its own runs at three resolutions and with fewer sweeps.
     Truncation {
         /// Order of convergence observed between the runs; NaN where the differences are only rounding.
         observed: f64,

@@ -28,17 +28,19 @@ pub(super) struct EngineArgs {
     budget: Option<f64>,
 }
 
-/// The settings of an engine. What is not given is the scenario's, else the engine's own.
+/// The settings of an engine. What is not given is the scenario's, else found by the proof or the engine's own.
 #[derive(Clone, Debug, clap::Args)]
 #[group(skip)]
 pub(super) struct SettingArgs {
-    /// Time step of the engine in seconds [default: the scenario's]
+    /// Time step of the engine in seconds [default: the scenario's, else `run` finds it, and others take a quarter of a
+    /// degree of the crank or less]
     #[arg(long, value_name = "S", allow_hyphen_values = true)]
     dt: Option<f64>,
     /// Relative accuracy of an engine that chooses its own steps [default: its tightest]
     #[arg(long, value_name = "ACCURACY", allow_hyphen_values = true)]
     accuracy: Option<f64>,
-    /// Sweeps of the engine's iteration in a step [default: the scenario's, else the engine's]
+    /// Sweeps of the engine's iteration in a step [default: the scenario's, else `run` finds them, and others take the
+    /// engine's]
     #[arg(long, value_name = "N")]
     sweeps: Option<usize>,
     /// Number of substeps into which the engine divides a step
@@ -48,6 +50,7 @@ pub(super) struct SettingArgs {
     #[arg(long, value_name = "ROUTE", value_parser = PossibleValuesParser::new(Route::ALL.map(Route::name)))]
     route: Option<String>,
     /// Combine runs at the step and at halves of it, so that the leading errors cancel: once if no number is given
+    /// [default: the scenario's, else `run` finds it unless the step is given, and others do not extrapolate]
     #[arg(long, value_name = "TIMES", num_args = 0..=1, default_missing_value = "1", require_equals = true)]
     extrapolate: Option<usize>,
 }

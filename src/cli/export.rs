@@ -29,7 +29,8 @@ pub(super) struct Args {
     /// scenario's
     #[arg(long, value_name = "PATH", required = true, num_args = 0..=1, value_parser = output::target)]
     mjcf: Option<Option<PathBuf>>,
-    /// Time step in seconds that the file starts with [default: the scenario's]
+    /// Time step in seconds that the file starts with [default: the scenario's, else a quarter of a degree of the
+    /// fastest driving link]
     #[arg(long, value_name = "S", allow_hyphen_values = true)]
     dt: Option<f64>,
     /// Start a group in another assembly mode than the file states, or in the configuration with that number in

@@ -15,13 +15,16 @@ use crate::compare::Verdict;
 use crate::proof::{EngineProof, Proof, prove_with};
 use crate::record::{self as recorder, Recording, Side};
 use crate::report::{json, recorded, residuals, text};
-use crate::scenario::Scenario;
+use crate::scenario::edit::with_engine;
+use crate::scenario::{EngineKeys, Scenario};
+use linkage::engine::Settings;
 use linkage::error::{Error, ErrorKind, Result};
 
 const EXAMPLES: &str = "\
 Examples:
   linkproof run scenarios/crank_rocker.toml
-  linkproof run scenarios/crank_rocker.toml --dt 1e-4          a finer engine step
+  linkproof run scenarios/crank_rocker.toml --dt 1e-4          this step of the engine, not one that the run finds
+  linkproof run mine.toml --write                              keep the settings that the run has found in the file
   linkproof run scenarios/*.toml --reference newton            the other analytic side as reference
   linkproof run scenarios/crank_rocker.toml --engine all       every engine side by side, and who stands alone
   linkproof run scenarios/ov7_base.toml --sweeps 4096 --extrapolate   other settings of the engine
@@ -54,6 +57,9 @@ pub(super) struct Args {
     /// Directory that the recordings (MCAP) are written to
     #[arg(long, value_name = "DIR", default_value = "recordings")]
     record: PathBuf,
+    /// Write the settings that the proof has found to the `[engine]` section of the scenario file
+    #[arg(long)]
+    write: bool,
     /// Write no recording
     #[arg(long, conflicts_with = "record")]
     no_record: bool,
@@ -115,6 +121,9 @@ fn prove_file(args: &Args, file: &Path, quiet: bool) -> Result<(Scenario, Proof)
     let mut bar = Bar::new(&scenario.name);
     let proof = prove_with(&scenario, &options, &mut |part| bar.at(part))?;
     drop(bar);
+    if args.write {
+        write_settings(file, &scenario, &proof)?;
+    }
     let proof = match args.tolerance_scale {
         Some(dial) if dial > 0.0 => proof.with_bounds_scaled(dial),
         _ => proof,
@@ -126,6 +135,26 @@ fn prove_file(args: &Args, file: &Path, quiet: bool) -> Result<(Scenario, Proof)
         }
     }
     Ok((scenario, proof))
+}
+
+/// Writes the settings of the first engine to the scenario file, if the proof has found them.
+fn write_settings(file: &Path, scenario: &Scenario, proof: &Proof) -> Result<()> {
+    let engine = proof.engine();
+    if engine.search.is_none() {
+        return Ok(());
+    }
+    let Settings { resolution, sweeps, extrapolated, .. } = engine.info.settings;
+    let keys = EngineKeys {
+        name: Some(engine.info.name.into()),
+        sweeps: Some(sweeps),
+        extrapolated: Some(extrapolated),
+        ..scenario.engine.clone()
+    };
+    let text = with_engine(&scenario.text, (Some(resolution), keys))?;
+    fs::write(file, text).map_err(|error| {
+        Error::new(ErrorKind::Io, format!("{} cannot be written: {error}", file.display()))
+            .help("check that the file may be written to")
+    })
 }
 
 /// Records a proof, unless recording is off. `written` holds the recordings of this command: path and scenario.

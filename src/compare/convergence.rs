@@ -1,4 +1,4 @@
-//! Error of an engine, estimated from its own runs: at three resolutions, and with half the sweeps.
+//! Error of an engine, estimated from its own runs: at three resolutions, and with fewer sweeps.
 //!
 //! Let e1 = y(2h) - y(h) and e2 = y(h) - y(h/2). The observed order is p = log2(|e1| / |e2|). The error of the run at h
 //! is estimated as |e2| 2^p / (2^p - 1) (Richardson), times a safety factor. The factor is 1.25 with the formal order
@@ -9,12 +9,13 @@
 //!
 //! Sweeps converge geometrically. Half of the sweeps leave a share q of the initial error, all of them leave q^2, and
 //! the two runs differ by q - q^2. The remaining error is q / (1 - q) of this difference. The factor 3 covers q up to
-//! 3/4 (ASME V&V 20 also counts the iteration error separately).
+//! 3/4 (ASME V&V 20 also counts the iteration error separately). A run with a quarter of the sweeps leaves q where all
+//! leave q^4: the factor then covers q^3 up to 3/4. A third run shows the share itself.
 
 use super::residual::{differences, largest_difference};
 use crate::tolerance::{Basis, Origin, Parts, Tolerance};
 use linkage::error::Result;
-use linkage::math::statistics::rms;
+use linkage::math::statistics::{rms, share};
 use linkage::math::{KeepNan, largest_size};
 use linkage::trajectory::{Channel, Trajectory};
 
@@ -30,11 +31,12 @@ const BEARS_OUT: f64 = 0.1;
 pub struct Ladder<'a> {
     /// Runs at double, single and half the step (or accuracy).
     pub resolutions: [&'a Trajectory; 3],
-    /// Run at the single step with another number of sweeps; `None` for an engine that does not iterate.
-    pub other_sweeps: Option<&'a Trajectory>,
+    /// Run at the single step with another number of sweeps, and one with as many times fewer again; `None` for an engine
+    /// that does not iterate, and where there is no such run.
+    pub other_sweeps: [Option<&'a Trajectory>; 2],
 }
 
-/// Safety factor on the difference between all and half the sweeps: see the module's text.
+/// Safety factor on the difference between all and fewer sweeps: see the module's text.
 const SWEEPS_SAFETY: f64 = 3.0;
 
 /// What the runs show about the error of the middle run, in one channel.
@@ -76,31 +78,48 @@ impl Convergence {
         } else {
             (observed.clamp(0.5, formal), 3.0)
         };
-        // Without an order to go by, the coarser difference is as likely as the finer one.
-        let largest =
-            if observed < 0.5 * formal { largest.larger(largest_size(coarse.iter().copied())) } else { largest };
+        // Without an order to go by, the coarser difference is as likely as the finer one. Where only the finer one is
+        // rounding, the coarser one tells what it should be.
+        let before = largest_size(coarse.iter().copied());
+        let largest = match observed {
+            _ if observed.is_nan() => largest.larger(before * 0.5f64.powf(order)),
+            _ if observed < 0.5 * formal => largest.larger(before),
+            _ => largest,
+        };
         let error = largest / (1.0 - 0.5f64.powf(order));
         Convergence { observed, formal, error, safety, iteration: 0.0 }
     }
 
-    /// The estimate for one channel of three trajectories on one grid, and of a fourth one with half the sweeps of the
+    /// The estimate for one channel of three trajectories on one grid, and of a fourth one with other sweeps than the
     /// middle run. `None` if one of them does not have the channel.
     #[must_use]
     pub fn of_channel(runs: Ladder<'_>, channel: &Channel, formal: f64, noise: f64) -> Option<Self> {
         let [double, single, half] = runs.resolutions.map(|run| run.column(channel));
         let (double, single, half, periodic) = (double?, single?, half?, channel.kind.periodic);
         let found = Convergence::of(double, single, half, periodic, formal, noise);
-        let fewer = match runs.other_sweeps {
-            Some(run) => Some(run.column(channel)?),
-            None => None,
-        };
-        Some(found.with_other_sweeps(single, fewer, periodic))
+        let mut others = [None; 2];
+        for (column, run) in others.iter_mut().zip(runs.other_sweeps) {
+            if let Some(run) = run {
+                *column = Some(run.column(channel)?);
+            }
+        }
+        Some(found.with_other_sweeps(single, others, periodic))
     }
 
-    /// Adds the difference between the middle run and one with half its sweeps or fewer, if there is such a run.
+    /// Adds the difference between the middle run and one with half its sweeps or fewer, if there is such a run. A third
+    /// run with as many times fewer again shows which share of the difference is left from one number of sweeps to the
+    /// next: the middle run has at most this share of it.
     #[must_use]
-    pub fn with_other_sweeps(self, single: &[f64], fewer: Option<&[f64]>, periodic: bool) -> Self {
-        let iteration = fewer.map_or(0.0, |fewer| largest_difference(fewer, single, periodic));
+    pub fn with_other_sweeps(self, single: &[f64], others: [Option<&[f64]>; 2], periodic: bool) -> Self {
+        let apart = |a: &[f64], b: &[f64]| largest_difference(a, b, periodic);
+        let iteration = match others {
+            [None, _] => 0.0,
+            [Some(fewer), None] => apart(fewer, single),
+            [Some(fewer), Some(fewest)] => {
+                let (last, before) = (apart(fewer, single), apart(fewest, fewer));
+                last * share(last, before).smaller(1.0)
+            }
+        };
         Convergence { iteration, ..self }
     }
 
@@ -200,7 +219,7 @@ mod tests {
         // Half the sweeps leave 0.1 of 1, all leave 0.01: the bound must allow this besides the step's error.
         let values = single.column(&single.channels()[0]).unwrap();
         let fewer = of(&[values[0] + 0.09, values[1]]);
-        let ladder = Ladder { resolutions: [&double, &single, &half], other_sweeps: Some(&fewer) };
+        let ladder = Ladder { resolutions: [&double, &single, &half], other_sweeps: [Some(&fewer), None] };
         let found = Convergence::of_channel(ladder, &single.channels()[0], 2.0, 0.0).unwrap();
         assert!((found.iteration - 0.09).abs() < 1e-15);
         assert!(found.parts(0.0).sum() >= 2e-3 + 0.01);
@@ -218,7 +237,7 @@ mod tests {
             assert!(found.limit(&runs[1], &runs[2], false).is_none(), "{place}: {found:?}");
         }
         let found = Convergence::of(&[1.0], &[1.0], &[1.0], false, 2.0, 1.0);
-        let found = found.with_other_sweeps(&[1.0, 1.0], Some(&[f64::NAN, 1.0]), false);
+        let found = found.with_other_sweeps(&[1.0, 1.0], [Some(&[f64::NAN, 1.0]), None], false);
         assert!(found.parts(0.0).sum().is_nan(), "{found:?}");
     }
 

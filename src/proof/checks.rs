@@ -183,8 +183,8 @@ impl Vanishing<'_> {
         let [double, single, half] = [0, 1, 2].map(|k| (self.of)(&runs.resolutions[k]));
         let order = engine.formal_order(case, self.kind);
         let found = Convergence::of(&double, &single, &half, false, order, noise(engine.at(resolution / 2.0).as_ref()));
-        let other = runs.other_sweeps.as_deref().map(self.of);
-        let found = found.with_other_sweeps(&single, other.as_deref(), false);
+        let others = runs.other_sweeps.each_ref().map(|run| run.as_deref().map(self.of));
+        let found = found.with_other_sweeps(&single, others.each_ref().map(Option::as_deref), false);
         let parts = found.parts(noise(engine));
         let basis = found.tolerance(resolution, parts, noise_origin(engine)).basis;
         let basis = Basis::Noted(Box::new(basis), self.note);

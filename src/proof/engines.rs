@@ -58,7 +58,7 @@ pub(super) fn prove(
         let search = Settling::new(&judge, &mut bank, engine, chosen.free, chosen.budget);
         search.run(progress).map(|(judged, search)| (judged, Some(search)))
     } else {
-        let runs = bank.runs(asked, other_sweeps(case, engine, asked.sweeps, None), progress);
+        let runs = bank.runs(asked, [other_sweeps(case, engine, asked.sweeps, None), None], progress);
         runs.and_then(|runs| Ok((judge.judge(engine, &runs)?, None)))
     };
     let (judged, search) = match found {
@@ -125,8 +125,8 @@ fn tried(judge: &Judge, bank: &mut Bank, chosen: &Chosen) -> Advice {
         (verdict, _) => format!("the verdict there is {}", verdict.word()),
     };
     Advice::Text(format!(
-        "leave the step to the proof: it takes {resolution:.2e} s with {sweeps} sweeps, extrapolated {extrapolated} \
-         times, and {outcome}"
+        "leave the step to the proof: it takes {resolution:.2e} s, {sweeps} sweeps and {extrapolated} extrapolations, and \
+         {outcome}"
     ))
 }
 

@@ -140,7 +140,7 @@ mod tests {
                 false => (name, seen(solver)),
             };
             let sides = [side("assur", &AssurSolver), side("newton", &NewtonSolver)];
-            let known = Known::of(case, sides.each_ref().map(|(name, side)| (*name, &side.trajectory))).unwrap();
+            let known = Known::of(case, sides.each_ref().map(|(name, side)| (*name, &side.trajectory)), &[]).unwrap();
             let found = of(case, &AssurSolver, &sides, &known, &right.engines).expect("the sides disagree");
             assert_eq!((found.suspect.as_str(), &found.alone), (wrong, &Standing::Alone(wrong.into())));
             assert!(matches!(found.cause, Some(Cause::Values { slip: Slip::Sign, .. })), "{:?}", found.cause);

@@ -11,7 +11,7 @@ use crate::compare::{
 use crate::scenario::Scenario;
 use crate::tolerance::{Basis, Parts};
 use linkage::engine::{Engine, Settings};
-use linkage::error::Result;
+use linkage::error::{Advice, Result};
 use linkage::math::Vec2;
 use linkage::solver::Provision;
 use linkage::trajectory::{CHANNELS, Channel, Stage, Trajectory};
@@ -85,6 +85,32 @@ pub(super) struct Judged {
     pub(super) kept: Vec<bool>,
 }
 
+impl Judged {
+    /// Names of the channels and checks that disagree.
+    pub(super) fn against(&self) -> Vec<String> {
+        let disagrees = |verdict: &Verdict| matches!(verdict, Verdict::Disagree { .. });
+        let channels = self.channels.iter().filter(|own| disagrees(&own.verdict));
+        let checks = self.checks.iter().filter(|own| disagrees(&own.verdict));
+        channels.map(|own| own.residual.channel.to_string()).chain(checks.map(Check::name)).collect()
+    }
+
+    /// Leaves every disagreement open that a refinement has not borne out; `borne_out` names the others.
+    pub(super) fn doubt(&mut self, borne_out: &[String]) {
+        let channels = self.channels.iter_mut().map(|own| (own.residual.channel.to_string(), &mut own.verdict));
+        let checks = self.checks.iter_mut().map(|own| (own.name(), &mut own.verdict));
+        for (name, verdict) in channels.chain(checks) {
+            if let Verdict::Disagree { place } = verdict
+                && !borne_out.contains(&name)
+            {
+                let reason = format!("{place}, but no finer run bears it out");
+                *verdict = Verdict::Inconclusive { reason, advice: vec![Advice::SmallerStep { to: None }] };
+            }
+        }
+        let channels = self.channels.iter().map(|own| &own.verdict);
+        self.verdict = overall(channels.chain(self.checks.iter().map(|own| &own.verdict)));
+    }
+}
+
 impl Judge<'_> {
     /// Judges an engine by its runs.
     pub(super) fn judge(&self, engine: &dyn Engine, runs: &Runs) -> Result<Judged> {
@@ -108,9 +134,10 @@ impl Judge<'_> {
             let thin = |trajectory: &Trajectory| trajectory.of_stage(stage, &keep);
             let ladder = runs.ladder();
             let resolutions = ladder.resolutions.map(thin);
-            let other = ladder.other_sweeps.map(thin);
+            let others = ladder.other_sweeps.map(|run| run.map(thin));
             let [double, single, half] = &resolutions;
-            let ladder = Ladder { resolutions: [double, single, half], other_sweeps: other.as_ref() };
+            let ladder =
+                Ladder { resolutions: [double, single, half], other_sweeps: others.each_ref().map(Option::as_ref) };
             let reference = thin(self.reference);
             for residual in residuals(&reference, single)? {
                 let index = self.reference.channels().iter().position(|own| *own == residual.channel);

@@ -153,7 +153,8 @@ fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: 
     let sides = [observed(first)?, observed(second)?];
     let own = &sides.iter().find(|(name, _)| *name == main.name()).expect("the reference is one of the sides").1;
     let (other, beside) = sides.iter().find(|(name, _)| *name != main.name()).expect("there are two sides");
-    let mut known = Known::of(case, [(main.name(), &own.trajectory), (other, &beside.trajectory)])?;
+    let sensitivity = sensitivity::of(case, main, &own.trajectory)?;
+    let mut known = Known::of(case, [(main.name(), &own.trajectory), (other, &beside.trajectory)], &sensitivity)?;
     if checks::sides_differ(&sides, &known) {
         known.measure(case, first)?;
     }
@@ -161,7 +162,6 @@ fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: 
     checks.extend(methods::checks(case, main)?);
     checks.extend(oracle::checks(scenario)?);
 
-    let sensitivity = sensitivity::of(case, main, &own.trajectory)?;
     let engine_case = engine_case.on(case.grid.clone())?;
     let mut proofs = Vec::with_capacity(engines.len());
     for (index, engine) in engines.iter().enumerate() {

@@ -89,8 +89,11 @@ pub(super) fn observe(
     let mut unbalance = Unbalance::default();
     let mut visit = |row: usize, state: &State| {
         let sensed = case.loads.iter().filter_map(|load| {
-            let of_link = |link: usize| Vec2::new(state.motions[link].omega, 0.0);
-            let of_point = |at: Side| state.motions[at.link].point_velocity(at.local);
+            let of_link = |link: usize| Vec2::new(case.spin(&state.motions, link), 0.0);
+            let of_point = |at: Side| match case.moves(&state.motions, at) {
+                true => state.motions[at.link].point_velocity(at.local),
+                false => Vec2::zeros(),
+            };
             load.sensed_link().map(of_link).or_else(|| load.sensed_point().map(of_point))
         });
         senses[row] = sensed.collect();

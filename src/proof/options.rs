@@ -45,8 +45,9 @@ impl Reference {
 
 /// Options of a proof.
 ///
-/// An option that is not given is taken from the scenario; if the scenario does not state it, the engine's default
-/// applies. Numbers are checked when the proof begins.
+/// An option that is not given is taken from the scenario. If the scenario does not state it, the proof finds step,
+/// sweeps and extrapolation; of substeps, route and accuracy the engine's default applies. With a given step nothing is
+/// extrapolated unless asked for. Numbers are checked when the proof begins.
 ///
 /// ```
 /// use linkproof::Options;

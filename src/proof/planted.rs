@@ -113,7 +113,7 @@ fn assur(fault: Fault, size: f64) -> Planted<dyn Solver> {
 
 fn knowing(case: &Case) -> Known {
     let [first, second] = [seen(case, &AssurSolver), seen(case, &NewtonSolver)];
-    Known::of(case, [("assur", &first.trajectory), ("newton", &second.trajectory)]).unwrap()
+    Known::of(case, [("assur", &first.trajectory), ("newton", &second.trajectory)], &[]).unwrap()
 }
 
 /// The check whose name begins with `name`.

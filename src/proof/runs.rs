@@ -13,8 +13,9 @@ use linkage::math::KeepNan;
 pub(super) struct Runs {
     /// Runs at double, single and half the resolution.
     pub(super) resolutions: [Arc<Observed>; 3],
-    /// Run at the single resolution with another number of sweeps; `None` for an engine that does not iterate.
-    pub(super) other_sweeps: Option<Arc<Observed>>,
+    /// Run at the single resolution with another number of sweeps, and one with as many times fewer again; `None` for an
+    /// engine that does not iterate, and where there is no such run.
+    pub(super) other_sweeps: [Option<Arc<Observed>>; 2],
 }
 
 impl Runs {
@@ -25,7 +26,7 @@ impl Runs {
     pub(super) fn ladder(&self) -> Ladder<'_> {
         Ladder {
             resolutions: [0, 1, 2].map(|k| &self.resolutions[k].trajectory),
-            other_sweeps: self.other_sweeps.as_ref().map(|run| &run.trajectory),
+            other_sweeps: self.other_sweeps.each_ref().map(|run| run.as_ref().map(|run| &run.trajectory)),
         }
     }
 }
@@ -124,7 +125,7 @@ impl<'a> Bank<'a> {
     pub(super) fn runs(
         &mut self,
         settings: Settings,
-        other: Option<usize>,
+        other: [Option<usize>; 2],
         progress: &mut dyn FnMut(f64),
     ) -> Result<Runs, Stopped> {
         let rungs = rungs(settings, other);
@@ -143,15 +144,17 @@ impl<'a> Bank<'a> {
         };
         let half = auxiliary(rungs[1])?;
         let double = auxiliary(rungs[2])?;
-        let other_sweeps = rungs.get(3).map(|&rung| auxiliary(rung)).transpose()?;
+        let mut others = rungs[3..].iter().map(|&rung| auxiliary(rung));
+        let other_sweeps = [others.next().transpose()?, others.next().transpose()?];
+        drop(others);
         Ok(Runs { resolutions: [double, single, half], other_sweeps })
     }
 }
 
 /// Settings of the runs that judge an engine at `settings`, the single resolution first, then half and double.
-pub(super) fn rungs(settings: Settings, other_sweeps: Option<usize>) -> Vec<Settings> {
+pub(super) fn rungs(settings: Settings, other_sweeps: [Option<usize>; 2]) -> Vec<Settings> {
     let at = |factor: f64| Settings { resolution: settings.resolution * factor, ..settings };
-    let other = other_sweeps.map(|sweeps| Settings { sweeps, ..settings });
+    let other = other_sweeps.into_iter().flatten().map(|sweeps| Settings { sweeps, ..settings });
     [settings, at(0.5), at(2.0)].into_iter().chain(other).collect()
 }
 

@@ -147,26 +147,34 @@ impl<'a, 'b> Settling<'a, 'b> {
     pub(super) fn run(mut self, progress: &mut dyn FnMut(f64)) -> Result<(Judged, Search), Stopped> {
         let mut best: Option<Trial> = None;
         let mut failure = None;
-        let (mut round, mut failed, mut doubted) = (0, 0, false);
+        let (mut round, mut failed) = (0, 0);
+        // What disagrees in the last round, and what did so in two rounds running.
+        let (mut against, mut borne_out): (Vec<String>, Vec<String>) = (Vec::new(), Vec::new());
         let end = loop {
             let left = 0.5f64.powi(round);
             let mut part = |part: f64| progress(1.0 - left + 0.5 * left * part);
             round += 1;
             let blame = match self.round(&mut part) {
                 Ok(trial) => {
-                    let disagrees = trial.judged.verdict.word() == "disagree";
+                    let now = trial.judged.against();
+                    borne_out = now.iter().filter(|name| against.contains(name)).cloned().collect();
+                    against = now;
+                    let disagrees = !against.is_empty();
                     let (decided, sharp) = (trial.need <= 1.0, trial.need <= AIM);
                     let thrift = self.bank.effort > THRIFT * self.budget;
                     let blame = trial.blame;
-                    let better = best.as_ref().is_none_or(|best| disagrees || trial.need < best.need);
+                    // A later round speaks for itself where it disagrees, or no longer does.
+                    let better = best.as_ref().is_none_or(|best| {
+                        let refuted = decided && !best.judged.against().is_empty();
+                        disagrees || refuted || trial.need < best.need
+                    });
                     if better {
                         best = Some(trial);
                     }
                     // A disagreement counts if the next refinement bears it out.
-                    if decided && (sharp || thrift) && (!disagrees || doubted) {
+                    if decided && (sharp || thrift) && (!disagrees || !borne_out.is_empty()) {
                         break End::Decided;
                     }
-                    doubted = disagrees && decided;
                     blame
                 }
                 Err(stopped) if stopped.error.kind() == ErrorKind::Numeric => {
@@ -184,7 +192,13 @@ impl<'a, 'b> Settling<'a, 'b> {
         progress(1.0);
         let search = Search { runs: self.bank.count(), effort: self.bank.effort, budget: self.budget, end };
         match (best, failure) {
-            (Some(best), _) => Ok((best.judged, search)),
+            (Some(mut best), _) => {
+                // At a given step there is no finer run: its own estimate counts.
+                if self.free.step {
+                    best.judged.doubt(&borne_out);
+                }
+                Ok((best.judged, search))
+            }
             (None, Some(stopped)) => Err(stopped),
             (None, None) => unreachable!("a round ends with a trial or a failure"),
         }
@@ -215,7 +229,8 @@ impl<'a, 'b> Settling<'a, 'b> {
             return Some(End::Nothing);
         }
         let previous = std::mem::replace(&mut self.now, next);
-        let wanted: Vec<Settings> = self.candidates().into_iter().flat_map(|settings| rungs(settings, None)).collect();
+        let wanted: Vec<Settings> =
+            self.candidates().into_iter().flat_map(|settings| rungs(settings, [None; 2])).collect();
         if self.bank.effort + self.bank.missing(&wanted) > self.budget {
             self.now = previous;
             return Some(End::Budget);
@@ -245,10 +260,10 @@ impl<'a, 'b> Settling<'a, 'b> {
         let mut best: Option<Trial> = None;
         let mut failure = None;
         let candidates = self.candidates();
-        let all: Vec<Settings> = candidates.iter().flat_map(|&settings| rungs(settings, None)).collect();
+        let all: Vec<Settings> = candidates.iter().flat_map(|&settings| rungs(settings, [None; 2])).collect();
         self.bank.prepare(&all, &mut |part| progress(0.7 * part));
         for settings in candidates {
-            let trial = match self.trial(settings, None, &mut |_| {}) {
+            let trial = match self.trial(settings, [None; 2], &mut |_| {}) {
                 Ok(trial) => trial,
                 Err(stopped) => {
                     failure = Some(stopped);
@@ -269,22 +284,32 @@ impl<'a, 'b> Settling<'a, 'b> {
         let engine = self.bank.engine(settings);
         let share = self.free.sweeps.then_some(MORE_SWEEPS);
         let other = other_sweeps(self.bank.case, engine.as_ref(), settings.sweeps, share);
-        if other.is_none() || (best.need > 1.0 && best.need.is_finite()) {
+        let disagrees = !best.judged.against().is_empty();
+        if other.is_none() || (best.need > 1.0 && best.need.is_finite() && !disagrees) {
             return Ok(best);
         }
-        match self.trial(settings, other, &mut |part| progress(0.7 + 0.3 * part)) {
+        let found = match self.trial(settings, [other, None], &mut |part| progress(0.7 + 0.2 * part)) {
             // Sweeps so few that the run fails say that those of the other run are hardly enough.
             Err(stopped) if stopped.error.kind() == ErrorKind::Numeric => {
-                Ok(Trial { need: f64::INFINITY, blame: Part::Iteration, ..best })
+                return Ok(Trial { need: f64::INFINITY, blame: Part::Iteration, ..best });
             }
-            found => found,
+            found => found?,
+        };
+        // A third run tells how fast the sweeps converge, before they are multiplied.
+        let fewest = other.map(|other| other / MORE_SWEEPS).filter(|&fewest| fewest > 0 && self.free.sweeps);
+        if fewest.is_none() || found.blame != Part::Iteration || found.need <= AIM {
+            return Ok(found);
+        }
+        match self.trial(settings, [other, fewest], &mut |part| progress(0.9 + 0.1 * part)) {
+            Err(stopped) if stopped.error.kind() == ErrorKind::Numeric => Ok(found),
+            better => better,
         }
     }
 
     fn trial(
         &mut self,
         settings: Settings,
-        other: Option<usize>,
+        other: [Option<usize>; 2],
         progress: &mut dyn FnMut(f64),
     ) -> Result<Trial, Stopped> {
         let runs = self.bank.runs(settings, other, progress)?;

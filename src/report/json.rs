@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::diagnosis;
 use super::tell::Tell;
 use crate::compare::{Check, Verdict};
-use crate::proof::{ChannelProof, Dispute, EngineProof, Proof};
+use crate::proof::{ChannelProof, Dispute, End, EngineProof, Proof, Search};
 use linkage::error::{Advice, Error};
 use linkage::solver::Provision;
 
@@ -56,6 +56,9 @@ struct Engine {
     #[serde(skip_serializing_if = "Option::is_none")]
     accuracy: Option<f64>,
     settings: serde_json::Map<String, serde_json::Value>,
+    /// How the settings were found, if they were not all given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    search: Option<SearchRow>,
     provides: serde_json::Map<String, serde_json::Value>,
     verdict: &'static str,
     reason: Option<String>,
@@ -63,6 +66,15 @@ struct Engine {
     checks: Vec<CheckRow>,
     #[serde(skip_serializing_if = "Option::is_none")]
     failure: Option<String>,
+}
+
+#[derive(Debug, Serialize)]
+struct SearchRow {
+    runs: usize,
+    effort_steps: f64,
+    budget_steps: f64,
+    end: &'static str,
+    extrapolated_times: usize,
 }
 
 #[derive(Debug, Serialize)]
@@ -85,6 +97,8 @@ struct Channel {
     discretisation: f64,
     iteration: f64,
     rounding: f64,
+    /// Error of the reference itself.
+    reference: f64,
     /// How the bound is known, in one word, and its justification.
     origin: &'static str,
     basis: String,
@@ -94,6 +108,8 @@ struct Channel {
     limit: Option<f64>,
     worst_t_s: f64,
     worst_crank_rad: f64,
+    /// Instants that are not judged, because a drive or a loaded link reverses there.
+    left_out: usize,
 }
 
 #[derive(Debug, Serialize)]
@@ -202,6 +218,7 @@ fn engine(proof: &EngineProof, tell: Tell) -> Engine {
         dt_s: resolution.filter(|_| !info.controls_error),
         accuracy: resolution.filter(|_| info.controls_error),
         settings: info.told.iter().map(|(k, v)| ((*k).into(), v.clone().into())).collect(),
+        search: proof.search.as_ref().map(|own| search(own, info.settings.extrapolated)),
         provides: info.provides.iter().map(|(k, v)| ((*k).into(), provision(v).into())).collect(),
         verdict: proof.verdict.word(),
         reason: proof.verdict.reason(tell),
@@ -209,6 +226,17 @@ fn engine(proof: &EngineProof, tell: Tell) -> Engine {
         checks: proof.checks.iter().map(|own| check(own, tell)).collect(),
         failure: proof.failure.as_ref().map(|error| error.message().to_string()),
     }
+}
+
+fn search(search: &Search, extrapolated_times: usize) -> SearchRow {
+    let end = match search.end {
+        End::Decided => "decided",
+        End::Rounding => "rounding",
+        End::Budget => "budget",
+        End::Nothing => "nothing left to choose",
+    };
+    let &Search { runs, effort: effort_steps, budget: budget_steps, .. } = search;
+    SearchRow { runs, effort_steps, budget_steps, end, extrapolated_times }
 }
 
 fn dispute(dispute: &Dispute) -> DisputeRow {
@@ -229,6 +257,7 @@ fn channel(proof: &ChannelProof, tell: Tell) -> Channel {
         discretisation: proof.parts.discretisation,
         iteration: proof.parts.iteration,
         rounding: proof.parts.rounding,
+        reference: proof.parts.reference,
         origin: proof.basis.origin().word(),
         basis: proof.basis.to_string(),
         verdict: proof.verdict.word(),
@@ -237,6 +266,7 @@ fn channel(proof: &ChannelProof, tell: Tell) -> Channel {
         limit: proof.limit,
         worst_t_s: residual.worst_time,
         worst_crank_rad: residual.worst_crank,
+        left_out: proof.left_out,
     }
 }
 

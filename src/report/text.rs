@@ -9,7 +9,7 @@ use super::diagnosis;
 use super::engines;
 use super::tell::Tell;
 use crate::compare::{Check, Verdict};
-use crate::proof::{ChannelProof, EngineInfo, EngineProof, Proof};
+use crate::proof::{ChannelProof, End, EngineInfo, EngineProof, Proof, Search};
 use linkage::error::Advice;
 
 /// Number of reasons that are shown in full; the others are only counted.
@@ -25,6 +25,9 @@ pub fn proof(proof: &Proof, tell: Tell) -> String {
     for engine in &proof.engines {
         let name = if proof.engines.len() > 1 { format!("{}: ", engine.info.name) } else { String::new() };
         let _ = writeln!(text, "engine     {name}{}", described(&engine.info));
+        if let Some(search) = &engine.search {
+            let _ = writeln!(text, "settings   {name}{}", found(&engine.info, search));
+        }
     }
     match proof.engines.as_slice() {
         [only] => {
@@ -40,6 +43,7 @@ pub fn proof(proof: &Proof, tell: Tell) -> String {
             let _ = writeln!(text, "\n{}", engines::disputes(proof));
         }
     }
+    left_out(proof, &mut text);
     let all: Vec<&Check> = proof.all_checks().collect();
     let _ = writeln!(text, "\nChecks:\n{}", checks(&all));
     expected(proof, &mut text);
@@ -60,6 +64,46 @@ fn described(info: &EngineInfo) -> String {
         true => format!("{name}, accuracy {at}, and its own error from {coarse} and {fine}"),
         false => format!("{name}, step {at} s, and its own error from {coarse} and {fine} s"),
     }
+}
+
+/// How many instants are not judged, and of what.
+fn left_out(proof: &Proof, text: &mut String) {
+    for engine in &proof.engines {
+        let Some(most) = engine.channels.iter().map(|channel| channel.left_out).max().filter(|&most| most > 0) else {
+            continue;
+        };
+        let mut quantities: Vec<&str> = Vec::new();
+        for channel in engine.channels.iter().filter(|channel| channel.left_out > 0) {
+            if !quantities.contains(&channel.residual.channel.kind.stage.name()) {
+                quantities.push(channel.residual.channel.kind.stage.name());
+            }
+        }
+        let _ = writeln!(
+            text,
+            "\nUp to {most} of {} instants are not judged in {} ({}): a drive or a loaded link reverses there.",
+            proof.reference_trajectory.times().len(),
+            quantities.join(", "),
+            engine.info.name
+        );
+    }
+}
+
+/// The settings that a proof has found, and the work it took.
+fn found(info: &EngineInfo, search: &Search) -> String {
+    let times = match info.settings.extrapolated {
+        0 => "not extrapolated".into(),
+        1 => "extrapolated once".into(),
+        times => format!("extrapolated {times} times"),
+    };
+    let why = match search.end {
+        End::Decided => "",
+        End::Nothing => "; no other setting was left to choose",
+        End::Rounding => "; finer steps would add rounding",
+        End::Budget => "; the work that was allowed is done",
+    };
+    let (sweeps, runs, effort) = (info.settings.sweeps, search.runs, search.effort);
+    let plural = if sweeps == 1 { "sweep" } else { "sweeps" };
+    format!("found: {sweeps} {plural}, {times}, from {runs} runs with the work of {effort:.1e} steps{why}")
 }
 
 /// A step with at most five significant digits; the JSON has all digits.

@@ -28,8 +28,8 @@ pub fn wanted(table: Option<Table>) -> Result<Wanted> {
     Ok(Wanted::of(&stages))
 }
 
-/// Settings of the engine in a scenario, besides its step. A missing key means the engine's default. The format itself
-/// knows no engine: names are looked up where engines are known.
+/// Settings of the engine in a scenario, besides its step. What is missing is found by the proof, or the engine's
+/// default. The format itself knows no engine: names are looked up where engines are known.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct EngineKeys {
     /// Name of the engine.

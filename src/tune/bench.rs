@@ -251,7 +251,7 @@ impl Bench<'_> {
         let runs: Result<Vec<Trajectory>> = rungs.iter().map(|&rung| kept.with(rung).solve(self.case)).collect();
         let runs = runs?;
         let [double, single, half] = [0, 1, 2].map(|k| &runs[k]);
-        let ladder = Ladder { resolutions: [double, single, half], other_sweeps: runs.get(3) };
+        let ladder = Ladder { resolutions: [double, single, half], other_sweeps: [runs.get(3), None] };
         let finest = engine.at(settings.resolution / 2.0);
         let mut predicted: f64 = 0.0;
         for residual in residuals(self.reference, single)? {

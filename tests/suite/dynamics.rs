@@ -4,3 +4,4 @@ mod crank;
 mod energy;
 mod figures;
 mod free;
+mod held;

@@ -131,7 +131,7 @@ fn a_joint_read_the_other_way_round() {
     is_found(&wrong, |name, _| name.starts_with("joint.B."), &["joint.B.fx_N", "joint.B.fy_N"]);
 }
 
-/// The smallest faults that are found at the scenario's step of 1e-3 s, as a measure of a proof. Each fault is halved
+/// The smallest faults that are found at the settings that a run finds, as a measure of a proof. Each fault is halved
 /// until it is missed.
 #[test]
 fn how_small_a_fault_is_found() {

@@ -33,6 +33,7 @@ mod rapier;
 mod record;
 mod scenario_docs;
 mod setting_off;
+mod settling;
 #[cfg(feature = "simbody")]
 mod simbody;
 mod singular;

@@ -11,7 +11,7 @@ use linkproof::scenario::Scenario;
 
 /// Symptom: correct mechanisms disagree in their velocities, by up to twice the bound. Cause: too few sweeps leave an
 /// error of first order there. In the differences from which the bound is made, it cancels against the error of second
-/// order. The run with half the sweeps shows it.
+/// order. The run with fewer sweeps shows it.
 #[test]
 fn regress_random_chains_of_rrr_dyads_never_disagree() {
     never_disagree(&SORTS[..1], 3);

@@ -62,7 +62,8 @@ impl Solver for TightAssurSolver {
     }
 }
 
-/// Motion under forces. One degree of freedom: its reduced equation of motion. Several: the transfer functions.
+/// Motion under forces. One degree of freedom: its reduced equation of motion, if the crank angle alone gives its terms.
+/// Otherwise, and for several freedoms: the transfer functions.
 fn free_motion(case: &Case, accuracy: f64, visit: Visit, progress: Progress) -> Result<()> {
     if !case.drives.further().is_empty() || case.loads.iter().any(Load::is_viscous) {
         return free::sweep(case, &mut TransferSide::new(case)?, accuracy, visit, progress);
@@ -71,7 +72,14 @@ fn free_motion(case: &Case, accuracy: f64, visit: Visit, progress: Progress) -> 
     let rows = case.grid.ascending();
     let mut times: Vec<f64> = rows.iter().map(|&row| case.grid.times[row]).collect();
     times.dedup();
-    let model = Model::of(case)?;
+    let model = match Model::of(case) {
+        // Loads that are no functions of the crank angle over some whole turns, or a branch that is not known all the
+        // way round.
+        Err(error) if matches!(error.kind(), ErrorKind::Unsupported | ErrorKind::Numeric) => {
+            return free::sweep(case, &mut TransferSide::new(case)?, accuracy, visit, progress);
+        }
+        model => model?,
+    };
     let (motion, end) = reduced::motion(&model, case.crank().initial_speed(), &times, accuracy)?;
     if motion.len() < times.len() {
         return Err(ended(end));

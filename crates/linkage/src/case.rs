@@ -10,8 +10,9 @@ mod turning;
 use std::ops::Deref;
 
 use crate::Result;
+use crate::drive::load::sense_of;
 use crate::drive::{Action, Drive, Load, Motor, Senses, Setting, Wrench};
-use crate::math::{KeepNan, Motion};
+use crate::math::{KeepNan, Motion, Vec2};
 use crate::mechanism::Side;
 use crate::trajectory::{CHANNELS, Channel, Subject};
 
@@ -202,7 +203,8 @@ impl Case {
     }
 
     /// Whether a point of a link moves, by more than the rounding of the mechanism's speeds.
-    fn moves(&self, motions: &[Motion], at: Side) -> bool {
+    #[must_use]
+    pub fn moves(&self, motions: &[Motion], at: Side) -> bool {
         let speed = motions[at.link].point_velocity(at.local).norm();
         speed > STANDSTILL * fastest(motions) * self.mechanism.size()
     }
@@ -232,6 +234,21 @@ impl Case {
         sensed: impl Fn(usize, &Load, usize, f64) -> f64,
         out: &mut [Wrench],
     ) {
+        self.loads_along(motions, angles, sensed, |_, velocity| sense_of(velocity), out);
+    }
+
+    /// The same, and `way` gives the direction of motion (unit vector, or zero) of the point of every load that depends
+    /// on one.
+    /// `way` receives the number of the load and the point's velocity (m/s), which is zero where it is rounding.
+    #[inline]
+    pub fn loads_along(
+        &self,
+        motions: &[Motion],
+        angles: &[f64],
+        sensed: impl Fn(usize, &Load, usize, f64) -> f64,
+        way: impl Fn(usize, Vec2) -> Vec2,
+        out: &mut [Wrench],
+    ) {
         out.fill(Wrench::ZERO);
         if self.loads.is_empty() {
             return;
@@ -249,8 +266,14 @@ impl Case {
                 Senses::Link(link) if self.can_turn(link) => {
                     add(Action::of_moment(link, sensed(index, load, link, setting.crank)));
                 }
-                Senses::Point(at) if self.moves(motions, at) => load.act(&setting, &mut add),
-                Senses::Link(_) | Senses::Point(_) => {}
+                Senses::Point(at) => {
+                    let motion = &motions[at.link];
+                    let velocity =
+                        if self.moves(motions, at) { motion.point_velocity(at.local) } else { Vec2::zeros() };
+                    let force = load.force_in(way(index, velocity));
+                    add(Action { link: at.link, force, place: motion.point(at.local), moment: 0.0 });
+                }
+                Senses::Link(_) => {}
             }
         }
     }

@@ -100,9 +100,14 @@ fn published_numbers_stay_on_their_branch() {
     let place = Place::new();
     let run =
         |options: &str| place.run(&format!("run scenarios/{options} --no-record --json -")).json()["runs"][0].clone();
+    // The distance of two points at t = 0 is that of the start.
     let published = |proof: &Value| {
-        let checks = proof["checks"].as_array().unwrap();
-        checks.iter().filter(|check| ["published", "derived"].contains(&check["origin"].as_str().unwrap())).count()
+        let checks = proof["checks"].as_array().unwrap().iter();
+        let stays = |check: &&Value| !check["name"].as_str().unwrap().contains("distance");
+        checks
+            .filter(stays)
+            .filter(|check| ["published", "derived"].contains(&check["origin"].as_str().unwrap()))
+            .count()
     };
     for name in ["crank_rocker", "fourth_class"] {
         let own = published(&run(&format!("{name}.toml")));

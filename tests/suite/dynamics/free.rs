@@ -15,18 +15,18 @@ use linkproof::proof::{Options, prove};
 
 use crate::common::{assert_within, shipped};
 
-fn solve(solver: &dyn Solver, case: &Case) -> Trajectory {
+pub(super) fn solve(solver: &dyn Solver, case: &Case) -> Trajectory {
     solver.solve(case).unwrap_or_else(|error| panic!("{}: {error}", solver.name()))
 }
 
 /// Largest error over the scale, of the channels that `of` selects.
-fn worst(reference: &Trajectory, other: &Trajectory, of: impl Fn(&Channel) -> bool) -> f64 {
+pub(super) fn worst(reference: &Trajectory, other: &Trajectory, of: impl Fn(&Channel) -> bool) -> f64 {
     let all = residuals(reference, other).unwrap();
     let picked = all.iter().filter(|residual| of(&residual.channel));
     picked.map(|residual| residual.share()).fold(0.0, f64::larger)
 }
 
-fn column<'a>(trajectory: &'a Trajectory, name: &str) -> &'a [f64] {
+pub(super) fn column<'a>(trajectory: &'a Trajectory, name: &str) -> &'a [f64] {
     trajectory.column(&Channel::named(name).unwrap()).unwrap_or_else(|| panic!("no channel {name}"))
 }
 
@@ -102,7 +102,7 @@ fn the_double_pendulum_moves_as_lagrange_has_it() {
 }
 
 /// Kinetic and potential energy (J) at every instant, from the channels alone.
-fn energies(case: &Case, found: &Trajectory) -> Vec<f64> {
+pub(super) fn energies(case: &Case, found: &Trajectory) -> Vec<f64> {
     let of = |row: usize| {
         let links = case.mechanism.links()[1..].iter();
         links

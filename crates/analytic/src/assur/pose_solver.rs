@@ -4,19 +4,21 @@ use super::forces::Kinetostatics;
 use super::turns::Turns;
 use crate::assur::groups::{Clearance, Misfit, OutOfReach, Plan, SINGULAR};
 use linkage::case::Case;
-use linkage::drive::Load;
+use linkage::drive::{Load, Wrench};
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::{KeepNan, Motion};
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 
-/// Largest crank angle between two poses (rad). Over such a step no link turns so far that its turns could be
+/// Largest turn of a driving link between two poses (rad). Over such a step no link turns so far that its turns could be
 /// miscounted.
-const CLOSED_FORM_STEP: f64 = std::f64::consts::PI / 12.0;
+pub(super) const CLOSED_FORM_STEP: f64 = std::f64::consts::PI / 12.0;
 /// The same where Newton's method follows a group from pose to pose.
-const FOLLOWED_STEP: f64 = std::f64::consts::PI / 90.0;
+pub(super) const FOLLOWED_STEP: f64 = std::f64::consts::PI / 90.0;
+/// Turn of the crank (rad) after which a link that starts at its own dead centre shows its sense.
+const NUDGE: f64 = 1e-7;
 /// How often a failing step is halved: down to a millionth of it.
-const HALVINGS: u32 = 20;
+pub(super) const HALVINGS: u32 = 20;
 
 /// Clearance of a dyad below which a change point may lie within a step.
 const NARROW: f64 = 0.8;
@@ -115,6 +117,29 @@ impl<'a> PoseSolver<'a> {
             self.statics.solve(self.case, &self.plan, &mut self.state);
         }
         Ok(&self.state)
+    }
+
+    /// As [`PoseSolver::solve`] at the instant at which the crank starts from rest with the acceleration `alpha`: loads
+    /// that depend on the sense of a link act against the motion that begins.
+    /// A link that is at its own dead centre shows its sense a little later.
+    pub(crate) fn set_off(&mut self, crank: f64, alpha: f64, deepest: Stage) -> Result<&State> {
+        let sense = 1f64.copysign(alpha);
+        let mut begun: Vec<f64> = Vec::new();
+        for ahead in [sense * NUDGE, 0.0] {
+            if self.solve(crank + ahead, sense, 0.0, Stage::Velocities).is_ok() {
+                begun = self.state.motions.iter().map(|motion| motion.omega).collect();
+                break;
+            }
+        }
+        self.solve(crank, 0.0, alpha, deepest)?;
+        if deepest >= Stage::Reactions && !self.case.loads.is_empty() && !begun.is_empty() {
+            self.with_angles();
+            let sensed = |_: usize, load: &Load, link: usize, crank: f64| load.moment_in(begun[link], crank);
+            let mut loads = vec![Wrench::ZERO; begun.len()];
+            self.case.loads_with(&self.state.motions, &self.state.angles, sensed, &mut loads);
+            self.statics.solve_under(&loads, self.case, &self.plan, &mut self.state);
+        }
+        Ok(self.with_angles())
     }
 
     /// Moves the mechanism from its present pose to the crank angle `target`, in small steps.

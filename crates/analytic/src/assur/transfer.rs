@@ -6,21 +6,18 @@
 //! a0 and alpha0 are the accelerations that remain when no free driving link accelerates.
 
 use super::forces::Kinetostatics;
+use super::pose_solver::{CLOSED_FORM_STEP, FOLLOWED_STEP, HALVINGS};
 use super::turns::Turns;
-use crate::assur::groups::Plan;
-use crate::motion::march::SETTING_OFF;
+use crate::assur::groups::{Misfit, OutOfReach, Plan};
 use crate::motion::side::{Held, Inputs, Side, embed, loads_held};
 use linkage::case::Case;
 use linkage::drive::Wrench;
-use linkage::error::{Advice, Error, ErrorKind, Result};
+use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::dense::Lu;
 use linkage::math::{KeepNan, Vec2};
-use linkage::mechanism::GROUND;
+use linkage::mechanism::{self, GROUND};
 use linkage::solver::State;
 use linkage::trajectory::Stage;
-
-/// Largest turn of a driving link (rad) between two poses, so that no link's turns are miscounted.
-const STEP: f64 = std::f64::consts::PI / 12.0;
 
 /// The equations of motion of a case by its Assur groups.
 pub(crate) struct TransferSide<'a> {
@@ -29,6 +26,8 @@ pub(crate) struct TransferSide<'a> {
     statics: Kinetostatics,
     state: State,
     turns: Turns,
+    /// Largest turn of a driving link (rad) between two poses.
+    step: f64,
     /// Angles of the driving links at the last pose.
     at: Vec<f64>,
     target: Vec<f64>,
@@ -47,14 +46,10 @@ impl<'a> TransferSide<'a> {
     /// Starts at the start pose of a case.
     ///
     /// # Errors
-    /// [`ErrorKind::Unsupported`] for mechanisms with groups of more than two links; [`ErrorKind::Geometry`] if
-    /// the start pose is singular.
+    /// [`ErrorKind::Geometry`] if the start pose is singular.
     pub(crate) fn new(case: &'a Case) -> Result<Self> {
         let plan = Plan::of(&case.mechanism, &case.structure, &case.modes);
-        if !plan.is_closed_form() {
-            let message = "side \"assur\" solves the free motion of several freedoms with dyads only, but the mechanism has a larger group";
-            return Err(Error::new(ErrorKind::Unsupported, message).help(Advice::OtherReference { solver: "newton" }));
-        }
+        let step = if plan.is_closed_form() { CLOSED_FORM_STEP } else { FOLLOWED_STEP };
         let (statics, state) = (Kinetostatics::of(case, &plan), State::at_start(case));
         let free: Vec<usize> = case.drives.free().map(|(index, _)| index).collect();
         let at: Vec<f64> = case.drives.iter().map(|drive| drive.world_angle(drive.start)).collect();
@@ -65,6 +60,7 @@ impl<'a> TransferSide<'a> {
             statics,
             state,
             turns,
+            step,
             target: at.clone(),
             unit: vec![0.0; at.len()],
             at,
@@ -74,39 +70,68 @@ impl<'a> TransferSide<'a> {
             free,
             loads: vec![Wrench::ZERO; case.mechanism.links().len()],
         };
-        side.place()?;
+        side.place().map_err(|reach| side.out_of_reach(reach))?;
         Ok(side)
     }
 
     /// Places the mechanism at the target angles.
-    fn place(&mut self) -> Result<()> {
-        self.plan.positions(&self.target, &mut self.state.motions).map_err(|reach| {
-            let group = self.case.structure.groups[reach.group].names(&self.case.mechanism);
-            let crank = self.target[0] - self.case.crank().zero;
-            Error::new(
-                ErrorKind::Geometry,
-                format!("the group ({group}) cannot be assembled at crank angle {:.4} deg", crank.to_degrees()),
-            )
-            .at_crank(crank)
-            .of_group(group)
-            .help("let the grid end before the motion comes there")
-        })?;
+    fn place(&mut self) -> std::result::Result<(), OutOfReach> {
+        self.plan.positions(&self.target, &mut self.state.motions)?;
         self.turns.count(&self.state.motions);
+        self.at.copy_from_slice(&self.target);
         Ok(())
     }
 
+    /// Follows the branch to these angles of the driving links, in small turns.
     fn go_to(&mut self, angles: &[f64]) -> Result<()> {
         let farthest = self.at.iter().zip(angles).fold(0.0f64, |most, (a, b)| most.larger((b - a).abs()));
-        let parts = (farthest / STEP).ceil().larger(1.0);
-        for part in 1..=parts as usize {
-            let share = part as f64 / parts;
-            for ((target, &from), &to) in self.target.iter_mut().zip(&self.at).zip(angles) {
-                *target = if share < 1.0 { from + (to - from) * share } else { to };
-            }
-            self.place()?;
+        let parts = (farthest / self.step).ceil().larger(1.0) as usize;
+        let from = self.at.clone();
+        for part in 1..=parts {
+            let way = [&from, angles];
+            self.step_to(way, [part - 1, part].map(|part| part as f64 / parts as f64), HALVINGS)?;
         }
-        self.at.copy_from_slice(angles);
         Ok(())
+    }
+
+    /// Goes on from one share of a way to another. Where a group cannot be followed over the step, two steps of half
+    /// the size.
+    fn step_to(&mut self, way: [&[f64]; 2], [before, share]: [f64; 2], halvings: u32) -> Result<()> {
+        for ((target, &from), &to) in self.target.iter_mut().zip(way[0]).zip(way[1]) {
+            *target = if share < 1.0 { from + (to - from) * share } else { to };
+        }
+        match self.place() {
+            Ok(()) => Ok(()),
+            Err(OutOfReach { why: Misfit::Lost, .. }) if halvings > 0 => {
+                let middle = (before + share) / 2.0;
+                self.step_to(way, [before, middle], halvings - 1)?;
+                self.step_to(way, [middle, share], halvings - 1)
+            }
+            Err(reach) => Err(self.out_of_reach(reach)),
+        }
+    }
+
+    fn out_of_reach(&self, reach: OutOfReach) -> Error {
+        let group = self.case.structure.groups[reach.group].names(&self.case.mechanism);
+        let crank = self.target[0] - self.case.crank().zero;
+        let degrees = crank.to_degrees();
+        let message = match reach.why {
+            Misfit::Lost => format!(
+                "the group ({group}) cannot be followed beyond crank angle {degrees:.4} deg: it has a dead point there"
+            ),
+            Misfit::Singular | Misfit::Passed { .. } => {
+                format!(
+                    "the group ({group}) is singular at crank angle {degrees:.4} deg: two of its branches meet there"
+                )
+            }
+            Misfit::Span { .. } | Misfit::Guide { .. } | Misfit::Swing { .. } | Misfit::Parallel => {
+                format!("the group ({group}) cannot be assembled at crank angle {degrees:.4} deg")
+            }
+        };
+        Error::new(ErrorKind::Geometry, message)
+            .at_crank(crank)
+            .of_group(group)
+            .help("let the grid end before the motion comes there")
     }
 
     /// Angles of all links, turns kept.
@@ -142,7 +167,7 @@ impl Side for TransferSide<'_> {
         self.plan.accelerations(&inputs.accelerations, &mut self.state.motions);
         if !self.case.loads.is_empty() {
             self.find_angles(&inputs.angles);
-            loads_held(self.case, &self.state.motions, &self.state.angles, &held.senses, &mut self.loads);
+            loads_held(self.case, &self.state.motions, &self.state.angles, held, &mut self.loads);
         }
         let links = self.case.mechanism.links();
         self.matrix.clear();
@@ -177,6 +202,15 @@ impl Side for TransferSide<'_> {
         Ok(self.state.motions[link].omega)
     }
 
+    fn velocity(&mut self, inputs: &Inputs, at: mechanism::Side) -> Result<Vec2> {
+        self.spin(inputs, at.link)?;
+        Ok(self.state.motions[at.link].point_velocity(at.local))
+    }
+
+    fn acceleration(&self, at: mechanism::Side) -> Vec2 {
+        self.state.motions[at.link].point_acceleration(at.local)
+    }
+
     fn link_rates(&self, link: usize) -> [f64; 2] {
         let motion = &self.state.motions[link];
         [motion.omega, motion.alpha]
@@ -185,16 +219,7 @@ impl Side for TransferSide<'_> {
     fn fill(&mut self, inputs: &Inputs, state: &mut State) -> Result<()> {
         self.find_angles(&inputs.angles);
         if self.case.wanted.deepest() >= Stage::Reactions {
-            // At the instant of starting from rest, loads act against the motion that begins.
-            let setting_off = inputs.speeds.iter().all(|&speed| speed == 0.0);
-            if setting_off {
-                let begun: Vec<f64> = inputs.accelerations.iter().map(|alpha| SETTING_OFF.copysign(*alpha)).collect();
-                self.plan.velocities(&begun, &mut self.state.motions);
-            }
-            self.statics.solve(self.case, &self.plan, &mut self.state);
-            if setting_off {
-                self.plan.velocities(&inputs.speeds, &mut self.state.motions);
-            }
+            self.statics.solve_under(&self.loads, self.case, &self.plan, &mut self.state);
         }
         state.clone_from(&self.state);
         Ok(())

@@ -5,10 +5,13 @@ use std::cell::{Cell, RefCell};
 use differential_equations::ode::ODE;
 
 use super::march::{Flow, Place};
-use super::side::{Held, Inputs, Side};
+use super::side::{self, Held, Inputs};
 use linkage::case::Case;
-use linkage::drive::Branch;
+use linkage::drive::load::sense_of;
+use linkage::drive::{Branch, Load, Senses};
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::{KeepNan, Vec2, cross, root};
+use linkage::mechanism::Side;
 use linkage::solver::State;
 
 /// Largest turn of a driving link within a step (rad). The first trial of a step may lead anywhere; such a trial must
@@ -18,6 +21,14 @@ const FARTHEST: f64 = std::f64::consts::PI;
 const OF_MOTOR: usize = 2;
 /// The first of these bounds.
 const TOO_FAST: usize = 0;
+/// Share of the largest speed so far below which a link or a point is at rest, where a piece ends.
+const AT_REST: f64 = 1e-11;
+/// Turn of a driving link (rad) after which a link or point that starts at its own dead centre shows its sense.
+const NUDGE: f64 = 1e-7;
+/// Largest number of rounds in which points at rest settle their directions against each other.
+const ROUNDS: usize = 60;
+/// Bisections of the acceleration with which a point starts.
+const HALVINGS: usize = 60;
 
 /// Angles and speeds of the free driving links at t = 0: first all angles in the world, then all speeds.
 pub(super) fn start<const N: usize>(case: &Case) -> [f64; N] {
@@ -28,36 +39,101 @@ pub(super) fn start<const N: usize>(case: &Case) -> [f64; N] {
     y
 }
 
+/// A load that depends on a sense of motion, by its number, and that motion.
+type Sensed = (usize, Senses);
+
+/// The motion whose sense a load depends on, unless its link never turns.
+fn sensed(case: &Case, load: &Load) -> Senses {
+    match load.nature().senses {
+        Senses::Link(link) if !case.can_turn(link) => Senses::Nothing,
+        senses => senses,
+    }
+}
+
 /// A motion in pieces: first-order equations of the free driving links' angles and speeds.
 pub(super) struct Pieces<'a, const N: usize> {
     case: &'a Case,
     work: RefCell<Work<'a>>,
-    /// Loads that depend on the sense of a link's rotation, with that link.
-    sensed: Vec<(usize, usize)>,
+    /// Loads that depend on a sense of motion, with the link or the point that moves.
+    sensed: Vec<Sensed>,
+    /// For every load: the largest speed so far of that link or point (rad/s or m/s).
+    fastest: RefCell<Vec<f64>>,
+    /// Time at which the present piece began (s).
+    entered: Cell<f64>,
     branch: Cell<Option<Branch>>,
     origin: Cell<[f64; N]>,
 }
 
 /// Working memory of an evaluation.
 struct Work<'a> {
-    side: &'a mut dyn Side,
+    side: &'a mut dyn side::Side,
     inputs: Inputs,
     held: Held,
     fault: Option<Error>,
 }
 
+impl Held {
+    /// The sense of a link or point, as a unit vector: of a link, +1 or -1 as the first component.
+    fn sense(&self, (index, senses): Sensed) -> Vec2 {
+        match senses {
+            Senses::Nothing => Vec2::zeros(),
+            Senses::Link(_) => Vec2::new(self.senses[index], 0.0),
+            Senses::Point(_) => self.ways[index],
+        }
+    }
+}
+
+impl Work<'_> {
+    /// Velocity of a link or point at the present inputs: of a link its angular velocity (rad/s) as the first
+    /// component.
+    fn rate(&mut self, (_, senses): Sensed) -> Result<Vec2> {
+        match senses {
+            Senses::Nothing => Ok(Vec2::zeros()),
+            Senses::Link(link) => Ok(Vec2::new(self.side.spin(&self.inputs, link)?, 0.0)),
+            Senses::Point(at) => self.side.velocity(&self.inputs, at),
+        }
+    }
+
+    /// Its derivative after the last call of [accelerate](side::Side::accelerate).
+    fn second(&self, (_, senses): Sensed) -> Vec2 {
+        match senses {
+            Senses::Nothing => Vec2::zeros(),
+            Senses::Link(link) => Vec2::new(self.side.link_rates(link)[1], 0.0),
+            Senses::Point(at) => self.side.acceleration(at),
+        }
+    }
+
+    /// Holds the sense of the present motion.
+    fn take_sense(&mut self, own: Sensed) -> Result<()> {
+        let rate = self.rate(own)?;
+        match own.1 {
+            Senses::Nothing => {}
+            Senses::Link(_) => self.held.senses[own.0] = rate.x.signum(),
+            Senses::Point(_) => self.held.ways[own.0] = sense_of(rate),
+        }
+        Ok(())
+    }
+}
+
 impl<'a, const N: usize> Pieces<'a, N> {
-    pub(super) fn new(case: &'a Case, side: &'a mut dyn Side) -> Self {
+    pub(super) fn new(case: &'a Case, side: &'a mut dyn side::Side) -> Self {
         let drives = case.drives.len();
         let zeros = || vec![0.0; drives];
-        let held = Held { motor: 0.0, added: case.crank().moving_inertia(), senses: vec![0.0; case.loads.len()] };
-        let sensed = case.loads.iter().enumerate().filter_map(|(index, load)| Some((index, load.sensed_link()?)));
-        let sensed = sensed.filter(|&(_, link)| case.can_turn(link));
+        let loads = case.loads.len();
+        let held = Held {
+            motor: 0.0,
+            added: case.crank().moving_inertia(),
+            senses: vec![0.0; loads],
+            ways: vec![Vec2::zeros(); loads],
+        };
+        let sensed = case.loads.iter().map(|load| sensed(case, load)).enumerate();
         let inputs = Inputs { angles: zeros(), speeds: zeros(), accelerations: zeros() };
         Pieces {
             case,
             work: RefCell::new(Work { side, inputs, held, fault: None }),
-            sensed: sensed.collect(),
+            sensed: sensed.filter(|(_, senses)| *senses != Senses::Nothing).collect(),
+            fastest: RefCell::new(vec![0.0; loads]),
+            entered: Cell::new(0.0),
             branch: Cell::new(None),
             origin: Cell::new(start(case)),
         }
@@ -113,8 +189,9 @@ impl<'a, const N: usize> Pieces<'a, N> {
                 self.choose_branch(place, if end == TOO_FAST { 1.0 } else { -1.0 });
                 Vec::new()
             }
-            Some((bound, None)) => self.sensed.iter().copied().filter(|&(index, _)| index == bound).collect(),
+            Some((bound, None)) => self.stopped(work, place, bound)?,
         };
+        self.entered.set(place.x);
         self.go_on(work, place, &stood)
     }
 
@@ -138,7 +215,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
     }
 
     /// Accelerations at a place where loads in `stood` have links at rest.
-    fn go_on(&self, work: &mut Work, place: &Place<N>, stood: &[(usize, usize)]) -> Result<()> {
+    fn go_on(&self, work: &mut Work, place: &Place<N>, stood: &[Sensed]) -> Result<()> {
         self.origin.set(place.y);
         match stood.is_empty() {
             true => self.accelerate(work, place.x, &place.y),
@@ -153,39 +230,151 @@ impl<'a, const N: usize> Pieces<'a, N> {
         self.branch.set(motor.map(|motor| motor.branch(self.crank_speed(&place.y), towards)));
     }
 
-    /// Senses at the beginning. Returns the entries of `sensed` whose links stand still.
-    fn begin_senses(&self, work: &mut Work, place: &Place<N>) -> Result<Vec<(usize, usize)>> {
+    /// Senses at the beginning. Returns the entries of `sensed` that stand still.
+    fn begin_senses(&self, work: &mut Work, place: &Place<N>) -> Result<Vec<Sensed>> {
         self.put(&mut work.inputs, place.x, &place.y);
+        let fastest = work.inputs.speeds.iter().fold(0.0f64, |most, speed| most.larger(speed.abs()));
         let mut stood = Vec::new();
-        for &(index, link) in &self.sensed {
-            let spin = work.side.spin(&work.inputs, link)?;
-            if spin == 0.0 {
-                stood.push((index, link));
+        for &own in &self.sensed {
+            let size = if matches!(own.1, Senses::Point(_)) { self.case.mechanism.size() } else { 1.0 };
+            if self.look(work, own)? <= AT_REST * fastest * size {
+                stood.push(own);
             } else {
-                work.held.senses[index] = spin.signum();
+                work.take_sense(own)?;
             }
         }
         Ok(stood)
     }
 
-    /// Chooses the sense of links at rest, with their loads in `stood`.
+    /// The entries of `sensed` that stand still where a piece ends: that of the bound, and all that stop with it. A point
+    /// that has only turned away from its direction goes on.
+    fn stopped(&self, work: &mut Work, place: &Place<N>, bound: usize) -> Result<Vec<Sensed>> {
+        self.put(&mut work.inputs, place.x, &place.y);
+        let mut stood = Vec::new();
+        for &own in &self.sensed {
+            let is_bound = own.0 == bound && matches!(own.1, Senses::Link(_));
+            if self.look(work, own)? <= AT_REST * self.fastest.borrow()[own.0] || is_bound {
+                stood.push(own);
+            } else if matches!(own.1, Senses::Point(_)) {
+                work.take_sense(own)?;
+            }
+        }
+        Ok(stood)
+    }
+
+    /// Speed of a link or point at the present inputs (rad/s or m/s). Keeps the largest.
+    fn look(&self, work: &mut Work, own: Sensed) -> Result<f64> {
+        let speed = work.rate(own)?.norm();
+        let fastest = &mut self.fastest.borrow_mut()[own.0];
+        *fastest = fastest.larger(speed);
+        Ok(speed)
+    }
+
+    /// Chooses the sense of links and points at rest, with their loads in `stood`.
     /// Each starts in the direction in which it is accelerated without its resistances, if the resistances allow it.
-    fn set_off(&self, work: &mut Work, place: &Place<N>, stood: &[(usize, usize)]) -> Result<()> {
-        let before = work.held.senses.clone();
+    fn set_off(&self, work: &mut Work, place: &Place<N>, stood: &[Sensed]) -> Result<()> {
+        let before = work.held.clone();
         for &(index, _) in stood {
             work.held.senses[index] = 0.0;
+            work.held.ways[index] = Vec2::zeros();
         }
         self.accelerate(work, place.x, &place.y)?;
-        for &(index, link) in stood {
-            let [_, alpha] = work.side.link_rates(link);
-            work.held.senses[index] = if alpha == 0.0 { before[index] } else { alpha.signum() };
+        let begun: Vec<Vec2> = stood.iter().map(|&own| work.second(own)).collect();
+        let ahead = self.ahead(work, place, stood);
+        // At its own dead centre a link or a point has no acceleration, and its load does no work at first.
+        let idle =
+            |second: Vec2, k: usize, (after, rates): &(f64, Vec<Vec2>)| second.norm() * after < 0.5 * rates[k].norm();
+        let is_idle = |k: usize| ahead.as_ref().is_some_and(|found| idle(begun[k], k, found));
+        let is_idle: Vec<bool> = (0..stood.len()).map(is_idle).collect();
+        for (k, &(index, senses)) in stood.iter().enumerate() {
+            let way = match &ahead {
+                Some((_, rates)) if is_idle[k] => sense_of(rates[k]),
+                Some(_) | None => sense_of(begun[k]),
+            };
+            let way = if way == Vec2::zeros() { before.sense((index, senses)) } else { way };
+            match senses {
+                Senses::Nothing => {}
+                Senses::Link(_) => work.held.senses[index] = way.x,
+                Senses::Point(_) => work.held.ways[index] = way,
+            }
         }
         self.accelerate(work, place.x, &place.y)?;
-        let goes = |index: usize, link: usize| work.side.link_rates(link)[1] * work.held.senses[index] >= 0.0;
-        match stood.iter().find(|&&(index, link)| !goes(index, link)) {
-            Some(&(_, link)) => Err(self.is_held(place, link, "its resistance holds")),
-            None => Ok(()),
+        if N > 2 {
+            let working = stood.iter().zip(&is_idle).filter(|(_, is_idle)| !**is_idle).map(|(own, _)| *own);
+            self.settle(work, place, &working.collect::<Vec<_>>())?;
         }
+        let is_held = |(k, &own): (usize, &Sensed)| {
+            let second = work.second(own);
+            let is_idle = is_idle[k] && ahead.as_ref().is_some_and(|found| idle(second, k, found));
+            (!is_idle && !(second.dot(&work.held.sense(own)) >= 0.0)).then_some(own)
+        };
+        match stood.iter().enumerate().find_map(is_held) {
+            Some((_, Senses::Link(link) | Senses::Point(Side { link, .. }))) => {
+                Err(self.is_held(place, link, "its resistance holds"))
+            }
+            Some((_, Senses::Nothing)) | None => Ok(()),
+        }
+    }
+
+    /// Rates of links and points at rest a moment later, and that time (s), with the present accelerations of the
+    /// driving links. `None` where nothing moves, or if the mechanism cannot go there.
+    fn ahead(&self, work: &mut Work, place: &Place<N>, stood: &[Sensed]) -> Option<(f64, Vec<Vec2>)> {
+        let alphas: Vec<f64> = self.case.drives.free().map(|(index, _)| work.inputs.accelerations[index]).collect();
+        let of = |k: usize| {
+            let (speed, alpha) = (place.y[N / 2 + k].abs(), alphas[k].abs());
+            (NUDGE / speed).smaller_number((2.0 * NUDGE / alpha).sqrt())
+        };
+        let after = (0..N / 2).map(of).fold(f64::INFINITY, f64::smaller_number);
+        if !after.is_finite() {
+            return None;
+        }
+        let mut y = place.y;
+        for k in 0..N / 2 {
+            y[k] += after * (y[N / 2 + k] + after / 2.0 * alphas[k]);
+            y[N / 2 + k] += after * alphas[k];
+        }
+        self.put(&mut work.inputs, place.x + after, &y);
+        let rates: Result<Vec<Vec2>> = stood.iter().map(|&own| work.rate(own)).collect();
+        Some((after, rates.ok()?))
+    }
+
+    /// With several freedoms a force turns the acceleration of its point. Finds the directions in which points at rest
+    /// start against the forces of these very directions.
+    /// The acceleration is linear in the force: a(u) = a0 + B u with the direction u. Sought is a(u) = s u with s > 0, so
+    /// that |(s - B)^-1 a0| = 1. That length falls with s; if it is below 1 at s = 0, the point is held.
+    fn settle(&self, work: &mut Work, place: &Place<N>, stood: &[Sensed]) -> Result<()> {
+        for _ in 0..ROUNDS {
+            let mut moved = 0.0f64;
+            for &(index, senses) in stood {
+                let Senses::Point(at) = senses else { continue };
+                let before = work.held.ways[index];
+                let mut of = |way: Vec2| -> Result<Vec2> {
+                    work.held.ways[index] = way;
+                    self.accelerate(work, place.x, &place.y)?;
+                    Ok(work.side.acceleration(at))
+                };
+                let free = of(Vec2::zeros())?;
+                let [first, second] = [of(Vec2::x())? - free, of(Vec2::y())? - free];
+                let solve = |s: f64| {
+                    // (s - B) v = a0 by Cramer's rule; -B is positive semidefinite.
+                    let (a, b) = (Vec2::x() * s - first, Vec2::y() * s - second);
+                    Vec2::new(cross(free, b), cross(a, free)) / cross(a, b)
+                };
+                let most = free.norm();
+                let way = if most > 0.0 {
+                    let [_, s] = root::halved([0.0, most], HALVINGS, |s| Ok::<bool, Error>(!(solve(s).norm() <= 1.0)))?;
+                    sense_of(solve(s))
+                } else {
+                    before
+                };
+                of(way)?;
+                moved = moved.larger((way - before).norm());
+            }
+            if moved <= 8.0 * f64::EPSILON {
+                break;
+            }
+        }
+        Ok(())
     }
 
     fn is_held(&self, place: &Place<N>, link: usize, what: &str) -> Error {
@@ -246,11 +435,18 @@ impl<const N: usize> Flow<N> for Pieces<'_, N> {
         let Some(load) = self.case.loads.get(bound) else {
             return self.branch_margin(bound - self.case.loads.len(), y);
         };
-        let Some(link) = load.sensed_link().filter(|&link| self.case.can_turn(link)) else { return f64::INFINITY };
+        let senses = sensed(self.case, load);
+        if senses == Senses::Nothing {
+            return f64::INFINITY;
+        }
         let work = &mut *self.work.borrow_mut();
         self.put(&mut work.inputs, t, y);
-        match work.side.spin(&work.inputs, link) {
-            Ok(spin) => work.held.senses[bound] * spin,
+        match work.rate((bound, senses)) {
+            Ok(rate) => {
+                let fastest = &mut self.fastest.borrow_mut()[bound];
+                *fastest = fastest.larger(rate.norm());
+                work.held.sense((bound, senses)).dot(&rate)
+            }
             Err(error) => {
                 work.fault.get_or_insert(error);
                 f64::NAN
@@ -258,8 +454,23 @@ impl<const N: usize> Flow<N> for Pieces<'_, N> {
         }
     }
 
-    fn begin(&self, _: f64, y: &[f64; N]) {
+    fn begin(&self, t: f64, y: &[f64; N]) {
         self.origin.set(*y);
+        // At its beginning a piece has its senses from the accelerations.
+        if t == self.entered.get() {
+            return;
+        }
+        let work = &mut *self.work.borrow_mut();
+        self.put(&mut work.inputs, t, y);
+        for &own in self.sensed.iter().filter(|(_, senses)| matches!(senses, Senses::Point(_))) {
+            let took = self.look(work, own).and_then(|speed| match speed > AT_REST * self.fastest.borrow()[own.0] {
+                true => work.take_sense(own),
+                false => Ok(()),
+            });
+            if let Err(error) = took {
+                work.fault.get_or_insert(error);
+            }
+        }
     }
 
     fn fault(&self) -> Option<Error> {

@@ -28,13 +28,6 @@ pub(crate) fn check(case: &Case) -> Result<()> {
         let message = format!("{free} driving links are free, at most {MOST_FREEDOMS} are solved");
         return Err(Error::new(ErrorKind::Unsupported, message).help("prescribe the motion of some of them"));
     }
-    if let Some(load) = case.loads.iter().find(|load| load.sensed_point().is_some()) {
-        let message =
-            format!("the motion is free, but a load of type \"{}\" turns with the motion of a point", load.sort());
-        return Err(Error::new(ErrorKind::Unsupported, message)
-            .key("loads")
-            .help("give it as a force over the crank angle, or as a moment against the rotation of its link"));
-    }
     if case.crank().moving_inertia() == 0.0 && case.mechanism.links().iter().all(|link| link.mass == 0.0) {
         let message = "the motion under forces is asked for, but nothing in the mechanism has a mass";
         return Err(Error::new(ErrorKind::Input, message).help("give the links masses, or the motor a rotor"));

@@ -23,8 +23,6 @@ pub const ACCURACY: f64 = 1e-11;
 /// Share of [`ACCURACY`] that the tighter runs allow, which show the error of the others. With still less, rounding takes
 /// over.
 pub(crate) const TIGHTER: f64 = 0.01;
-/// Speed (rad/s) of a crank at rest that is about to turn. It marks the sense of motion; its square underflows to zero.
-pub(crate) const SETTING_OFF: f64 = 1e-200;
 /// Largest number of consecutive pieces that take no time. With more, the motion does not get away from a kink.
 pub(crate) const MOST_EMPTY: usize = 8;
 /// Largest number of steps of one piece. A hundred turns of a mechanism take some ten thousand.
@@ -183,12 +181,16 @@ fn shortened<const N: usize, F: Flow<N>>(
     bound: usize,
 ) -> Result<(f64, [f64; N])> {
     let known = (method.t() - x, flow.margin(bound, method.t(), method.y()));
-    let mut end = (x, y);
+    let mut best = ((x, y), f64::INFINITY);
     root::secants(known, h, CORRECTIONS, |h| -> Result<f64> {
-        end = (x + h, one_step(flow, x, &y, h)?);
-        Ok(flow.margin(bound, end.0, &end.1))
+        let end = (x + h, one_step(flow, x, &y, h)?);
+        let margin = flow.margin(bound, end.0, &end.1);
+        if margin.abs() <= best.1 {
+            best = (end, margin.abs());
+        }
+        Ok(margin)
     })?;
-    Ok(end)
+    Ok(best.0)
 }
 
 /// State after one step of a given length, whatever its error estimate, because it is part of an accepted step.

@@ -2,10 +2,12 @@
 //! speeds.
 
 use linkage::case::Case;
-use linkage::drive::Wrench;
+use linkage::drive::load::sense_of;
+use linkage::drive::{Load, Wrench};
 use linkage::error::{Error, ErrorKind, Result};
-use linkage::math::Motion;
 use linkage::math::dense::Lu;
+use linkage::math::{Motion, Vec2};
+use linkage::mechanism::Side as Place;
 use linkage::solver::State;
 
 /// The driving links at one instant, in the order of the drives: angles in the world (rad), angular velocities (rad/s)
@@ -28,11 +30,26 @@ pub(crate) struct Held {
     /// For every load that depends on the sense of a link: that sense (+1, -1, 0 for standstill). Not used for other
     /// loads.
     pub(crate) senses: Vec<f64>,
+    /// For every load against the motion of a point: the direction in which the point moved when the present step began,
+    /// a unit vector, or zero for standstill. Not used for other loads.
+    pub(crate) ways: Vec<Vec2>,
 }
 
-/// As [`Case::loads_on`], but with fixed senses for the loads that depend on one.
-pub(crate) fn loads_held(case: &Case, motions: &[Motion], angles: &[f64], senses: &[f64], out: &mut [Wrench]) {
-    case.loads_with(motions, angles, |index, load, _, crank| load.moment_in(senses[index], crank), out);
+impl Held {
+    /// Direction against which a load acts on a point with this velocity (m/s).
+    /// It turns with the velocity. Where the point reverses it goes on as if the point had not.
+    fn way(&self, load: usize, velocity: Vec2) -> Vec2 {
+        let held = self.ways[load];
+        let now = sense_of(velocity);
+        let along = now.dot(&held);
+        if along == 0.0 { held } else { now * along.signum() }
+    }
+}
+
+/// As [`Case::loads_on`], but with the held senses for the loads that depend on one.
+pub(crate) fn loads_held(case: &Case, motions: &[Motion], angles: &[f64], held: &Held, out: &mut [Wrench]) {
+    let moment = |index: usize, load: &Load, _, crank: f64| load.moment_in(held.senses[index], crank);
+    case.loads_along(motions, angles, moment, |index, velocity| held.way(index, velocity), out);
 }
 
 /// Solves a side's equations of motion for the accelerations of the free driving links, whose numbers are `free`, and
@@ -59,6 +76,12 @@ pub(crate) trait Side {
 
     /// Angular velocity (rad/s) of a link at these angles and speeds.
     fn spin(&mut self, inputs: &Inputs, link: usize) -> Result<f64>;
+
+    /// Velocity (m/s) of a point of a link at these angles and speeds.
+    fn velocity(&mut self, inputs: &Inputs, at: Place) -> Result<Vec2>;
+
+    /// Acceleration (m/s^2) of a point of a link after the last call of [accelerate](Side::accelerate).
+    fn acceleration(&self, at: Place) -> Vec2;
 
     /// Angular velocity and acceleration of a link after the last call of [accelerate](Side::accelerate).
     fn link_rates(&self, link: usize) -> [f64; 2];

@@ -10,9 +10,9 @@ use super::system::System;
 use crate::motion::side::{Held, Inputs, Side, embed, loads_held};
 use linkage::drive::Wrench;
 use linkage::error::Result;
-use linkage::math::KeepNan;
 use linkage::math::dense::Lu;
-use linkage::mechanism::EQUATIONS;
+use linkage::math::{KeepNan, Vec2};
+use linkage::mechanism::{self, EQUATIONS};
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 
@@ -119,7 +119,7 @@ impl Side for Embedded<'_> {
         }
         self.set_rates(inputs);
         self.rest.copy_from_slice(&self.system.second);
-        self.system.find_loads(|case, motions, angles, out| loads_held(case, motions, angles, &held.senses, out));
+        self.system.find_loads(|case, motions, angles, out| loads_held(case, motions, angles, held, out));
         let (case, n) = (self.system.case, self.system.q.len());
         for (index, link) in case.mechanism.links()[1..].iter().enumerate() {
             let i = 3 * index;
@@ -155,6 +155,15 @@ impl Side for Embedded<'_> {
         self.go_to(&inputs.angles)?;
         self.set_rates(inputs);
         Ok(self.link_rates(link)[0])
+    }
+
+    fn velocity(&mut self, inputs: &Inputs, at: mechanism::Side) -> Result<Vec2> {
+        self.spin(inputs, at.link)?;
+        Ok(self.system.velocity(at))
+    }
+
+    fn acceleration(&self, at: mechanism::Side) -> Vec2 {
+        self.system.motion(at.link).0.point_acceleration(at.local)
     }
 
     fn link_rates(&self, link: usize) -> [f64; 2] {

@@ -75,6 +75,17 @@ pub(super) struct Track {
 /// Distance from the crank's pivot, in sizes of the mechanism, beyond which a link counts as going to infinity.
 const FAR: f64 = 50.0;
 
+/// The same from which on steps grow with the distance. With the mechanism's extent as the unit of length, they stay as
+/// long as they are.
+const NEAR: f64 = 2.0;
+/// Change of the extrapolated pose at which links go to infinity, when the nearest pose is left out (rad).
+/// Below it the poses farther out tell nothing more.
+const AGREED: f64 = 1e-9;
+/// Growth of the extent between two such extrapolations.
+const FARTHER: f64 = 1.2;
+/// Largest number of poses from which a singular pose is extrapolated.
+const MOST_KNOWN: usize = 9;
+
 /// Follows the curve of one case.
 #[derive(Debug)]
 pub(super) struct Tracker<'a> {
@@ -235,11 +246,11 @@ impl<'a> Tracker<'a> {
         }
         let mut points = vec![first];
         let mut turns = 1;
-        let mut longest = LONGEST;
+        let (mut longest, mut tried) = (LONGEST, FARTHER);
         while points.len() < MOST_POINTS {
             let here = &points[points.len() - 1];
             let Some((next, step)) = self.step(here, longest) else { return self.met(points) };
-            longest = (2.0 * step).smaller(LONGEST);
+            longest = (2.0 * step).smaller(LONGEST * self.extent(&next.q));
             if self.crank_rate(&next) * sense <= 0.0 {
                 let limit = self.zero(here, &next, |point| self.crank_rate(point));
                 let singularity = self.singularity(Kind::DeadPoint, &limit);
@@ -260,10 +271,13 @@ impl<'a> Tracker<'a> {
                 }
             }
             let is_near = next.sigma < MEET;
-            let is_far = next.q.iter().enumerate().any(|(k, x)| k % 3 < 2 && x.abs() > FAR);
+            let extent = self.extent(&next.q);
             points.push(next);
-            if is_far {
-                return self.escaped(points);
+            if extent > tried {
+                tried = extent * FARTHER;
+                if extent > FAR / NEAR || self.is_settled(&points) {
+                    return self.escaped(points);
+                }
             }
             if is_near {
                 return self.met(points);
@@ -272,10 +286,31 @@ impl<'a> Tracker<'a> {
         Err(lost(self.crank_of(&points[points.len() - 1].q)))
     }
 
+    /// Distance of the farthest link from the crank's pivot, in [`NEAR`] sizes of the mechanism; at least 1.
+    fn extent(&self, q: &Column) -> f64 {
+        q.iter().enumerate().filter(|(k, _)| k % 3 < 2).fold(1.0, |most, (_, x)| most.larger(x.abs() / NEAR))
+    }
+
+    /// Lower bound on the distance to another branch.
+    /// The smallest singular value is small where links are far away, although nothing is near: the axes that lead them
+    /// there are almost parallel. So it is taken times the extent. The groups without a far link are not
+    /// larger; their determinants bound them.
+    fn clearance(&self, here: &Point) -> f64 {
+        let extent = self.extent(&here.q);
+        let all = here.sigma * extent;
+        if extent == 1.0 {
+            return all;
+        }
+        let is_far = |link: &usize| here.q.rows(3 * link - 3, 2).amax() > NEAR;
+        let groups = self.case.structure.groups.iter().zip(&here.measures);
+        let near = groups.filter(|(group, _)| !group.links.iter().any(is_far));
+        near.fold(all, |least, (_, measure)| least.smaller(measure.determinant.abs()))
+    }
+
     /// One step of at most `longest`, which passes no singular pose except one limit of rotation. `None` where branches
     /// meet.
     fn step(&self, here: &Point, longest: f64) -> Option<(Point, f64)> {
-        let mut step = longest.smaller(SAFE * here.sigma);
+        let mut step = longest.smaller(SAFE * self.clearance(here));
         while step >= SHORTEST {
             if let Some(next) = self.advance(here, step) {
                 let changed = |a: f64, b: f64| a * b <= 0.0;
@@ -298,6 +333,7 @@ impl<'a> Tracker<'a> {
         let last = &points[points.len() - 1];
         let Some(group) = weakest(&last.measures) else { return Err(lost(self.crank_of(&last.q))) };
         let known = by_determinant(&points, group);
+        let known: Vec<(f64, Column)> = known.into_iter().map(|(x, point)| (x, point.q.clone())).collect();
         let q = if known.len() < 3 { last.q.clone() } else { neville_at_zero(&known) };
         let moved = (&q - &last.q).norm();
         let q = if moved < 1e-3 { q } else { last.q.clone() };
@@ -311,8 +347,30 @@ impl<'a> Tracker<'a> {
         Ok(Track { points, end: End::Limit(singularity) })
     }
 
+    /// Whether the pose at which links go to infinity is known to rounding, so that nothing lies between: angles of
+    /// all links, and determinants, which have kept their signs.
+    fn is_settled(&self, points: &[Point]) -> bool {
+        let last = &points[points.len() - 1];
+        let Some(group) = weakest(&last.measures) else { return false };
+        let known = by_determinant(points, group);
+        if known.len() < MOST_KNOWN {
+            return false;
+        }
+        let known: Vec<(f64, Column)> = known.into_iter().map(|(x, point)| (x, self.finite(point))).collect();
+        let [now, before] = [&known[..], &known[1..]].map(neville_at_zero);
+        let keeps_sign = |other: usize| now[other] * last.measures[other].determinant > 0.0;
+        (&now - before).amax() < AGREED && (0..last.measures.len()).all(|other| other == group || keeps_sign(other))
+    }
+
+    /// What stays finite where links go to infinity: determinants of all groups, then angles of all links (rad).
+    fn finite(&self, point: &Point) -> Column {
+        let angles = (1..self.case.mechanism.links().len()).map(|link| point.q[Constraints::angle(link)]);
+        let all: Vec<f64> = point.measures.iter().map(|measure| measure.determinant).chain(angles).collect();
+        Column::from_vec(all)
+    }
+
     /// The end of a track along which a slide grows without bound. The crank angle is a smooth function of the
-    /// determinant there too.
+    /// determinant there too, and so are the angles of all links and the measures of the other groups.
     fn escaped(&self, mut points: Vec<Point>) -> Result<Track> {
         let last = &points[points.len() - 1];
         let Some(group) = weakest(&last.measures) else { return Err(lost(self.crank_of(&last.q))) };
@@ -320,8 +378,15 @@ impl<'a> Tracker<'a> {
         if known.len() < 3 {
             return Err(lost(self.crank_of(&last.q)));
         }
+        let known: Vec<(f64, Column)> = known.into_iter().map(|(x, point)| (x, self.finite(point))).collect();
+        let found = neville_at_zero(&known);
         let mut end = last.clone();
-        end.q[self.crank] = neville_at_zero(&known)[self.crank];
+        for (measure, determinant) in end.measures.iter_mut().zip(found.iter()) {
+            measure.determinant = *determinant;
+        }
+        for (link, angle) in (1..self.case.mechanism.links().len()).zip(found.iter().skip(end.measures.len())) {
+            end.q[Constraints::angle(link)] = *angle;
+        }
         end.measures[group] = Measure { determinant: 0.0, condition: f64::MAX };
         let singularity = self.singularity(Kind::ParallelAxes, &end);
         points.push(end);
@@ -343,15 +408,15 @@ impl<'a> Tracker<'a> {
     }
 }
 
-/// Coordinates of the last regular poses by the determinant of a group.
+/// The last regular poses by the determinant of a group.
 /// The nearest to zero comes first; each is half as far again as the one before.
-fn by_determinant(points: &[Point], group: usize) -> Vec<(f64, &Column)> {
-    let mut known: Vec<(f64, &Column)> = Vec::new();
+fn by_determinant(points: &[Point], group: usize) -> Vec<(f64, &Point)> {
+    let mut known: Vec<(f64, &Point)> = Vec::new();
     for point in points.iter().rev().filter(|point| point.sigma > 1e-4) {
         let determinant = point.measures[group].determinant;
         let apart = known.last().is_none_or(|(nearer, _)| determinant.abs() > 1.5 * nearer.abs());
-        if apart && known.len() < 9 {
-            known.push((determinant, &point.q));
+        if apart && known.len() < MOST_KNOWN {
+            known.push((determinant, point));
         }
     }
     known
@@ -437,8 +502,8 @@ fn tangent(jacobian: &Matrix, along: &Column) -> Column {
 }
 
 /// Value at zero of the polynomial through (x, column) pairs with different x.
-fn neville_at_zero(known: &[(f64, &Column)]) -> Column {
-    let mut row: Vec<Column> = known.iter().map(|(_, q)| (*q).clone()).collect();
+fn neville_at_zero(known: &[(f64, Column)]) -> Column {
+    let mut row: Vec<Column> = known.iter().map(|(_, q)| q.clone()).collect();
     for level in 1..known.len() {
         for k in 0..known.len() - level {
             let (x0, x1) = (known[k].0, known[k + level].0);

@@ -3,11 +3,11 @@
 use super::flow::{Forces, InTime};
 use super::model::{Model, Piece};
 use crate::PoseSolver;
-use crate::motion::march::{MOST_EMPTY, Place, SETTING_OFF, Step, Stop, march};
+use crate::motion::march::{MOST_EMPTY, Place, Step, Stop, march};
 use linkage::case::{Case, Grid};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
-use linkage::solver::{Sampler, State, Visit};
+use linkage::solver::{Sampler, Visit};
 use linkage::trajectory::{Channel, Stage, Trajectory};
 
 /// The crank at one instant.
@@ -200,11 +200,7 @@ pub(crate) fn states(case: &Case, motion: &[CrankState], visit: Visit) -> Result
         poses.solve(instant.crank, instant.omega, instant.alpha, deepest)?;
         // At the instant of starting from rest, loads act against the motion that begins.
         if instant.omega == 0.0 && instant.alpha != 0.0 && deepest >= Stage::Reactions {
-            let begun = SETTING_OFF.copysign(instant.alpha);
-            let loaded = poses.solve(instant.crank, begun, instant.alpha, deepest)?.clone();
-            poses.solve(instant.crank, 0.0, instant.alpha, Stage::Accelerations)?;
-            let still = poses.with_angles().clone();
-            visit(row, &State { motions: still.motions, angles: still.angles, ..loaded })?;
+            visit(row, poses.set_off(instant.crank, instant.alpha, deepest)?)?;
             continue;
         }
         visit(row, poses.with_angles())?;

@@ -212,11 +212,14 @@ impl Load {
                 let force = if *follows { motions[at.link].arm(force) } else { force };
                 put(Action { link: at.link, force, place: motions[at.link].point(at.local), moment: 0.0 });
             }
-            &Load::ResistingForce { at, force } => {
+            &Load::ResistingForce { at, .. } => {
                 let velocity = motions[at.link].point_velocity(at.local);
-                let speed = velocity.norm();
-                let force = if speed > 0.0 { velocity * (-force / speed) } else { Vec2::zeros() };
-                put(Action { link: at.link, force, place: motions[at.link].point(at.local), moment: 0.0 });
+                put(Action {
+                    link: at.link,
+                    force: self.force_in(sense_of(velocity)),
+                    place: motions[at.link].point(at.local),
+                    moment: 0.0,
+                });
             }
             &Load::Spring { ends, stiffness, free_length } => {
                 let (places, span) = span(motions, ends);
@@ -311,6 +314,19 @@ impl Load {
         }
     }
 
+    /// Force (N) of a load with a [sensed point](Load::sensed_point) while that point moves in the direction `way`: a unit
+    /// vector in world axes, or zero for standstill. Zero for other loads.
+    #[inline]
+    #[must_use]
+    pub fn force_in(&self, way: Vec2) -> Vec2 {
+        match *self {
+            Load::ResistingForce { force, .. } => way * -force,
+            Load::Resistance { .. } | Load::Moment { .. } | Load::Force { .. } => Vec2::zeros(),
+            Load::Spring { .. } | Load::Damper { .. } => Vec2::zeros(),
+            Load::TorsionSpring { .. } | Load::TorsionDamper { .. } => Vec2::zeros(),
+        }
+    }
+
     /// For a [resistance](Load::Resistance): the loaded link and the size of the moment (N m).
     /// It is the only load that some engines and formats have built in.
     #[inline]
@@ -346,6 +362,14 @@ impl Load {
     pub fn sort(&self) -> &'static str {
         self.nature().sort.name()
     }
+}
+
+/// Direction of a velocity: a unit vector, or zero at standstill. The squares of the smallest speeds do not vanish.
+#[inline]
+#[must_use]
+pub fn sense_of(velocity: Vec2) -> Vec2 {
+    let most = velocity.amax();
+    if most > 0.0 { (velocity / most).normalize() } else { Vec2::zeros() }
 }
 
 /// World places of two ends and the vector from the first to the second.

@@ -184,6 +184,7 @@ pub fn polished<E>(
 /// positive.
 /// Ends where a secant would change the length by no more than four roundings. A change by more than the length itself
 /// is not made.
+/// Returns the length with the value nearest to zero: between two values of rounding a secant leads anywhere.
 ///
 /// # Errors
 /// The first of `value`.
@@ -194,6 +195,7 @@ pub fn secants<E>(
     mut value: impl FnMut(f64) -> Result<f64, E>,
 ) -> Result<f64, E> {
     let mut last = (guess, value(guess)?);
+    let mut best = last;
     for _ in 0..steps {
         let change = last.1 * (last.0 - known.0) / (last.1 - known.1);
         if !(change.abs() > 4.0 * f64::EPSILON * last.0 && change.abs() < last.0) {
@@ -202,8 +204,11 @@ pub fn secants<E>(
         known = last;
         let at = last.0 - change;
         last = (at, value(at)?);
+        if last.1.abs() <= best.1.abs() {
+            best = last;
+        }
     }
-    Ok(last.0)
+    Ok(best.0)
 }
 
 #[cfg(test)]

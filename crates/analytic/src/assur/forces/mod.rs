@@ -65,8 +65,19 @@ impl Kinetostatics {
     /// The balancing moments follow from equilibrium about the pivots.
     /// The pose must be the last one that `plan` has solved. Loads may use the state's angles.
     pub(super) fn solve(&mut self, case: &Case, plan: &Plan, state: &mut State) {
-        let State { motions, forces, moments, torques, angles } = state;
-        case.loads_on(motions, angles, &mut self.loads);
+        case.loads_on(&state.motions, &state.angles, &mut self.loads);
+        self.balance(case, plan, state);
+    }
+
+    /// The same under the given loads on all links.
+    pub(super) fn solve_under(&mut self, loads: &[Wrench], case: &Case, plan: &Plan, state: &mut State) {
+        let count = self.loads.len();
+        self.loads.copy_from_slice(&loads[..count]);
+        self.balance(case, plan, state);
+    }
+
+    fn balance(&mut self, case: &Case, plan: &Plan, state: &mut State) {
+        let State { motions, forces, moments, torques, .. } = state;
         let reactions = &mut Reactions { forces, moments, loads: &self.loads };
         for part in &mut self.parts {
             match part {

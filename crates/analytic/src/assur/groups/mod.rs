@@ -55,8 +55,6 @@ pub enum Step {
 pub struct Plan {
     drivers: Vec<Driver>,
     steps: Vec<Step>,
-    /// World angle of the first driving link at the last pose (rad).
-    angle: f64,
 }
 
 /// A group that cannot be placed at some crank angle.
@@ -84,9 +82,9 @@ impl Plan {
             GroupKind::Rpr => Step::Rpr(Rpr::of(mechanism, group, mode)),
             GroupKind::Rpp => Step::Rpp(Rpp::of(mechanism, group)),
             GroupKind::Prp => Step::Prp(Prp::of(mechanism, group)),
-            GroupKind::Higher => Step::Chain(Chain::of(mechanism, group)),
+            GroupKind::Higher => Step::Chain(Chain::of(mechanism, group, structure.drivers.len())),
         });
-        Plan { drivers: drivers.collect(), steps: steps.collect(), angle: f64::NAN }
+        Plan { drivers: drivers.collect(), steps: steps.collect() }
     }
 
     /// The groups, in the order of [`Structure::groups`].
@@ -102,14 +100,12 @@ impl Plan {
     }
 
     /// Positions of all links for the world angles of the driving links (rad), in the order of
-    /// [`Structure::drivers`]. Higher groups
-    /// start from the last pose in `motions`.
+    /// [`Structure::drivers`]. Higher groups start from the last pose in `motions`.
     ///
     /// # Errors
     /// The first group that cannot be placed.
     #[inline]
     pub fn positions(&mut self, angles: &[f64], motions: &mut [Motion]) -> std::result::Result<(), OutOfReach> {
-        let angle = angles[0];
         for (driver, &angle) in self.drivers.iter().zip(angles) {
             let direction = unit(angle);
             let place = if driver.base == GROUND { driver.place } else { motions[driver.base].point(driver.place) };
@@ -124,14 +120,13 @@ impl Plan {
                 Step::Rpr(dyad) => dyad.positions(motions),
                 Step::Rpp(dyad) => dyad.positions(motions),
                 Step::Prp(dyad) => dyad.positions(motions),
-                Step::Chain(chain) => match chain.positions(angle - self.angle, motions) {
+                Step::Chain(chain) => match chain.positions(angles, motions) {
                     true => Ok(()),
                     false => Err(Misfit::Lost),
                 },
             };
             placed.map_err(|why| OutOfReach { group, why })?;
         }
-        self.angle = angle;
         Ok(())
     }
 

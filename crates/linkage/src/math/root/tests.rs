@@ -103,6 +103,18 @@ fn secants_keep_to_positive_lengths() {
     assert_eq!(secants((2.0, 3.0), 1.0, 6, |_| Err("fails")), Err("fails"));
 }
 
+/// Within rounding of the zero the values hardly differ, and the line through two of them meets zero anywhere.
+#[test]
+fn secants_end_at_rounding() {
+    let mut asked = 0.0;
+    let found = secants((2.0, 2f64.exp() - 3.0), 1.0, 20, |x: f64| {
+        asked += 1.0;
+        let value = x.exp() - 3.0;
+        Ok::<f64, Infallible>(if value.abs() < 1e-10 { 1e-13 * (1.0 + 1e-9 * asked) } else { value })
+    });
+    assert!((sure(found) - 3f64.ln()).abs() < 1e-10, "{found:?}");
+}
+
 /// A cubic that rises all the way, with its zero, and its slope.
 fn cubic(zero: f64, a: f64, b: f64) -> impl Fn(f64) -> (f64, f64) {
     move |x: f64| {

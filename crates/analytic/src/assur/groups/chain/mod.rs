@@ -40,7 +40,7 @@ const SAME_POSE: f64 = 4e-14;
 const MAX_CORRECTION: f64 = 0.01;
 /// Share of the squared determinant that must be left after a step, as extrapolated from the last step.
 const LEAST_LEFT: f64 = 0.25;
-/// Steps of the driving angle (rad) below which a jump to another branch is no longer possible.
+/// Steps of the driving angles (rad) below which a jump to another branch is no longer possible.
 const SMALLEST_STEP: f64 = 1e-6;
 /// Number of steps that a prediction uses.
 const MEMORY: usize = 5;
@@ -78,9 +78,13 @@ pub struct Chain {
     jacobian: Lu,
     unknown: Vec<f64>,
     branch: f64,
-    /// Square of the determinant at the last pose, and its derivative by the driving angle (1/rad).
+    /// Square of the determinant at the last pose, and its derivatives by the driving angles (1/rad).
+    /// Every step corrects the derivative along itself (Broyden's update).
     square: f64,
-    slope: f64,
+    slopes: Vec<f64>,
+    /// Driving angles at the last pose, and their changes to the wanted one (rad).
+    at: Vec<f64>,
+    step: Vec<f64>,
     /// Directions of the links at the last pose, for a return to it.
     kept: Vec<Vec2>,
     /// Slides at this pose and at the last one, and their rates (m, m, m/s). 0 for revolute joints.
@@ -90,17 +94,17 @@ pub struct Chain {
     /// Length by which slides are divided, so that all unknowns are of one order of magnitude (m).
     size: f64,
     is_sliding: bool,
-    /// Changes of the unknowns in the last steps, the newest first; how many of these steps had the same size; and
-    /// that size (rad of the driving angle).
+    /// Changes of the unknowns in the last steps, the newest first; how many of these steps were the same; and that
+    /// step (rad of the driving angles).
     turned: Vec<[f64; MEMORY]>,
     equal_steps: usize,
-    last_step: f64,
+    last_step: Vec<f64>,
 }
 
 impl Chain {
-    /// Prepares a group.
+    /// Prepares a group of a mechanism with this number of driving links.
     #[must_use]
-    pub fn of(mechanism: &Mechanism, group: &Group) -> Self {
+    pub fn of(mechanism: &Mechanism, group: &Group, drives: usize) -> Self {
         let (nodes, closings) = contours(mechanism, group);
         let n = nodes.len();
         let is_sliding = nodes.iter().any(|node| node.guided.is_some());
@@ -111,7 +115,9 @@ impl Chain {
             unknown: vec![0.0; n],
             branch: 0.0,
             square: f64::NAN,
-            slope: 0.0,
+            slopes: vec![0.0; drives],
+            at: vec![f64::NAN; drives],
+            step: vec![0.0; drives],
             kept: vec![Vec2::zeros(); n],
             slides: vec![f64::NAN; n],
             kept_slides: vec![0.0; n],
@@ -120,7 +126,7 @@ impl Chain {
             is_sliding,
             turned: vec![[0.0; MEMORY]; n],
             equal_steps: 0,
-            last_step: f64::NAN,
+            last_step: vec![f64::NAN; drives],
         }
     }
 
@@ -214,31 +220,31 @@ impl Chain {
         }
     }
 
-    /// Positions from those of the last pose, after the driving angle has moved by `step` (rad).
+    /// Positions at these driving angles (rad), from those of the last pose.
     /// Returns `false`, with the links' directions unchanged, if the branch cannot be followed there.
-    pub(super) fn positions(&mut self, step: f64, motions: &mut [Motion]) -> bool {
+    pub(super) fn positions(&mut self, angles: &[f64], motions: &mut [Motion]) -> bool {
         if self.slides[0].is_nan() {
             self.read_slides(motions);
         }
-        if self.is_bold(step) {
-            self.last_step = f64::NAN;
+        for ((step, angle), at) in self.step.iter_mut().zip(angles).zip(&self.at) {
+            *step = angle - at;
+        }
+        if self.is_bold() {
+            self.last_step.fill(f64::NAN);
             return false;
         }
         for (kept, node) in self.kept.iter_mut().zip(&self.nodes) {
             *kept = motions[node.link].direction;
         }
         self.kept_slides.copy_from_slice(&self.slides);
-        let allowed = if self.predict(step, motions) { MAX_CORRECTION } else { MAX_TURN };
+        let allowed = if self.predict(motions) { MAX_CORRECTION } else { MAX_TURN };
         let followed = self.follow(allowed, motions) && self.is_near(motions);
         if followed {
-            self.remember(step, motions);
-            let square = self.jacobian.determinant().powi(2);
-            if step != 0.0 && self.square.is_finite() {
-                self.slope = (square - self.square) / step;
-            }
-            self.square = square;
+            self.remember(motions);
+            self.at.copy_from_slice(angles);
+            self.learn();
         } else {
-            self.last_step = f64::NAN;
+            self.last_step.fill(f64::NAN);
             for (kept, node) in self.kept.iter().zip(&self.nodes) {
                 motions[node.link].direction = *kept;
             }
@@ -247,16 +253,31 @@ impl Chain {
         followed
     }
 
-    /// Whether a step of the driving angle (rad) has the same size as the last one.
-    fn is_repeated(&self, step: f64) -> bool {
-        (step - self.last_step).abs() <= 1e-6 * step.abs()
+    /// Stores the squared determinant of this pose, and how it has changed in this step.
+    fn learn(&mut self) {
+        let square = self.jacobian.determinant().powi(2);
+        let length = self.step.iter().map(|step| step * step).sum::<f64>();
+        if length > 0.0 && self.square.is_finite() {
+            let rest = square - self.square - self.foreseen();
+            self.slopes.iter_mut().zip(&self.step).for_each(|(slope, step)| *slope += rest * step / length);
+        }
+        self.square = square;
     }
 
-    /// Turns the links as extrapolated from the last steps, if this step has the same size, and returns whether it
-    /// has.
+    /// Change of the squared determinant over this step, as extrapolated from the last ones.
+    fn foreseen(&self) -> f64 {
+        self.slopes.iter().zip(&self.step).map(|(slope, step)| slope * step).sum()
+    }
+
+    /// Whether this step of the driving angles is the same as the last one.
+    fn is_repeated(&self) -> bool {
+        self.step.iter().zip(&self.last_step).all(|(step, last)| (step - last).abs() <= 1e-6 * step.abs())
+    }
+
+    /// Turns the links as extrapolated from the last steps, if this step is the same, and returns whether it is.
     /// The polynomial through the last steps is continued, so that its next difference is zero.
-    fn predict(&mut self, step: f64, motions: &mut [Motion]) -> bool {
-        let repeated = self.is_repeated(step);
+    fn predict(&mut self, motions: &mut [Motion]) -> bool {
+        let repeated = self.is_repeated();
         if repeated {
             let weights = &EXTRAPOLATION[self.equal_steps.min(MEMORY) - 1];
             for (index, turned) in self.turned.iter().enumerate() {
@@ -268,8 +289,8 @@ impl Chain {
     }
 
     /// Stores the turns of this step for the next prediction.
-    fn remember(&mut self, step: f64, motions: &[Motion]) {
-        self.equal_steps = if self.is_repeated(step) { self.equal_steps + 1 } else { 1 };
+    fn remember(&mut self, motions: &[Motion]) {
+        self.equal_steps = if self.is_repeated() { self.equal_steps + 1 } else { 1 };
         for (index, node) in self.nodes.iter().enumerate() {
             let turn = match node.guided {
                 None => small_arcsine(cross(self.kept[index], motions[node.link].direction)),
@@ -279,7 +300,7 @@ impl Chain {
             turned.copy_within(..MEMORY - 1, 1);
             turned[0] = turn;
         }
-        self.last_step = step;
+        self.last_step.copy_from_slice(&self.step);
     }
 
     /// Whether no link has turned or slid farther than a continuation allows.
@@ -339,12 +360,13 @@ impl Chain {
         sign == self.branch
     }
 
-    /// Whether a step might lead over a dead point. Near one, the square of the determinant is linear in the
-    /// driving angle.
+    /// Whether this step might lead over a dead point. Near one, the square of the determinant is linear in the
+    /// driving angles.
     /// A step on which it would lose most of its value must be smaller, or it might end on the other side of a gap
     /// between two branches.
-    fn is_bold(&self, step: f64) -> bool {
-        step.abs() > SMALLEST_STEP && self.square + self.slope * step < LEAST_LEFT * self.square
+    fn is_bold(&self) -> bool {
+        let goes = self.step.iter().any(|step| step.abs() > SMALLEST_STEP);
+        goes && self.square + self.foreseen() < LEAST_LEFT * self.square
     }
 
     pub(super) fn velocities(&mut self, motions: &mut [Motion]) {

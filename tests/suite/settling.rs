@@ -1,0 +1,205 @@
+//! A proof without any setting: it finds its own, keeps to what is given, and says what it did.
+
+use std::path::Path;
+
+use linkproof::engines::EngineName;
+use linkproof::proof::{End, Options, Proof, prove, prove_against};
+use linkproof::scenario::Scenario;
+
+use crate::common::shipped;
+use crate::common::specimens::specimen;
+
+fn parsed(text: &str) -> Scenario {
+    Scenario::parse(text, Path::new("settling.toml")).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn proven(scenario: &Scenario) -> Proof {
+    prove(scenario, &Options::default()).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// What a proof says, and what it does not depend on the machine: every number of every channel.
+fn numbers(proof: &Proof) -> Vec<(f64, f64, String)> {
+    let of = |channel: &linkproof::proof::ChannelProof| {
+        (channel.residual.max, channel.bound, channel.verdict.word().to_string())
+    };
+    proof.engine().channels.iter().map(of).collect()
+}
+
+/// Random correct mechanisms of both motions, with masses over four decades, without any setting.
+#[test]
+fn random_mechanisms_end_in_agreement_by_themselves() {
+    let mut open = Vec::new();
+    for index in 0..20 {
+        let own = specimen(11, index, &mut Default::default());
+        let proof = proven(&parsed(&own.toml(false)));
+        let word = proof.verdict.word();
+        assert_ne!(word, "disagree", "{index}: {:?}\n{}", proof.verdict, own.toml(false));
+        if word != "agree" {
+            open.push((index, format!("{:?}", proof.verdict)));
+        }
+    }
+    // What the engine cannot decide within the work allowed: one in twenty at most.
+    assert!(open.len() <= 1, "{open:?}");
+}
+
+#[test]
+fn the_same_input_finds_the_same_settings_and_the_same_bits() {
+    let scenario = shipped("crank_rocker_runup.toml");
+    let [one, other] = [0; 2].map(|_| proven(&scenario));
+    assert_eq!(one.engine().info.settings, other.engine().info.settings);
+    assert_eq!(one.engine().search, other.engine().search);
+    assert_eq!(numbers(&one), numbers(&other));
+}
+
+/// A step that is given is kept to, and nothing finer is run for the result. Where it proves nothing, the free choice is
+/// tried, and its outcome told.
+#[test]
+fn a_given_step_is_kept_to_and_the_way_out_has_been_tried() {
+    let scenario = shipped("crank_rocker.toml");
+    let proof = prove(&scenario, &Options::default().step(2e-2)).unwrap();
+    let settings = proof.engine().info.settings;
+    assert_eq!((settings.resolution, settings.extrapolated), (2e-2, 0));
+    assert_eq!(proof.verdict.word(), "inconclusive");
+    let told = proof.verdict.reason(linkproof::parts::Advice::to_string).unwrap();
+    assert!(told.contains("leave the step to the proof") && told.ends_with("the verdict there is agree"), "{told}");
+    let fixed = prove(&scenario, &Options::default().step(1e-3).sweeps(64).extrapolated(1)).unwrap();
+    assert!(fixed.engine().search.is_none());
+    assert_eq!(fixed.verdict.word(), "agree");
+}
+
+/// A fault in the engine's case is found at a given step too, where no finer run can bear it out.
+#[test]
+fn a_disagreement_at_a_given_step_counts() {
+    let scenario = shipped("crank_rocker.toml");
+    let wrong = parsed(&scenario.text.replace("mass_kg = 34.7", "mass_kg = 40"));
+    for options in [Options::default().step(1e-3), Options::default().step(1e-3).sweeps(64), Options::default()] {
+        let proof = prove_against(&scenario, &wrong.case, &options).unwrap();
+        assert_eq!(proof.verdict.word(), "disagree", "{:?}", proof.engine().search);
+    }
+}
+
+#[test]
+fn work_is_limited_and_told() {
+    let scenario = shipped("crank_rocker_runup.toml");
+    let proof = prove(&scenario, &Options::default().budget(500.0)).unwrap();
+    let search = proof.engine().search.clone().unwrap();
+    assert_eq!((search.end, proof.verdict.word()), (End::Budget, "inconclusive"));
+    assert!(search.effort <= 4000.0, "{search:?}");
+    let told = proof.verdict.reason(linkproof::parts::Advice::to_string).unwrap();
+    assert!(told.contains("the work that was allowed is done; allow more work, such as 5e3 steps"), "{told}");
+}
+
+/// Without a loop there is nothing to iterate, and a proof of a pendulum takes a single sweep a step.
+#[test]
+fn no_sweeps_where_there_is_no_loop() {
+    let proof = proven(&shipped("pendulum.toml"));
+    assert_eq!((proof.verdict.word(), proof.engine().info.settings.sweeps), ("agree", 1));
+}
+
+/// Symptom: 4096 sweeps are not enough for a four-bar in free motion whose rocker is 156 times lighter than its coupler.
+/// Cause: the rows of the loop lay along world axes. With rows along and across the rocker 16 sweeps leave 1.5e-7.
+#[test]
+fn regress_a_light_rocker_behind_a_heavy_coupler_needs_few_sweeps() {
+    let own = specimen(1, 42, &mut Default::default());
+    let proof = proven(&parsed(&own.toml(false)));
+    assert_eq!(proof.verdict.word(), "agree", "{:?}", proof.verdict);
+    assert!(proof.engine().info.settings.sweeps <= 64, "{:?}", proof.engine().info.settings);
+}
+
+/// A free motion over ten thousand steps of the grid: the sides differ by more than the rounding of a pose, and by less
+/// than the error of their integration, which a tighter run shows.
+#[test]
+fn regress_a_long_run_up_is_known_to_the_error_of_its_integration() {
+    let text = shipped("compressor_runup.toml").text;
+    let [to, step] = ["to_s = ", "step_s = "].map(|key| {
+        let from = text.find(&format!("\n{key}")).unwrap() + 1;
+        text[from..].lines().next().unwrap().to_string()
+    });
+    let long = parsed(&text.replace(&to, "to_s = 5").replace(&step, "step_s = 0.01"));
+    let proof = prove(&long, &Options::default().engine(EngineName::Rapier)).unwrap();
+    assert_eq!(proof.verdict.word(), "agree", "{:?}", proof.verdict);
+    let positions = proof.checks.iter().find(|check| check.name() == "assur against newton, positions").unwrap();
+    assert!(positions.value > 1e-12 && positions.bound < 1e-9, "{positions:?}");
+}
+
+/// A parallelogram whose crank passes at `gap` degrees from both change points.
+fn parallelogram(gap: f64, more: &str) -> Scenario {
+    let (to, step) = (180.0 - gap, gap);
+    parsed(&format!("{PARALLELOGRAM}from_deg = {gap}\nto_deg = {to}\nstep_deg = {step}\n{more}"))
+}
+
+/// Rounding grows with the condition of the pose: 115 at one degree, 458 at a quarter of one.
+#[test]
+fn regress_near_a_change_point_the_bounds_know_the_condition() {
+    for gap in [1.0, 0.25] {
+        let proof = proven(&parallelogram(gap, ""));
+        assert_eq!(proof.verdict.word(), "agree", "{gap}: {:?}", proof.verdict);
+    }
+}
+
+/// A number with all digits of a double is met; one that is off by 1e-14 is not.
+#[test]
+fn regress_an_oracle_is_not_asked_for_more_than_the_sides_know() {
+    for (value, word) in [("1.5707963267948966", "agree"), ("1.5707963267949366", "disagree")] {
+        let oracle = format!(
+            "[[oracle]]\nname = \"square\"\nbasis = \"derived\"\nsource = \"the rocker is parallel to the crank\"\n\
+             crank_deg = 90\nvalues = [{{ channel = \"link.rocker.angle_rad\", value = {value}, digits = 16 }}]\n"
+        );
+        let proof = proven(&parallelogram(10.0, &oracle));
+        let words: Vec<&str> =
+            proof.checks.iter().filter(|check| check.family.contains("square")).map(|c| c.verdict.word()).collect();
+        assert_eq!(words, [word; 2], "{value}");
+    }
+}
+
+const PARALLELOGRAM: &str = r#"
+format = 1
+name = "para"
+title = "parallelogram one degree from its change point"
+[ground.points]
+O = { x_m = 0, y_m = 0 }
+C = { x_m = 1, y_m = 0 }
+[links.crank]
+points = { O = { x_m = 0, y_m = 0 }, A = { x_m = 0.3, y_m = 0 } }
+mass_kg = 1
+inertia_kg_m2 = 0.01
+mass_centre = { x_m = 0.15, y_m = 0 }
+[links.coupler]
+points = { A = { x_m = 0, y_m = 0 }, B = { x_m = 1, y_m = 0 } }
+mass_kg = 2
+inertia_kg_m2 = 0.1
+mass_centre = { x_m = 0.4, y_m = 0.1 }
+[links.rocker]
+points = { C = { x_m = 0, y_m = 0 }, B = { x_m = 0.3, y_m = 0 } }
+mass_kg = 1
+inertia_kg_m2 = 0.01
+mass_centre = { x_m = 0.15, y_m = 0 }
+[[joints]]
+type = "revolute"
+name = "O"
+links = ["ground", "crank"]
+[[joints]]
+type = "revolute"
+name = "A"
+links = ["crank", "coupler"]
+[[joints]]
+type = "revolute"
+name = "B"
+links = ["coupler", "rocker"]
+[[joints]]
+type = "revolute"
+name = "C"
+links = ["ground", "rocker"]
+[drive]
+joint = "O"
+speed_rpm = 60
+[gravity]
+x_m_s2 = 0
+y_m_s2 = -9.81
+[start]
+crank_deg = 90
+[[start.groups]]
+links = ["coupler", "rocker"]
+mode = "right"
+[grid]
+"#;
