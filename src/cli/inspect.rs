@@ -42,7 +42,7 @@ pub(super) struct Args {
 }
 
 pub(super) fn inspect(args: &Args) -> Result<()> {
-    let asked = Asked { modes: args.mode.clone(), crank: None };
+    let asked = Asked { modes: args.mode.clone(), ..Asked::default() };
     // A list of configurations is wanted above all where the file does not decide between them.
     let (scenario, undecided) = match args.modes {
         true => Scenario::load_to_list(&args.file, &asked),

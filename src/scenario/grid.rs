@@ -61,8 +61,9 @@ const LISTS: [(&str, &'static Family); 2] = [("angles", &ANGLE), ("times", &TIME
 
 const BY_TIME: &str = "give the grid by time (`from_s`, `to_s`, `step_s`, or a list `times_s`)";
 
-/// The grid of a scenario, by crank angle or by time: a range or a list.
-pub fn read(mut table: Table, drive: &Drive) -> Result<Grid> {
+/// The grid of a scenario, by crank angle or by time: a range or a list. An empty one if it is not wanted: it is read,
+/// but not checked against the drive.
+pub fn read(mut table: Table, drive: &Drive, is_replaced: bool) -> Result<Grid> {
     let mut lists = Vec::new();
     for (base, family) in LISTS {
         lists.extend(table.optional_quantities(base, family)?.map(|values| (base, family, values)));
@@ -94,6 +95,9 @@ pub fn read(mut table: Table, drive: &Drive) -> Result<Grid> {
         }
     };
     table.finish()?;
+    if is_replaced {
+        return Ok(Grid::default());
+    }
     let by_angle = std::ptr::eq(family, &ANGLE);
     let grid = if by_angle { Grid::of_cranks(drive, points) } else { Grid::of_times(drive, points) };
     let help = match by_angle && drive.is_free() {

@@ -70,6 +70,8 @@ fn grids_of_files_list_their_values() {
     assert_eq!(place.ok("solve scenarios/listed.toml --with newton"), by_option);
     place.edited("pendulum.toml", "listed.toml", &[(OWN_GRID, "angles_deg = [0, 10]")]);
     place.refused("run scenarios/listed.toml --no-record", &["listed.toml", "grid", "the motion is free", "times_s"]);
+    // The file's grid does not block the one that takes its place.
+    place.ok("solve scenarios/listed.toml --with assur --times 0,0.1,0.3");
 }
 
 /// `--start-crank-deg` is `crank_deg` of the file, and the same motion where the speed is constant.
