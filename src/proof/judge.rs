@@ -10,9 +10,10 @@ use crate::compare::{
 };
 use crate::scenario::Scenario;
 use crate::tolerance::{Basis, Parts};
+use linkage::case::{Case, Grid};
 use linkage::engine::{Engine, Settings};
 use linkage::error::{Advice, Result};
-use linkage::math::Vec2;
+use linkage::math::{KeepNan, Vec2};
 use linkage::solver::Provision;
 use linkage::trajectory::{CHANNELS, Channel, Stage, Trajectory};
 
@@ -50,13 +51,19 @@ pub struct ChannelProof {
     /// For a free motion: largest change over the run, as a share of the scale, per share of change in gravity and
     /// motor torque.
     pub sensitivity: Option<f64>,
-    /// Number of instants that are not judged: there a drive or a loaded link reverses, and the channel jumps.
+    /// Number of instants that are not judged: there a drive or a loaded link reverses, and the channel jumps, or a free
+    /// motion begins.
     pub left_out: usize,
     /// What the bound rests on.
     pub basis: Basis,
     /// The outcome.
     pub verdict: Verdict,
 }
+
+/// Steps at the beginning of a free motion whose second differences come from later ones.
+const BEGINNING: f64 = 5.0;
+/// Share of the widest conclusive bound that rounding may take before the beginning is left out.
+const MOST_ROUNDING: f64 = 0.1;
 
 /// What an engine's runs are judged by.
 pub(super) struct Judge<'a> {
@@ -94,14 +101,11 @@ impl Judged {
         channels.map(|own| own.residual.channel.to_string()).chain(checks.map(Check::name)).collect()
     }
 
-    /// Leaves every disagreement open that a refinement has not borne out; `borne_out` names the others.
-    pub(super) fn doubt(&mut self, borne_out: &[String]) {
-        let channels = self.channels.iter_mut().map(|own| (own.residual.channel.to_string(), &mut own.verdict));
-        let checks = self.checks.iter_mut().map(|own| (own.name(), &mut own.verdict));
-        for (name, verdict) in channels.chain(checks) {
-            if let Verdict::Disagree { place } = verdict
-                && !borne_out.contains(&name)
-            {
+    /// Leaves all disagreements open, because no refinement has borne out any of them.
+    pub(super) fn doubt(&mut self) {
+        let channels = self.channels.iter_mut().map(|own| &mut own.verdict);
+        for verdict in channels.chain(self.checks.iter_mut().map(|own| &mut own.verdict)) {
+            if let Verdict::Disagree { place } = verdict {
                 let reason = format!("{place}, but no finer run bears it out");
                 *verdict = Verdict::Inconclusive { reason, advice: vec![Advice::SmallerStep { to: None }] };
             }
@@ -126,10 +130,14 @@ impl Judge<'_> {
 
     fn channels(&self, engine: &dyn Engine, runs: &Runs, doubt: &Doubt) -> Result<Vec<ChannelProof>> {
         let scales = scales(self.reference);
+        let late = self.after_the_beginning(engine, &scales)?;
         let mut all = Vec::with_capacity(self.reference.channels().len());
         // Channels of one stage are judged at the same instants.
         for stage in Stage::ALL {
-            let keep = doubt.keeps(stage);
+            let mut keep = doubt.keeps(stage);
+            let case = late.as_ref().filter(|_| stage >= Stage::Accelerations).unwrap_or(&self.scenario.case);
+            let first = case.grid.times.iter().copied().fold(f64::INFINITY, f64::smaller);
+            keep.iter_mut().zip(self.reference.times()).for_each(|(kept, &t)| *kept &= t >= first);
             let left_out = keep.iter().filter(|&&kept| !kept).count();
             let thin = |trajectory: &Trajectory| trajectory.of_stage(stage, &keep);
             let ladder = runs.ladder();
@@ -143,23 +151,43 @@ impl Judge<'_> {
                 let index = self.reference.channels().iter().position(|own| *own == residual.channel);
                 let index = index.expect("residuals are of the reference");
                 let residual = Residual { scale: scales[index], ..residual };
-                all.push((index, self.channel(engine, ladder, &reference, residual, index, left_out)));
+                all.push((index, self.channel(engine, case, ladder, &reference, residual, index, left_out)));
             }
         }
         all.sort_by_key(|(index, _)| *index);
         Ok(all.into_iter().map(|(_, proof)| proof).collect())
     }
 
+    /// The case without the instants of a beginning free motion at which second differences are carried back over several
+    /// steps, if their rounding would leave accelerations or forces open; `None` if it does not.
+    fn after_the_beginning(&self, engine: &dyn Engine, scales: &[f64]) -> Result<Option<Case>> {
+        let case = &self.scenario.case;
+        let last = case.grid.times.iter().copied().fold(0.0, f64::larger);
+        let begin = BEGINNING * 2.0 * engine.settings().resolution;
+        if !case.is_free() || begin >= last {
+            return Ok(None);
+        }
+        let wanted = self.scenario.engine_rel;
+        let is_open = self.reference.channels().iter().zip(scales).any(|(channel, scale)| {
+            let noise = engine.noise(case, channel.kind);
+            channel.kind.stage >= Stage::Accelerations && noise > MOST_ROUNDING * wanted * scale
+        });
+        let late = || case.grid.times.iter().copied().filter(|&t| t > begin).collect();
+        is_open.then(|| case.on(Grid::of_times(case.crank(), late()))).transpose()
+    }
+
+    #[expect(clippy::too_many_arguments, reason = "all of one channel")]
     fn channel(
         &self,
         engine: &dyn Engine,
+        case: &Case,
         ladder: Ladder<'_>,
         reference: &Trajectory,
         residual: Residual,
         index: usize,
         left_out: usize,
     ) -> ChannelProof {
-        let (case, Settings { resolution, sweeps, .. }) = (&self.scenario.case, engine.settings());
+        let Settings { resolution, sweeps, .. } = engine.settings();
         let (channel, kind) = (residual.channel.clone(), residual.channel.kind);
         let noise = engine.at(resolution / 2.0).noise(case, kind);
         let convergence = Convergence::of_channel(ladder, &channel, engine.formal_order(case, kind), noise)

@@ -194,8 +194,8 @@ impl<'a, 'b> Settling<'a, 'b> {
         match (best, failure) {
             (Some(mut best), _) => {
                 // At a given step there is no finer run: its own estimate counts.
-                if self.free.step {
-                    best.judged.doubt(&borne_out);
+                if self.free.step && borne_out.is_empty() {
+                    best.judged.doubt();
                 }
                 Ok((best.judged, search))
             }

@@ -80,7 +80,7 @@ fn left_out(proof: &Proof, text: &mut String) {
         }
         let _ = writeln!(
             text,
-            "\nUp to {most} of {} instants are not judged in {} ({}): a drive or a loaded link reverses there.",
+            "\nUp to {most} of {} instants are not judged in {} ({}): a drive or a loaded link reverses there, or the motion begins.",
             proof.reference_trajectory.times().len(),
             quantities.join(", "),
             engine.info.name

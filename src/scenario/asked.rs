@@ -3,6 +3,7 @@
 use super::start;
 use linkage::drive::Drives;
 use linkage::error::{Advice, Error, ErrorKind, Result};
+use linkage::math::KeepNan;
 use linkage::math::unit;
 use linkage::mechanism::assembly::{Choice, blame, blamed, first_choices, group_of};
 use linkage::mechanism::pose::SidePoint;
@@ -175,7 +176,7 @@ impl Start<'_> {
     fn walked(&self, (pose, choices): &(Pose, Vec<Choice>), crank: f64) -> Option<Pose> {
         let way = crank - self.crank;
         let has_higher = self.structure.groups.iter().any(|group| group.kind == GroupKind::Higher);
-        let steps = if has_higher { (way.abs() / STEP).ceil().max(1.0) as usize } else { 1 };
+        let steps = if has_higher { (way.abs() / STEP).ceil().larger(1.0) as usize } else { 1 };
         let mut pose = pose.clone();
         for step in 1..=steps {
             let angles = self.angles(self.crank + way * step as f64 / steps as f64);

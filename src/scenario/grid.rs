@@ -57,7 +57,7 @@ pub fn listed(values: Vec<f64>) -> std::result::Result<Vec<f64>, String> {
 }
 
 /// Keys of a grid that lists its values.
-const LISTS: [(&str, &'static Family); 2] = [("angles", &ANGLE), ("times", &TIME)];
+const LISTS: [(&str, &Family); 2] = [("angles", &ANGLE), ("times", &TIME)];
 
 const BY_TIME: &str = "give the grid by time (`from_s`, `to_s`, `step_s`, or a list `times_s`)";
 

@@ -255,7 +255,7 @@ fn read(root: &mut Table, asked: &Asked, lists: bool) -> Result<Found> {
     if !placed.is_own_branch {
         oracles.clear();
     } else if crank != own_crank {
-        oracles = oracles.into_iter().filter_map(|oracle| oracle.from_another_start(&case)).collect();
+        oracles = oracles.into_iter().filter_map(|oracle| oracle.at_another_start(&case)).collect();
     }
     let series = oracles.iter().flat_map(|oracle| &oracle.series);
     let published =

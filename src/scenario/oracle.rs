@@ -41,7 +41,7 @@ pub enum OracleBasis {
 
 impl Oracle {
     /// What holds for a case that starts at another crank angle of the same branch; `None` if nothing does.
-    pub(super) fn from_another_start(mut self, case: &Case) -> Option<Oracle> {
+    pub(super) fn at_another_start(mut self, case: &Case) -> Option<Oracle> {
         self.figures.retain(|figure| !matches!(figure.figure, Figure::Distance(_)));
         // A further drive or a changing speed ties the crank angle to time, and a torsional spring to turns from the
         // start.

@@ -50,7 +50,7 @@ fn both_scenarios_agree_and_the_json_is_as_promised() {
         let engine = &run["engines"][0];
         assert_eq!(
             keys(engine),
-            "channels:array checks:array dt_s:number name:text provides:object reason:null settings:object verdict:text version:text"
+            "channels:array checks:array dt_s:number name:text provides:object reason:null search:object settings:object verdict:text version:text"
         );
         let provides = "accelerations:text balancing_moment:text positions:text reactions:text velocities:text";
         assert_eq!(keys(&engine["provides"]), provides);

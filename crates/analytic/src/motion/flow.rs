@@ -46,7 +46,7 @@ type Sensed = (usize, Senses);
 fn sensed(case: &Case, load: &Load) -> Senses {
     match load.nature().senses {
         Senses::Link(link) if !case.can_turn(link) => Senses::Nothing,
-        senses => senses,
+        senses @ (Senses::Nothing | Senses::Link(_) | Senses::Point(_)) => senses,
     }
 }
 

@@ -44,8 +44,7 @@ impl Sheet {
         let (sign, end) = if self.speed < 0.0 { ("-", -360) } else { ("", 360) };
         format!(
             "[drive]\njoint = \"O\"\nspeed_rad_s = {:?}\n\n[gravity]\nx_m_s2 = 0\ny_m_s2 = -9.81\n\n[start]\ncrank_deg = 0\n\
-             [[start.groups]]\nlinks = [{group}]\nmode = \"{mode}\"\n\n[grid]\nfrom_deg = 0\nto_deg = {end}\nstep_deg = {sign}1\n\n\
-             [engine]\nstep_deg = 0.5\n",
+             [[start.groups]]\nlinks = [{group}]\nmode = \"{mode}\"\n\n[grid]\nfrom_deg = 0\nto_deg = {end}\nstep_deg = {sign}1\n",
             self.speed
         )
     }
