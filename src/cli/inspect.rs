@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
-use super::output;
+use super::{load, output};
 use crate::report::{inspect as report, modes, range};
-use crate::scenario::Scenario;
+use crate::scenario::{Asked, Scenario};
 use analytic::range::explained;
 use linkage::case::Grid;
 use linkage::error::{Error, ErrorKind, Result};
@@ -14,6 +14,7 @@ Examples:
   linkproof inspect scenarios/crank_rocker.toml
   linkproof inspect scenarios/ov7_base.toml --json -
   linkproof inspect scenarios/fourth_class.toml --modes --at-crank-deg 70   all configurations of its groups
+  linkproof inspect scenarios/ov7_base.toml --modes --mode rod_23,rocker_43=left   those of later groups in another mode
   linkproof inspect scenarios/crank_rocker.toml --range                      how far it turns, dead and extreme positions";
 
 #[derive(Debug, clap::Args)]
@@ -32,13 +33,23 @@ pub(super) struct Args {
     /// Crank angle for --modes in degrees, as the scenario states it [default: that of the start]
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, requires = "modes")]
     at_crank_deg: Option<f64>,
+    /// Start a group in another assembly mode than the file states, as in `linkproof run`
+    #[arg(long, value_name = "LINK,LINK=MODE")]
+    mode: Vec<String>,
     /// Write the structure as JSON to a file, or to standard output instead of the text with `-`
     #[arg(long, value_name = "FILE", value_parser = output::target)]
     json: Option<PathBuf>,
 }
 
 pub(super) fn inspect(args: &Args) -> Result<()> {
-    let scenario = Scenario::load(&args.file)?.nominal();
+    let asked = Asked { modes: args.mode.clone(), ..Asked::default() };
+    // A list of configurations is wanted above all where the file does not decide between them.
+    let (scenario, undecided) = match args.modes {
+        true => Scenario::load_to_list(&args.file, &asked),
+        false => Scenario::load_as(&args.file, &asked).map(|scenario| (scenario, Vec::new())),
+    }
+    .map_err(|error| load::of_mode(&asked, error))?;
+    let scenario = scenario.nominal();
     let case = &scenario.case;
     let modes = match args.modes {
         true => {
@@ -54,11 +65,11 @@ pub(super) fn inspect(args: &Args) -> Result<()> {
     match &args.json {
         Some(to) => {
             let modes = modes.as_ref().map(|(crank, all)| (*crank, all.as_slice()));
-            output::write(&report::json(&scenario, modes, range.as_ref()), to)
+            output::write(&report::json(&scenario, modes, &undecided, range.as_ref()), to)
         }
         None => {
             let text = match (modes, range) {
-                (Some((crank, modes)), _) => modes::text(&scenario, crank, &modes),
+                (Some((crank, modes)), _) => modes::text(&scenario, crank, &modes, &undecided),
                 (None, Some(range)) => range::text(&scenario, &range),
                 (None, None) => report::text(&scenario),
             };

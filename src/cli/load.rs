@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::grid::GridArgs;
 use crate::scenario::{Asked, Scenario};
 use linkage::error::{Error, ErrorKind, Result};
 
@@ -21,9 +22,11 @@ pub(super) struct StartArgs {
 }
 
 impl StartArgs {
-    /// Reads a scenario with this start.
-    pub(super) fn load(&self, file: &Path) -> Result<Scenario> {
-        as_asked(file, &self.mode, self.start_crank_deg)
+    /// Reads a scenario with this start, on the grid given, else on its own.
+    pub(super) fn load(&self, file: &Path, grid: &GridArgs) -> Result<Scenario> {
+        let crank = self.start_crank_deg.map(f64::to_radians);
+        let asked = Asked { modes: self.mode.clone(), crank, without_grid: grid.told().is_some() };
+        grid.on(as_asked(file, &asked)?)
     }
 }
 
@@ -35,12 +38,11 @@ fn finite(text: &str) -> std::result::Result<f64, String> {
 
 /// Reads a scenario and starts its groups in the given `modes`.
 pub(super) fn load(file: &Path, modes: &[String]) -> Result<Scenario> {
-    as_asked(file, modes, None)
+    as_asked(file, &Asked { modes: modes.to_vec(), ..Asked::default() })
 }
 
-fn as_asked(file: &Path, modes: &[String], start_deg: Option<f64>) -> Result<Scenario> {
-    let asked = Asked { modes: modes.to_vec(), crank: start_deg.map(f64::to_radians) };
-    Scenario::load_as(file, &asked).map_err(|error| of_mode(&asked, error))
+fn as_asked(file: &Path, asked: &Asked) -> Result<Scenario> {
+    Scenario::load_as(file, asked).map_err(|error| of_mode(asked, error))
 }
 
 /// An error that has no place in the file is one of the modes asked for.

@@ -116,7 +116,7 @@ fn dial(text: &str) -> std::result::Result<f64, String> {
 }
 
 fn prove_file(args: &Args, file: &Path, quiet: bool) -> Result<(Scenario, Proof)> {
-    let scenario = args.grid.on(args.start.load(file)?)?;
+    let scenario = args.start.load(file, &args.grid)?;
     let options = args.engine.options(&args.reference);
     let mut bar = Bar::new(&scenario.name);
     let proof = prove_with(&scenario, &options, &mut |part| bar.at(part))?;

@@ -50,7 +50,7 @@ fn solver_names() -> Vec<&'static str> {
 }
 
 pub(super) fn solve(args: &Args) -> Result<()> {
-    let scenario = args.grid.on(args.start.load(&args.file)?)?;
+    let scenario = args.start.load(&args.file, &args.grid)?;
     let case = &scenario.case;
     let mut bar = Bar::new(&scenario.name);
     let mut progress = |part| bar.at(part);

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use super::pretty::pretty;
 use super::{modes, range};
-use crate::scenario::Scenario;
+use crate::scenario::{Scenario, Undecided};
 use analytic::modes::Modes;
 use analytic::range::Range;
 use linkage::mechanism::assembly::{Choice, transmission_sine};
@@ -75,11 +75,20 @@ fn from_rough_place(choice: &Choice) -> String {
 }
 
 /// The structure as JSON, schema 1. `modes`: crank angle (rad) and the configurations there; `range`: the range of
-/// motion. Both are shown only if they are given.
-pub(crate) fn json(scenario: &Scenario, modes: Option<(f64, &[Modes])>, range: Option<&Range>) -> String {
+/// motion. Both are shown only if they are given. A group that is `undecided` has no mode.
+pub(crate) fn json(
+    scenario: &Scenario,
+    modes: Option<(f64, &[Modes])>,
+    undecided: &[Undecided],
+    range: Option<&Range>,
+) -> String {
     let mut value = structure(scenario);
+    for open in undecided {
+        value["groups"][open.group]["mode"] = Value::Null;
+        value["groups"][open.group]["undecided"] = open.why.message().into();
+    }
     if let Some((crank, all)) = modes {
-        value["modes"] = modes::json(scenario, crank, all);
+        value["modes"] = modes::json(scenario, crank, all, undecided);
     }
     if let Some(range) = range {
         value["range"] = range::json(scenario, range);

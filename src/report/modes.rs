@@ -4,28 +4,53 @@ use std::fmt::Write;
 
 use serde_json::{Value, json};
 
-use crate::scenario::Scenario;
+use crate::scenario::{Scenario, Undecided};
 use analytic::modes::Modes;
 use linkage::mechanism::AssemblyMode;
 
 /// Why a configuration has no angular velocities.
 const SINGULAR: &str = "the configuration is singular: angular velocities are not determined";
 
-/// The configurations as text.
-pub(crate) fn text(scenario: &Scenario, crank: f64, all: &[Modes]) -> String {
+/// What stands beside the list of a group that the scenario does not decide, or that comes after such a group.
+enum Open<'a> {
+    /// Why the group is not decided.
+    Undecided(&'a str),
+    /// The list holds for one configuration of an undecided group before: that group and the configuration's number.
+    After(String, usize),
+}
+
+/// Whether and why the list of the group `index` is not that of the scenario.
+fn open<'a>(scenario: &Scenario, all: &[Modes], undecided: &'a [Undecided], index: usize) -> Option<Open<'a>> {
+    if let Some(own) = undecided.iter().find(|other| other.group == index) {
+        return Some(Open::Undecided(own.why.message()));
+    }
+    let before = undecided.iter().find(|other| other.group < index)?;
+    let names = scenario.case.structure.groups[before.group].names(&scenario.case.mechanism);
+    let number = all[before.group].modes.iter().position(|mode| mode.is_followed).map_or(1, |place| place + 1);
+    Some(Open::After(names, number))
+}
+
+/// The configurations as text. `undecided`: groups for which the scenario does not decide.
+pub(crate) fn text(scenario: &Scenario, crank: f64, all: &[Modes], undecided: &[Undecided]) -> String {
     let mechanism = &scenario.case.mechanism;
     let mut text = String::new();
     let _ = writeln!(text, "{} at crank angle {:.4} deg", scenario.name, crank.to_degrees());
-    for (group, found) in scenario.case.structure.groups.iter().zip(all) {
+    for (index, (group, found)) in scenario.case.structure.groups.iter().zip(all).enumerate() {
         let names = group.names(mechanism);
+        let open = open(scenario, all, undecided, index);
         let _ = match &found.unknown {
             None => writeln!(text, "\n{names}: {} real configurations", found.modes.len()),
             Some(why) => writeln!(text, "\n{names}: only the followed one is shown; {why}"),
         };
+        let _ = match &open {
+            None => Ok(()),
+            Some(Open::Undecided(why)) => writeln!(text, "  not decided by the scenario: {why}"),
+            Some(Open::After(names, number)) => writeln!(text, "  for configuration {number} of {names}"),
+        };
         for (number, mode) in found.modes.iter().enumerate() {
             let name =
                 if mode.mode == AssemblyMode::Followed { String::new() } else { format!(", {}", mode.mode.name()) };
-            let followed = if mode.is_followed { ", followed by the scenario" } else { "" };
+            let followed = if mode.is_followed && open.is_none() { ", followed by the scenario" } else { "" };
             let _ = writeln!(text, "  {}{name}{followed}", number + 1);
             for (k, (&link, pose)) in group.links.iter().zip(&mode.poses).enumerate() {
                 let omega =
@@ -45,9 +70,10 @@ pub(crate) fn text(scenario: &Scenario, crank: f64, all: &[Modes]) -> String {
 }
 
 /// The configurations as JSON.
-pub(super) fn json(scenario: &Scenario, crank: f64, all: &[Modes]) -> Value {
+pub(super) fn json(scenario: &Scenario, crank: f64, all: &[Modes], undecided: &[Undecided]) -> Value {
     let mechanism = &scenario.case.mechanism;
-    let groups = scenario.case.structure.groups.iter().zip(all).map(|(group, found)| {
+    let groups = scenario.case.structure.groups.iter().zip(all).enumerate().map(|(index, (group, found))| {
+        let open = open(scenario, all, undecided, index);
         let modes = found.modes.iter().map(|mode| {
             let links = group.links.iter().zip(&mode.poses).enumerate().map(|(k, (&link, pose))| {
                 let omega = mode.omegas.as_ref().map(|all| all[k]);
@@ -58,7 +84,7 @@ pub(super) fn json(scenario: &Scenario, crank: f64, all: &[Modes]) -> Value {
                 });
                 json!({"name": link.name, "angle_rad": pose.angle, "omega_rad_s": omega, "points": points.collect::<Vec<_>>()})
             });
-            let mut value = json!({"mode": mode.mode.name(), "followed": mode.is_followed, "links": links.collect::<Vec<_>>()});
+            let mut value = json!({"mode": mode.mode.name(), "followed": mode.is_followed && open.is_none(), "links": links.collect::<Vec<_>>()});
             if mode.omegas.is_none() {
                 value["omega_absent"] = SINGULAR.into();
             }
@@ -68,6 +94,13 @@ pub(super) fn json(scenario: &Scenario, crank: f64, all: &[Modes]) -> Value {
         let mut value = json!({"links": links, "all_known": found.unknown.is_none(), "modes": modes.collect::<Vec<_>>()});
         if let Some(why) = &found.unknown {
             value["others_absent"] = why.as_str().into();
+        }
+        match open {
+            None => {}
+            Some(Open::Undecided(why)) => value["undecided"] = why.into(),
+            Some(Open::After(names, number)) => {
+                value["for_configuration"] = json!({"group": names, "number": number});
+            }
         }
         value
     });

@@ -21,6 +21,9 @@ pub struct Asked {
     /// Modes of the file hold at that angle too. Rough places (`near`) belong to the file's own angle: the
     /// configuration that they choose there is followed to the angle asked for.
     pub crank: Option<f64>,
+    /// Whether the caller lays its own grid: the case then has no instants, and that of the file need not be one to
+    /// which the drive comes.
+    pub without_grid: bool,
 }
 
 /// A group for which the file does not decide between the configurations.

@@ -1,5 +1,7 @@
 //! `[grid]`: the instants at which a solution is wanted.
 
+use std::cmp::Ordering;
+
 use super::reader::{Sign, Table};
 use super::unit::{ANGLE, Family, TIME};
 use linkage::case::Grid;
@@ -45,10 +47,11 @@ pub fn listed(values: Vec<f64>) -> std::result::Result<Vec<f64>, String> {
     if values.len() > MOST {
         return Err(format!("the list has more than {MOST} values"));
     }
-    let mut sorted = values.clone();
-    sorted.sort_by(f64::total_cmp);
-    match sorted.windows(2).find(|pair| pair[0] == pair[1]) {
-        Some(pair) => Err(format!("the list has the value {} twice", pair[0])),
+    let mut order: Vec<usize> = (0..values.len()).collect();
+    // Stable, so that of equal values the earlier comes first.
+    order.sort_by(|&a, &b| values[a].partial_cmp(&values[b]).unwrap_or(Ordering::Equal));
+    match order.windows(2).find(|pair| values[pair[0]] == values[pair[1]]) {
+        Some(pair) => Err(format!("values {} and {} of the list are the same", pair[0] + 1, pair[1] + 1)),
         None => Ok(values),
     }
 }
@@ -58,8 +61,9 @@ const LISTS: [(&str, &Family); 2] = [("angles", &ANGLE), ("times", &TIME)];
 
 const BY_TIME: &str = "give the grid by time (`from_s`, `to_s`, `step_s`, or a list `times_s`)";
 
-/// The grid of a scenario, by crank angle or by time: a range or a list.
-pub fn read(mut table: Table, drive: &Drive) -> Result<Grid> {
+/// The grid of a scenario, by crank angle or by time: a range or a list. An empty one if it is not wanted: it is read,
+/// but not checked against the drive.
+pub fn read(mut table: Table, drive: &Drive, is_replaced: bool) -> Result<Grid> {
     let mut lists = Vec::new();
     for (base, family) in LISTS {
         lists.extend(table.optional_quantities(base, family)?.map(|values| (base, family, values)));
@@ -91,6 +95,9 @@ pub fn read(mut table: Table, drive: &Drive) -> Result<Grid> {
         }
     };
     table.finish()?;
+    if is_replaced {
+        return Ok(Grid::default());
+    }
     let by_angle = std::ptr::eq(family, &ANGLE);
     let grid = if by_angle { Grid::of_cranks(drive, points) } else { Grid::of_times(drive, points) };
     let help = match by_angle && drive.is_free() {
@@ -132,8 +139,8 @@ mod tests {
     fn lists_keep_their_order_and_have_every_value_once() {
         assert_eq!(listed(vec![0.3, 0.0, 0.1]), Ok(vec![0.3, 0.0, 0.1]));
         assert!(listed(Vec::new()).unwrap_err().contains("empty"));
-        assert!(listed(vec![0.1, 0.2, 0.1]).unwrap_err().contains("0.1 twice"));
-        assert!(listed(vec![0.0, -0.0]).unwrap_err().contains("twice"));
+        assert!(listed(vec![0.1, 0.2, 0.1]).unwrap_err().contains("values 1 and 3"));
+        assert!(listed(vec![0.0, -0.0]).unwrap_err().contains("values 1 and 2"));
     }
 
     #[test]

@@ -226,7 +226,7 @@ fn read(root: &mut Table, asked: &Asked, lists: bool) -> Result<Found> {
         Err(error) => return Ok(Err(error)),
     };
     let starts = start::groups(&start, groups, &mechanism, &structure, &groups_asked)?;
-    let grid = grid::read(grid, drives.crank())?;
+    let grid = grid::read(grid, drives.crank(), asked.without_grid)?;
     let wanted = settings::wanted(channels)?;
     let (dt, engine) = settings::engine(engine, drives.crank())?;
     let engine_rel = settings::engine_rel(tolerances)?;

@@ -9,5 +9,6 @@ mod plan;
 mod range;
 mod run;
 mod solve;
+mod starts;
 mod synthesize;
 mod tools;

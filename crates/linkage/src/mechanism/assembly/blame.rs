@@ -99,7 +99,7 @@ pub fn blamed(mechanism: &Mechanism, structure: &Structure, blame: &Blame, error
         }
     };
     let message = format!(
-        "the configuration of the group ({own}) leaves no place for the group ({later}), which {fits} does: {}",
+        "this configuration of the group ({own}) leaves no place for the group ({later}), but {fits} does: {}",
         error.message()
     );
     let give = format!("{fits} of the group ({own}), or check the lengths and rough places of ({later})");
