@@ -119,25 +119,31 @@ impl Judge<'_> {
     /// Judges an engine by its runs.
     pub(super) fn judge(&self, engine: &dyn Engine, runs: &Runs) -> Result<Judged> {
         let doubt = Doubt::of(&self.scenario.case, self.senses, runs, engine.settings().resolution);
-        let channels = self.channels(engine, runs, &doubt)?;
+        let scales = scales(self.reference);
+        let late = self.after_the_beginning(engine, &scales)?;
+        let channels = self.channels(engine, runs, &doubt, &scales, late.as_ref())?;
         let checks = checks::of_engine(self.scenario, engine, runs);
         let verdict = overall(channels.iter().map(|c| &c.verdict).chain(checks.iter().map(|c| &c.verdict)));
         let trajectory = runs.single().trajectory.clone();
         let errors = difference(self.reference, &trajectory)?;
-        let (too_coarse, kept) = (doubt.too_coarse(), doubt.keeps(Stage::Reactions));
+        let (too_coarse, kept) =
+            (doubt.too_coarse(), self.kept(&doubt, Stage::Reactions, late.as_ref().unwrap_or(&self.scenario.case)));
         Ok(Judged { info: describe(engine), channels, checks, verdict, trajectory, errors, too_coarse, kept })
     }
 
-    fn channels(&self, engine: &dyn Engine, runs: &Runs, doubt: &Doubt) -> Result<Vec<ChannelProof>> {
-        let scales = scales(self.reference);
-        let late = self.after_the_beginning(engine, &scales)?;
+    fn channels(
+        &self,
+        engine: &dyn Engine,
+        runs: &Runs,
+        doubt: &Doubt,
+        scales: &[f64],
+        late: Option<&Case>,
+    ) -> Result<Vec<ChannelProof>> {
         let mut all = Vec::with_capacity(self.reference.channels().len());
         // Channels of one stage are judged at the same instants.
         for stage in Stage::ALL {
-            let mut keep = doubt.keeps(stage);
-            let case = late.as_ref().filter(|_| stage >= Stage::Accelerations).unwrap_or(&self.scenario.case);
-            let first = case.grid.times.iter().copied().fold(f64::INFINITY, f64::smaller);
-            keep.iter_mut().zip(self.reference.times()).for_each(|(kept, &t)| *kept &= t >= first);
+            let case = late.filter(|_| stage >= Stage::Accelerations).unwrap_or(&self.scenario.case);
+            let keep = self.kept(doubt, stage, case);
             let left_out = keep.iter().filter(|&&kept| !kept).count();
             let thin = |trajectory: &Trajectory| trajectory.of_stage(stage, &keep);
             let ladder = runs.ladder();
@@ -156,6 +162,12 @@ impl Judge<'_> {
         }
         all.sort_by_key(|(index, _)| *index);
         Ok(all.into_iter().map(|(_, proof)| proof).collect())
+    }
+
+    /// Whether the channels of a stage are judged, by row: where nothing jumps, from the first instant of `case` on.
+    fn kept(&self, doubt: &Doubt, stage: Stage, case: &Case) -> Vec<bool> {
+        let first = case.grid.times.iter().copied().fold(f64::INFINITY, f64::smaller);
+        doubt.keeps(stage).into_iter().zip(self.reference.times()).map(|(kept, &t)| kept && t >= first).collect()
     }
 
     /// The case without the instants of a beginning free motion at which second differences are carried back over several

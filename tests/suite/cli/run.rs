@@ -55,7 +55,8 @@ fn both_scenarios_agree_and_the_json_is_as_promised() {
         let provides = "accelerations:text balancing_moment:text positions:text reactions:text velocities:text";
         assert_eq!(keys(&engine["provides"]), provides);
         for channel in engine["channels"].as_array().unwrap() {
-            let promised = "basis:text bound:number channel:text discretisation:number iteration:number left_out:number";
+            let promised =
+                "basis:text bound:number channel:text discretisation:number iteration:number left_out:number";
             let limit = if channel["limit"].is_null() { "null" } else { "number" };
             let rest = "origin:text q75:number q99:number reason:null reference:number rms:number rounding:number scale:number unit:text verdict:text worst_crank_rad:number worst_t_s:number";
             // An order that is hidden by rounding is null.
