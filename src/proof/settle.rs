@@ -209,6 +209,12 @@ impl<'a, 'b> Settling<'a, 'b> {
         let mut next = self.now;
         match blame {
             Part::Iteration if self.free.sweeps && self.now.sweeps < self.most_sweeps => next.sweeps *= MORE_SWEEPS,
+            // At a given step only more sweeps are left, and too few of them spoil the order that the step shows.
+            Part::Discretisation
+                if !self.free.step && self.free.sweeps && self.now.sweeps < self.judge.asked.sweeps =>
+            {
+                next.sweeps *= MORE_SWEEPS;
+            }
             // Coarser runs, extrapolated more often, have less rounding.
             Part::Rounding if self.free.step && self.coarsest < COARSEST * self.judge.asked.resolution => {
                 self.coarsest *= 2.0;
