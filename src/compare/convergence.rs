@@ -90,6 +90,19 @@ impl Convergence {
         Convergence { observed, formal, error, safety, iteration: 0.0 }
     }
 
+    /// The same estimate for runs that are extrapolated. What is no power series of the step, such as the instants about
+    /// a load that jumps or a knot of its table, does not cancel: their errors were measured to be up to ten times the
+    /// difference of neighbouring runs (`benches/peers`).
+    #[must_use]
+    pub fn extrapolated(self, times: usize) -> Self {
+        let safety = match times {
+            0 => self.safety,
+            1 if self.safety < 3.0 => 3.0,
+            _ => 10.0,
+        };
+        Convergence { safety, ..self }
+    }
+
     /// The estimate for one channel of three trajectories on one grid, and of a fourth one with other sweeps than the
     /// middle run. `None` if one of them does not have the channel.
     #[must_use]

@@ -185,6 +185,7 @@ impl Vanishing<'_> {
         let found = Convergence::of(&double, &single, &half, false, order, noise(engine.at(resolution / 2.0).as_ref()));
         let others = runs.other_sweeps.each_ref().map(|run| run.as_deref().map(self.of));
         let found = found.with_other_sweeps(&single, others.each_ref().map(Option::as_deref), false);
+        let found = found.extrapolated(engine.settings().extrapolated);
         let parts = found.parts(noise(engine));
         let basis = found.tolerance(resolution, parts, noise_origin(engine)).basis;
         let basis = Basis::Noted(Box::new(basis), self.note);

@@ -199,11 +199,12 @@ impl Judge<'_> {
         index: usize,
         left_out: usize,
     ) -> ChannelProof {
-        let Settings { resolution, sweeps, .. } = engine.settings();
+        let Settings { resolution, sweeps, extrapolated, .. } = engine.settings();
         let (channel, kind) = (residual.channel.clone(), residual.channel.kind);
         let noise = engine.at(resolution / 2.0).noise(case, kind);
         let convergence = Convergence::of_channel(ladder, &channel, engine.formal_order(case, kind), noise)
-            .expect("all runs of an engine have the same channels");
+            .expect("all runs of an engine have the same channels")
+            .extrapolated(extrapolated);
         let parts =
             Parts { reference: self.known.error(kind.stage, index), ..convergence.parts(engine.noise(case, kind)) };
         let basis = convergence.tolerance(resolution, parts, checks::noise_origin(engine)).basis;
