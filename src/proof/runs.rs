@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::observe::{Observed, Stopped, observe};
 use crate::compare::Ladder;
 use linkage::case::Case;
-use linkage::engine::{Engine, Kept, Settings, plain_runs};
+use linkage::engine::{Engine, Kept, Settings};
 use linkage::error::Advice;
 use linkage::math::KeepNan;
 
@@ -48,27 +48,15 @@ pub(super) struct Bank<'a> {
     pub(super) case: &'a Case,
     kept: Kept,
     seen: Vec<(Settings, Arc<Observed>)>,
-    /// Work done so far: see [`effort`].
+    /// Number of plain runs made so far.
+    pub(super) count: usize,
+    /// Their work, in steps without sweeps.
     pub(super) effort: f64,
-    /// Settings of the plain runs made so far.
-    made: Vec<Settings>,
-}
-
-/// Work of a sweep, in units of the work of a step without sweeps: measured on a four-bar, where the sweeps of a step
-/// cost as much as its rest at about twenty of them.
-const SWEEP: f64 = 0.05;
-
-/// Work of the plain runs that an engine at `settings` consists of, in steps without sweeps. It is counted, not timed, so
-/// that the same input gives the same work.
-pub(super) fn effort(case: &Case, settings: Settings) -> f64 {
-    let ends = case.grid.times.iter().fold([0.0f64; 2], |[first, last], &t| [first.smaller(t), last.larger(t)]);
-    let of = |run: Settings| (ends[1] - ends[0]) / run.resolution * (1.0 + SWEEP * run.sweeps as f64);
-    plain_runs(settings).into_iter().map(of).sum()
 }
 
 impl<'a> Bank<'a> {
     pub(super) fn new(case: &'a Case, engine: &dyn Engine) -> Self {
-        Bank { case, kept: Kept::new(engine), seen: Vec::new(), effort: 0.0, made: Vec::new() }
+        Bank { case, kept: Kept::new(engine), seen: Vec::new(), count: 0, effort: 0.0 }
     }
 
     /// The engine at `settings`. Its runs are those of the bank.
@@ -78,36 +66,28 @@ impl<'a> Bank<'a> {
 
     /// Makes the runs that are missing for all `settings`, side by side.
     pub(super) fn prepare(&mut self, settings: &[Settings], progress: &mut dyn FnMut(f64)) {
-        for plain in settings.iter().copied().flat_map(plain_runs) {
-            if !self.made.contains(&plain) {
-                self.made.push(plain);
-                self.effort += effort(self.case, plain);
-            }
-        }
-        self.kept.prepare(self.case, settings, progress);
+        let missing = self.kept.missing(self.case, settings);
+        self.count += missing.len();
+        self.effort += self.work(&missing);
+        self.kept.prepare(self.case, missing, progress);
     }
 
     /// Work that [`Bank::prepare`] would do.
     pub(super) fn missing(&self, settings: &[Settings]) -> f64 {
-        let mut new: Vec<Settings> = Vec::new();
-        for plain in settings.iter().copied().flat_map(plain_runs) {
-            if !self.made.contains(&plain) && !new.contains(&plain) {
-                new.push(plain);
-            }
-        }
-        new.into_iter().map(|plain| effort(self.case, plain)).sum()
+        self.work(&self.kept.missing(self.case, settings))
     }
 
-    /// Number of plain runs made so far.
-    pub(super) fn count(&self) -> usize {
-        self.made.len()
+    /// Work of plain runs over the case's grid. It is counted, so that the same input gives the same work.
+    fn work(&self, runs: &[Settings]) -> f64 {
+        let times = &self.case.grid.times;
+        let [first, last] = times.iter().fold([0.0f64; 2], |[first, last], &t| [first.smaller(t), last.larger(t)]);
+        runs.iter().map(|run| (last - first) * run.work()).sum()
     }
 
     /// Forgets all runs with other numbers of sweeps.
     pub(super) fn keep_sweeps(&mut self, sweeps: &[usize]) {
         self.kept.retain(|settings| sweeps.contains(&settings.sweeps));
         self.seen.retain(|(settings, _)| sweeps.contains(&settings.sweeps));
-        self.made.retain(|settings| sweeps.contains(&settings.sweeps));
     }
 
     /// The run at `settings`, observed.

@@ -190,7 +190,7 @@ impl<'a, 'b> Settling<'a, 'b> {
             }
         };
         progress(1.0);
-        let search = Search { runs: self.bank.count(), effort: self.bank.effort, budget: self.budget, end };
+        let search = Search { runs: self.bank.count, effort: self.bank.effort, budget: self.budget, end };
         match (best, failure) {
             (Some(mut best), _) => {
                 // At a given step there is no finer run: its own estimate counts.

@@ -95,7 +95,7 @@ fn kept_runs_are_those_made_alone() {
             let at = |factor: f64| Settings { resolution: asked.resolution * factor, ..asked };
             let rungs = [asked, at(0.5), at(2.0), Settings { sweeps: asked.sweeps / 2, ..asked }];
             let kept = Kept::new(engine.as_ref());
-            kept.prepare(&case, &rungs, &mut |_| {});
+            kept.prepare(&case, kept.missing(&case, &rungs), &mut |_| {});
             for settings in rungs {
                 let (together, alone) = (kept.with(settings), engine.with(settings));
                 assert_eq!(together.settings(), settings, "{}", engine.name());

@@ -338,7 +338,7 @@ mod tests {
         let (engine, case) = (counted(None), case());
         let kept = Kept::new(engine.with(ASKED).as_ref());
         let mut far = 0.0;
-        kept.prepare(&case, &rungs(), &mut |part| {
+        kept.prepare(&case, kept.missing(&case, &rungs()), &mut |part| {
             assert!(part >= far && part <= 1.0 + 1e-12, "{part} after {far}");
             far = part;
         });

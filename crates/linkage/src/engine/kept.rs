@@ -57,42 +57,37 @@ impl Kept {
         Kept { inner: engine.with(plain), store: Arc::default() }
     }
 
-    /// Makes the runs at all of these settings that are still missing, on as many threads as the machine has cores.
+    /// Settings of the plain runs that engines at `settings` are made of and that have not been made yet, each once.
+    #[must_use]
+    pub fn missing(&self, case: &Case, settings: &[Settings]) -> Vec<Settings> {
+        let mut missing: Vec<Settings> = Vec::new();
+        for plain in settings.iter().copied().flat_map(plain_runs) {
+            if !missing.contains(&plain) && self.store.find(plain, case).is_none() {
+                missing.push(plain);
+            }
+        }
+        missing
+    }
+
+    /// Makes the runs that are [missing](Kept::missing), on as many threads as the machine has cores.
     /// Their results do not depend on the number of threads. A run that fails is kept with its failure.
     /// `progress` receives the finished share of all of them.
-    pub fn prepare(&self, case: &Case, settings: &[Settings], progress: Progress) {
-        let mut missing: Vec<Settings> = Vec::new();
-        for asked in settings {
-            for plain in plain_runs(*asked) {
-                if self.store.find(plain, case).is_none() && !missing.contains(&plain) {
-                    missing.push(plain);
-                }
-            }
-        }
+    pub fn prepare(&self, case: &Case, mut missing: Vec<Settings>, progress: Progress) {
         // The longest run first, so that no core waits for it at the end.
-        let cost = |settings: &Settings| (settings.sweeps as f64 + 8.0) / settings.resolution;
-        missing.sort_by(|a, b| cost(b).total_cmp(&cost(a)));
-        let whole: f64 = missing.iter().map(cost).sum();
+        missing.sort_by(|a, b| b.work().total_cmp(&a.work()));
+        let whole: f64 = missing.iter().map(Settings::work).sum();
         let threads = std::thread::available_parallelism().map_or(1, usize::from).min(missing.len());
-        if threads < 2 {
-            let mut done = 0.0;
-            for settings in &missing {
-                let share = cost(settings) / whole;
-                self.run(case, *settings, &mut |part| progress(done + share * part));
-                done += share;
-            }
-            return;
-        }
         let next = AtomicUsize::new(0);
         let (tell, told) = mpsc::channel::<(usize, f64)>();
         std::thread::scope(|scope| {
             for _ in 0..threads {
                 let (tell, next, missing) = (tell.clone(), &next, &missing);
                 scope.spawn(move || {
-                    while let Some(settings) = missing.get(next.fetch_add(1, Ordering::Relaxed)) {
-                        let index = missing.iter().position(|own| own == settings).unwrap_or(0);
+                    loop {
+                        let index = next.fetch_add(1, Ordering::Relaxed);
+                        let Some(&settings) = missing.get(index) else { return };
                         // Nobody may listen any more; the run goes on.
-                        self.run(case, *settings, &mut |part| {
+                        self.run(case, settings, &mut |part| {
                             let _ = tell.send((index, part));
                         });
                     }
@@ -102,7 +97,7 @@ impl Kept {
             let mut parts = vec![0.0f64; missing.len()];
             for (index, part) in told {
                 parts[index] = part;
-                progress(missing.iter().zip(&parts).map(|(settings, part)| cost(settings) * part).sum::<f64>() / whole);
+                progress(missing.iter().zip(&parts).map(|(run, part)| run.work() * part).sum::<f64>() / whole);
             }
         });
     }
@@ -127,8 +122,7 @@ impl Kept {
 }
 
 /// Settings of the plain runs that an engine with `settings` is made of.
-#[must_use]
-pub fn plain_runs(settings: Settings) -> Vec<Settings> {
+fn plain_runs(settings: Settings) -> Vec<Settings> {
     let at = |time| settings.resolution * 0.5f64.powi(time);
     (0..=settings.extrapolated as i32)
         .map(|time| Settings { resolution: at(time), extrapolated: 0, ..settings })

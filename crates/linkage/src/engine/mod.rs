@@ -6,7 +6,7 @@ mod kept;
 mod settings;
 
 pub use extrapolated::Extrapolated;
-pub use kept::{Kept, plain_runs};
+pub use kept::Kept;
 pub use settings::{Route, Settings};
 
 use crate::case::Case;
