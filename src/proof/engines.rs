@@ -6,14 +6,14 @@ use super::judge::{ChannelProof, EngineInfo, Judge, Judged, describe};
 use super::known::Known;
 use super::observe::{Observed, Stopped};
 use super::options::Chosen;
-use super::runs::{Bank, other_sweeps};
+use super::runs::{Bank, FEWER, other_sweeps};
 use super::settle::{End, Free, Search, Settling};
 use crate::compare::{Check, Verdict};
 use crate::engines::coarse_step;
 use crate::scenario::Scenario;
 use linkage::case::Case;
-use linkage::engine::Settings;
-use linkage::error::{Advice, Error, Result};
+use linkage::engine::{Engine, Settings};
+use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::trajectory::Trajectory;
 
 /// One engine's part of a proof.
@@ -58,8 +58,7 @@ pub(super) fn prove(
         let search = Settling::new(&judge, &mut bank, engine, chosen.free, chosen.budget);
         search.run(progress).map(|(judged, search)| (judged, Some(search)))
     } else {
-        let runs = bank.runs(asked, [other_sweeps(case, engine, asked.sweeps, None), None], progress);
-        runs.and_then(|runs| Ok((judge.judge(engine, &runs)?, None)))
+        at_given(&judge, &mut bank, engine, progress).map(|judged| (judged, None))
     };
     let (judged, search) = match found {
         Ok(found) => found,
@@ -108,6 +107,27 @@ pub(super) fn prove(
         all.chain([&mut proof.verdict]).for_each(|verdict| end.tell(verdict, budget));
     }
     Ok(proof)
+}
+
+/// An engine judged, or why it stopped.
+type Outcome = std::result::Result<Judged, Stopped>;
+
+/// The engine at its own settings, none of which is free.
+fn at_given(judge: &Judge, bank: &mut Bank, engine: &dyn Engine, progress: &mut dyn FnMut(f64)) -> Outcome {
+    let others = other_sweeps(bank.case, engine, judge.asked.sweeps, FEWER);
+    let mut with = |others: &[usize]| -> Outcome {
+        let runs = bank.runs(judge.asked, others, progress)?;
+        Ok(judge.judge(engine, runs)?)
+    };
+    let judged = with(&others[..others.len().min(1)])?;
+    // Sweeps that have hardly begun to converge differ little: a third run tells them from those that have.
+    if judged.against().is_empty() || others.len() < 2 {
+        return Ok(judged);
+    }
+    match with(&others) {
+        Err(stopped) if stopped.error.kind() == ErrorKind::Numeric => Ok(judged),
+        told => told,
+    }
 }
 
 /// What a run finds that is free to choose its settings, as advice for one that was not and is inconclusive.

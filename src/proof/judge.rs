@@ -65,6 +65,9 @@ const BEGINNING: f64 = 5.0;
 /// Share of the widest conclusive bound that rounding may take before the beginning is left out.
 const MOST_ROUNDING: f64 = 0.1;
 
+/// Share of the widest conclusive bound from which a difference between sweeps counts.
+const COUNTS: f64 = 0.01;
+
 /// What an engine's runs are judged by.
 pub(super) struct Judge<'a> {
     pub(super) scenario: &'a Scenario,
@@ -117,9 +120,11 @@ impl Judged {
 
 impl Judge<'_> {
     /// Judges an engine by its runs.
-    pub(super) fn judge(&self, engine: &dyn Engine, runs: &Runs) -> Result<Judged> {
-        let doubt = Doubt::of(&self.scenario.case, self.senses, runs, engine.settings().resolution);
+    pub(super) fn judge(&self, engine: &dyn Engine, mut runs: Runs) -> Result<Judged> {
+        let doubt = Doubt::of(&self.scenario.case, self.senses, &runs, engine.settings().resolution);
         let scales = scales(self.reference);
+        runs.other_sweeps.growth = self.growth(&runs, &scales);
+        let runs = &runs;
         let late = self.after_the_beginning(engine, &scales)?;
         let channels = self.channels(engine, runs, &doubt, &scales, late.as_ref())?;
         let checks = checks::of_engine(self.scenario, engine, runs);
@@ -129,6 +134,20 @@ impl Judge<'_> {
         let (too_coarse, kept) =
             (doubt.too_coarse(), self.kept(&doubt, Stage::Reactions, late.as_ref().unwrap_or(&self.scenario.case)));
         Ok(Judged { info: describe(engine), channels, checks, verdict, trajectory, errors, too_coarse, kept })
+    }
+
+    /// Largest growth of the differences between runs with more and more sweeps, of any position whose differences count;
+    /// 0 where none grow.
+    fn growth(&self, runs: &Runs, scales: &[f64]) -> f64 {
+        let Ladder { resolutions: [_, single, _], other_sweeps } = runs.ladder();
+        let of = |(channel, scale): (&Channel, &f64)| {
+            let (own, others) = single.column(channel).zip(other_sweeps.column(channel))?;
+            Some(others.growth(own, COUNTS * self.scenario.engine_rel * scale, channel.kind.periodic))
+        };
+        let all = self.reference.channels().iter().zip(scales);
+        let positions = all.filter(|(channel, _)| channel.kind.stage == Stage::Positions);
+        let most = positions.filter_map(of).fold(0.0, f64::larger);
+        if most > 1.0 { most } else { 0.0 }
     }
 
     fn channels(
@@ -148,10 +167,9 @@ impl Judge<'_> {
             let thin = |trajectory: &Trajectory| trajectory.of_stage(stage, &keep);
             let ladder = runs.ladder();
             let resolutions = ladder.resolutions.map(thin);
-            let others = ladder.other_sweeps.map(|run| run.map(thin));
+            let others = ladder.other_sweeps.map(|run| thin(run));
             let [double, single, half] = &resolutions;
-            let ladder =
-                Ladder { resolutions: [double, single, half], other_sweeps: others.each_ref().map(Option::as_ref) };
+            let ladder = Ladder { resolutions: [double, single, half], other_sweeps: others.map(|run| run) };
             let reference = thin(self.reference);
             for residual in residuals(&reference, single)? {
                 let index = self.reference.channels().iter().position(|own| *own == residual.channel);

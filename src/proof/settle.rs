@@ -12,7 +12,7 @@ use linkage::math::KeepNan;
 
 use super::judge::{Judge, Judged};
 use super::observe::Stopped;
-use super::runs::{Bank, other_sweeps, rungs};
+use super::runs::{Bank, FEWER, other_sweeps, rungs};
 use crate::compare::Verdict;
 use crate::tolerance::Part;
 
@@ -235,8 +235,7 @@ impl<'a, 'b> Settling<'a, 'b> {
             return Some(End::Nothing);
         }
         let previous = std::mem::replace(&mut self.now, next);
-        let wanted: Vec<Settings> =
-            self.candidates().into_iter().flat_map(|settings| rungs(settings, [None; 2])).collect();
+        let wanted: Vec<Settings> = self.candidates().into_iter().flat_map(|settings| rungs(settings, &[])).collect();
         if self.bank.effort + self.bank.missing(&wanted) > self.budget {
             self.now = previous;
             return Some(End::Budget);
@@ -266,10 +265,10 @@ impl<'a, 'b> Settling<'a, 'b> {
         let mut best: Option<Trial> = None;
         let mut failure = None;
         let candidates = self.candidates();
-        let all: Vec<Settings> = candidates.iter().flat_map(|&settings| rungs(settings, [None; 2])).collect();
+        let all: Vec<Settings> = candidates.iter().flat_map(|&settings| rungs(settings, &[])).collect();
         self.bank.prepare(&all, &mut |part| progress(0.7 * part));
         for settings in candidates {
-            let trial = match self.trial(settings, [None; 2], &mut |_| {}) {
+            let trial = match self.trial(settings, &[], &mut |_| {}) {
                 Ok(trial) => trial,
                 Err(stopped) => {
                     failure = Some(stopped);
@@ -288,38 +287,34 @@ impl<'a, 'b> Settling<'a, 'b> {
         // What the sweeps leave is asked only where the step is not to blame.
         let settings = best.judged.info.settings;
         let engine = self.bank.engine(settings);
-        let share = self.free.sweeps.then_some(MORE_SWEEPS);
-        let other = other_sweeps(self.bank.case, engine.as_ref(), settings.sweeps, share);
+        let share = if self.free.sweeps { MORE_SWEEPS } else { FEWER };
+        let others = other_sweeps(self.bank.case, engine.as_ref(), settings.sweeps, share);
         let disagrees = !best.judged.against().is_empty();
-        if other.is_none() || (best.need > 1.0 && best.need.is_finite() && !disagrees) {
+        if others.is_empty() || (best.need > 1.0 && best.need.is_finite() && !disagrees) {
             return Ok(best);
         }
-        let found = match self.trial(settings, [other, None], &mut |part| progress(0.7 + 0.2 * part)) {
+        let found = match self.trial(settings, &others[..1], &mut |part| progress(0.7 + 0.2 * part)) {
             // Sweeps so few that the run fails say that those of the other run are hardly enough.
             Err(stopped) if stopped.error.kind() == ErrorKind::Numeric => {
                 return Ok(Trial { need: f64::INFINITY, blame: Part::Iteration, ..best });
             }
             found => found?,
         };
-        // A third run tells how fast the sweeps converge, before they are multiplied.
-        let fewest = other.map(|other| other / MORE_SWEEPS).filter(|&fewest| fewest > 0 && self.free.sweeps);
-        if fewest.is_none() || found.blame != Part::Iteration || found.need <= AIM {
+        // A third run tells how fast the sweeps converge, before they are multiplied; and whether they do, before anything
+        // is disproven: sweeps that have hardly begun to converge differ little.
+        let is_asked = found.blame == Part::Iteration && found.need > AIM && self.free.sweeps;
+        if others.len() < 2 || !(is_asked || !found.judged.against().is_empty()) {
             return Ok(found);
         }
-        match self.trial(settings, [other, fewest], &mut |part| progress(0.9 + 0.1 * part)) {
+        match self.trial(settings, &others, &mut |part| progress(0.9 + 0.1 * part)) {
             Err(stopped) if stopped.error.kind() == ErrorKind::Numeric => Ok(found),
             better => better,
         }
     }
 
-    fn trial(
-        &mut self,
-        settings: Settings,
-        other: [Option<usize>; 2],
-        progress: &mut dyn FnMut(f64),
-    ) -> Result<Trial, Stopped> {
-        let runs = self.bank.runs(settings, other, progress)?;
-        let judged = self.judge.judge(self.bank.engine(settings).as_ref(), &runs)?;
+    fn trial(&mut self, settings: Settings, others: &[usize], progress: &mut dyn FnMut(f64)) -> Result<Trial, Stopped> {
+        let runs = self.bank.runs(settings, others, progress)?;
+        let judged = self.judge.judge(self.bank.engine(settings).as_ref(), runs)?;
         let (need, blame) = need(&judged, self.judge.scenario.engine_rel);
         Ok(Trial { judged, need, blame })
     }
