@@ -6,6 +6,7 @@ use super::judge::{ChannelProof, EngineInfo, Judge, Judged, describe};
 use super::known::Known;
 use super::observe::{Observed, Stopped};
 use super::options::Chosen;
+use super::order;
 use super::runs::{Bank, FEWER, other_sweeps};
 use super::settle::{End, Free, Search, Settling};
 use crate::compare::{Check, Verdict};
@@ -121,13 +122,17 @@ fn at_given(judge: &Judge, bank: &mut Bank, engine: &dyn Engine, progress: &mut 
     };
     let judged = with(&others[..others.len().min(1)])?;
     // Sweeps that have hardly begun to converge differ little: a third run tells them from those that have.
-    if judged.against().is_empty() || others.len() < 2 {
-        return Ok(judged);
+    let mut judged = match judged.against().is_empty() || others.len() < 2 {
+        true => judged,
+        false => match with(&others) {
+            Err(stopped) if stopped.error.kind() == ErrorKind::Numeric => judged,
+            told => told?,
+        },
+    };
+    if !engine.controls_error() {
+        order::look(judge, bank, &mut judged)?;
     }
-    match with(&others) {
-        Err(stopped) if stopped.error.kind() == ErrorKind::Numeric => Ok(judged),
-        told => told,
-    }
+    Ok(judged)
 }
 
 /// What a run finds that is free to choose its settings, as advice for one that was not and is inconclusive.

@@ -113,6 +113,11 @@ impl Judged {
                 *verdict = Verdict::Inconclusive { reason, advice: vec![Advice::SmallerStep { to: None }] };
             }
         }
+        self.conclude();
+    }
+
+    /// Takes the verdict again from those of all channels and checks.
+    pub(super) fn conclude(&mut self) {
         let channels = self.channels.iter().map(|own| &own.verdict);
         self.verdict = overall(channels.chain(self.checks.iter().map(|own| &own.verdict)));
     }

@@ -12,6 +12,7 @@ use linkage::math::KeepNan;
 
 use super::judge::{Judge, Judged};
 use super::observe::Stopped;
+use super::order;
 use super::runs::{Bank, FEWER, other_sweeps, rungs};
 use crate::compare::Verdict;
 use crate::tolerance::Part;
@@ -204,7 +205,13 @@ impl<'a, 'b> Settling<'a, 'b> {
             let mut part = |part: f64| progress(1.0 - left + 0.5 * left * part);
             round += 1;
             let blame = match self.round(round > QUICK, &mut part) {
-                Ok(trial) => {
+                Ok(mut trial) => {
+                    // No step and no sweeps help where the order is wrong.
+                    if round > QUICK && order::look(self.judge, self.bank, &mut trial.judged)? {
+                        borne_out = trial.judged.against();
+                        best = Some(trial);
+                        break End::Decided;
+                    }
                     let now = trial.judged.against();
                     borne_out = now.iter().filter(|name| against.contains(name)).cloned().collect();
                     against = now;
