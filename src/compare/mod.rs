@@ -7,5 +7,7 @@ pub mod verdict;
 
 pub use convergence::{Convergence, Ladder};
 pub use other_sweeps::OtherSweeps;
-pub use residual::{Residual, difference, differences, largest_difference, magnitudes, residuals, scales};
+pub use residual::{
+    Residual, difference, differences, largest_difference, magnitudes, residuals, residuals_on, scales,
+};
 pub use verdict::{Check, Verdict, overall};

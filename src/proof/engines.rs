@@ -9,7 +9,7 @@ use super::options::Chosen;
 use super::order;
 use super::runs::{Bank, FEWER, other_sweeps};
 use super::settle::{End, Free, Search, Settling};
-use crate::compare::{Check, Verdict};
+use crate::compare::{Check, Verdict, difference};
 use crate::engines::coarse_step;
 use crate::scenario::Scenario;
 use linkage::case::Case;
@@ -51,7 +51,7 @@ pub(super) fn prove(
 ) -> Result<EngineProof> {
     let engine = chosen.engine.as_ref();
     let asked = engine.settings();
-    let judge = Judge { scenario, reference: &reference.trajectory, senses: &reference.senses, known, asked };
+    let judge = Judge::new(scenario, reference, known, asked);
     let mut bank = Bank::new(case, engine);
     // A step that cannot be is refused by the engine.
     let is_step = asked.resolution > 0.0 && asked.resolution.is_finite();
@@ -77,14 +77,15 @@ pub(super) fn prove(
             });
         }
     };
-    let Judged { info, channels, checks, verdict, trajectory, errors, too_coarse: _, kept } = judged;
+    let Judged { info, channels, checks, verdict, run, too_coarse: _, kept } = judged;
+    let errors = difference(&reference.trajectory, &run.trajectory)?;
     let mut proof = EngineProof {
         info,
         search,
         channels,
         checks,
         verdict,
-        trajectory: Some(trajectory),
+        trajectory: Some(run.trajectory.clone()),
         errors: Some(errors),
         kept,
         failure: None,
@@ -139,7 +140,7 @@ fn at_given(judge: &Judge, bank: &mut Bank, engine: &dyn Engine, progress: &mut 
 fn tried(judge: &Judge, bank: &mut Bank, chosen: &Chosen) -> Advice {
     let case = bank.case;
     let engine = chosen.engine.at(coarse_step(case));
-    let judge = Judge { asked: engine.settings(), ..*judge };
+    let judge = judge.asking(engine.settings());
     let free = Free { step: true, sweeps: true, extrapolated: true };
     let found = Settling::new(&judge, bank, engine.as_ref(), free, chosen.budget).run(&mut |_| {});
     let Ok((judged, search)) = found else { return Advice::FreeSettings };
