@@ -99,6 +99,17 @@ impl Options {
         self
     }
 
+    /// Options that give all settings of an engine. `None` if it is none of those that this project has.
+    pub(crate) fn exactly(engine: &dyn Engine) -> Option<Self> {
+        let Settings { resolution, sweeps, substeps, route, extrapolated } = engine.settings();
+        let options = Options::default().engine(EngineName::named(engine.name())?).route(route);
+        let options = if sweeps > 0 { options.sweeps(sweeps) } else { options };
+        Some(match engine.controls_error() {
+            true => options.accuracy(resolution),
+            false => options.step(resolution).substeps(substeps).extrapolated(extrapolated),
+        })
+    }
+
     /// Adds every engine that this build has; they run side by side.
     #[must_use]
     pub fn every_engine(mut self) -> Self {
