@@ -155,9 +155,13 @@ fn tried(judge: &Judge, bank: &mut Bank, chosen: &Chosen) -> Advice {
         (Verdict::Inconclusive { .. }, _) => "nothing is proven there either".into(),
         (verdict, _) => format!("the verdict there is {}", verdict.word()),
     };
+    let combined = match extrapolated {
+        0 => "not extrapolated".into(),
+        1 => "extrapolated once".into(),
+        times => format!("extrapolated {times} times"),
+    };
     Advice::Text(format!(
-        "leave the step to the proof: it takes {resolution:.2e} s, {sweeps} sweeps and {extrapolated} extrapolations, and \
-         {outcome}"
+        "leave the step to the proof: it takes {resolution:.2e} s and {sweeps} sweeps, {combined}, and {outcome}"
     ))
 }
 

@@ -151,7 +151,11 @@ impl Need {
 
     /// Whether this is at most `part` of another need, or shows an order where that one does not.
     fn is_less(self, part: f64, other: Need) -> bool {
-        self.is_vague < other.is_vague || self.is_vague == other.is_vague && self.share <= part * other.share
+        match (self.is_vague, other.is_vague) {
+            (false, true) => true,
+            (true, false) => false,
+            (true, true) | (false, false) => self.share <= part * other.share,
+        }
     }
 }
 
@@ -306,19 +310,14 @@ impl<'a, 'b> Settling<'a, 'b> {
                 self.coarsest *= 2.0;
                 return None;
             }
-            Part::Rounding | Part::Reference => return Some(End::Rounding),
-            Part::Discretisation | Part::Iteration if self.free.step || self.free.extrapolated => {
-                next.resolution *= 0.5
-            }
+            // At a given step no coarser one is left to choose.
+            Part::Rounding | Part::Reference if self.free.step => return Some(End::Rounding),
+            Part::Rounding | Part::Reference => return Some(End::Nothing),
+            Part::Discretisation | Part::Iteration if self.free.step => next.resolution *= 0.5,
             Part::Discretisation | Part::Iteration => return Some(End::Nothing),
         }
         if next.sweeps != self.now.sweeps {
             self.bank.keep_sweeps(&[next.sweeps, self.now.sweeps]);
-        }
-        // Where the step is given, as many extrapolations as are worth trying.
-        let finest_of_all = self.judge.asked.resolution * 0.5f64.powi(MOST_TIMES as i32 + 1);
-        if !self.free.step && next.resolution < finest_of_all * 0.99 {
-            return Some(End::Nothing);
         }
         let previous = std::mem::replace(&mut self.now, next);
         let wanted: Vec<Settings> = self.candidates().into_iter().flat_map(|settings| rungs(settings, &[])).collect();
@@ -338,11 +337,7 @@ impl<'a, 'b> Settling<'a, 'b> {
             extrapolated: times,
             ..self.now
         };
-        let close = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-6;
-        let is_open = |settings: &Settings| match self.free.step {
-            true => 2.0 * settings.resolution <= self.coarsest * 1.000_001,
-            false => close(settings.resolution, asked.resolution),
-        };
+        let is_open = |settings: &Settings| !self.free.step || 2.0 * settings.resolution <= self.coarsest * 1.000_001;
         times.rev().map(at).filter(is_open).collect()
     }
 
@@ -390,7 +385,7 @@ impl<'a, 'b> Settling<'a, 'b> {
         // A third run tells how fast the sweeps converge, before they are multiplied; and whether they do, before anything
         // is disproven: sweeps that have hardly begun to converge differ little.
         let is_asked = found.blame == Part::Iteration && !found.need.is_within(AIM) && self.free.sweeps;
-        if others.len() < 2 || !(is_asked || !found.judged.against().is_empty()) {
+        if others.len() < 2 || (!is_asked && found.judged.against().is_empty()) {
             return Ok(found);
         }
         match self.trial(settings, &others, &mut |part| progress(0.9 + 0.1 * part)) {
