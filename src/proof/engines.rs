@@ -6,15 +6,16 @@ use super::judge::{ChannelProof, EngineInfo, Judge, Judged, describe};
 use super::known::Known;
 use super::observe::{Observed, Stopped};
 use super::options::Chosen;
+use super::own_forces::OwnForces;
 use super::runs::{Bank, other_sweeps};
 use super::settle::{End, Free, Search, Settling};
-use crate::compare::{Check, Verdict};
+use crate::compare::{Check, Verdict, overall};
 use crate::engines::coarse_step;
 use crate::scenario::Scenario;
 use linkage::case::Case;
 use linkage::engine::Settings;
 use linkage::error::{Advice, Error, Result};
-use linkage::trajectory::Trajectory;
+use linkage::trajectory::{Stage, Trajectory};
 
 /// One engine's part of a proof.
 #[derive(Clone, Debug)]
@@ -27,7 +28,9 @@ pub struct EngineProof {
     pub channels: Vec<ChannelProof>,
     /// Checks on the engine alone.
     pub checks: Vec<Check>,
-    /// Verdict on channels and checks together.
+    /// Forces as the engine itself exerts them, where the others follow from its motion.
+    pub own_forces: Option<OwnForces>,
+    /// Verdict on channels, checks and own forces together.
     pub verdict: Verdict,
     /// Its trajectory: all instants, or those before it failed.
     pub trajectory: Option<Trajectory>,
@@ -50,7 +53,7 @@ pub(super) fn prove(
 ) -> Result<EngineProof> {
     let engine = chosen.engine.as_ref();
     let asked = engine.settings();
-    let judge = Judge { scenario, reference: &reference.trajectory, senses: &reference.senses, known, asked };
+    let judge = Judge { scenario, reference: &reference.trajectory, senses: &reference.senses, known, asked, stages: &Stage::ALL };
     let mut bank = Bank::new(case, engine);
     // A step that cannot be is refused by the engine.
     let is_step = asked.resolution > 0.0 && asked.resolution.is_finite();
@@ -69,6 +72,7 @@ pub(super) fn prove(
                 search: None,
                 channels: Vec::new(),
                 checks: Vec::new(),
+                own_forces: None,
                 verdict: Verdict::open(error.message()),
                 trajectory: kept.map(|kept| *kept),
                 errors: None,
@@ -83,6 +87,7 @@ pub(super) fn prove(
         search,
         channels,
         checks,
+        own_forces: None,
         verdict,
         trajectory: Some(trajectory),
         errors: Some(errors),
@@ -106,6 +111,10 @@ pub(super) fn prove(
         let channels = proof.channels.iter_mut().map(|channel| &mut channel.verdict);
         let all = channels.chain(proof.checks.iter_mut().map(|check| &mut check.verdict));
         all.chain([&mut proof.verdict]).for_each(|verdict| end.tell(verdict, budget));
+    }
+    proof.own_forces = OwnForces::judged(&judge, case, chosen, &mut |part| progress(0.7 + 0.3 * part));
+    if let Some(own) = &proof.own_forces {
+        proof.verdict = overall([&proof.verdict, &own.verdict]);
     }
     Ok(proof)
 }

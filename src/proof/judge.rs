@@ -76,6 +76,8 @@ pub(super) struct Judge<'a> {
     pub(super) known: &'a Known,
     /// Settings asked for; the search begins with them.
     pub(super) asked: Settings,
+    /// What is judged. Checks besides the channels belong to all stages together.
+    pub(super) stages: &'a [Stage],
 }
 
 /// An engine at some settings, judged.
@@ -122,7 +124,8 @@ impl Judge<'_> {
         let scales = scales(self.reference);
         let late = self.after_the_beginning(engine, &scales)?;
         let channels = self.channels(engine, runs, &doubt, &scales, late.as_ref())?;
-        let checks = checks::of_engine(self.scenario, engine, runs);
+        let all = self.stages.len() == Stage::ALL.len();
+        let checks = if all { checks::of_engine(self.scenario, engine, runs) } else { Vec::new() };
         let verdict = overall(channels.iter().map(|c| &c.verdict).chain(checks.iter().map(|c| &c.verdict)));
         let trajectory = runs.single().trajectory.clone();
         let errors = difference(self.reference, &trajectory)?;
@@ -141,7 +144,7 @@ impl Judge<'_> {
     ) -> Result<Vec<ChannelProof>> {
         let mut all = Vec::with_capacity(self.reference.channels().len());
         // Channels of one stage are judged at the same instants.
-        for stage in Stage::ALL {
+        for &stage in self.stages {
             let case = late.filter(|_| stage >= Stage::Accelerations).unwrap_or(&self.scenario.case);
             let keep = self.kept(doubt, stage, case);
             let left_out = keep.iter().filter(|&&kept| !kept).count();
@@ -182,7 +185,8 @@ impl Judge<'_> {
         let wanted = self.scenario.engine_rel;
         let is_open = self.reference.channels().iter().zip(scales).any(|(channel, scale)| {
             let noise = engine.noise(case, channel.kind);
-            channel.kind.stage >= Stage::Accelerations && noise > MOST_ROUNDING * wanted * scale
+            let stage = channel.kind.stage;
+            stage >= Stage::Accelerations && self.stages.contains(&stage) && noise > MOST_ROUNDING * wanted * scale
         });
         let late = || case.grid.times.iter().copied().filter(|&t| t > begin).collect();
         is_open.then(|| case.on(Grid::of_times(case.crank(), late()))).transpose()

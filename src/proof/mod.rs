@@ -11,6 +11,7 @@ mod methods;
 mod observe;
 mod options;
 mod oracle;
+mod own_forces;
 mod parties;
 #[cfg(test)]
 mod planted;
@@ -21,6 +22,7 @@ mod settle;
 pub use engines::EngineProof;
 pub use judge::{ChannelProof, EngineInfo};
 pub use options::{Options, Reference};
+pub use own_forces::OwnForces;
 pub use parties::Dispute;
 pub use settle::{End, Search};
 

@@ -236,7 +236,7 @@ fn engine_proof(scenario: &Scenario, fault: Fault, size: f64) -> EngineProof {
     let rapier = Rapier::all(STEP).into_iter().next().unwrap();
     let inner = Box::new(rapier) as Box<dyn Engine>;
     let engine: Box<dyn Engine> = Box::new(Planted { fault, size, inner });
-    let chosen = Chosen { engine, free: Free::default(), budget: settle::BUDGET };
+    let chosen = Chosen { engine, free: Free::default(), own_forces: None, budget: settle::BUDGET };
     let known = knowing(&scenario.case);
     engines::prove(scenario, &scenario.case, &chosen, &reference, &known, &mut |_| {}).unwrap()
 }

@@ -117,6 +117,10 @@ pub(super) struct Settling<'a, 'b> {
     /// Step of the coarsest run.
     coarsest: f64,
     budget: f64,
+    /// Largest bound aimed at, over what is wanted.
+    aim: f64,
+    /// Finest step of a run, for steps that are free only above it.
+    finest: f64,
 }
 
 impl<'a, 'b> Settling<'a, 'b> {
@@ -137,7 +141,22 @@ impl<'a, 'b> Settling<'a, 'b> {
         let times = if free.extrapolated { 0 } else { now.extrapolated };
         now.resolution *= 0.5f64.powi(times as i32 + 1);
         let coarsest = 2.0 * engine.settings().resolution;
-        Settling { judge, bank, free, now, most_sweeps: most, coarsest, budget }
+        Settling { judge, bank, free, now, most_sweeps: most, coarsest, budget, aim: AIM, finest: 0.0 }
+    }
+
+    /// The same search, content as soon as every channel is conclusive, with coarser steps to begin with and none below
+    /// `finest` (s).
+    pub(super) fn conclusive(mut self, finest: f64) -> Self {
+        (self.aim, self.finest) = (1.0, finest);
+        if self.free.step {
+            self.coarsest *= 2.0;
+        }
+        self
+    }
+
+    /// Whether there is no finer step to try.
+    fn is_finest(&self) -> bool {
+        !self.free.step || 0.5 * self.now.resolution < 0.99 * self.finest
     }
 
     /// Runs the engine until it is decided, or until nothing is left to try.
@@ -160,7 +179,7 @@ impl<'a, 'b> Settling<'a, 'b> {
                     borne_out = now.iter().filter(|name| against.contains(name)).cloned().collect();
                     against = now;
                     let disagrees = !against.is_empty();
-                    let (decided, sharp) = (trial.need <= 1.0, trial.need <= AIM);
+                    let (decided, sharp) = (trial.need <= 1.0, trial.need <= self.aim);
                     let thrift = self.bank.effort > THRIFT * self.budget;
                     let blame = trial.blame;
                     // A later round speaks for itself where it disagrees, or no longer does.
@@ -194,7 +213,7 @@ impl<'a, 'b> Settling<'a, 'b> {
         match (best, failure) {
             (Some(mut best), _) => {
                 // At a given step there is no finer run: its own estimate counts.
-                if self.free.step && borne_out.is_empty() {
+                if !self.is_finest() && borne_out.is_empty() {
                     best.judged.doubt();
                 }
                 Ok((best.judged, search))
@@ -211,7 +230,7 @@ impl<'a, 'b> Settling<'a, 'b> {
             Part::Iteration if self.free.sweeps && self.now.sweeps < self.most_sweeps => next.sweeps *= MORE_SWEEPS,
             // At a given step only more sweeps are left, and too few of them spoil the order that the step shows.
             Part::Discretisation
-                if !self.free.step && self.free.sweeps && self.now.sweeps < self.judge.asked.sweeps =>
+                if self.is_finest() && self.free.sweeps && self.now.sweeps < self.judge.asked.sweeps =>
             {
                 next.sweeps *= MORE_SWEEPS;
             }
@@ -221,8 +240,10 @@ impl<'a, 'b> Settling<'a, 'b> {
                 return None;
             }
             Part::Rounding | Part::Reference => return Some(End::Rounding),
-            Part::Discretisation | Part::Iteration if self.free.step || self.free.extrapolated => {
-                next.resolution *= 0.5
+            Part::Discretisation | Part::Iteration
+                if !self.is_finest() || (!self.free.step && self.free.extrapolated) =>
+            {
+                next.resolution *= 0.5;
             }
             Part::Discretisation | Part::Iteration => return Some(End::Nothing),
         }
@@ -277,7 +298,7 @@ impl<'a, 'b> Settling<'a, 'b> {
                 }
             };
             if best.as_ref().is_none_or(|best| trial.need < best.need) {
-                let sharp = trial.need <= AIM;
+                let sharp = trial.need <= self.aim;
                 best = Some(trial);
                 if sharp {
                     break;
@@ -303,7 +324,7 @@ impl<'a, 'b> Settling<'a, 'b> {
         };
         // A third run tells how fast the sweeps converge, before they are multiplied.
         let fewest = other.map(|other| other / MORE_SWEEPS).filter(|&fewest| fewest > 0 && self.free.sweeps);
-        if fewest.is_none() || found.blame != Part::Iteration || found.need <= AIM {
+        if fewest.is_none() || found.blame != Part::Iteration || found.need <= self.aim {
             return Ok(found);
         }
         match self.trial(settings, [other, fewest], &mut |part| progress(0.9 + 0.1 * part)) {

@@ -14,6 +14,7 @@ pub(crate) mod inspect;
 pub mod json;
 pub(crate) mod lists;
 pub(crate) mod modes;
+mod own_forces;
 pub(crate) mod motor_choice;
 pub(crate) mod plan;
 mod pretty;

@@ -7,6 +7,7 @@ use comfy_table::Table;
 use super::cells::{share, table, used};
 use super::diagnosis;
 use super::engines;
+use super::own_forces;
 use super::tell::Tell;
 use crate::compare::{Check, Verdict};
 use crate::proof::{ChannelProof, End, EngineInfo, EngineProof, Proof, Search};
@@ -32,7 +33,7 @@ pub fn proof(proof: &Proof, tell: Tell) -> String {
     match proof.engines.as_slice() {
         [only] => {
             let _ =
-                writeln!(text, "\nEngine against reference, the worst channel of each quantity:\n{}", channels(only));
+                writeln!(text, "\nEngine against reference, the worst channel of each quantity:\n{}", channels(&only.channels));
         }
         several => {
             let _ = writeln!(
@@ -42,6 +43,9 @@ pub fn proof(proof: &Proof, tell: Tell) -> String {
             );
             let _ = writeln!(text, "\n{}", engines::disputes(proof));
         }
+    }
+    for engine in &proof.engines {
+        own_forces::section(engine, proof.engines.len() > 1, &mut text);
     }
     left_out(proof, &mut text);
     let all: Vec<&Check> = proof.all_checks().collect();
@@ -89,7 +93,7 @@ fn left_out(proof: &Proof, text: &mut String) {
 }
 
 /// The settings that a proof has found, and the work it took.
-fn found(info: &EngineInfo, search: &Search) -> String {
+pub(super) fn found(info: &EngineInfo, search: &Search) -> String {
     let times = match info.settings.extrapolated {
         0 => "not extrapolated".into(),
         1 => "extrapolated once".into(),
@@ -107,7 +111,7 @@ fn found(info: &EngineInfo, search: &Search) -> String {
 }
 
 /// A step with at most five significant digits; the JSON has all digits.
-fn seconds(step: f64) -> String {
+pub(super) fn seconds(step: f64) -> String {
     let rounded: f64 = format!("{step:.4e}").parse().unwrap_or(step);
     format!("{rounded:e}")
 }
@@ -186,17 +190,17 @@ fn expected(proof: &Proof, text: &mut String) {
     }
 }
 
-fn channels(proof: &EngineProof) -> Table {
+pub(super) fn channels(channels: &[ChannelProof]) -> Table {
     let header = ["quantity", "worst channel", "crank deg", "error", "of scale", "bound", "order", "verdict"];
     let mut table = table(header, &[2, 3, 4, 5, 6]);
     let mut seen: Vec<&str> = Vec::new();
-    for first in &proof.channels {
+    for first in channels {
         let quantity = first.residual.channel.kind.quantity;
         if seen.contains(&quantity) {
             continue;
         }
         seen.push(quantity);
-        let family = || proof.channels.iter().filter(|c| c.residual.channel.kind.quantity == quantity);
+        let family = || channels.iter().filter(|c| c.residual.channel.kind.quantity == quantity);
         let worst = family().max_by(|a, b| used(a).total_cmp(&used(b))).unwrap_or(first);
         let residual = &worst.residual;
         table.add_row([

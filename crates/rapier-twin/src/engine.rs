@@ -39,6 +39,11 @@ impl Engine for Rapier {
         &Route::ALL
     }
 
+    fn own_routes(&self, case: &Case) -> &'static [Route] {
+        // A tiny step from a pose needs prescribed speeds.
+        if case.is_free() { &[Route::Native] } else { &[Route::Native, Route::Probe] }
+    }
+
     fn sweeps(&self, case: &Case) -> Option<[usize; 2]> {
         let alone = case.drives.len() == 1 && Tree::of(&case.mechanism).cut.is_empty();
         match self.build {
