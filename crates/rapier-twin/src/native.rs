@@ -49,8 +49,8 @@ impl Native {
         Native { step, late, ring, reporters, ghost, row, lowest }
     }
 
-    /// Stores the reports of a step.
-    pub(super) fn push(&mut self, worlds: &[Guard]) {
+    /// Stores the reports of a step. `direct` is the moment (N m) that the crank's motor had as a load.
+    pub(super) fn push(&mut self, worlds: &[Guard], direct: f64) {
         let row = self.ring.push();
         let drives = 3 * self.reporters.len();
         for (joint, &world) in self.reporters.iter().enumerate() {
@@ -60,6 +60,7 @@ impl Native {
         for (drive, torque) in row[drives..].iter_mut().enumerate() {
             *torque = worlds[0].world().torque(drive);
         }
+        row[drives] += direct;
     }
 
     /// Fills in the reactions and moments of a state whose motion is known.

@@ -228,7 +228,7 @@ impl<'a> Run<'a> {
 
     fn report(&mut self) {
         if let Reader::Native(native) = &mut self.reader {
-            native.push(&self.worlds);
+            native.push(&self.worlds, self.acting.as_ref().map_or(0.0, Acting::direct));
         }
     }
 
