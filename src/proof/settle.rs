@@ -119,6 +119,8 @@ pub(super) struct Settling<'a, 'b> {
     budget: f64,
     /// Largest bound aimed at, over what is wanted.
     aim: f64,
+    /// Whether being conclusive is all that is aimed at.
+    conclusive: bool,
     /// Finest step of a run, for steps that are free only above it.
     finest: f64,
 }
@@ -141,17 +143,22 @@ impl<'a, 'b> Settling<'a, 'b> {
         let times = if free.extrapolated { 0 } else { now.extrapolated };
         now.resolution *= 0.5f64.powi(times as i32 + 1);
         let coarsest = 2.0 * engine.settings().resolution;
-        Settling { judge, bank, free, now, most_sweeps: most, coarsest, budget, aim: AIM, finest: 0.0 }
+        Settling { judge, bank, free, now, most_sweeps: most, coarsest, budget, aim: AIM, conclusive: false, finest: 0.0 }
     }
 
     /// The same search, content as soon as every channel is conclusive, with coarser steps to begin with and none below
     /// `finest` (s).
     pub(super) fn conclusive(mut self, finest: f64) -> Self {
-        (self.aim, self.finest) = (1.0, finest);
+        (self.aim, self.conclusive, self.finest) = (1.0, true, finest);
         if self.free.step {
             self.coarsest *= 2.0;
         }
         self
+    }
+
+    /// Factor between numbers of sweeps.
+    fn more_sweeps(&self) -> usize {
+        if self.conclusive { 2 } else { MORE_SWEEPS }
     }
 
     /// Whether there is no finer step to try.
@@ -231,12 +238,12 @@ impl<'a, 'b> Settling<'a, 'b> {
     fn refine(&mut self, blame: Part) -> Option<End> {
         let mut next = self.now;
         match blame {
-            Part::Iteration if self.free.sweeps && self.now.sweeps < self.most_sweeps => next.sweeps *= MORE_SWEEPS,
+            Part::Iteration if self.free.sweeps && self.now.sweeps < self.most_sweeps => next.sweeps *= self.more_sweeps(),
             // At a given step only more sweeps are left, and too few of them spoil the order that the step shows.
             Part::Discretisation
                 if self.is_finest() && self.free.sweeps && self.now.sweeps < self.judge.asked.sweeps =>
             {
-                next.sweeps *= MORE_SWEEPS;
+                next.sweeps *= self.more_sweeps();
             }
             // Coarser runs, extrapolated more often, have less rounding.
             Part::Rounding if self.free.step && self.coarsest < COARSEST * self.judge.asked.resolution => {
@@ -313,7 +320,7 @@ impl<'a, 'b> Settling<'a, 'b> {
         // What the sweeps leave is asked only where the step is not to blame.
         let settings = best.judged.info.settings;
         let engine = self.bank.engine(settings);
-        let share = self.free.sweeps.then_some(MORE_SWEEPS);
+        let share = self.free.sweeps.then_some(self.more_sweeps());
         let other = other_sweeps(self.bank.case, engine.as_ref(), settings.sweeps, share);
         let disagrees = !best.judged.against().is_empty();
         if other.is_none() || (best.need > 1.0 && best.need.is_finite() && !disagrees) {
@@ -327,7 +334,7 @@ impl<'a, 'b> Settling<'a, 'b> {
             found => found?,
         };
         // A third run tells how fast the sweeps converge, before they are multiplied.
-        let fewest = other.map(|other| other / MORE_SWEEPS).filter(|&fewest| fewest > 0 && self.free.sweeps);
+        let fewest = other.map(|other| other / self.more_sweeps()).filter(|&fewest| fewest > 0 && self.free.sweeps);
         if fewest.is_none() || found.blame != Part::Iteration || found.need <= self.aim {
             return Ok(found);
         }
@@ -371,7 +378,9 @@ fn need(judged: &Judged, wanted: f64) -> (f64, Part) {
         };
         if !(own <= worst.0) {
             // Where no order is seen, the sweeps are to blame as soon as they leave a part that counts.
-            let sweeps = own.is_infinite() && 10.0 * parts.iteration > parts.discretisation;
+            // What grows with a finer step is no error of the step.
+            let least = if convergence.observed < 0.0 { 0.01 } else { 0.1 };
+            let sweeps = own.is_infinite() && parts.iteration > least * parts.discretisation;
             worst = (own.larger(0.0), if sweeps { Part::Iteration } else { parts.largest() });
         }
     }
