@@ -22,7 +22,7 @@ mod settle;
 pub use engines::EngineProof;
 pub use judge::{ChannelProof, EngineInfo};
 pub use options::{Options, Reference};
-pub use own_forces::OwnForces;
+pub use own_forces::{ForceFault, OwnForces};
 pub use parties::Dispute;
 pub use settle::{End, Search};
 

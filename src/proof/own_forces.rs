@@ -4,6 +4,7 @@
 //! extrapolated, usually are. With a given step no run is finer than those that estimate the error of that step: coarser
 //! ones are extrapolated.
 
+use super::engines::EngineProof;
 use super::judge::{ChannelProof, EngineInfo, Judge, Judged, describe};
 use super::options::Chosen;
 use super::runs::Bank;
@@ -51,7 +52,7 @@ impl OwnForces {
             return None;
         }
         let mut found: Option<OwnForces> = None;
-        for &route in chosen.engine.own_routes(case).iter().filter(|r| std::env::var("DBGR").map_or(true, |n| n == r.name())) {
+        for &route in chosen.engine.own_routes(case) {
             let own = by_route(judge, case, chosen, free, route, progress);
             let is_open = matches!(own.verdict, Verdict::Inconclusive { .. });
             // Of several open results, one with numbers tells more.
@@ -64,6 +65,41 @@ impl OwnForces {
             }
         }
         found
+    }
+}
+
+/// Which of the two judgements of an engine's forces is against them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ForceFault {
+    /// Those that follow from its motion, which agrees: the fault is in the equations that make forces of it.
+    Reading,
+    /// Those that the engine itself exerts: its motion is right, and so are the forces that belong to it.
+    Exerted,
+    /// Both.
+    Both,
+}
+
+impl EngineProof {
+    /// Which of the two judgements of the forces disagrees; `None` if neither does, or if there is only one, or if the
+    /// other one is open or the motion itself disagrees, so that nothing follows.
+    #[must_use]
+    pub fn force_fault(&self) -> Option<ForceFault> {
+        let own = self.own_forces.as_ref()?;
+        let disagrees = |channel: &&ChannelProof| matches!(channel.verdict, Verdict::Disagree { .. });
+        let is_force = |channel: &ChannelProof| FORCES.contains(&channel.residual.channel.kind.stage);
+        let (forces, motion): (Vec<&ChannelProof>, Vec<&ChannelProof>) =
+            self.channels.iter().partition(|channel| is_force(channel));
+        if motion.iter().any(|channel| disagrees(channel)) {
+            return None;
+        }
+        let agrees = |channel: &ChannelProof| matches!(channel.verdict, Verdict::Agree { .. });
+        let wrong = [forces.iter().any(disagrees), own.channels.iter().any(|channel| disagrees(&channel))];
+        match wrong {
+            [true, true] => Some(ForceFault::Both),
+            [true, false] if own.channels.iter().all(agrees) => Some(ForceFault::Reading),
+            [false, true] if forces.iter().copied().all(agrees) => Some(ForceFault::Exerted),
+            [_, _] => None,
+        }
     }
 }
 

@@ -182,10 +182,6 @@ impl<'a, 'b> Settling<'a, 'b> {
             round += 1;
             let blame = match self.round(&mut part) {
                 Ok(trial) => {
-                    if std::env::var("DBG").is_ok() && self.aim == 1.0 {
-                        let w = trial.judged.channels.iter().max_by(|a,b| (a.bound/a.residual.scale).total_cmp(&(b.bound/b.residual.scale))).unwrap();
-                        eprintln!("round {round} best h {:.2e} x{} sweeps {} finest {:.2e} need {:.2e} blame {:?} effort {:.2e} worst {} {:?} order {:.2} too coarse {}", trial.judged.info.settings.resolution, trial.judged.info.settings.extrapolated, self.now.sweeps, self.now.resolution, trial.need, trial.blame, self.bank.effort, w.residual.channel, w.parts, w.convergence.observed, trial.judged.too_coarse);
-                    }
                     let now = trial.judged.against();
                     borne_out = now.iter().filter(|name| against.contains(name)).cloned().collect();
                     against = now;

@@ -10,7 +10,7 @@ use super::engines;
 use super::own_forces;
 use super::tell::Tell;
 use crate::compare::{Check, Verdict};
-use crate::proof::{ChannelProof, End, EngineInfo, EngineProof, Proof, Search};
+use crate::proof::{ChannelProof, End, EngineInfo, Proof, Search};
 use linkage::error::Advice;
 
 /// Number of reasons that are shown in full; the others are only counted.
@@ -117,7 +117,12 @@ pub(super) fn seconds(step: f64) -> String {
 }
 
 fn sentence(verdict: &Verdict, proof: &Proof) -> String {
+    let own = proof.engines.iter().flat_map(|engine| &engine.own_forces).map(|own| own.channels.len()).sum::<usize>();
     let channels = proof.engines.iter().map(|engine| engine.channels.len()).sum::<usize>();
+    let channels = match own {
+        0 => format!("{channels} channels"),
+        _ => format!("{channels} channels, {own} forces that the engine itself exerts"),
+    };
     let checks = proof.all_checks().count();
     let count = |is: fn(&Verdict) -> bool| verdicts(proof).filter(|(_, verdict)| is(verdict)).count();
     match verdict {
@@ -127,7 +132,7 @@ fn sentence(verdict: &Verdict, proof: &Proof) -> String {
             let within = verdicts(proof).filter(|(_, verdict)| matches!(verdict, Verdict::Agree { .. })).count();
             match proof.engines.len() {
                 1 => format!(
-                    "AGREE: {channels} channels and {} checks are within their bounds{expected}.",
+                    "AGREE: {channels} and {} checks are within their bounds{expected}.",
                     checks - known
                 ),
                 _ => format!("AGREE: {within} channels and checks are within their bounds{expected}."),
@@ -135,11 +140,11 @@ fn sentence(verdict: &Verdict, proof: &Proof) -> String {
         }
         Verdict::Disagree { .. } => {
             let wrong = count(|verdict| matches!(verdict, Verdict::Disagree { .. }));
-            format!("DISAGREE: {wrong} of {channels} channels and {checks} checks are beyond their bounds.")
+            format!("DISAGREE: {wrong} of {channels} and {checks} checks are beyond their bounds.")
         }
         Verdict::Inconclusive { .. } => {
             let open = count(|verdict| matches!(verdict, Verdict::Inconclusive { .. }));
-            format!("INCONCLUSIVE: {open} of {channels} channels and {checks} checks prove nothing either way.")
+            format!("INCONCLUSIVE: {open} of {channels} and {checks} checks prove nothing either way.")
         }
     }
 }
@@ -151,7 +156,15 @@ fn verdicts(proof: &Proof) -> impl Iterator<Item = (String, &Verdict)> {
             true => format!("{} ({})", channel.residual.channel, engine.info.name),
             false => channel.residual.channel.to_string(),
         };
-        engine.channels.iter().map(move |channel| (name(channel), &channel.verdict))
+        let own = engine.own_forces.iter().flat_map(move |own| {
+            let failed = own.failure.iter().map(move |_| (own_forces::of_all(engine, several), &own.verdict));
+            let named = move |channel: &'_ ChannelProof| match several {
+                true => format!("{} ({})", own_forces::name(channel), engine.info.name),
+                false => own_forces::name(channel),
+            };
+            own.channels.iter().map(move |channel| (named(channel), &channel.verdict)).chain(failed)
+        });
+        engine.channels.iter().map(move |channel| (name(channel), &channel.verdict)).chain(own)
     });
     channels.chain(proof.all_checks().map(|c| (c.name(), &c.verdict)))
 }
