@@ -189,7 +189,9 @@ impl Judge<'_> {
             stage >= Stage::Accelerations && self.stages.contains(&stage) && noise > MOST_ROUNDING * wanted * scale
         });
         let late = || case.grid.times.iter().copied().filter(|&t| t > begin).collect();
-        is_open.then(|| case.on(Grid::of_times(case.crank(), late()))).transpose()
+        // Impulses of the first steps are read from later ones, however small their rounding.
+        let impulses = self.stages.len() < Stage::ALL.len();
+        (is_open || impulses).then(|| case.on(Grid::of_times(case.crank(), late()))).transpose()
     }
 
     #[expect(clippy::too_many_arguments, reason = "all of one channel")]

@@ -184,16 +184,29 @@ pub trait World {
 /// Ten times as much gives no further gain.
 const FLYWHEEL: f64 = 1.0;
 
+/// Moment of inertia of a slender rod over its mass and the square of its length.
+const ROD: f64 = 1.0 / 12.0;
+
 /// Mass (kg) and moment of inertia (kg m^2) of every link in Rapier, without flywheels.
 /// Rapier cannot move a body without them.
 /// Under a prescribed speed the motion does not depend on the masses.
+/// There a link has at least the mean mass, and the moment of inertia of a rod of it: where neighbours differ much, the
+/// sweeps hardly converge.
 /// What they add to the reactions is subtracted again ([`Ghost`](super::ghost::Ghost)).
 /// In a free motion the crank also carries rotor and gearbox. Stand-ins depend on the world's tree there, and loads take
 /// away what they do ([`added`](super::added)).
 pub(super) fn masses(case: &Case, tree: &Tree) -> Vec<[f64; 2]> {
+    let moving = &case.mechanism.links()[1..];
+    let mean = moving.iter().map(|link| link.mass).sum::<f64>() / moving.len() as f64;
+    let size = case.mechanism.size();
     let of = |(index, link): (usize, &Link)| {
-        let [mass, inertia] = if case.is_free() { bare::to_link(case, index, tree) } else { stand_in(case, index) };
-        [link.mass + mass, link.inertia + inertia]
+        if case.is_free() {
+            let [mass, inertia] = bare::to_link(case, index, tree);
+            return [link.mass + mass, link.inertia + inertia];
+        }
+        let [mass, inertia] = stand_in(case, index);
+        let length = if link.extent() > 0.0 { link.extent() } else { size };
+        [(link.mass + mass).larger(mean), (link.inertia + inertia).larger(ROD * mean * length * length)]
     };
     let mut masses: Vec<[f64; 2]> = case.mechanism.links().iter().enumerate().map(of).collect();
     masses[GROUND] = [0.0; 2];
@@ -209,7 +222,7 @@ fn even_masses(case: &Case) -> Vec<[f64; 2]> {
     let of = |link: &Link| {
         let extent = link.extent();
         let length = if extent > 0.0 { extent } else { size };
-        [1.0, length * length / 12.0]
+        [1.0, ROD * length * length]
     };
     let mut masses: Vec<[f64; 2]> = case.mechanism.links().iter().map(of).collect();
     masses[GROUND] = [0.0; 2];
