@@ -15,6 +15,8 @@ mod own_forces;
 mod parties;
 #[cfg(test)]
 mod planted;
+#[cfg(test)]
+mod planted_forces;
 mod runs;
 mod sensitivity;
 mod settle;

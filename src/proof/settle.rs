@@ -76,6 +76,8 @@ const COARSEST: f64 = 16.0;
 const FAILURES: usize = 6;
 /// Share of instants that may be left out because they are too close to a reversal for the step.
 const MOST_LEFT_OUT: f64 = 0.03;
+/// Rounds in which the plain run stays the best before more sweeps are tried.
+const PLAIN: usize = 3;
 /// Factor between numbers of sweeps.
 const MORE_SWEEPS: usize = 4;
 
@@ -156,6 +158,11 @@ impl<'a, 'b> Settling<'a, 'b> {
         self
     }
 
+    /// Whether the best trial is not extrapolated, although it could be.
+    fn is_plain(&self, best: &Option<Trial>) -> bool {
+        self.free.extrapolated && best.as_ref().is_some_and(|best| best.judged.info.settings.extrapolated == 0)
+    }
+
     /// Factor between numbers of sweeps.
     fn more_sweeps(&self) -> usize {
         if self.conclusive { 2 } else { MORE_SWEEPS }
@@ -173,7 +180,7 @@ impl<'a, 'b> Settling<'a, 'b> {
     pub(super) fn run(mut self, progress: &mut dyn FnMut(f64)) -> Result<(Judged, Search), Stopped> {
         let mut best: Option<Trial> = None;
         let mut failure = None;
-        let (mut round, mut failed) = (0, 0);
+        let (mut round, mut failed, mut plain) = (0, 0, 0);
         // What disagrees in the last round, and what did so in two rounds running.
         let (mut against, mut borne_out): (Vec<String>, Vec<String>) = (Vec::new(), Vec::new());
         let end = loop {
@@ -211,6 +218,14 @@ impl<'a, 'b> Settling<'a, 'b> {
                 }
                 Err(stopped) => return Err(stopped),
             };
+            plain = if blame == Part::Discretisation && self.is_plain(&best) { plain + 1 } else { 0 };
+            // Where many steps are to be extrapolated and the plain run is still the best, sweeps leave what is no power
+            // of the step.
+            let suspects = self.conclusive && plain == PLAIN;
+            if suspects && self.refine(Part::Iteration).is_none() {
+                plain = 0;
+                continue;
+            }
             if let Some(end) = self.refine(blame) {
                 break end;
             }
