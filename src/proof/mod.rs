@@ -11,6 +11,7 @@ mod methods;
 mod observe;
 mod options;
 mod oracle;
+mod order;
 mod own_forces;
 mod parties;
 #[cfg(test)]

@@ -48,7 +48,7 @@ impl OwnForces {
         progress: &mut dyn FnMut(f64),
     ) -> Option<OwnForces> {
         let free = chosen.own_forces?;
-        if !judge.reference.channels().iter().any(|channel| FORCES.contains(&channel.kind.stage)) {
+        if !judge.asking(judge.asked).of_stages(&FORCES).has_channels() {
             return None;
         }
         let mut found: Option<OwnForces> = None;
@@ -121,11 +121,11 @@ fn by_route(
     let free = Free { step: free.step || free.extrapolated, ..free };
     let extrapolated = if free.extrapolated { 0 } else { given.extrapolated };
     let engine = chosen.engine.with(Settings { resolution: step, route, extrapolated, ..given });
-    let judge = Judge { asked: engine.settings(), stages: &FORCES, ..*judge };
+    let judge = judge.asking(engine.settings()).of_stages(&FORCES);
     let mut bank = Bank::new(case, engine.as_ref());
     let search = Settling::new(&judge, &mut bank, engine.as_ref(), free, SHARE * chosen.budget).conclusive(finest);
     match search.run(progress) {
-        Ok((Judged { info, mut channels, mut verdict, trajectory, .. }, search)) => {
+        Ok((Judged { info, mut channels, mut verdict, run, .. }, search)) => {
             let (end, budget) = (search.end, chosen.budget);
             let all = channels.iter_mut().map(|channel| &mut channel.verdict).chain([&mut verdict]);
             all.for_each(|verdict| end.tell(verdict, budget));
@@ -134,7 +134,7 @@ fn by_route(
                 search: Some(search),
                 channels,
                 verdict,
-                trajectory: Some(trajectory),
+                trajectory: Some(run.trajectory.clone()),
                 failure: None,
             }
         }

@@ -15,7 +15,11 @@ pub(super) fn name(channel: &ChannelProof) -> String {
 
 /// Name of all of them.
 pub(super) fn of_all(engine: &EngineProof, several: bool) -> String {
-    if several { format!("forces as {} itself exerts them", engine.info.name) } else { "the engine's own forces".into() }
+    if several {
+        format!("forces as {} itself exerts them", engine.info.name)
+    } else {
+        "the engine's own forces".into()
+    }
 }
 
 /// The section on an engine's own forces, after the table of its channels: a table, or a line beside `several` engines.
@@ -24,10 +28,16 @@ pub(super) fn section(engine: &EngineProof, several: bool, text: &mut String) {
     let route = own.info.settings.route.name();
     match &own.failure {
         Some(error) => {
-            let _ = writeln!(text, "\nForces as {} itself exerts them (route {route}) failed: {}", engine.info.name, error.message());
+            let _ = writeln!(
+                text,
+                "\nForces as {} itself exerts them (route {route}) failed: {}",
+                engine.info.name,
+                error.message()
+            );
         }
         None if several => {
-            let _ = writeln!(text, "\nForces as {} itself exerts them (route {route}): {}", engine.info.name, line(own));
+            let _ =
+                writeln!(text, "\nForces as {} itself exerts them (route {route}): {}", engine.info.name, line(own));
         }
         None => {
             let _ = writeln!(text, "\nThe forces above: {}.", source(engine));

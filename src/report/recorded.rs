@@ -31,7 +31,8 @@ pub(crate) fn metadata(proof: &Proof) -> BTreeMap<String, String> {
         metadata.extend(provided);
         metadata.extend(own_forces.iter().flat_map(|own| {
             let (route, verdict) = (own.info.settings.route.name(), own.verdict.word());
-            [("route", route), ("verdict", verdict)].map(|(key, value)| (format!("{engine}_own_forces_{key}"), value.into()))
+            [("route", route), ("verdict", verdict)]
+                .map(|(key, value)| (format!("{engine}_own_forces_{key}"), value.into()))
         }));
     }
     metadata

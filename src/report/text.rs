@@ -32,8 +32,11 @@ pub fn proof(proof: &Proof, tell: Tell) -> String {
     }
     match proof.engines.as_slice() {
         [only] => {
-            let _ =
-                writeln!(text, "\nEngine against reference, the worst channel of each quantity:\n{}", channels(&only.channels));
+            let _ = writeln!(
+                text,
+                "\nEngine against reference, the worst channel of each quantity:\n{}",
+                channels(&only.channels)
+            );
         }
         several => {
             let _ = writeln!(
@@ -131,10 +134,7 @@ fn sentence(verdict: &Verdict, proof: &Proof) -> String {
             let expected = if known == 0 { String::new() } else { format!(", {known} disagree as expected") };
             let within = verdicts(proof).filter(|(_, verdict)| matches!(verdict, Verdict::Agree { .. })).count();
             match proof.engines.len() {
-                1 => format!(
-                    "AGREE: {channels} and {} checks are within their bounds{expected}.",
-                    checks - known
-                ),
+                1 => format!("AGREE: {channels} and {} checks are within their bounds{expected}.", checks - known),
                 _ => format!("AGREE: {within} channels and checks are within their bounds{expected}."),
             }
         }

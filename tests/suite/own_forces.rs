@@ -30,7 +30,11 @@ fn every_force_is_judged_twice_and_says_where_it_comes_from() {
         let wanted: Vec<_> = wanted.into_iter().filter(|channel| channel.kind.stage >= Stage::Reactions).collect();
         let judged: Vec<_> = own.channels.iter().map(|channel| &channel.residual.channel).collect();
         assert_eq!((wanted, judged.len()), (judged.clone(), forces), "{name}");
-        assert_eq!([engine.info.settings.route, own.info.settings.route], [Route::Differences, Route::Native], "{name}");
+        assert_eq!(
+            [engine.info.settings.route, own.info.settings.route],
+            [Route::Differences, Route::Native],
+            "{name}"
+        );
         assert_ne!(engine.info.provides[3], own.info.provides[3], "{name}");
         // Another path of numbers, not the same one.
         let (ours, theirs) = (engine.trajectory.as_ref().unwrap(), own.trajectory.as_ref().unwrap());
