@@ -1,6 +1,6 @@
 //! One factor on every bound, to see how close a proof is to its bounds.
 
-use super::{Proof, parties};
+use super::{OwnForces, Proof, parties};
 use crate::compare::{Check, Verdict, overall};
 
 impl Proof {
@@ -24,7 +24,7 @@ impl Proof {
                 }
             }
             let channels = engine.channels.iter().map(|channel| &channel.verdict);
-            let channels = channels.chain(engine.own_forces.iter().map(|own| &own.verdict));
+            let channels = channels.chain(engine.own_forces.iter().filter_map(OwnForces::adds));
             if engine.failure.is_none() {
                 engine.verdict = overall(channels.chain(engine.checks.iter().map(|check| &check.verdict)));
             }

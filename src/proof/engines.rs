@@ -7,7 +7,7 @@ use super::known::Known;
 use super::observe::{Observed, Stopped};
 use super::options::Chosen;
 use super::order;
-use super::own_forces::OwnForces;
+use super::own_forces::{ForceFault, OwnForces};
 use super::runs::{Bank, FEWER, other_sweeps};
 use super::settle::{End, Free, Search, Settling};
 use crate::compare::{Check, Verdict, difference, overall};
@@ -41,6 +41,15 @@ pub struct EngineProof {
     pub kept: Vec<bool>,
     /// Why there is no comparison.
     pub failure: Option<Error>,
+}
+
+impl EngineProof {
+    /// Which of the two judgements of the forces disagrees; `None` if neither does, or if there is only one, or if the
+    /// other one is open or the motion itself disagrees, so that nothing follows.
+    #[must_use]
+    pub fn force_fault(&self) -> Option<ForceFault> {
+        self.own_forces.as_ref()?.fault(&self.channels)
+    }
 }
 
 /// Runs an engine on `case`, at the settings asked for or at those that it finds, and compares it with `reference`.
@@ -114,8 +123,8 @@ pub(super) fn prove(
         all.chain([&mut proof.verdict]).for_each(|verdict| end.tell(verdict, budget));
     }
     proof.own_forces = OwnForces::judged(&judge, case, chosen, &mut |part| progress(0.7 + 0.3 * part));
-    if let Some(own) = &proof.own_forces {
-        proof.verdict = overall([&proof.verdict, &own.verdict]);
+    if let Some(verdict) = proof.own_forces.as_ref().and_then(OwnForces::adds) {
+        proof.verdict = overall([&proof.verdict, verdict]);
     }
     Ok(proof)
 }

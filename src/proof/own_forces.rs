@@ -4,7 +4,6 @@
 //! extrapolated, usually are. With a given step no run is finer than those that estimate the error of that step: coarser
 //! ones are extrapolated.
 
-use super::engines::EngineProof;
 use super::judge::{ChannelProof, EngineInfo, Judge, Judged, describe};
 use super::options::Chosen;
 use super::runs::Bank;
@@ -36,6 +35,9 @@ pub struct OwnForces {
     pub trajectory: Option<Trajectory>,
     /// Why there is no comparison.
     pub failure: Option<Error>,
+    /// Whether an open verdict leaves the engine's verdict open. Not at a step that is given: their order is lower than
+    /// that of the motion, and the step is kept to.
+    pub counts: bool,
 }
 
 impl OwnForces {
@@ -79,25 +81,27 @@ pub enum ForceFault {
     Both,
 }
 
-impl EngineProof {
-    /// Which of the two judgements of the forces disagrees; `None` if neither does, or if there is only one, or if the
-    /// other one is open or the motion itself disagrees, so that nothing follows.
-    #[must_use]
-    pub fn force_fault(&self) -> Option<ForceFault> {
-        let own = self.own_forces.as_ref()?;
-        let disagrees = |channel: &&ChannelProof| matches!(channel.verdict, Verdict::Disagree { .. });
-        let is_force = |channel: &ChannelProof| FORCES.contains(&channel.residual.channel.kind.stage);
-        let (forces, motion): (Vec<&ChannelProof>, Vec<&ChannelProof>) =
-            self.channels.iter().partition(|channel| is_force(channel));
-        if motion.iter().any(|channel| disagrees(channel)) {
+impl OwnForces {
+    /// What they add to the engine's verdict.
+    pub(super) fn adds(&self) -> Option<&Verdict> {
+        let is_open = matches!(self.verdict, Verdict::Inconclusive { .. });
+        Some(&self.verdict).filter(|_| self.counts || !is_open)
+    }
+
+    /// Which of the two judgements of the forces disagrees, `channels` being the first one; `None` if neither does, or if
+    /// the other one is open or the motion itself disagrees, so that nothing follows.
+    pub(super) fn fault(&self, channels: &[ChannelProof]) -> Option<ForceFault> {
+        let disagrees = |channel: &ChannelProof| matches!(channel.verdict, Verdict::Disagree { .. });
+        let agrees = |channel: &ChannelProof| matches!(channel.verdict, Verdict::Agree { .. });
+        let is_force = |channel: &&ChannelProof| FORCES.contains(&channel.residual.channel.kind.stage);
+        let (forces, motion): (Vec<&ChannelProof>, Vec<&ChannelProof>) = channels.iter().partition(is_force);
+        if motion.into_iter().any(disagrees) {
             return None;
         }
-        let agrees = |channel: &ChannelProof| matches!(channel.verdict, Verdict::Agree { .. });
-        let wrong = [forces.iter().any(disagrees), own.channels.iter().any(|channel| disagrees(&channel))];
-        match wrong {
+        match [forces.iter().copied().any(disagrees), self.channels.iter().any(disagrees)] {
             [true, true] => Some(ForceFault::Both),
-            [true, false] if own.channels.iter().all(agrees) => Some(ForceFault::Reading),
-            [false, true] if forces.iter().copied().all(agrees) => Some(ForceFault::Exerted),
+            [true, false] if self.channels.iter().all(agrees) => Some(ForceFault::Reading),
+            [false, true] if forces.into_iter().all(agrees) => Some(ForceFault::Exerted),
             [_, _] => None,
         }
     }
@@ -136,6 +140,7 @@ fn by_route(
                 verdict,
                 trajectory: Some(run.trajectory.clone()),
                 failure: None,
+                counts: chosen.free.step,
             }
         }
         Err(stopped) => OwnForces {
@@ -145,6 +150,7 @@ fn by_route(
             verdict: Verdict::open(stopped.error.message()),
             trajectory: None,
             failure: Some(stopped.error),
+            counts: chosen.free.step,
         },
     }
 }

@@ -10,7 +10,7 @@ use super::engines;
 use super::own_forces;
 use super::tell::Tell;
 use crate::compare::{Check, Verdict};
-use crate::proof::{ChannelProof, End, EngineInfo, Proof, Search};
+use crate::proof::{ChannelProof, End, EngineInfo, EngineProof, OwnForces, Proof, Search};
 use linkage::error::Advice;
 
 /// Number of reasons that are shown in full; the others are only counted.
@@ -48,7 +48,7 @@ pub fn proof(proof: &Proof, tell: Tell) -> String {
         }
     }
     for engine in &proof.engines {
-        own_forces::section(engine, proof.engines.len() > 1, &mut text);
+        own_section(engine, proof.engines.len() > 1, &mut text);
     }
     left_out(proof, &mut text);
     let all: Vec<&Check> = proof.all_checks().collect();
@@ -71,6 +71,48 @@ fn described(info: &EngineInfo) -> String {
         true => format!("{name}, accuracy {at}, and its own error from {coarse} and {fine}"),
         false => format!("{name}, step {at} s, and its own error from {coarse} and {fine} s"),
     }
+}
+
+/// The section on an engine's own forces, after the table of its channels: a table, or a line beside `several` engines.
+fn own_section(engine: &EngineProof, several: bool, text: &mut String) {
+    let Some(own) = &engine.own_forces else { return };
+    let route = own.info.settings.route.name();
+    match &own.failure {
+        Some(error) => {
+            let _ = writeln!(
+                text,
+                "\nForces as {} itself exerts them (route {route}) failed: {}",
+                engine.info.name,
+                error.message()
+            );
+        }
+        None if several => {
+            let _ = writeln!(
+                text,
+                "\nForces as {} itself exerts them (route {route}): {}",
+                engine.info.name,
+                own_forces::line(own)
+            );
+        }
+        None => {
+            let _ = writeln!(text, "\nThe forces above: {}.", own_forces::source(engine));
+            let _ = writeln!(text, "Forces as the engine itself exerts them, by {}", own_how(own));
+            let _ = writeln!(text, "{}", channels(&own.channels));
+        }
+    }
+    if let Some(fault) = engine.force_fault() {
+        let _ = writeln!(text, "\n{}", own_forces::sentence(fault));
+    }
+}
+
+/// Route, settings and work.
+fn own_how(own: &OwnForces) -> String {
+    let settings = &own.info.settings;
+    let told = own.info.told.iter().find(|(name, _)| *name == "reactions");
+    let told = told.map_or_else(|| settings.route.name().to_string(), |(_, told)| told.clone());
+    let step = seconds(settings.resolution);
+    let search = own.search.as_ref().map(|search| found(&own.info, search)).unwrap_or_default();
+    format!("{told}\n(route {}, step {step} s; {search}):", settings.route.name())
 }
 
 /// How many instants are not judged, and of what.
@@ -96,7 +138,7 @@ fn left_out(proof: &Proof, text: &mut String) {
 }
 
 /// The settings that a proof has found, and the work it took.
-pub(super) fn found(info: &EngineInfo, search: &Search) -> String {
+fn found(info: &EngineInfo, search: &Search) -> String {
     let times = match info.settings.extrapolated {
         0 => "not extrapolated".into(),
         1 => "extrapolated once".into(),
@@ -114,16 +156,22 @@ pub(super) fn found(info: &EngineInfo, search: &Search) -> String {
 }
 
 /// A step with at most five significant digits; the JSON has all digits.
-pub(super) fn seconds(step: f64) -> String {
+fn seconds(step: f64) -> String {
     let rounded: f64 = format!("{step:.4e}").parse().unwrap_or(step);
     format!("{rounded:e}")
 }
 
 fn sentence(verdict: &Verdict, proof: &Proof) -> String {
-    let own = proof.engines.iter().flat_map(|engine| &engine.own_forces).map(|own| own.channels.len()).sum::<usize>();
+    let own: Vec<&ChannelProof> =
+        proof.engines.iter().flat_map(|engine| &engine.own_forces).flat_map(|own| &own.channels).collect();
+    let closed = own.iter().filter(|own| !matches!(own.verdict, Verdict::Inconclusive { .. })).count();
+    let own = own.len();
     let channels = proof.engines.iter().map(|engine| engine.channels.len()).sum::<usize>();
     let channels = match own {
         0 => format!("{channels} channels"),
+        _ if closed < own && matches!(verdict, Verdict::Agree { .. }) => {
+            format!("{channels} channels, {closed} of {own} forces that the engine itself exerts (the others are open)")
+        }
         _ => format!("{channels} channels, {own} forces that the engine itself exerts"),
     };
     let checks = proof.all_checks().count();
@@ -203,7 +251,7 @@ fn expected(proof: &Proof, text: &mut String) {
     }
 }
 
-pub(super) fn channels(channels: &[ChannelProof]) -> Table {
+fn channels(channels: &[ChannelProof]) -> Table {
     let header = ["quantity", "worst channel", "crank deg", "error", "of scale", "bound", "order", "verdict"];
     let mut table = table(header, &[2, 3, 4, 5, 6]);
     let mut seen: Vec<&str> = Vec::new();

@@ -196,17 +196,25 @@ const ROD: f64 = 1.0 / 12.0;
 /// In a free motion the crank also carries rotor and gearbox. Stand-ins depend on the world's tree there, and loads take
 /// away what they do ([`added`](super::added)).
 pub(super) fn masses(case: &Case, tree: &Tree) -> Vec<[f64; 2]> {
+    let mut masses = bare_masses(case, tree);
+    if case.is_free() {
+        return masses;
+    }
     let moving = &case.mechanism.links()[1..];
     let mean = moving.iter().map(|link| link.mass).sum::<f64>() / moving.len() as f64;
     let size = case.mechanism.size();
-    let of = |(index, link): (usize, &Link)| {
-        if case.is_free() {
-            let [mass, inertia] = bare::to_link(case, index, tree);
-            return [link.mass + mass, link.inertia + inertia];
-        }
-        let [mass, inertia] = stand_in(case, index);
+    for ([mass, inertia], link) in masses.iter_mut().zip(case.mechanism.links()).skip(1) {
         let length = if link.extent() > 0.0 { link.extent() } else { size };
-        [(link.mass + mass).larger(mean), (link.inertia + inertia).larger(ROD * mean * length * length)]
+        (*mass, *inertia) = (mass.larger(mean), inertia.larger(ROD * mean * length * length));
+    }
+    masses
+}
+
+/// The same with nothing added to links that have both.
+fn bare_masses(case: &Case, tree: &Tree) -> Vec<[f64; 2]> {
+    let of = |(index, link): (usize, &Link)| {
+        let [mass, inertia] = if case.is_free() { bare::to_link(case, index, tree) } else { stand_in(case, index) };
+        [link.mass + mass, link.inertia + inertia]
     };
     let mut masses: Vec<[f64; 2]> = case.mechanism.links().iter().enumerate().map(of).collect();
     masses[GROUND] = [0.0; 2];
@@ -229,10 +237,24 @@ fn even_masses(case: &Case) -> Vec<[f64; 2]> {
     masses
 }
 
-/// Masses of a world. `read` says whether it reports forces; a world that only moves under prescribed speeds has
-/// [`even_masses`].
-pub(super) fn world_masses(case: &Case, tree: &Tree, read: bool) -> Vec<[f64; 2]> {
-    if read || case.is_free() { masses_with_flywheels(case, tree) } else { with_flywheels(case, even_masses(case)) }
+/// What a world is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Loading {
+    /// It only moves: under prescribed speeds it has [`even_masses`].
+    Moving,
+    /// Its forces are read, and what stand-ins add is taken off.
+    Read,
+    /// Its forces are read as they are.
+    Bare,
+}
+
+/// Masses of a world.
+pub(super) fn world_masses(case: &Case, tree: &Tree, loading: Loading) -> Vec<[f64; 2]> {
+    match loading {
+        Loading::Moving if !case.is_free() => with_flywheels(case, even_masses(case)),
+        Loading::Moving | Loading::Read => masses_with_flywheels(case, tree),
+        Loading::Bare => with_flywheels(case, bare_masses(case, tree)),
+    }
 }
 
 /// The links' own masses, with flywheels on the driving links whose speed is prescribed.

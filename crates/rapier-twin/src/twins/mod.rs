@@ -15,7 +15,7 @@ use rapier::prelude::{
 
 use crate::steer::steered;
 use crate::tree::Tree;
-use crate::world::{LinkAngle, LinkFrame, world_masses};
+use crate::world::{LinkAngle, LinkFrame, Loading, world_masses};
 use linkage::case::Case;
 use linkage::engine::Settings;
 use linkage::error::{Error, ErrorKind, Result};
@@ -84,9 +84,10 @@ impl Twin {
     ///
     /// # Errors
     /// [`ErrorKind::Unsupported`] if Rapier refuses a joint.
-    pub(crate) fn new(case: &Case, tree: Tree, settings: &Settings, read: bool) -> Result<Self> {
+    pub(crate) fn new(case: &Case, tree: Tree, settings: &Settings, loading: Loading) -> Result<Self> {
         let mechanism = &case.mechanism;
-        let masses = world_masses(case, &tree, read);
+        let masses = world_masses(case, &tree, loading);
+        let read = loading != Loading::Moving;
         let mut world = PhysicsWorld::new();
         world.gravity = joints::vector(case.gravity);
         world.integration_parameters = joints::parameters(settings);
