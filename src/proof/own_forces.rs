@@ -18,7 +18,7 @@ use linkage::trajectory::{Stage, Trajectory};
 /// Stages whose channels are forces.
 const FORCES: [Stage; 2] = [Stage::Reactions, Stage::BalancingMoment];
 /// Share of the work allowed for an engine's settings that its own forces may take once more.
-const SHARE: f64 = 0.1;
+const SHARE: f64 = 0.05;
 
 /// Reactions and balancing moment as an engine itself exerts them.
 #[derive(Clone, Debug)]
