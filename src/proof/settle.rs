@@ -170,6 +170,12 @@ pub(super) struct Settling<'a, 'b> {
     /// Step of the coarsest run.
     coarsest: f64,
     budget: f64,
+    /// Largest bound aimed at, over what is wanted.
+    aim: f64,
+    /// Whether being conclusive is all that is aimed at.
+    conclusive: bool,
+    /// Finest step of a run, for steps that are free only above it.
+    finest: f64,
 }
 
 impl<'a, 'b> Settling<'a, 'b> {
@@ -190,7 +196,38 @@ impl<'a, 'b> Settling<'a, 'b> {
         let times = if free.extrapolated { 0 } else { now.extrapolated };
         now.resolution *= 0.5f64.powi(times as i32 + 1);
         let coarsest = 2.0 * engine.settings().resolution;
-        Settling { judge, bank, free, now, most_sweeps: most, coarsest, budget }
+        Settling {
+            judge,
+            bank,
+            free,
+            now,
+            most_sweeps: most,
+            coarsest,
+            budget,
+            aim: AIM,
+            conclusive: false,
+            finest: 0.0,
+        }
+    }
+
+    /// The same search, content as soon as every channel is conclusive, with coarser steps to begin with and none below
+    /// `finest` (s).
+    pub(super) fn conclusive(mut self, finest: f64) -> Self {
+        (self.aim, self.conclusive, self.finest) = (1.0, true, finest);
+        if self.free.step {
+            self.coarsest *= 2.0;
+        }
+        self
+    }
+
+    /// Factor between numbers of sweeps.
+    fn more_sweeps(&self) -> usize {
+        if self.conclusive { 2 } else { MORE_SWEEPS }
+    }
+
+    /// Whether there is no finer step to try.
+    fn is_finest(&self) -> bool {
+        !self.free.step || 0.5 * self.now.resolution < 0.99 * self.finest
     }
 
     /// Runs the engine until it is decided, or until nothing is left to try.
@@ -220,7 +257,7 @@ impl<'a, 'b> Settling<'a, 'b> {
                     borne_out = now.iter().filter(|name| against.contains(name)).cloned().collect();
                     against = now;
                     let disagrees = !against.is_empty();
-                    let (decided, sharp) = (trial.need.is_within(1.0), trial.need.is_within(AIM));
+                    let (decided, sharp) = (trial.need.is_within(1.0), trial.need.is_within(self.aim));
                     let thrift = self.bank.effort > THRIFT * self.budget;
                     let blame = self.look_closer(&mut stall, &trial);
                     // A later round speaks for itself where it disagrees, or no longer does.
@@ -255,7 +292,7 @@ impl<'a, 'b> Settling<'a, 'b> {
             (Some(mut best), _) => {
                 // At a given step there is no finer run: its own estimate counts.
                 let is_cut = self.free.sweeps && end == End::Budget;
-                if (self.free.step || is_cut) && borne_out.is_empty() {
+                if (!self.is_finest() || is_cut) && borne_out.is_empty() {
                     best.judged.doubt("no finer run bears it out", &Advice::SmallerStep { to: None });
                 }
                 Ok((best.judged, search))
@@ -298,12 +335,14 @@ impl<'a, 'b> Settling<'a, 'b> {
     fn refine(&mut self, blame: Part) -> Option<End> {
         let mut next = self.now;
         match blame {
-            Part::Iteration if self.free.sweeps && self.now.sweeps < self.most_sweeps => next.sweeps *= MORE_SWEEPS,
+            Part::Iteration if self.free.sweeps && self.now.sweeps < self.most_sweeps => {
+                next.sweeps *= self.more_sweeps()
+            }
             // At a given step only more sweeps are left, and too few of them spoil the order that the step shows.
             Part::Discretisation
-                if !self.free.step && self.free.sweeps && self.now.sweeps < self.judge.asked.sweeps =>
+                if self.is_finest() && self.free.sweeps && self.now.sweeps < self.judge.asked.sweeps =>
             {
-                next.sweeps *= MORE_SWEEPS;
+                next.sweeps *= self.more_sweeps();
             }
             // Coarser runs, extrapolated more often, have less rounding.
             Part::Rounding if self.free.step && self.coarsest < COARSEST * self.judge.asked.resolution => {
@@ -313,7 +352,7 @@ impl<'a, 'b> Settling<'a, 'b> {
             // At a given step no coarser one is left to choose.
             Part::Rounding | Part::Reference if self.free.step => return Some(End::Rounding),
             Part::Rounding | Part::Reference => return Some(End::Nothing),
-            Part::Discretisation | Part::Iteration if self.free.step => next.resolution *= 0.5,
+            Part::Discretisation | Part::Iteration if !self.is_finest() => next.resolution *= 0.5,
             Part::Discretisation | Part::Iteration => return Some(End::Nothing),
         }
         if next.sweeps != self.now.sweeps {
@@ -358,7 +397,7 @@ impl<'a, 'b> Settling<'a, 'b> {
                 }
             };
             if best.as_ref().is_none_or(|best| trial.need < best.need) {
-                let sharp = trial.need.is_within(AIM);
+                let sharp = trial.need.is_within(self.aim);
                 best = Some(trial);
                 if sharp {
                     break;
@@ -369,7 +408,7 @@ impl<'a, 'b> Settling<'a, 'b> {
         // At first, what the sweeps leave is asked only where the step is not to blame.
         let settings = best.judged.info.settings;
         let engine = self.bank.engine(settings);
-        let share = if self.free.sweeps { MORE_SWEEPS } else { FEWER };
+        let share = if self.free.sweeps { self.more_sweeps() } else { FEWER };
         let others = other_sweeps(self.bank.case, engine.as_ref(), settings.sweeps, share);
         let disagrees = !best.judged.against().is_empty();
         if others.is_empty() || (best.need.share > 1.0 && !best.need.is_vague && !disagrees && !is_long) {
@@ -384,7 +423,7 @@ impl<'a, 'b> Settling<'a, 'b> {
         };
         // A third run tells how fast the sweeps converge, before they are multiplied; and whether they do, before anything
         // is disproven: sweeps that have hardly begun to converge differ little.
-        let is_asked = found.blame == Part::Iteration && !found.need.is_within(AIM) && self.free.sweeps;
+        let is_asked = found.blame == Part::Iteration && !found.need.is_within(self.aim) && self.free.sweeps;
         if others.len() < 2 || (!is_asked && found.judged.against().is_empty()) {
             return Ok(found);
         }
