@@ -77,6 +77,8 @@ const COARSEST: f64 = 16.0;
 const FAILURES: usize = 6;
 /// Share of instants that may be left out because they are too close to a reversal for the step.
 const MOST_LEFT_OUT: f64 = 0.03;
+/// Need of a step that leaves out more, over what is wanted.
+const LEFT_OUT: f64 = 2.0;
 /// Rounds without an order of convergence after which more sweeps are tried instead of a smaller step.
 const MOST_VAGUE: usize = 2;
 /// Rounds of a search that is not long.
@@ -313,6 +315,10 @@ impl<'a, 'b> Settling<'a, 'b> {
         if trial.blame != Part::Discretisation {
             return trial.blame;
         }
+        if self.free.step && !need.is_vague && need.share == LEFT_OUT {
+            self.leave_out_less(&trial.judged);
+            return Part::Discretisation;
+        }
         if let Some((sweeps, before)) = tried {
             if !need.is_less(HELPS, before) {
                 (self.now.sweeps, stall.wait, stall.before) = (sweeps, PATIENCE, Some(before));
@@ -331,6 +337,18 @@ impl<'a, 'b> Settling<'a, 'b> {
         Part::Iteration
     }
 
+    /// Goes on at steps that leave out few enough instants, in proportion to the step. Coarser ones decide nothing.
+    fn leave_out_less(&mut self, judged: &Judged) {
+        let most = judged.info.settings.resolution * MOST_LEFT_OUT / judged.too_coarse;
+        // The next round halves the step once more.
+        while self.now.resolution > most {
+            self.now.resolution *= 0.5;
+        }
+        while self.coarsest > 4.0 * most {
+            self.coarsest *= 0.5;
+        }
+    }
+
     /// Changes the settings by what is to blame. Returns why it cannot.
     fn refine(&mut self, blame: Part) -> Option<End> {
         let mut next = self.now;
@@ -346,7 +364,7 @@ impl<'a, 'b> Settling<'a, 'b> {
             }
             // Coarser runs, extrapolated more often, have less rounding.
             Part::Rounding if self.free.step && self.coarsest < COARSEST * self.judge.asked.resolution => {
-                self.coarsest *= 2.0;
+                self.coarsest = COARSEST * self.judge.asked.resolution;
                 return None;
             }
             // At a given step no coarser one is left to choose.
@@ -454,7 +472,7 @@ fn need(judged: &Judged, wanted: f64) -> (Need, Part) {
         Some((*parts, 1.0, convergence, &check.verdict))
     });
     // A step that leaves out many instants proves nothing about them.
-    let least = if judged.too_coarse > MOST_LEFT_OUT { 2.0 } else { 0.0 };
+    let least = if judged.too_coarse > MOST_LEFT_OUT { LEFT_OUT } else { 0.0 };
     let mut worst = (Need { is_vague: false, share: least }, Part::Discretisation);
     for (parts, scale, convergence, verdict) in channels.chain(checks) {
         let share = linkage::math::statistics::share(parts.sum(), wanted * scale);
