@@ -122,7 +122,8 @@ pub(super) fn prove(
         let all = channels.chain(proof.checks.iter_mut().map(|check| &mut check.verdict));
         all.chain([&mut proof.verdict]).for_each(|verdict| end.tell(verdict, budget));
     }
-    proof.own_forces = OwnForces::judged(&judge, case, chosen, &mut |part| progress(0.7 + 0.3 * part));
+    proof.own_forces =
+        OwnForces::judged(&judge, case, chosen, proof.info.settings.sweeps, &mut |part| progress(0.7 + 0.3 * part));
     if let Some(verdict) = proof.own_forces.as_ref().and_then(OwnForces::adds) {
         proof.verdict = overall([&proof.verdict, verdict]);
     }

@@ -17,6 +17,8 @@ use linkage::trajectory::{Stage, Trajectory};
 
 /// Stages whose channels are forces.
 const FORCES: [Stage; 2] = [Stage::Reactions, Stage::BalancingMoment];
+/// Sweeps to begin with at the most, if the motion has needed as many.
+const ENOUGH: usize = 64;
 /// Share of the work allowed for an engine's settings that its own forces may take once more.
 const SHARE: f64 = 0.05;
 
@@ -38,12 +40,13 @@ pub struct OwnForces {
 }
 
 impl OwnForces {
-    /// Judges the forces that the engine exerts; `None` where no force is wanted, where the route is given, and for an
+    /// Judges the forces that the engine exerts, whose motion has needed `sweeps`; `None` where no force is wanted, where the route is given, and for an
     /// engine whose usual route is its own. The first route that is conclusive counts.
     pub(super) fn judged(
         judge: &Judge,
         case: &Case,
         chosen: &Chosen,
+        sweeps: usize,
         progress: &mut dyn FnMut(f64),
     ) -> Option<OwnForces> {
         let free = chosen.own_forces?;
@@ -52,7 +55,7 @@ impl OwnForces {
         }
         let mut found: Option<OwnForces> = None;
         for &route in chosen.engine.own_routes(case) {
-            let own = by_route(judge, case, chosen, free, route, progress);
+            let own = by_route(judge, case, chosen, (free, route, sweeps.min(ENOUGH)), progress);
             let is_open = matches!(own.verdict, Verdict::Inconclusive { .. });
             // Of several open results, one with numbers tells more.
             let better = found.as_ref().is_none_or(|found| !is_open || found.failure.is_some());
@@ -108,8 +111,7 @@ fn by_route(
     judge: &Judge,
     case: &Case,
     chosen: &Chosen,
-    free: Free,
-    route: Route,
+    (free, route, sweeps): (Free, Route, usize),
     progress: &mut dyn FnMut(f64),
 ) -> OwnForces {
     let given = chosen.engine.settings();
@@ -124,7 +126,8 @@ fn by_route(
     let engine = chosen.engine.with(Settings { resolution: step, route, extrapolated, ..given });
     let judge = judge.asking(engine.settings()).of_stages(&FORCES);
     let mut bank = Bank::new(case, engine.as_ref());
-    let search = Settling::new(&judge, &mut bank, engine.as_ref(), free, SHARE * chosen.budget).conclusive(finest);
+    let search =
+        Settling::new(&judge, &mut bank, engine.as_ref(), free, SHARE * chosen.budget).conclusive(finest, sweeps);
     match search.run(progress) {
         Ok((Judged { info, mut channels, mut verdict, run, .. }, search)) => {
             let (end, budget) = (search.end, chosen.budget);

@@ -213,9 +213,12 @@ impl<'a, 'b> Settling<'a, 'b> {
     }
 
     /// The same search, content as soon as every channel is conclusive, with coarser steps to begin with and none below
-    /// `finest` (s).
-    pub(super) fn conclusive(mut self, finest: f64) -> Self {
+    /// `finest` (s), and with `sweeps` at least.
+    pub(super) fn conclusive(mut self, finest: f64, sweeps: usize) -> Self {
         (self.aim, self.conclusive, self.finest) = (1.0, true, finest);
+        if self.free.sweeps {
+            self.now.sweeps = self.now.sweeps.max(sweeps);
+        }
         if self.free.step {
             self.coarsest *= 2.0;
         }
