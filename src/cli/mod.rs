@@ -5,6 +5,7 @@ mod bearings;
 mod diagram;
 mod drive;
 mod engine_args;
+mod engine_section;
 mod exit_code;
 mod export;
 mod grid;

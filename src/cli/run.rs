@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use clap::builder::PossibleValuesParser;
 
 use super::engine_args::EngineArgs;
+use super::engine_section::{self, keys};
 use super::grid::GridArgs;
 use super::load::{StartArgs, reference_names};
 use super::progress::Bar;
@@ -15,9 +16,7 @@ use crate::compare::Verdict;
 use crate::proof::{EngineProof, Proof, prove_with};
 use crate::record::{self as recorder, Recording, Side};
 use crate::report::{json, recorded, residuals, text};
-use crate::scenario::edit::with_engine;
-use crate::scenario::{EngineKeys, Scenario};
-use linkage::engine::Settings;
+use crate::scenario::Scenario;
 use linkage::error::{Error, ErrorKind, Result};
 
 const EXAMPLES: &str = "\
@@ -140,21 +139,10 @@ fn prove_file(args: &Args, file: &Path, quiet: bool) -> Result<(Scenario, Proof)
 /// Writes the settings of the first engine to the scenario file, if the proof has found them.
 fn write_settings(file: &Path, scenario: &Scenario, proof: &Proof) -> Result<()> {
     let engine = proof.engine();
-    if engine.search.is_none() {
-        return Ok(());
+    match engine.search {
+        None => Ok(()),
+        Some(_) => engine_section::write(file, scenario, keys(scenario, engine.info.name, engine.info.settings)),
     }
-    let Settings { resolution, sweeps, extrapolated, .. } = engine.info.settings;
-    let keys = EngineKeys {
-        name: Some(engine.info.name.into()),
-        sweeps: Some(sweeps),
-        extrapolated: Some(extrapolated),
-        ..scenario.engine.clone()
-    };
-    let text = with_engine(&scenario.text, (Some(resolution), keys))?;
-    fs::write(file, text).map_err(|error| {
-        Error::new(ErrorKind::Io, format!("{} cannot be written: {error}", file.display()))
-            .help("check that the file may be written to")
-    })
 }
 
 /// Records a proof, unless recording is off. `written` holds the recordings of this command: path and scenario.

@@ -1,18 +1,18 @@
 //! `linkproof tune`.
 
 use linkage::math::KeepNan;
-use std::fs;
 use std::path::PathBuf;
 use std::time::Instant;
 
 use super::engine_args::EngineArgs;
+use super::engine_section::{self, keys};
 use super::output;
 use super::progress::Bar;
 use crate::report::tune as report;
 use crate::scenario::{EngineKeys, Scenario, edit};
 use crate::tune::{Candidate, Wish, tune};
-use linkage::engine::{Engine, Settings};
-use linkage::error::{Advice, Error, ErrorKind, Result};
+use linkage::engine::Engine;
+use linkage::error::{Advice, Error, Result};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -75,16 +75,12 @@ pub(super) fn run(args: &Args) -> Result<()> {
     let found = tune(&scenario, &wish, &options, &mut price, &mut |part| bar.at(part)).map_err(of_argument)?;
     drop(bar);
     if args.write {
-        let text = edit::with_engine(&scenario.text, keys(&scenario, &found.best))?;
-        fs::write(&args.file, text).map_err(|error| {
-            Error::new(ErrorKind::Io, format!("{} cannot be written: {error}", args.file.display()))
-                .help("check that the file may be written to, or copy the section by hand")
-        })?;
+        engine_section::write(&args.file, &scenario, best_keys(&scenario, &found.best))?;
     }
     match &args.json {
         Some(to) => output::write(&report::json(&scenario, &found, args.within), to),
         None => {
-            let section = edit::engine_section(keys(&scenario, &found.best));
+            let section = edit::engine_section(best_keys(&scenario, &found.best));
             let place = report::Section { text: &section, file: &args.file, is_written: args.write };
             let hints = report::Hints { why: &|engine| format!("`linkproof run --engine {engine}`"), write: "--write" };
             output::print(&report::text(&scenario, &found, args.within, &place, hints))
@@ -100,17 +96,6 @@ fn of_argument(error: Error) -> Error {
     }
 }
 
-/// What the scenario must state to run a candidate: its step (s), and its other keys.
-fn keys(scenario: &Scenario, best: &Candidate) -> (Option<f64>, EngineKeys) {
-    let Settings { resolution, sweeps, substeps, route, extrapolated } = best.settings;
-    // For an engine that chooses its own steps, the scenario's step stays: it belongs to the other engines.
-    let step = if best.controls_error { scenario.dt } else { Some(resolution) };
-    let keys = EngineKeys {
-        name: Some(best.engine.into()),
-        sweeps: (sweeps > 0).then_some(sweeps),
-        substeps: (substeps > 1).then_some(substeps),
-        route: Some(route.name().into()),
-        extrapolated: (extrapolated > 0).then_some(extrapolated),
-    };
-    (step, keys)
+fn best_keys(scenario: &Scenario, best: &Candidate) -> (Option<f64>, EngineKeys) {
+    keys(scenario, best.engine, best.settings)
 }
