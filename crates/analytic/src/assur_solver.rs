@@ -80,6 +80,10 @@ fn free_motion(case: &Case, accuracy: f64, visit: Visit, progress: Progress) -> 
         }
         model => model?,
     };
+    if model.kinks().meets {
+        // Beyond a change point, by momentum.
+        return free::sweep(case, &mut TransferSide::new(case)?, accuracy, visit, progress);
+    }
     let (motion, end) = reduced::motion(&model, case.crank().initial_speed(), &times, accuracy)?;
     if motion.len() < times.len() {
         return Err(ended(end));

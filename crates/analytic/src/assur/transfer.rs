@@ -6,6 +6,7 @@
 //! a0 and alpha0 are the accelerations that remain when no free driving link accelerates.
 
 use super::forces::Kinetostatics;
+use super::passing::{self, Passing};
 use super::pose_solver::{CLOSED_FORM_STEP, FOLLOWED_STEP, HALVINGS};
 use super::turns::Turns;
 use crate::assur::groups::{Misfit, OutOfReach, Plan};
@@ -14,7 +15,7 @@ use linkage::case::Case;
 use linkage::drive::Wrench;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::dense::Lu;
-use linkage::math::{KeepNan, Vec2};
+use linkage::math::{KeepNan, Motion, Vec2};
 use linkage::mechanism::{self, GROUND};
 use linkage::solver::State;
 use linkage::trajectory::Stage;
@@ -40,6 +41,10 @@ pub(crate) struct TransferSide<'a> {
     matrix: Lu,
     right: Vec<f64>,
     loads: Vec<Wrench>,
+    /// Change points, with one driving link. With several, they are not passed.
+    passing: Option<Passing>,
+    /// What the last accelerations were found with.
+    held: Option<Held>,
 }
 
 impl<'a> TransferSide<'a> {
@@ -69,6 +74,8 @@ impl<'a> TransferSide<'a> {
             right: vec![0.0; free.len()],
             free,
             loads: vec![Wrench::ZERO; case.mechanism.links().len()],
+            passing: (case.drives.further().is_empty() && case.crank().passes()).then(Passing::default),
+            held: None,
         };
         side.place().map_err(|reach| side.out_of_reach(reach))?;
         Ok(side)
@@ -76,10 +83,31 @@ impl<'a> TransferSide<'a> {
 
     /// Places the mechanism at the target angles.
     fn place(&mut self) -> std::result::Result<(), OutOfReach> {
-        self.plan.positions(&self.target, &mut self.state.motions)?;
+        match &mut self.passing {
+            Some(passing) => {
+                passing.place([self.at[0], self.target[0]], &mut self.plan, &mut self.state.motions)?;
+            }
+            None => self.plan.positions(&self.target, &mut self.state.motions)?,
+        }
         self.turns.count(&self.state.motions);
         self.at.copy_from_slice(&self.target);
         Ok(())
+    }
+
+    /// Velocities at the last pose.
+    fn velocities(&mut self, omegas: &[f64]) {
+        match self.passing.as_ref().and_then(Passing::inside) {
+            Some(window) => window.rates(self.at[0], [omegas[0], 0.0], &mut self.state.motions),
+            None => self.plan.velocities(omegas, &mut self.state.motions),
+        }
+    }
+
+    /// Accelerations at the last pose, after its velocities.
+    fn accelerations(&mut self, omegas: &[f64], alphas: &[f64]) {
+        match self.passing.as_ref().and_then(Passing::inside) {
+            Some(window) => window.rates(self.at[0], [omegas[0], alphas[0]], &mut self.state.motions),
+            None => self.plan.accelerations(alphas, &mut self.state.motions),
+        }
     }
 
     /// Follows the branch to these angles of the driving links, in small turns.
@@ -144,15 +172,17 @@ impl<'a> TransferSide<'a> {
 
     fn find_transfer(&mut self) {
         let links = self.case.mechanism.links();
-        for (k, &index) in self.free.iter().enumerate() {
-            self.unit.fill(0.0);
-            self.unit[index] = 1.0;
-            self.plan.velocities(&self.unit, &mut self.state.motions);
+        let mut unit = std::mem::take(&mut self.unit);
+        for k in 0..self.free.len() {
+            unit.fill(0.0);
+            unit[self.free[k]] = 1.0;
+            self.velocities(&unit);
             for (link, body) in links.iter().enumerate() {
                 let motion = &self.state.motions[link];
                 self.transfer[k * links.len() + link] = (motion.point_velocity(body.mass_centre), motion.omega);
             }
         }
+        self.unit = unit;
     }
 }
 
@@ -163,8 +193,11 @@ impl Side for TransferSide<'_> {
         for &index in &self.free {
             inputs.accelerations[index] = 0.0;
         }
-        self.plan.velocities(&inputs.speeds, &mut self.state.motions);
-        self.plan.accelerations(&inputs.accelerations, &mut self.state.motions);
+        self.velocities(&inputs.speeds);
+        self.accelerations(&inputs.speeds, &inputs.accelerations);
+        if self.passing.as_ref().is_some_and(|passing| passing.inside().is_some()) {
+            self.held = Some(held.clone());
+        }
         if !self.case.loads.is_empty() {
             self.find_angles(&inputs.angles);
             loads_held(self.case, &self.state.motions, &self.state.angles, held, &mut self.loads);
@@ -192,13 +225,13 @@ impl Side for TransferSide<'_> {
             self.right[i] = right;
         }
         embed(&mut self.matrix, &mut self.right, &self.free, inputs)?;
-        self.plan.accelerations(&inputs.accelerations, &mut self.state.motions);
+        self.accelerations(&inputs.speeds, &inputs.accelerations);
         Ok(())
     }
 
     fn spin(&mut self, inputs: &Inputs, link: usize) -> Result<f64> {
         self.go_to(&inputs.angles)?;
-        self.plan.velocities(&inputs.speeds, &mut self.state.motions);
+        self.velocities(&inputs.speeds);
         Ok(self.state.motions[link].omega)
     }
 
@@ -218,7 +251,20 @@ impl Side for TransferSide<'_> {
 
     fn fill(&mut self, inputs: &Inputs, state: &mut State) -> Result<()> {
         self.find_angles(&inputs.angles);
-        if self.case.wanted.deepest() >= Stage::Reactions {
+        let window = self.passing.as_ref().and_then(Passing::inside);
+        self.state.passing = window.map(|window| window.condition);
+        if let (Some(window), Some(held)) = (window, &self.held)
+            && self.case.wanted.deepest() >= Stage::Reactions
+        {
+            let case = self.case;
+            let mut loads = |motions: &[Motion], angles: &[f64], out: &mut [Wrench]| {
+                loads_held(case, motions, angles, held, out);
+            };
+            let rates = [inputs.speeds[0], inputs.accelerations[0]];
+            let found =
+                window.reactions(self.at[0], rates, (case, &mut self.statics), &mut loads, &mut self.state);
+            found.map_err(|_| passing::unbounded(self.at[0] - case.crank().zero))?;
+        } else if self.case.wanted.deepest() >= Stage::Reactions {
             self.statics.solve_under(&self.loads, self.case, &self.plan, &mut self.state);
         }
         state.clone_from(&self.state);
