@@ -31,6 +31,8 @@ pub(super) struct Embedded<'a> {
     force: Vec<f64>,
     matrix: Lu,
     right: Vec<f64>,
+    /// What the last accelerations beside a change point were found with.
+    held: Option<Held>,
 }
 
 impl<'a> Embedded<'a> {
@@ -45,6 +47,7 @@ impl<'a> Embedded<'a> {
             force: vec![0.0; n],
             matrix: Lu::new(free.len()),
             right: vec![0.0; free.len()],
+            held: None,
             free,
             system,
         };
@@ -64,6 +67,12 @@ impl<'a> Embedded<'a> {
 
     /// Follows the branch to the angles of the driving links, in small turns.
     fn go_to(&mut self, angles: &[f64]) -> Result<()> {
+        if self.system.passing.is_some() {
+            self.system.travel(angles[0])?;
+            let spot = &self.system.passing.as_ref().expect("it is there").spot;
+            self.columns.copy_from_slice(&spot.slope);
+            return Ok(());
+        }
         let from: Vec<f64> = self.system.inputs.iter().map(|input| input.angle).collect();
         let farthest = from.iter().zip(angles).fold(0.0f64, |most, (a, b)| most.larger((b - a).abs()));
         let parts = (farthest / TRACKING_STEP).ceil().larger(1.0);
@@ -107,7 +116,11 @@ impl<'a> Embedded<'a> {
         {
             (own.omega, own.alpha) = (omega, alpha);
         }
-        self.system.differentiate();
+        if self.system.passing.is_some() {
+            self.system.rates_of(inputs.speeds[0], inputs.accelerations[0]);
+        } else {
+            self.system.differentiate();
+        }
     }
 }
 
@@ -148,6 +161,9 @@ impl Side for Embedded<'_> {
         }
         embed(&mut self.matrix, &mut self.right, &self.free, inputs)?;
         self.set_rates(inputs);
+        if self.system.passing.as_ref().is_some_and(|passing| passing.inside().is_some()) {
+            self.held = Some(held.clone());
+        }
         Ok(())
     }
 
@@ -173,7 +189,13 @@ impl Side for Embedded<'_> {
 
     fn fill(&mut self, _: &Inputs, state: &mut State) -> Result<()> {
         if self.system.stage >= Stage::Reactions {
-            self.system.multipliers();
+            let passing = self.system.passing.as_ref();
+            match self.held.take_if(|_| passing.is_some_and(|passing| passing.inside().is_some())) {
+                Some(held) => self.system.multipliers_under(&mut |case, motions, angles, out| {
+                    loads_held(case, motions, angles, &held, out);
+                })?,
+                None => self.system.multipliers(),
+            }
         }
         self.system.fill(state);
         Ok(())

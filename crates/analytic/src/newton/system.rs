@@ -3,6 +3,8 @@
 use std::f64::consts::TAU;
 
 use super::blocks::Blocks;
+use super::passing::Passing;
+use super::steps::SETTLED;
 use linkage::case::Case;
 use linkage::drive::{Drive, DriveState, Wrench};
 use linkage::math::{Motion, Vec2, rotated, turned, unit};
@@ -37,6 +39,10 @@ pub(super) struct System<'a> {
     pub(super) motions: Vec<Motion>,
     pub(super) angles: Vec<f64>,
     pub(super) loads: Vec<Wrench>,
+    /// The way through change points, with one driving link that passes them, once the start pose is known.
+    pub(super) passing: Option<Passing>,
+    /// Change below which Newton's method ends.
+    pub(super) settled: f64,
 }
 
 impl<'a> System<'a> {
@@ -68,6 +74,8 @@ impl<'a> System<'a> {
             motions: vec![Motion::REST; links.len() + 1],
             angles: vec![0.0; links.len() + 1],
             loads: vec![Wrench::ZERO; links.len() + 1],
+            passing: None,
+            settled: SETTLED,
             inputs: case.drives.iter().map(|drive| by_law(drive, 0.0)).collect(),
         }
     }

@@ -1,0 +1,210 @@
+//! The surroundings of a change point.
+//!
+//! Coordinates go through six poses with their first and second derivatives, multipliers through sixteen poses.
+//! The half width is chosen by the difference of two polynomials that share neither degree nor data: the second
+//! derivative of the osculating one, and the one through the second derivatives at all sixteen poses.
+//! Rounding at the distance x grows as 1 / x^3 in second derivatives, the error of the polynomials with the width.
+
+use std::f64::consts::PI;
+
+use super::osculating::Osculating;
+use super::{Spot, place, settled, walked};
+use crate::newton::steps::TRACKING_STEP;
+use crate::newton::system::System;
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::KeepNan;
+
+/// Poses on each side, and the numbers of those that coordinates go through, from the outermost inwards.
+const SIDE: usize = 8;
+const CHOSEN: [usize; 3] = [0, 4, 7];
+/// Distance of the innermost pose as a share of the half width.
+const CORE: f64 = 0.2;
+/// Half widths that are tried (rad).
+const WIDTHS: [f64; 9] = [0.5, 0.36, 0.25, 0.18, 0.12, 0.08, 0.06, 0.04, 0.025];
+/// Largest error of second derivatives, as a share of the largest one, with which a change point is passed.
+const WORST: f64 = 1e-6;
+/// Places, as shares of the half width, at which the two polynomials are compared.
+const COMPARED: [f64; 3] = [-0.1, 0.0, 0.1];
+/// Rounding of accelerations over the unit roundoff and the cube of the condition number.
+const ULPS: f64 = 16.0;
+
+/// The surroundings of a change point.
+#[derive(Clone, Debug)]
+pub(in crate::newton) struct Window {
+    /// The crank's angle in the world at the change point (rad).
+    pub(super) at: f64,
+    /// Half width (rad).
+    pub(super) reach: f64,
+    /// In ascending order of the angle.
+    pub(super) spots: Vec<Spot>,
+    coordinates: Osculating,
+    /// Condition number by which rounding in the window goes.
+    pub(in crate::newton) condition: f64,
+}
+
+impl Window {
+    /// The surroundings of a change point of a block at the angle `at` (rad), seen from a spot beside it.
+    pub(super) fn around(system: &mut System, from: &Spot, at: f64, block: usize) -> Result<Self> {
+        let mut best: Option<(f64, Window)> = None;
+        let mut failed = None;
+        for reach in WIDTHS {
+            match Window::of_width(system, from, [at, reach], block) {
+                Ok(window) => {
+                    let error = window.error();
+                    if best.as_ref().is_none_or(|(least, _)| error < *least) {
+                        best = Some((error, window));
+                    }
+                }
+                Err(error) => failed = Some(error),
+            }
+        }
+        place(system, from)?;
+        match best {
+            Some((error, mut window)) if error < WORST => {
+                let shares = window.spots.iter().map(|spot| spot.shares[block].abs());
+                let (least, most) = shares.fold((f64::INFINITY, 0.0f64), |(a, b), s| (a.smaller(s), b.larger(s)));
+                window.condition = (most / least).larger((error / (ULPS * f64::EPSILON)).cbrt());
+                Ok(window)
+            }
+            _ => {
+                let crank = at - system.case.crank().zero;
+                let why = failed.map_or(String::new(), |error| format!(" ({})", error.message()));
+                let message = format!(
+                    "crank angle {:.4} deg: beside this change point the branch on which velocities go on is not clear{why}",
+                    crank.to_degrees()
+                );
+                Err(Error::new(ErrorKind::Numeric, message).at_crank(crank).help("let the grid end before"))
+            }
+        }
+    }
+
+    fn of_width(system: &mut System, from: &Spot, [at, reach]: [f64; 2], block: usize) -> Result<Self> {
+        let towards = (at - from.angle).signum();
+        let distance = |k: usize| {
+            let place = (PI * k as f64 / (SIDE - 1) as f64).cos();
+            reach * (0.5 * (1.0 + CORE * CORE) + 0.5 * (1.0 - CORE * CORE) * place).sqrt()
+        };
+        let mut spots: Vec<Spot> = Vec::with_capacity(2 * SIDE);
+        let mut spot = from.clone();
+        for k in 0..SIDE {
+            spot = followed(system, &spot, at - towards * distance(k))?;
+            spots.push(spot.clone());
+        }
+        let near = Osculating::through(&chosen(&spots, at));
+        for k in (0..SIDE).rev() {
+            let angle = at + towards * distance(k);
+            spot = match k == SIDE - 1 {
+                true => {
+                    let expected = near.at(angle - at);
+                    let places: Vec<f64> = expected.iter().map(|jet| jet[0]).collect();
+                    let found = settled(system, angle, &places)?;
+                    let slopes: Vec<f64> = expected.iter().map(|jet| jet[1]).collect();
+                    check_slopes(system, &found, &slopes)?;
+                    found
+                }
+                false => followed(system, &spot, angle)?,
+            };
+            spots.push(spot.clone());
+        }
+        spots.sort_by(|a, b| a.angle.total_cmp(&b.angle));
+        let at = crossing(&spots, block).unwrap_or(at);
+        let all: Vec<(f64, [&[f64]; 3])> = [&spots[..SIDE], &spots[SIDE..]].iter().flat_map(|half| {
+            let is_low = half[0].angle < at;
+            let of = |k: usize| if is_low { k } else { SIDE - 1 - k };
+            CHOSEN.map(|k| point(&half[of(k)], at))
+        }).collect();
+        let coordinates = Osculating::through(&all);
+        Ok(Window { at, reach, spots, coordinates, condition: f64::INFINITY })
+    }
+
+    /// Writes the pose at an angle to a spot, with the signs and determinants of the side on which it lies.
+    pub(super) fn put(&self, angle: f64, spot: &mut Spot) {
+        spot.angle = angle;
+        for (index, [q, slope, curve]) in self.coordinates.at(angle - self.at).into_iter().enumerate() {
+            (spot.q[index], spot.slope[index], spot.curve[index]) = (q, slope, curve);
+        }
+        spot.signs.clone_from(&self.end(angle).signs);
+        spot.shares.clone_from(&self.end(angle).shares);
+    }
+
+    /// The last pose on the side of an angle.
+    pub(super) fn end(&self, angle: f64) -> &Spot {
+        if angle < self.at { &self.spots[0] } else { &self.spots[self.spots.len() - 1] }
+    }
+
+    /// Distances of all poses from the change point.
+    pub(super) fn distances(&self) -> Vec<f64> {
+        self.spots.iter().map(|spot| spot.angle - self.at).collect()
+    }
+
+    /// Largest difference of the two polynomials for the second derivatives, as a share of the largest one.
+    fn error(&self) -> f64 {
+        let distances = self.distances();
+        let (mut most, mut scale) = (0.0f64, 1.0f64);
+        for x in COMPARED.map(|share| share * self.reach) {
+            for (index, [_, slope, curve]) in self.coordinates.at(x).into_iter().enumerate() {
+                let other = neville(&distances, |k| self.spots[k].curve[index], x);
+                most = most.larger((curve - other).abs());
+                scale = scale.larger(slope.abs()).larger(curve.abs());
+            }
+        }
+        most / scale
+    }
+}
+
+/// Follows the branch to an angle in small steps.
+fn followed(system: &mut System, from: &Spot, to: f64) -> Result<Spot> {
+    let parts = ((to - from.angle).abs() / TRACKING_STEP).ceil().larger(1.0);
+    let mut spot = from.clone();
+    for part in 1..=parts as usize {
+        let next = if part as f64 == parts { to } else { from.angle + (to - from.angle) * (part as f64 / parts) };
+        spot = walked(system, &spot, next)?;
+    }
+    Ok(spot)
+}
+
+/// Refuses a pose beyond a change point at which velocities are not those expected.
+fn check_slopes(system: &System, found: &Spot, expected: &[f64]) -> Result<()> {
+    let size = system.case.mechanism.size();
+    let unit = |index: usize| if index % 3 == 2 { 1.0 } else { size };
+    let largest = expected.iter().enumerate().fold(1.0f64, |most, (i, slope)| most.larger(slope.abs() / unit(i)));
+    for (index, (slope, expected)) in found.slope.iter().zip(expected).enumerate() {
+        if !((slope - expected).abs() <= 0.05 * largest * unit(index)) {
+            return Err(system.lost("velocities jump there (change point)"));
+        }
+    }
+    Ok(())
+}
+
+fn point(spot: &Spot, at: f64) -> (f64, [&[f64]; 3]) {
+    (spot.angle - at, [&spot.q, &spot.slope, &spot.curve])
+}
+
+/// The chosen poses of one side, of which the outermost comes first.
+fn chosen(spots: &[Spot], at: f64) -> Vec<(f64, [&[f64]; 3])> {
+    CHOSEN.iter().map(|&k| point(&spots[k], at)).collect()
+}
+
+/// The angle at which a block's determinant is zero, by inverse interpolation. `None` if it does not change its sign, or
+/// not steadily.
+fn crossing(spots: &[Spot], block: usize) -> Option<f64> {
+    let shares: Vec<f64> = spots.iter().map(|spot| spot.shares[block]).collect();
+    let inner = SIDE / 2..2 * SIDE - SIDE / 2;
+    let rising = shares[inner.clone()].windows(2).all(|pair| pair[0] < pair[1]);
+    let falling = shares[inner.clone()].windows(2).all(|pair| pair[0] > pair[1]);
+    let is_crossing = shares[inner.start] * shares[inner.end - 1] < 0.0 && (rising || falling);
+    let places = &shares[inner.clone()];
+    is_crossing.then(|| neville(places, |k| spots[inner.start + k].angle, 0.0))
+}
+
+/// Value at `x` of the polynomial through values at these places (Neville's scheme).
+pub(super) fn neville(places: &[f64], value: impl Fn(usize) -> f64, x: f64) -> f64 {
+    let mut row: Vec<f64> = (0..places.len()).map(value).collect();
+    for level in 1..places.len() {
+        for k in 0..places.len() - level {
+            let (a, b) = (places[k], places[k + level]);
+            row[k] = ((x - b) * row[k] - (x - a) * row[k + 1]) / (a - b);
+        }
+    }
+    row[0]
+}
