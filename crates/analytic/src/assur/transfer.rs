@@ -48,11 +48,11 @@ pub(crate) struct TransferSide<'a> {
 }
 
 impl<'a> TransferSide<'a> {
-    /// Starts at the start pose of a case.
+    /// Starts at the start pose of a case. The windows around change points have this share of their usual widths.
     ///
     /// # Errors
     /// [`ErrorKind::Geometry`] if the start pose is singular.
-    pub(crate) fn new(case: &'a Case) -> Result<Self> {
+    pub(crate) fn new(case: &'a Case, share: f64) -> Result<Self> {
         let plan = Plan::of(&case.mechanism, &case.structure, &case.modes);
         let step = if plan.is_closed_form() { CLOSED_FORM_STEP } else { FOLLOWED_STEP };
         let (statics, state) = (Kinetostatics::of(case, &plan), State::at_start(case));
@@ -74,7 +74,7 @@ impl<'a> TransferSide<'a> {
             right: vec![0.0; free.len()],
             free,
             loads: vec![Wrench::ZERO; case.mechanism.links().len()],
-            passing: (case.drives.further().is_empty() && case.crank().passes()).then(Passing::default),
+            passing: (case.drives.further().is_empty() && case.crank().passes()).then(|| Passing::new(share)),
             held: None,
         };
         side.place().map_err(|reach| side.out_of_reach(reach))?;

@@ -10,7 +10,7 @@
 use super::free::Embedded;
 use super::system::System;
 use crate::motion::free;
-use crate::motion::march::{ACCURACY, TIGHTER};
+use crate::motion::march::{ACCURACY, NARROWER, TIGHTER};
 use linkage::case::Case;
 use linkage::error::{Error, Result};
 use linkage::solver::{Progress, Provision, Solver, State, Visit};
@@ -85,5 +85,8 @@ impl Solver for TightNewtonSolver {
 fn free_motion(case: &Case, accuracy: f64, visit: Visit, progress: Progress) -> Result<()> {
     let mut system = System::new(case);
     system.settle().map_err(Error::out_of_reach)?;
+    if let Some(passing) = system.passing.as_mut().filter(|_| accuracy < ACCURACY) {
+        passing.share = NARROWER;
+    }
     free::sweep(case, &mut Embedded::new(system), accuracy, visit, progress)
 }

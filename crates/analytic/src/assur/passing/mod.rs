@@ -22,8 +22,10 @@ const LOOK: f64 = 1.0;
 const MOST_WINDOWS: usize = 8;
 
 /// The change points of a mechanism with one driving link, as far as they have been met.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Passing {
+    /// Share of the usual half widths that windows have.
+    share: f64,
     windows: Vec<Window>,
     /// Intervals of the driving link's angle (rad) in which a search in this direction has found nothing: group,
     /// direction, ends.
@@ -34,6 +36,12 @@ pub(super) struct Passing {
 }
 
 impl Passing {
+    /// No change point met yet. Windows have this share of their usual half widths: two runs with different shares show
+    /// the error that is left in them.
+    pub(super) fn new(share: f64) -> Self {
+        Passing { share, windows: Vec::new(), clear: Vec::new(), inside: None, motions: Vec::new() }
+    }
+
     /// The window of the last pose placed, if it lies in one.
     pub(super) fn inside(&self) -> Option<&Window> {
         self.inside.map(|index| &self.windows[index])
@@ -101,7 +109,7 @@ impl Passing {
             }
             let start = search::Start { angle, plan, motions };
             match search::change_point(&start, group, ahead.signum()) {
-                Ok(at) => self.keep(Window::around(at, group, &start)?, angle),
+                Ok(at) => self.keep(Window::around(at, group, &start, self.share)?, angle),
                 Err(end) => {
                     let ends = [angle.smaller(end), angle.larger(end)];
                     self.clear.push((group, ahead.signum(), ends));

@@ -57,11 +57,11 @@ pub(super) fn weights(offsets: &[f64], x: f64) -> Vec<f64> {
 
 impl Window {
     /// The surroundings of the change point of `group` at the angle `at` (rad), seen from a pose beside it.
-    pub(super) fn around(at: f64, group: usize, start: &Start) -> Result<Self, OutOfReach> {
+    pub(super) fn around(at: f64, group: usize, start: &Start, share: f64) -> Result<Self, OutOfReach> {
         let mut best: Option<(f64, Window)> = None;
         let mut failed = None;
         for reach in WIDTHS {
-            match Window::of_width(at, reach, group, start) {
+            match Window::of_width(at, share * reach, group, start) {
                 Ok(window) => {
                     let error = window.error();
                     if best.as_ref().is_none_or(|(least, _)| error < *least) {

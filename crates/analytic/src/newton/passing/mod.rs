@@ -37,9 +37,11 @@ pub(super) struct Spot {
 }
 
 /// The way of a mechanism with one driving link, and its change points as far as they have been met.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(super) struct Passing {
     pub(super) spot: Spot,
+    /// Share of the usual half widths that windows have.
+    pub(super) share: f64,
     windows: Vec<Window>,
     /// Intervals of the crank's angle in which a search of a block in this direction has found nothing.
     clear: Vec<(usize, f64, [f64; 2])>,
@@ -49,7 +51,7 @@ pub(super) struct Passing {
 impl Passing {
     /// The way from the present pose of a system whose Jacobian is factored there.
     pub(super) fn from(system: &mut System) -> Self {
-        Passing { spot: spot(system), ..Passing::default() }
+        Passing { spot: spot(system), share: 1.0, windows: Vec::new(), clear: Vec::new(), inside: None }
     }
 
     /// The window of the last pose, if it lies in one.
@@ -143,7 +145,7 @@ impl Passing {
             }
             match search::change_point(system, &self.spot, block, ahead) {
                 Ok(at) => {
-                    let window = Window::around(system, &self.spot, at, block)?;
+                    let window = Window::around(system, &self.spot, [at, self.share], block)?;
                     self.windows.push(window);
                     self.windows.sort_by(|a, b| (a.at - angle).abs().total_cmp(&(b.at - angle).abs()));
                     self.windows.truncate(MOST_WINDOWS);

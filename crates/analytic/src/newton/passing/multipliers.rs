@@ -56,7 +56,7 @@ impl Window {
 
     /// Multipliers at the distance `x` from those at all poses. `None` where they grow without bound.
     fn beside(&self, x: f64, all: &[Vec<f64>]) -> Option<Vec<f64>> {
-        let distances = self.distances();
+        let distances = &self.places;
         let nearest = distances.iter().fold(f64::INFINITY, |least, x| least.smaller(x.abs()));
         let outer: Vec<usize> = (0..all.len()).filter(|&k| distances[k].abs() > 1.5 * nearest).collect();
         let outer_distances: Vec<f64> = outer.iter().map(|&k| distances[k]).collect();
@@ -64,13 +64,13 @@ impl Window {
         let largest = (0..all.len()).flat_map(|k| (0..all[k].len()).map(move |index| (k, index)));
         let largest = largest.fold(0.0f64, |most, (k, index)| most.larger(product(k, index).abs()));
         let of = |index: usize| {
-            let there = neville(&distances, |k| product(k, index), 0.0);
+            let there = neville(distances, |k| product(k, index), 0.0);
             let without = neville(&outer_distances, |k| product(outer[k], index), 0.0);
             if there.abs() <= NOISE * (there - without).abs() + LEAST * largest {
-                return Some(neville(&distances, |k| all[k][index], x));
+                return Some(neville(distances, |k| all[k][index], x));
             }
             let is_there = !(x.abs() > 8.0 * f64::EPSILON * self.at.abs().larger(1.0));
-            (!is_there).then(|| neville(&distances, |k| product(k, index), x) / x)
+            (!is_there).then(|| neville(distances, |k| product(k, index), x) / x)
         };
         (0..all[0].len()).map(of).collect()
     }

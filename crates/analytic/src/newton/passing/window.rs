@@ -5,7 +5,7 @@
 //! derivative of the osculating one, and the one through the second derivatives at all sixteen poses.
 //! Rounding at the distance x grows as 1 / x^3 in second derivatives, the error of the polynomials with the width.
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 use super::osculating::Osculating;
 use super::{Spot, place, settled, walked};
@@ -13,10 +13,11 @@ use crate::newton::steps::TRACKING_STEP;
 use crate::newton::system::System;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
+use linkage::mechanism::GROUND;
 
 /// Poses on each side, and the numbers of those that coordinates go through, from the outermost inwards.
 const SIDE: usize = 8;
-const CHOSEN: [usize; 3] = [0, 4, 7];
+const CHOSEN: [usize; 3] = [0, 3, 6];
 /// Distance of the innermost pose as a share of the half width.
 const CORE: f64 = 0.2;
 /// Half widths that are tried (rad).
@@ -37,6 +38,11 @@ pub(in crate::newton) struct Window {
     pub(super) reach: f64,
     /// In ascending order of the angle.
     pub(super) spots: Vec<Spot>,
+    /// Their distances from the change point (rad).
+    pub(super) places: Vec<f64>,
+    /// Whole turns of the links' angles, as the coordinates have them (rad; 0 for places). The polynomials are those of
+    /// coordinates without them, which keep their last digits.
+    turns: Vec<f64>,
     coordinates: Osculating,
     /// Condition number by which rounding in the window goes.
     pub(in crate::newton) condition: f64,
@@ -44,11 +50,20 @@ pub(in crate::newton) struct Window {
 
 impl Window {
     /// The surroundings of a change point of a block at the angle `at` (rad), seen from a spot beside it.
-    pub(super) fn around(system: &mut System, from: &Spot, at: f64, block: usize) -> Result<Self> {
+    pub(super) fn around(system: &mut System, from: &Spot, [at, share]: [f64; 2], block: usize) -> Result<Self> {
         let mut best: Option<(f64, Window)> = None;
         let mut failed = None;
+        let turns = whole_turns(&from.q);
+        let twists = system.twists.clone();
+        let crank = turns[3 * (system.case.crank().link - 1) + 2];
+        for (joint, twist) in system.case.mechanism.joints().iter().zip(&mut system.twists) {
+            let of = |link: usize| if link == GROUND { 0.0 } else { turns[3 * (link - 1) + 2] };
+            *twist -= of(joint.second.link) - of(joint.first.link);
+        }
+        let mut bare = Spot { angle: from.angle - crank, ..from.clone() };
+        bare.q.iter_mut().zip(&turns).for_each(|(q, turn)| *q -= turn);
         for reach in WIDTHS {
-            match Window::of_width(system, from, [at, reach], block) {
+            match Window::of_width(system, &bare, [at - crank, share * reach], block) {
                 Ok(window) => {
                     let error = window.error();
                     if best.as_ref().is_none_or(|(least, _)| error < *least) {
@@ -58,9 +73,16 @@ impl Window {
                 Err(error) => failed = Some(error),
             }
         }
+        system.twists = twists;
         place(system, from)?;
         match best {
             Some((error, mut window)) if error < WORST => {
+                window.at += crank;
+                for spot in &mut window.spots {
+                    spot.angle += crank;
+                    spot.q.iter_mut().zip(&turns).for_each(|(q, turn)| *q += turn);
+                }
+                window.turns = turns;
                 let shares = window.spots.iter().map(|spot| spot.shares[block].abs());
                 let (least, most) = shares.fold((f64::INFINITY, 0.0f64), |(a, b), s| (a.smaller(s), b.larger(s)));
                 window.condition = (most / least).larger((error / (ULPS * f64::EPSILON)).cbrt());
@@ -114,14 +136,15 @@ impl Window {
             CHOSEN.map(|k| point(&half[of(k)], at))
         }).collect();
         let coordinates = Osculating::through(&all);
-        Ok(Window { at, reach, spots, coordinates, condition: f64::INFINITY })
+        let places = spots.iter().map(|spot| spot.angle - at).collect();
+        Ok(Window { at, reach, spots, places, turns: Vec::new(), coordinates, condition: f64::INFINITY })
     }
 
     /// Writes the pose at an angle to a spot, with the signs and determinants of the side on which it lies.
     pub(super) fn put(&self, angle: f64, spot: &mut Spot) {
         spot.angle = angle;
         for (index, [q, slope, curve]) in self.coordinates.at(angle - self.at).into_iter().enumerate() {
-            (spot.q[index], spot.slope[index], spot.curve[index]) = (q, slope, curve);
+            (spot.q[index], spot.slope[index], spot.curve[index]) = (q + self.turns[index], slope, curve);
         }
         spot.signs.clone_from(&self.end(angle).signs);
         spot.shares.clone_from(&self.end(angle).shares);
@@ -132,24 +155,23 @@ impl Window {
         if angle < self.at { &self.spots[0] } else { &self.spots[self.spots.len() - 1] }
     }
 
-    /// Distances of all poses from the change point.
-    pub(super) fn distances(&self) -> Vec<f64> {
-        self.spots.iter().map(|spot| spot.angle - self.at).collect()
-    }
-
     /// Largest difference of the two polynomials for the second derivatives, as a share of the largest one.
     fn error(&self) -> f64 {
-        let distances = self.distances();
         let (mut most, mut scale) = (0.0f64, 1.0f64);
         for x in COMPARED.map(|share| share * self.reach) {
             for (index, [_, slope, curve]) in self.coordinates.at(x).into_iter().enumerate() {
-                let other = neville(&distances, |k| self.spots[k].curve[index], x);
+                let other = neville(&self.places, |k| self.spots[k].curve[index], x);
                 most = most.larger((curve - other).abs());
                 scale = scale.larger(slope.abs()).larger(curve.abs());
             }
         }
         most / scale
     }
+}
+
+/// Whole turns of the angles among the coordinates (rad).
+fn whole_turns(q: &[f64]) -> Vec<f64> {
+    q.iter().enumerate().map(|(index, q)| if index % 3 == 2 { TAU * (q / TAU).round() } else { 0.0 }).collect()
 }
 
 /// Follows the branch to an angle in small steps.
