@@ -97,7 +97,7 @@ impl<'a> TransferSide<'a> {
     /// Velocities at the last pose.
     fn velocities(&mut self, omegas: &[f64]) {
         match self.passing.as_ref().and_then(Passing::inside) {
-            Some(window) => window.rates(self.at[0], [omegas[0], 0.0], &mut self.state.motions),
+            Some(window) => window.rates(self.at[0], [omegas[0], 0.0], &self.plan, &mut self.state.motions),
             None => self.plan.velocities(omegas, &mut self.state.motions),
         }
     }
@@ -105,7 +105,7 @@ impl<'a> TransferSide<'a> {
     /// Accelerations at the last pose, after its velocities.
     fn accelerations(&mut self, omegas: &[f64], alphas: &[f64]) {
         match self.passing.as_ref().and_then(Passing::inside) {
-            Some(window) => window.rates(self.at[0], [omegas[0], alphas[0]], &mut self.state.motions),
+            Some(window) => window.rates(self.at[0], [omegas[0], alphas[0]], &self.plan, &mut self.state.motions),
             None => self.plan.accelerations(alphas, &mut self.state.motions),
         }
     }

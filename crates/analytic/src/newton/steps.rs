@@ -3,12 +3,12 @@
 
 use std::f64::consts::PI;
 
-use super::passing::Passing;
+use super::passing::{Passing, Spot};
 use super::system::System;
 use linkage::case::Case;
 use linkage::drive::{Drive, Wrench};
 use linkage::error::{Advice, Error, ErrorKind, Result};
-use linkage::math::{KeepNan, Motion};
+use linkage::math::{KeepNan, Motion, rotated, turned, unit};
 use linkage::mechanism::EQUATIONS;
 use linkage::solver::State;
 use linkage::trajectory::Stage;
@@ -49,8 +49,27 @@ impl System<'_> {
     pub(super) fn travel(&mut self, angle: f64) -> Result<()> {
         let mut passing = self.passing.take().expect("the mechanism passes change points");
         let done = passing.travel(self, angle);
+        if passing.inside().is_some() {
+            self.turn_crank(&mut passing.spot);
+        }
         self.passing = Some(passing);
         done
+    }
+
+    /// Gives the crank its exact place, which no polynomial has to tell.
+    fn turn_crank(&mut self, spot: &mut Spot) {
+        let crank = self.case.crank();
+        let joint = &self.case.mechanism.joints()[crank.joint];
+        let pin = joint.on(crank.link).expect("the driven joint is on its link");
+        let centre = self.case.mechanism.links()[crank.link].mass_centre;
+        let arm = rotated(unit(spot.angle), centre - pin);
+        let (place, across) = (joint.other(crank.link).local + arm, turned(arm));
+        let first = 3 * (crank.link - 1);
+        let own = [(place.x, across.x, -arm.x), (place.y, across.y, -arm.y), (spot.angle, 1.0, 0.0)];
+        for (index, (q, slope, curve)) in (first..).zip(own) {
+            (spot.q[index], spot.slope[index], spot.curve[index]) = (q, slope, curve);
+            self.q[index] = q;
+        }
     }
 
     /// Velocities and accelerations after [travel](System::travel), from those of the crank.

@@ -181,7 +181,7 @@ impl Plan {
     }
 
     #[inline]
-    fn turn_drivers(&self, angles: &[f64], motions: &mut [Motion]) {
+    pub(crate) fn turn_drivers(&self, angles: &[f64], motions: &mut [Motion]) {
         for (driver, &angle) in self.drivers.iter().zip(angles) {
             let direction = unit(angle);
             let place = if driver.base == GROUND { driver.place } else { motions[driver.base].point(driver.place) };
@@ -205,14 +205,7 @@ impl Plan {
     /// Velocities of all links. Positions must be known. `omegas` are those of the driving links (rad/s).
     #[inline]
     pub fn velocities(&mut self, omegas: &[f64], motions: &mut [Motion]) {
-        for (driver, &omega) in self.drivers.iter().zip(omegas) {
-            let motion = &mut motions[driver.link];
-            motion.omega = omega;
-            motion.velocity = turned(motion.arm(driver.pivot)) * -omega;
-            if driver.base != GROUND {
-                motions[driver.link].velocity += motions[driver.base].point_velocity(driver.place);
-            }
-        }
+        self.drive_velocities(omegas, motions);
         for step in &mut self.steps {
             match step {
                 Step::Rrr(dyad) => dyad.velocities(motions),
@@ -225,18 +218,23 @@ impl Plan {
         }
     }
 
+    /// Velocities of the driving links alone.
+    #[inline]
+    pub(crate) fn drive_velocities(&self, omegas: &[f64], motions: &mut [Motion]) {
+        for (driver, &omega) in self.drivers.iter().zip(omegas) {
+            let motion = &mut motions[driver.link];
+            motion.omega = omega;
+            motion.velocity = turned(motion.arm(driver.pivot)) * -omega;
+            if driver.base != GROUND {
+                motions[driver.link].velocity += motions[driver.base].point_velocity(driver.place);
+            }
+        }
+    }
+
     /// Accelerations of all links. Velocities must be known. `alphas` are those of the driving links (rad/s^2).
     #[inline]
     pub fn accelerations(&mut self, alphas: &[f64], motions: &mut [Motion]) {
-        for (driver, &alpha) in self.drivers.iter().zip(alphas) {
-            let motion = &mut motions[driver.link];
-            let arm = motion.arm(driver.pivot);
-            motion.alpha = alpha;
-            motion.acceleration = arm * (motion.omega * motion.omega) - turned(arm) * alpha;
-            if driver.base != GROUND {
-                motions[driver.link].acceleration += motions[driver.base].point_acceleration(driver.place);
-            }
-        }
+        self.drive_accelerations(alphas, motions);
         for step in &mut self.steps {
             match step {
                 Step::Rrr(dyad) => dyad.accelerations(motions),
@@ -245,6 +243,20 @@ impl Plan {
                 Step::Rpp(dyad) => dyad.accelerations(motions),
                 Step::Prp(dyad) => dyad.accelerations(motions),
                 Step::Chain(chain) => chain.accelerations(motions),
+            }
+        }
+    }
+
+    /// Accelerations of the driving links alone, after their velocities.
+    #[inline]
+    pub(crate) fn drive_accelerations(&self, alphas: &[f64], motions: &mut [Motion]) {
+        for (driver, &alpha) in self.drivers.iter().zip(alphas) {
+            let motion = &mut motions[driver.link];
+            let arm = motion.arm(driver.pivot);
+            motion.alpha = alpha;
+            motion.acceleration = arm * (motion.omega * motion.omega) - turned(arm) * alpha;
+            if driver.base != GROUND {
+                motions[driver.link].acceleration += motions[driver.base].point_acceleration(driver.place);
             }
         }
     }

@@ -55,7 +55,7 @@ impl Passing {
         plan: &mut Plan,
         motions: &mut [Motion],
     ) -> Result<(), OutOfReach> {
-        if self.enter(to, motions) {
+        if self.enter(to, plan, motions) {
             return Ok(());
         }
         // Out of a window, or over it: the branch of the nodes on that side.
@@ -72,15 +72,16 @@ impl Passing {
         self.inside = None;
         plan.positions(&[to], motions)?;
         self.look(to, plan, motions)?;
-        self.enter(to, motions);
+        self.enter(to, plan, motions);
         Ok(())
     }
 
     /// Places the mechanism by a window, if there is one at this angle.
-    fn enter(&mut self, angle: f64, motions: &mut [Motion]) -> bool {
+    fn enter(&mut self, angle: f64, plan: &Plan, motions: &mut [Motion]) -> bool {
         self.inside = self.windows.iter().position(|window| (angle - window.at).abs() < window.reach);
         if let Some(window) = self.inside() {
             window.positions(angle, motions);
+            plan.turn_drivers(&[angle], motions);
         }
         self.inside.is_some()
     }

@@ -189,7 +189,8 @@ impl Window {
 
     /// Velocities and accelerations of all links with the driving link at an angle, from its angular velocity (rad/s) and
     /// acceleration (rad/s^2).
-    pub(in crate::assur) fn rates(&self, angle: f64, [omega, alpha]: [f64; 2], motions: &mut [Motion]) {
+    /// Those of the driving link itself are exact.
+    pub(in crate::assur) fn rates(&self, angle: f64, [omega, alpha]: [f64; 2], plan: &Plan, motions: &mut [Motion]) {
         let weights = weights(&self.offsets(), angle - self.at);
         for (link, motion) in motions.iter_mut().enumerate() {
             let mut own = Motion { direction: motion.direction, origin: motion.origin, ..Motion::REST };
@@ -202,6 +203,8 @@ impl Window {
             }
             *motion = own;
         }
+        plan.drive_velocities(&[omega], motions);
+        plan.drive_accelerations(&[alpha], motions);
     }
 }
 
