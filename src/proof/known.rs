@@ -43,6 +43,11 @@ const ULPS: f64 = 16.0;
 /// table has a knot, both runs step over a jump of its third derivative, and 3.2 times the difference was measured.
 const SAFETY: f64 = 4.0;
 
+/// Relative rounding in a stage at a pose of this condition number.
+pub(super) fn of_condition(stage: Stage, condition: f64) -> f64 {
+    ULPS * f64::EPSILON * condition.powi(power(stage))
+}
+
 /// Errors allowed to the analytic sides, channel by channel.
 pub(super) struct Known {
     /// Size of the numbers in every channel, in its unit.
@@ -112,7 +117,7 @@ impl Known {
     /// Relative rounding allowed in a stage at an instant.
     fn rounding(&self, stage: Stage, row: usize) -> f64 {
         let condition = self.conditions.get(row).copied().unwrap_or(1.0);
-        usual(stage).larger(ULPS * f64::EPSILON * condition.powi(power(stage)))
+        usual(stage).larger(of_condition(stage, condition))
     }
 
     /// Relative difference allowed between the sides in a channel of a stage at an instant.
