@@ -163,7 +163,7 @@ impl<'a> PoseSolver<'a> {
             let sensed = |_: usize, load: &Load, link: usize, crank: f64| load.moment_in(own[link], crank);
             case.loads_with(motions, angles, sensed, out);
         };
-        let found = window.reactions(place, rates, (case, &mut self.statics), &mut loads, &mut self.state);
+        let found = window.reactions(place, rates, None, (case, &mut self.statics), &mut loads, &mut self.state);
         found.map_err(|_| passing::unbounded(self.crank))
     }
 

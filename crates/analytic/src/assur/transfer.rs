@@ -262,7 +262,7 @@ impl Side for TransferSide<'_> {
             };
             let rates = [inputs.speeds[0], inputs.accelerations[0]];
             let found =
-                window.reactions(self.at[0], rates, (case, &mut self.statics), &mut loads, &mut self.state);
+                window.reactions(self.at[0], rates, Some([held.motor, held.added]), (case, &mut self.statics), &mut loads, &mut self.state);
             found.map_err(|_| passing::unbounded(self.at[0] - case.crank().zero))?;
         } else if self.case.wanted.deepest() >= Stage::Reactions {
             self.statics.solve_under(&self.loads, self.case, &self.plan, &mut self.state);

@@ -191,9 +191,12 @@ impl Side for Embedded<'_> {
         if self.system.stage >= Stage::Reactions {
             let passing = self.system.passing.as_ref();
             match self.held.take_if(|_| passing.is_some_and(|passing| passing.inside().is_some())) {
-                Some(held) => self.system.multipliers_under(&mut |case, motions, angles, out| {
-                    loads_held(case, motions, angles, &held, out);
-                })?,
+                Some(held) => {
+                    let shaft = Some([held.motor, held.added]);
+                    self.system.multipliers_under(shaft, &mut |case, motions, angles, out| {
+                        loads_held(case, motions, angles, &held, out);
+                    })?;
+                }
                 None => self.system.multipliers(),
             }
         }

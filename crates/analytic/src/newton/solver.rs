@@ -41,7 +41,9 @@ impl Solver for NewtonSolver {
         let mut done = 0;
         let mut follow = |rows: &mut dyn Iterator<Item = usize>, system: &mut System| -> Result<()> {
             for row in rows {
-                system.go_to(case.grid.times[row]).map_err(Error::out_of_reach)?;
+                let passes = system.passing.is_some();
+                let placed = system.go_to(case.grid.times[row]);
+                placed.map_err(|error| if passes { error } else { error.out_of_reach() })?;
                 system.fill(&mut state);
                 visit(row, &state)?;
                 done += 1;

@@ -81,13 +81,18 @@ impl System<'_> {
     }
 
     /// Multipliers after [travel](System::travel) and [rates_of](System::rates_of); `loads` finds the loads on all links.
-    pub(super) fn multipliers_under(&mut self, loads: &mut dyn FnMut(&Case, &[Motion], &[f64], &mut [Wrench])) -> Result<()> {
+    /// In free motion `shaft` has the moment on the crank and the moment of inertia that turns with it.
+    pub(super) fn multipliers_under(
+        &mut self,
+        shaft: Option<[f64; 2]>,
+        loads: &mut dyn FnMut(&Case, &[Motion], &[f64], &mut [Wrench]),
+    ) -> Result<()> {
         let (case, input) = (self.case, self.inputs[0]);
         let passing = self.passing.take();
         let done = match passing.as_ref().and_then(Passing::inside) {
             Some(window) => {
                 let mut own = |motions: &[Motion], angles: &[f64], out: &mut [Wrench]| loads(case, motions, angles, out);
-                window.multipliers(self, [input.angle, input.omega, input.alpha], &mut own)
+                window.multipliers(self, [input.angle, input.omega, input.alpha], shaft, &mut own)
             }
             None => {
                 self.find_loads(loads);
@@ -107,7 +112,7 @@ impl System<'_> {
         self.inputs[0] = input;
         self.rates_of(input.omega, input.alpha);
         if self.stage >= Stage::Reactions {
-            self.multipliers_under(&mut |case, motions, angles, out| case.loads_on(motions, angles, out))?;
+            self.multipliers_under(None, &mut |case, motions, angles, out| case.loads_on(motions, angles, out))?;
         }
         Ok(())
     }

@@ -17,16 +17,23 @@ use linkage::solver::State;
 const NOISE: f64 = 16.0;
 const LEAST: f64 = 1e-12;
 
-/// Reactions that grow without bound: the pose is the change point itself, to rounding.
+/// Distance from a change point (rad) within which reactions with a residue are not told. The place of the change point is
+/// known to some 1e-14 rad, and their relative error is that over the distance.
+const NEAREST: f64 = 1e-7;
+
+/// Reactions that grow without bound: the pose is the change point itself, or next to it.
 pub(in crate::assur) struct Unbounded;
 
 impl Window {
     /// Writes to `state`, whose motions and angles are known, the reactions and balancing moments with the driving link
     /// at `place`, from its angular velocity and acceleration. `loads` finds the loads at motions and angles of the links.
+    /// In free motion `shaft` has the moment on the driving link and the moment of inertia that turns with it: the poses
+    /// around then have accelerations of their own at the same speed, so that a residue is that of the motion.
     pub(in crate::assur) fn reactions(
         &self,
         place: f64,
-        rates: [f64; 2],
+        [omega, alpha]: [f64; 2],
+        shaft: Option<[f64; 2]>,
         (case, statics): (&Case, &mut Kinetostatics),
         loads: &mut dyn FnMut(&[Motion], &[f64], &mut [Wrench]),
         state: &mut State,
@@ -34,16 +41,30 @@ impl Window {
         let mut beside = state.clone();
         let mut wrenches = vec![Wrench::ZERO; state.motions.len()];
         let mut values: Vec<Vec<f64>> = Vec::with_capacity(self.nodes.len());
+        let drive = 2 * state.forces.len() + state.moments.len();
+        let other = alpha + alpha.abs().larger(omega * omega).larger(1.0);
         for node in &self.nodes {
-            for (link, unit) in node.motions.iter().enumerate() {
-                beside.motions[link] = at_speed(unit, rates);
-                let (here, there) = (state.motions[link].direction, unit.direction);
-                beside.angles[link] = state.angles[link] + angle::wrapped(cross(here, there).atan2(here.dot(&there)));
+            let mut at = |alpha: f64| -> Vec<f64> {
+                for (link, unit) in node.motions.iter().enumerate() {
+                    beside.motions[link] = at_speed(unit, [omega, alpha]);
+                    let (here, there) = (state.motions[link].direction, unit.direction);
+                    let turn = angle::wrapped(cross(here, there).atan2(here.dot(&there)));
+                    beside.angles[link] = state.angles[link] + turn;
+                }
+                loads(&beside.motions, &beside.angles, &mut wrenches);
+                statics.solve_under(&wrenches, case, &node.plan, &mut beside);
+                let forces = beside.forces.iter().flat_map(|force| [force.x, force.y]);
+                forces.chain(beside.moments.iter().copied()).chain(beside.torques.iter().copied()).collect()
+            };
+            let mut own = at(alpha);
+            if let Some([moment, inertia]) = shaft {
+                // Reactions are linear in the acceleration.
+                let more = at(other);
+                let slope = (more[drive] - own[drive]) / (other - alpha) + inertia;
+                let share = (moment - inertia * alpha - own[drive]) / slope / (other - alpha);
+                own.iter_mut().zip(&more).for_each(|(own, more)| *own += share * (more - *own));
             }
-            loads(&beside.motions, &beside.angles, &mut wrenches);
-            statics.solve_under(&wrenches, case, &node.plan, &mut beside);
-            let forces = beside.forces.iter().flat_map(|force| [force.x, force.y]);
-            values.push(forces.chain(beside.moments.iter().copied()).chain(beside.torques.iter().copied()).collect());
+            values.push(own);
         }
         let found = self.with_poles(place - self.at, &values)?;
         let (forces, rest) = found.split_at(2 * state.forces.len());
@@ -72,7 +93,7 @@ impl Window {
             let kept = nodes.clone().filter(|&node| !is_inner[node]);
             let some: f64 = kept.zip(&without).map(|(node, weight)| weight * scaled(node, index)).sum();
             let residue = if all.abs() > NOISE * (all - some).abs() + LEAST * largest { all } else { 0.0 };
-            if residue != 0.0 && !(x.abs() > 8.0 * f64::EPSILON * self.at.abs().larger(1.0)) {
+            if residue != 0.0 && !(x.abs() > NEAREST) {
                 return Err(Unbounded);
             }
             let rest = |node: usize| here[node] * (values[node][index] - residue / offsets[node]);

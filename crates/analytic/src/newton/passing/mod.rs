@@ -92,7 +92,13 @@ impl Passing {
     /// The slopes of the determinants at the first pose.
     fn begin(&mut self, system: &mut System) -> Result<()> {
         self.spot.shares = system.jacobian.shares().collect();
-        let before = walked(system, &self.spot, self.spot.angle + PROBE)?;
+        // The change point may lie between, on either side.
+        let probes = [PROBE, -PROBE, 0.01 * PROBE, -0.01 * PROBE];
+        let mut found = probes.iter().map(|probe| walked(system, &self.spot, self.spot.angle + probe));
+        let before = match found.find(Result::is_ok) {
+            Some(before) => before?,
+            None => walked(system, &self.spot, self.spot.angle + PROBE)?,
+        };
         self.look(system, &before)?;
         place(system, &self.spot)
     }

@@ -8,36 +8,55 @@ use crate::newton::system::System;
 use linkage::drive::Wrench;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::{KeepNan, Motion};
+use linkage::mechanism::EQUATIONS;
 
 /// Value at the change point of a multiplier times its distance that counts as zero: a multiple of the difference between
 /// all poses and those without the inner ones, and a share of the largest such product.
 const NOISE: f64 = 16.0;
 const LEAST: f64 = 1e-12;
 
+/// Distance from a change point (rad) within which such multipliers are not told: its place is known to about 1e-14 rad.
+const NEAREST: f64 = 1e-7;
+
 impl Window {
     /// Writes to the system the multipliers at the crank's angle `angle` (rad) for its angular velocity and acceleration.
-    /// `loads` finds the loads on all links.
+    /// `loads` finds the loads on all links. In free motion `shaft` has the moment on the crank and the moment of inertia
+    /// that turns with it: every pose then has the acceleration that belongs to it at this speed.
     pub(in crate::newton) fn multipliers(
         &self,
         system: &mut System,
         [angle, omega, alpha]: [f64; 3],
+        shaft: Option<[f64; 2]>,
         loads: &mut dyn FnMut(&[Motion], &[f64], &mut [Wrench]),
     ) -> Result<()> {
         let (q, rate, second) = (system.q.clone(), system.rate.clone(), system.second.clone());
         let x = angle - self.at;
+        let drive = EQUATIONS * system.case.mechanism.joints().len();
         let mut all: Vec<Vec<f64>> = Vec::with_capacity(self.spots.len());
         for spot in &self.spots {
             system.q.copy_from_slice(&spot.q);
-            for (i, (slope, curve)) in spot.slope.iter().zip(&spot.curve).enumerate() {
-                (system.rate[i], system.second[i]) = (slope * omega, slope * alpha + curve * omega * omega);
-            }
             system.assemble();
             if !system.jacobian.factor() {
                 return Err(system.lost("the Jacobian is singular there (dead point)"));
             }
-            system.find_loads(|_, motions, angles, out| loads(motions, angles, out));
-            system.multipliers();
-            all.push(system.lambda.clone());
+            let mut at = |system: &mut System, alpha: f64| {
+                for (i, (slope, curve)) in spot.slope.iter().zip(&spot.curve).enumerate() {
+                    (system.rate[i], system.second[i]) = (slope * omega, slope * alpha + curve * omega * omega);
+                }
+                system.find_loads(|_, motions, angles, out| loads(motions, angles, out));
+                system.multipliers();
+                system.lambda.clone()
+            };
+            let mut lambda = at(system, alpha);
+            if let Some([moment, inertia]) = shaft {
+                // Multipliers are linear in the acceleration: gain per unit of it, then that which balances the crank.
+                let unit = 1.0 + alpha.abs() + omega * omega;
+                let gain: Vec<f64> =
+                    at(system, alpha + unit).iter().zip(&lambda).map(|(more, own)| (more - own) / unit).collect();
+                let more = (moment - inertia * alpha - lambda[drive]) / (gain[drive] + inertia);
+                lambda.iter_mut().zip(&gain).for_each(|(own, gain)| *own += more * gain);
+            }
+            all.push(lambda);
         }
         (system.q, system.rate, system.second) = (q, rate, second);
         let found = self.beside(x, &all);
@@ -69,7 +88,7 @@ impl Window {
             if there.abs() <= NOISE * (there - without).abs() + LEAST * largest {
                 return Some(neville(distances, |k| all[k][index], x));
             }
-            let is_there = !(x.abs() > 8.0 * f64::EPSILON * self.at.abs().larger(1.0));
+            let is_there = !(x.abs() > NEAREST);
             (!is_there).then(|| neville(distances, |k| product(k, index), x) / x)
         };
         (0..all[0].len()).map(of).collect()

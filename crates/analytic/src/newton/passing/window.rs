@@ -85,7 +85,8 @@ impl Window {
                 window.turns = turns;
                 let shares = window.spots.iter().map(|spot| spot.shares[block].abs());
                 let (least, most) = shares.fold((f64::INFINITY, 0.0f64), |(a, b), s| (a.smaller(s), b.larger(s)));
-                window.condition = (most / least).larger((error / (ULPS * f64::EPSILON)).cbrt());
+                // About the inverse of the sine of the innermost pose.
+                window.condition = (most / least / window.reach).larger((error / (ULPS * f64::EPSILON)).cbrt());
                 Ok(window)
             }
             _ => {
