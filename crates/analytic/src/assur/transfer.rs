@@ -43,6 +43,8 @@ pub(crate) struct TransferSide<'a> {
     loads: Vec<Wrench>,
     /// Change points, with one driving link. With several, they are not passed.
     passing: Option<Passing>,
+    /// With several driving links: clearances of the groups at the last pose.
+    sines: Vec<Option<f64>>,
     /// What the last accelerations were found with.
     held: Option<Held>,
 }
@@ -75,6 +77,7 @@ impl<'a> TransferSide<'a> {
             free,
             loads: vec![Wrench::ZERO; case.mechanism.links().len()],
             passing: (case.drives.further().is_empty() && case.crank().passes()).then(|| Passing::new(share)),
+            sines: Vec::new(),
             held: None,
         };
         side.place().map_err(|reach| side.out_of_reach(reach))?;
@@ -87,10 +90,32 @@ impl<'a> TransferSide<'a> {
             Some(passing) => {
                 passing.place([self.at[0], self.target[0]], &mut self.plan, &mut self.state.motions)?;
             }
-            None => self.plan.positions(&self.target, &mut self.state.motions)?,
+            None => {
+                self.plan.positions(&self.target, &mut self.state.motions)?;
+                self.keep_clear()?;
+            }
         }
         self.turns.count(&self.state.motions);
         self.at.copy_from_slice(&self.target);
+        Ok(())
+    }
+
+    /// Refuses a step over a change point: there a clearance falls to zero and rises again, so that its slope at the end
+    /// leads back to less than nothing at the beginning. So does a step over a near miss, which smaller steps resolve.
+    fn keep_clear(&mut self) -> std::result::Result<(), OutOfReach> {
+        for ((step, target), at) in self.unit.iter_mut().zip(&self.target).zip(&self.at) {
+            *step = target - at;
+        }
+        self.plan.velocities(&self.unit, &mut self.state.motions);
+        let passed = self.plan.clearances(&self.state.motions).zip(&self.sines).position(|(now, before)| {
+            now.zip(*before).is_some_and(|(now, before)| now.sine - now.rate < 0.0 && before > 0.0)
+        });
+        if let Some(group) = passed {
+            let crank = self.target[0] - self.case.crank().zero;
+            return Err(OutOfReach { group, why: Misfit::Passed { crank } });
+        }
+        self.sines.clear();
+        self.sines.extend(self.plan.clearances(&self.state.motions).map(|now| now.map(|now| now.sine)));
         Ok(())
     }
 
@@ -130,7 +155,7 @@ impl<'a> TransferSide<'a> {
         }
         match self.place() {
             Ok(()) => Ok(()),
-            Err(OutOfReach { why: Misfit::Lost, .. }) if halvings > 0 => {
+            Err(OutOfReach { why: Misfit::Lost | Misfit::Passed { .. }, .. }) if halvings > 0 => {
                 let middle = (before + share) / 2.0;
                 self.step_to(way, [before, middle], halvings - 1)?;
                 self.step_to(way, [middle, share], halvings - 1)
