@@ -158,6 +158,12 @@ impl Plan {
         self.turn_drivers(angles, motions);
         for (group, step) in self.steps.iter_mut().enumerate() {
             let misfit = |why| OutOfReach { group, why };
+            if let Step::Chain(chain) = step {
+                if !chain.positions_like(like, angles, motions) {
+                    return Err(misfit(Misfit::Lost));
+                }
+                continue;
+            }
             let Some((mut other, links)) = step.other() else {
                 step.positions(angles, motions).map_err(misfit)?;
                 continue;
@@ -178,6 +184,14 @@ impl Plan {
             }
         }
         Ok(())
+    }
+
+    /// Determinant of a higher group at the last pose; `None` for a dyad.
+    pub(crate) fn determinant(&self, group: usize) -> Option<f64> {
+        match &self.steps[group] {
+            Step::Chain(chain) => Some(chain.determinant()),
+            Step::Rrr(_) | Step::Rrp(_) | Step::Rpr(_) | Step::Rpp(_) | Step::Prp(_) => None,
+        }
     }
 
     #[inline]

@@ -11,13 +11,18 @@ mod forces;
 mod search;
 mod window;
 
-use crate::assur::groups::{OutOfReach, Plan};
+use crate::assur::groups::{Clearance, OutOfReach, Plan};
 use linkage::error::{Error, ErrorKind};
 use linkage::math::{KeepNan, Motion};
 use window::Window;
 
 /// Largest estimated distance (rad) at which a change point is looked for: before a step can lead into its window.
 const LOOK: f64 = 1.0;
+/// A known change point up to this multiple of the estimated distance is the one that is meant, or comes before it: then
+/// what lies behind is looked for from there.
+const NEXT: f64 = 1.3;
+/// Distance (rad) up to which two change points are one, at which several groups are singular.
+const SAME: f64 = 1e-6;
 /// Windows that are kept, the nearest ones. After many turns the others are found again.
 const MOST_WINDOWS: usize = 8;
 
@@ -33,13 +38,17 @@ pub(super) struct Passing {
     /// The window of the last pose, if it lies in one.
     inside: Option<usize>,
     motions: Vec<Motion>,
+    /// Ends of windows from which the next change point has been looked for.
+    looked: Vec<f64>,
+    /// Angle of the last pose outside of windows, and the determinants of higher groups there.
+    last: (f64, Vec<Option<f64>>),
 }
 
 impl Passing {
     /// No change point met yet. Windows have this share of their usual half widths: two runs with different shares show
     /// the error that is left in them.
     pub(super) fn new(share: f64) -> Self {
-        Passing { share, windows: Vec::new(), clear: Vec::new(), inside: None, motions: Vec::new() }
+        Passing { share, windows: Vec::new(), clear: Vec::new(), inside: None, motions: Vec::new(), looked: Vec::new(), last: (f64::NAN, Vec::new()) }
     }
 
     /// The window of the last pose placed, if it lies in one.
@@ -58,22 +67,40 @@ impl Passing {
         if self.enter(to, plan, motions) {
             return Ok(());
         }
-        // Out of a window, or over it: the branch of the nodes on that side.
-        let left = self.windows.iter().filter(|window| {
-            let over = (from - window.at) * (to - window.at) <= 0.0;
-            over || (from - window.at).abs() <= window.reach
-        });
-        let nearest = left.min_by(|a, b| (a.at - to).abs().total_cmp(&(b.at - to).abs()));
-        if let Some(window) = nearest {
-            let node = window.end(to);
-            plan.clone_from(&node.plan);
-            motions.copy_from_slice(&node.motions);
+        let mut from = from;
+        // Out of windows, or over them: on along the branch of the nodes on that side.
+        while let Some(index) = self.left([from, to]) {
+            let window = &self.windows[index];
+            let [end, before] = window.ends(to);
+            plan.clone_from(&end.plan);
+            motions.copy_from_slice(&end.motions);
+            from = window.at + end.offset;
+            let place = (window.at + before.offset, window.determinants(before));
+            if self.looked.contains(&from) {
+                break;
+            }
+            // The next change point may be nearer than a step.
+            self.looked.push(from);
+            self.last = place;
+            self.look(from, plan, motions)?;
+            if self.enter(to, plan, motions) {
+                return Ok(());
+            }
         }
         self.inside = None;
         plan.positions(&[to], motions)?;
         self.look(to, plan, motions)?;
         self.enter(to, plan, motions);
         Ok(())
+    }
+
+    /// The window that a way leaves or passes over, the nearest one to its end.
+    fn left(&self, [from, to]: [f64; 2]) -> Option<usize> {
+        let over = |window: &Window| {
+            (from - window.at) * (to - window.at) <= 0.0 || (from - window.at).abs() < window.reach
+        };
+        let all = self.windows.iter().enumerate().filter(|(_, window)| over(window));
+        all.min_by(|(_, a), (_, b)| (a.at - to).abs().total_cmp(&(b.at - to).abs())).map(|(index, _)| index)
     }
 
     /// Places the mechanism by a window, if there is one at this angle.
@@ -91,16 +118,26 @@ impl Passing {
         self.motions.clear();
         self.motions.extend_from_slice(motions);
         plan.velocities(&[1.0], &mut self.motions);
-        let near = |(group, clearance): (usize, Option<_>)| {
-            let clearance: crate::assur::groups::Clearance = clearance?;
-            let ahead = -clearance.sine / clearance.rate;
+        let (before, dets) = &self.last;
+        let slope = |group: usize| {
+            // Of a higher group, the determinant's way from pose to pose.
+            let (now, last) = (plan.determinant(group)?.abs(), dets.get(group).copied().flatten()?.abs());
+            (angle != *before).then(|| now * (angle - before) / (now - last))
+        };
+        let near = |(group, clearance): (usize, Option<Clearance>)| {
+            let ahead = match clearance {
+                Some(Clearance { sine, rate }) => -sine / rate,
+                None => -slope(group)?,
+            };
             (ahead.abs() < LOOK).then_some((group, ahead))
         };
         let found: Vec<(usize, f64)> = plan.clearances(&self.motions).enumerate().filter_map(near).collect();
+        let groups = plan.steps().len();
+        self.last = (angle, (0..groups).map(|group| plan.determinant(group)).collect());
         for (group, ahead) in found {
             let known = self.windows.iter().any(|window| {
                 let from = window.at - angle;
-                from * ahead > 0.0 && from.abs() < 2.0 * ahead.abs() + window.reach
+                from * ahead > 0.0 && from.abs() < NEXT * ahead.abs()
             });
             let is_clear = |&(own, way, [low, high]): &(usize, f64, [f64; 2])| {
                 own == group && way == ahead.signum() && low <= angle && angle <= high
@@ -109,7 +146,10 @@ impl Passing {
                 continue;
             }
             let start = search::Start { angle, plan, motions };
-            match search::change_point(&start, group, ahead.signum()) {
+            match search::change_point(&start, group, ahead) {
+                Ok(at) if self.windows.iter().any(|window| (window.at - at).abs() < SAME) => {
+                    self.clear.push((group, ahead.signum(), [angle.smaller(at), angle.larger(at)]));
+                }
                 Ok(at) => self.keep(Window::around(at, group, &start, self.share)?, angle),
                 Err(end) => {
                     let ends = [angle.smaller(end), angle.larger(end)];
@@ -121,6 +161,7 @@ impl Passing {
     }
 
     fn keep(&mut self, window: Window, angle: f64) {
+        self.looked.retain(|end| (end - window.at).abs() > 2.0 * window.reach);
         self.windows.push(window);
         self.windows.sort_by(|a, b| (a.at - angle).abs().total_cmp(&(b.at - angle).abs()));
         self.windows.truncate(MOST_WINDOWS);

@@ -8,7 +8,7 @@
 
 use std::f64::consts::PI;
 
-use super::search::{Start, clearance};
+use super::search::{Start, clearance, walk};
 use crate::assur::groups::{Misfit, OutOfReach, Plan};
 use linkage::math::{KeepNan, Motion, Vec2};
 
@@ -17,7 +17,10 @@ const SIDE: usize = 10;
 /// Distance of the innermost node as a share of the half width.
 const CORE: f64 = 0.1;
 /// Half widths that are tried (rad).
-const WIDTHS: [f64; 9] = [0.5, 0.4, 0.3, 0.2, 0.15, 0.1, 0.07, 0.05, 0.03];
+const WIDTHS: [f64; 11] = [0.5, 0.4, 0.3, 0.2, 0.15, 0.1, 0.07, 0.05, 0.03, 0.02, 0.012];
+/// Largest share of a half width at which the mechanism cannot be followed. Another singular pose is there, towards which
+/// reactions may grow without bound.
+const CLEAR: f64 = 0.5;
 /// Largest error of a second transfer function, as a share of the largest one, with which a change point is passed.
 const WORST: f64 = 1e-6;
 /// Steps of secants that improve the place of the change point.
@@ -59,8 +62,11 @@ impl Window {
     /// The surroundings of the change point of `group` at the angle `at` (rad), seen from a pose beside it.
     pub(super) fn around(at: f64, group: usize, start: &Start, share: f64) -> Result<Self, OutOfReach> {
         let mut best: Option<(f64, Window)> = None;
-        let mut failed = None;
+        let (mut failed, mut allowed) = (None, f64::INFINITY);
         for reach in WIDTHS {
+            if share * reach > allowed {
+                continue;
+            }
             match Window::of_width(at, share * reach, group, start) {
                 Ok(window) => {
                     let error = window.error();
@@ -68,17 +74,23 @@ impl Window {
                         best = Some((error, window));
                     }
                 }
-                Err(why) => failed = Some(why),
+                Err(why) => {
+                    failed = Some(why);
+                    allowed = allowed.smaller(CLEAR * share * reach);
+                }
             }
         }
         match best {
             Some((error, mut window)) if error < WORST => {
-                let sines = window.nodes.iter_mut().filter_map(|node| {
-                    let mut motions = node.motions.clone();
-                    clearance(&mut node.plan, &mut motions, group)
-                });
-                let least = sines.map(|clearance| clearance.sine).fold(1.0, f64::smaller);
-                window.condition = (1.0 / least).larger((error / (ULPS * f64::EPSILON)).cbrt());
+                let sine = |node: &mut Node| match node.plan.determinant(group) {
+                    Some(determinant) => determinant.abs(),
+                    None => clearance(&mut node.plan, &mut node.motions.clone(), group).map_or(1.0, |own| own.sine),
+                };
+                let sines: Vec<f64> = window.nodes.iter_mut().map(sine).collect();
+                let (least, most) =
+                    sines.iter().fold((f64::INFINITY, 0.0f64), |(a, b), &sine| (a.smaller(sine), b.larger(sine)));
+                // About the inverse of the sine of the innermost pose.
+                window.condition = (most / least / window.reach).larger((error / (ULPS * f64::EPSILON)).cbrt());
                 Ok(window)
             }
             _ => Err(failed.unwrap_or(OutOfReach { group, why: Misfit::Passed { crank: at } })),
@@ -97,12 +109,15 @@ impl Window {
         let put = |offset: f64, plan: &mut Plan, motions: &[Motion]| {
             let mut own = motions.to_vec();
             let sine = clearance(plan, &mut own, group).map_or(f64::NAN, |clearance| clearance.sine);
+            let sine = plan.determinant(group).unwrap_or(sine);
             plan.accelerations(&[0.0], &mut own);
             (Node { offset, plan: plan.clone(), motions: own }, sine)
         };
+        let mut from = start.angle;
         for k in 0..SIDE {
             let offset = -towards * distance(k);
-            plan.positions(&[at + offset], &mut motions)?;
+            walk(&mut plan, &mut motions, [from, at + offset])?;
+            from = at + offset;
             let (node, sine) = put(offset, &mut plan, &motions);
             nodes.push(node);
             sines.push(sine);
@@ -115,11 +130,13 @@ impl Window {
                 interpolate(&nodes, &weights(&offsets, offset), &mut expected);
                 plan.positions_like(&expected, &[at + offset], &mut motions)?;
             } else {
-                plan.positions(&[at + offset], &mut motions)?;
+                walk(&mut plan, &mut motions, [from, at + offset])?;
             }
+            from = at + offset;
             let (node, sine) = put(offset, &mut plan, &motions);
+            // The determinant of a higher group has its sign, the sine of a dyad none.
+            sines.push(if node.plan.determinant(group).is_some() { sine } else { -sine });
             nodes.push(node);
-            sines.push(-sine);
         }
         let mut window = Window { at, reach, nodes, condition: f64::INFINITY };
         window.polish(&sines);
@@ -149,12 +166,20 @@ impl Window {
         self.nodes.iter().map(|node| node.offset).collect()
     }
 
-    /// The outermost node on the side of an angle.
-    pub(super) fn end(&self, angle: f64) -> &Node {
+    /// The outermost node on the side of an angle, and the next one inwards.
+    pub(super) fn ends(&self, angle: f64) -> [&Node; 2] {
         let side = angle - self.at;
-        let all = self.nodes.iter().filter(|node| node.offset * side > 0.0);
-        let outermost = all.max_by(|a, b| a.offset.abs().total_cmp(&b.offset.abs()));
-        outermost.expect("there are nodes on both sides")
+        let mut all: Vec<&Node> = self.nodes.iter().filter(|node| node.offset * side > 0.0).collect();
+        if all.is_empty() {
+            all = self.nodes.iter().collect();
+        }
+        all.sort_by(|a, b| b.offset.abs().total_cmp(&a.offset.abs()));
+        [all[0], all[1]]
+    }
+
+    /// Determinants of the higher groups at a node.
+    pub(super) fn determinants(&self, node: &Node) -> Vec<Option<f64>> {
+        (0..node.plan.steps().len()).map(|group| node.plan.determinant(group)).collect()
     }
 
     /// Error of the second transfer functions at the change point as a share of the largest one: what leaving out the

@@ -20,6 +20,11 @@ use window::Window;
 const LOOK: f64 = 0.8;
 /// Turn of the crank (rad) that shows the slope of the determinants at the start.
 const PROBE: f64 = 1e-4;
+/// A known change point up to this multiple of the estimated distance is the one that is meant, or comes before it: then
+/// what lies behind is looked for from there.
+const NEXT: f64 = 1.3;
+/// Distance (rad) up to which two change points are one, at which several groups are singular.
+const SAME: f64 = 1e-6;
 /// Windows that are kept, the nearest ones.
 const MOST_WINDOWS: usize = 8;
 
@@ -141,7 +146,7 @@ impl Passing {
             let angle = self.spot.angle;
             let known = self.windows.iter().any(|window| {
                 let from = window.at - angle;
-                from * ahead > 0.0 && from.abs() < 2.0 * ahead.abs() + window.reach
+                from * ahead > 0.0 && from.abs() < NEXT * ahead.abs()
             });
             let is_clear = |&(own, way, [low, high]): &(usize, f64, [f64; 2])| {
                 own == block && way == ahead.signum() && low <= angle && angle <= high
@@ -150,6 +155,9 @@ impl Passing {
                 continue;
             }
             match search::change_point(system, &self.spot, block, ahead) {
+                Ok(at) if self.windows.iter().any(|window| (window.at - at).abs() < SAME) => {
+                    self.clear.push((block, ahead.signum(), [angle.smaller(at), angle.larger(at)]));
+                }
                 Ok(at) => {
                     let window = Window::around(system, &self.spot, [at, self.share], block)?;
                     self.windows.push(window);

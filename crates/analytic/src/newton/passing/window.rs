@@ -21,7 +21,10 @@ const CHOSEN: [usize; 3] = [0, 3, 6];
 /// Distance of the innermost pose as a share of the half width.
 const CORE: f64 = 0.2;
 /// Half widths that are tried (rad).
-const WIDTHS: [f64; 9] = [0.5, 0.36, 0.25, 0.18, 0.12, 0.08, 0.06, 0.04, 0.025];
+const WIDTHS: [f64; 11] = [0.5, 0.36, 0.25, 0.18, 0.12, 0.08, 0.06, 0.04, 0.025, 0.017, 0.01];
+/// Largest share of a half width over which the way is lost: another singular pose is near, and multipliers may grow
+/// without bound towards it.
+const CLEAR: f64 = 0.5;
 /// Largest error of second derivatives, as a share of the largest one, with which a change point is passed.
 const WORST: f64 = 1e-6;
 /// Places, as shares of the half width, at which the two polynomials are compared.
@@ -52,7 +55,7 @@ impl Window {
     /// The surroundings of a change point of a block at the angle `at` (rad), seen from a spot beside it.
     pub(super) fn around(system: &mut System, from: &Spot, [at, share]: [f64; 2], block: usize) -> Result<Self> {
         let mut best: Option<(f64, Window)> = None;
-        let mut failed = None;
+        let (mut failed, mut allowed) = (None, f64::INFINITY);
         let turns = whole_turns(&from.q);
         let twists = system.twists.clone();
         let crank = turns[3 * (system.case.crank().link - 1) + 2];
@@ -63,6 +66,9 @@ impl Window {
         let mut bare = Spot { angle: from.angle - crank, ..from.clone() };
         bare.q.iter_mut().zip(&turns).for_each(|(q, turn)| *q -= turn);
         for reach in WIDTHS {
+            if share * reach > allowed {
+                continue;
+            }
             match Window::of_width(system, &bare, [at - crank, share * reach], block) {
                 Ok(window) => {
                     let error = window.error();
@@ -70,7 +76,10 @@ impl Window {
                         best = Some((error, window));
                     }
                 }
-                Err(error) => failed = Some(error),
+                Err(error) => {
+                    failed = Some(error);
+                    allowed = allowed.smaller(CLEAR * share * reach);
+                }
             }
         }
         system.twists = twists;
