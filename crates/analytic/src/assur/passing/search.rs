@@ -16,6 +16,8 @@ const SMALLEST: f64 = 1e-9;
 const MET: f64 = 1e-6;
 /// Sine from which on the slope is compared: at a dead point it grows with the inverse of the sine.
 const LINEAR: f64 = 1e-3;
+/// The same two for a higher group, as shares of its determinant where the search begins, which may be near.
+const HIGHER: [f64; 2] = [1e-4, 3e-2];
 const MOST_STEPS: usize = 200;
 
 /// A pose from which a search begins.
@@ -32,6 +34,7 @@ pub(super) fn change_point(start: &Start, group: usize, ahead: f64) -> Result<f6
     let (way, mut angle) = (ahead.signum(), start.angle);
     let mut slope = f64::NAN;
     let whole = plan.determinant(group).map(f64::abs);
+    let [met, linear] = if whole.is_some() { HIGHER } else { [MET, LINEAR] };
     let mut before: Option<(f64, f64)> = None;
     for _ in 0..MOST_STEPS {
         let (sine, towards) = match (whole, clearance(&mut plan, &mut motions, group)) {
@@ -49,10 +52,10 @@ pub(super) fn change_point(start: &Start, group: usize, ahead: f64) -> Result<f6
         if !(towards > 0.0) {
             return Err(angle);
         }
-        if sine < LINEAR && slope.is_nan() {
+        if sine < linear && slope.is_nan() {
             slope = towards;
         }
-        if sine < MET {
+        if sine < met {
             return if towards < 2.0 * slope { Ok(angle + way * sine / towards) } else { Err(angle) };
         }
         let step = if whole.is_some() { FOLLOWED } else { STEP };

@@ -23,6 +23,8 @@ const WIDTHS: [f64; 11] = [0.5, 0.4, 0.3, 0.2, 0.15, 0.1, 0.07, 0.05, 0.03, 0.02
 const CLEAR: f64 = 0.5;
 /// Largest error of a second transfer function, as a share of the largest one, with which a change point is passed.
 const WORST: f64 = 1e-6;
+/// Distance of two change points, as a share of that of the innermost nodes, that no longer is rounding or curvature.
+const APART: f64 = 0.2;
 /// Steps of secants that improve the place of the change point.
 const POLISHING: usize = 4;
 /// Rounding of accelerations over the unit roundoff and the cube of the condition number.
@@ -140,7 +142,35 @@ impl Window {
         }
         let mut window = Window { at, reach, nodes, condition: f64::INFINITY };
         window.polish(&sines);
+        if let Some(group) = window.other_inside() {
+            return Err(OutOfReach { group, why: Misfit::Passed { crank: at } });
+        }
         Ok(window)
+    }
+
+    /// A group that has another change point between the innermost nodes, if there is one. Reactions have poles at both, and
+    /// only one is known here.
+    fn other_inside(&mut self) -> Option<usize> {
+        let near = |side: f64| {
+            let own = self.nodes.iter().enumerate().filter(move |(_, node)| node.offset * side > 0.0);
+            own.min_by(|(_, a), (_, b)| a.offset.abs().total_cmp(&b.offset.abs())).map_or(0, |(index, _)| index)
+        };
+        let inner = [near(-1.0), near(1.0)];
+        let [low, high] = inner.map(|index| self.nodes[index].offset);
+        let is_apart = |place: f64| place > low && place < high && place.abs() > APART * (high - low);
+        (0..self.nodes[0].plan.steps().len()).find(|&group| {
+            let [a, b] = inner.map(|index| self.nodes[index].plan.determinant(group));
+            if let (Some(a), Some(b)) = (a, b) {
+                return a * b < 0.0 && is_apart(low + (high - low) * a / (a - b));
+            }
+            // Both sides point to the same place, away from the middle.
+            let places = inner.map(|index| {
+                let node = &mut self.nodes[index];
+                let own = clearance(&mut node.plan, &mut node.motions.clone(), group);
+                own.map_or(f64::NAN, |own| node.offset - own.sine / own.rate)
+            });
+            places.iter().all(|place| is_apart(*place))
+        })
     }
 
     /// Improves the place of the change point: there the sine with its sign is zero.
@@ -156,7 +186,7 @@ impl Window {
             }
             (last, x) = (x, x - b * (x - last) / (b - a));
         }
-        if x.abs() < 0.01 * nearest {
+        if x.abs() < 0.3 * nearest {
             self.at += x;
             self.nodes.iter_mut().for_each(|node| node.offset -= x);
         }

@@ -27,6 +27,8 @@ const WIDTHS: [f64; 11] = [0.5, 0.36, 0.25, 0.18, 0.12, 0.08, 0.06, 0.04, 0.025,
 const CLEAR: f64 = 0.5;
 /// Largest error of second derivatives, as a share of the largest one, with which a change point is passed.
 const WORST: f64 = 1e-6;
+/// Distance of two change points, as a share of the innermost distance, that no longer is rounding.
+const APART: f64 = 0.01;
 /// Places, as shares of the half width, at which the two polynomials are compared.
 const COMPARED: [f64; 3] = [-0.1, 0.0, 0.1];
 /// Rounding of accelerations over the unit roundoff and the cube of the condition number.
@@ -140,6 +142,14 @@ impl Window {
         }
         spots.sort_by(|a, b| a.angle.total_cmp(&b.angle));
         let at = crossing(&spots, block).unwrap_or(at);
+        // No other change point in between: reactions have poles at both, and only one is known here.
+        let inner = [&spots[SIDE - 1], &spots[SIDE]];
+        let passes = |block: &usize| inner[0].shares[*block] * inner[1].shares[*block] < 0.0;
+        for other in (0..spots[0].shares.len()).filter(passes) {
+            if !crossing(&spots, other).is_some_and(|own| (own - at).abs() < APART * CORE * reach) {
+                return Err(system.lost("there are two change points close together"));
+            }
+        }
         let all: Vec<(f64, [&[f64]; 3])> = [&spots[..SIDE], &spots[SIDE..]].iter().flat_map(|half| {
             let is_low = half[0].angle < at;
             let of = |k: usize| if is_low { k } else { SIDE - 1 - k };
