@@ -6,16 +6,12 @@
 //! validation in scientific computing", 2010, section 8.7; grid convergence index of Roache and ASME V&V 20). For 1.25,
 //! they let the observed order differ by a tenth of the formal one. Here it is a fiftieth, because errors of two orders
 //! can cancel in the differences.
-//!
-//! Sweeps converge geometrically. Half of the sweeps leave a share q of the initial error, all of them leave q^2, and
-//! the two runs differ by q - q^2. The remaining error is q / (1 - q) of this difference. The factor 3 covers q up to
-//! 3/4 (ASME V&V 20 also counts the iteration error separately). A run with a quarter of the sweeps leaves q where all
-//! leave q^4: the factor then covers q^3 up to 3/4. A third run shows the share itself.
 
-use super::residual::{differences, largest_difference};
+use super::other_sweeps::{self, OtherSweeps};
+use super::residual::differences;
 use crate::tolerance::{Basis, Origin, Parts, Tolerance};
 use linkage::error::Result;
-use linkage::math::statistics::{rms, share};
+use linkage::math::statistics::rms;
 use linkage::math::{KeepNan, largest_size};
 use linkage::trajectory::{Channel, Trajectory};
 
@@ -31,13 +27,9 @@ const BEARS_OUT: f64 = 0.1;
 pub struct Ladder<'a> {
     /// Runs at double, single and half the step (or accuracy).
     pub resolutions: [&'a Trajectory; 3],
-    /// Run at the single step with another number of sweeps, and one with as many times fewer again; `None` for an engine
-    /// that does not iterate, and where there is no such run.
-    pub other_sweeps: [Option<&'a Trajectory>; 2],
+    /// Runs at the single step with other numbers of sweeps.
+    pub other_sweeps: OtherSweeps<&'a Trajectory>,
 }
-
-/// Safety factor on the difference between all and fewer sweeps: see the module's text.
-const SWEEPS_SAFETY: f64 = 3.0;
 
 /// What the runs show about the error of the middle run, in one channel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,8 +42,8 @@ pub struct Convergence {
     pub error: f64,
     /// Safety factor.
     pub safety: f64,
-    /// Largest difference to the run with other sweeps, in the channel's unit; 0 for an engine that does not
-    /// iterate.
+    /// Error that the sweeps of the middle run leave, safety factor not included, in the channel's unit; 0 for an engine
+    /// that does not iterate.
     pub iteration: f64,
 }
 
@@ -110,30 +102,13 @@ impl Convergence {
         let [double, single, half] = runs.resolutions.map(|run| run.column(channel));
         let (double, single, half, periodic) = (double?, single?, half?, channel.kind.periodic);
         let found = Convergence::of(double, single, half, periodic, formal, noise);
-        let mut others = [None; 2];
-        for (column, run) in others.iter_mut().zip(runs.other_sweeps) {
-            if let Some(run) = run {
-                *column = Some(run.column(channel)?);
-            }
-        }
-        Some(found.with_other_sweeps(single, others, periodic))
+        Some(found.with_other_sweeps(single, &runs.other_sweeps.column(channel)?, noise, periodic))
     }
 
-    /// Adds the difference between the middle run and one with half its sweeps or fewer, if there is such a run. A third
-    /// run with as many times fewer again shows which share of the difference is left from one number of sweeps to the
-    /// next: the middle run has at most this share of it.
+    /// Adds what the sweeps of the middle run leave. Differences below `noise` (in the channel's unit) show nothing.
     #[must_use]
-    pub fn with_other_sweeps(self, single: &[f64], others: [Option<&[f64]>; 2], periodic: bool) -> Self {
-        let apart = |a: &[f64], b: &[f64]| largest_difference(a, b, periodic);
-        let iteration = match others {
-            [None, _] => 0.0,
-            [Some(fewer), None] => apart(fewer, single),
-            [Some(fewer), Some(fewest)] => {
-                let (last, before) = (apart(fewer, single), apart(fewest, fewer));
-                last * share(last, before).smaller(1.0)
-            }
-        };
-        Convergence { iteration, ..self }
+    pub fn with_other_sweeps(self, single: &[f64], others: &OtherSweeps<&[f64]>, noise: f64, periodic: bool) -> Self {
+        Convergence { iteration: others.left(single, noise, periodic), ..self }
     }
 
     /// Limit of the runs, from the middle and the finest one: y(h/2) + (y(h/2) - y(h)) / (2^p - 1) with the formal
@@ -158,7 +133,7 @@ impl Convergence {
     /// unit.
     #[must_use]
     pub fn parts(&self, noise: f64) -> Parts {
-        let (discretisation, iteration) = (self.safety * self.error, SWEEPS_SAFETY * self.iteration);
+        let (discretisation, iteration) = (self.safety * self.error, other_sweeps::SAFETY * self.iteration);
         Parts { discretisation, iteration, rounding: noise, reference: 0.0 }
     }
 
@@ -232,7 +207,8 @@ mod tests {
         // Half the sweeps leave 0.1 of 1, all leave 0.01: the bound must allow this besides the step's error.
         let values = single.column(&single.channels()[0]).unwrap();
         let fewer = of(&[values[0] + 0.09, values[1]]);
-        let ladder = Ladder { resolutions: [&double, &single, &half], other_sweeps: [Some(&fewer), None] };
+        let other_sweeps = OtherSweeps { runs: [Some(&fewer), None], factor: 2.0, growth: 0.0 };
+        let ladder = Ladder { resolutions: [&double, &single, &half], other_sweeps };
         let found = Convergence::of_channel(ladder, &single.channels()[0], 2.0, 0.0).unwrap();
         assert!((found.iteration - 0.09).abs() < 1e-15);
         assert!(found.parts(0.0).sum() >= 2e-3 + 0.01);
@@ -250,7 +226,8 @@ mod tests {
             assert!(found.limit(&runs[1], &runs[2], false).is_none(), "{place}: {found:?}");
         }
         let found = Convergence::of(&[1.0], &[1.0], &[1.0], false, 2.0, 1.0);
-        let found = found.with_other_sweeps(&[1.0, 1.0], [Some(&[f64::NAN, 1.0]), None], false);
+        let fewer = OtherSweeps { runs: [Some([f64::NAN, 1.0].as_slice()), None], factor: 2.0, growth: 0.0 };
+        let found = found.with_other_sweeps(&[1.0, 1.0], &fewer, 0.0, false);
         assert!(found.parts(0.0).sum().is_nan(), "{found:?}");
     }
 

@@ -1,9 +1,13 @@
 //! Two trajectories against each other: residuals, their distribution, the engine's own convergence, and the verdict.
 
 pub mod convergence;
-pub mod residual;
+pub mod other_sweeps;
+mod residual;
 pub mod verdict;
 
 pub use convergence::{Convergence, Ladder};
-pub use residual::{Residual, difference, differences, largest_difference, magnitudes, residuals, scales};
+pub use other_sweeps::OtherSweeps;
+pub use residual::{
+    Residual, difference, differences, largest_difference, magnitudes, residuals, residuals_on, scales,
+};
 pub use verdict::{Check, Verdict, overall};

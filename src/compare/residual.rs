@@ -149,13 +149,21 @@ pub fn largest_difference(ours: &[f64], theirs: &[f64], periodic: bool) -> f64 {
 /// # Errors
 /// If the grids differ.
 pub fn residuals(reference: &Trajectory, other: &Trajectory) -> Result<Vec<Residual>> {
+    residuals_on(&scales(reference), reference, other)
+}
+
+/// The same on other scales, one for each channel of the reference.
+///
+/// # Errors
+/// If the grids differ.
+pub fn residuals_on(scales: &[f64], reference: &Trajectory, other: &Trajectory) -> Result<Vec<Residual>> {
     let errors = difference(reference, other)?;
-    let scales = scales(reference);
-    let scale_of = |channel: &Channel| {
-        let index = reference.channels().iter().position(|own| own == channel);
-        scales[index.expect("the difference has only channels of the reference")]
-    };
-    Ok(errors.iter().map(|(channel, values)| of_values(channel, values, scale_of(channel), &errors)).collect())
+    let shared = reference.channels().iter().zip(scales).filter(|(channel, _)| other.column(channel).is_some());
+    Ok(errors
+        .iter()
+        .zip(shared)
+        .map(|((channel, values), (_, &scale))| of_values(channel, values, scale, &errors))
+        .collect())
 }
 
 fn of_values(channel: &Channel, values: &[f64], scale: f64, errors: &Trajectory) -> Residual {

@@ -118,6 +118,11 @@ impl Verdict {
             let reason = "the grid has no extent that an error could be measured by; give it more than one instant";
             return Verdict::open(reason);
         }
+        if parts.iteration.is_infinite() {
+            let (why, advice) = way_out(parts);
+            let reason = format!("the sweeps have hardly begun to converge here: the error cannot be estimated{why}");
+            return Verdict::Inconclusive { reason, advice };
+        }
         // Runs that hardly differ need no order: see `NEGLIGIBLE`.
         if !convergence.is_trusted() && !(bound <= NEGLIGIBLE * wanted * scale) {
             let (why, advice) = way_out(parts);

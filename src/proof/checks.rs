@@ -188,8 +188,8 @@ impl Vanishing<'_> {
         let [double, single, half] = [0, 1, 2].map(|k| (self.of)(&runs.resolutions[k]));
         let order = engine.formal_order(case, self.kind);
         let found = Convergence::of(&double, &single, &half, false, order, noise(engine.at(resolution / 2.0).as_ref()));
-        let others = runs.other_sweeps.each_ref().map(|run| run.as_deref().map(self.of));
-        let found = found.with_other_sweeps(&single, others.each_ref().map(Option::as_deref), false);
+        let others = runs.other_sweeps.map(|run| (self.of)(run));
+        let found = found.with_other_sweeps(&single, &others.map(Vec::as_slice), noise(engine), false);
         let found = found.extrapolated(engine.settings().extrapolated);
         let parts = found.parts(noise(engine));
         let basis = found.tolerance(resolution, parts, noise_origin(engine)).basis;

@@ -6,14 +6,15 @@ use super::judge::{ChannelProof, EngineInfo, Judge, Judged, describe};
 use super::known::Known;
 use super::observe::{Observed, Stopped};
 use super::options::Chosen;
-use super::runs::{Bank, other_sweeps};
+use super::order;
+use super::runs::{Bank, FEWER, other_sweeps};
 use super::settle::{End, Free, Search, Settling};
-use crate::compare::{Check, Verdict};
+use crate::compare::{Check, Verdict, difference};
 use crate::engines::coarse_step;
 use crate::scenario::Scenario;
 use linkage::case::Case;
-use linkage::engine::Settings;
-use linkage::error::{Advice, Error, Result};
+use linkage::engine::{Engine, Settings};
+use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::trajectory::Trajectory;
 
 /// One engine's part of a proof.
@@ -50,7 +51,7 @@ pub(super) fn prove(
 ) -> Result<EngineProof> {
     let engine = chosen.engine.as_ref();
     let asked = engine.settings();
-    let judge = Judge { scenario, reference: &reference.trajectory, senses: &reference.senses, known, asked };
+    let judge = Judge::new(scenario, reference, known, asked);
     let mut bank = Bank::new(case, engine);
     // A step that cannot be is refused by the engine.
     let is_step = asked.resolution > 0.0 && asked.resolution.is_finite();
@@ -58,8 +59,7 @@ pub(super) fn prove(
         let search = Settling::new(&judge, &mut bank, engine, chosen.free, chosen.budget);
         search.run(progress).map(|(judged, search)| (judged, Some(search)))
     } else {
-        let runs = bank.runs(asked, [other_sweeps(case, engine, asked.sweeps, None), None], progress);
-        runs.and_then(|runs| Ok((judge.judge(engine, &runs)?, None)))
+        at_given(&judge, &mut bank, engine, progress).map(|judged| (judged, None))
     };
     let (judged, search) = match found {
         Ok(found) => found,
@@ -77,14 +77,15 @@ pub(super) fn prove(
             });
         }
     };
-    let Judged { info, channels, checks, verdict, trajectory, errors, too_coarse: _, kept } = judged;
+    let Judged { info, channels, checks, verdict, run, too_coarse: _, kept } = judged;
+    let errors = difference(&reference.trajectory, &run.trajectory)?;
     let mut proof = EngineProof {
         info,
         search,
         channels,
         checks,
         verdict,
-        trajectory: Some(trajectory),
+        trajectory: Some(run.trajectory.clone()),
         errors: Some(errors),
         kept,
         failure: None,
@@ -110,11 +111,36 @@ pub(super) fn prove(
     Ok(proof)
 }
 
+/// An engine judged, or why it stopped.
+type Outcome = std::result::Result<Judged, Stopped>;
+
+/// The engine at its own settings, none of which is free.
+fn at_given(judge: &Judge, bank: &mut Bank, engine: &dyn Engine, progress: &mut dyn FnMut(f64)) -> Outcome {
+    let others = other_sweeps(bank.case, engine, judge.asked.sweeps, FEWER);
+    let mut with = |others: &[usize]| -> Outcome {
+        let runs = bank.runs(judge.asked, others, progress)?;
+        Ok(judge.judge(engine, runs)?)
+    };
+    let judged = with(&others[..others.len().min(1)])?;
+    // Sweeps that have hardly begun to converge differ little: a third run tells them from those that have.
+    let mut judged = match judged.against().is_empty() || others.len() < 2 {
+        true => judged,
+        false => match with(&others) {
+            Err(stopped) if stopped.error.kind() == ErrorKind::Numeric => judged,
+            told => told?,
+        },
+    };
+    if !engine.controls_error() {
+        order::look(judge, bank, &mut judged)?;
+    }
+    Ok(judged)
+}
+
 /// What a run finds that is free to choose its settings, as advice for one that was not and is inconclusive.
 fn tried(judge: &Judge, bank: &mut Bank, chosen: &Chosen) -> Advice {
     let case = bank.case;
     let engine = chosen.engine.at(coarse_step(case));
-    let judge = Judge { asked: engine.settings(), ..*judge };
+    let judge = judge.asking(engine.settings());
     let free = Free { step: true, sweeps: true, extrapolated: true };
     let found = Settling::new(&judge, bank, engine.as_ref(), free, chosen.budget).run(&mut |_| {});
     let Ok((judged, search)) = found else { return Advice::FreeSettings };

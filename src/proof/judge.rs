@@ -1,12 +1,15 @@
 //! Judgement of one engine at some settings, by its runs: the estimate of their error, and the verdict channel by
 //! channel.
 
+use std::sync::Arc;
+
 use super::checks;
 use super::doubt::Doubt;
 use super::known::Known;
+use super::observe::Observed;
 use super::runs::Runs;
 use crate::compare::{
-    Check, Convergence, Ladder, Residual, Verdict, difference, largest_difference, overall, residuals, scales,
+    Check, Convergence, Ladder, Residual, Verdict, largest_difference, overall, residuals_on, scales,
 };
 use crate::scenario::Scenario;
 use crate::tolerance::{Basis, Parts};
@@ -15,7 +18,7 @@ use linkage::engine::{Engine, Settings};
 use linkage::error::{Advice, Result};
 use linkage::math::{KeepNan, Vec2};
 use linkage::solver::Provision;
-use linkage::trajectory::{CHANNELS, Channel, Stage, Trajectory};
+use linkage::trajectory::{CHANNELS, Channel, ChannelKind, Stage, Trajectory};
 
 /// What is known about an engine that was run.
 #[derive(Clone, Debug, PartialEq)]
@@ -65,15 +68,20 @@ const BEGINNING: f64 = 5.0;
 /// Share of the widest conclusive bound that rounding may take before the beginning is left out.
 const MOST_ROUNDING: f64 = 0.1;
 
+/// Share of the widest conclusive bound from which a difference between sweeps counts.
+const COUNTS: f64 = 0.01;
+
 /// What an engine's runs are judged by.
 pub(super) struct Judge<'a> {
     pub(super) scenario: &'a Scenario,
     /// The reference's trajectory.
-    pub(super) reference: &'a Trajectory,
+    reference: &'a Trajectory,
+    /// Scales of its channels.
+    scales: Vec<f64>,
     /// What loads sense in it, instant by instant.
-    pub(super) senses: &'a [Vec<Vec2>],
+    senses: &'a [Vec<Vec2>],
     /// How well it is known.
-    pub(super) known: &'a Known,
+    known: &'a Known,
     /// Settings asked for; the search begins with them.
     pub(super) asked: Settings,
 }
@@ -84,8 +92,8 @@ pub(super) struct Judged {
     pub(super) channels: Vec<ChannelProof>,
     pub(super) checks: Vec<Check>,
     pub(super) verdict: Verdict,
-    pub(super) trajectory: Trajectory,
-    pub(super) errors: Trajectory,
+    /// The run that is judged.
+    pub(super) run: Arc<Observed>,
     /// Share of instants left out because the step is too coarse for them.
     pub(super) too_coarse: f64,
     /// Whether forces are judged, by row of the grid.
@@ -110,25 +118,78 @@ impl Judged {
                 *verdict = Verdict::Inconclusive { reason, advice: vec![Advice::SmallerStep { to: None }] };
             }
         }
+        self.conclude();
+    }
+
+    /// Takes the verdict again from those of all channels and checks.
+    pub(super) fn conclude(&mut self) {
         let channels = self.channels.iter().map(|own| &own.verdict);
         self.verdict = overall(channels.chain(self.checks.iter().map(|own| &own.verdict)));
     }
 }
 
-impl Judge<'_> {
+/// An engine's runs at the instants at which the channels of one stage are judged.
+struct Stand<'a> {
+    engine: &'a dyn Engine,
+    /// The same engine in its finest run.
+    finest: &'a dyn Engine,
+    /// The case on these instants.
+    case: &'a Case,
+    ladder: Ladder<'a>,
+    reference: &'a Trajectory,
+    left_out: usize,
+    /// Rounding of the single and of the finest run, by kind of channel.
+    noise: Vec<(&'static ChannelKind, [f64; 2])>,
+}
+
+impl Stand<'_> {
+    fn noise(&mut self, kind: &'static ChannelKind) -> [f64; 2] {
+        if let Some((_, found)) = self.noise.iter().find(|(own, _)| std::ptr::eq(*own, kind)) {
+            return *found;
+        }
+        let found = [self.engine, self.finest].map(|engine| engine.noise(self.case, kind));
+        self.noise.push((kind, found));
+        found
+    }
+}
+
+impl<'a> Judge<'a> {
+    pub(super) fn new(scenario: &'a Scenario, reference: &'a Observed, known: &'a Known, asked: Settings) -> Self {
+        let scales = scales(&reference.trajectory);
+        Judge { scenario, reference: &reference.trajectory, scales, senses: &reference.senses, known, asked }
+    }
+
+    /// The same for a search that begins with other settings.
+    pub(super) fn asking(&self, asked: Settings) -> Self {
+        Judge { asked, scales: self.scales.clone(), ..*self }
+    }
+
     /// Judges an engine by its runs.
-    pub(super) fn judge(&self, engine: &dyn Engine, runs: &Runs) -> Result<Judged> {
-        let doubt = Doubt::of(&self.scenario.case, self.senses, runs, engine.settings().resolution);
-        let scales = scales(self.reference);
-        let late = self.after_the_beginning(engine, &scales)?;
-        let channels = self.channels(engine, runs, &doubt, &scales, late.as_ref())?;
-        let checks = checks::of_engine(self.scenario, engine, runs);
+    pub(super) fn judge(&self, engine: &dyn Engine, mut runs: Runs) -> Result<Judged> {
+        runs.other_sweeps.growth = self.growth(&runs);
+        let doubt = Doubt::of(&self.scenario.case, self.senses, &runs, engine.settings().resolution);
+        let late = self.after_the_beginning(engine)?;
+        let channels = self.channels(engine, &runs, &doubt, late.as_ref())?;
+        let checks = checks::of_engine(self.scenario, engine, &runs);
         let verdict = overall(channels.iter().map(|c| &c.verdict).chain(checks.iter().map(|c| &c.verdict)));
-        let trajectory = runs.single().trajectory.clone();
-        let errors = difference(self.reference, &trajectory)?;
-        let (too_coarse, kept) =
-            (doubt.too_coarse(), self.kept(&doubt, Stage::Reactions, late.as_ref().unwrap_or(&self.scenario.case)));
-        Ok(Judged { info: describe(engine), channels, checks, verdict, trajectory, errors, too_coarse, kept })
+        let case = late.as_ref().unwrap_or(&self.scenario.case);
+        let (too_coarse, kept) = (doubt.too_coarse(), self.kept(&doubt, Stage::Reactions, case));
+        let [_, run, _] = runs.resolutions;
+        Ok(Judged { info: describe(engine), channels, checks, verdict, run, too_coarse, kept })
+    }
+
+    /// Largest growth of the differences between runs with more and more sweeps, of any position whose differences count;
+    /// 0 where none grow.
+    fn growth(&self, runs: &Runs) -> f64 {
+        let Ladder { resolutions: [_, single, _], other_sweeps } = runs.ladder();
+        let of = |(channel, scale): (&Channel, &f64)| {
+            let (own, others) = single.column(channel).zip(other_sweeps.column(channel))?;
+            Some(others.growth(own, COUNTS * self.scenario.engine_rel * scale, channel.kind.periodic))
+        };
+        let all = self.reference.channels().iter().zip(&self.scales);
+        let positions = all.filter(|(channel, _)| channel.kind.stage == Stage::Positions);
+        let most = positions.filter_map(of).fold(0.0, f64::larger);
+        if most > 1.0 { most } else { 0.0 }
     }
 
     fn channels(
@@ -136,10 +197,11 @@ impl Judge<'_> {
         engine: &dyn Engine,
         runs: &Runs,
         doubt: &Doubt,
-        scales: &[f64],
         late: Option<&Case>,
     ) -> Result<Vec<ChannelProof>> {
-        let mut all = Vec::with_capacity(self.reference.channels().len());
+        let finest = engine.at(engine.settings().resolution / 2.0);
+        let channels = self.reference.channels();
+        let mut all = Vec::with_capacity(channels.len());
         // Channels of one stage are judged at the same instants.
         for stage in Stage::ALL {
             let case = late.filter(|_| stage >= Stage::Accelerations).unwrap_or(&self.scenario.case);
@@ -148,16 +210,17 @@ impl Judge<'_> {
             let thin = |trajectory: &Trajectory| trajectory.of_stage(stage, &keep);
             let ladder = runs.ladder();
             let resolutions = ladder.resolutions.map(thin);
-            let others = ladder.other_sweeps.map(|run| run.map(thin));
+            let others = ladder.other_sweeps.map(|run| thin(run));
             let [double, single, half] = &resolutions;
-            let ladder =
-                Ladder { resolutions: [double, single, half], other_sweeps: others.each_ref().map(Option::as_ref) };
-            let reference = thin(self.reference);
-            for residual in residuals(&reference, single)? {
-                let index = self.reference.channels().iter().position(|own| *own == residual.channel);
-                let index = index.expect("residuals are of the reference");
-                let residual = Residual { scale: scales[index], ..residual };
-                all.push((index, self.channel(engine, case, ladder, &reference, residual, index, left_out)));
+            let ladder = Ladder { resolutions: [double, single, half], other_sweeps: others.map(|run| run) };
+            let reference = &thin(self.reference);
+            let indices: Vec<usize> =
+                (0..channels.len()).filter(|&index| channels[index].kind.stage == stage).collect();
+            let scales: Vec<f64> = indices.iter().map(|&index| self.scales[index]).collect();
+            let mut stand =
+                Stand { engine, finest: finest.as_ref(), case, ladder, reference, left_out, noise: Vec::new() };
+            for (index, residual) in indices.into_iter().zip(residuals_on(&scales, reference, single)?) {
+                all.push((index, self.channel(&mut stand, residual, index)));
             }
         }
         all.sort_by_key(|(index, _)| *index);
@@ -172,7 +235,7 @@ impl Judge<'_> {
 
     /// The case without the instants of a beginning free motion at which second differences are carried back over several
     /// steps, if their rounding would leave accelerations or forces open; `None` if it does not.
-    fn after_the_beginning(&self, engine: &dyn Engine, scales: &[f64]) -> Result<Option<Case>> {
+    fn after_the_beginning(&self, engine: &dyn Engine) -> Result<Option<Case>> {
         let case = &self.scenario.case;
         let last = case.grid.times.iter().copied().fold(0.0, f64::larger);
         let begin = BEGINNING * 2.0 * engine.settings().resolution;
@@ -180,7 +243,7 @@ impl Judge<'_> {
             return Ok(None);
         }
         let wanted = self.scenario.engine_rel;
-        let is_open = self.reference.channels().iter().zip(scales).any(|(channel, scale)| {
+        let is_open = self.reference.channels().iter().zip(&self.scales).any(|(channel, scale)| {
             let noise = engine.noise(case, channel.kind);
             channel.kind.stage >= Stage::Accelerations && noise > MOST_ROUNDING * wanted * scale
         });
@@ -188,25 +251,15 @@ impl Judge<'_> {
         is_open.then(|| case.on(Grid::of_times(case.crank(), late()))).transpose()
     }
 
-    #[expect(clippy::too_many_arguments, reason = "all of one channel")]
-    fn channel(
-        &self,
-        engine: &dyn Engine,
-        case: &Case,
-        ladder: Ladder<'_>,
-        reference: &Trajectory,
-        residual: Residual,
-        index: usize,
-        left_out: usize,
-    ) -> ChannelProof {
-        let Settings { resolution, sweeps, extrapolated, .. } = engine.settings();
+    fn channel(&self, stand: &mut Stand, residual: Residual, index: usize) -> ChannelProof {
         let (channel, kind) = (residual.channel.clone(), residual.channel.kind);
-        let noise = engine.at(resolution / 2.0).noise(case, kind);
-        let convergence = Convergence::of_channel(ladder, &channel, engine.formal_order(case, kind), noise)
+        let [noise, finest] = stand.noise(kind);
+        let Stand { engine, case, ladder, reference, left_out, .. } = *stand;
+        let Settings { resolution, sweeps, extrapolated, .. } = engine.settings();
+        let convergence = Convergence::of_channel(ladder, &channel, engine.formal_order(case, kind), finest)
             .expect("all runs of an engine have the same channels")
             .extrapolated(extrapolated);
-        let parts =
-            Parts { reference: self.known.error(kind.stage, index), ..convergence.parts(engine.noise(case, kind)) };
+        let parts = Parts { reference: self.known.error(kind.stage, index), ..convergence.parts(noise) };
         let basis = convergence.tolerance(resolution, parts, checks::noise_origin(engine)).basis;
         let verdict = match reference.times().is_empty() {
             true => Verdict::open("a drive or a loaded link reverses at every instant"),

@@ -11,6 +11,7 @@ mod methods;
 mod observe;
 mod options;
 mod oracle;
+mod order;
 mod parties;
 #[cfg(test)]
 mod planted;

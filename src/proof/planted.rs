@@ -3,12 +3,13 @@
 
 use std::path::Path;
 
+use super::judge::ChannelProof;
 use super::known::Known;
 use super::observe::{Observed, observe};
 use super::options::Chosen;
 use super::settle::{self, Free};
 use super::{checks, engines, methods, oracle};
-use crate::compare::{Check, magnitudes};
+use crate::compare::{Check, Verdict, magnitudes};
 use crate::proof::{EngineProof, Options, prove};
 use crate::scenario::Scenario;
 use analytic::witness::triad::Triad;
@@ -43,6 +44,8 @@ fn parsed(name: &str, text: &str) -> Scenario {
 struct Planted<S: ?Sized> {
     fault: Fault,
     size: f64,
+    /// Whether its size goes with an engine's step.
+    grows: bool,
     inner: Box<S>,
 }
 
@@ -75,7 +78,9 @@ impl Engine for Planted<dyn Engine> {
     }
 
     fn with(&self, settings: Settings) -> Box<dyn Engine> {
-        Box::new(Planted { fault: self.fault, size: self.size, inner: self.inner.with(settings) })
+        let longer = settings.resolution / self.inner.settings().resolution;
+        let size = if self.grows { self.size * longer } else { self.size };
+        Box::new(Planted { fault: self.fault, size, grows: self.grows, inner: self.inner.with(settings) })
     }
 
     fn routes(&self) -> &'static [Route] {
@@ -108,7 +113,7 @@ fn seen(case: &Case, solver: &dyn Solver) -> Observed {
 }
 
 fn assur(fault: Fault, size: f64) -> Planted<dyn Solver> {
-    Planted { fault, size, inner: Box::new(AssurSolver) }
+    Planted { fault, size, grows: false, inner: Box::new(AssurSolver) }
 }
 
 fn knowing(case: &Case) -> Known {
@@ -232,11 +237,15 @@ fn every_class_three_method_finds_a_wrong_group_and_stands_in_the_proof() {
 }
 
 fn engine_proof(scenario: &Scenario, fault: Fault, size: f64) -> EngineProof {
+    engine_proven(scenario, fault, size, false, Free::default())
+}
+
+fn engine_proven(scenario: &Scenario, fault: Fault, size: f64, grows: bool, free: Free) -> EngineProof {
     let reference = seen(&scenario.case, &AssurSolver);
     let rapier = Rapier::all(STEP).into_iter().next().unwrap();
     let inner = Box::new(rapier) as Box<dyn Engine>;
-    let engine: Box<dyn Engine> = Box::new(Planted { fault, size, inner });
-    let chosen = Chosen { engine, free: Free::default(), budget: settle::BUDGET };
+    let engine: Box<dyn Engine> = Box::new(Planted { fault, size, grows, inner });
+    let chosen = Chosen { engine, free, budget: settle::BUDGET };
     let known = knowing(&scenario.case);
     engines::prove(scenario, &scenario.case, &chosen, &reference, &known, &mut |_| {}).unwrap()
 }
@@ -267,6 +276,38 @@ fn the_engine_s_own_checks_find_what_does_not_vanish_with_the_step() {
         assert_eq!(check.verdict.word(), "disagree", "{name}: {:e} of {:e}", check.value, check.bound);
         let little = engine_proof(&scenario, fault, amount / 100.0);
         assert_eq!(named(&little.checks, name).verdict.word(), "agree", "{name}");
+    }
+}
+
+/// Half a step late, velocities converge to the right values with order 1, and accelerations a quarter of a step. No bound
+/// from the engine's own runs would ever be too small for that.
+#[test]
+fn regress_what_is_read_too_late_converges_at_another_order_and_disagrees() {
+    let velocities: Fault = |state, late| {
+        for motion in &mut state.motions {
+            motion.omega -= late * motion.alpha;
+            motion.velocity -= late * motion.acceleration;
+        }
+    };
+    let accelerations: Fault = |state, late| {
+        // Something of the size of a jerk.
+        state.motions.iter_mut().for_each(|motion| motion.alpha -= late * motion.omega.powi(3));
+    };
+    let everything = Free { step: true, sweeps: true, extrapolated: true };
+    // Five steps up to 8e-3 s still show the order of the crank-rocker, not that of the faster machine.
+    for (name, free) in [("crank_rocker", Free::default()), ("crank_rocker", everything), ("ov7_base", everything)] {
+        let scenario = parsed(name, &text(name));
+        for (fault, late, of) in [(velocities, 0.5, "omega"), (accelerations, 0.25, "alpha")] {
+            let proof = engine_proven(&scenario, fault, late * STEP, true, free);
+            assert_eq!(proof.verdict.word(), "disagree", "{name} {of} {free:?}: {:?}", proof.verdict);
+            let told = |own: &ChannelProof| {
+                own.residual.channel.to_string().contains(of)
+                    && matches!(&own.verdict, Verdict::Disagree { place } if place.contains("with order"))
+            };
+            assert!(proof.channels.iter().any(told), "{name} {of} {free:?}");
+        }
+        let right = engine_proven(&scenario, nothing, 0.0, true, free);
+        assert_eq!(right.verdict.word(), "agree", "{name}");
     }
 }
 

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::observe::{Observed, Stopped, observe};
-use crate::compare::Ladder;
+use crate::compare::{Ladder, OtherSweeps};
 use linkage::case::Case;
 use linkage::engine::{Engine, Kept, Settings};
 use linkage::error::Advice;
@@ -13,9 +13,8 @@ use linkage::math::KeepNan;
 pub(super) struct Runs {
     /// Runs at double, single and half the resolution.
     pub(super) resolutions: [Arc<Observed>; 3],
-    /// Run at the single resolution with another number of sweeps, and one with as many times fewer again; `None` for an
-    /// engine that does not iterate, and where there is no such run.
-    pub(super) other_sweeps: [Option<Arc<Observed>>; 2],
+    /// Runs at the single resolution with other numbers of sweeps.
+    pub(super) other_sweeps: OtherSweeps<Arc<Observed>>,
 }
 
 impl Runs {
@@ -26,22 +25,26 @@ impl Runs {
     pub(super) fn ladder(&self) -> Ladder<'_> {
         Ladder {
             resolutions: [0, 1, 2].map(|k| &self.resolutions[k].trajectory),
-            other_sweeps: self.other_sweeps.each_ref().map(|run| run.as_ref().map(|run| &run.trajectory)),
+            other_sweeps: self.other_sweeps.map(|run| &run.trajectory),
         }
     }
 }
 
-/// Sweeps of the run that a run with `sweeps` is compared with: a share of them, half unless `share` says otherwise, or
-/// two where there is no less. `None` where the iteration leaves nothing.
-pub(super) fn other_sweeps(case: &Case, engine: &dyn Engine, sweeps: usize, share: Option<usize>) -> Option<usize> {
-    let [_, most] = engine.sweeps(case)?;
-    match (sweeps, share) {
-        (1, _) if most == 1 => None,
-        (1, _) => Some(2),
-        (sweeps, Some(share)) if sweeps >= share => Some(sweeps / share),
-        (sweeps, _) => Some(sweeps / 2),
+/// Sweeps of the runs that a run with `sweeps` is compared with: a `share`-th of them, and of these again; two where
+/// there is no less. None where the iteration leaves nothing.
+pub(super) fn other_sweeps(case: &Case, engine: &dyn Engine, sweeps: usize, share: usize) -> Vec<usize> {
+    match (sweeps, engine.sweeps(case)) {
+        (_, None) | (1, Some([_, 1])) => Vec::new(),
+        (1, Some(_)) => vec![2],
+        (sweeps, Some(_)) => {
+            let share = share.min(sweeps);
+            [sweeps / share, sweeps / share / share].into_iter().filter(|&fewer| fewer > 0).collect()
+        }
     }
 }
+
+/// Number of sweeps of a run over that of the one that it is compared with, where the sweeps are given.
+pub(super) const FEWER: usize = 2;
 
 /// All runs of one engine on one case. Each is made and observed once.
 pub(super) struct Bank<'a> {
@@ -100,15 +103,15 @@ impl<'a> Bank<'a> {
         Ok(seen)
     }
 
-    /// The runs that judge the engine at `settings`: those at double, single and half the resolution, and one with
-    /// `other` sweeps.
+    /// The runs that judge the engine at `settings`: those at double, single and half the resolution, and those with
+    /// `others` sweeps, at most two.
     pub(super) fn runs(
         &mut self,
         settings: Settings,
-        other: [Option<usize>; 2],
+        others: &[usize],
         progress: &mut dyn FnMut(f64),
     ) -> Result<Runs, Stopped> {
-        let rungs = rungs(settings, other);
+        let rungs = rungs(settings, others);
         self.prepare(&rungs, progress);
         // The single step comes first: if it fails, its message is the useful one.
         let single = self.observed(settings)?;
@@ -124,17 +127,19 @@ impl<'a> Bank<'a> {
         };
         let half = auxiliary(rungs[1])?;
         let double = auxiliary(rungs[2])?;
-        let mut others = rungs[3..].iter().map(|&rung| auxiliary(rung));
-        let other_sweeps = [others.next().transpose()?, others.next().transpose()?];
-        drop(others);
+        let mut fewer = rungs[3..].iter().map(|&rung| auxiliary(rung));
+        let other_sweeps = [fewer.next().transpose()?, fewer.next().transpose()?];
+        drop(fewer);
+        let factor = others.first().map_or(1.0, |&fewer| settings.sweeps as f64 / fewer as f64);
+        let other_sweeps = OtherSweeps { runs: other_sweeps, factor, growth: 0.0 };
         Ok(Runs { resolutions: [double, single, half], other_sweeps })
     }
 }
 
 /// Settings of the runs that judge an engine at `settings`, the single resolution first, then half and double.
-pub(super) fn rungs(settings: Settings, other_sweeps: [Option<usize>; 2]) -> Vec<Settings> {
+pub(super) fn rungs(settings: Settings, others: &[usize]) -> Vec<Settings> {
     let at = |factor: f64| Settings { resolution: settings.resolution * factor, ..settings };
-    let other = other_sweeps.into_iter().flatten().map(|sweeps| Settings { sweeps, ..settings });
+    let other = others.iter().map(|&sweeps| Settings { sweeps, ..settings });
     [settings, at(0.5), at(2.0)].into_iter().chain(other).collect()
 }
 

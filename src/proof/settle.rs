@@ -12,7 +12,8 @@ use linkage::math::KeepNan;
 
 use super::judge::{Judge, Judged};
 use super::observe::Stopped;
-use super::runs::{Bank, other_sweeps, rungs};
+use super::order;
+use super::runs::{Bank, FEWER, other_sweeps, rungs};
 use crate::compare::Verdict;
 use crate::tolerance::Part;
 
@@ -62,9 +63,9 @@ pub enum End {
 }
 
 /// Work allowed by default, in steps without sweeps.
-pub(crate) const BUDGET: f64 = 4e6;
+pub(crate) const BUDGET: f64 = 1e7;
 /// Work within which a conclusive result is refined further, to the aimed accuracy.
-const THRIFT: f64 = 0.025;
+const THRIFT: f64 = 0.01;
 /// Share of the widest conclusive bound that is aimed at: a proof a hundred times sharper costs little with
 /// extrapolation.
 const AIM: f64 = 0.01;
@@ -76,6 +77,19 @@ const COARSEST: f64 = 16.0;
 const FAILURES: usize = 6;
 /// Share of instants that may be left out because they are too close to a reversal for the step.
 const MOST_LEFT_OUT: f64 = 0.03;
+/// Rounds without an order of convergence after which more sweeps are tried instead of a smaller step.
+const MOST_VAGUE: usize = 2;
+/// Rounds of a search that is not long.
+const QUICK: i32 = 3;
+/// Part of the bound down to which half the step must bring it, so that it is not the sweeps that are too few.
+const BRINGS: f64 = 0.7;
+/// Part of the bound down to which more sweeps must bring it to be worth their work.
+const HELPS: f64 = 0.5;
+/// Rounds with finer steps and wider bounds after which rounding is to blame, also where the engine's noise is thought to
+/// be less.
+const MOST_WIDER: usize = 2;
+/// Rounds that pass before more sweeps are tried again, where they have brought little.
+const PATIENCE: usize = 3;
 /// Factor between numbers of sweeps.
 const MORE_SWEEPS: usize = 4;
 
@@ -98,12 +112,47 @@ impl End {
     }
 }
 
+/// What a search has seen of steps that do not bring it on.
+#[derive(Default)]
+struct Stall {
+    /// Need of the round before, with as many sweeps.
+    before: Option<Need>,
+    /// Rounds without an order of convergence, one after the other.
+    vague: usize,
+    /// Rounds in which half the step has made the bound wider, one after the other.
+    wider: usize,
+    /// Sweeps of the round before, and its need, if more sweeps are just tried.
+    tried: Option<(usize, Need)>,
+    /// Rounds until more sweeps may be tried again.
+    wait: usize,
+}
+
 /// One way to combine the runs made so far, judged.
 struct Trial {
     judged: Judged,
-    /// Largest bound over what is wanted; infinite where an error cannot be estimated.
-    need: f64,
+    need: Need,
     blame: Part,
+}
+
+/// How far a trial is from being conclusive.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+struct Need {
+    /// Whether the runs show no order, so that the bound means little.
+    is_vague: bool,
+    /// Largest bound over what is wanted.
+    share: f64,
+}
+
+impl Need {
+    /// Whether a bound that means something is at most `most` of what is wanted.
+    fn is_within(self, most: f64) -> bool {
+        !self.is_vague && self.share <= most
+    }
+
+    /// Whether this is at most `part` of another need, or shows an order where that one does not.
+    fn is_less(self, part: f64, other: Need) -> bool {
+        self.is_vague < other.is_vague || self.is_vague == other.is_vague && self.share <= part * other.share
+    }
 }
 
 /// The state of a search.
@@ -148,21 +197,28 @@ impl<'a, 'b> Settling<'a, 'b> {
         let mut best: Option<Trial> = None;
         let mut failure = None;
         let (mut round, mut failed) = (0, 0);
+        let mut stall = Stall::default();
         // What disagrees in the last round, and what did so in two rounds running.
         let (mut against, mut borne_out): (Vec<String>, Vec<String>) = (Vec::new(), Vec::new());
         let end = loop {
             let left = 0.5f64.powi(round);
             let mut part = |part: f64| progress(1.0 - left + 0.5 * left * part);
             round += 1;
-            let blame = match self.round(&mut part) {
-                Ok(trial) => {
+            let blame = match self.round(round > QUICK, &mut part) {
+                Ok(mut trial) => {
+                    // No step and no sweeps help where the order is wrong.
+                    if round > QUICK && order::look(self.judge, self.bank, &mut trial.judged)? {
+                        borne_out = trial.judged.against();
+                        best = Some(trial);
+                        break End::Decided;
+                    }
                     let now = trial.judged.against();
                     borne_out = now.iter().filter(|name| against.contains(name)).cloned().collect();
                     against = now;
                     let disagrees = !against.is_empty();
-                    let (decided, sharp) = (trial.need <= 1.0, trial.need <= AIM);
+                    let (decided, sharp) = (trial.need.is_within(1.0), trial.need.is_within(AIM));
                     let thrift = self.bank.effort > THRIFT * self.budget;
-                    let blame = trial.blame;
+                    let blame = self.look_closer(&mut stall, &trial);
                     // A later round speaks for itself where it disagrees, or no longer does.
                     let better = best.as_ref().is_none_or(|best| {
                         let refuted = decided && !best.judged.against().is_empty();
@@ -194,7 +250,8 @@ impl<'a, 'b> Settling<'a, 'b> {
         match (best, failure) {
             (Some(mut best), _) => {
                 // At a given step there is no finer run: its own estimate counts.
-                if self.free.step && borne_out.is_empty() {
+                let is_cut = self.free.sweeps && end == End::Budget;
+                if (self.free.step || is_cut) && borne_out.is_empty() {
                     best.judged.doubt();
                 }
                 Ok((best.judged, search))
@@ -202,6 +259,35 @@ impl<'a, 'b> Settling<'a, 'b> {
             (None, Some(stopped)) => Err(stopped),
             (None, None) => unreachable!("a round ends with a trial or a failure"),
         }
+    }
+
+    /// What is to blame of a trial. Too few sweeps may hide the order of the step, and what they leave does not always
+    /// show: where a smaller step brings little, more sweeps are tried, and are given up where they bring little too.
+    fn look_closer(&mut self, stall: &mut Stall, trial: &Trial) -> Part {
+        let need = trial.need;
+        stall.vague = if need.is_vague { stall.vague + 1 } else { 0 };
+        let before = stall.before.replace(need);
+        let tried = stall.tried.take();
+        stall.wait = stall.wait.saturating_sub(1);
+        if trial.blame != Part::Discretisation {
+            return trial.blame;
+        }
+        if let Some((sweeps, before)) = tried {
+            if !need.is_less(HELPS, before) {
+                (self.now.sweeps, stall.wait, stall.before) = (sweeps, PATIENCE, Some(before));
+            }
+            return Part::Discretisation;
+        }
+        stall.wider = if before.is_some_and(|before| before.is_less(0.5, need)) { stall.wider + 1 } else { 0 };
+        if stall.wider >= MOST_WIDER {
+            return Part::Rounding;
+        }
+        let is_stalled = stall.vague >= MOST_VAGUE || before.is_some_and(|before| !need.is_less(BRINGS, before));
+        if !is_stalled || stall.wait > 0 || !self.free.sweeps || need.is_within(1.0) {
+            return Part::Discretisation;
+        }
+        stall.tried = Some((self.now.sweeps, need));
+        Part::Iteration
     }
 
     /// Changes the settings by what is to blame. Returns why it cannot.
@@ -235,8 +321,7 @@ impl<'a, 'b> Settling<'a, 'b> {
             return Some(End::Nothing);
         }
         let previous = std::mem::replace(&mut self.now, next);
-        let wanted: Vec<Settings> =
-            self.candidates().into_iter().flat_map(|settings| rungs(settings, [None; 2])).collect();
+        let wanted: Vec<Settings> = self.candidates().into_iter().flat_map(|settings| rungs(settings, &[])).collect();
         if self.bank.effort + self.bank.missing(&wanted) > self.budget {
             self.now = previous;
             return Some(End::Budget);
@@ -261,15 +346,16 @@ impl<'a, 'b> Settling<'a, 'b> {
         times.rev().map(at).filter(is_open).collect()
     }
 
-    /// Makes the runs of a round and judges their combinations. The best one is returned.
-    fn round(&mut self, progress: &mut dyn FnMut(f64)) -> Result<Trial, Stopped> {
+    /// Makes the runs of a round and judges their combinations. The best one is returned. A search that `is_long` asks
+    /// what the sweeps leave, whatever the step.
+    fn round(&mut self, is_long: bool, progress: &mut dyn FnMut(f64)) -> Result<Trial, Stopped> {
         let mut best: Option<Trial> = None;
         let mut failure = None;
         let candidates = self.candidates();
-        let all: Vec<Settings> = candidates.iter().flat_map(|&settings| rungs(settings, [None; 2])).collect();
+        let all: Vec<Settings> = candidates.iter().flat_map(|&settings| rungs(settings, &[])).collect();
         self.bank.prepare(&all, &mut |part| progress(0.7 * part));
         for settings in candidates {
-            let trial = match self.trial(settings, [None; 2], &mut |_| {}) {
+            let trial = match self.trial(settings, &[], &mut |_| {}) {
                 Ok(trial) => trial,
                 Err(stopped) => {
                     failure = Some(stopped);
@@ -277,7 +363,7 @@ impl<'a, 'b> Settling<'a, 'b> {
                 }
             };
             if best.as_ref().is_none_or(|best| trial.need < best.need) {
-                let sharp = trial.need <= AIM;
+                let sharp = trial.need.is_within(AIM);
                 best = Some(trial);
                 if sharp {
                     break;
@@ -285,69 +371,64 @@ impl<'a, 'b> Settling<'a, 'b> {
             }
         }
         let Some(best) = best else { return Err(failure.expect("every round has a candidate")) };
-        // What the sweeps leave is asked only where the step is not to blame.
+        // At first, what the sweeps leave is asked only where the step is not to blame.
         let settings = best.judged.info.settings;
         let engine = self.bank.engine(settings);
-        let share = self.free.sweeps.then_some(MORE_SWEEPS);
-        let other = other_sweeps(self.bank.case, engine.as_ref(), settings.sweeps, share);
+        let share = if self.free.sweeps { MORE_SWEEPS } else { FEWER };
+        let others = other_sweeps(self.bank.case, engine.as_ref(), settings.sweeps, share);
         let disagrees = !best.judged.against().is_empty();
-        if other.is_none() || (best.need > 1.0 && best.need.is_finite() && !disagrees) {
+        if others.is_empty() || (best.need.share > 1.0 && !best.need.is_vague && !disagrees && !is_long) {
             return Ok(best);
         }
-        let found = match self.trial(settings, [other, None], &mut |part| progress(0.7 + 0.2 * part)) {
+        let found = match self.trial(settings, &others[..1], &mut |part| progress(0.7 + 0.2 * part)) {
             // Sweeps so few that the run fails say that those of the other run are hardly enough.
             Err(stopped) if stopped.error.kind() == ErrorKind::Numeric => {
-                return Ok(Trial { need: f64::INFINITY, blame: Part::Iteration, ..best });
+                return Ok(Trial { need: Need { is_vague: true, ..best.need }, blame: Part::Iteration, ..best });
             }
             found => found?,
         };
-        // A third run tells how fast the sweeps converge, before they are multiplied.
-        let fewest = other.map(|other| other / MORE_SWEEPS).filter(|&fewest| fewest > 0 && self.free.sweeps);
-        if fewest.is_none() || found.blame != Part::Iteration || found.need <= AIM {
+        // A third run tells how fast the sweeps converge, before they are multiplied; and whether they do, before anything
+        // is disproven: sweeps that have hardly begun to converge differ little.
+        let is_asked = found.blame == Part::Iteration && !found.need.is_within(AIM) && self.free.sweeps;
+        if others.len() < 2 || !(is_asked || !found.judged.against().is_empty()) {
             return Ok(found);
         }
-        match self.trial(settings, [other, fewest], &mut |part| progress(0.9 + 0.1 * part)) {
+        match self.trial(settings, &others, &mut |part| progress(0.9 + 0.1 * part)) {
             Err(stopped) if stopped.error.kind() == ErrorKind::Numeric => Ok(found),
             better => better,
         }
     }
 
-    fn trial(
-        &mut self,
-        settings: Settings,
-        other: [Option<usize>; 2],
-        progress: &mut dyn FnMut(f64),
-    ) -> Result<Trial, Stopped> {
-        let runs = self.bank.runs(settings, other, progress)?;
-        let judged = self.judge.judge(self.bank.engine(settings).as_ref(), &runs)?;
+    fn trial(&mut self, settings: Settings, others: &[usize], progress: &mut dyn FnMut(f64)) -> Result<Trial, Stopped> {
+        let runs = self.bank.runs(settings, others, progress)?;
+        let judged = self.judge.judge(self.bank.engine(settings).as_ref(), runs)?;
         let (need, blame) = need(&judged, self.judge.scenario.engine_rel);
         Ok(Trial { judged, need, blame })
     }
 }
 
 /// The largest bound of a channel or check over what is wanted, `wanted` of its scale, and the part that is to blame.
-/// Where the runs do not bear the bound out, it is infinite.
-fn need(judged: &Judged, wanted: f64) -> (f64, Part) {
+/// Those whose runs show no order come first.
+fn need(judged: &Judged, wanted: f64) -> (Need, Part) {
     let channels = judged.channels.iter().map(|own| (own.parts, own.residual.scale, &own.convergence, &own.verdict));
     let checks = judged.checks.iter().filter_map(|check| {
         let (parts, convergence) = check.estimate.as_ref()?;
         Some((*parts, 1.0, convergence, &check.verdict))
     });
     // A step that leaves out many instants proves nothing about them.
-    let mut worst = (if judged.too_coarse > MOST_LEFT_OUT { 2.0 } else { 0.0 }, Part::Discretisation);
+    let least = if judged.too_coarse > MOST_LEFT_OUT { 2.0 } else { 0.0 };
+    let mut worst = (Need { is_vague: false, share: least }, Part::Discretisation);
     for (parts, scale, convergence, verdict) in channels.chain(checks) {
         let share = linkage::math::statistics::share(parts.sum(), wanted * scale);
         let is_open = matches!(verdict, Verdict::Inconclusive { .. });
-        let own = match convergence.is_trusted() {
-            // Open for another reason than its bound: no setting changes that.
-            true if is_open && share <= 1.0 => 0.0,
-            false if is_open => f64::INFINITY,
-            true | false => share,
-        };
-        if !(own <= worst.0) {
+        // Open for another reason than its bound: no setting changes that.
+        let is_vague = is_open && !convergence.is_trusted();
+        let share = if is_open && !is_vague && share <= 1.0 { 0.0 } else { share.larger(0.0) };
+        let own = Need { is_vague, share: if share.is_nan() { f64::INFINITY } else { share } };
+        if own > worst.0 {
             // Where no order is seen, the sweeps are to blame as soon as they leave a part that counts.
-            let sweeps = own.is_infinite() && 10.0 * parts.iteration > parts.discretisation;
-            worst = (own.larger(0.0), if sweeps { Part::Iteration } else { parts.largest() });
+            let sweeps = is_vague && 10.0 * parts.iteration > parts.discretisation;
+            worst = (own, if sweeps { Part::Iteration } else { parts.largest() });
         }
     }
     worst

@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 use super::candidate::{Candidate, Measured, Price};
 use super::search::{Found, largest_step};
 use super::ways::{sweeps, ways};
-use crate::compare::{Convergence, Ladder, residuals};
+use crate::compare::{Convergence, Ladder, OtherSweeps, residuals};
 use crate::proof::Options;
 use linkage::case::Case;
 use linkage::engine::{Engine, Kept, Settings};
@@ -251,7 +251,8 @@ impl Bench<'_> {
         let runs: Result<Vec<Trajectory>> = rungs.iter().map(|&rung| kept.with(rung).solve(self.case)).collect();
         let runs = runs?;
         let [double, single, half] = [0, 1, 2].map(|k| &runs[k]);
-        let ladder = Ladder { resolutions: [double, single, half], other_sweeps: [runs.get(3), None] };
+        let other_sweeps = OtherSweeps { runs: [runs.get(3), None], factor: 0.5, growth: 0.0 };
+        let ladder = Ladder { resolutions: [double, single, half], other_sweeps };
         let finest = engine.at(settings.resolution / 2.0);
         let mut predicted: f64 = 0.0;
         for residual in residuals(self.reference, single)? {

@@ -1,0 +1,121 @@
+//! What the sweeps of an iterating engine leave, from runs with fewer of them.
+//!
+//! Sweeps converge geometrically. Half of the sweeps leave a share q of the initial error, all of them leave q^2, and
+//! the two runs differ by q - q^2. The remaining error is q / (1 - q) of this difference. The factor 3 covers q up to
+//! 3/4 (ASME V&V 20 also counts the iteration error separately). A run with a quarter of the sweeps leaves q where all
+//! leave q^4: the factor then covers q^3 up to 3/4.
+//!
+//! A third run shows how the differences go on. Say that each number of sweeps is r times the one before, and each
+//! difference s times the one before. Differences that shrink leave at most s of the last one. Differences may also grow
+//! at first: an iteration that has hardly begun changes little from one number of sweeps to the next, and s comes close
+//! to r. At most (r - 1) s / (r - s) of the last difference is then left, as long as one mode of the iteration decides.
+//! Such a beginning is common to all channels, though it may not show in each.
+
+use super::residual::largest_difference;
+use linkage::math::KeepNan;
+use linkage::math::statistics::share;
+use linkage::trajectory::{Channel, Trajectory};
+
+/// Safety factor on what is left: see the module's text.
+pub(super) const SAFETY: f64 = 3.0;
+
+/// Runs at the middle step with other numbers of sweeps, as whatever is read from them.
+#[derive(Clone, Copy, Debug)]
+pub struct OtherSweeps<T> {
+    /// A run with other sweeps than the middle one, and one with as many times fewer again; `None` for an engine that
+    /// does not iterate, and where there is no such run.
+    pub runs: [Option<T>; 2],
+    /// Number of sweeps of each run over that of the next.
+    pub factor: f64,
+    /// Largest [growth](OtherSweeps::growth) of a channel, if differences grow; 0 if they shrink, or if that is not known.
+    pub growth: f64,
+}
+
+impl<T> OtherSweeps<T> {
+    /// The same runs, read by `f`.
+    pub fn map<'s, U>(&'s self, mut f: impl FnMut(&'s T) -> U) -> OtherSweeps<U> {
+        let runs = self.runs.each_ref().map(|run| run.as_ref().map(&mut f));
+        OtherSweeps { runs, factor: self.factor, growth: self.growth }
+    }
+}
+
+impl<'a> OtherSweeps<&'a Trajectory> {
+    /// The values of one channel. `None` if a run does not have it.
+    #[must_use]
+    pub fn column(&self, channel: &Channel) -> Option<OtherSweeps<&'a [f64]>> {
+        let columns = self.map(|run| run.column(channel));
+        let has_all = columns.runs.iter().flatten().all(Option::is_some);
+        has_all.then(|| columns.map(|column| column.expect("all runs have it")))
+    }
+}
+
+impl OtherSweeps<&[f64]> {
+    /// Largest difference between the two runs with more sweeps, over that between the two with fewer: 0 where one of
+    /// them is missing, or where the first is at most `negligible`. `single` is the middle run.
+    #[must_use]
+    pub fn growth(&self, single: &[f64], negligible: f64, periodic: bool) -> f64 {
+        let [Some(fewer), Some(fewest)] = self.runs else { return 0.0 };
+        let last = largest_difference(fewer, single, periodic);
+        if last <= negligible { 0.0 } else { share(last, largest_difference(fewest, fewer, periodic)) }
+    }
+
+    /// What the sweeps of the middle run leave, safety factor not included. Differences of at most `noise` show nothing.
+    #[must_use]
+    pub fn left(&self, single: &[f64], noise: f64, periodic: bool) -> f64 {
+        let last = |fewer: &[f64]| largest_difference(fewer, single, periodic);
+        match self.runs {
+            [None, _] => 0.0,
+            [Some(fewer), None] => last(fewer),
+            [Some(fewer), Some(_)] => match self.growth(single, noise, periodic) {
+                // What is only rounding counts as it is.
+                0.0 => last(fewer),
+                own => last(fewer) * part_left(own.larger(self.growth), self.factor),
+            },
+        }
+    }
+}
+
+/// Part of the last difference between runs with more and more sweeps that is still left, where each difference is
+/// `share` of the one before: see the module's text.
+fn part_left(share: f64, factor: f64) -> f64 {
+    if share <= 1.0 {
+        share
+    } else if share < factor {
+        (factor - 1.0) * share / (factor - share)
+    } else {
+        f64::INFINITY
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn left(runs: [&[f64]; 3], factor: f64, growth: f64, noise: f64) -> f64 {
+        let [fewest, fewer, all] = runs;
+        SAFETY * OtherSweeps { runs: [Some(fewer), Some(fewest)], factor, growth }.left(all, noise, false)
+    }
+
+    #[test]
+    fn an_iteration_that_has_hardly_begun_is_not_taken_for_converged() {
+        for factor in [2.0f64, 4.0] {
+            for q in [0.2f64, 0.5, 0.8, 0.9, 0.97, 0.99] {
+                // The error of n sweeps is q^n; the fewest are one sweep.
+                let [fewest, fewer, all] = [0, 1, 2].map(|k| [q.powf(factor.powi(k))]);
+                let bound = left([&fewest, &fewer, &all], factor, 0.0, 0.0);
+                assert!(bound >= all[0] && bound <= 20.0, "{factor} {q}: {bound} for {}", all[0]);
+            }
+        }
+        // Differences that grow as fast as the sweeps say nothing about what is left, unless they are rounding.
+        let grown: [&[f64]; 3] = [&[1.0], &[2.0], &[6.0]];
+        assert_eq!(left(grown, 4.0, 0.0, 0.0), f64::INFINITY);
+        assert_eq!(left(grown, 4.0, 0.0, 5.0), 12.0);
+    }
+
+    #[test]
+    fn a_channel_converges_no_sooner_than_the_others() {
+        let shrinking: [&[f64]; 3] = [&[1.0], &[0.1], &[0.0]];
+        assert!((left(shrinking, 4.0, 0.0, 0.0) - 3.0 * 0.1 * (1.0 / 9.0)).abs() < 1e-12);
+        assert!((left(shrinking, 4.0, 2.0, 0.0) - 3.0 * 0.1 * 3.0).abs() < 1e-12);
+    }
+}

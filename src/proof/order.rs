@@ -1,0 +1,82 @@
+//! An engine that keeps converging at a lower order than its method has.
+//!
+//! Half a step is lost somewhere, or a weight is wrong: what is read is not what the method gives. A bound from the
+//! engine's own runs follows such an error down to any step, so that it never disagrees by its size. Five runs tell:
+//! they show the order three times, and it is always the same whole number.
+
+use linkage::engine::Settings;
+use linkage::error::ErrorKind;
+use linkage::math::KeepNan;
+
+use super::judge::{ChannelProof, Judge, Judged};
+use super::observe::Stopped;
+use super::runs::{Bank, FEWER, other_sweeps};
+use crate::compare::{Convergence, Verdict};
+
+/// Share of the formal order below which an order is looked at again.
+const LOW: f64 = 0.75;
+/// Largest distance of steady orders from a whole number.
+const STEADY: f64 = 0.1;
+/// Factor by which an error must exceed rounding and what the sweeps leave, so that its order is that of the step.
+const CLEAR: f64 = 5.0;
+/// Share of the widest conclusive bound below which it does not matter.
+const NEGLIGIBLE: f64 = 0.01;
+
+/// Finds channels that converge steadily at too low an order. They disagree. Returns whether there are any.
+///
+/// # Errors
+/// Those of a run that is not numeric.
+pub(super) fn look(judge: &Judge, bank: &mut Bank, judged: &mut Judged) -> Result<bool, Stopped> {
+    let wanted = judge.scenario.engine_rel;
+    let is_low = |own: &ChannelProof| {
+        let Convergence { observed, formal, .. } = own.convergence;
+        observed > 0.0 && observed < LOW * formal && own.bound > NEGLIGIBLE * wanted * own.residual.scale
+    };
+    if !judged.channels.iter().any(is_low) {
+        return Ok(false);
+    }
+    let found = judged.info.settings;
+    let finest = found.resolution * 0.5f64.powi(found.extrapolated as i32);
+    let mut rungs = Vec::new();
+    for step in [4.0, 2.0, 1.0].map(|times| times * finest) {
+        let plain = Settings { resolution: step, extrapolated: 0, ..found };
+        let own = bank.engine(plain);
+        let others = other_sweeps(bank.case, own.as_ref(), plain.sweeps, FEWER);
+        let others = if step > finest { &[] } else { &others[..others.len().min(1)] };
+        match bank.runs(plain, others, &mut |_| {}).and_then(|runs| Ok(judge.judge(own.as_ref(), runs)?)) {
+            Ok(own) => rungs.push(own),
+            // Too coarse a run shows nothing.
+            Err(stopped) if stopped.error.kind() == ErrorKind::Numeric => return Ok(false),
+            Err(stopped) => return Err(stopped),
+        }
+    }
+    let [coarse, middle, fine] = &rungs[..] else { return Ok(false) };
+    let mut is_found = false;
+    for index in 0..judged.channels.len() {
+        if is_low(&judged.channels[index]) {
+            let [coarse, middle, fine] = [coarse, middle, fine].map(|rung| &rung.channels[index]);
+            if let Some(order) = steady(coarse, middle, fine) {
+                let steps = [8.0, 0.5].map(|times| times * finest);
+                let place = format!(
+                    "the runs converge with order {order:.2}, at all of five steps from {:.2e} to {:.2e} s, where the \
+                     method has {}: what is read or computed is not what the method gives",
+                    steps[0], steps[1], fine.convergence.formal
+                );
+                judged.channels[index].verdict = Verdict::Disagree { place };
+                is_found = true;
+            }
+        }
+    }
+    judged.conclude();
+    Ok(is_found)
+}
+
+/// The order of three estimates, if it is the same low whole number each time and not that of rounding or of the sweeps.
+fn steady(coarse: &ChannelProof, middle: &ChannelProof, fine: &ChannelProof) -> Option<f64> {
+    let orders = [coarse, middle, fine].map(|own| own.convergence.observed);
+    let whole = fine.convergence.observed.round();
+    let is_steady = orders.iter().all(|order| (order - whole).abs() <= STEADY);
+    let other = fine.parts.iteration.larger(fine.parts.rounding).larger(fine.parts.reference);
+    let is_clear = fine.convergence.error > CLEAR * other;
+    (is_steady && whole >= 1.0 && whole <= LOW * fine.convergence.formal && is_clear).then_some(orders[2])
+}
