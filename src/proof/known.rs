@@ -97,8 +97,7 @@ impl Known {
             let frames = state.motions.iter().zip(&state.angles);
             let pose = Pose(frames.map(|(motion, &angle)| LinkPose { origin: motion.origin, angle }).collect());
             // At a change point the condition of the pose has no bound, but no side calculates at that pose.
-            let own =
-                state.passing.unwrap_or_else(|| condition(&case.mechanism, &case.structure.groups, &pose));
+            let own = state.passing.unwrap_or_else(|| condition(&case.mechanism, &case.structure.groups, &pose));
             // What a motion under forces has lost once, it does not get back.
             worst = if case.is_free() { worst.larger(own) } else { own };
             conditions[row] = worst;

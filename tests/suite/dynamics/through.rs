@@ -195,7 +195,8 @@ fn other_change_point_mechanisms_pass_by_momentum() {
     ];
     for (what, lengths, start, speed) in all {
         for left in [true, false] {
-            let case = let_go(lengths, left, start, speed, 3.0).scenario().unwrap_or_else(|error| panic!("{error}")).case;
+            let case =
+                let_go(lengths, left, start, speed, 3.0).scenario().unwrap_or_else(|error| panic!("{error}")).case;
             let found = SIDES.map(|side| solve(side, &case));
             for (side, found) in SIDES.iter().zip(&found) {
                 let lost = drift(&case, found);
@@ -203,7 +204,8 @@ fn other_change_point_mechanisms_pass_by_momentum() {
                 assert_within!(lost, 1e-9, "{what} {left} {}: {lost}", side.name());
             }
             let turned = column(&found[0], "link.crank.angle_rad");
-            let ends = turned.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.smaller(*x), b.larger(*x)]);
+            let ends =
+                turned.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.smaller(*x), b.larger(*x)]);
             assert!(ends[1] - ends[0] > std::f64::consts::PI, "{what} passes no change point");
             let off = apart(&found, |channel| channel.kind.stage <= Stage::Accelerations);
             println!("{what} {left}: {off:.1e}");

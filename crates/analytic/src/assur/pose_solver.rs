@@ -2,7 +2,7 @@
 
 use super::forces::Kinetostatics;
 use super::passing::{self, Passing};
-use super::turns::Turns;
+use super::turns::{CLOSED_FORM_STEP, FOLLOWED_STEP, Turns};
 use crate::assur::groups::{Clearance, Misfit, OutOfReach, Plan, SINGULAR};
 use linkage::case::Case;
 use linkage::drive::{Load, Wrench};
@@ -11,11 +11,6 @@ use linkage::math::{KeepNan, Motion};
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 
-/// Largest turn of a driving link between two poses (rad). Over such a step no link turns so far that its turns could be
-/// miscounted.
-pub(super) const CLOSED_FORM_STEP: f64 = std::f64::consts::PI / 12.0;
-/// The same where Newton's method follows a group from pose to pose.
-pub(super) const FOLLOWED_STEP: f64 = std::f64::consts::PI / 90.0;
 /// Turn of the crank (rad) after which a link that starts at its own dead centre shows its sense.
 const NUDGE: f64 = 1e-7;
 /// How often a failing step is halved: down to a millionth of it.

@@ -7,8 +7,8 @@
 
 use super::forces::Kinetostatics;
 use super::passing::{self, Passing};
-use super::pose_solver::{CLOSED_FORM_STEP, FOLLOWED_STEP, HALVINGS};
-use super::turns::Turns;
+use super::pose_solver::HALVINGS;
+use super::turns::{CLOSED_FORM_STEP, FOLLOWED_STEP, Turns};
 use crate::assur::groups::{Misfit, OutOfReach, Plan};
 use crate::motion::side::{Held, Inputs, Side, embed, loads_held};
 use linkage::case::Case;
@@ -286,8 +286,14 @@ impl Side for TransferSide<'_> {
                 loads_held(case, motions, angles, held, out);
             };
             let rates = [inputs.speeds[0], inputs.accelerations[0]];
-            let found =
-                window.reactions(self.at[0], rates, Some([held.motor, held.added]), (case, &mut self.statics), &mut loads, &mut self.state);
+            let found = window.reactions(
+                self.at[0],
+                rates,
+                Some([held.motor, held.added]),
+                (case, &mut self.statics),
+                &mut loads,
+                &mut self.state,
+            );
             found.map_err(|_| passing::unbounded(self.at[0] - case.crank().zero))?;
         } else if self.case.wanted.deepest() >= Stage::Reactions {
             self.statics.solve_under(&self.loads, self.case, &self.plan, &mut self.state);

@@ -5,6 +5,11 @@ use std::f64::consts::TAU;
 use linkage::math::{Motion, Vec2, cross};
 use linkage::mechanism::Pose;
 
+/// Largest turn of a driving link between two poses (rad). Over such a step no link turns so far that its turns could be
+/// miscounted.
+pub(super) const CLOSED_FORM_STEP: f64 = std::f64::consts::PI / 12.0;
+/// The same where Newton's method follows a group from pose to pose.
+pub(super) const FOLLOWED_STEP: f64 = std::f64::consts::PI / 90.0;
 /// Counts the turns of every link. Between two poses no link may turn by half a turn or more.
 #[derive(Clone, Debug)]
 pub(super) struct Turns {

@@ -3,12 +3,11 @@
 
 use std::f64::consts::PI;
 
-use super::passing::{Passing, Spot};
 use super::system::System;
 use linkage::case::Case;
 use linkage::drive::{Drive, Wrench};
 use linkage::error::{Advice, Error, ErrorKind, Result};
-use linkage::math::{KeepNan, Motion, rotated, turned, unit};
+use linkage::math::{KeepNan, Motion};
 use linkage::mechanism::EQUATIONS;
 use linkage::solver::State;
 use linkage::trajectory::Stage;
@@ -25,8 +24,6 @@ const VELOCITY_JUMP: f64 = 0.1;
 /// A dyad's share is about a tenth of the sine of its transmission angle.
 /// Angles are known to about the rounding over this sine, so that below it the sine itself is mostly rounding.
 const SINGULAR: f64 = 1e-8;
-/// Change (rad, or share of the size) below which two iterations running end Newton's method.
-pub(super) const SETTLED: f64 = 1e-9;
 /// Newton's method from a predicted pose converges in two or three iterations. If it needs more, something is wrong.
 const MAX_ITERATIONS: usize = 12;
 
@@ -36,92 +33,12 @@ impl System<'_> {
         self.correct()?;
         self.branch = self.jacobian.signs().collect();
         self.check_singular()?;
-        if self.case.crank().passes() && self.case.drives.further().is_empty() {
-            let own = self.inputs[0];
-            self.passing = Some(Passing::from(self));
-            self.inputs[0] = own;
-        }
         self.differentiate();
-        Ok(())
-    }
-
-    /// Follows the branch to an angle of the crank (rad, in the world), through change points. Sets the coordinates.
-    pub(super) fn travel(&mut self, angle: f64) -> Result<()> {
-        let mut passing = self.passing.take().expect("the mechanism passes change points");
-        let done = passing.travel(self, angle);
-        if passing.inside().is_some() {
-            self.turn_crank(&mut passing.spot);
-        }
-        self.passing = Some(passing);
-        done
-    }
-
-    /// Gives the crank its exact place, which no polynomial has to tell.
-    fn turn_crank(&mut self, spot: &mut Spot) {
-        let crank = self.case.crank();
-        let joint = &self.case.mechanism.joints()[crank.joint];
-        let pin = joint.on(crank.link).expect("the driven joint is on its link");
-        let centre = self.case.mechanism.links()[crank.link].mass_centre;
-        let arm = rotated(unit(spot.angle), centre - pin);
-        let (place, across) = (joint.other(crank.link).local + arm, turned(arm));
-        let first = 3 * (crank.link - 1);
-        let own = [(place.x, across.x, -arm.x), (place.y, across.y, -arm.y), (spot.angle, 1.0, 0.0)];
-        for (index, (q, slope, curve)) in (first..).zip(own) {
-            (spot.q[index], spot.slope[index], spot.curve[index]) = (q, slope, curve);
-            self.q[index] = q;
-        }
-    }
-
-    /// Velocities and accelerations after [travel](System::travel), from those of the crank.
-    pub(super) fn rates_of(&mut self, omega: f64, alpha: f64) {
-        let spot = &self.passing.as_ref().expect("the mechanism passes change points").spot;
-        for (i, (slope, curve)) in spot.slope.iter().zip(&spot.curve).enumerate() {
-            (self.rate[i], self.second[i]) = (slope * omega, slope * alpha + curve * omega * omega);
-        }
-    }
-
-    /// Multipliers after [travel](System::travel) and [rates_of](System::rates_of); `loads` finds the loads on all links.
-    /// In free motion `shaft` has the moment on the crank and the moment of inertia that turns with it.
-    pub(super) fn multipliers_under(
-        &mut self,
-        shaft: Option<[f64; 2]>,
-        loads: &mut dyn FnMut(&Case, &[Motion], &[f64], &mut [Wrench]),
-    ) -> Result<()> {
-        let (case, input) = (self.case, self.inputs[0]);
-        let passing = self.passing.take();
-        let done = match passing.as_ref().and_then(Passing::inside) {
-            Some(window) => {
-                let mut own = |motions: &[Motion], angles: &[f64], out: &mut [Wrench]| loads(case, motions, angles, out);
-                window.multipliers(self, [input.angle, input.omega, input.alpha], shaft, &mut own)
-            }
-            None => {
-                self.find_loads(loads);
-                self.multipliers();
-                Ok(())
-            }
-        };
-        self.passing = passing;
-        done
-    }
-
-    /// As [go_to](System::go_to), through change points.
-    fn pass_to(&mut self, t: f64) -> Result<()> {
-        self.set_time(t);
-        let input = self.inputs[0];
-        self.travel(input.angle)?;
-        self.inputs[0] = input;
-        self.rates_of(input.omega, input.alpha);
-        if self.stage >= Stage::Reactions {
-            self.multipliers_under(None, &mut |case, motions, angles, out| case.loads_on(motions, angles, out))?;
-        }
         Ok(())
     }
 
     /// Follows the branch to time `t`, in small turns of the crank.
     pub(super) fn go_to(&mut self, t: f64) -> Result<()> {
-        if self.passing.is_some() {
-            return self.pass_to(t);
-        }
         let turned = |drive: &Drive| match drive.constant_speed() {
             Some(_) => (drive.at(t).angle - drive.at(self.time).angle).abs(),
             // The motion may go there and back in between.
@@ -297,7 +214,6 @@ impl System<'_> {
     }
 
     pub(super) fn fill(&self, state: &mut State) {
-        state.passing = self.passing.as_ref().and_then(Passing::inside).map(|window| window.condition);
         for link in 1..state.motions.len() {
             (state.motions[link], state.angles[link]) = self.motion(link);
         }

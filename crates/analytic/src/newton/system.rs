@@ -3,13 +3,14 @@
 use std::f64::consts::TAU;
 
 use super::blocks::Blocks;
-use super::passing::Passing;
-use super::steps::SETTLED;
 use linkage::case::Case;
 use linkage::drive::{Drive, DriveState, Wrench};
 use linkage::math::{Motion, Vec2, rotated, turned, unit};
 use linkage::mechanism::{EQUATIONS, Joint, Side};
 use linkage::trajectory::Stage;
+
+/// Change (rad, or share of the size) below which two iterations running end Newton's method.
+const SETTLED: f64 = 1e-9;
 
 /// The equations of one case and the state for which they are solved.
 pub(super) struct System<'a> {
@@ -39,8 +40,6 @@ pub(super) struct System<'a> {
     pub(super) motions: Vec<Motion>,
     pub(super) angles: Vec<f64>,
     pub(super) loads: Vec<Wrench>,
-    /// The way through change points, with one driving link that passes them, once the start pose is known.
-    pub(super) passing: Option<Passing>,
     /// Change below which Newton's method ends.
     pub(super) settled: f64,
 }
@@ -74,7 +73,6 @@ impl<'a> System<'a> {
             motions: vec![Motion::REST; links.len() + 1],
             angles: vec![0.0; links.len() + 1],
             loads: vec![Wrench::ZERO; links.len() + 1],
-            passing: None,
             settled: SETTLED,
             inputs: case.drives.iter().map(|drive| by_law(drive, 0.0)).collect(),
         }

@@ -48,7 +48,15 @@ impl Passing {
     /// No change point met yet. Windows have this share of their usual half widths: two runs with different shares show
     /// the error that is left in them.
     pub(super) fn new(share: f64) -> Self {
-        Passing { share, windows: Vec::new(), clear: Vec::new(), inside: None, motions: Vec::new(), looked: Vec::new(), last: (f64::NAN, Vec::new()) }
+        Passing {
+            share,
+            windows: Vec::new(),
+            clear: Vec::new(),
+            inside: None,
+            motions: Vec::new(),
+            looked: Vec::new(),
+            last: (f64::NAN, Vec::new()),
+        }
     }
 
     /// The window of the last pose placed, if it lies in one.
@@ -96,9 +104,8 @@ impl Passing {
 
     /// The window that a way leaves or passes over, the nearest one to its end.
     fn left(&self, [from, to]: [f64; 2]) -> Option<usize> {
-        let over = |window: &Window| {
-            (from - window.at) * (to - window.at) <= 0.0 || (from - window.at).abs() < window.reach
-        };
+        let over =
+            |window: &Window| (from - window.at) * (to - window.at) <= 0.0 || (from - window.at).abs() < window.reach;
         let all = self.windows.iter().enumerate().filter(|(_, window)| over(window));
         all.min_by(|(_, a), (_, b)| (a.at - to).abs().total_cmp(&(b.at - to).abs())).map(|(index, _)| index)
     }

@@ -1,7 +1,7 @@
 //! The search for a change point, from one side.
 
 use crate::assur::groups::{Clearance, Misfit, OutOfReach, Plan};
-use crate::assur::pose_solver::FOLLOWED_STEP;
+use crate::assur::turns::FOLLOWED_STEP;
 use linkage::math::{KeepNan, Motion};
 
 /// Share of the estimated distance that a step of the search takes. At a dead point the estimate is twice the distance:

@@ -230,9 +230,8 @@ impl Window {
         let (least, most) = distances.fold((f64::INFINITY, 0.0f64), |(a, b), x| (a.smaller(x), b.larger(x)));
         let all = second(&|_| true);
         let scale = all.iter().fold(1.0f64, |most, value| most.larger(value.abs()));
-        let change = |some: Vec<f64>| {
-            all.iter().zip(some).fold(0.0f64, |most, (a, b)| most.larger((a - b).abs())) / scale
-        };
+        let change =
+            |some: Vec<f64>| all.iter().zip(some).fold(0.0f64, |most, (a, b)| most.larger((a - b).abs())) / scale;
         let band = 0.01 * self.reach;
         change(second(&|x| x < most - band)).larger(change(second(&|x| x > least + band)))
     }

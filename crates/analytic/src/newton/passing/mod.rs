@@ -7,13 +7,16 @@
 
 mod multipliers;
 mod osculating;
+mod reading;
 mod search;
+mod spot;
 mod window;
 
 use super::steps::{HALVINGS, TRACKING_STEP};
 use super::system::System;
 use linkage::error::Result;
 use linkage::math::KeepNan;
+use spot::{Spot, place, walked};
 use window::Window;
 
 /// Largest estimated distance (rad) at which a change point is looked for.
@@ -27,19 +30,6 @@ const NEXT: f64 = 1.3;
 const SAME: f64 = 1e-6;
 /// Windows that are kept, the nearest ones.
 const MOST_WINDOWS: usize = 8;
-
-/// A pose on the way: the crank's angle in the world (rad), all coordinates, and their derivatives by that angle.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Spot {
-    pub(super) angle: f64,
-    pub(super) q: Vec<f64>,
-    pub(super) slope: Vec<f64>,
-    pub(super) curve: Vec<f64>,
-    /// Signs of the blocks' determinants.
-    pub(super) signs: Vec<f64>,
-    /// Determinants of the blocks in shares of the largest possible ones, with their signs.
-    pub(super) shares: Vec<f64>,
-}
 
 /// The way of a mechanism with one driving link, and its change points as far as they have been met.
 #[derive(Clone, Debug)]
@@ -56,7 +46,7 @@ pub(super) struct Passing {
 impl Passing {
     /// The way from the present pose of a system whose Jacobian is factored there.
     pub(super) fn from(system: &mut System) -> Self {
-        Passing { spot: spot(system), share: 1.0, windows: Vec::new(), clear: Vec::new(), inside: None }
+        Passing { spot: spot::spot(system), share: 1.0, windows: Vec::new(), clear: Vec::new(), inside: None }
     }
 
     /// The window of the last pose, if it lies in one.
@@ -123,9 +113,8 @@ impl Passing {
         let over = |window: &&Window| {
             (from - window.at) * (target - window.at) <= 0.0 || (from - window.at).abs() < window.reach
         };
-        let nearest = self.windows.iter().filter(over).min_by(|a, b| {
-            (a.at - target).abs().total_cmp(&(b.at - target).abs())
-        });
+        let nearest =
+            self.windows.iter().filter(over).min_by(|a, b| (a.at - target).abs().total_cmp(&(b.at - target).abs()));
         if let Some(window) = nearest {
             self.spot.clone_from(window.end(target));
         }
@@ -171,58 +160,4 @@ impl Passing {
         }
         Ok(())
     }
-}
-
-/// The spot of a system at its present pose, whose Jacobian is factored.
-pub(super) fn spot(system: &mut System) -> Spot {
-    (system.inputs[0].omega, system.inputs[0].alpha) = (1.0, 0.0);
-    system.differentiate();
-    Spot {
-        angle: system.inputs[0].angle,
-        q: system.q.clone(),
-        slope: system.rate.clone(),
-        curve: system.second.clone(),
-        signs: system.jacobian.signs().collect(),
-        shares: Vec::new(),
-    }
-}
-
-/// Places a system at a spot, with its Jacobian factored there.
-pub(super) fn place(system: &mut System, spot: &Spot) -> Result<()> {
-    system.q.copy_from_slice(&spot.q);
-    system.inputs[0].angle = spot.angle;
-    system.branch.clone_from(&spot.signs);
-    system.assemble();
-    match system.jacobian.factor() {
-        true => Ok(()),
-        false => Err(system.lost("the Jacobian is singular there (dead point)")),
-    }
-}
-
-/// One step from a spot to another angle, on the same branch.
-pub(super) fn walked(system: &mut System, from: &Spot, to: f64) -> Result<Spot> {
-    let turn = to - from.angle;
-    let expected = from.q.iter().zip(&from.slope).zip(&from.curve);
-    let expected: Vec<f64> = expected.map(|((q, slope), curve)| q + turn * (slope + 0.5 * turn * curve)).collect();
-    system.branch.clone_from(&from.signs);
-    let found = settled(system, to, &expected)?;
-    system.check_signs()?;
-    Ok(found)
-}
-
-/// The pose at an angle that is nearest to the expected one.
-pub(super) fn settled(system: &mut System, angle: f64, expected: &[f64]) -> Result<Spot> {
-    system.q.copy_from_slice(expected);
-    system.inputs[0].angle = angle;
-    system.correct()?;
-    let size = system.case.mechanism.size();
-    for (index, (q, expected)) in system.q.iter().zip(expected).enumerate() {
-        let allowed = TRACKING_STEP * if index % 3 == 2 { 1.0 } else { size };
-        if !((q - expected).abs() <= allowed) {
-            return Err(system.lost("the solution has jumped to another branch"));
-        }
-    }
-    let mut found = spot(system);
-    found.shares = system.jacobian.shares().collect();
-    Ok(found)
 }

@@ -1,6 +1,6 @@
 //! The search for a change point, from one side.
 
-use super::{Spot, walked};
+use super::spot::{Spot, walked};
 use crate::newton::steps::TRACKING_STEP;
 use crate::newton::system::System;
 use linkage::math::KeepNan;

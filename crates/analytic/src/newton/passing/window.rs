@@ -8,7 +8,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::osculating::Osculating;
-use super::{Spot, place, settled, walked};
+use super::spot::{Spot, place, settled, walked};
 use crate::newton::steps::TRACKING_STEP;
 use crate::newton::system::System;
 use linkage::error::{Error, ErrorKind, Result};
@@ -150,11 +150,14 @@ impl Window {
                 return Err(system.lost("there are two change points close together"));
             }
         }
-        let all: Vec<(f64, [&[f64]; 3])> = [&spots[..SIDE], &spots[SIDE..]].iter().flat_map(|half| {
-            let is_low = half[0].angle < at;
-            let of = |k: usize| if is_low { k } else { SIDE - 1 - k };
-            CHOSEN.map(|k| point(&half[of(k)], at))
-        }).collect();
+        let all: Vec<(f64, [&[f64]; 3])> = [&spots[..SIDE], &spots[SIDE..]]
+            .iter()
+            .flat_map(|half| {
+                let is_low = half[0].angle < at;
+                let of = |k: usize| if is_low { k } else { SIDE - 1 - k };
+                CHOSEN.map(|k| point(&half[of(k)], at))
+            })
+            .collect();
         let coordinates = Osculating::through(&all);
         let places = spots.iter().map(|spot| spot.angle - at).collect();
         Ok(Window { at, reach, spots, places, turns: Vec::new(), coordinates, condition: f64::INFINITY })
