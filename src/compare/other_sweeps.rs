@@ -6,10 +6,14 @@
 //! leave q^4: the factor then covers q^3 up to 3/4.
 //!
 //! A third run shows how the differences go on. Say that each number of sweeps is r times the one before, and each
-//! difference s times the one before. Differences that shrink leave at most s of the last one. Differences may also grow
-//! at first: an iteration that has hardly begun changes little from one number of sweeps to the next, and s comes close
-//! to r. At most (r - 1) s / (r - s) of the last difference is then left, as long as one mode of the iteration decides.
-//! Such a beginning is common to all channels, though it may not show in each.
+//! difference s times the one before.
+//!
+//! - Differences that shrink leave s / (1 - s) of the last one, if they go on so (Aitken). That is the worst case: what
+//!   converges geometrically shrinks faster and faster.
+//! - Differences may also grow at first: an iteration that has hardly begun changes little from one number of sweeps to
+//!   the next, and s comes close to r. At most (r - 1) s / (r - s) of the last difference is then left, as long as one
+//!   mode of the iteration decides.
+//! - The slowest position speaks for all channels. Where it grows, nothing can be said.
 
 use super::residual::largest_difference;
 use linkage::math::KeepNan;
@@ -27,7 +31,7 @@ pub struct OtherSweeps<T> {
     pub runs: [Option<T>; 2],
     /// Number of sweeps of each run over that of the next.
     pub factor: f64,
-    /// Largest [growth](OtherSweeps::growth) of a channel, if differences grow; 0 if they shrink, or if that is not known.
+    /// Largest [growth](OtherSweeps::growth) of the positions; 0 if it is not known.
     pub growth: f64,
 }
 
@@ -69,6 +73,7 @@ impl OtherSweeps<&[f64]> {
             [Some(fewer), Some(_)] => match self.growth(single, noise, periodic) {
                 // What is only rounding counts as it is.
                 0.0 => last(fewer),
+                _ if self.growth > 1.0 => f64::INFINITY,
                 own => last(fewer) * part_left(own.larger(self.growth), self.factor),
             },
         }
@@ -78,8 +83,8 @@ impl OtherSweeps<&[f64]> {
 /// Part of the last difference between runs with more and more sweeps that is still left, where each difference is
 /// `share` of the one before: see the module's text.
 fn part_left(share: f64, factor: f64) -> f64 {
-    if share <= 1.0 {
-        share
+    if share < 1.0 {
+        share.larger(share / (1.0 - share) / SAFETY)
     } else if share < factor {
         (factor - 1.0) * share / (factor - share)
     } else {
@@ -116,6 +121,7 @@ mod tests {
     fn a_channel_converges_no_sooner_than_the_others() {
         let shrinking: [&[f64]; 3] = [&[1.0], &[0.1], &[0.0]];
         assert!((left(shrinking, 4.0, 0.0, 0.0) - 3.0 * 0.1 * (1.0 / 9.0)).abs() < 1e-12);
-        assert!((left(shrinking, 4.0, 2.0, 0.0) - 3.0 * 0.1 * 3.0).abs() < 1e-12);
+        assert!((left(shrinking, 4.0, 0.9, 0.0) - 0.1 * 9.0).abs() < 1e-12);
+        assert_eq!(left(shrinking, 4.0, 1.5, 0.0), f64::INFINITY);
     }
 }

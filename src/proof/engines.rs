@@ -126,7 +126,12 @@ fn at_given(judge: &Judge, bank: &mut Bank, engine: &dyn Engine, progress: &mut 
     let mut judged = match judged.against().is_empty() || others.len() < 2 {
         true => judged,
         false => match with(&others) {
-            Err(stopped) if stopped.error.kind() == ErrorKind::Numeric => judged,
+            Err(stopped) if stopped.error.kind() == ErrorKind::Numeric => {
+                let why = "a run with a quarter of the sweeps fails, so that nobody knows what they leave";
+                let mut judged = judged;
+                judged.doubt(why, &Advice::MoreSweeps { to: None });
+                judged
+            }
             told => told?,
         },
     };

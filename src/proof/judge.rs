@@ -109,13 +109,13 @@ impl Judged {
         channels.map(|own| own.residual.channel.to_string()).chain(checks.map(Check::name)).collect()
     }
 
-    /// Leaves all disagreements open, because no refinement has borne out any of them.
-    pub(super) fn doubt(&mut self) {
+    /// Leaves all disagreements open, with a reason and a way out.
+    pub(super) fn doubt(&mut self, why: &str, way_out: &Advice) {
         let channels = self.channels.iter_mut().map(|own| &mut own.verdict);
         for verdict in channels.chain(self.checks.iter_mut().map(|own| &mut own.verdict)) {
             if let Verdict::Disagree { place } = verdict {
-                let reason = format!("{place}, but no finer run bears it out");
-                *verdict = Verdict::Inconclusive { reason, advice: vec![Advice::SmallerStep { to: None }] };
+                *verdict =
+                    Verdict::Inconclusive { reason: format!("{place}, but {why}"), advice: vec![way_out.clone()] };
             }
         }
         self.conclude();
@@ -178,8 +178,7 @@ impl<'a> Judge<'a> {
         Ok(Judged { info: describe(engine), channels, checks, verdict, run, too_coarse, kept })
     }
 
-    /// Largest growth of the differences between runs with more and more sweeps, of any position whose differences count;
-    /// 0 where none grow.
+    /// Largest growth of the differences between runs with more and more sweeps, of any position whose differences count.
     fn growth(&self, runs: &Runs) -> f64 {
         let Ladder { resolutions: [_, single, _], other_sweeps } = runs.ladder();
         let of = |(channel, scale): (&Channel, &f64)| {
@@ -188,8 +187,7 @@ impl<'a> Judge<'a> {
         };
         let all = self.reference.channels().iter().zip(&self.scales);
         let positions = all.filter(|(channel, _)| channel.kind.stage == Stage::Positions);
-        let most = positions.filter_map(of).fold(0.0, f64::larger);
-        if most > 1.0 { most } else { 0.0 }
+        positions.filter_map(of).fold(0.0, f64::larger)
     }
 
     fn channels(

@@ -63,9 +63,9 @@ pub enum End {
 }
 
 /// Work allowed by default, in steps without sweeps.
-pub(crate) const BUDGET: f64 = 1e7;
+pub(crate) const BUDGET: f64 = 2e7;
 /// Work within which a conclusive result is refined further, to the aimed accuracy.
-const THRIFT: f64 = 0.01;
+const THRIFT: f64 = 0.005;
 /// Share of the widest conclusive bound that is aimed at: a proof a hundred times sharper costs little with
 /// extrapolation.
 const AIM: f64 = 0.01;
@@ -252,7 +252,7 @@ impl<'a, 'b> Settling<'a, 'b> {
                 // At a given step there is no finer run: its own estimate counts.
                 let is_cut = self.free.sweeps && end == End::Budget;
                 if (self.free.step || is_cut) && borne_out.is_empty() {
-                    best.judged.doubt();
+                    best.judged.doubt("no finer run bears it out", &Advice::SmallerStep { to: None });
                 }
                 Ok((best.judged, search))
             }
@@ -394,6 +394,10 @@ impl<'a, 'b> Settling<'a, 'b> {
             return Ok(found);
         }
         match self.trial(settings, &others, &mut |part| progress(0.9 + 0.1 * part)) {
+            // What fails with fewer sweeps has hardly enough of them.
+            Err(stopped) if stopped.error.kind() == ErrorKind::Numeric && !found.judged.against().is_empty() => {
+                Ok(Trial { need: Need { is_vague: true, ..found.need }, blame: Part::Iteration, ..found })
+            }
             Err(stopped) if stopped.error.kind() == ErrorKind::Numeric => Ok(found),
             better => better,
         }

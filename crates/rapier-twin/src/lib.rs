@@ -6,6 +6,7 @@
 
 mod added;
 mod bare;
+mod branch;
 mod build;
 mod double;
 mod engine;

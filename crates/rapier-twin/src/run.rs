@@ -1,5 +1,6 @@
 //! One run: worlds in parallel in simulated time, and what is read from them.
 
+use super::branch::Branches;
 use super::build::Build;
 use super::free::{self, Acting};
 use super::guard::Guard;
@@ -52,7 +53,7 @@ pub(super) fn sweep(engine: &Rapier, case: &Case, visit: Visit, progress: Progre
             None => run.back_up()?,
             Some(_) => run.begin()?,
         }
-        let mut state = State::at_rest(case);
+        let (mut state, mut branches) = (State::at_rest(case), Branches::of(case));
         for row in rows {
             let t = case.grid.times[row];
             let last = run.aim(t);
@@ -63,6 +64,7 @@ pub(super) fn sweep(engine: &Rapier, case: &Case, visit: Visit, progress: Progre
                 }
             }
             run.window.sample(case, t, &mut state);
+            branches.check(case, &state, t)?;
             run.read(&mut state, t)?;
             visit(row, &state)?;
             visited = Some(row);

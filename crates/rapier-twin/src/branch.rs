@@ -1,0 +1,157 @@
+//! Whether the engine is still on the branch on which it began.
+//!
+//! Near a dead point two assembly modes of a group are close together, and an engine may slip from one to the other while
+//! its loops hardly open. Each mode has its own sign of the determinant of the group's constraints.
+
+use linkage::case::Case;
+use linkage::error::{Advice, Error, ErrorKind, Result};
+use linkage::math::dense::Lu;
+use linkage::math::{KeepNan, Motion, Vec2, turned, unit};
+use linkage::mechanism::{GROUND, JointKind, LinkPose};
+use linkage::solver::State;
+
+/// Share of a group's largest determinant beyond which one of the other sign is another branch, and not what little the
+/// engine's loops are open at a dead point.
+const BEYOND: f64 = 0.02;
+
+/// The groups of a case, in a motion that is prescribed.
+#[derive(Debug)]
+pub(super) struct Branches {
+    groups: Vec<Watched>,
+}
+
+/// One group.
+#[derive(Debug)]
+struct Watched {
+    /// Its number in the structure.
+    index: usize,
+    /// Constraints of its joints, in the coordinates of its links: x, y (m), and angle times the mechanism's size.
+    constraints: Lu,
+    /// Sign of the determinant on its branch.
+    sense: f64,
+    /// Largest size of the determinant so far.
+    largest: f64,
+}
+
+impl Branches {
+    /// The branches of the start pose. In a free motion none is watched: it may pass change points.
+    pub(super) fn of(case: &Case) -> Self {
+        if case.is_free() {
+            return Branches { groups: Vec::new() };
+        }
+        let at_start = |pose: &LinkPose| Motion { origin: pose.origin, direction: unit(pose.angle), ..Motion::REST };
+        let motions: Vec<Motion> = case.start.0.iter().map(at_start).collect();
+        let of = |index: usize| {
+            let constraints = Lu::new(3 * case.structure.groups[index].links.len());
+            let mut own = Watched { index, constraints, sense: 0.0, largest: 0.0 };
+            let determinant = own.determinant(case, &motions);
+            (own.sense, own.largest) = (determinant.signum(), determinant.abs());
+            own
+        };
+        Branches { groups: (0..case.structure.groups.len()).map(of).collect() }
+    }
+
+    /// Checks that all groups of a state at `t` (s) are on their branches.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Numeric`] if one is not.
+    pub(super) fn check(&mut self, case: &Case, state: &State, t: f64) -> Result<()> {
+        for own in &mut self.groups {
+            let determinant = own.determinant(case, &state.motions);
+            own.largest = own.largest.larger(determinant.abs());
+            if own.sense * determinant < -BEYOND * own.largest {
+                let names = case.structure.groups[own.index].names(&case.mechanism);
+                let crank = case.crank().at(t).angle;
+                let message = format!(
+                    "the engine has slipped into another assembly mode of the group ({names}) before t = {t:.6} s, \
+                     crank angle {:.4} deg: it has passed a dead point on the way",
+                    crank.to_degrees()
+                );
+                return Err(Error::new(ErrorKind::Numeric, message)
+                    .at_time(t)
+                    .at_crank(crank)
+                    .of_group(names)
+                    .help(Advice::SmallerStep { to: None })
+                    .or_help("keep the grid farther from the dead point"));
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Watched {
+    fn determinant(&mut self, case: &Case, motions: &[Motion]) -> f64 {
+        let group = &case.structure.groups[self.index];
+        let size = case.mechanism.size();
+        let Watched { constraints, .. } = self;
+        constraints.clear();
+        for (k, &joint) in group.inner.iter().chain(&group.outer).enumerate() {
+            let joint = &case.mechanism.joints()[joint];
+            let sides = [joint.first, joint.second];
+            let [one, other] = sides.map(|side| motions[side.link]);
+            // The derivative of a place with the angle of its link.
+            let arms = sides.map(|side| turned(motions[side.link].arm(side.local)));
+            let rows: [[[f64; 3]; 2]; 2] = match joint.kind {
+                JointKind::Revolute => [0, 1].map(|end: usize| {
+                    let sign = if end == 0 { -1.0 } else { 1.0 };
+                    [[sign, 0.0, sign * arms[end].x / size], [0.0, sign, sign * arms[end].y / size]]
+                }),
+                JointKind::Prismatic { axes } => {
+                    let axis: Vec2 = one.arm(axes[0]);
+                    let (across, between) =
+                        (turned(axis), other.point(joint.second.local) - one.point(joint.first.local));
+                    let turns = [-across.dot(&arms[0]) - axis.dot(&between), across.dot(&arms[1])];
+                    [0, 1].map(|end: usize| {
+                        let sign = if end == 0 { -1.0 } else { 1.0 };
+                        [[0.0, 0.0, sign], [sign * across.x, sign * across.y, turns[end] / size]]
+                    })
+                }
+            };
+            for (side, rows) in sides.iter().zip(rows) {
+                let column = group.links.iter().position(|&link| link == side.link && link != GROUND);
+                let Some(column) = column else { continue };
+                for (row, entries) in rows.into_iter().enumerate() {
+                    entries
+                        .into_iter()
+                        .enumerate()
+                        .for_each(|(c, value)| constraints.add(2 * k + row, 3 * column + c, value));
+                }
+            }
+        }
+        if constraints.factor() { constraints.determinant() } else { 0.0 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use linkage::fixtures::{four_bar, turning};
+
+    /// A four-bar's rocker and coupler mirrored about the line between their outer pins close every loop.
+    #[test]
+    fn the_mirrored_dyad_is_another_branch() {
+        let case = turning(four_bar());
+        let mut branches = Branches::of(&case);
+        let mut state = State::at_rest(&case);
+        for (motion, pose) in state.motions.iter_mut().zip(&case.start.0) {
+            (motion.origin, motion.direction) = (pose.origin, unit(pose.angle));
+        }
+        branches.check(&case, &state, 0.0).unwrap();
+        let group = &case.structure.groups[0];
+        let joints = case.mechanism.joints();
+        let places = [0, 1].map(|k: usize| {
+            let joint = &joints[group.outer[k]];
+            case.start.0[joint.first.link].point(joint.first.local)
+        });
+        let line = (places[1] - places[0]).normalize();
+        let mirrored = |v: Vec2| 2.0 * line.dot(&v) * line - v;
+        for &link in &group.links {
+            // The fixture's links lie along their x axes.
+            let motion = &mut state.motions[link];
+            motion.origin = places[0] + mirrored(motion.origin - places[0]);
+            motion.direction = mirrored(motion.direction);
+        }
+        let error = branches.check(&case, &state, 0.25).unwrap_err();
+        assert!(error.message().contains("another assembly mode of the group"), "{error}");
+    }
+}
