@@ -97,7 +97,11 @@ impl Window {
                 let shares = window.spots.iter().map(|spot| spot.shares[block].abs());
                 let (least, most) = shares.fold((f64::INFINITY, 0.0f64), |(a, b), s| (a.smaller(s), b.larger(s)));
                 // About the inverse of the sine of the innermost pose.
-                window.condition = (most / least / window.reach).larger((error / (ULPS * f64::EPSILON)).cbrt());
+                // Rounding of all blocks that are singular at once adds up.
+                let inner = [&window.spots[SIDE - 1].shares, &window.spots[SIDE].shares];
+                let singular = inner[0].iter().zip(inner[1]).filter(|(a, b)| *a * *b < 0.0).count().max(1);
+                window.condition = ((singular as f64).cbrt() * most / least / window.reach)
+                    .larger((error / (ULPS * f64::EPSILON)).cbrt());
                 Ok(window)
             }
             _ => {
