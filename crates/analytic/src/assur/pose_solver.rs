@@ -244,7 +244,12 @@ impl<'a> PoseSolver<'a> {
                 Misfit::Passed { crank } => {
                     OutOfReach { why: Misfit::Passed { crank: crank - self.case.crank().zero }, ..reach }
                 }
-                _ => reach,
+                Misfit::Span { .. }
+                | Misfit::Guide { .. }
+                | Misfit::Swing { .. }
+                | Misfit::Parallel
+                | Misfit::Singular
+                | Misfit::Lost => reach,
             })?;
         } else {
             self.plan.positions(&self.inputs, &mut self.state.motions)?;

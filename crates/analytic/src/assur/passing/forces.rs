@@ -21,6 +21,9 @@ const LEAST: f64 = 1e-12;
 /// known to some 1e-14 rad, and their relative error is that over the distance.
 const NEAREST: f64 = 1e-7;
 
+/// Writes the loads on all links at their motions and angles (rad).
+pub(in crate::assur) type Loads<'a> = &'a mut dyn FnMut(&[Motion], &[f64], &mut [Wrench]);
+
 /// Reactions that grow without bound: the pose is the change point itself, or next to it.
 pub(in crate::assur) struct Unbounded;
 
@@ -35,7 +38,7 @@ impl Window {
         [omega, alpha]: [f64; 2],
         shaft: Option<[f64; 2]>,
         (case, statics): (&Case, &mut Kinetostatics),
-        loads: &mut dyn FnMut(&[Motion], &[f64], &mut [Wrench]),
+        loads: Loads,
         state: &mut State,
     ) -> Result<(), Unbounded> {
         let mut beside = state.clone();
@@ -87,8 +90,7 @@ impl Window {
         let largest = nodes.clone().fold(0.0f64, |most, node| {
             (0..values[node].len()).fold(most, |most, index| most.larger(scaled(node, index).abs()))
         });
-        let mut found = Vec::with_capacity(values[0].len());
-        for index in 0..values[0].len() {
+        let one = |index: usize| -> Result<f64, Unbounded> {
             let all: f64 = nodes.clone().map(|node| at_zero[node] * scaled(node, index)).sum();
             let kept = nodes.clone().filter(|&node| !is_inner[node]);
             let some: f64 = kept.zip(&without).map(|(node, weight)| weight * scaled(node, index)).sum();
@@ -98,8 +100,8 @@ impl Window {
             }
             let rest = |node: usize| here[node] * (values[node][index] - residue / offsets[node]);
             let pole = if residue == 0.0 { 0.0 } else { residue / x };
-            found.push(pole + nodes.clone().map(rest).sum::<f64>());
-        }
-        Ok(found)
+            Ok(pole + nodes.clone().map(rest).sum::<f64>())
+        };
+        (0..values[0].len()).map(one).collect()
     }
 }

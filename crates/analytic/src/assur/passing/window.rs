@@ -27,6 +27,8 @@ const WORST: f64 = 1e-6;
 const APART: f64 = 0.2;
 /// Steps of secants that improve the place of the change point.
 const POLISHING: usize = 4;
+/// Cube root of the sum of the sizes of the weights, about four, with which the rounding of the poses enters.
+const WEIGHTS: f64 = 1.6;
 /// Rounding of accelerations over the unit roundoff and the cube of the condition number.
 const ULPS: f64 = 16.0;
 
@@ -92,7 +94,8 @@ impl Window {
                 let (least, most) =
                     sines.iter().fold((f64::INFINITY, 0.0f64), |(a, b), &sine| (a.smaller(sine), b.larger(sine)));
                 // About the inverse of the sine of the innermost pose.
-                window.condition = (most / least / window.reach).larger((error / (ULPS * f64::EPSILON)).cbrt());
+                window.condition =
+                    (WEIGHTS * most / least / window.reach).larger((error / (ULPS * f64::EPSILON)).cbrt());
                 Ok(window)
             }
             _ => Err(failed.unwrap_or(OutOfReach { group, why: Misfit::Passed { crank: at } })),

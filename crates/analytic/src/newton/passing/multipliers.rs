@@ -18,6 +18,9 @@ const LEAST: f64 = 1e-12;
 /// Distance from a change point (rad) within which such multipliers are not told: its place is known to about 1e-14 rad.
 const NEAREST: f64 = 1e-7;
 
+/// Writes the loads on all links at their motions and angles (rad).
+type Loads<'a> = &'a mut dyn FnMut(&[Motion], &[f64], &mut [Wrench]);
+
 impl Window {
     /// Writes to the system the multipliers at the crank's angle `angle` (rad) for its angular velocity and acceleration.
     /// `loads` finds the loads on all links. In free motion `shaft` has the moment on the crank and the moment of inertia
@@ -27,7 +30,7 @@ impl Window {
         system: &mut System,
         [angle, omega, alpha]: [f64; 3],
         shaft: Option<[f64; 2]>,
-        loads: &mut dyn FnMut(&[Motion], &[f64], &mut [Wrench]),
+        loads: Loads,
     ) -> Result<()> {
         let (q, rate, second) = (system.q.clone(), system.rate.clone(), system.second.clone());
         let x = angle - self.at;

@@ -9,6 +9,9 @@ use linkage::error::Result;
 use linkage::math::{Motion, rotated, turned, unit};
 use linkage::trajectory::Stage;
 
+/// Writes the loads on all links of a case at their motions and angles (rad).
+type Loads<'a> = &'a mut dyn FnMut(&Case, &[Motion], &[f64], &mut [Wrench]);
+
 impl Passing {
     /// The way from the settled start pose of a system, if its mechanism passes change points.
     pub(in crate::newton) fn of(system: &mut System) -> Option<Self> {
@@ -43,7 +46,7 @@ impl Passing {
         &self,
         system: &mut System,
         shaft: Option<[f64; 2]>,
-        loads: &mut dyn FnMut(&Case, &[Motion], &[f64], &mut [Wrench]),
+        loads: Loads,
     ) -> Result<()> {
         let (case, input) = (system.case, system.inputs[0]);
         let Some(window) = self.inside() else {

@@ -27,10 +27,14 @@ const WIDTHS: [f64; 11] = [0.5, 0.36, 0.25, 0.18, 0.12, 0.08, 0.06, 0.04, 0.025,
 const CLEAR: f64 = 0.5;
 /// Largest error of second derivatives, as a share of the largest one, with which a change point is passed.
 const WORST: f64 = 1e-6;
+/// Steps of secants that improve the place of a change point.
+const SECANTS: usize = 4;
 /// Distance of two change points, as a share of the innermost distance, that no longer is rounding.
 const APART: f64 = 0.01;
 /// Places, as shares of the half width, at which the two polynomials are compared.
 const COMPARED: [f64; 3] = [-0.1, 0.0, 0.1];
+/// Cube root of the sum of the sizes of the weights, about four, with which the rounding of the poses enters.
+const WEIGHTS: f64 = 1.6;
 /// Rounding of accelerations over the unit roundoff and the cube of the condition number.
 const ULPS: f64 = 16.0;
 
@@ -100,7 +104,7 @@ impl Window {
                 // Rounding of all blocks that are singular at once adds up.
                 let inner = [&window.spots[SIDE - 1].shares, &window.spots[SIDE].shares];
                 let singular = inner[0].iter().zip(inner[1]).filter(|(a, b)| *a * *b < 0.0).count().max(1);
-                window.condition = ((singular as f64).cbrt() * most / least / window.reach)
+                window.condition = (WEIGHTS * (singular as f64).cbrt() * most / least / window.reach)
                     .larger((error / (ULPS * f64::EPSILON)).cbrt());
                 Ok(window)
             }
@@ -242,8 +246,22 @@ fn crossing(spots: &[Spot], block: usize) -> Option<f64> {
     let rising = shares[inner.clone()].windows(2).all(|pair| pair[0] < pair[1]);
     let falling = shares[inner.clone()].windows(2).all(|pair| pair[0] > pair[1]);
     let is_crossing = shares[inner.start] * shares[inner.end - 1] < 0.0 && (rising || falling);
-    let places = &shares[inner.clone()];
-    is_crossing.then(|| neville(places, |k| spots[inner.start + k].angle, 0.0))
+    if !is_crossing {
+        return None;
+    }
+    // A first place by inverse interpolation, then secants on the polynomial through all poses.
+    let first = neville(&shares[inner.clone()], |k| spots[inner.start + k].angle, 0.0);
+    let places: Vec<f64> = spots.iter().map(|spot| spot.angle - first).collect();
+    let share = |x: f64| neville(&places, |k| shares[k], x);
+    let (mut last, mut x) = (0.1 * places[inner.end - 1], 0.0);
+    for _ in 0..SECANTS {
+        let (a, b) = (share(last), share(x));
+        if a == b {
+            break;
+        }
+        (last, x) = (x, x - b * (x - last) / (b - a));
+    }
+    Some(first + x)
 }
 
 /// Value at `x` of the polynomial through values at these places (Neville's scheme).
