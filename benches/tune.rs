@@ -113,10 +113,13 @@ fn compare(name: &str) {
     let since = Instant::now();
     let found = tune(&scenario, &wish, &options, &mut price, &mut |_| {}).unwrap_or_else(|error| panic!("{error}"));
     let tuning = since.elapsed().as_secs_f64();
-    let best = linkproof::engines::named(found.best.engine, 1e-3).expect("it is one of them").with(found.best.settings);
+    let best = linkproof::engines::named(found.cheapest.engine, 1e-3)
+        .expect("it is one of them")
+        .with(found.cheapest.settings);
     let mut clock = Clock { case, row: None, fit: [0.0; 2] };
     let since = Instant::now();
-    let (mut met, runs) = cheaper(&scenario, WITHIN, 1.3 * found.best.price, &SPACE, &mut |engine| clock.price(engine));
+    let (mut met, runs) =
+        cheaper(&scenario, WITHIN, 1.3 * found.cheapest.price, &SPACE, &mut |engine| clock.price(engine));
     let searching = since.elapsed().as_secs_f64();
     met.reverse();
     met.truncate(FINALISTS);

@@ -23,7 +23,7 @@ pub(super) struct EngineArgs {
     pub(super) engine: Vec<String>,
     #[command(flatten)]
     settings: SettingArgs,
-    /// Work allowed for finding the settings that are not given, in steps without sweeps [default: 2e7]
+    /// Work allowed for finding the settings that are not given, in steps without sweeps [default: 2e7, of `tune` 5e6]
     #[arg(long, value_name = "STEPS", value_parser = work)]
     budget: Option<f64>,
 }

@@ -8,10 +8,9 @@
 //! can cancel in the differences.
 
 use super::other_sweeps::{self, OtherSweeps};
-use super::residual::differences;
 use crate::tolerance::{Basis, Origin, Parts, Tolerance};
 use linkage::error::Result;
-use linkage::math::statistics::rms;
+use linkage::math::statistics::{differences, rms};
 use linkage::math::{KeepNan, largest_size};
 use linkage::trajectory::{Channel, Trajectory};
 
@@ -54,8 +53,8 @@ impl Convergence {
     pub fn of(double: &[f64], single: &[f64], half: &[f64], periodic: bool, formal: f64, noise: f64) -> Self {
         let coarse = differences(double, single, periodic);
         let fine = differences(single, half, periodic);
-        let largest = largest_size(fine.iter().copied());
-        let (before, after) = (rms(coarse.iter().copied()), rms(fine.iter().copied()));
+        let largest = largest_size(&fine);
+        let (before, after) = (rms(&coarse), rms(&fine));
         let quotient = (before / after).log2();
         // NaN stands only for differences that are rounding. Other values that are not a number show no convergence.
         let observed = match quotient.is_nan() {
@@ -72,7 +71,7 @@ impl Convergence {
         };
         // Without an order to go by, the coarser difference is as likely as the finer one. Where only the finer one is
         // rounding, the coarser one tells what it should be.
-        let before = largest_size(coarse.iter().copied());
+        let before = largest_size(&coarse);
         let largest = match observed {
             _ if observed.is_nan() => largest.larger(before * 0.5f64.powf(order)),
             _ if observed < 0.5 * formal => largest.larger(before),
@@ -154,7 +153,7 @@ impl Convergence {
 /// If the grids differ.
 pub fn observed_order(reference: &Trajectory, runs: [&Trajectory; 2], channel: &Channel) -> Result<Option<f64>> {
     let error = |run: &Trajectory| -> Result<Option<f64>> {
-        Ok(super::difference(reference, run)?.column(channel).map(|values| rms(values.iter().copied())))
+        Ok(super::difference(reference, run)?.column(channel).map(|values| rms(values)))
     };
     Ok(error(runs[0])?.zip(error(runs[1])?).map(|(coarse, fine)| (coarse / fine).log2()))
 }

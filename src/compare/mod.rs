@@ -6,8 +6,7 @@ mod residual;
 pub mod verdict;
 
 pub use convergence::{Convergence, Ladder};
+pub use linkage::math::statistics::{differences, largest_difference};
 pub use other_sweeps::OtherSweeps;
-pub use residual::{
-    Residual, difference, differences, largest_difference, magnitudes, residuals, residuals_on, scales,
-};
+pub use residual::{Residual, difference, magnitudes, residuals, residuals_on, scales};
 pub use verdict::{Check, Verdict, overall};

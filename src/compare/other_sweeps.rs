@@ -15,9 +15,8 @@
 //!   mode of the iteration decides.
 //! - The slowest position speaks for all channels. Where it grows, nothing can be said.
 
-use super::residual::largest_difference;
 use linkage::math::KeepNan;
-use linkage::math::statistics::share;
+use linkage::math::statistics::{largest_difference, share};
 use linkage::trajectory::{Channel, Trajectory};
 
 /// Safety factor on what is left: see the module's text.

@@ -1,10 +1,9 @@
 //! Differences between two trajectories, channel by channel.
 
 use linkage::math::{KeepNan, largest_size};
-use std::f64::consts::TAU;
 
 use linkage::error::{Error, ErrorKind, Result};
-use linkage::math::statistics::{half_range, quantile, rms, share};
+use linkage::math::statistics::{differences, half_range, quantile, rms, share, sorted_sizes};
 use linkage::trajectory::{Channel, Trajectory, Unit};
 
 /// Smallest scale of a channel, as a share of the natural size of its quantity. The errors of a nearly constant
@@ -60,7 +59,7 @@ pub fn scales(trajectory: &Trajectory) -> Vec<f64> {
         | Unit::MetrePerSecond
         | Unit::MetrePerSecondSquared
         | Unit::Newton
-        | Unit::NewtonMetre => largest_size(values.iter().copied()),
+        | Unit::NewtonMetre => largest_size(values),
     });
     let own: Vec<[f64; 2]> = halves.iter().copied().zip(largest).map(|(half, largest)| [half, largest]).collect();
     let sizes: Vec<f64> = own.iter().map(|[half, largest]| half.larger(*largest)).collect();
@@ -76,7 +75,7 @@ pub fn scales(trajectory: &Trajectory) -> Vec<f64> {
 /// coordinates and forces.
 #[must_use]
 pub fn magnitudes(trajectory: &Trajectory) -> Vec<f64> {
-    let largest: Vec<f64> = trajectory.iter().map(|(_, values)| largest_size(values.iter().copied())).collect();
+    let largest: Vec<f64> = trajectory.iter().map(|(_, values)| largest_size(values)).collect();
     natural(trajectory, &largest, 1.0)
 }
 
@@ -127,23 +126,6 @@ pub fn difference(reference: &Trajectory, other: &Trajectory) -> Result<Trajecto
     Trajectory::new(reference.times().to_vec(), reference.cranks().to_vec(), channels, columns)
 }
 
-/// Values of `theirs` minus `ours`.
-#[must_use]
-pub fn differences(ours: &[f64], theirs: &[f64], periodic: bool) -> Vec<f64> {
-    let turns = match (periodic, ours.first(), theirs.first()) {
-        (true, Some(a), Some(b)) => TAU * ((b - a) / TAU).round(),
-        _ => 0.0,
-    };
-    ours.iter().zip(theirs).map(|(a, b)| b - a - turns).collect()
-}
-
-/// Largest absolute difference between two columns of one channel. For angles, whole turns between the first samples
-/// are subtracted.
-#[must_use]
-pub fn largest_difference(ours: &[f64], theirs: &[f64], periodic: bool) -> f64 {
-    largest_size(differences(ours, theirs, periodic))
-}
-
 /// Residuals of all channels that both trajectories have, on the reference's scales.
 ///
 /// # Errors
@@ -168,13 +150,12 @@ pub fn residuals_on(scales: &[f64], reference: &Trajectory, other: &Trajectory) 
 
 fn of_values(channel: &Channel, values: &[f64], scale: f64, errors: &Trajectory) -> Residual {
     let worst = (0..values.len()).max_by(|&a, &b| values[a].abs().total_cmp(&values[b].abs())).unwrap_or(0);
-    let mut sorted: Vec<f64> = values.iter().map(|value| value.abs()).collect();
-    sorted.sort_by(f64::total_cmp);
+    let sorted = sorted_sizes(values);
     Residual {
         channel: channel.clone(),
         scale,
         max: sorted.last().copied().unwrap_or(0.0),
-        rms: rms(values.iter().copied()),
+        rms: rms(values),
         q75: quantile(&sorted, 0.75),
         q99: quantile(&sorted, 0.99),
         worst_time: errors.times().get(worst).copied().unwrap_or(0.0),
@@ -185,6 +166,8 @@ fn of_values(channel: &Channel, values: &[f64], scale: f64, errors: &Trajectory)
 #[cfg(test)]
 mod tests {
     use super::*;
+    use linkage::math::statistics::largest_difference;
+    use std::f64::consts::TAU;
 
     fn trajectory(rows: &[(&str, Vec<f64>)]) -> Trajectory {
         let n = rows[0].1.len();

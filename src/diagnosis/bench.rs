@@ -41,7 +41,7 @@ pub(super) struct Misfit(pub(super) Vec<f64>);
 impl Misfit {
     /// The largest share of a bound.
     pub(super) fn worst(&self) -> f64 {
-        largest_size(self.0.iter().copied())
+        largest_size(&self.0)
     }
 
     /// Whether everything is within its bound.
@@ -145,7 +145,7 @@ impl<'a> Bench<'a> {
 
     /// For every column, the largest share of its bound in a misfit.
     pub(super) fn by_column(&self, misfit: &Misfit) -> Vec<f64> {
-        misfit.0.chunks(self.case.grid.len()).map(|values| largest_size(values.iter().copied())).collect()
+        misfit.0.chunks(self.case.grid.len()).map(|values| largest_size(values)).collect()
     }
 
     /// Disagreeing channels that a hypothesis explains, after it has left `misfit`. Empty if it spoils an agreeing

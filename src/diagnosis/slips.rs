@@ -90,7 +90,7 @@ fn plain() -> impl Iterator<Item = Slip> {
 
 /// Slips whose number comes from the channel that is farthest beyond its bound.
 fn fitted(wrong: &[Wrong]) -> Vec<Slip> {
-    let far = |one: &Wrong| largest_size(differences(one.right, one.found, one.channel.kind.periodic)) / one.bound;
+    let far = |one: &Wrong| largest_size(&differences(one.right, one.found, one.channel.kind.periodic)) / one.bound;
     let Some(worst) = wrong.iter().max_by(|a, b| far(a).total_cmp(&far(b))) else { return Vec::new() };
     let gaps = differences(worst.right, worst.found, worst.channel.kind.periodic);
     let squares: f64 = worst.right.iter().map(|value| value * value).sum();
@@ -156,6 +156,6 @@ impl Wrong<'_> {
 
     fn meets(&self, done: impl Fn(f64) -> f64) -> bool {
         let expected: Vec<f64> = self.right.iter().map(|&value| done(value)).collect();
-        largest_size(differences(&expected, self.found, self.channel.kind.periodic)) <= self.bound
+        largest_size(&differences(&expected, self.found, self.channel.kind.periodic)) <= self.bound
     }
 }

@@ -1,6 +1,6 @@
 //! One factor on every bound, to see how close a proof is to its bounds.
 
-use super::{Proof, parties};
+use super::{OwnForces, Proof, parties};
 use crate::compare::{Check, Verdict, overall};
 
 impl Proof {
@@ -15,7 +15,16 @@ impl Proof {
                 judge(&mut channel.verdict, channel.residual.max, &mut channel.bound, dial);
             }
             engine.checks.iter_mut().for_each(|check| scale(check, dial));
+            if let Some(own) = &mut engine.own_forces {
+                for channel in &mut own.channels {
+                    judge(&mut channel.verdict, channel.residual.max, &mut channel.bound, dial);
+                }
+                if own.failure.is_none() {
+                    own.verdict = overall(own.channels.iter().map(|channel| &channel.verdict));
+                }
+            }
             let channels = engine.channels.iter().map(|channel| &channel.verdict);
+            let channels = channels.chain(engine.own_forces.iter().filter_map(OwnForces::adds));
             if engine.failure.is_none() {
                 engine.verdict = overall(channels.chain(engine.checks.iter().map(|check| &check.verdict)));
             }

@@ -7,9 +7,10 @@ use super::known::Known;
 use super::observe::{Observed, Stopped};
 use super::options::Chosen;
 use super::order;
+use super::own_forces::{ForceFault, OwnForces};
 use super::runs::{Bank, FEWER, other_sweeps};
 use super::settle::{End, Free, Search, Settling};
-use crate::compare::{Check, Verdict, difference};
+use crate::compare::{Check, Verdict, difference, overall};
 use crate::engines::coarse_step;
 use crate::scenario::Scenario;
 use linkage::case::Case;
@@ -28,7 +29,9 @@ pub struct EngineProof {
     pub channels: Vec<ChannelProof>,
     /// Checks on the engine alone.
     pub checks: Vec<Check>,
-    /// Verdict on channels and checks together.
+    /// Forces as the engine itself exerts them, where the others follow from its motion.
+    pub own_forces: Option<OwnForces>,
+    /// Verdict on channels, checks and own forces together.
     pub verdict: Verdict,
     /// Its trajectory: all instants, or those before it failed.
     pub trajectory: Option<Trajectory>,
@@ -38,6 +41,15 @@ pub struct EngineProof {
     pub kept: Vec<bool>,
     /// Why there is no comparison.
     pub failure: Option<Error>,
+}
+
+impl EngineProof {
+    /// Which of the two judgements of the forces disagrees; `None` if neither does, or if there is only one, or if the
+    /// other one is open or the motion itself disagrees, so that nothing follows.
+    #[must_use]
+    pub fn force_fault(&self) -> Option<ForceFault> {
+        self.own_forces.as_ref()?.fault(&self.channels)
+    }
 }
 
 /// Runs an engine on `case`, at the settings asked for or at those that it finds, and compares it with `reference`.
@@ -69,6 +81,7 @@ pub(super) fn prove(
                 search: None,
                 channels: Vec::new(),
                 checks: Vec::new(),
+                own_forces: None,
                 verdict: Verdict::open(error.message()),
                 trajectory: kept.map(|kept| *kept),
                 errors: None,
@@ -84,6 +97,7 @@ pub(super) fn prove(
         search,
         channels,
         checks,
+        own_forces: None,
         verdict,
         trajectory: Some(run.trajectory.clone()),
         errors: Some(errors),
@@ -107,6 +121,11 @@ pub(super) fn prove(
         let channels = proof.channels.iter_mut().map(|channel| &mut channel.verdict);
         let all = channels.chain(proof.checks.iter_mut().map(|check| &mut check.verdict));
         all.chain([&mut proof.verdict]).for_each(|verdict| end.tell(verdict, budget));
+    }
+    proof.own_forces =
+        OwnForces::judged(&judge, case, chosen, proof.info.settings.sweeps, &mut |part| progress(0.7 + 0.3 * part));
+    if let Some(verdict) = proof.own_forces.as_ref().and_then(OwnForces::adds) {
+        proof.verdict = overall([&proof.verdict, verdict]);
     }
     Ok(proof)
 }
@@ -155,9 +174,13 @@ fn tried(judge: &Judge, bank: &mut Bank, chosen: &Chosen) -> Advice {
         (Verdict::Inconclusive { .. }, _) => "nothing is proven there either".into(),
         (verdict, _) => format!("the verdict there is {}", verdict.word()),
     };
+    let combined = match extrapolated {
+        0 => "not extrapolated".into(),
+        1 => "extrapolated once".into(),
+        times => format!("extrapolated {times} times"),
+    };
     Advice::Text(format!(
-        "leave the step to the proof: it takes {resolution:.2e} s, {sweeps} sweeps and {extrapolated} extrapolations, and \
-         {outcome}"
+        "leave the step to the proof: it takes {resolution:.2e} s and {sweeps} sweeps, {combined}, and {outcome}"
     ))
 }
 

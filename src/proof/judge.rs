@@ -84,6 +84,8 @@ pub(super) struct Judge<'a> {
     known: &'a Known,
     /// Settings asked for; the search begins with them.
     pub(super) asked: Settings,
+    /// What is judged. Checks besides the channels belong to all stages together.
+    pub(super) stages: &'a [Stage],
 }
 
 /// An engine at some settings, judged.
@@ -156,12 +158,23 @@ impl Stand<'_> {
 impl<'a> Judge<'a> {
     pub(super) fn new(scenario: &'a Scenario, reference: &'a Observed, known: &'a Known, asked: Settings) -> Self {
         let scales = scales(&reference.trajectory);
-        Judge { scenario, reference: &reference.trajectory, scales, senses: &reference.senses, known, asked }
+        let (reference, senses) = (&reference.trajectory, reference.senses.as_slice());
+        Judge { scenario, reference, scales, senses, known, asked, stages: &Stage::ALL }
     }
 
     /// The same for a search that begins with other settings.
     pub(super) fn asking(&self, asked: Settings) -> Self {
         Judge { asked, scales: self.scales.clone(), ..*self }
+    }
+
+    /// The same for some stages only.
+    pub(super) fn of_stages(self, stages: &'a [Stage]) -> Self {
+        Judge { stages, ..self }
+    }
+
+    /// Whether the reference has a channel that is judged.
+    pub(super) fn has_channels(&self) -> bool {
+        self.reference.channels().iter().any(|channel| self.stages.contains(&channel.kind.stage))
     }
 
     /// Judges an engine by its runs.
@@ -170,7 +183,8 @@ impl<'a> Judge<'a> {
         let doubt = Doubt::of(&self.scenario.case, self.senses, &runs, engine.settings().resolution);
         let late = self.after_the_beginning(engine)?;
         let channels = self.channels(engine, &runs, &doubt, late.as_ref())?;
-        let checks = checks::of_engine(self.scenario, engine, &runs);
+        let all = self.stages.len() == Stage::ALL.len();
+        let checks = if all { checks::of_engine(self.scenario, engine, &runs) } else { Vec::new() };
         let verdict = overall(channels.iter().map(|c| &c.verdict).chain(checks.iter().map(|c| &c.verdict)));
         let case = late.as_ref().unwrap_or(&self.scenario.case);
         let (too_coarse, kept) = (doubt.too_coarse(), self.kept(&doubt, Stage::Reactions, case));
@@ -201,7 +215,7 @@ impl<'a> Judge<'a> {
         let channels = self.reference.channels();
         let mut all = Vec::with_capacity(channels.len());
         // Channels of one stage are judged at the same instants.
-        for stage in Stage::ALL {
+        for &stage in self.stages {
             let case = late.filter(|_| stage >= Stage::Accelerations).unwrap_or(&self.scenario.case);
             let keep = self.kept(doubt, stage, case);
             let left_out = keep.iter().filter(|&&kept| !kept).count();
@@ -243,10 +257,13 @@ impl<'a> Judge<'a> {
         let wanted = self.scenario.engine_rel;
         let is_open = self.reference.channels().iter().zip(&self.scales).any(|(channel, scale)| {
             let noise = engine.noise(case, channel.kind);
-            channel.kind.stage >= Stage::Accelerations && noise > MOST_ROUNDING * wanted * scale
+            let stage = channel.kind.stage;
+            stage >= Stage::Accelerations && self.stages.contains(&stage) && noise > MOST_ROUNDING * wanted * scale
         });
         let late = || case.grid.times.iter().copied().filter(|&t| t > begin).collect();
-        is_open.then(|| case.on(Grid::of_times(case.crank(), late()))).transpose()
+        // Impulses of the first steps are read from later ones, however small their rounding.
+        let impulses = self.stages.len() < Stage::ALL.len();
+        (is_open || impulses).then(|| case.on(Grid::of_times(case.crank(), late()))).transpose()
     }
 
     fn channel(&self, stand: &mut Stand, residual: Residual, index: usize) -> ChannelProof {

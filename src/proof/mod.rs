@@ -12,9 +12,12 @@ mod observe;
 mod options;
 mod oracle;
 mod order;
+mod own_forces;
 mod parties;
 #[cfg(test)]
 mod planted;
+#[cfg(test)]
+mod planted_forces;
 mod runs;
 mod sensitivity;
 mod settle;
@@ -22,6 +25,7 @@ mod settle;
 pub use engines::EngineProof;
 pub use judge::{ChannelProof, EngineInfo};
 pub use options::{Options, Reference};
+pub use own_forces::{ForceFault, OwnForces};
 pub use parties::Dispute;
 pub use settle::{End, Search};
 

@@ -39,14 +39,14 @@ pub(super) struct Observed {
 impl Observed {
     /// Largest distance between the two sides of a joint at any instant (m).
     pub(super) fn closure(&self) -> f64 {
-        largest_size(self.opening.iter().copied())
+        largest_size(&self.opening)
     }
 
     /// Largest difference between the balancing moment of the trajectory and that of the powers, over the moments in
     /// the balance. Where the balancing moment vanishes, these moments balance each other, and only their rounding is
     /// left.
     pub(super) fn two_ways(&self) -> f64 {
-        share(largest_size(self.moment_gap()), self.moment)
+        share(largest_size(&self.moment_gap().collect::<Vec<f64>>()), self.moment)
     }
 
     /// Balancing moment of the trajectory minus that of the powers (N m) at every instant.

@@ -88,6 +88,8 @@ pub struct Options {
 pub(crate) struct Chosen {
     pub(crate) engine: Box<dyn Engine>,
     pub(crate) free: Free,
+    /// What is free where the engine's own forces are judged besides; `None` if a route is given, which alone counts then.
+    pub(crate) own_forces: Option<Free>,
     pub(crate) budget: f64,
 }
 
@@ -97,6 +99,17 @@ impl Options {
     pub fn engine(mut self, engine: EngineName) -> Self {
         self.engines.push(engine);
         self
+    }
+
+    /// Options that give all settings of an engine. `None` if it is none of those that this project has.
+    pub(crate) fn exactly(engine: &dyn Engine) -> Option<Self> {
+        let Settings { resolution, sweeps, substeps, route, extrapolated } = engine.settings();
+        let options = Options::default().engine(EngineName::named(engine.name())?).route(route);
+        let options = if sweeps > 0 { options.sweeps(sweeps) } else { options };
+        Some(match engine.controls_error() {
+            true => options.accuracy(resolution),
+            false => options.step(resolution).substeps(substeps).extrapolated(extrapolated),
+        })
     }
 
     /// Adds every engine that this build has; they run side by side.
@@ -185,9 +198,13 @@ impl Options {
             // Extrapolation takes finer steps: a step that is given is kept to.
             extrapolated: given.is_none() && self.extrapolated.or(own.extrapolated).is_none(),
         };
+        let is_routed = self.route.is_some() || own.route.is_some();
+        // Runs at coarser steps can be extrapolated without a finer step than the one that is given.
+        let extrapolated = self.extrapolated.or(own.extrapolated).is_none();
+        let own_forces = (!is_routed).then_some(Free { extrapolated, ..free });
         let budget = self.budget.unwrap_or(settle::BUDGET);
         let engines = self.engines_at(scenario, given.unwrap_or_else(|| engines::coarse_step(&scenario.case)))?;
-        Ok(engines.into_iter().map(|engine| Chosen { engine, free, budget }).collect())
+        Ok(engines.into_iter().map(|engine| Chosen { engine, free, own_forces, budget }).collect())
     }
 
     fn engines_at(&self, scenario: &Scenario, step: f64) -> Result<Vec<Box<dyn Engine>>> {

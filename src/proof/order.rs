@@ -7,6 +7,7 @@
 use linkage::engine::Settings;
 use linkage::error::ErrorKind;
 use linkage::math::KeepNan;
+use linkage::trajectory::Stage;
 
 use super::judge::{ChannelProof, Judge, Judged};
 use super::observe::Stopped;
@@ -28,9 +29,12 @@ const NEGLIGIBLE: f64 = 0.01;
 /// Those of a run that is not numeric.
 pub(super) fn look(judge: &Judge, bank: &mut Bank, judged: &mut Judged) -> Result<bool, Stopped> {
     let wanted = judge.scenario.engine_rel;
+    // Second differences across a knot of a law of motion, where its third derivative jumps, have order 1 by themselves.
+    let is_smooth = bank.case.is_steady();
     let is_low = |own: &ChannelProof| {
         let Convergence { observed, formal, .. } = own.convergence;
-        observed > 0.0 && observed < LOW * formal && own.bound > NEGLIGIBLE * wanted * own.residual.scale
+        let has_order = is_smooth || own.residual.channel.kind.stage < Stage::Accelerations;
+        has_order && observed > 0.0 && observed < LOW * formal && own.bound > NEGLIGIBLE * wanted * own.residual.scale
     };
     if !judged.channels.iter().any(is_low) {
         return Ok(false);

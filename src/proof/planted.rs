@@ -245,7 +245,7 @@ fn engine_proven(scenario: &Scenario, fault: Fault, size: f64, grows: bool, free
     let rapier = Rapier::all(STEP).into_iter().next().unwrap();
     let inner = Box::new(rapier) as Box<dyn Engine>;
     let engine: Box<dyn Engine> = Box::new(Planted { fault, size, grows, inner });
-    let chosen = Chosen { engine, free, budget: settle::BUDGET };
+    let chosen = Chosen { engine, free, own_forces: None, budget: settle::BUDGET };
     let known = knowing(&scenario.case);
     engines::prove(scenario, &scenario.case, &chosen, &reference, &known, &mut |_| {}).unwrap()
 }

@@ -77,6 +77,8 @@ const COARSEST: f64 = 16.0;
 const FAILURES: usize = 6;
 /// Share of instants that may be left out because they are too close to a reversal for the step.
 const MOST_LEFT_OUT: f64 = 0.03;
+/// Need of a step that leaves out more, over what is wanted.
+const LEFT_OUT: f64 = 2.0;
 /// Rounds without an order of convergence after which more sweeps are tried instead of a smaller step.
 const MOST_VAGUE: usize = 2;
 /// Rounds of a search that is not long.
@@ -151,7 +153,11 @@ impl Need {
 
     /// Whether this is at most `part` of another need, or shows an order where that one does not.
     fn is_less(self, part: f64, other: Need) -> bool {
-        self.is_vague < other.is_vague || self.is_vague == other.is_vague && self.share <= part * other.share
+        match (self.is_vague, other.is_vague) {
+            (false, true) => true,
+            (true, false) => false,
+            (true, true) | (false, false) => self.share <= part * other.share,
+        }
     }
 }
 
@@ -166,6 +172,12 @@ pub(super) struct Settling<'a, 'b> {
     /// Step of the coarsest run.
     coarsest: f64,
     budget: f64,
+    /// Largest bound aimed at, over what is wanted.
+    aim: f64,
+    /// Whether being conclusive is all that is aimed at.
+    conclusive: bool,
+    /// Finest step of a run, for steps that are free only above it.
+    finest: f64,
 }
 
 impl<'a, 'b> Settling<'a, 'b> {
@@ -186,7 +198,41 @@ impl<'a, 'b> Settling<'a, 'b> {
         let times = if free.extrapolated { 0 } else { now.extrapolated };
         now.resolution *= 0.5f64.powi(times as i32 + 1);
         let coarsest = 2.0 * engine.settings().resolution;
-        Settling { judge, bank, free, now, most_sweeps: most, coarsest, budget }
+        Settling {
+            judge,
+            bank,
+            free,
+            now,
+            most_sweeps: most,
+            coarsest,
+            budget,
+            aim: AIM,
+            conclusive: false,
+            finest: 0.0,
+        }
+    }
+
+    /// The same search, content as soon as every channel is conclusive, with coarser steps to begin with and none below
+    /// `finest` (s), and with `sweeps` at least.
+    pub(super) fn conclusive(mut self, finest: f64, sweeps: usize) -> Self {
+        (self.aim, self.conclusive, self.finest) = (1.0, true, finest);
+        if self.free.sweeps {
+            self.now.sweeps = self.now.sweeps.max(sweeps);
+        }
+        if self.free.step {
+            self.coarsest *= 2.0;
+        }
+        self
+    }
+
+    /// Factor between numbers of sweeps.
+    fn more_sweeps(&self) -> usize {
+        if self.conclusive { 2 } else { MORE_SWEEPS }
+    }
+
+    /// Whether there is no finer step to try.
+    fn is_finest(&self) -> bool {
+        !self.free.step || 0.5 * self.now.resolution < 0.99 * self.finest
     }
 
     /// Runs the engine until it is decided, or until nothing is left to try.
@@ -216,7 +262,7 @@ impl<'a, 'b> Settling<'a, 'b> {
                     borne_out = now.iter().filter(|name| against.contains(name)).cloned().collect();
                     against = now;
                     let disagrees = !against.is_empty();
-                    let (decided, sharp) = (trial.need.is_within(1.0), trial.need.is_within(AIM));
+                    let (decided, sharp) = (trial.need.is_within(1.0), trial.need.is_within(self.aim));
                     let thrift = self.bank.effort > THRIFT * self.budget;
                     let blame = self.look_closer(&mut stall, &trial);
                     // A later round speaks for itself where it disagrees, or no longer does.
@@ -251,7 +297,7 @@ impl<'a, 'b> Settling<'a, 'b> {
             (Some(mut best), _) => {
                 // At a given step there is no finer run: its own estimate counts.
                 let is_cut = self.free.sweeps && end == End::Budget;
-                if (self.free.step || is_cut) && borne_out.is_empty() {
+                if (!self.is_finest() || is_cut) && borne_out.is_empty() {
                     best.judged.doubt("no finer run bears it out", &Advice::SmallerStep { to: None });
                 }
                 Ok((best.judged, search))
@@ -272,6 +318,10 @@ impl<'a, 'b> Settling<'a, 'b> {
         if trial.blame != Part::Discretisation {
             return trial.blame;
         }
+        if self.free.step && !need.is_vague && need.share == LEFT_OUT {
+            self.leave_out_less(&trial.judged);
+            return Part::Discretisation;
+        }
         if let Some((sweeps, before)) = tried {
             if !need.is_less(HELPS, before) {
                 (self.now.sweeps, stall.wait, stall.before) = (sweeps, PATIENCE, Some(before));
@@ -290,35 +340,44 @@ impl<'a, 'b> Settling<'a, 'b> {
         Part::Iteration
     }
 
+    /// Goes on at steps that leave out few enough instants, in proportion to the step. Coarser ones decide nothing.
+    fn leave_out_less(&mut self, judged: &Judged) {
+        let most = judged.info.settings.resolution * MOST_LEFT_OUT / judged.too_coarse;
+        // The next round halves the step once more.
+        while self.now.resolution > most {
+            self.now.resolution *= 0.5;
+        }
+        while self.coarsest > 4.0 * most {
+            self.coarsest *= 0.5;
+        }
+    }
+
     /// Changes the settings by what is to blame. Returns why it cannot.
     fn refine(&mut self, blame: Part) -> Option<End> {
         let mut next = self.now;
         match blame {
-            Part::Iteration if self.free.sweeps && self.now.sweeps < self.most_sweeps => next.sweeps *= MORE_SWEEPS,
+            Part::Iteration if self.free.sweeps && self.now.sweeps < self.most_sweeps => {
+                next.sweeps *= self.more_sweeps()
+            }
             // At a given step only more sweeps are left, and too few of them spoil the order that the step shows.
             Part::Discretisation
-                if !self.free.step && self.free.sweeps && self.now.sweeps < self.judge.asked.sweeps =>
+                if self.is_finest() && self.free.sweeps && self.now.sweeps < self.judge.asked.sweeps =>
             {
-                next.sweeps *= MORE_SWEEPS;
+                next.sweeps *= self.more_sweeps();
             }
             // Coarser runs, extrapolated more often, have less rounding.
             Part::Rounding if self.free.step && self.coarsest < COARSEST * self.judge.asked.resolution => {
-                self.coarsest *= 2.0;
+                self.coarsest = COARSEST * self.judge.asked.resolution;
                 return None;
             }
-            Part::Rounding | Part::Reference => return Some(End::Rounding),
-            Part::Discretisation | Part::Iteration if self.free.step || self.free.extrapolated => {
-                next.resolution *= 0.5
-            }
+            // At a given step no coarser one is left to choose.
+            Part::Rounding | Part::Reference if self.free.step => return Some(End::Rounding),
+            Part::Rounding | Part::Reference => return Some(End::Nothing),
+            Part::Discretisation | Part::Iteration if !self.is_finest() => next.resolution *= 0.5,
             Part::Discretisation | Part::Iteration => return Some(End::Nothing),
         }
         if next.sweeps != self.now.sweeps {
             self.bank.keep_sweeps(&[next.sweeps, self.now.sweeps]);
-        }
-        // Where the step is given, as many extrapolations as are worth trying.
-        let finest_of_all = self.judge.asked.resolution * 0.5f64.powi(MOST_TIMES as i32 + 1);
-        if !self.free.step && next.resolution < finest_of_all * 0.99 {
-            return Some(End::Nothing);
         }
         let previous = std::mem::replace(&mut self.now, next);
         let wanted: Vec<Settings> = self.candidates().into_iter().flat_map(|settings| rungs(settings, &[])).collect();
@@ -338,11 +397,7 @@ impl<'a, 'b> Settling<'a, 'b> {
             extrapolated: times,
             ..self.now
         };
-        let close = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-6;
-        let is_open = |settings: &Settings| match self.free.step {
-            true => 2.0 * settings.resolution <= self.coarsest * 1.000_001,
-            false => close(settings.resolution, asked.resolution),
-        };
+        let is_open = |settings: &Settings| !self.free.step || 2.0 * settings.resolution <= self.coarsest * 1.000_001;
         times.rev().map(at).filter(is_open).collect()
     }
 
@@ -363,7 +418,7 @@ impl<'a, 'b> Settling<'a, 'b> {
                 }
             };
             if best.as_ref().is_none_or(|best| trial.need < best.need) {
-                let sharp = trial.need.is_within(AIM);
+                let sharp = trial.need.is_within(self.aim);
                 best = Some(trial);
                 if sharp {
                     break;
@@ -374,7 +429,7 @@ impl<'a, 'b> Settling<'a, 'b> {
         // At first, what the sweeps leave is asked only where the step is not to blame.
         let settings = best.judged.info.settings;
         let engine = self.bank.engine(settings);
-        let share = if self.free.sweeps { MORE_SWEEPS } else { FEWER };
+        let share = if self.free.sweeps { self.more_sweeps() } else { FEWER };
         let others = other_sweeps(self.bank.case, engine.as_ref(), settings.sweeps, share);
         let disagrees = !best.judged.against().is_empty();
         if others.is_empty() || (best.need.share > 1.0 && !best.need.is_vague && !disagrees && !is_long) {
@@ -389,8 +444,8 @@ impl<'a, 'b> Settling<'a, 'b> {
         };
         // A third run tells how fast the sweeps converge, before they are multiplied; and whether they do, before anything
         // is disproven: sweeps that have hardly begun to converge differ little.
-        let is_asked = found.blame == Part::Iteration && !found.need.is_within(AIM) && self.free.sweeps;
-        if others.len() < 2 || !(is_asked || !found.judged.against().is_empty()) {
+        let is_asked = found.blame == Part::Iteration && !found.need.is_within(self.aim) && self.free.sweeps;
+        if others.len() < 2 || (!is_asked && found.judged.against().is_empty()) {
             return Ok(found);
         }
         match self.trial(settings, &others, &mut |part| progress(0.9 + 0.1 * part)) {
@@ -420,7 +475,7 @@ fn need(judged: &Judged, wanted: f64) -> (Need, Part) {
         Some((*parts, 1.0, convergence, &check.verdict))
     });
     // A step that leaves out many instants proves nothing about them.
-    let least = if judged.too_coarse > MOST_LEFT_OUT { 2.0 } else { 0.0 };
+    let least = if judged.too_coarse > MOST_LEFT_OUT { LEFT_OUT } else { 0.0 };
     let mut worst = (Need { is_vague: false, share: least }, Part::Discretisation);
     for (parts, scale, convergence, verdict) in channels.chain(checks) {
         let share = linkage::math::statistics::share(parts.sum(), wanted * scale);

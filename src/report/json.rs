@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::diagnosis;
 use super::tell::Tell;
 use crate::compare::{Check, Verdict};
-use crate::proof::{ChannelProof, Dispute, End, EngineProof, Proof, Search};
+use crate::proof::{ChannelProof, Dispute, End, EngineInfo, EngineProof, ForceFault, OwnForces, Proof, Search};
 use linkage::error::{Advice, Error};
 use linkage::solver::Provision;
 
@@ -63,7 +63,26 @@ struct Engine {
     verdict: &'static str,
     reason: Option<String>,
     channels: Vec<Channel>,
+    /// Forces as the engine itself exerts them, judged besides those among the channels, which follow from its motion.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    own_forces: Option<OwnForcesRow>,
     checks: Vec<CheckRow>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    failure: Option<String>,
+}
+
+#[derive(Debug, Serialize)]
+struct OwnForcesRow {
+    route: &'static str,
+    dt_s: f64,
+    settings: serde_json::Map<String, serde_json::Value>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    search: Option<SearchRow>,
+    verdict: &'static str,
+    reason: Option<String>,
+    /// Which of the two judgements is against the forces, if one is.
+    fault: Option<&'static str>,
+    channels: Vec<Channel>,
     #[serde(skip_serializing_if = "Option::is_none")]
     failure: Option<String>,
 }
@@ -88,6 +107,8 @@ struct DisputeRow {
 struct Channel {
     channel: String,
     unit: &'static str,
+    /// Where the engine's values come from.
+    source: String,
     scale: f64,
     max: f64,
     rms: f64,
@@ -217,14 +238,39 @@ fn engine(proof: &EngineProof, tell: Tell) -> Engine {
         version: info.version.clone(),
         dt_s: resolution.filter(|_| !info.controls_error),
         accuracy: resolution.filter(|_| info.controls_error),
-        settings: info.told.iter().map(|(k, v)| ((*k).into(), v.clone().into())).collect(),
+        settings: told(info),
         search: proof.search.as_ref().map(|own| search(own, info.settings.extrapolated)),
         provides: info.provides.iter().map(|(k, v)| ((*k).into(), provision(v).into())).collect(),
         verdict: proof.verdict.word(),
         reason: proof.verdict.reason(tell),
-        channels: proof.channels.iter().map(|own| channel(own, tell)).collect(),
+        channels: proof.channels.iter().map(|own| channel(info, own, tell)).collect(),
+        own_forces: proof.own_forces.as_ref().map(|own| own_forces(proof, own, tell)),
         checks: proof.checks.iter().map(|own| check(own, tell)).collect(),
         failure: proof.failure.as_ref().map(|error| error.message().to_string()),
+    }
+}
+
+fn told(info: &EngineInfo) -> serde_json::Map<String, serde_json::Value> {
+    info.told.iter().map(|(k, v)| ((*k).into(), v.clone().into())).collect()
+}
+
+fn own_forces(engine: &EngineProof, own: &OwnForces, tell: Tell) -> OwnForcesRow {
+    let OwnForces { info, search: found, channels, verdict, failure, .. } = own;
+    let fault = engine.force_fault().map(|fault| match fault {
+        ForceFault::Reading => "reading",
+        ForceFault::Exerted => "exerted",
+        ForceFault::Both => "both",
+    });
+    OwnForcesRow {
+        route: info.settings.route.name(),
+        dt_s: info.settings.resolution,
+        settings: told(info),
+        search: found.as_ref().map(|own| search(own, info.settings.extrapolated)),
+        verdict: verdict.word(),
+        reason: verdict.reason(tell),
+        fault,
+        channels: channels.iter().map(|own| channel(info, own, tell)).collect(),
+        failure: failure.as_ref().map(|error| error.message().to_string()),
     }
 }
 
@@ -243,11 +289,14 @@ fn dispute(dispute: &Dispute) -> DisputeRow {
     DisputeRow { channel: dispute.channel.clone(), pairs: dispute.pairs.clone(), odd_one_out: dispute.odd }
 }
 
-fn channel(proof: &ChannelProof, tell: Tell) -> Channel {
+fn channel(info: &EngineInfo, proof: &ChannelProof, tell: Tell) -> Channel {
     let residual = &proof.residual;
+    let stage = residual.channel.kind.stage.name();
+    let source = info.provides.iter().find(|(own, _)| *own == stage).map(|(_, how)| provision(how));
     Channel {
         channel: residual.channel.to_string(),
         unit: residual.channel.kind.unit.symbol(),
+        source: source.unwrap_or_default(),
         scale: residual.scale,
         max: residual.max,
         rms: residual.rms,

@@ -3,9 +3,10 @@
 use std::collections::BTreeMap;
 
 use super::json;
+use super::own_forces;
 use super::tell::Tell;
 use crate::compare::Verdict;
-use crate::proof::{EngineProof, Proof};
+use crate::proof::{ChannelProof, EngineProof, Proof};
 use crate::record::{Level, LogEntry};
 use linkage::math::KeepNan;
 
@@ -17,7 +18,7 @@ pub(crate) fn metadata(proof: &Proof) -> BTreeMap<String, String> {
         ("structure".into(), proof.formula.clone()),
         ("verdict".into(), proof.verdict.word().into()),
     ]);
-    for EngineProof { info, .. } in &proof.engines {
+    for EngineProof { info, own_forces, .. } in &proof.engines {
         let (engine, provides) = match proof.engines.len() {
             1 => ("engine".to_string(), "provides".to_string()),
             _ => (format!("engine_{}", info.name), format!("provides_{}", info.name)),
@@ -28,6 +29,11 @@ pub(crate) fn metadata(proof: &Proof) -> BTreeMap<String, String> {
         metadata.extend(info.told.iter().map(|(name, value)| (format!("{engine}_{name}"), value.clone())));
         let provided = info.provides.iter().map(|(stage, how)| (format!("{provides}_{stage}"), json::provision(how)));
         metadata.extend(provided);
+        metadata.extend(own_forces.iter().flat_map(|own| {
+            let (route, verdict) = (own.info.settings.route.name(), own.verdict.word());
+            [("route", route), ("verdict", verdict)]
+                .map(|(key, value)| (format!("{engine}_own_forces_{key}"), value.into()))
+        }));
     }
     metadata
 }
@@ -49,12 +55,13 @@ pub(crate) fn log(proof: &Proof, tell: Tell) -> Vec<LogEntry> {
         level: level(&proof.verdict),
         text: format!("{}: {}", proof.scenario, proof.verdict.word()),
     }];
-    let channels = proof.engines.iter().flat_map(|engine| &engine.channels);
-    for channel in channels {
+    let named = |channel: &ChannelProof| channel.residual.channel.to_string();
+    let channels = proof.engines.iter().flat_map(|engine| &engine.channels).map(|own| (named(own), own));
+    let own_forces = proof.engines.iter().flat_map(|engine| &engine.own_forces).flat_map(|own| &own.channels);
+    for (name, channel) in channels.chain(own_forces.map(|own| (own_forces::name(own), own))) {
         if let Some(why) = why(&channel.verdict) {
-            let residual = &channel.residual;
-            let text = format!("{}: {why}", residual.channel);
-            log.push(LogEntry { time: residual.worst_time, level: level(&channel.verdict), text });
+            let text = format!("{name}: {why}");
+            log.push(LogEntry { time: channel.residual.worst_time, level: level(&channel.verdict), text });
         }
     }
     for check in proof.all_checks() {

@@ -1,6 +1,7 @@
 //! Every residual of a proof beside its bound, for readers who examine the bounds.
 
 use super::cells::table;
+use super::own_forces;
 use crate::proof::Proof;
 
 /// One line for every channel of every engine, and for every check.
@@ -17,6 +18,11 @@ pub fn all(proof: &Proof) -> String {
             let (residual, verdict) = (&channel.residual, channel.verdict.word());
             let numbers = [residual.max, channel.bound];
             add(residual.channel.to_string(), engine.info.name, numbers, residual.channel.kind.unit.symbol(), verdict);
+        }
+        for channel in engine.own_forces.iter().flat_map(|own| &own.channels) {
+            let (residual, verdict) = (&channel.residual, channel.verdict.word());
+            let (name, side) = (own_forces::name(channel), engine.info.name);
+            add(name, side, [residual.max, channel.bound], residual.channel.kind.unit.symbol(), verdict);
         }
     }
     for check in proof.all_checks() {

@@ -7,9 +7,10 @@ use comfy_table::Table;
 use super::cells::{share, table, used};
 use super::diagnosis;
 use super::engines;
+use super::own_forces;
 use super::tell::Tell;
 use crate::compare::{Check, Verdict};
-use crate::proof::{ChannelProof, End, EngineInfo, EngineProof, Proof, Search};
+use crate::proof::{ChannelProof, End, EngineInfo, EngineProof, OwnForces, Proof, Search};
 use linkage::error::Advice;
 
 /// Number of reasons that are shown in full; the others are only counted.
@@ -31,8 +32,11 @@ pub fn proof(proof: &Proof, tell: Tell) -> String {
     }
     match proof.engines.as_slice() {
         [only] => {
-            let _ =
-                writeln!(text, "\nEngine against reference, the worst channel of each quantity:\n{}", channels(only));
+            let _ = writeln!(
+                text,
+                "\nEngine against reference, the worst channel of each quantity:\n{}",
+                channels(&only.channels)
+            );
         }
         several => {
             let _ = writeln!(
@@ -42,6 +46,9 @@ pub fn proof(proof: &Proof, tell: Tell) -> String {
             );
             let _ = writeln!(text, "\n{}", engines::disputes(proof));
         }
+    }
+    for engine in &proof.engines {
+        own_section(engine, proof.engines.len() > 1, &mut text);
     }
     left_out(proof, &mut text);
     let all: Vec<&Check> = proof.all_checks().collect();
@@ -64,6 +71,48 @@ fn described(info: &EngineInfo) -> String {
         true => format!("{name}, accuracy {at}, and its own error from {coarse} and {fine}"),
         false => format!("{name}, step {at} s, and its own error from {coarse} and {fine} s"),
     }
+}
+
+/// The section on an engine's own forces, after the table of its channels: a table, or a line beside `several` engines.
+fn own_section(engine: &EngineProof, several: bool, text: &mut String) {
+    let Some(own) = &engine.own_forces else { return };
+    let route = own.info.settings.route.name();
+    match &own.failure {
+        Some(error) => {
+            let _ = writeln!(
+                text,
+                "\nForces as {} itself exerts them (route {route}) failed: {}",
+                engine.info.name,
+                error.message()
+            );
+        }
+        None if several => {
+            let _ = writeln!(
+                text,
+                "\nForces as {} itself exerts them (route {route}): {}",
+                engine.info.name,
+                own_forces::line(own)
+            );
+        }
+        None => {
+            let _ = writeln!(text, "\nThe forces above: {}.", own_forces::source(engine));
+            let _ = writeln!(text, "Forces as the engine itself exerts them, by {}", own_how(own));
+            let _ = writeln!(text, "{}", channels(&own.channels));
+        }
+    }
+    if let Some(fault) = engine.force_fault() {
+        let _ = writeln!(text, "\n{}", own_forces::sentence(fault));
+    }
+}
+
+/// Route, settings and work.
+fn own_how(own: &OwnForces) -> String {
+    let settings = &own.info.settings;
+    let told = own.info.told.iter().find(|(name, _)| *name == "reactions");
+    let told = told.map_or_else(|| settings.route.name().to_string(), |(_, told)| told.clone());
+    let step = seconds(settings.resolution);
+    let search = own.search.as_ref().map(|search| found(&own.info, search)).unwrap_or_default();
+    format!("{told}\n(route {}, step {step} s; {search}):", settings.route.name())
 }
 
 /// How many instants are not judged, and of what.
@@ -113,7 +162,18 @@ fn seconds(step: f64) -> String {
 }
 
 fn sentence(verdict: &Verdict, proof: &Proof) -> String {
+    let own: Vec<&ChannelProof> =
+        proof.engines.iter().flat_map(|engine| &engine.own_forces).flat_map(|own| &own.channels).collect();
+    let closed = own.iter().filter(|own| !matches!(own.verdict, Verdict::Inconclusive { .. })).count();
+    let own = own.len();
     let channels = proof.engines.iter().map(|engine| engine.channels.len()).sum::<usize>();
+    let channels = match own {
+        0 => format!("{channels} channels"),
+        _ if closed < own && matches!(verdict, Verdict::Agree { .. }) => {
+            format!("{channels} channels, {closed} of {own} forces that the engine itself exerts (the others are open)")
+        }
+        _ => format!("{channels} channels, {own} forces that the engine itself exerts"),
+    };
     let checks = proof.all_checks().count();
     let count = |is: fn(&Verdict) -> bool| verdicts(proof).filter(|(_, verdict)| is(verdict)).count();
     match verdict {
@@ -122,20 +182,17 @@ fn sentence(verdict: &Verdict, proof: &Proof) -> String {
             let expected = if known == 0 { String::new() } else { format!(", {known} disagree as expected") };
             let within = verdicts(proof).filter(|(_, verdict)| matches!(verdict, Verdict::Agree { .. })).count();
             match proof.engines.len() {
-                1 => format!(
-                    "AGREE: {channels} channels and {} checks are within their bounds{expected}.",
-                    checks - known
-                ),
+                1 => format!("AGREE: {channels} and {} checks are within their bounds{expected}.", checks - known),
                 _ => format!("AGREE: {within} channels and checks are within their bounds{expected}."),
             }
         }
         Verdict::Disagree { .. } => {
             let wrong = count(|verdict| matches!(verdict, Verdict::Disagree { .. }));
-            format!("DISAGREE: {wrong} of {channels} channels and {checks} checks are beyond their bounds.")
+            format!("DISAGREE: {wrong} of {channels} and {checks} checks are beyond their bounds.")
         }
         Verdict::Inconclusive { .. } => {
             let open = count(|verdict| matches!(verdict, Verdict::Inconclusive { .. }));
-            format!("INCONCLUSIVE: {open} of {channels} channels and {checks} checks prove nothing either way.")
+            format!("INCONCLUSIVE: {open} of {channels} and {checks} checks prove nothing either way.")
         }
     }
 }
@@ -147,7 +204,15 @@ fn verdicts(proof: &Proof) -> impl Iterator<Item = (String, &Verdict)> {
             true => format!("{} ({})", channel.residual.channel, engine.info.name),
             false => channel.residual.channel.to_string(),
         };
-        engine.channels.iter().map(move |channel| (name(channel), &channel.verdict))
+        let own = engine.own_forces.iter().flat_map(move |own| {
+            let failed = own.failure.iter().map(move |_| (own_forces::of_all(engine, several), &own.verdict));
+            let named = move |channel: &'_ ChannelProof| match several {
+                true => format!("{} ({})", own_forces::name(channel), engine.info.name),
+                false => own_forces::name(channel),
+            };
+            own.channels.iter().map(move |channel| (named(channel), &channel.verdict)).chain(failed)
+        });
+        engine.channels.iter().map(move |channel| (name(channel), &channel.verdict)).chain(own)
     });
     channels.chain(proof.all_checks().map(|c| (c.name(), &c.verdict)))
 }
@@ -186,17 +251,17 @@ fn expected(proof: &Proof, text: &mut String) {
     }
 }
 
-fn channels(proof: &EngineProof) -> Table {
+fn channels(channels: &[ChannelProof]) -> Table {
     let header = ["quantity", "worst channel", "crank deg", "error", "of scale", "bound", "order", "verdict"];
     let mut table = table(header, &[2, 3, 4, 5, 6]);
     let mut seen: Vec<&str> = Vec::new();
-    for first in &proof.channels {
+    for first in channels {
         let quantity = first.residual.channel.kind.quantity;
         if seen.contains(&quantity) {
             continue;
         }
         seen.push(quantity);
-        let family = || proof.channels.iter().filter(|c| c.residual.channel.kind.quantity == quantity);
+        let family = || channels.iter().filter(|c| c.residual.channel.kind.quantity == quantity);
         let worst = family().max_by(|a, b| used(a).total_cmp(&used(b))).unwrap_or(first);
         let residual = &worst.residual;
         table.add_row([

@@ -68,6 +68,22 @@ pub(crate) fn text(scenario: &Scenario, found: &Tuning, within: f64, section: &S
         "{}: error {:.2e} measured against the reference, {:.2e} expected from its own runs; {} runs.",
         found.best.engine, found.best.verified, found.predicted, found.runs
     );
+    let _ = match found.best.is_proven {
+        true if found.cheapest.price < found.best.price => {
+            let Settings { resolution, sweeps, .. } = found.cheapest.settings;
+            let (share, name) = (found.cheapest.price / found.best.price, found.cheapest.engine);
+            writeln!(
+                text,
+                "A proof at these settings agrees. {name} at {resolution:.3e} with {sweeps} sweeps meets the error for {share:.2} \
+                 of the price, but proves less."
+            )
+        }
+        true => writeln!(text, "A proof at these settings agrees."),
+        false => writeln!(text, "A proof at these settings leaves something open: take finer ones for a proof."),
+    };
+    if found.is_spent {
+        let _ = writeln!(text, "The work that was allowed is done: there may be cheaper settings.");
+    }
     let Section { text: section, file, is_written } = section;
     let place = file.display();
     let _ = match is_written {
@@ -86,6 +102,7 @@ pub(crate) fn json(scenario: &Scenario, found: &Tuning, within: f64) -> String {
             "engine": candidate.engine, key: resolution, "sweeps": sweeps,
             "substeps": substeps, "route": route.name(), "extrapolated": extrapolated,
             "error": candidate.verified, "worst_channel": candidate.worst, "price_of_best": candidate.price / found.best.price,
+            "proven": candidate.is_proven,
         })
     };
     let value = json!({
@@ -93,7 +110,7 @@ pub(crate) fn json(scenario: &Scenario, found: &Tuning, within: f64) -> String {
         "best": candidate(&found.best), "expected_error": found.predicted,
         "engines": found.by_engine.iter().map(candidate).collect::<Vec<_>>(),
         "too_coarse": found.too_coarse.iter().map(|(name, error)| json!({"engine": name, "smallest_error": error})).collect::<Vec<_>>(),
-        "too_dear": found.too_dear,
+        "too_dear": found.too_dear, "spent": found.is_spent,
     });
     pretty(&value)
 }

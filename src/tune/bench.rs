@@ -47,6 +47,11 @@ pub(super) struct Bench<'a> {
     pub(super) runs: usize,
     /// Whether the engine has refused the last way of setting it. No step and no number of sweeps can change that.
     pub(super) refused: bool,
+    /// Work done so far and allowed in all, in steps without sweeps.
+    pub(super) effort: f64,
+    pub(super) budget: f64,
+    /// Whether a run was not made because its work is not allowed any more.
+    pub(super) is_spent: bool,
 }
 
 /// Least price of a run, however coarse its step: instants are read, and some routes do all sweeps at each of them.
@@ -127,7 +132,7 @@ impl Bench<'_> {
         let start = if search.engine.controls_error() { way.resolution } else { COARSE_START * way.resolution };
         let mut row = Row { start, last: f64::INFINITY, rising: 0 };
         for sweeps in first.into_iter().chain(sweeps.iter().copied().filter(|&sweeps| Some(sweeps) != first)) {
-            if self.refused {
+            if self.refused || self.is_spent {
                 break;
             }
             if floor.at(sweeps) >= search.limit() {
@@ -166,6 +171,7 @@ impl Bench<'_> {
                         verified: error,
                         worst,
                         price,
+                        is_proven: false,
                     });
                 }
                 within * (price / limit).larger(1.0)
@@ -205,7 +211,13 @@ impl Bench<'_> {
     }
 
     /// One run; an engine that fails has an infinite error.
-    fn measure(&mut self, engine: &dyn Engine, settings: Settings) -> Measured {
+    pub(super) fn measure(&mut self, engine: &dyn Engine, settings: Settings) -> Measured {
+        let failed = |price: f64| Measured { error: f64::INFINITY, worst: String::new(), price };
+        self.effort += self.work(engine, settings);
+        if self.effort > self.budget {
+            self.is_spent = true;
+            return failed(f64::INFINITY);
+        }
         self.runs += 1;
         let engine = engine.with(settings);
         let mut found = None;
@@ -213,7 +225,6 @@ impl Bench<'_> {
             found = Some(engine.solve(self.case)?);
             Ok(())
         };
-        let failed = |price: f64| Measured { error: f64::INFINITY, worst: String::new(), price };
         let price = match (self.price)(engine.as_ref(), &mut run) {
             Ok(price) => price,
             Err(error) => {
@@ -234,6 +245,17 @@ impl Bench<'_> {
         }
         // An engine without a wanted channel does not meet the wish.
         if seen < self.wanted.len() { failed(price) } else { Measured { error, worst, price } }
+    }
+
+    /// Work of a run, in steps without sweeps. That of an engine that chooses its own steps is not known.
+    fn work(&self, engine: &dyn Engine, settings: Settings) -> f64 {
+        if engine.controls_error() {
+            return 0.0;
+        }
+        let times = &self.case.grid.times;
+        let [first, last] = times.iter().fold([0.0f64; 2], |[first, last], &t| [first.smaller(t), last.larger(t)]);
+        let runs = 2f64.powi(settings.extrapolated as i32 + 1) - 1.0;
+        (last - first) * runs * settings.work()
     }
 
     /// Error that is expected from the engine's own runs.

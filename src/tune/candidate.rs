@@ -18,6 +18,8 @@ pub struct Candidate {
     pub worst: String,
     /// Price of the run, in the unit of the price given to [`tune`](super::tune).
     pub price: f64,
+    /// Whether a proof at these settings agrees in everything that is wanted.
+    pub is_proven: bool,
 }
 
 /// Measures the cost of a run. It gets the engine and the run, which it must call at least once.

@@ -8,6 +8,7 @@
 
 mod bench;
 mod candidate;
+mod confirm;
 mod search;
 mod ways;
 
@@ -18,11 +19,15 @@ use crate::scenario::Scenario;
 use analytic::AssurSolver;
 use analytic::range::explained;
 use bench::{Bench, Outcome};
+use confirm::confirmed;
 use linkage::case::Wanted;
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::KeepNan;
 use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Stage};
+
+/// Work allowed by default, in steps without sweeps: many times what the shipped mechanisms take at 1e-7.
+const BUDGET: f64 = 5e6;
 
 /// The wanted accuracy.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,8 +41,10 @@ pub struct Wish {
 /// Result of tuning.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tuning {
-    /// The cheapest candidate.
+    /// The cheapest settings that meet the wish and that a proof confirms; if it confirms none, the cheapest.
     pub best: Candidate,
+    /// The cheapest settings that meet the wish, whether a proof confirms them or not.
+    pub cheapest: Candidate,
     /// Largest error of the cheapest candidate over the channel's scale, predicted by its own runs at three steps and
     /// with twice the sweeps, without the reference.
     pub predicted: f64,
@@ -49,6 +56,8 @@ pub struct Tuning {
     pub too_dear: Vec<&'static str>,
     /// Number of runs in the search.
     pub runs: usize,
+    /// Whether the search ended because the work that was allowed was done: there may be cheaper settings.
+    pub is_spent: bool,
 }
 
 /// Finds the cheapest settings of the engines in `options` that meet the wish. Settings that the options fix stay as
@@ -73,30 +82,68 @@ pub fn tune(
     let case = scenario.case.wanting(Wanted::of(&stages));
     let reference = AssurSolver.solve(&case).map_err(|error| explained(&case, error))?;
     let engines = options.set_engines(scenario)?;
-    let mut bench = Bench { case: &case, reference: &reference, wanted: &wanted, price, runs: 0, refused: false };
+    let budget = options.budget.unwrap_or(BUDGET);
+    let mut bench = Bench {
+        case: &case,
+        reference: &reference,
+        wanted: &wanted,
+        price,
+        runs: 0,
+        refused: false,
+        effort: 0.0,
+        budget,
+        is_spent: false,
+    };
+    let mut cheapest = Vec::new();
     let (mut by_engine, mut too_coarse, mut too_dear): (Vec<Candidate>, _, _) = (Vec::new(), Vec::new(), Vec::new());
     for (index, engine) in engines.iter().enumerate() {
         let mut part = |part: f64| progress((index as f64 + part) / engines.len() as f64);
-        let cheapest = by_engine.iter().map(|candidate| candidate.price).fold(f64::INFINITY, f64::smaller);
-        match bench.best_of(engine.as_ref(), wish.within, options, cheapest, &mut part) {
-            Outcome::Met(candidate) => by_engine.push(candidate),
+        let known = cheapest.iter().map(|candidate: &Candidate| candidate.price).fold(f64::INFINITY, f64::smaller);
+        match bench.best_of(engine.as_ref(), wish.within, options, known, &mut part) {
+            Outcome::Met(candidate) => {
+                cheapest.push(candidate.clone());
+                by_engine.push(confirmed(
+                    &mut bench,
+                    scenario,
+                    engine.as_ref(),
+                    candidate,
+                    (wish.within, options.reference),
+                )?);
+            }
             Outcome::TooCoarse(error) => too_coarse.push((engine.name(), error)),
             Outcome::TooDear => too_dear.push(engine.name()),
         }
     }
-    by_engine.sort_by(|a, b| a.price.total_cmp(&b.price));
-    let Some(best) = by_engine.first().cloned() else {
+    let by_price = |a: &Candidate, b: &Candidate| a.price.total_cmp(&b.price);
+    by_engine.sort_by(|a, b| b.is_proven.cmp(&a.is_proven).then(by_price(a, b)));
+    cheapest.sort_by(by_price);
+    let (Some(best), Some(cheapest)) = (by_engine.first().cloned(), cheapest.into_iter().next()) else {
         let tell = |(name, error): &(&str, f64)| match error.is_finite() {
             true => format!("{name} comes to {error:.1e}"),
             false => format!("{name} does not run it"),
         };
         let tells: Vec<String> = too_coarse.iter().map(tell).collect();
         let message = format!("no settings meet an error within {:e} of the scale: {}", wish.within, tells.join(", "));
-        return Err(Error::new(ErrorKind::Numeric, message).help(Advice::WeakerWish));
+        let error = Error::new(ErrorKind::Numeric, message).help(Advice::WeakerWish);
+        return Err(match bench.is_spent {
+            true => error
+                .map_message(|message| format!("{message}; the work that was allowed is done"))
+                .or_help(Advice::MoreWork { to: 10.0 * budget }),
+            false => error,
+        });
     };
     let engine = engines.iter().find(|engine| engine.name() == best.engine).expect("it is one of them");
     let predicted = bench.predicted(engine.with(best.settings).as_ref())?;
-    Ok(Tuning { best, predicted, by_engine, too_coarse, too_dear, runs: bench.runs })
+    Ok(Tuning {
+        best,
+        cheapest,
+        predicted,
+        by_engine,
+        too_coarse,
+        too_dear,
+        runs: bench.runs,
+        is_spent: bench.is_spent,
+    })
 }
 
 /// The channels of a wish.

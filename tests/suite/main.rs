@@ -24,6 +24,7 @@ mod invariants;
 mod laws;
 mod library_texts;
 mod loads;
+mod own_forces;
 mod peaks;
 mod plans;
 mod prismatic;

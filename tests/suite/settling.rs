@@ -65,6 +65,15 @@ fn regress_sweeps_that_have_hardly_begun_to_converge_prove_nothing() {
     assert!(!(speed.residual.max > speed.bound), "{} {}", speed.residual.max, speed.bound);
 }
 
+/// A spline's third derivative jumps at its knots, and second differences across them are of order 1: that is no fault of
+/// an engine.
+#[test]
+fn regress_knots_of_a_law_of_motion_do_not_make_an_order_wrong() {
+    let own = specimen(1, 374, &mut Default::default());
+    let proof = proven(&parsed(&own.toml(false)));
+    assert_eq!(proof.verdict.word(), "agree", "{:?}", proof.verdict);
+}
+
 /// A step that is given is kept to, and nothing finer is run for the result. Where it proves nothing, the free choice is
 /// tried, and its outcome told.
 #[test]

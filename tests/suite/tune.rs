@@ -4,9 +4,9 @@ mod exhaustive;
 mod near;
 mod prices;
 
-use linkage::engine::Engine;
+use linkage::engine::{Engine, Settings};
 use linkproof::engines::EngineName;
-use linkproof::proof::Options;
+use linkproof::proof::{Options, prove};
 use linkproof::tune::{Wish, tune};
 
 use crate::common::shipped;
@@ -49,6 +49,31 @@ fn a_wish_beyond_rounding_tells_how_far_the_engine_comes() {
     let options = Options::default().engine(EngineName::Rapier).extrapolated(0).sweeps(64).substeps(1);
     let error = tuned(&scenario, 1e-15, &["accelerations"], &options).unwrap_err();
     assert!(error.message().contains("rapier comes to"), "{error}");
+}
+
+/// Symptom: four sweeps meet the wish, but the engine's runs show no order with them, so that a proof is inconclusive.
+#[test]
+fn regress_settings_that_are_recommended_prove_what_they_promise() {
+    for (name, within) in [("crank_rocker", 1e-4), ("six_bar_slider", 1e-3)] {
+        let scenario = shipped(&format!("{name}.toml"));
+        let found = tuned(&scenario, within, &[], &Options::default().engine(EngineName::Rapier)).unwrap();
+        let Settings { resolution, sweeps, substeps, route, extrapolated } = found.best.settings;
+        let options = Options::default().engine(EngineName::Rapier).step(resolution).sweeps(sweeps);
+        let options = options.substeps(substeps).route(route).extrapolated(extrapolated);
+        let proof = prove(&scenario, &options).unwrap();
+        assert_eq!((found.best.is_proven, proof.verdict.word()), (true, "agree"), "{name}: {:?}", found.best);
+        assert!(found.best.verified <= within, "{name}: {:?}", found.best);
+    }
+}
+
+/// Symptom: a wish below what rounding leaves was searched for without end.
+#[test]
+fn regress_a_search_ends_with_the_work_that_is_allowed() {
+    let scenario = shipped("crank_rocker.toml");
+    let options = Options::default().engine(EngineName::Rapier).budget(1e5);
+    let error = tuned(&scenario, 1e-9, &[], &options).unwrap_err();
+    assert!(error.message().contains("the work that was allowed is done"), "{error}");
+    assert!(error.way_out().unwrap().contains("1e6 steps"), "{error}");
 }
 
 /// Fewer channels are cheaper: positions need no reactions, and no step that resolves them.

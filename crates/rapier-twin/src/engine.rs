@@ -39,6 +39,12 @@ impl Engine for Rapier {
         &Route::ALL
     }
 
+    fn own_routes(&self, case: &Case) -> &'static [Route] {
+        // Probes cost more, need many more sweeps at coarse steps, and their tiny steps leave an error that no run shows.
+        let _ = case;
+        &[Route::Native]
+    }
+
     fn sweeps(&self, case: &Case) -> Option<[usize; 2]> {
         let alone = case.drives.len() == 1 && Tree::of(&case.mechanism).cut.is_empty();
         match self.build {

@@ -37,6 +37,8 @@ pub(super) struct Acting {
     /// The same with those of added masses.
     relieved: Vec<Wrench>,
     branch: Option<Branch>,
+    /// Moment of the motor on the crank (N m) that is among the loads of the step, because Rapier's motor cannot have it.
+    direct: f64,
     /// One for each world.
     added: Vec<Option<Added>>,
 }
@@ -57,6 +59,7 @@ impl Acting {
             loads: vec![Wrench::ZERO; links],
             relieved: vec![Wrench::ZERO; links],
             branch: None,
+            direct: 0.0,
             added: worlds.iter().map(|guard| Added::of(case, guard.world().tree())).collect(),
         })
     }
@@ -139,6 +142,7 @@ impl Acting {
     /// Target speed and damping of a motor with the law's moment and slope at the crank's speed.
     /// If the moment rises with the speed, or does not depend on it, the moment goes to the loads instead.
     fn motor(&mut self, case: &Case) -> [f64; 2] {
+        self.direct = 0.0;
         let Some(motor) = case.crank().moving_motor() else { return [0.0; 2] };
         let sense = case.crank().sense();
         let omega = sense * self.state.motions[case.crank().link].omega;
@@ -155,8 +159,14 @@ impl Acting {
         if slope < 0.0 {
             return [sense * (omega - moment / slope), -slope];
         }
-        self.loads[case.crank().link].moment += sense * moment;
+        self.direct = sense * moment;
+        self.loads[case.crank().link].moment += self.direct;
         [0.0; 2]
+    }
+
+    /// Moment of the motor on the crank (N m) that was a load of the last step, and is none of its impulses.
+    pub(super) fn direct(&self) -> f64 {
+        self.direct
     }
 }
 

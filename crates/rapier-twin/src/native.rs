@@ -5,6 +5,7 @@
 use super::ghost::Ghost;
 use super::guard::Guard;
 use super::ring::{Place, Ring};
+use super::window::first_steps;
 use linkage::case::Case;
 use linkage::engine::Settings;
 use linkage::error::Result;
@@ -39,18 +40,20 @@ pub(super) struct Native {
 
 impl Native {
     pub(super) fn new(case: &Case, worlds: &[Guard], settings: &Settings, start: i64) -> Self {
+        let plain = worlds[0].world().tree().branches.is_empty();
         let cuts: Vec<&[usize]> = worlds.iter().map(|guard| guard.world().tree().cut.as_slice()).collect();
         let width = 3 * case.mechanism.joints().len() + case.drives.len();
         let reporters = reporters(case, &cuts);
-        // In a free motion step 1 is the first one reported.
-        let lowest = if case.is_free() { 3 } else { i64::MIN / 2 };
+        // In a free motion step 1 is the first one reported. The first steps of bodies that move begin with velocities
+        // along the constraints of their own pose, not of the one before, and their impulses lack what that changes.
+        let lowest = if case.is_free() { 3 + first_steps(case, plain) } else { i64::MIN / 2 };
         let (step, late) = (settings.resolution, LATE / settings.substeps as f64);
         let (ring, ghost, row) = (Ring::new(width, start), Ghost::of(case, !case.is_free()), vec![0.0; width]);
         Native { step, late, ring, reporters, ghost, row, lowest }
     }
 
-    /// Stores the reports of a step.
-    pub(super) fn push(&mut self, worlds: &[Guard]) {
+    /// Stores the reports of a step. `direct` is the moment (N m) that the crank's motor had as a load.
+    pub(super) fn push(&mut self, worlds: &[Guard], direct: f64) {
         let row = self.ring.push();
         let drives = 3 * self.reporters.len();
         for (joint, &world) in self.reporters.iter().enumerate() {
@@ -60,6 +63,7 @@ impl Native {
         for (drive, torque) in row[drives..].iter_mut().enumerate() {
             *torque = worlds[0].world().torque(drive);
         }
+        row[drives] += direct;
     }
 
     /// Fills in the reactions and moments of a state whose motion is known.

@@ -64,7 +64,7 @@ pub(super) fn bound(case: &Case, engine: &Rapier, channel: &ChannelKind) -> f64 
         _ if channel.stage < Stage::Reactions => second,
         Route::Differences => second,
         // An impulse makes the difference of two speeds one step apart.
-        Route::Native => IMPULSE_ULPS * epsilon * speed / step,
+        Route::Native => IMPULSE_ULPS * epsilon * speed / step * beginning(case, engine),
         Route::Probe => PROBE_ULPS * epsilon * speed * speed / probe_turn(engine.precision),
     };
     let linear = second * size + DIFFERENCE_ULPS * place / (step * step);
@@ -96,7 +96,7 @@ fn lever(case: &Case, reach: f64, subject: Subject) -> f64 {
 }
 
 /// Factor on the rounding of second differences at the beginning of a free motion.
-/// They are extrapolated back over its first steps, so the factor is the sum of the absolute Lagrange weights there.
+/// They, and impulses, are extrapolated back over its first steps, so the factor is the sum of the absolute Lagrange weights there.
 fn beginning(case: &Case, engine: &Rapier) -> f64 {
     let steps = first_steps(case, engine.build == Build::Impulse) as f64;
     let first = case.grid.times.iter().fold(f64::INFINITY, |least: f64, &t| least.smaller(t));

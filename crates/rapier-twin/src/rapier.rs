@@ -2,7 +2,7 @@
 
 use super::build::{Build, Precision};
 use super::tree::Tree;
-use super::world::World;
+use super::world::{Loading, World};
 use linkage::case::Case;
 use linkage::engine::{Route, Settings};
 use linkage::error::Result;
@@ -63,10 +63,15 @@ impl Rapier {
     /// # Errors
     /// [`ErrorKind::Unsupported`](linkage::ErrorKind::Unsupported) if Rapier refuses a joint.
     pub fn world(&self, case: &Case, tree: Tree, read: bool) -> Result<Box<dyn World>> {
+        self.world_for(case, tree, if read { Loading::Bare } else { Loading::Moving })
+    }
+
+    /// The same for a run.
+    pub(super) fn world_for(&self, case: &Case, tree: Tree, loading: Loading) -> Result<Box<dyn World>> {
         Ok(match self.precision {
-            Precision::Double => Box::new(crate::double::twins::Twin::new(case, tree, &self.settings, read)?),
+            Precision::Double => Box::new(crate::double::twins::Twin::new(case, tree, &self.settings, loading)?),
             #[cfg(feature = "f32")]
-            Precision::Single => Box::new(crate::single::twins::Twin::new(case, tree, &self.settings, read)?),
+            Precision::Single => Box::new(crate::single::twins::Twin::new(case, tree, &self.settings, loading)?),
         })
     }
 }

@@ -11,6 +11,7 @@ use super::probe::probe_turn;
 use super::rapier::Rapier;
 use super::tree::Tree;
 use super::window::Window;
+use super::world::Loading;
 use linkage::case::Case;
 use linkage::engine::{Route, Settings};
 use linkage::error::{Advice, Error, ErrorKind, Reached, Result};
@@ -125,10 +126,11 @@ impl<'a> Run<'a> {
                 .help(Advice::OtherRoute { routes: &["differences", "native"] }));
         }
         let native = route == Some(Route::Native);
+        let loading = if native { Loading::Read } else { Loading::Moving };
         let trees = if native { reporting() } else { vec![moving()] };
         let worlds: Result<Vec<Guard>> = trees
             .into_iter()
-            .map(|tree| Ok(Guard::new(case, engine.world(case, tree, native)?, settings.resolution)))
+            .map(|tree| Ok(Guard::new(case, engine.world_for(case, tree, loading)?, settings.resolution)))
             .collect();
         let worlds = worlds?;
         let acting = if case.is_free() { Some(Acting::new(case, engine.precision, &worlds)?) } else { None };
@@ -145,7 +147,7 @@ impl<'a> Run<'a> {
                 let engine = engine.set(Settings { substeps: 1, ..*settings });
                 let probed: Result<Vec<Guard>> = reporting()
                     .into_iter()
-                    .map(|tree| Ok(Guard::new(case, engine.world(case, tree, true)?, settings.resolution)))
+                    .map(|tree| Ok(Guard::new(case, engine.world_for(case, tree, Loading::Read)?, settings.resolution)))
                     .collect();
                 Reader::Probe(Probe::new(case, probed?, probe_turn(engine.precision)))
             }
@@ -230,7 +232,7 @@ impl<'a> Run<'a> {
 
     fn report(&mut self) {
         if let Reader::Native(native) = &mut self.reader {
-            native.push(&self.worlds);
+            native.push(&self.worlds, self.acting.as_ref().map_or(0.0, Acting::direct));
         }
     }
 

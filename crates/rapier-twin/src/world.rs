@@ -184,13 +184,34 @@ pub trait World {
 /// Ten times as much gives no further gain.
 const FLYWHEEL: f64 = 1.0;
 
+/// Moment of inertia of a slender rod over its mass and the square of its length.
+const ROD: f64 = 1.0 / 12.0;
+
 /// Mass (kg) and moment of inertia (kg m^2) of every link in Rapier, without flywheels.
 /// Rapier cannot move a body without them.
 /// Under a prescribed speed the motion does not depend on the masses.
+/// There a link has at least the mean mass, and the moment of inertia of a rod of it: where neighbours differ much, the
+/// sweeps hardly converge.
 /// What they add to the reactions is subtracted again ([`Ghost`](super::ghost::Ghost)).
 /// In a free motion the crank also carries rotor and gearbox. Stand-ins depend on the world's tree there, and loads take
 /// away what they do ([`added`](super::added)).
 pub(super) fn masses(case: &Case, tree: &Tree) -> Vec<[f64; 2]> {
+    let mut masses = bare_masses(case, tree);
+    if case.is_free() {
+        return masses;
+    }
+    let moving = &case.mechanism.links()[1..];
+    let mean = moving.iter().map(|link| link.mass).sum::<f64>() / moving.len() as f64;
+    let size = case.mechanism.size();
+    for ([mass, inertia], link) in masses.iter_mut().zip(case.mechanism.links()).skip(1) {
+        let length = if link.extent() > 0.0 { link.extent() } else { size };
+        (*mass, *inertia) = (mass.larger(mean), inertia.larger(ROD * mean * length * length));
+    }
+    masses
+}
+
+/// The same with nothing added to links that have both.
+fn bare_masses(case: &Case, tree: &Tree) -> Vec<[f64; 2]> {
     let of = |(index, link): (usize, &Link)| {
         let [mass, inertia] = if case.is_free() { bare::to_link(case, index, tree) } else { stand_in(case, index) };
         [link.mass + mass, link.inertia + inertia]
@@ -209,17 +230,31 @@ fn even_masses(case: &Case) -> Vec<[f64; 2]> {
     let of = |link: &Link| {
         let extent = link.extent();
         let length = if extent > 0.0 { extent } else { size };
-        [1.0, length * length / 12.0]
+        [1.0, ROD * length * length]
     };
     let mut masses: Vec<[f64; 2]> = case.mechanism.links().iter().map(of).collect();
     masses[GROUND] = [0.0; 2];
     masses
 }
 
-/// Masses of a world. `read` says whether it reports forces; a world that only moves under prescribed speeds has
-/// [`even_masses`].
-pub(super) fn world_masses(case: &Case, tree: &Tree, read: bool) -> Vec<[f64; 2]> {
-    if read || case.is_free() { masses_with_flywheels(case, tree) } else { with_flywheels(case, even_masses(case)) }
+/// What a world is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Loading {
+    /// It only moves: under prescribed speeds it has [`even_masses`].
+    Moving,
+    /// Its forces are read, and what stand-ins add is taken off.
+    Read,
+    /// Its forces are read as they are.
+    Bare,
+}
+
+/// Masses of a world.
+pub(super) fn world_masses(case: &Case, tree: &Tree, loading: Loading) -> Vec<[f64; 2]> {
+    match loading {
+        Loading::Moving if !case.is_free() => with_flywheels(case, even_masses(case)),
+        Loading::Moving | Loading::Read => masses_with_flywheels(case, tree),
+        Loading::Bare => with_flywheels(case, bare_masses(case, tree)),
+    }
 }
 
 /// The links' own masses, with flywheels on the driving links whose speed is prescribed.

@@ -50,15 +50,21 @@ fn both_scenarios_agree_and_the_json_is_as_promised() {
         let engine = &run["engines"][0];
         assert_eq!(
             keys(engine),
-            "channels:array checks:array dt_s:number name:text provides:object reason:null search:object settings:object verdict:text version:text"
+            "channels:array checks:array dt_s:number name:text own_forces:object provides:object reason:null search:object settings:object verdict:text version:text"
         );
         let provides = "accelerations:text balancing_moment:text positions:text reactions:text velocities:text";
         assert_eq!(keys(&engine["provides"]), provides);
-        for channel in engine["channels"].as_array().unwrap() {
+        let own = &engine["own_forces"];
+        assert_eq!(
+            keys(own),
+            "channels:array dt_s:number fault:null reason:null route:text search:object settings:object verdict:text"
+        );
+        let both = engine["channels"].as_array().unwrap().iter().chain(own["channels"].as_array().unwrap());
+        for channel in both {
             let promised =
                 "basis:text bound:number channel:text discretisation:number iteration:number left_out:number";
             let limit = if channel["limit"].is_null() { "null" } else { "number" };
-            let rest = "origin:text q75:number q99:number reason:null reference:number rms:number rounding:number scale:number unit:text verdict:text worst_crank_rad:number worst_t_s:number";
+            let rest = "origin:text q75:number q99:number reason:null reference:number rms:number rounding:number scale:number source:text unit:text verdict:text worst_crank_rad:number worst_t_s:number";
             // An order that is hidden by rounding is null.
             let order = if channel["observed_order"].is_null() { "null" } else { "number" };
             assert_eq!(keys(channel), format!("{promised} limit:{limit} max:number observed_order:{order} {rest}"));

@@ -169,6 +169,10 @@ impl Engine for Extrapolated {
         self.coarsest().routes()
     }
 
+    fn own_routes(&self, case: &Case) -> &'static [Route] {
+        self.coarsest().own_routes(case)
+    }
+
     fn sweeps(&self, case: &Case) -> Option<[usize; 2]> {
         self.coarsest().sweeps(case)
     }

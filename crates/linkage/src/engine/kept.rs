@@ -178,6 +178,10 @@ impl Engine for Kept {
         self.inner.routes()
     }
 
+    fn own_routes(&self, case: &Case) -> &'static [Route] {
+        self.inner.own_routes(case)
+    }
+
     fn sweeps(&self, case: &Case) -> Option<[usize; 2]> {
         self.inner.sweeps(case)
     }

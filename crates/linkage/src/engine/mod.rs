@@ -42,6 +42,13 @@ pub trait Engine: Solver {
     /// Available routes to reactions and balancing moment, the cheapest first.
     fn routes(&self) -> &'static [Route];
 
+    /// Routes by which the engine itself says what it exerts on a case, the cheapest first. Empty for an engine whose usual
+    /// route is such a one.
+    fn own_routes(&self, case: &Case) -> &'static [Route] {
+        let _ = case;
+        &[]
+    }
+
     /// The fewest and the most sweeps worth trying for a case; `None` for an engine that does not iterate.
     /// Both are 1 where the iteration has nothing to converge to.
     fn sweeps(&self, case: &Case) -> Option<[usize; 2]>;

@@ -48,8 +48,8 @@ impl KeepNan for f64 {
 
 /// The largest absolute value; NaN if one of them is, 0 for an empty list.
 #[must_use]
-pub fn largest_size(values: impl IntoIterator<Item = f64>) -> f64 {
-    values.into_iter().fold(0.0, |most, value| value.abs().larger(most))
+pub fn largest_size(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |most, value| value.abs().larger(most))
 }
 
 #[cfg(test)]
@@ -64,7 +64,7 @@ mod tests {
         for place in 0..3 {
             let mut values = [1.0, -2.0, 3.0];
             values[place] = f64::NAN;
-            assert!(largest_size(values).is_nan(), "{place}");
+            assert!(largest_size(&values).is_nan(), "{place}");
             assert!(values.into_iter().fold(0.0, f64::larger).is_nan(), "{place}");
             assert!(values.into_iter().fold(0.0, f64::smaller).is_nan(), "{place}");
         }
@@ -77,8 +77,8 @@ mod tests {
             assert_eq!((a.larger(b), a.smaller(b)), (high, low));
             assert_eq!((a.larger_number(b), a.smaller_number(b)), (high, low));
         }
-        assert_eq!(largest_size([1.0, -3.0, 2.0]), 3.0);
-        assert_eq!(largest_size([]), 0.0);
+        assert_eq!(largest_size(&[1.0, -3.0, 2.0]), 3.0);
+        assert_eq!(largest_size(&[]), 0.0);
     }
 
     #[test]

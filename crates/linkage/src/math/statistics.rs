@@ -1,5 +1,7 @@
 //! Order statistics of residuals.
 
+use std::f64::consts::TAU;
+
 use crate::math::KeepNan;
 
 /// Quantile `q` (0 to 1) of values sorted in ascending order, linear between neighbours
@@ -25,9 +27,39 @@ pub fn ascending(values: &[f64]) -> Vec<usize> {
 
 /// Root mean square of `values`; 0 for an empty list.
 #[must_use]
-pub fn rms(values: impl IntoIterator<Item = f64>) -> f64 {
-    let (count, sum) = values.into_iter().fold((0usize, 0.0), |(n, s), v| (n + 1, s + v * v));
-    if count == 0 { 0.0 } else { (sum / count as f64).sqrt() }
+pub fn rms(values: &[f64]) -> f64 {
+    let sum = values.iter().fold(0.0, |sum, value| sum + value * value);
+    if values.is_empty() { 0.0 } else { (sum / values.len() as f64).sqrt() }
+}
+
+/// Values of `theirs` minus `ours`. Values of a `periodic` quantity are angles (rad): the whole turns between the first
+/// ones are subtracted.
+#[must_use]
+pub fn differences(ours: &[f64], theirs: &[f64], periodic: bool) -> Vec<f64> {
+    let turns = turns(ours, theirs, periodic);
+    ours.iter().zip(theirs).map(|(a, b)| b - a - turns).collect()
+}
+
+/// Largest absolute value of the [differences]. NaN if one of them is.
+#[must_use]
+pub fn largest_difference(ours: &[f64], theirs: &[f64], periodic: bool) -> f64 {
+    let turns = turns(ours, theirs, periodic);
+    ours.iter().zip(theirs).fold(0.0, |most: f64, (a, b)| (b - a - turns).abs().larger(most))
+}
+
+fn turns(ours: &[f64], theirs: &[f64], periodic: bool) -> f64 {
+    match (periodic, ours.first(), theirs.first()) {
+        (true, Some(a), Some(b)) => TAU * ((b - a) / TAU).round(),
+        (true | false, _, _) => 0.0,
+    }
+}
+
+/// Absolute values in ascending order; NaN last.
+#[must_use]
+pub fn sorted_sizes(values: &[f64]) -> Vec<f64> {
+    let mut sorted: Vec<f64> = values.iter().map(|value| value.abs()).collect();
+    sorted.sort_by(f64::total_cmp);
+    sorted
 }
 
 /// `part` as a share of `whole`. A `part` of 0 gives 0 whatever the whole, even 0.
@@ -60,6 +92,6 @@ mod tests {
     fn range_and_rms() {
         assert_eq!(half_range(&[-1.0, 3.0, 2.0]), 2.0);
         assert!(half_range(&[1.0, f64::NAN]).is_nan());
-        assert_eq!(rms([3.0, 4.0, 0.0, 0.0]), 2.5);
+        assert_eq!(rms(&[3.0, 4.0, 0.0, 0.0]), 2.5);
     }
 }

@@ -15,7 +15,7 @@ use rapier::prelude::{
 
 use crate::steer::steered;
 use crate::tree::Tree;
-use crate::world::{LinkAngle, LinkFrame, world_masses};
+use crate::world::{LinkAngle, LinkFrame, Loading, world_masses};
 use linkage::case::Case;
 use linkage::engine::Settings;
 use linkage::error::{Error, ErrorKind, Result};
@@ -33,6 +33,9 @@ struct Cut {
     handle: ImpulseJointHandle,
     /// Whether neither body is a link of the multibody. Rapier then makes the joint's rows orthogonal to each other.
     plain: bool,
+    /// The link that Rapier calls first, and the direction of the first row in that link's frame, where they are not
+    /// those of the joint itself.
+    steered: Option<(usize, Vec2)>,
     /// Where the joint was at the start of the last substep.
     start: frame::Frame,
 }
@@ -81,9 +84,10 @@ impl Twin {
     ///
     /// # Errors
     /// [`ErrorKind::Unsupported`] if Rapier refuses a joint.
-    pub(crate) fn new(case: &Case, tree: Tree, settings: &Settings, read: bool) -> Result<Self> {
+    pub(crate) fn new(case: &Case, tree: Tree, settings: &Settings, loading: Loading) -> Result<Self> {
         let mechanism = &case.mechanism;
-        let masses = world_masses(case, &tree, read);
+        let masses = world_masses(case, &tree, loading);
+        let read = loading != Loading::Moving;
         let mut world = PhysicsWorld::new();
         world.gravity = joints::vector(case.gravity);
         world.integration_parameters = joints::parameters(settings);
@@ -111,8 +115,7 @@ impl Twin {
         let cuts = tree.cut.iter().map(|&index| {
             let joint = mechanism.joints()[index].clone();
             let links = [joint.first.link, joint.second.link];
-            // Forces are read in the joint's own order and axes.
-            let steered = if read { None } else { steered(&tree, mechanism, &masses, &joint) };
+            let steered = steered(&tree, mechanism, &masses, &joint);
             let (order, between) = match steered {
                 None => (links, joints::between(&joint, links)),
                 Some((order, axis)) => (order, joints::steered(&joint, order, axis)),
@@ -120,7 +123,8 @@ impl Twin {
             let (first, second) = (hold(order[0], order[1]), hold(order[1], order[0]));
             let handle = world.impulse_joints.insert(first, second, between, true);
             let plain = links.into_iter().filter(|&link| link != GROUND).all(plain);
-            Cut { joint, index, handle, plain, start: frame::Frame::default() }
+            let steered = steered.map(|(order, axis)| (order[0], axis));
+            Cut { joint, index, handle, plain, steered, start: frame::Frame::default() }
         });
         let cuts = cuts.collect();
         let motors = case.drives.iter().map(|drive| {

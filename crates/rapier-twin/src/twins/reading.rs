@@ -18,7 +18,10 @@ impl Twin {
             let [first, second] = sides.map(|side| self.point(side));
             let direction = self.frames[joint.first.link].direction;
             let (axis, place) = match joint.kind {
-                JointKind::Revolute => (direction, first),
+                JointKind::Revolute => match self.cuts[index].steered {
+                    Some((link, axis)) => (rotated(self.frames[link].direction, axis), first),
+                    None => (direction, first),
+                },
                 JointKind::Prismatic { axes: [axis, _] } => {
                     // Along the free axis the rows act at the point on the second body.
                     let normal = turned(rotated(direction, axis));
@@ -59,8 +62,9 @@ impl Twin {
                 (axis * rows[0] + across * rows[1], 0.0)
             }
         };
-        // The impulse is that of the last substep, and its sign is that on the first body.
-        let duration = -self.substep();
+        // The impulse is that of the last substep, and its sign is that on the body that Rapier calls first.
+        let swapped = cut.steered.is_some_and(|(link, _)| link != cut.joint.first.link);
+        let duration = if swapped { self.substep() } else { -self.substep() };
         Some((force / duration, moment / duration))
     }
 

@@ -201,7 +201,7 @@ impl MotionDiagram {
             let errors = runs.each_ref().map(|(rows, values)| {
                 rows.iter().zip(values).map(|(&row, value)| value - exact[method.gives()][row]).collect::<Vec<f64>>()
             });
-            let size = errors.each_ref().map(|errors| rms(errors.iter().copied()));
+            let size = errors.each_ref().map(|errors| rms(errors));
             let scale = scales[method.gives()];
             let order = |coarse: f64, fine: f64| (fine > ROUNDING * scale).then(|| (coarse / fine).log2());
             let largest = errors[0].iter().fold(0.0f64, |most, error| most.larger(error.abs()));

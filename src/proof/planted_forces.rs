@@ -1,0 +1,183 @@
+//! Faults that only one of the two judgements of an engine's forces can see.
+
+use std::path::Path;
+
+use super::known::Known;
+use super::observe::observe;
+use super::options::Chosen;
+use super::settle::{self, Free};
+use super::{EngineProof, ForceFault, engines, sensitivity};
+use crate::engines::coarse_step;
+use crate::scenario::Scenario;
+use analytic::{AssurSolver, NewtonSolver};
+use linkage::case::Case;
+use linkage::engine::{Engine, Route, Settings, Statics};
+use linkage::error::Result;
+use linkage::math::rotated;
+use linkage::solver::{Progress, Provision, Solver, State, Visit};
+use linkage::trajectory::{Channel, ChannelKind};
+use rapier_twin::{Build, Precision, Rapier};
+
+/// Effect of a fault on every state.
+type Fault = fn(&mut State);
+
+/// An engine whose states have a fault by some routes.
+struct Planted {
+    fault: Fault,
+    by: &'static [Route],
+    inner: Box<dyn Engine>,
+}
+
+impl Planted {
+    fn fault(&self) -> Fault {
+        if self.by.contains(&self.inner.settings().route) { self.fault } else { |_| () }
+    }
+}
+
+impl Solver for Planted {
+    fn name(&self) -> &'static str {
+        self.inner.name()
+    }
+
+    fn provides(&self, channel: &Channel) -> Provision {
+        self.inner.provides(channel)
+    }
+
+    fn sweep(&self, case: &Case, visit: Visit, progress: Progress) -> Result<()> {
+        let mut wrong = |row: usize, state: &State| {
+            let mut state = state.clone();
+            self.fault()(&mut state);
+            visit(row, &state)
+        };
+        self.inner.sweep(case, &mut wrong, progress)
+    }
+}
+
+impl Engine for Planted {
+    fn version(&self) -> String {
+        self.inner.version()
+    }
+
+    fn settings(&self) -> Settings {
+        self.inner.settings()
+    }
+
+    fn with(&self, settings: Settings) -> Box<dyn Engine> {
+        Box::new(Planted { fault: self.fault, by: self.by, inner: self.inner.with(settings) })
+    }
+
+    fn routes(&self) -> &'static [Route] {
+        self.inner.routes()
+    }
+
+    fn own_routes(&self, case: &Case) -> &'static [Route] {
+        self.inner.own_routes(case)
+    }
+
+    fn sweeps(&self, case: &Case) -> Option<[usize; 2]> {
+        self.inner.sweeps(case)
+    }
+
+    fn statics(&self, case: &Case) -> Option<Statics> {
+        let (mut inner, fault) = (self.inner.statics(case)?, self.fault());
+        Some(Box::new(move |case, state, t| {
+            inner(case, state, t)?;
+            fault(state);
+            Ok(())
+        }))
+    }
+
+    fn formal_order(&self, case: &Case, channel: &ChannelKind) -> f64 {
+        self.inner.formal_order(case, channel)
+    }
+
+    fn noise(&self, case: &Case, channel: &ChannelKind) -> f64 {
+        self.inner.noise(case, channel)
+    }
+
+    fn is_noise_measured(&self) -> bool {
+        self.inner.is_noise_measured()
+    }
+
+    fn told(&self) -> Vec<(&'static str, String)> {
+        self.inner.told()
+    }
+}
+
+fn proven(name: &str, by: &'static [Route], fault: Fault) -> EngineProof {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios").join(format!("{name}.toml"));
+    let scenario = Scenario::load(&path).unwrap_or_else(|error| panic!("{error}"));
+    let case = &scenario.case;
+    let seen =
+        |solver: &dyn Solver| observe(case, solver, &mut |_| {}).unwrap_or_else(|stopped| panic!("{}", stopped.error));
+    let sides = [seen(&AssurSolver), seen(&NewtonSolver)];
+    let sensitivity = sensitivity::of(case, &AssurSolver, &sides[0].trajectory).unwrap();
+    let both = [("assur", &sides[0].trajectory), ("newton", &sides[1].trajectory)];
+    let known = Known::of(case, both, &sensitivity).unwrap();
+    let inner = Box::new(Rapier::new(Build::Multibody, Precision::Double, coarse_step(case)));
+    let free = Free { step: true, sweeps: true, extrapolated: true };
+    let engine = Box::new(Planted { fault, by, inner });
+    let chosen = Chosen { engine, free, own_forces: Some(free), budget: settle::BUDGET };
+    engines::prove(&scenario, case, &chosen, &sides[0], &known, &mut |_| {}).unwrap()
+}
+
+const EXERTED: &[Route] = &[Route::Native, Route::Probe];
+const FOLLOWED: &[Route] = &[Route::Differences];
+
+/// Channels of own forces that disagree.
+fn against(proof: &EngineProof) -> Vec<String> {
+    let own = proof.own_forces.as_ref().expect("there are own forces");
+    let wrong = own.channels.iter().filter(|own| own.verdict.word() == "disagree");
+    wrong.map(|own| own.residual.channel.to_string()).collect()
+}
+
+fn nothing(_: &mut State) {}
+
+/// One force is read in the frame of a link instead of the world's.
+fn in_a_link_s_frame(state: &mut State) {
+    state.forces[1] = rotated(state.motions[1].direction, state.forces[1]);
+}
+
+fn a_fiftieth_more(state: &mut State) {
+    state.forces.iter_mut().for_each(|force| *force *= 1.02);
+}
+
+#[test]
+fn right_forces_agree_in_both_ways() {
+    for name in ["crank_rocker", "scotch_yoke", "double_pendulum"] {
+        let proof = proven(name, EXERTED, nothing);
+        assert_eq!((proof.verdict.word(), proof.force_fault()), ("agree", None), "{name}");
+    }
+}
+
+#[test]
+fn wrong_impulses_are_found_although_motion_and_forces_that_belong_to_it_are_right() {
+    for name in ["crank_rocker", "double_pendulum"] {
+        let proof = proven(name, EXERTED, a_fiftieth_more);
+        assert!(proof.channels.iter().all(|channel| channel.verdict.word() == "agree"), "{name}");
+        assert_eq!((proof.verdict.word(), proof.force_fault()), ("disagree", Some(ForceFault::Exerted)), "{name}");
+        assert!(!against(&proof).is_empty(), "{name}");
+    }
+}
+
+#[test]
+fn a_force_read_in_the_wrong_frame_is_found_in_that_joint_and_in_what_rests_on_it() {
+    let proof = proven("crank_rocker", EXERTED, in_a_link_s_frame);
+    assert_eq!(proof.force_fault(), Some(ForceFault::Exerted));
+    let found = against(&proof);
+    assert!(found.contains(&"joint.A.fx_N".to_string()), "{found:?}");
+    assert!(!found.iter().any(|name| name.starts_with("joint.C") || name.starts_with("drive")), "{found:?}");
+}
+
+#[test]
+fn wrong_equations_of_newton_and_euler_are_told_as_that() {
+    let proof = proven("crank_rocker", FOLLOWED, in_a_link_s_frame);
+    assert_eq!((proof.verdict.word(), proof.force_fault()), ("disagree", Some(ForceFault::Reading)));
+    assert!(against(&proof).is_empty());
+}
+
+#[test]
+fn what_is_wrong_in_both_ways_is_told_as_that() {
+    let proof = proven("crank_rocker", &Route::ALL, a_fiftieth_more);
+    assert_eq!((proof.verdict.word(), proof.force_fault()), ("disagree", Some(ForceFault::Both)));
+}

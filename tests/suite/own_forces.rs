@@ -1,0 +1,125 @@
+//! Forces as the engine itself exerts them, judged besides those that follow from its motion.
+
+use analytic::AssurSolver;
+use linkage::case::Wanted;
+use linkage::engine::{Engine, Route};
+use linkage::math::{KeepNan, Vec2};
+use linkage::trajectory::Stage;
+use linkproof::engines::EngineName;
+use linkproof::proof::{Options, OwnForces, Proof, prove};
+use linkproof::scenario::Scenario;
+use rapier_twin::{Build, Precision, Rapier};
+
+use crate::common::{assert_within, shipped, states};
+
+fn proven(scenario: &Scenario, options: &Options) -> Proof {
+    prove(scenario, options).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn own(proof: &Proof) -> &OwnForces {
+    proof.engine().own_forces.as_ref().expect("own forces are judged")
+}
+
+#[test]
+fn every_force_is_judged_twice_and_says_where_it_comes_from() {
+    for (name, forces) in [("crank_rocker.toml", 12), ("double_pendulum.toml", 7), ("compressor_runup.toml", 20)] {
+        let proof = proven(&shipped(name), &Options::default());
+        let (engine, own) = (proof.engine(), own(&proof));
+        assert_eq!((proof.verdict.word(), own.verdict.word()), ("agree", "agree"), "{name}");
+        let wanted: Vec<_> = engine.channels.iter().map(|channel| &channel.residual.channel).collect();
+        let wanted: Vec<_> = wanted.into_iter().filter(|channel| channel.kind.stage >= Stage::Reactions).collect();
+        let judged: Vec<_> = own.channels.iter().map(|channel| &channel.residual.channel).collect();
+        assert_eq!((wanted, judged.len()), (judged.clone(), forces), "{name}");
+        assert_eq!(
+            [engine.info.settings.route, own.info.settings.route],
+            [Route::Differences, Route::Native],
+            "{name}"
+        );
+        assert_ne!(engine.info.provides[3], own.info.provides[3], "{name}");
+        // Another path of numbers, not the same one.
+        let (ours, theirs) = (engine.trajectory.as_ref().unwrap(), own.trajectory.as_ref().unwrap());
+        assert!(ours.column(judged[0]).unwrap() != theirs.column(judged[0]).unwrap(), "{name}");
+        let worst = own.channels.iter().fold(0.0f64, |worst, own| worst.larger(own.bound / own.residual.scale));
+        assert_within!(worst, 1e-2, "{name}");
+    }
+}
+
+#[test]
+fn a_route_that_is_given_is_the_only_one_and_without_forces_there_is_none() {
+    let scenario = shipped("crank_rocker.toml");
+    for route in [Route::Differences, Route::Native] {
+        let proof = proven(&scenario, &Options::default().route(route).step(1e-3));
+        assert!(proof.engine().own_forces.is_none() && proof.engine().info.settings.route == route);
+    }
+    let mut still = shipped("crank_rocker.toml");
+    still.case = still.case.wanting(Wanted::of(&[Stage::Positions, Stage::Velocities]));
+    assert!(proven(&still, &Options::default()).engine().own_forces.is_none());
+}
+
+/// The finest run is the one that tells the error of the given step.
+#[test]
+fn a_given_step_is_extrapolated_from_coarser_ones_only() {
+    let scenario = shipped("crank_rocker.toml");
+    for step in [1e-3, 2e-4] {
+        let proof = proven(&scenario, &Options::default().step(step));
+        let settings = own(&proof).info.settings;
+        let finest = settings.resolution * 0.5f64.powi(settings.extrapolated as i32 + 1);
+        assert!(finest >= 0.5 * step * (1.0 - 1e-9), "{finest:e} at {step:e}");
+        assert_eq!((proof.verdict.word(), own(&proof).verdict.word()), ("agree", "agree"), "{step:e}");
+        assert_eq!(proof.engine().info.settings.resolution, step);
+    }
+    // A number of extrapolations belongs to the step that it is given with.
+    let proof = proven(&scenario, &Options::default().step(1e-3).extrapolated(2));
+    let settings = own(&proof).info.settings;
+    assert_eq!((settings.resolution, settings.extrapolated), (1e-3, 2));
+}
+
+#[test]
+fn several_engines_have_their_own_forces_each() {
+    let options = Options::default().engine(EngineName::Rapier).engine(EngineName::Impulse);
+    let proof = proven(&shipped("scotch_yoke.toml"), &options);
+    for engine in &proof.engines {
+        let own = engine.own_forces.as_ref().expect("both builds exert forces");
+        assert_eq!((own.info.name, own.verdict.word()), (engine.info.name, "agree"));
+    }
+}
+
+/// Largest error of the native reactions and of the moment on the crank at the given times, over the largest force and
+/// moment.
+fn native_errors(name: &str, build: Build, step: f64, times: &[f64]) -> [f64; 2] {
+    let scenario = shipped(name);
+    let rapier = Rapier::new(build, Precision::Double, step);
+    let settings = linkage::engine::Settings { route: Route::Native, sweeps: 8192, ..rapier.settings() };
+    let found = states(&rapier.set(settings), &scenario.case, times).unwrap();
+    let truth = states(&AssurSolver, &scenario.case, times).unwrap();
+    let (mut error, mut size) = ([0.0f64; 2], [0.0f64; 2]);
+    for (found, truth) in found.iter().zip(&truth) {
+        for (a, b) in found.forces.iter().zip(&truth.forces) {
+            (error[0], size[0]) = (error[0].larger((a - b as &Vec2).norm()), size[0].larger(b.norm()));
+        }
+        let [a, b] = [found, truth].map(|state| state.torques[0]);
+        (error[1], size[1]) = (error[1].larger((a - b).abs()), size[1].larger(b.abs()));
+    }
+    [error[0] / size[0], error[1] / size[1]]
+}
+
+/// The velocities that a moving start begins with follow the constraints of the first pose, not of the one before. The
+/// impulses of the first steps lack what that changes: 39 % of the range of a reaction, at any step.
+#[test]
+fn impulses_at_the_start_of_a_moving_mechanism_converge() {
+    for build in [Build::Multibody, Build::Impulse] {
+        let [coarse, fine] =
+            [4e-4, 1e-4].map(|step| native_errors("five_bar_on_a_spring.toml", build, step, &[0.0, 2e-3])[0]);
+        assert_within!(fine, 5e-3, "{build:?}");
+        assert!(coarse / fine > 3.0, "{build:?}: {coarse:e} and {fine:e}");
+    }
+}
+
+/// A motor whose moment does not fall with the speed is a load in Rapier. It is not among the impulses, but the drive
+/// exerts it.
+#[test]
+fn the_moment_of_a_motor_that_is_a_load_is_among_the_forces_exerted() {
+    let errors = native_errors("compressor_runup.toml", Build::Multibody, 1e-4, &[0.0, 0.02, 0.05, 0.1]);
+    assert_within!(errors[1], 1e-3, "moment");
+    assert_within!(errors[0], 5e-3, "reactions");
+}
