@@ -1,6 +1,6 @@
 //! Checks besides the comparison of the two sides: closure, side against side, powers.
 
-use super::known::Known;
+use super::known::{Known, of_condition};
 use super::observe::Observed;
 use super::runs::Runs;
 use crate::compare::{Check, Convergence, difference};
@@ -17,6 +17,11 @@ use linkage::trajectory::{Channel, ChannelKind, Stage};
 const CLOSURE: f64 = 1e-13;
 /// Wanted of an analytic side: balancing moment computed in two ways, relative to the moments in its balance.
 const TWO_WAYS: f64 = 1e-11;
+
+/// The same for a side that passes change points: there forces are known less well.
+fn two_ways(side: &Observed) -> f64 {
+    TWO_WAYS.larger(of_condition(Stage::Reactions, side.passing))
+}
 
 pub(super) fn rounding(bound: f64, why: &'static str) -> Tolerance {
     Tolerance { bound, basis: Basis::Wanted(why) }
@@ -38,13 +43,13 @@ pub(super) fn of_sides(case: &Case, sides: &[(&'static str, Observed); 2], known
     }
     checks.extend(between_sides(sides, known));
     for (name, side) in sides.iter().filter(|(_, side)| !side.power.is_empty()) {
-        let tolerance = rounding(TWO_WAYS, "sums of a few forces and powers");
+        let tolerance = rounding(two_ways(side), "sums of a few forces and powers");
         let name = format!("balancing moment from equilibrium and from powers ({name})");
         checks.push(Check::new(name, side.two_ways(), tolerance, ""));
     }
     for (name, side) in sides {
         checks.extend(side.unbalance.map(|share| {
-            let tolerance = rounding(TWO_WAYS, "sums of as many forces as there are links");
+            let tolerance = rounding(two_ways(side), "sums of as many forces as there are links");
             Check::new(
                 format!("shaking force and moment from reactions and from momentum ({name})"),
                 share,

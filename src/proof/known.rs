@@ -43,6 +43,11 @@ const ULPS: f64 = 16.0;
 /// table has a knot, both runs step over a jump of its third derivative, and 3.2 times the difference was measured.
 const SAFETY: f64 = 4.0;
 
+/// Relative rounding in a stage at a pose of this condition number.
+pub(super) fn of_condition(stage: Stage, condition: f64) -> f64 {
+    ULPS * f64::EPSILON * condition.powi(power(stage))
+}
+
 /// Errors allowed to the analytic sides, channel by channel.
 pub(super) struct Known {
     /// Size of the numbers in every channel, in its unit.
@@ -91,7 +96,8 @@ impl Known {
         let mut visit = |row: usize, state: &State| {
             let frames = state.motions.iter().zip(&state.angles);
             let pose = Pose(frames.map(|(motion, &angle)| LinkPose { origin: motion.origin, angle }).collect());
-            let own = condition(&case.mechanism, &case.structure.groups, &pose);
+            // At a change point the condition of the pose has no bound, but no side calculates at that pose.
+            let own = state.passing.unwrap_or_else(|| condition(&case.mechanism, &case.structure.groups, &pose));
             // What a motion under forces has lost once, it does not get back.
             worst = if case.is_free() { worst.larger(own) } else { own };
             conditions[row] = worst;
@@ -110,7 +116,7 @@ impl Known {
     /// Relative rounding allowed in a stage at an instant.
     fn rounding(&self, stage: Stage, row: usize) -> f64 {
         let condition = self.conditions.get(row).copied().unwrap_or(1.0);
-        usual(stage).larger(ULPS * f64::EPSILON * condition.powi(power(stage)))
+        usual(stage).larger(of_condition(stage, condition))
     }
 
     /// Relative difference allowed between the sides in a channel of a stage at an instant.

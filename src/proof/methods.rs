@@ -182,7 +182,10 @@ pub(super) fn checks(case: &Case, reference: &dyn Solver) -> Result<Vec<Check>> 
         return Ok(Vec::new());
     }
     let mut visit = |row: usize, state: &State| {
-        watches.iter_mut().for_each(|watch| watch.see(case, row, state));
+        // The equations of these methods are singular at a change point, and none of them passes it.
+        if state.passing.is_none() {
+            watches.iter_mut().for_each(|watch| watch.see(case, row, state));
+        }
         Ok(())
     };
     reference.each(case, &mut visit)?;

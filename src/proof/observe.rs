@@ -32,6 +32,8 @@ pub(super) struct Observed {
     /// Largest moment on the driving link (N m): the balancing moment, or the moment of a joint's force at the link's
     /// length.
     pub(super) moment: f64,
+    /// Largest condition number by which a side passes a change point; 1 if it passes none.
+    pub(super) passing: f64,
 }
 
 impl Observed {
@@ -87,6 +89,7 @@ pub(super) fn observe(
     let mut senses = vec![Vec::new(); case.grid.len()];
     let (mut reach, mut moment): (f64, f64) = (0.0, 0.0);
     let mut unbalance = Unbalance::default();
+    let mut passing: f64 = 1.0;
     let mut visit = |row: usize, state: &State| {
         let sensed = case.loads.iter().filter_map(|load| {
             let of_link = |link: usize| Vec2::new(case.spin(&state.motions, link), 0.0);
@@ -123,6 +126,7 @@ pub(super) fn observe(
                 unbalance.add(case, state);
             }
         }
+        passing = passing.larger(state.passing.unwrap_or(1.0));
         sampler.put(case, row, state);
         Ok(())
     };
@@ -139,6 +143,7 @@ pub(super) fn observe(
         torque,
         unbalance: with_power.then(|| unbalance.share()),
         moment,
+        passing,
     })
 }
 

@@ -27,6 +27,10 @@ pub fn drives(tables: Vec<Table>, motor: Option<Table>, mechanism: &Mechanism, s
             let message = "one of several drives has a speed that changes";
             return Err(table.wrong(ErrorKind::Unsupported, "law", message).help("give all drives constant speeds"));
         }
+        if !drives.is_empty() && drives.iter().chain([&drive]).any(|drive| drive.through) {
+            let message = "change points are passed with one drive only, and there are several";
+            return Err(table.wrong(ErrorKind::Unsupported, "through", message).help("take the key out"));
+        }
         drives.push(drive);
     }
     let crank = drives.remove(0).with_motor(motor.map(motor::read).transpose()?);
@@ -39,6 +43,7 @@ fn drive(table: &mut Table, mechanism: &Mechanism, before: &[Drive], start: f64)
     let law = law(table, start)?;
     let zero = table.optional_quantity("zero", &ANGLE, Sign::Any)?.unwrap_or(0.0);
     let motion = motion(table, law)?;
+    let through = through(table)?;
     table.finish()?;
     let Some(index) = mechanism.joint_named(&name) else {
         let names = mechanism.joints().iter().map(|joint| joint.name.as_str());
@@ -64,7 +69,7 @@ fn drive(table: &mut Table, mechanism: &Mechanism, before: &[Drive], start: f64)
             .wrong(ErrorKind::Unsupported, "joint", message)
             .help(format!("drive a link that is hinged to the ground: {}", super::words::choice(hinges, "\""))));
     };
-    let drive = Drive { joint: index, link, zero, start, motion };
+    let drive = Drive { joint: index, link, zero, start, motion, through };
     if joint.on(GROUND).is_none() && !drive.is_free() {
         let message = format!("joint \"{name}\" hangs on a moving link, but the motion of its link is prescribed");
         let help = "only a free link may hang on a moving one: write `motion = \"free\"`, or drive a link that is hinged to the ground";
@@ -99,6 +104,22 @@ fn motion(table: &mut Table, law: MotionLaw) -> Result<DriveMotion> {
         Some(other) => Err(table
             .wrong(ErrorKind::Input, "motion", format!("\"{other}\" is no sort of motion"))
             .help(suggestion(other, ["prescribed", "free"], "\""))),
+    }
+}
+
+/// Whether change points are passed.
+fn through(table: &mut Table) -> Result<bool> {
+    match table.optional_string("through")?.as_deref() {
+        None => Ok(false),
+        Some("smooth") => Ok(true),
+        Some("jump") => {
+            let message = "on the other branch velocities jump at a change point, which takes infinite forces";
+            let help = "write `through = \"smooth\"` for the branch on which they go on, or take the key out";
+            Err(table.wrong(ErrorKind::Unsupported, "through", message).help(help))
+        }
+        Some(other) => Err(table
+            .wrong(ErrorKind::Input, "through", format!("\"{other}\" is no way through a change point"))
+            .help("write `through = \"smooth\"` for the branch on which velocities go on, or take the key out")),
     }
 }
 

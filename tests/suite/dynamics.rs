@@ -5,3 +5,4 @@ mod energy;
 mod figures;
 mod free;
 mod held;
+mod through;

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::common::chain::four_bars;
 use crate::common::spec::{Spec, four_bar};
 use crate::common::{assert_within, shipped};
 use analytic::{AssurSolver, NewtonSolver};
@@ -110,56 +111,15 @@ fn regress_a_prescribed_link_does_not_suffer_from_a_dead_point() {
     }
 }
 
-/// A parallelogram let go towards its change point.
-fn swinging(pairs: usize) -> String {
-    let mut text =
-        "format = 1\nname = \"chain\"\ntitle = \"chain\"\n[ground.points]\nO0 = { x_m = 0, y_m = 0 }\n".to_string();
-    for k in 1..=pairs {
-        text += &format!("O{k} = {{ x_m = {k}, y_m = 0 }}\n");
-    }
-    let link = "mass_kg = 1\ninertia_kg_m2 = 0.0833\nmass_centre = { x_m = 0.5, y_m = 0 }\n";
-    let (mut joints, mut groups) = (String::new(), String::new());
-    let mut joint = |point: &str, a: &str, b: &str| {
-        let name = format!("{point}_{b}");
-        joints += &format!(
-            "[[joints]]\nname = \"{name}\"\npoint = \"{point}\"\ntype = \"revolute\"\nlinks = [\"{a}\", \"{b}\"]\n"
-        );
-    };
-    for k in 0..=pairs {
-        text += &format!(
-            "[links.bar{k}]\n{link}[links.bar{k}.points]\nO{k} = {{ x_m = 0, y_m = 0 }}\nA{k} = {{ x_m = 1, y_m = 0 }}\n"
-        );
-        joint(&format!("O{k}"), "ground", &format!("bar{k}"));
-    }
-    for k in 1..=pairs {
-        let before = k - 1;
-        text += &format!(
-            "[links.rod{k}]\n{link}[links.rod{k}.points]\nA{before} = {{ x_m = 0, y_m = 0 }}\nA{k} = {{ x_m = 1, y_m = 0 }}\n"
-        );
-        joint(&format!("A{before}"), &format!("bar{before}"), &format!("rod{k}"));
-        joint(&format!("A{k}"), &format!("bar{k}"), &format!("rod{k}"));
-        groups += &format!("[[start.groups]]\nlinks = [\"rod{k}\", \"bar{k}\"]\nmode = \"left\"\n");
-    }
-    format!(
-        "{text}{joints}[drive]\njoint = \"O0_bar0\"\nmotion = \"free\"\ninitial_speed_rad_s = -1\nspeed_rad_s = -1\n\
-         [gravity]\nx_m_s2 = 0\ny_m_s2 = -9.81\n[start]\ncrank_deg = 90\n{groups}\
-         [grid]\nfrom_s = 0\nto_s = 2\nstep_s = 0.1\n[engine]\ndt_s = 1e-3\n"
-    )
-}
-
 /// Symptom: at a change point in free motion side 2 took ever smaller steps and had no answer after ten minutes; with an
 /// even number of loops it passed with errors up to 8e-7 rad, because the determinant of the whole kept its sign.
+/// Free motions pass change points since: see `dynamics/through.rs`. Those of several driving links do not.
 #[test]
-fn regress_a_free_motion_ends_at_a_change_point() {
+fn regress_a_free_motion_goes_on_at_a_change_point() {
     for pairs in [1, 2] {
-        let case = Scenario::parse(&swinging(pairs), Path::new("swinging.toml"))
-            .unwrap_or_else(|error| panic!("{error}"))
-            .case;
+        let case = four_bars(pairs, 2.0, 0.1);
         for side in SIDES {
-            let error = side.solve(&case).unwrap_err();
-            let crank = error.crank().unwrap_or_else(|| panic!("{}: {error}", side.name())).to_degrees();
-            assert_within!(crank.abs(), 0.5, "{} {pairs}: {error}", side.name());
-            assert!(error.time().is_some(), "{}: {error}", side.name());
+            side.solve(&case).unwrap_or_else(|error| panic!("{} {pairs}: {error}", side.name()));
         }
     }
 }
@@ -225,8 +185,7 @@ fn regress_configurations_are_found_the_other_way_round() {
 /// Ten loops, of which side 1 first follows all poses round (that took 2.7 s once, growing with the third power).
 #[test]
 fn a_long_chain_starts() {
-    let text = swinging(10).replace("to_s = 2", "to_s = 0.01").replace("step_s = 0.1", "step_s = 0.01");
-    let case = Scenario::parse(&text, Path::new("long.toml")).unwrap_or_else(|error| panic!("{error}")).case;
+    let case = four_bars(10, 0.01, 0.01);
     let [one, two] = SIDES.map(|side| side.solve(&case).unwrap_or_else(|error| panic!("{}: {error}", side.name())));
     for ((channel, a), (_, b)) in one.iter().zip(two.iter()) {
         for (a, b) in a.iter().zip(b) {

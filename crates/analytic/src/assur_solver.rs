@@ -3,7 +3,7 @@
 use crate::assur::PoseSolver;
 use crate::assur::transfer::TransferSide;
 use crate::motion::free;
-use crate::motion::march::TIGHTER;
+use crate::motion::march::{NARROWER, TIGHTER};
 use crate::reduced::{self, ACCURACY, End, Model, run_up};
 use linkage::case::Case;
 use linkage::drive::Load;
@@ -65,8 +65,9 @@ impl Solver for TightAssurSolver {
 /// Motion under forces. One degree of freedom: its reduced equation of motion, if the crank angle alone gives its terms.
 /// Otherwise, and for several freedoms: the transfer functions.
 fn free_motion(case: &Case, accuracy: f64, visit: Visit, progress: Progress) -> Result<()> {
+    let share = if accuracy < ACCURACY { NARROWER } else { 1.0 };
     if !case.drives.further().is_empty() || case.loads.iter().any(Load::is_viscous) {
-        return free::sweep(case, &mut TransferSide::new(case)?, accuracy, visit, progress);
+        return free::sweep(case, &mut TransferSide::new(case, share)?, accuracy, visit, progress);
     }
     free::check(case)?;
     let rows = case.grid.ascending();
@@ -76,10 +77,14 @@ fn free_motion(case: &Case, accuracy: f64, visit: Visit, progress: Progress) -> 
         // Loads that are no functions of the crank angle over some whole turns, or a branch that is not known all the
         // way round.
         Err(error) if matches!(error.kind(), ErrorKind::Unsupported | ErrorKind::Numeric) => {
-            return free::sweep(case, &mut TransferSide::new(case)?, accuracy, visit, progress);
+            return free::sweep(case, &mut TransferSide::new(case, share)?, accuracy, visit, progress);
         }
         model => model?,
     };
+    if model.kinks().meets {
+        // Beyond a change point, by momentum.
+        return free::sweep(case, &mut TransferSide::new(case, share)?, accuracy, visit, progress);
+    }
     let (motion, end) = reduced::motion(&model, case.crank().initial_speed(), &times, accuracy)?;
     if motion.len() < times.len() {
         return Err(ended(end));

@@ -99,6 +99,9 @@ pub struct State {
     /// Balancing moment on every driving link (N m), in the order of
     /// [`CaseParts::drives`](crate::case::CaseParts::drives).
     pub torques: Vec<f64>,
+    /// Condition number that rounding goes by where the mechanism passes a change point. There that of the pose itself
+    /// grows without bound, but the solver does not calculate at the pose. `None` elsewhere.
+    pub passing: Option<f64>,
 }
 
 impl State {
@@ -111,6 +114,7 @@ impl State {
             forces: vec![Vec2::zeros(); case.mechanism.joints().len()],
             moments: vec![0.0; case.mechanism.joints().len()],
             torques: vec![0.0; case.drives.len()],
+            passing: None,
         }
     }
 

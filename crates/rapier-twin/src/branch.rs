@@ -31,6 +31,8 @@ struct Watched {
     sense: f64,
     /// Largest size of the determinant so far.
     largest: f64,
+    /// Times (s) and determinants of the last two states, the older one first.
+    last: [Option<(f64, f64)>; 2],
 }
 
 impl Branches {
@@ -43,7 +45,7 @@ impl Branches {
         let motions: Vec<Motion> = case.start.0.iter().map(at_start).collect();
         let of = |index: usize| {
             let constraints = Lu::new(3 * case.structure.groups[index].links.len());
-            let mut own = Watched { index, constraints, sense: 0.0, largest: 0.0 };
+            let mut own = Watched { index, constraints, sense: 0.0, largest: 0.0, last: [None; 2] };
             let determinant = own.determinant(case, &motions);
             (own.sense, own.largest) = (determinant.signum(), determinant.abs());
             own
@@ -59,6 +61,12 @@ impl Branches {
         for own in &mut self.groups {
             let determinant = own.determinant(case, &state.motions);
             own.largest = own.largest.larger(determinant.abs());
+            if case.crank().through {
+                if own.turns_back(t, determinant) {
+                    return Err(turned_back(case, own.index, t));
+                }
+                continue;
+            }
             if own.sense * determinant < -BEYOND * own.largest {
                 let names = case.structure.groups[own.index].names(&case.mechanism);
                 let crank = case.crank().at(t).angle;
@@ -79,7 +87,31 @@ impl Branches {
     }
 }
 
+/// The error for an engine that has not gone on smoothly at a change point.
+fn turned_back(case: &Case, group: usize, t: f64) -> Error {
+    let names = case.structure.groups[group].names(&case.mechanism);
+    let crank = case.crank().at(t).angle;
+    let message = format!(
+        "the engine has not gone on smoothly at the change point of the group ({names}) before t = {t:.6} s, crank angle \
+         {:.4} deg: velocities have jumped to the other branch",
+        crank.to_degrees()
+    );
+    let error = Error::new(ErrorKind::Numeric, message).at_time(t).at_crank(crank).of_group(names);
+    error.help(Advice::SmallerStep { to: None }).or_help("let the grid end before the change point")
+}
+
 impl Watched {
+    /// Where change points are passed smoothly the determinant goes on through zero. Here it was on its way there, and has
+    /// come back with the slope reversed.
+    fn turns_back(&mut self, t: f64, determinant: f64) -> bool {
+        let [older, newer] = self.last;
+        self.last = [newer, Some((t, determinant))];
+        let (Some((t0, d0)), Some((t1, d1))) = (older, newer) else { return false };
+        let foreseen = d1 + (d1 - d0) * (t - t1) / (t1 - t0);
+        let counts = foreseen.abs() > BEYOND * self.largest;
+        counts && foreseen * d1 < 0.0 && determinant * d1 > 0.0 && determinant.abs() > 0.5 * foreseen.abs()
+    }
+
     fn determinant(&mut self, case: &Case, motions: &[Motion]) -> f64 {
         let group = &case.structure.groups[self.index];
         let size = case.mechanism.size();

@@ -1,5 +1,6 @@
 //! Mechanisms for the integration tests, written as scenario text, so that tests enter where a user does.
 
+pub mod chain;
 pub mod dial;
 pub mod four_link;
 pub mod higher;

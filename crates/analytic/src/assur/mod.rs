@@ -4,6 +4,7 @@
 pub mod batch;
 mod forces;
 pub mod groups;
+mod passing;
 mod pose_solver;
 pub(crate) mod transfer;
 mod turns;

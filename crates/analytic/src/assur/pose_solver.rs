@@ -1,7 +1,8 @@
 //! Pose after pose by Assur groups: the fast part of side 1.
 
 use super::forces::Kinetostatics;
-use super::turns::Turns;
+use super::passing::{self, Passing};
+use super::turns::{CLOSED_FORM_STEP, FOLLOWED_STEP, Turns};
 use crate::assur::groups::{Clearance, Misfit, OutOfReach, Plan, SINGULAR};
 use linkage::case::Case;
 use linkage::drive::{Load, Wrench};
@@ -10,11 +11,6 @@ use linkage::math::{KeepNan, Motion};
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 
-/// Largest turn of a driving link between two poses (rad). Over such a step no link turns so far that its turns could be
-/// miscounted.
-pub(super) const CLOSED_FORM_STEP: f64 = std::f64::consts::PI / 12.0;
-/// The same where Newton's method follows a group from pose to pose.
-pub(super) const FOLLOWED_STEP: f64 = std::f64::consts::PI / 90.0;
 /// Turn of the crank (rad) after which a link that starts at its own dead centre shows its sense.
 const NUDGE: f64 = 1e-7;
 /// How often a failing step is halved: down to a millionth of it.
@@ -41,6 +37,8 @@ pub struct PoseSolver<'a> {
     crank: f64,
     step: f64,
     watch: Watch,
+    /// Change points, where the drive says that they are passed.
+    passing: Option<Passing>,
 }
 
 /// What is watched so that no step passes over a change point.
@@ -73,6 +71,7 @@ impl<'a> PoseSolver<'a> {
             crank: case.crank().start,
             step,
             watch: Watch::default(),
+            passing: (case.crank().through && case.drives.further().is_empty()).then(|| Passing::new(1.0)),
         };
         solver.step_to(case.crank().start, 0)?;
         if case.loads.iter().any(Load::needs_angles) {
@@ -102,6 +101,10 @@ impl<'a> PoseSolver<'a> {
     /// which it fails.
     pub fn solve(&mut self, crank: f64, omega: f64, alpha: f64, deepest: Stage) -> Result<&State> {
         self.go_to(crank)?;
+        self.state.passing = None;
+        if self.passing.as_ref().is_some_and(|passing| passing.inside().is_some()) {
+            return self.solve_passing(omega, alpha, deepest);
+        }
         if deepest >= Stage::Velocities {
             self.drive(omega);
             self.plan.velocities(&self.inputs, &mut self.state.motions);
@@ -119,6 +122,46 @@ impl<'a> PoseSolver<'a> {
         Ok(&self.state)
     }
 
+    /// The rest of [`PoseSolver::solve`] beside a change point.
+    #[cold]
+    fn solve_passing(&mut self, omega: f64, alpha: f64, deepest: Stage) -> Result<&State> {
+        let begun: Vec<Motion> = self.state.motions.clone();
+        self.pass([omega, alpha], deepest, None)?;
+        // What was not asked for keeps its old values.
+        if deepest < Stage::Accelerations {
+            for (motion, before) in self.state.motions.iter_mut().zip(&begun) {
+                (motion.acceleration, motion.alpha) = (before.acceleration, before.alpha);
+            }
+        }
+        Ok(&self.state)
+    }
+
+    /// Rates and reactions beside a change point. Loads that depend on the sense of a link take it from `senses`, its
+    /// angular velocities, if given.
+    fn pass(&mut self, rates: [f64; 2], deepest: Stage, senses: Option<&[f64]>) -> Result<()> {
+        if deepest >= Stage::Reactions && self.turns.is_some() && !self.case.loads.is_empty() {
+            self.with_angles();
+        }
+        let (case, place) = (self.case, self.case.crank().world_angle(self.crank));
+        let Some(window) = self.passing.as_ref().and_then(Passing::inside) else { return Ok(()) };
+        window.rates(place, rates, &self.plan, &mut self.state.motions);
+        self.state.passing = Some(window.condition);
+        if deepest < Stage::Reactions {
+            return Ok(());
+        }
+        // One sense for all poses around: that of this one.
+        let own: Vec<f64> = match senses {
+            Some(senses) => senses.to_vec(),
+            None => (0..self.state.motions.len()).map(|link| case.spin(&self.state.motions, link)).collect(),
+        };
+        let mut loads = |motions: &[Motion], angles: &[f64], out: &mut [Wrench]| {
+            let sensed = |_: usize, load: &Load, link: usize, crank: f64| load.moment_in(own[link], crank);
+            case.loads_with(motions, angles, sensed, out);
+        };
+        let found = window.reactions(place, rates, None, (case, &mut self.statics), &mut loads, &mut self.state);
+        found.map_err(|_| passing::unbounded(self.crank))
+    }
+
     /// As [`PoseSolver::solve`] at the instant at which the crank starts from rest with the acceleration `alpha`: loads
     /// that depend on the sense of a link act against the motion that begins.
     /// A link that is at its own dead centre shows its sense a little later.
@@ -132,6 +175,10 @@ impl<'a> PoseSolver<'a> {
             }
         }
         self.solve(crank, 0.0, alpha, deepest)?;
+        if self.state.passing.is_some() {
+            self.pass([0.0, alpha], deepest, Some(&begun).filter(|begun| !begun.is_empty()).map(Vec::as_slice))?;
+            return Ok(self.with_angles());
+        }
         if deepest >= Stage::Reactions && !self.case.loads.is_empty() && !begun.is_empty() {
             self.with_angles();
             let sensed = |_: usize, load: &Load, link: usize, crank: f64| load.moment_in(begun[link], crank);
@@ -190,8 +237,24 @@ impl<'a> PoseSolver<'a> {
     #[inline]
     fn place(&mut self, target: f64) -> std::result::Result<(), OutOfReach> {
         self.turn(target);
-        self.plan.positions(&self.inputs, &mut self.state.motions)?;
-        self.keep_clear(target)?;
+        if let Some(passing) = &mut self.passing {
+            let from = self.case.crank().world_angle(self.crank);
+            let placed = passing.place([from, self.inputs[0]], &mut self.plan, &mut self.state.motions);
+            placed.map_err(|reach| match reach.why {
+                Misfit::Passed { crank } => {
+                    OutOfReach { why: Misfit::Passed { crank: crank - self.case.crank().zero }, ..reach }
+                }
+                Misfit::Span { .. }
+                | Misfit::Guide { .. }
+                | Misfit::Swing { .. }
+                | Misfit::Parallel
+                | Misfit::Singular
+                | Misfit::Lost => reach,
+            })?;
+        } else {
+            self.plan.positions(&self.inputs, &mut self.state.motions)?;
+            self.keep_clear(target)?;
+        }
         self.crank = target;
         if let Some(turns) = &mut self.turns {
             turns.count(&self.state.motions);

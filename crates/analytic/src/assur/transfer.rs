@@ -6,15 +6,16 @@
 //! a0 and alpha0 are the accelerations that remain when no free driving link accelerates.
 
 use super::forces::Kinetostatics;
-use super::pose_solver::{CLOSED_FORM_STEP, FOLLOWED_STEP, HALVINGS};
-use super::turns::Turns;
+use super::passing::{self, Passing};
+use super::pose_solver::HALVINGS;
+use super::turns::{CLOSED_FORM_STEP, FOLLOWED_STEP, Turns};
 use crate::assur::groups::{Misfit, OutOfReach, Plan};
 use crate::motion::side::{Held, Inputs, Side, embed, loads_held};
 use linkage::case::Case;
 use linkage::drive::Wrench;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::dense::Lu;
-use linkage::math::{KeepNan, Vec2};
+use linkage::math::{KeepNan, Motion, Vec2};
 use linkage::mechanism::{self, GROUND};
 use linkage::solver::State;
 use linkage::trajectory::Stage;
@@ -40,14 +41,20 @@ pub(crate) struct TransferSide<'a> {
     matrix: Lu,
     right: Vec<f64>,
     loads: Vec<Wrench>,
+    /// Change points, with one driving link. With several, they are not passed.
+    passing: Option<Passing>,
+    /// With several driving links: clearances of the groups at the last pose.
+    sines: Vec<Option<f64>>,
+    /// What the last accelerations were found with.
+    held: Option<Held>,
 }
 
 impl<'a> TransferSide<'a> {
-    /// Starts at the start pose of a case.
+    /// Starts at the start pose of a case. The windows around change points have this share of their usual widths.
     ///
     /// # Errors
     /// [`ErrorKind::Geometry`] if the start pose is singular.
-    pub(crate) fn new(case: &'a Case) -> Result<Self> {
+    pub(crate) fn new(case: &'a Case, share: f64) -> Result<Self> {
         let plan = Plan::of(&case.mechanism, &case.structure, &case.modes);
         let step = if plan.is_closed_form() { CLOSED_FORM_STEP } else { FOLLOWED_STEP };
         let (statics, state) = (Kinetostatics::of(case, &plan), State::at_start(case));
@@ -69,6 +76,9 @@ impl<'a> TransferSide<'a> {
             right: vec![0.0; free.len()],
             free,
             loads: vec![Wrench::ZERO; case.mechanism.links().len()],
+            passing: (case.drives.further().is_empty() && case.crank().passes()).then(|| Passing::new(share)),
+            sines: Vec::new(),
+            held: None,
         };
         side.place().map_err(|reach| side.out_of_reach(reach))?;
         Ok(side)
@@ -76,10 +86,53 @@ impl<'a> TransferSide<'a> {
 
     /// Places the mechanism at the target angles.
     fn place(&mut self) -> std::result::Result<(), OutOfReach> {
-        self.plan.positions(&self.target, &mut self.state.motions)?;
+        match &mut self.passing {
+            Some(passing) => {
+                passing.place([self.at[0], self.target[0]], &mut self.plan, &mut self.state.motions)?;
+            }
+            None => {
+                self.plan.positions(&self.target, &mut self.state.motions)?;
+                self.keep_clear()?;
+            }
+        }
         self.turns.count(&self.state.motions);
         self.at.copy_from_slice(&self.target);
         Ok(())
+    }
+
+    /// Refuses a step over a change point: there a clearance falls to zero and rises again, so that its slope at the end
+    /// leads back to less than nothing at the beginning. So does a step over a near miss, which smaller steps resolve.
+    fn keep_clear(&mut self) -> std::result::Result<(), OutOfReach> {
+        for ((step, target), at) in self.unit.iter_mut().zip(&self.target).zip(&self.at) {
+            *step = target - at;
+        }
+        self.plan.velocities(&self.unit, &mut self.state.motions);
+        let passed = self.plan.clearances(&self.state.motions).zip(&self.sines).position(|(now, before)| {
+            now.zip(*before).is_some_and(|(now, before)| now.sine - now.rate < 0.0 && before > 0.0)
+        });
+        if let Some(group) = passed {
+            let crank = self.target[0] - self.case.crank().zero;
+            return Err(OutOfReach { group, why: Misfit::Passed { crank } });
+        }
+        self.sines.clear();
+        self.sines.extend(self.plan.clearances(&self.state.motions).map(|now| now.map(|now| now.sine)));
+        Ok(())
+    }
+
+    /// Velocities at the last pose.
+    fn velocities(&mut self, omegas: &[f64]) {
+        match self.passing.as_ref().and_then(Passing::inside) {
+            Some(window) => window.rates(self.at[0], [omegas[0], 0.0], &self.plan, &mut self.state.motions),
+            None => self.plan.velocities(omegas, &mut self.state.motions),
+        }
+    }
+
+    /// Accelerations at the last pose, after its velocities.
+    fn accelerations(&mut self, omegas: &[f64], alphas: &[f64]) {
+        match self.passing.as_ref().and_then(Passing::inside) {
+            Some(window) => window.rates(self.at[0], [omegas[0], alphas[0]], &self.plan, &mut self.state.motions),
+            None => self.plan.accelerations(alphas, &mut self.state.motions),
+        }
     }
 
     /// Follows the branch to these angles of the driving links, in small turns.
@@ -102,7 +155,7 @@ impl<'a> TransferSide<'a> {
         }
         match self.place() {
             Ok(()) => Ok(()),
-            Err(OutOfReach { why: Misfit::Lost, .. }) if halvings > 0 => {
+            Err(OutOfReach { why: Misfit::Lost | Misfit::Passed { .. }, .. }) if halvings > 0 => {
                 let middle = (before + share) / 2.0;
                 self.step_to(way, [before, middle], halvings - 1)?;
                 self.step_to(way, [middle, share], halvings - 1)
@@ -144,15 +197,17 @@ impl<'a> TransferSide<'a> {
 
     fn find_transfer(&mut self) {
         let links = self.case.mechanism.links();
-        for (k, &index) in self.free.iter().enumerate() {
-            self.unit.fill(0.0);
-            self.unit[index] = 1.0;
-            self.plan.velocities(&self.unit, &mut self.state.motions);
+        let mut unit = std::mem::take(&mut self.unit);
+        for k in 0..self.free.len() {
+            unit.fill(0.0);
+            unit[self.free[k]] = 1.0;
+            self.velocities(&unit);
             for (link, body) in links.iter().enumerate() {
                 let motion = &self.state.motions[link];
                 self.transfer[k * links.len() + link] = (motion.point_velocity(body.mass_centre), motion.omega);
             }
         }
+        self.unit = unit;
     }
 }
 
@@ -163,8 +218,11 @@ impl Side for TransferSide<'_> {
         for &index in &self.free {
             inputs.accelerations[index] = 0.0;
         }
-        self.plan.velocities(&inputs.speeds, &mut self.state.motions);
-        self.plan.accelerations(&inputs.accelerations, &mut self.state.motions);
+        self.velocities(&inputs.speeds);
+        self.accelerations(&inputs.speeds, &inputs.accelerations);
+        if self.passing.as_ref().is_some_and(|passing| passing.inside().is_some()) {
+            self.held = Some(held.clone());
+        }
         if !self.case.loads.is_empty() {
             self.find_angles(&inputs.angles);
             loads_held(self.case, &self.state.motions, &self.state.angles, held, &mut self.loads);
@@ -192,13 +250,13 @@ impl Side for TransferSide<'_> {
             self.right[i] = right;
         }
         embed(&mut self.matrix, &mut self.right, &self.free, inputs)?;
-        self.plan.accelerations(&inputs.accelerations, &mut self.state.motions);
+        self.accelerations(&inputs.speeds, &inputs.accelerations);
         Ok(())
     }
 
     fn spin(&mut self, inputs: &Inputs, link: usize) -> Result<f64> {
         self.go_to(&inputs.angles)?;
-        self.plan.velocities(&inputs.speeds, &mut self.state.motions);
+        self.velocities(&inputs.speeds);
         Ok(self.state.motions[link].omega)
     }
 
@@ -218,7 +276,26 @@ impl Side for TransferSide<'_> {
 
     fn fill(&mut self, inputs: &Inputs, state: &mut State) -> Result<()> {
         self.find_angles(&inputs.angles);
-        if self.case.wanted.deepest() >= Stage::Reactions {
+        let window = self.passing.as_ref().and_then(Passing::inside);
+        self.state.passing = window.map(|window| window.condition);
+        if let (Some(window), Some(held)) = (window, &self.held)
+            && self.case.wanted.deepest() >= Stage::Reactions
+        {
+            let case = self.case;
+            let mut loads = |motions: &[Motion], angles: &[f64], out: &mut [Wrench]| {
+                loads_held(case, motions, angles, held, out);
+            };
+            let rates = [inputs.speeds[0], inputs.accelerations[0]];
+            let found = window.reactions(
+                self.at[0],
+                rates,
+                Some([held.motor, held.added]),
+                (case, &mut self.statics),
+                &mut loads,
+                &mut self.state,
+            );
+            found.map_err(|_| passing::unbounded(self.at[0] - case.crank().zero))?;
+        } else if self.case.wanted.deepest() >= Stage::Reactions {
             self.statics.solve_under(&self.loads, self.case, &self.plan, &mut self.state);
         }
         state.clone_from(&self.state);

@@ -2,9 +2,14 @@
 
 use std::f64::consts::TAU;
 
-use linkage::math::{Motion, Vec2, angle, cross};
+use linkage::math::{Motion, Vec2, cross};
 use linkage::mechanism::Pose;
 
+/// Largest turn of a driving link between two poses (rad). Over such a step no link turns so far that its turns could be
+/// miscounted.
+pub(super) const CLOSED_FORM_STEP: f64 = std::f64::consts::PI / 12.0;
+/// The same where Newton's method follows a group from pose to pose.
+pub(super) const FOLLOWED_STEP: f64 = std::f64::consts::PI / 90.0;
 /// Counts the turns of every link. Between two poses no link may turn by half a turn or more.
 #[derive(Clone, Debug)]
 pub(super) struct Turns {
@@ -16,11 +21,11 @@ pub(super) struct Turns {
 impl Turns {
     /// Starts from a pose whose angles keep their turns.
     pub(super) fn from(pose: &Pose, motions: &[Motion]) -> Self {
-        let whole = |angle: f64| ((angle - angle::wrapped(angle)) / TAU).round();
-        Turns {
-            directions: motions.iter().map(|motion| motion.direction).collect(),
-            whole: pose.0.iter().map(|pose| whole(pose.angle)).collect(),
-        }
+        // Against the direction itself: on the axis -x rounding decides between -pi and pi.
+        let whole = |angle: f64, direction: Vec2| ((angle - principal(direction)) / TAU).round();
+        let directions: Vec<Vec2> = motions.iter().map(|motion| motion.direction).collect();
+        let whole = pose.0.iter().zip(&directions).map(|(pose, direction)| whole(pose.angle, *direction)).collect();
+        Turns { directions, whole }
     }
 
     /// Counts a turn of each link that has passed the direction -x since the last pose, with the sign of its
@@ -44,8 +49,13 @@ impl Turns {
 
     /// Angles of all links at the last pose (rad), turns kept.
     pub(super) fn angles(&self) -> impl Iterator<Item = f64> {
-        // Adding zero makes -0 a 0: on the axis -x the angle is +pi, as the count assumes.
-        let angle = |(whole, now): (&f64, &Vec2)| (now.y + 0.0).atan2(now.x) + TAU * whole;
+        let angle = |(whole, now): (&f64, &Vec2)| principal(*now) + TAU * whole;
         self.whole.iter().zip(&self.directions).map(angle)
     }
+}
+
+/// Angle of a direction (rad), from -pi to pi. Adding zero makes -0 a 0: on the axis -x it is +pi, as the count assumes.
+#[inline]
+fn principal(direction: Vec2) -> f64 {
+    (direction.y + 0.0).atan2(direction.x)
 }

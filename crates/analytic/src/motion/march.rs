@@ -23,6 +23,9 @@ pub const ACCURACY: f64 = 1e-11;
 /// Share of [`ACCURACY`] that the tighter runs allow, which show the error of the others. With still less, rounding takes
 /// over.
 pub(crate) const TIGHTER: f64 = 0.01;
+/// Share of the windows around change points that the tighter runs have. Other poses then carry the motion over a change
+/// point, and the difference shows that error too.
+pub(crate) const NARROWER: f64 = 0.8;
 /// Largest number of consecutive pieces that take no time. With more, the motion does not get away from a kink.
 pub(crate) const MOST_EMPTY: usize = 8;
 /// Largest number of steps of one piece. A hundred turns of a mechanism take some ten thousand.

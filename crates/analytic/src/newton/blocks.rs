@@ -95,12 +95,17 @@ impl Blocks {
     /// The smallest share that a block's determinant is of the largest one that columns of these lengths
     /// can have. Unlike rows, a column has one unit.
     pub(super) fn smallest_share(&self) -> f64 {
-        let share = |block: &Block| {
+        self.shares().map(f64::abs).fold(f64::INFINITY, f64::smaller)
+    }
+
+    /// These shares of all blocks, with the signs of their determinants.
+    pub(super) fn shares(&self) -> impl Iterator<Item = f64> + '_ {
+        self.blocks.iter().map(|block| {
             // The determinant itself could underflow.
             let pivots = block.matrix.pivots().map(f64::abs);
-            pivots.zip(&block.norms).map(|(pivot, norm)| pivot / norm).product::<f64>()
-        };
-        self.blocks.iter().map(share).fold(f64::INFINITY, f64::smaller)
+            let share = pivots.zip(&block.norms).map(|(pivot, norm)| pivot / norm).product::<f64>();
+            share * block.matrix.determinant_sign()
+        })
     }
 
     /// Sign of every block's determinant, +1 or -1.

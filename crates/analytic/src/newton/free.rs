@@ -5,6 +5,7 @@
 //! drives, which motor and rotor give: (V^T M V + added) alpha = T + V^T (Q - M a0).
 //! The multipliers then are the reactions (Haug, chapters 3 and 8).
 
+use super::passing::Passing;
 use super::steps::TRACKING_STEP;
 use super::system::System;
 use crate::motion::side::{Held, Inputs, Side, embed, loads_held};
@@ -31,11 +32,14 @@ pub(super) struct Embedded<'a> {
     force: Vec<f64>,
     matrix: Lu,
     right: Vec<f64>,
+    /// What the last accelerations beside a change point were found with.
+    held: Option<Held>,
+    passing: Option<Passing>,
 }
 
 impl<'a> Embedded<'a> {
-    /// The equations of a system at its start pose.
-    pub(super) fn new(system: System<'a>) -> Self {
+    /// The equations of a system at its start pose, with its way through change points.
+    pub(super) fn new(system: System<'a>, passing: Option<Passing>) -> Self {
         let n = system.q.len();
         let drives = system.inputs.len();
         let free: Vec<usize> = system.case.drives.free().map(|(index, _)| index).collect();
@@ -45,6 +49,8 @@ impl<'a> Embedded<'a> {
             force: vec![0.0; n],
             matrix: Lu::new(free.len()),
             right: vec![0.0; free.len()],
+            held: None,
+            passing,
             free,
             system,
         };
@@ -64,6 +70,11 @@ impl<'a> Embedded<'a> {
 
     /// Follows the branch to the angles of the driving links, in small turns.
     fn go_to(&mut self, angles: &[f64]) -> Result<()> {
+        if let Some(passing) = &mut self.passing {
+            passing.go_to(&mut self.system, angles[0])?;
+            self.columns.copy_from_slice(&passing.spot.slope);
+            return Ok(());
+        }
         let from: Vec<f64> = self.system.inputs.iter().map(|input| input.angle).collect();
         let farthest = from.iter().zip(angles).fold(0.0f64, |most, (a, b)| most.larger((b - a).abs()));
         let parts = (farthest / TRACKING_STEP).ceil().larger(1.0);
@@ -107,7 +118,10 @@ impl<'a> Embedded<'a> {
         {
             (own.omega, own.alpha) = (omega, alpha);
         }
-        self.system.differentiate();
+        match &self.passing {
+            Some(passing) => passing.rates(&mut self.system, inputs.speeds[0], inputs.accelerations[0]),
+            None => self.system.differentiate(),
+        }
     }
 }
 
@@ -148,6 +162,9 @@ impl Side for Embedded<'_> {
         }
         embed(&mut self.matrix, &mut self.right, &self.free, inputs)?;
         self.set_rates(inputs);
+        if self.passing.as_ref().is_some_and(|passing| passing.inside().is_some()) {
+            self.held = Some(held.clone());
+        }
         Ok(())
     }
 
@@ -173,9 +190,19 @@ impl Side for Embedded<'_> {
 
     fn fill(&mut self, _: &Inputs, state: &mut State) -> Result<()> {
         if self.system.stage >= Stage::Reactions {
-            self.system.multipliers();
+            let beside = self.passing.as_ref().filter(|passing| passing.inside().is_some());
+            match (beside, &self.held) {
+                (Some(passing), Some(held)) => {
+                    let shaft = Some([held.motor, held.added]);
+                    passing.multipliers(&mut self.system, shaft, &mut |case, motions, angles, out| {
+                        loads_held(case, motions, angles, held, out);
+                    })?;
+                }
+                (Some(_), None) | (None, _) => self.system.multipliers(),
+            }
         }
         self.system.fill(state);
+        state.passing = self.passing.as_ref().and_then(Passing::condition);
         Ok(())
     }
 }

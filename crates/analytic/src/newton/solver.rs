@@ -8,9 +8,10 @@
 //! "Computer aided kinematics and dynamics of mechanical systems", 1989, chapters 3 and 8).
 
 use super::free::Embedded;
+use super::passing::Passing;
 use super::system::System;
 use crate::motion::free;
-use crate::motion::march::{ACCURACY, TIGHTER};
+use crate::motion::march::{ACCURACY, NARROWER, TIGHTER};
 use linkage::case::Case;
 use linkage::error::{Error, Result};
 use linkage::solver::{Progress, Provision, Solver, State, Visit};
@@ -40,20 +41,25 @@ impl Solver for NewtonSolver {
         let split = rows.partition_point(|&row| case.grid.times[row] < 0.0);
         let mut done = 0;
         let mut follow = |rows: &mut dyn Iterator<Item = usize>, system: &mut System| -> Result<()> {
+            system.settle().map_err(Error::out_of_reach)?;
+            let mut passing = Passing::of(system);
             for row in rows {
-                system.go_to(case.grid.times[row]).map_err(Error::out_of_reach)?;
+                let t = case.grid.times[row];
+                match &mut passing {
+                    Some(passing) => passing.pass_to(system, t)?,
+                    None => system.go_to(t).map_err(Error::out_of_reach)?,
+                }
                 system.fill(&mut state);
+                state.passing = passing.as_ref().and_then(Passing::condition);
                 visit(row, &state)?;
                 done += 1;
                 progress(done as f64 / case.grid.len() as f64);
             }
             Ok(())
         };
-        system.settle().map_err(Error::out_of_reach)?;
         follow(&mut rows[split..].iter().copied(), &mut system)?;
         if split > 0 {
             system = System::new(case);
-            system.settle()?;
             follow(&mut rows[..split].iter().rev().copied(), &mut system)?;
         }
         Ok(())
@@ -85,5 +91,9 @@ impl Solver for TightNewtonSolver {
 fn free_motion(case: &Case, accuracy: f64, visit: Visit, progress: Progress) -> Result<()> {
     let mut system = System::new(case);
     system.settle().map_err(Error::out_of_reach)?;
-    free::sweep(case, &mut Embedded::new(system), accuracy, visit, progress)
+    let mut passing = Passing::of(&mut system);
+    if let Some(passing) = passing.as_mut().filter(|_| accuracy < ACCURACY) {
+        passing.share = NARROWER;
+    }
+    free::sweep(case, &mut Embedded::new(system, passing), accuracy, visit, progress)
 }

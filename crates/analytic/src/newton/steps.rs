@@ -16,7 +16,7 @@ use linkage::trajectory::Stage;
 pub(super) const TRACKING_STEP: f64 = PI / 90.0;
 /// How often a failing step is halved. Near a dead point speeds grow without limit, and steps must shrink with what is
 /// left to it.
-const HALVINGS: u32 = 40;
+pub(super) const HALVINGS: u32 = 40;
 /// Largest change of a link's velocity over a step beyond what its acceleration says, as a share of the largest velocity.
 /// Where two branches cross, the velocity jumps from one to the other however small the step is.
 const VELOCITY_JUMP: f64 = 0.1;
@@ -106,7 +106,7 @@ impl System<'_> {
                 change = change.larger(step.abs() / if i % 3 == 2 { 1.0 } else { size });
             }
             // Quadratic convergence: once below 1e-9 the next change is rounding. One more step makes sure of it.
-            if change < 1e-14 || (last < 1e-9 && change < 1e-9) {
+            if change < 1e-14 || last.larger(change) < self.settled {
                 return Ok(());
             }
             last = change;

@@ -9,6 +9,9 @@ use linkage::math::{Motion, Vec2, rotated, turned, unit};
 use linkage::mechanism::{EQUATIONS, Joint, Side};
 use linkage::trajectory::Stage;
 
+/// Change (rad, or share of the size) below which two iterations running end Newton's method.
+const SETTLED: f64 = 1e-9;
+
 /// The equations of one case and the state for which they are solved.
 pub(super) struct System<'a> {
     pub(super) case: &'a Case,
@@ -37,6 +40,8 @@ pub(super) struct System<'a> {
     pub(super) motions: Vec<Motion>,
     pub(super) angles: Vec<f64>,
     pub(super) loads: Vec<Wrench>,
+    /// Change below which Newton's method ends.
+    pub(super) settled: f64,
 }
 
 impl<'a> System<'a> {
@@ -68,6 +73,7 @@ impl<'a> System<'a> {
             motions: vec![Motion::REST; links.len() + 1],
             angles: vec![0.0; links.len() + 1],
             loads: vec![Wrench::ZERO; links.len() + 1],
+            settled: SETTLED,
             inputs: case.drives.iter().map(|drive| by_law(drive, 0.0)).collect(),
         }
     }

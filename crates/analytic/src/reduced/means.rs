@@ -6,7 +6,7 @@ use std::f64::consts::{PI, TAU};
 use num_integer::Integer;
 
 use crate::PoseSolver;
-use crate::range::{Extent, Range};
+use crate::range::{Extent, Kind, Range};
 use linkage::case::{Case, Grid, Wanted};
 use linkage::drive::{Course, Load};
 use linkage::error::{Advice, Error, ErrorKind, Result};
@@ -51,6 +51,8 @@ pub struct Kinks {
     pub cranks: Vec<f64>,
     /// Crank angles (rad) that can be reached, if there are limits.
     pub limits: Option<[f64; 2]>,
+    /// Whether one of the limits is a change point.
+    pub meets: bool,
 }
 
 /// Largest number of turns after which the reduced quantities may repeat.
@@ -74,9 +76,11 @@ pub fn kinks(case: &Case) -> Result<Kinks> {
         );
     }
     let range = Range::of(case)?;
-    let (turns, limits) = match range.extent {
-        Extent::FullTurn(turns) => (Some(turns.unsigned_abs()), None),
-        Extent::Limited([from, to]) => (None, Some([from.crank, to.crank])),
+    let (turns, limits, meets) = match range.extent {
+        Extent::FullTurn(turns) => (Some(turns.unsigned_abs()), None, false),
+        Extent::Limited(ends) => {
+            (None, Some(ends.map(|end| end.crank)), ends.iter().any(|end| end.kind == Kind::ChangePoint))
+        }
     };
     let start = case.crank().start;
     let within = |crank: f64, period: f64| {
@@ -130,7 +134,7 @@ pub fn kinks(case: &Case) -> Result<Kinks> {
     }
     cranks.sort_by(f64::total_cmp);
     cranks.dedup_by(|a, b| (*a - *b).abs() < 1e-12);
-    Ok(Kinks { period, cranks, limits })
+    Ok(Kinks { period, cranks, limits, meets })
 }
 
 /// Means of the reduced quantities over one turn of the crank, or over as many turns as bring the mechanism back to its

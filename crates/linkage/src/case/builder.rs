@@ -282,7 +282,7 @@ impl CaseBuilder {
             let Joint { first, second, .. } = mechanism.joints()[joint];
             let carries = |link: usize| link == GROUND || all.iter().any(|before| before.link == link);
             let link = if carries(first.link) { second.link } else { first.link };
-            all.push(Drive { joint, link, zero: 0.0, start: self.start, motion: motion.clone() });
+            all.push(Drive { joint, link, zero: 0.0, start: self.start, motion: motion.clone(), through: false });
         }
         if all.is_empty() {
             let help = "name the driven joint with `crank`, `driven` or `free`";

@@ -40,13 +40,16 @@ pub struct Drive {
     pub start: f64,
     /// What moves the link.
     pub motion: DriveMotion,
+    /// Whether the mechanism passes change points, on the branch on which velocities go on.
+    /// If not, a change point is an error. A free motion passes them in any case: see [`Drive::passes`].
+    pub through: bool,
 }
 
 impl Drive {
     /// A drive that follows `law` and has no motor. The other arguments are the fields of the same names.
     #[must_use]
     pub fn prescribed(joint: usize, link: usize, zero: f64, start: f64, law: MotionLaw) -> Self {
-        Drive { joint, link, zero, start, motion: DriveMotion::Prescribed { law, motor: None } }
+        Drive { joint, link, zero, start, motion: DriveMotion::Prescribed { law, motor: None }, through: false }
     }
 
     /// Applies `read` to the law that prescribes the motion, or to that of the nominal motion.
@@ -143,6 +146,14 @@ impl Drive {
         }
     }
 
+    /// Whether the mechanism passes change points, on the branch on which velocities go on: in free motion by momentum,
+    /// under a law if [`Drive::through`] says so.
+    #[inline]
+    #[must_use]
+    pub fn passes(&self) -> bool {
+        self.through || self.is_free()
+    }
+
     /// Whether the drive exerts a moment on the link. A free link without a motor has none.
     #[must_use]
     pub fn has_moment(&self) -> bool {
@@ -196,7 +207,7 @@ impl Drive {
                 DriveMotion::Prescribed { law: MotionLaw::ConstantSpeed(*nominal_speed), motor: motor.clone() }
             }
         };
-        Drive { motion, ..*self }
+        Drive { motion, through: self.passes(), ..*self }
     }
 
     /// The same drive with the law's top speed at all times.

@@ -54,7 +54,8 @@ impl<'a> Batch<'a> {
     /// Those of [`PoseSolver::new`].
     pub fn of(case: &'a Case) -> Result<Self> {
         let poses = PoseSolver::new(case)?;
-        let dyads = Dyads::of(case, Layout::of(case, false));
+        // Lanes keep the signs of the dyads, which change at a change point.
+        let dyads = if case.crank().through { None } else { Dyads::of(case, Layout::of(case, false)) };
         Ok(Batch {
             case,
             layout: Layout::of(case, dyads.is_none()),

@@ -20,8 +20,12 @@ pub use rpr::Rpr;
 pub use rrp::Rrp;
 pub use rrr::Rrr;
 
-use linkage::math::{Motion, Vec2, rotated, turned, unit};
+use linkage::math::{KeepNan, Motion, Vec2, rotated, turned, unit};
 use linkage::mechanism::{AssemblyMode, GROUND, GroupKind, Mechanism, Structure};
+
+/// Share of one configuration's squared distance from an expected pose in that of the other, up to which the first is
+/// the one expected.
+const NEARER: f64 = 0.04;
 
 /// Driving link that turns about a joint with the ground, or with an earlier driving link.
 #[derive(Clone, Copy, Debug)]
@@ -48,6 +52,33 @@ pub enum Step {
     Prp(Prp),
     /// Group of more than two links.
     Chain(Chain),
+}
+
+impl Step {
+    #[inline]
+    fn positions(&mut self, angles: &[f64], motions: &mut [Motion]) -> std::result::Result<(), Misfit> {
+        match self {
+            Step::Rrr(dyad) => dyad.positions(motions),
+            Step::Rrp(dyad) => dyad.positions(motions),
+            Step::Rpr(dyad) => dyad.positions(motions),
+            Step::Rpp(dyad) => dyad.positions(motions),
+            Step::Prp(dyad) => dyad.positions(motions),
+            Step::Chain(chain) => match chain.positions(angles, motions) {
+                true => Ok(()),
+                false => Err(Misfit::Lost),
+            },
+        }
+    }
+
+    /// A dyad of two configurations in its other one, and its links. `None` for the other groups.
+    fn other(&self) -> Option<(Step, [usize; 2])> {
+        match self {
+            Step::Rrr(dyad) => Some((Step::Rrr(dyad.flipped()), dyad.links())),
+            Step::Rrp(dyad) => Some((Step::Rrp(dyad.flipped()), dyad.links())),
+            Step::Rpr(dyad) => Some((Step::Rpr(dyad.flipped()), dyad.links())),
+            Step::Rpp(_) | Step::Prp(_) | Step::Chain(_) => None,
+        }
+    }
 }
 
 /// A mechanism prepared to be solved pose after pose without allocation.
@@ -106,6 +137,65 @@ impl Plan {
     /// The first group that cannot be placed.
     #[inline]
     pub fn positions(&mut self, angles: &[f64], motions: &mut [Motion]) -> std::result::Result<(), OutOfReach> {
+        self.turn_drivers(angles, motions);
+        for (group, step) in self.steps.iter_mut().enumerate() {
+            step.positions(angles, motions).map_err(|why| OutOfReach { group, why })?;
+        }
+        Ok(())
+    }
+
+    /// The same in those configurations of the dyads that lie nearest to the expected poses `like`, which become those of
+    /// the plan.
+    ///
+    /// # Errors
+    /// Those of [`Plan::positions`]; [`Misfit::Singular`] where two configurations are about equally near.
+    pub(crate) fn positions_like(
+        &mut self,
+        like: &[Motion],
+        angles: &[f64],
+        motions: &mut [Motion],
+    ) -> std::result::Result<(), OutOfReach> {
+        self.turn_drivers(angles, motions);
+        for (group, step) in self.steps.iter_mut().enumerate() {
+            let misfit = |why| OutOfReach { group, why };
+            if let Step::Chain(chain) = step {
+                if !chain.positions_like(like, angles, motions) {
+                    return Err(misfit(Misfit::Lost));
+                }
+                continue;
+            }
+            let Some((mut other, links)) = step.other() else {
+                step.positions(angles, motions).map_err(misfit)?;
+                continue;
+            };
+            let off = |motions: &[Motion]| {
+                links.iter().map(|&link| (motions[link].direction - like[link].direction).norm_squared()).sum::<f64>()
+            };
+            other.positions(angles, motions).map_err(misfit)?;
+            let beyond = off(motions);
+            step.positions(angles, motions).map_err(misfit)?;
+            let kept = off(motions);
+            if !(kept.smaller(beyond) < NEARER * kept.larger(beyond)) {
+                return Err(misfit(Misfit::Singular));
+            }
+            if beyond < kept {
+                *step = other;
+                step.positions(angles, motions).map_err(misfit)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Determinant of a higher group at the last pose; `None` for a dyad.
+    pub(crate) fn determinant(&self, group: usize) -> Option<f64> {
+        match &self.steps[group] {
+            Step::Chain(chain) => Some(chain.determinant()),
+            Step::Rrr(_) | Step::Rrp(_) | Step::Rpr(_) | Step::Rpp(_) | Step::Prp(_) => None,
+        }
+    }
+
+    #[inline]
+    pub(crate) fn turn_drivers(&self, angles: &[f64], motions: &mut [Motion]) {
         for (driver, &angle) in self.drivers.iter().zip(angles) {
             let direction = unit(angle);
             let place = if driver.base == GROUND { driver.place } else { motions[driver.base].point(driver.place) };
@@ -113,21 +203,6 @@ impl Plan {
             motion.direction = direction;
             motion.origin = place - rotated(direction, driver.pivot);
         }
-        for (group, step) in self.steps.iter_mut().enumerate() {
-            let placed = match step {
-                Step::Rrr(dyad) => dyad.positions(motions),
-                Step::Rrp(dyad) => dyad.positions(motions),
-                Step::Rpr(dyad) => dyad.positions(motions),
-                Step::Rpp(dyad) => dyad.positions(motions),
-                Step::Prp(dyad) => dyad.positions(motions),
-                Step::Chain(chain) => match chain.positions(angles, motions) {
-                    true => Ok(()),
-                    false => Err(Misfit::Lost),
-                },
-            };
-            placed.map_err(|why| OutOfReach { group, why })?;
-        }
-        Ok(())
     }
 
     /// How far every group is from a singular pose at which two of its branches meet. Velocities must be known.
@@ -144,14 +219,7 @@ impl Plan {
     /// Velocities of all links. Positions must be known. `omegas` are those of the driving links (rad/s).
     #[inline]
     pub fn velocities(&mut self, omegas: &[f64], motions: &mut [Motion]) {
-        for (driver, &omega) in self.drivers.iter().zip(omegas) {
-            let motion = &mut motions[driver.link];
-            motion.omega = omega;
-            motion.velocity = turned(motion.arm(driver.pivot)) * -omega;
-            if driver.base != GROUND {
-                motions[driver.link].velocity += motions[driver.base].point_velocity(driver.place);
-            }
-        }
+        self.drive_velocities(omegas, motions);
         for step in &mut self.steps {
             match step {
                 Step::Rrr(dyad) => dyad.velocities(motions),
@@ -164,18 +232,23 @@ impl Plan {
         }
     }
 
+    /// Velocities of the driving links alone.
+    #[inline]
+    pub(crate) fn drive_velocities(&self, omegas: &[f64], motions: &mut [Motion]) {
+        for (driver, &omega) in self.drivers.iter().zip(omegas) {
+            let motion = &mut motions[driver.link];
+            motion.omega = omega;
+            motion.velocity = turned(motion.arm(driver.pivot)) * -omega;
+            if driver.base != GROUND {
+                motions[driver.link].velocity += motions[driver.base].point_velocity(driver.place);
+            }
+        }
+    }
+
     /// Accelerations of all links. Velocities must be known. `alphas` are those of the driving links (rad/s^2).
     #[inline]
     pub fn accelerations(&mut self, alphas: &[f64], motions: &mut [Motion]) {
-        for (driver, &alpha) in self.drivers.iter().zip(alphas) {
-            let motion = &mut motions[driver.link];
-            let arm = motion.arm(driver.pivot);
-            motion.alpha = alpha;
-            motion.acceleration = arm * (motion.omega * motion.omega) - turned(arm) * alpha;
-            if driver.base != GROUND {
-                motions[driver.link].acceleration += motions[driver.base].point_acceleration(driver.place);
-            }
-        }
+        self.drive_accelerations(alphas, motions);
         for step in &mut self.steps {
             match step {
                 Step::Rrr(dyad) => dyad.accelerations(motions),
@@ -184,6 +257,20 @@ impl Plan {
                 Step::Rpp(dyad) => dyad.accelerations(motions),
                 Step::Prp(dyad) => dyad.accelerations(motions),
                 Step::Chain(chain) => chain.accelerations(motions),
+            }
+        }
+    }
+
+    /// Accelerations of the driving links alone, after their velocities.
+    #[inline]
+    pub(crate) fn drive_accelerations(&self, alphas: &[f64], motions: &mut [Motion]) {
+        for (driver, &alpha) in self.drivers.iter().zip(alphas) {
+            let motion = &mut motions[driver.link];
+            let arm = motion.arm(driver.pivot);
+            motion.alpha = alpha;
+            motion.acceleration = arm * (motion.omega * motion.omega) - turned(arm) * alpha;
+            if driver.base != GROUND {
+                motions[driver.link].acceleration += motions[driver.base].point_acceleration(driver.place);
             }
         }
     }

@@ -71,6 +71,16 @@ impl Rpr {
         (axis, axis.dot(&(self.pins[1].place(motions) - self.pins[0].place(motions))))
     }
 
+    /// The dyad in its other configuration.
+    pub(super) fn flipped(self) -> Self {
+        Self { sense: -self.sense, ..self }
+    }
+
+    /// Its two links.
+    pub(super) fn links(&self) -> [usize; 2] {
+        self.pins.map(|pin| pin.link)
+    }
+
     /// How far the dyad is from a singular pose. Velocities must be known.
     pub(super) fn clearance(&self, motions: &[Motion]) -> Clearance {
         let (axis, along) = self.along(motions);

@@ -63,6 +63,16 @@ impl Rrp {
         Ok(())
     }
 
+    /// The dyad in its other configuration.
+    pub(super) fn flipped(self) -> Self {
+        Self { sense: -self.sense, ..self }
+    }
+
+    /// Its two links.
+    pub(super) fn links(&self) -> [usize; 2] {
+        [self.rod.link, self.guide.link]
+    }
+
     /// How far the dyad is from a singular pose. Velocities must be known.
     pub(super) fn clearance(&self, motions: &[Motion]) -> Clearance {
         let (axis, r, length) = (self.guide.axis(motions), motions[self.rod.link].arm(self.span), self.span.norm());

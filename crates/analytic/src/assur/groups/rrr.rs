@@ -101,6 +101,16 @@ impl Rrr {
         Ok(())
     }
 
+    /// The dyad in its other configuration.
+    pub(super) fn flipped(self) -> Self {
+        Self { side: -self.side, ..self }
+    }
+
+    /// Its two links.
+    pub(super) fn links(&self) -> [usize; 2] {
+        self.arms.map(|arm| arm.link)
+    }
+
     /// How far the dyad is from a singular pose. Velocities must be known.
     pub(super) fn clearance(&self, motions: &[Motion]) -> Clearance {
         let ([r1, r2], lengths) = (self.spans, (self.squared[0] * self.squared[1]).sqrt());

@@ -34,5 +34,5 @@ pub fn configurations(mechanism: &Mechanism, group: &Group, pose: &Pose) -> Resu
 /// - RPP: e1 x e2 of the inner and the outer axis; PRP: of the outer axes, in the order of the group's links.
 #[must_use]
 pub fn transmission_sine(mechanism: &Mechanism, group: &Group, pose: &Pose) -> Option<f64> {
-    (group.kind != GroupKind::Higher).then(|| dyads::transmission_sine(mechanism, group, pose))
+    (group.kind != GroupKind::Higher).then(|| dyads::transmission_sine(mechanism, group, pose).clamp(-1.0, 1.0))
 }

@@ -253,6 +253,30 @@ impl Chain {
         followed
     }
 
+    /// Positions at these driving angles (rad) near the expected poses `like`, on whatever side of a singular pose they are.
+    /// Returns `false` if there are none so near.
+    pub(super) fn positions_like(&mut self, like: &[Motion], angles: &[f64], motions: &mut [Motion]) -> bool {
+        for node in &self.nodes {
+            motions[node.link].direction = like[node.link].direction;
+        }
+        self.read_slides(like);
+        self.branch = 0.0;
+        if !self.follow(MAX_CORRECTION, motions) {
+            return false;
+        }
+        self.at.copy_from_slice(angles);
+        self.last_step.fill(f64::NAN);
+        self.equal_steps = 0;
+        self.slopes.fill(0.0);
+        self.square = self.jacobian.determinant().powi(2);
+        true
+    }
+
+    /// Determinant of the Jacobian at the last pose. Along a branch it goes through zero at a change point.
+    pub(crate) fn determinant(&self) -> f64 {
+        self.jacobian.determinant()
+    }
+
     /// Stores the squared determinant of this pose, and how it has changed in this step.
     fn learn(&mut self) {
         let square = self.jacobian.determinant().powi(2);

@@ -1,0 +1,92 @@
+//! The search for a change point, from one side.
+
+use crate::assur::groups::{Clearance, Misfit, OutOfReach, Plan};
+use crate::assur::turns::FOLLOWED_STEP;
+use linkage::math::{KeepNan, Motion};
+
+/// Share of the estimated distance that a step of the search takes. At a dead point the estimate is twice the distance:
+/// less than half of it stays on the branch.
+const STEP: f64 = 0.4;
+/// The same for a higher group, which refuses steps over which its squared determinant might vanish.
+const FOLLOWED: f64 = 0.2;
+/// Smallest step (rad) in which a higher group is followed.
+const SMALLEST: f64 = 1e-9;
+/// Sine below which a group passes through zero, if it does so linearly. Rounding of the lengths leaves up to the root
+/// of the unit roundoff, and a mechanism that keeps more is another one.
+const MET: f64 = 1e-6;
+/// Sine from which on the slope is compared: at a dead point it grows with the inverse of the sine.
+const LINEAR: f64 = 1e-3;
+/// The same two for a higher group, as shares of its determinant where the search begins, which may be near.
+const HIGHER: [f64; 2] = [1e-4, 3e-2];
+const MOST_STEPS: usize = 200;
+
+/// A pose from which a search begins.
+pub(super) struct Start<'a> {
+    pub(super) angle: f64,
+    pub(super) plan: &'a Plan,
+    pub(super) motions: &'a [Motion],
+}
+
+/// The angle of the driving link at which a group has a change point, about `ahead` (rad) from a pose.
+/// Otherwise the angle up to which there is none.
+pub(super) fn change_point(start: &Start, group: usize, ahead: f64) -> Result<f64, f64> {
+    let (mut plan, mut motions) = (start.plan.clone(), start.motions.to_vec());
+    let (way, mut angle) = (ahead.signum(), start.angle);
+    let mut slope = f64::NAN;
+    let whole = plan.determinant(group).map(f64::abs);
+    let [met, linear] = if whole.is_some() { HIGHER } else { [MET, LINEAR] };
+    let mut before: Option<(f64, f64)> = None;
+    for _ in 0..MOST_STEPS {
+        let (sine, towards) = match (whole, clearance(&mut plan, &mut motions, group)) {
+            (None, Some(Clearance { sine, rate })) => (sine, -rate * way),
+            (None, None) => return Err(angle),
+            // The determinant of a higher group, by secants.
+            (Some(whole), _) => {
+                let share = plan.determinant(group).map_or(f64::NAN, |now| now.abs() / whole);
+                let towards = before.map_or(share / ahead.abs(), |(x, last)| (last - share) / (angle - x).abs());
+                before = Some((angle, share));
+                (share, towards)
+            }
+        };
+        // Written so that NaN ends the search.
+        if !(towards > 0.0) {
+            return Err(angle);
+        }
+        if sine < linear && slope.is_nan() {
+            slope = towards;
+        }
+        if sine < met {
+            return if towards < 2.0 * slope { Ok(angle + way * sine / towards) } else { Err(angle) };
+        }
+        let step = if whole.is_some() { FOLLOWED } else { STEP };
+        let to = angle + way * step * (sine / towards).smaller(0.25);
+        if walk(&mut plan, &mut motions, [angle, to]).is_err() {
+            return Err(angle);
+        }
+        angle = to;
+    }
+    Err(angle)
+}
+
+/// Clearance of a group at the last pose of a plan.
+pub(super) fn clearance(plan: &mut Plan, motions: &mut [Motion], group: usize) -> Option<Clearance> {
+    plan.velocities(&[1.0], motions);
+    plan.clearances(motions).nth(group).flatten()
+}
+
+/// Places a plan at an angle, from the last one. Higher groups are followed in small steps.
+pub(super) fn walk(plan: &mut Plan, motions: &mut [Motion], [from, to]: [f64; 2]) -> Result<(), OutOfReach> {
+    if plan.is_closed_form() {
+        return plan.positions(&[to], motions);
+    }
+    let (mut at, mut step) = (from, FOLLOWED_STEP);
+    while at != to {
+        let next = if (to - at).abs() <= step { to } else { at + step.copysign(to - at) };
+        match plan.positions(&[next], motions) {
+            Ok(()) => (at, step) = (next, (2.0 * step).smaller(FOLLOWED_STEP)),
+            Err(OutOfReach { why: Misfit::Lost, .. }) if step > SMALLEST => step *= 0.5,
+            Err(reach) => return Err(reach),
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,99 @@
+//! Multipliers beside a change point.
+//!
+//! The Jacobian is singular there, and multipliers generally grow with the inverse of the distance: that which does work
+//! along the other branch has nothing to hold it. Multiplier times distance is smooth in any case.
+
+use super::window::{Window, neville};
+use crate::newton::system::System;
+use linkage::drive::Wrench;
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::{KeepNan, Motion};
+use linkage::mechanism::EQUATIONS;
+
+/// Value at the change point of a multiplier times its distance that counts as zero: a multiple of the difference between
+/// all poses and those without the inner ones, and a share of the largest such product.
+const NOISE: f64 = 16.0;
+const LEAST: f64 = 1e-12;
+
+/// Distance from a change point (rad) within which such multipliers are not told: its place is known to about 1e-14 rad.
+const NEAREST: f64 = 1e-7;
+
+/// Writes the loads on all links at their motions and angles (rad).
+type Loads<'a> = &'a mut dyn FnMut(&[Motion], &[f64], &mut [Wrench]);
+
+impl Window {
+    /// Writes to the system the multipliers at the crank's angle `angle` (rad) for its angular velocity and acceleration.
+    /// `loads` finds the loads on all links. In free motion `shaft` has the moment on the crank and the moment of inertia
+    /// that turns with it: every pose then has the acceleration that belongs to it at this speed.
+    pub(in crate::newton) fn multipliers(
+        &self,
+        system: &mut System,
+        [angle, omega, alpha]: [f64; 3],
+        shaft: Option<[f64; 2]>,
+        loads: Loads,
+    ) -> Result<()> {
+        let (q, rate, second) = (system.q.clone(), system.rate.clone(), system.second.clone());
+        let x = angle - self.at;
+        let drive = EQUATIONS * system.case.mechanism.joints().len();
+        let mut all: Vec<Vec<f64>> = Vec::with_capacity(self.spots.len());
+        for spot in &self.spots {
+            system.q.copy_from_slice(&spot.q);
+            system.assemble();
+            if !system.jacobian.factor() {
+                return Err(system.lost("the Jacobian is singular there (dead point)"));
+            }
+            let mut at = |system: &mut System, alpha: f64| {
+                for (i, (slope, curve)) in spot.slope.iter().zip(&spot.curve).enumerate() {
+                    (system.rate[i], system.second[i]) = (slope * omega, slope * alpha + curve * omega * omega);
+                }
+                system.find_loads(|_, motions, angles, out| loads(motions, angles, out));
+                system.multipliers();
+                system.lambda.clone()
+            };
+            let mut lambda = at(system, alpha);
+            if let Some([moment, inertia]) = shaft {
+                // Multipliers are linear in the acceleration: gain per unit of it, then that which balances the crank.
+                let unit = 1.0 + alpha.abs() + omega * omega;
+                let gain: Vec<f64> =
+                    at(system, alpha + unit).iter().zip(&lambda).map(|(more, own)| (more - own) / unit).collect();
+                let more = (moment - inertia * alpha - lambda[drive]) / (gain[drive] + inertia);
+                lambda.iter_mut().zip(&gain).for_each(|(own, gain)| *own += more * gain);
+            }
+            all.push(lambda);
+        }
+        (system.q, system.rate, system.second) = (q, rate, second);
+        let found = self.beside(x, &all);
+        let Some(found) = found else {
+            let crank = angle - system.case.crank().zero;
+            let message = format!(
+                "crank angle {:.4} deg: this is a change point, and towards it reactions grow without bound",
+                crank.to_degrees()
+            );
+            let help = "leave this very instant out, or ask for positions, velocities and accelerations only";
+            return Err(Error::new(ErrorKind::Numeric, message).at_crank(crank).help(help));
+        };
+        system.lambda = found;
+        Ok(())
+    }
+
+    /// Multipliers at the distance `x` from those at all poses. `None` where they grow without bound.
+    fn beside(&self, x: f64, all: &[Vec<f64>]) -> Option<Vec<f64>> {
+        let distances = &self.places;
+        let nearest = distances.iter().fold(f64::INFINITY, |least, x| least.smaller(x.abs()));
+        let outer: Vec<usize> = (0..all.len()).filter(|&k| distances[k].abs() > 1.5 * nearest).collect();
+        let outer_distances: Vec<f64> = outer.iter().map(|&k| distances[k]).collect();
+        let product = |k: usize, index: usize| all[k][index] * distances[k];
+        let largest = (0..all.len()).flat_map(|k| (0..all[k].len()).map(move |index| (k, index)));
+        let largest = largest.fold(0.0f64, |most, (k, index)| most.larger(product(k, index).abs()));
+        let of = |index: usize| {
+            let there = neville(distances, |k| product(k, index), 0.0);
+            let without = neville(&outer_distances, |k| product(outer[k], index), 0.0);
+            if there.abs() <= NOISE * (there - without).abs() + LEAST * largest {
+                return Some(neville(distances, |k| all[k][index], x));
+            }
+            let is_there = !(x.abs() > NEAREST);
+            (!is_there).then(|| neville(distances, |k| product(k, index), x) / x)
+        };
+        (0..all[0].len()).map(of).collect()
+    }
+}

@@ -1,0 +1,53 @@
+//! The search for a change point, from one side.
+
+use super::spot::{Spot, walked};
+use crate::newton::steps::TRACKING_STEP;
+use crate::newton::system::System;
+use linkage::math::KeepNan;
+
+/// Share of the estimated distance that a step takes.
+const STEP: f64 = 0.4;
+/// Share of a block's determinant at which it counts as zero, if it goes there linearly: about a tenth of the sine of a
+/// dyad's transmission angle.
+const MET: f64 = 1e-7;
+/// Share from which on slopes are compared. At a dead point the determinant goes with the root of the distance, and its
+/// slope grows without bound.
+const LINEAR: f64 = 1e-4;
+const MOST_STEPS: usize = 200;
+
+/// Change at which Newton's method ends near a change point, where rounding is magnified.
+const COARSE: f64 = 1e-7;
+
+/// The angle (rad) at which the determinant of a block goes through zero, about `ahead` (rad) from a spot. Otherwise the
+/// angle up to which it does not.
+pub(super) fn change_point(system: &mut System, start: &Spot, block: usize, ahead: f64) -> Result<f64, f64> {
+    let settled = std::mem::replace(&mut system.settled, COARSE);
+    let found = approached(system, start, block, ahead);
+    system.settled = settled;
+    found
+}
+
+fn approached(system: &mut System, start: &Spot, block: usize, ahead: f64) -> Result<f64, f64> {
+    let (way, mut left) = (ahead.signum(), ahead.abs());
+    let mut spot = start.clone();
+    let mut linear = f64::NAN;
+    for _ in 0..MOST_STEPS {
+        let to = spot.angle + way * (STEP * left).smaller(TRACKING_STEP);
+        let Ok(next) = walked(system, &spot, to) else { return Err(spot.angle) };
+        let share = next.shares[block].abs();
+        let slope = (spot.shares[block].abs() - share) / (to - spot.angle).abs();
+        // Written so that NaN ends the search.
+        if !(slope > 0.0) {
+            return Err(spot.angle);
+        }
+        spot = next;
+        left = share / slope;
+        if share < LINEAR && linear.is_nan() {
+            linear = slope;
+        }
+        if share < MET {
+            return if slope < 2.0 * linear { Ok(spot.angle + way * left) } else { Err(spot.angle) };
+        }
+    }
+    Err(spot.angle)
+}

@@ -1,0 +1,72 @@
+//! Poses on the way, and steps between them.
+
+use crate::newton::steps::TRACKING_STEP;
+use crate::newton::system::System;
+use linkage::error::Result;
+
+/// A pose on the way: the crank's angle in the world (rad), all coordinates, and their derivatives by that angle.
+#[derive(Clone, Debug, Default)]
+pub(in crate::newton) struct Spot {
+    pub(in crate::newton) angle: f64,
+    pub(in crate::newton) q: Vec<f64>,
+    pub(in crate::newton) slope: Vec<f64>,
+    pub(in crate::newton) curve: Vec<f64>,
+    /// Signs of the blocks' determinants.
+    pub(in crate::newton) signs: Vec<f64>,
+    /// Determinants of the blocks in shares of the largest possible ones, with their signs.
+    pub(in crate::newton) shares: Vec<f64>,
+}
+
+/// The spot of a system at its present pose, whose Jacobian is factored.
+pub(super) fn spot(system: &mut System) -> Spot {
+    (system.inputs[0].omega, system.inputs[0].alpha) = (1.0, 0.0);
+    system.differentiate();
+    Spot {
+        angle: system.inputs[0].angle,
+        q: system.q.clone(),
+        slope: system.rate.clone(),
+        curve: system.second.clone(),
+        signs: system.jacobian.signs().collect(),
+        shares: Vec::new(),
+    }
+}
+
+/// Places a system at a spot, with its Jacobian factored there.
+pub(super) fn place(system: &mut System, spot: &Spot) -> Result<()> {
+    system.q.copy_from_slice(&spot.q);
+    system.inputs[0].angle = spot.angle;
+    system.branch.clone_from(&spot.signs);
+    system.assemble();
+    match system.jacobian.factor() {
+        true => Ok(()),
+        false => Err(system.lost("the Jacobian is singular there (dead point)")),
+    }
+}
+
+/// One step from a spot to another angle, on the same branch.
+pub(super) fn walked(system: &mut System, from: &Spot, to: f64) -> Result<Spot> {
+    let turn = to - from.angle;
+    let expected = from.q.iter().zip(&from.slope).zip(&from.curve);
+    let expected: Vec<f64> = expected.map(|((q, slope), curve)| q + turn * (slope + 0.5 * turn * curve)).collect();
+    system.branch.clone_from(&from.signs);
+    let found = settled(system, to, &expected)?;
+    system.check_signs()?;
+    Ok(found)
+}
+
+/// The pose at an angle that is nearest to the expected one.
+pub(super) fn settled(system: &mut System, angle: f64, expected: &[f64]) -> Result<Spot> {
+    system.q.copy_from_slice(expected);
+    system.inputs[0].angle = angle;
+    system.correct()?;
+    let size = system.case.mechanism.size();
+    for (index, (q, expected)) in system.q.iter().zip(expected).enumerate() {
+        let allowed = TRACKING_STEP * if index % 3 == 2 { 1.0 } else { size };
+        if !((q - expected).abs() <= allowed) {
+            return Err(system.lost("the solution has jumped to another branch"));
+        }
+    }
+    let mut found = spot(system);
+    found.shares = system.jacobian.shares().collect();
+    Ok(found)
+}

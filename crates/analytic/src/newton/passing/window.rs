@@ -1,0 +1,277 @@
+//! The surroundings of a change point.
+//!
+//! Coordinates go through six poses with their first and second derivatives, multipliers through sixteen poses.
+//! The half width is chosen by the difference of two polynomials that share neither degree nor data: the second
+//! derivative of the osculating one, and the one through the second derivatives at all sixteen poses.
+//! Rounding at the distance x grows as 1 / x^3 in second derivatives, the error of the polynomials with the width.
+
+use std::f64::consts::{PI, TAU};
+
+use super::osculating::Osculating;
+use super::spot::{Spot, place, settled, walked};
+use crate::newton::steps::TRACKING_STEP;
+use crate::newton::system::System;
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::KeepNan;
+use linkage::mechanism::GROUND;
+
+/// Poses on each side, and the numbers of those that coordinates go through, from the outermost inwards.
+const SIDE: usize = 8;
+const CHOSEN: [usize; 3] = [0, 3, 6];
+/// Distance of the innermost pose as a share of the half width.
+const CORE: f64 = 0.2;
+/// Half widths that are tried (rad).
+const WIDTHS: [f64; 11] = [0.5, 0.36, 0.25, 0.18, 0.12, 0.08, 0.06, 0.04, 0.025, 0.017, 0.01];
+/// Largest share of a half width over which the way is lost: another singular pose is near, and multipliers may grow
+/// without bound towards it.
+const CLEAR: f64 = 0.5;
+/// Largest error of second derivatives, as a share of the largest one, with which a change point is passed.
+const WORST: f64 = 1e-6;
+/// Steps of secants that improve the place of a change point.
+const SECANTS: usize = 4;
+/// Distance of two change points, as a share of the innermost distance, that no longer is rounding.
+const APART: f64 = 0.01;
+/// Places, as shares of the half width, at which the two polynomials are compared.
+const COMPARED: [f64; 3] = [-0.1, 0.0, 0.1];
+/// Cube root of the sum of the sizes of the weights, about four, with which the rounding of the poses enters.
+const WEIGHTS: f64 = 1.6;
+/// Rounding of accelerations over the unit roundoff and the cube of the condition number.
+const ULPS: f64 = 16.0;
+
+/// The surroundings of a change point.
+#[derive(Clone, Debug)]
+pub(in crate::newton) struct Window {
+    /// The crank's angle in the world at the change point (rad).
+    pub(super) at: f64,
+    /// Half width (rad).
+    pub(super) reach: f64,
+    /// In ascending order of the angle.
+    pub(super) spots: Vec<Spot>,
+    /// Their distances from the change point (rad).
+    pub(super) places: Vec<f64>,
+    /// Whole turns of the links' angles, as the coordinates have them (rad; 0 for places). The polynomials are those of
+    /// coordinates without them, which keep their last digits.
+    turns: Vec<f64>,
+    coordinates: Osculating,
+    /// Condition number by which rounding in the window goes.
+    pub(in crate::newton) condition: f64,
+}
+
+impl Window {
+    /// The surroundings of a change point of a block at the angle `at` (rad), seen from a spot beside it.
+    pub(super) fn around(system: &mut System, from: &Spot, [at, share]: [f64; 2], block: usize) -> Result<Self> {
+        let mut best: Option<(f64, Window)> = None;
+        let (mut failed, mut allowed) = (None, f64::INFINITY);
+        let turns = whole_turns(&from.q);
+        let twists = system.twists.clone();
+        let crank = turns[3 * (system.case.crank().link - 1) + 2];
+        for (joint, twist) in system.case.mechanism.joints().iter().zip(&mut system.twists) {
+            let of = |link: usize| if link == GROUND { 0.0 } else { turns[3 * (link - 1) + 2] };
+            *twist -= of(joint.second.link) - of(joint.first.link);
+        }
+        let mut bare = Spot { angle: from.angle - crank, ..from.clone() };
+        bare.q.iter_mut().zip(&turns).for_each(|(q, turn)| *q -= turn);
+        for reach in WIDTHS {
+            if share * reach > allowed {
+                continue;
+            }
+            match Window::of_width(system, &bare, [at - crank, share * reach], block) {
+                Ok(window) => {
+                    let error = window.error();
+                    if best.as_ref().is_none_or(|(least, _)| error < *least) {
+                        best = Some((error, window));
+                    }
+                }
+                Err(error) => {
+                    failed = Some(error);
+                    allowed = allowed.smaller(CLEAR * share * reach);
+                }
+            }
+        }
+        system.twists = twists;
+        place(system, from)?;
+        match best {
+            Some((error, mut window)) if error < WORST => {
+                window.at += crank;
+                for spot in &mut window.spots {
+                    spot.angle += crank;
+                    spot.q.iter_mut().zip(&turns).for_each(|(q, turn)| *q += turn);
+                }
+                window.turns = turns;
+                let shares = window.spots.iter().map(|spot| spot.shares[block].abs());
+                let (least, most) = shares.fold((f64::INFINITY, 0.0f64), |(a, b), s| (a.smaller(s), b.larger(s)));
+                // About the inverse of the sine of the innermost pose.
+                // Rounding of all blocks that are singular at once adds up.
+                let inner = [&window.spots[SIDE - 1].shares, &window.spots[SIDE].shares];
+                let singular = inner[0].iter().zip(inner[1]).filter(|(a, b)| *a * *b < 0.0).count().max(1);
+                window.condition = (WEIGHTS * (singular as f64).cbrt() * most / least / window.reach)
+                    .larger((error / (ULPS * f64::EPSILON)).cbrt());
+                Ok(window)
+            }
+            _ => {
+                let crank = at - system.case.crank().zero;
+                let why = failed.map_or(String::new(), |error| format!(" ({})", error.message()));
+                let message = format!(
+                    "crank angle {:.4} deg: beside this change point the branch on which velocities go on is not clear{why}",
+                    crank.to_degrees()
+                );
+                Err(Error::new(ErrorKind::Numeric, message).at_crank(crank).help("let the grid end before"))
+            }
+        }
+    }
+
+    fn of_width(system: &mut System, from: &Spot, [at, reach]: [f64; 2], block: usize) -> Result<Self> {
+        let towards = (at - from.angle).signum();
+        let distance = |k: usize| {
+            let place = (PI * k as f64 / (SIDE - 1) as f64).cos();
+            reach * (0.5 * (1.0 + CORE * CORE) + 0.5 * (1.0 - CORE * CORE) * place).sqrt()
+        };
+        let mut spots: Vec<Spot> = Vec::with_capacity(2 * SIDE);
+        let mut spot = from.clone();
+        for k in 0..SIDE {
+            spot = followed(system, &spot, at - towards * distance(k))?;
+            spots.push(spot.clone());
+        }
+        let near = Osculating::through(&chosen(&spots, at));
+        for k in (0..SIDE).rev() {
+            let angle = at + towards * distance(k);
+            spot = match k == SIDE - 1 {
+                true => {
+                    let expected = near.at(angle - at);
+                    let places: Vec<f64> = expected.iter().map(|jet| jet[0]).collect();
+                    let found = settled(system, angle, &places)?;
+                    let slopes: Vec<f64> = expected.iter().map(|jet| jet[1]).collect();
+                    check_slopes(system, &found, &slopes)?;
+                    found
+                }
+                false => followed(system, &spot, angle)?,
+            };
+            spots.push(spot.clone());
+        }
+        spots.sort_by(|a, b| a.angle.total_cmp(&b.angle));
+        let at = crossing(&spots, block).unwrap_or(at);
+        // No other change point in between: reactions have poles at both, and only one is known here.
+        let inner = [&spots[SIDE - 1], &spots[SIDE]];
+        let passes = |block: &usize| inner[0].shares[*block] * inner[1].shares[*block] < 0.0;
+        for other in (0..spots[0].shares.len()).filter(passes) {
+            if !crossing(&spots, other).is_some_and(|own| (own - at).abs() < APART * CORE * reach) {
+                return Err(system.lost("there are two change points close together"));
+            }
+        }
+        let all: Vec<(f64, [&[f64]; 3])> = [&spots[..SIDE], &spots[SIDE..]]
+            .iter()
+            .flat_map(|half| {
+                let is_low = half[0].angle < at;
+                let of = |k: usize| if is_low { k } else { SIDE - 1 - k };
+                CHOSEN.map(|k| point(&half[of(k)], at))
+            })
+            .collect();
+        let coordinates = Osculating::through(&all);
+        let places = spots.iter().map(|spot| spot.angle - at).collect();
+        Ok(Window { at, reach, spots, places, turns: Vec::new(), coordinates, condition: f64::INFINITY })
+    }
+
+    /// Writes the pose at an angle to a spot, with the signs and determinants of the side on which it lies.
+    pub(super) fn put(&self, angle: f64, spot: &mut Spot) {
+        spot.angle = angle;
+        for (index, [q, slope, curve]) in self.coordinates.at(angle - self.at).into_iter().enumerate() {
+            (spot.q[index], spot.slope[index], spot.curve[index]) = (q + self.turns[index], slope, curve);
+        }
+        spot.signs.clone_from(&self.end(angle).signs);
+        spot.shares.clone_from(&self.end(angle).shares);
+    }
+
+    /// The last pose on the side of an angle.
+    pub(super) fn end(&self, angle: f64) -> &Spot {
+        if angle < self.at { &self.spots[0] } else { &self.spots[self.spots.len() - 1] }
+    }
+
+    /// Largest difference of the two polynomials for the second derivatives, as a share of the largest one.
+    fn error(&self) -> f64 {
+        let (mut most, mut scale) = (0.0f64, 1.0f64);
+        for x in COMPARED.map(|share| share * self.reach) {
+            for (index, [_, slope, curve]) in self.coordinates.at(x).into_iter().enumerate() {
+                let other = neville(&self.places, |k| self.spots[k].curve[index], x);
+                most = most.larger((curve - other).abs());
+                scale = scale.larger(slope.abs()).larger(curve.abs());
+            }
+        }
+        most / scale
+    }
+}
+
+/// Whole turns of the angles among the coordinates (rad).
+fn whole_turns(q: &[f64]) -> Vec<f64> {
+    q.iter().enumerate().map(|(index, q)| if index % 3 == 2 { TAU * (q / TAU).round() } else { 0.0 }).collect()
+}
+
+/// Follows the branch to an angle in small steps.
+fn followed(system: &mut System, from: &Spot, to: f64) -> Result<Spot> {
+    let parts = ((to - from.angle).abs() / TRACKING_STEP).ceil().larger(1.0);
+    let mut spot = from.clone();
+    for part in 1..=parts as usize {
+        let next = if part as f64 == parts { to } else { from.angle + (to - from.angle) * (part as f64 / parts) };
+        spot = walked(system, &spot, next)?;
+    }
+    Ok(spot)
+}
+
+/// Refuses a pose beyond a change point at which velocities are not those expected.
+fn check_slopes(system: &System, found: &Spot, expected: &[f64]) -> Result<()> {
+    let size = system.case.mechanism.size();
+    let unit = |index: usize| if index % 3 == 2 { 1.0 } else { size };
+    let largest = expected.iter().enumerate().fold(1.0f64, |most, (i, slope)| most.larger(slope.abs() / unit(i)));
+    for (index, (slope, expected)) in found.slope.iter().zip(expected).enumerate() {
+        if !((slope - expected).abs() <= 0.05 * largest * unit(index)) {
+            return Err(system.lost("velocities jump there (change point)"));
+        }
+    }
+    Ok(())
+}
+
+fn point(spot: &Spot, at: f64) -> (f64, [&[f64]; 3]) {
+    (spot.angle - at, [&spot.q, &spot.slope, &spot.curve])
+}
+
+/// The chosen poses of one side, of which the outermost comes first.
+fn chosen(spots: &[Spot], at: f64) -> Vec<(f64, [&[f64]; 3])> {
+    CHOSEN.iter().map(|&k| point(&spots[k], at)).collect()
+}
+
+/// The angle at which a block's determinant is zero, by inverse interpolation. `None` if it does not change its sign, or
+/// not steadily.
+fn crossing(spots: &[Spot], block: usize) -> Option<f64> {
+    let shares: Vec<f64> = spots.iter().map(|spot| spot.shares[block]).collect();
+    let inner = SIDE / 2..2 * SIDE - SIDE / 2;
+    let rising = shares[inner.clone()].windows(2).all(|pair| pair[0] < pair[1]);
+    let falling = shares[inner.clone()].windows(2).all(|pair| pair[0] > pair[1]);
+    let is_crossing = shares[inner.start] * shares[inner.end - 1] < 0.0 && (rising || falling);
+    if !is_crossing {
+        return None;
+    }
+    // A first place by inverse interpolation, then secants on the polynomial through all poses.
+    let first = neville(&shares[inner.clone()], |k| spots[inner.start + k].angle, 0.0);
+    let places: Vec<f64> = spots.iter().map(|spot| spot.angle - first).collect();
+    let share = |x: f64| neville(&places, |k| shares[k], x);
+    let (mut last, mut x) = (0.1 * places[inner.end - 1], 0.0);
+    for _ in 0..SECANTS {
+        let (a, b) = (share(last), share(x));
+        if a == b {
+            break;
+        }
+        (last, x) = (x, x - b * (x - last) / (b - a));
+    }
+    Some(first + x)
+}
+
+/// Value at `x` of the polynomial through values at these places (Neville's scheme).
+pub(super) fn neville(places: &[f64], value: impl Fn(usize) -> f64, x: f64) -> f64 {
+    let mut row: Vec<f64> = (0..places.len()).map(value).collect();
+    for level in 1..places.len() {
+        for k in 0..places.len() - level {
+            let (a, b) = (places[k], places[k + level]);
+            row[k] = ((x - b) * row[k] - (x - a) * row[k + 1]) / (a - b);
+        }
+    }
+    row[0]
+}
