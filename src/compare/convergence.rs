@@ -152,9 +152,8 @@ impl Convergence {
 /// # Errors
 /// If the grids differ.
 pub fn observed_order(reference: &Trajectory, runs: [&Trajectory; 2], channel: &Channel) -> Result<Option<f64>> {
-    let error = |run: &Trajectory| -> Result<Option<f64>> {
-        Ok(super::difference(reference, run)?.column(channel).map(|values| rms(values)))
-    };
+    let error =
+        |run: &Trajectory| -> Result<Option<f64>> { Ok(super::difference(reference, run)?.column(channel).map(rms)) };
     Ok(error(runs[0])?.zip(error(runs[1])?).map(|(coarse, fine)| (coarse / fine).log2()))
 }
 

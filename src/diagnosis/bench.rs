@@ -145,7 +145,7 @@ impl<'a> Bench<'a> {
 
     /// For every column, the largest share of its bound in a misfit.
     pub(super) fn by_column(&self, misfit: &Misfit) -> Vec<f64> {
-        misfit.0.chunks(self.case.grid.len()).map(|values| largest_size(values)).collect()
+        misfit.0.chunks(self.case.grid.len()).map(largest_size).collect()
     }
 
     /// Disagreeing channels that a hypothesis explains, after it has left `misfit`. Empty if it spoils an agreeing

@@ -3,10 +3,11 @@
 //! Where a drive reverses, or its acceleration jumps, differences over a few steps to either side are not those of the
 //! motion: rates, accelerations and forces are not judged there.
 //! Where a link reverses whose load depends on the sense of its motion, the load jumps: forces are not judged there, nor
-//! accelerations if forces decide the motion.
+//! accelerations if forces decide the motion. Impulses that are combined from several runs are not judged close to it.
 
 use linkage::case::Case;
 use linkage::drive::DriveMotion;
+use linkage::engine::{Route, Settings};
 use linkage::math::Vec2;
 use linkage::trajectory::Stage;
 
@@ -33,8 +34,9 @@ pub(super) struct Doubt {
 }
 
 impl Doubt {
-    /// `senses` are what loads sense in the reference, by row; `resolution` is the step of the run that is judged.
-    pub(super) fn of(case: &Case, senses: &[Vec<Vec2>], runs: &Runs, resolution: f64) -> Self {
+    /// `senses` are what loads sense in the reference, by row; `settings` are those of the run that is judged.
+    pub(super) fn of(case: &Case, senses: &[Vec<Vec2>], runs: &Runs, settings: Settings) -> Self {
+        let Settings { resolution, route, extrapolated, .. } = settings;
         let times = &case.grid.times;
         let reach = STEPS * 2.0 * resolution;
         let mut doubt = Doubt {
@@ -56,10 +58,15 @@ impl Doubt {
                 doubt.forces[row] = true;
             }
         }
-        if case.is_free() {
+        // Impulses of several runs are combined, and each run has the jump of the load at another instant: of a prescribed
+        // motion by less than a step.
+        let is_combined = route != Route::Differences && extrapolated > 0;
+        if case.is_free() || is_combined {
+            let reach = if case.is_free() { reach } else { 2.0 * resolution };
             for t in reversals(times, senses) {
                 for (row, _) in times.iter().enumerate().filter(|(_, own)| (*own - t).abs() <= reach) {
-                    (doubt.forces[row], doubt.accelerations[row], doubt.by_step[row]) = (true, true, true);
+                    (doubt.forces[row], doubt.by_step[row]) = (true, true);
+                    doubt.accelerations[row] |= case.is_free();
                 }
             }
         }

@@ -180,7 +180,7 @@ impl<'a> Judge<'a> {
     /// Judges an engine by its runs.
     pub(super) fn judge(&self, engine: &dyn Engine, mut runs: Runs) -> Result<Judged> {
         runs.other_sweeps.growth = self.growth(&runs);
-        let doubt = Doubt::of(&self.scenario.case, self.senses, &runs, engine.settings().resolution);
+        let doubt = Doubt::of(&self.scenario.case, self.senses, &runs, engine.settings());
         let late = self.after_the_beginning(engine)?;
         let channels = self.channels(engine, &runs, &doubt, late.as_ref())?;
         let all = self.stages.len() == Stage::ALL.len();

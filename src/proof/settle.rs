@@ -300,6 +300,11 @@ impl<'a, 'b> Settling<'a, 'b> {
                 if (!self.is_finest() || is_cut) && borne_out.is_empty() {
                     best.judged.doubt("no finer run bears it out", &Advice::SmallerStep { to: None });
                 }
+                // Impulses are of first order, and sweeps leave more in them than in the motion: where the search is cut off
+                // before all are conclusive, none is disproven.
+                if self.conclusive && end == End::Budget {
+                    best.judged.doubt("the others are not conclusive", &Advice::MoreWork { to: 10.0 * self.budget });
+                }
                 Ok((best.judged, search))
             }
             (None, Some(stopped)) => Err(stopped),
@@ -344,10 +349,10 @@ impl<'a, 'b> Settling<'a, 'b> {
     fn leave_out_less(&mut self, judged: &Judged) {
         let most = judged.info.settings.resolution * MOST_LEFT_OUT / judged.too_coarse;
         // The next round halves the step once more.
-        while self.now.resolution > most {
+        while self.now.resolution > most && !self.is_finest() {
             self.now.resolution *= 0.5;
         }
-        while self.coarsest > 4.0 * most {
+        while self.coarsest > 4.0 * most.larger(self.now.resolution) {
             self.coarsest *= 0.5;
         }
     }
