@@ -8,6 +8,7 @@ mod examined;
 mod judge;
 mod known;
 mod methods;
+mod need;
 mod observe;
 mod options;
 mod oracle;
@@ -21,6 +22,7 @@ mod planted_forces;
 mod runs;
 mod sensitivity;
 mod settle;
+mod stall;
 
 pub use engines::EngineProof;
 pub use judge::{ChannelProof, EngineInfo};

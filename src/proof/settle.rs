@@ -11,9 +11,11 @@ use linkage::error::{Advice, ErrorKind};
 use linkage::math::KeepNan;
 
 use super::judge::{Judge, Judged};
+use super::need::{MOST_LEFT_OUT, Need, need};
 use super::observe::Stopped;
 use super::order;
 use super::runs::{Bank, FEWER, other_sweeps, rungs};
+use super::stall::{Next, Stall};
 use crate::compare::Verdict;
 use crate::tolerance::Part;
 
@@ -75,23 +77,8 @@ const MOST_TIMES: usize = 4;
 const COARSEST: f64 = 16.0;
 /// Failed runs after which more sweeps are tried instead of a smaller step.
 const FAILURES: usize = 6;
-/// Share of instants that may be left out because they are too close to a reversal for the step.
-const MOST_LEFT_OUT: f64 = 0.03;
-/// Need of a step that leaves out more, over what is wanted.
-const LEFT_OUT: f64 = 2.0;
-/// Rounds without an order of convergence after which more sweeps are tried instead of a smaller step.
-const MOST_VAGUE: usize = 2;
 /// Rounds of a search that is not long.
 const QUICK: i32 = 3;
-/// Part of the bound down to which half the step must bring it, so that it is not the sweeps that are too few.
-const BRINGS: f64 = 0.7;
-/// Part of the bound down to which more sweeps must bring it to be worth their work.
-const HELPS: f64 = 0.5;
-/// Rounds with finer steps and wider bounds after which rounding is to blame, also where the engine's noise is thought to
-/// be less.
-const MOST_WIDER: usize = 2;
-/// Rounds that pass before more sweeps are tried again, where they have brought little.
-const PATIENCE: usize = 3;
 /// Factor between numbers of sweeps.
 const MORE_SWEEPS: usize = 4;
 
@@ -114,51 +101,11 @@ impl End {
     }
 }
 
-/// What a search has seen of steps that do not bring it on.
-#[derive(Default)]
-struct Stall {
-    /// Need of the round before, with as many sweeps.
-    before: Option<Need>,
-    /// Rounds without an order of convergence, one after the other.
-    vague: usize,
-    /// Rounds in which half the step has made the bound wider, one after the other.
-    wider: usize,
-    /// Sweeps of the round before, and its need, if more sweeps are just tried.
-    tried: Option<(usize, Need)>,
-    /// Rounds until more sweeps may be tried again.
-    wait: usize,
-}
-
 /// One way to combine the runs made so far, judged.
 struct Trial {
     judged: Judged,
     need: Need,
     blame: Part,
-}
-
-/// How far a trial is from being conclusive.
-#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
-struct Need {
-    /// Whether the runs show no order, so that the bound means little.
-    is_vague: bool,
-    /// Largest bound over what is wanted.
-    share: f64,
-}
-
-impl Need {
-    /// Whether a bound that means something is at most `most` of what is wanted.
-    fn is_within(self, most: f64) -> bool {
-        !self.is_vague && self.share <= most
-    }
-
-    /// Whether this is at most `part` of another need, or shows an order where that one does not.
-    fn is_less(self, part: f64, other: Need) -> bool {
-        match (self.is_vague, other.is_vague) {
-            (false, true) => true,
-            (true, false) => false,
-            (true, true) | (false, false) => self.share <= part * other.share,
-        }
-    }
 }
 
 /// The state of a search.
@@ -264,7 +211,16 @@ impl<'a, 'b> Settling<'a, 'b> {
                     let disagrees = !against.is_empty();
                     let (decided, sharp) = (trial.need.is_within(1.0), trial.need.is_within(self.aim));
                     let thrift = self.bank.effort > THRIFT * self.budget;
-                    let blame = self.look_closer(&mut stall, &trial);
+                    let blame = match stall.look_closer(trial.need, trial.blame, self.now.sweeps, self.free.sweeps) {
+                        Next::Blames(part) => part,
+                        Next::Returns(fewer) => {
+                            self.now.sweeps = fewer;
+                            Part::Discretisation
+                        }
+                    };
+                    if trial.need.is_of_instants() && self.free.step {
+                        self.leave_out_less(&trial.judged);
+                    }
                     // A later round speaks for itself where it disagrees, or no longer does.
                     let better = best.as_ref().is_none_or(|best| {
                         let refuted = decided && !best.judged.against().is_empty();
@@ -310,39 +266,6 @@ impl<'a, 'b> Settling<'a, 'b> {
             (None, Some(stopped)) => Err(stopped),
             (None, None) => unreachable!("a round ends with a trial or a failure"),
         }
-    }
-
-    /// What is to blame of a trial. Too few sweeps may hide the order of the step, and what they leave does not always
-    /// show: where a smaller step brings little, more sweeps are tried, and are given up where they bring little too.
-    fn look_closer(&mut self, stall: &mut Stall, trial: &Trial) -> Part {
-        let need = trial.need;
-        stall.vague = if need.is_vague { stall.vague + 1 } else { 0 };
-        let before = stall.before.replace(need);
-        let tried = stall.tried.take();
-        stall.wait = stall.wait.saturating_sub(1);
-        if trial.blame != Part::Discretisation {
-            return trial.blame;
-        }
-        if self.free.step && !need.is_vague && need.share == LEFT_OUT {
-            self.leave_out_less(&trial.judged);
-            return Part::Discretisation;
-        }
-        if let Some((sweeps, before)) = tried {
-            if !need.is_less(HELPS, before) {
-                (self.now.sweeps, stall.wait, stall.before) = (sweeps, PATIENCE, Some(before));
-            }
-            return Part::Discretisation;
-        }
-        stall.wider = if before.is_some_and(|before| before.is_less(0.5, need)) { stall.wider + 1 } else { 0 };
-        if stall.wider >= MOST_WIDER {
-            return Part::Rounding;
-        }
-        let is_stalled = stall.vague >= MOST_VAGUE || before.is_some_and(|before| !need.is_less(BRINGS, before));
-        if !is_stalled || stall.wait > 0 || !self.free.sweeps || need.is_within(1.0) {
-            return Part::Discretisation;
-        }
-        stall.tried = Some((self.now.sweeps, need));
-        Part::Iteration
     }
 
     /// Goes on at steps that leave out few enough instants, in proportion to the step. Coarser ones decide nothing.
@@ -469,31 +392,4 @@ impl<'a, 'b> Settling<'a, 'b> {
         let (need, blame) = need(&judged, self.judge.scenario.engine_rel);
         Ok(Trial { judged, need, blame })
     }
-}
-
-/// The largest bound of a channel or check over what is wanted, `wanted` of its scale, and the part that is to blame.
-/// Those whose runs show no order come first.
-fn need(judged: &Judged, wanted: f64) -> (Need, Part) {
-    let channels = judged.channels.iter().map(|own| (own.parts, own.residual.scale, &own.convergence, &own.verdict));
-    let checks = judged.checks.iter().filter_map(|check| {
-        let (parts, convergence) = check.estimate.as_ref()?;
-        Some((*parts, 1.0, convergence, &check.verdict))
-    });
-    // A step that leaves out many instants proves nothing about them.
-    let least = if judged.too_coarse > MOST_LEFT_OUT { LEFT_OUT } else { 0.0 };
-    let mut worst = (Need { is_vague: false, share: least }, Part::Discretisation);
-    for (parts, scale, convergence, verdict) in channels.chain(checks) {
-        let share = linkage::math::statistics::share(parts.sum(), wanted * scale);
-        let is_open = matches!(verdict, Verdict::Inconclusive { .. });
-        // Open for another reason than its bound: no setting changes that.
-        let is_vague = is_open && !convergence.is_trusted();
-        let share = if is_open && !is_vague && share <= 1.0 { 0.0 } else { share.larger(0.0) };
-        let own = Need { is_vague, share: if share.is_nan() { f64::INFINITY } else { share } };
-        if own > worst.0 {
-            // Where no order is seen, the sweeps are to blame as soon as they leave a part that counts.
-            let sweeps = is_vague && 10.0 * parts.iteration > parts.discretisation;
-            worst = (own, if sweeps { Part::Iteration } else { parts.largest() });
-        }
-    }
-    worst
 }
