@@ -1,5 +1,7 @@
 //! Differences between two trajectories, channel by channel.
 
+use std::collections::BTreeMap;
+
 use linkage::math::{KeepNan, largest_size};
 
 use linkage::error::{Error, ErrorKind, Result};
@@ -75,22 +77,66 @@ pub fn scales(trajectory: &Trajectory) -> Vec<f64> {
 /// coordinates and forces.
 #[must_use]
 pub fn magnitudes(trajectory: &Trajectory) -> Vec<f64> {
-    let largest: Vec<f64> = trajectory.iter().map(|(_, values)| largest_size(values)).collect();
-    natural(trajectory, &largest, 1.0)
+    natural(trajectory, &largest_sizes(trajectory), 1.0)
+}
+
+/// The same by sets of channels: the numbers of a channel in set `sets[channel]` are those of all channels whose set
+/// `feeds` it, given first.
+pub(crate) fn magnitudes_by(trajectory: &Trajectory, sets: &[usize], feeds: &dyn Fn(usize, usize) -> bool) -> Vec<f64> {
+    let largest = largest_sizes(trajectory);
+    let sizes_of = |set: usize| {
+        let fed = sets.iter().map(|&from| feeds(from, set));
+        let own = trajectory.channels().iter().zip(&largest).zip(fed).filter(|(_, is_fed)| *is_fed);
+        Sizes::of(trajectory, own.map(|((channel, size), _)| (channel, *size)))
+    };
+    let all: Vec<Sizes> = (0..=sets.iter().copied().max().unwrap_or(0)).map(sizes_of).collect();
+    trajectory.channels().iter().zip(sets).map(|(channel, &set)| all[set].natural(channel, 1.0)).collect()
+}
+
+fn largest_sizes(trajectory: &Trajectory) -> Vec<f64> {
+    trajectory.iter().map(|(_, values)| largest_size(values)).collect()
 }
 
 /// For every channel, the largest of `sizes` among the channels of its quantity, but at least the value that follows
 /// from the crank's speed, its `turn` (rad) and the sizes of places and forces.
 fn natural(trajectory: &Trajectory, sizes: &[f64], turn: f64) -> Vec<f64> {
-    let all = || trajectory.channels().iter().zip(sizes);
-    let of_unit = |unit: Unit| all().filter(|(c, _)| c.kind.unit == unit).fold(0.0, |max: f64, (_, &s)| max.larger(s));
-    let of_quantity = |quantity: &str| {
-        all().filter(|(c, _)| c.kind.quantity == quantity).fold(0.0, |max: f64, (_, &s)| max.larger(s))
-    };
-    let span = half_range(trajectory.times());
-    let speed = if span > 0.0 { half_range(trajectory.cranks()) / span } else { 0.0 };
-    let (length, force) = (of_unit(Unit::Metre), of_unit(Unit::Newton));
-    let natural = |channel: &Channel| {
+    let all = Sizes::of(trajectory, trajectory.channels().iter().zip(sizes.iter().copied()));
+    trajectory.channels().iter().map(|channel| all.natural(channel, turn)).collect()
+}
+
+/// Largest sizes among some channels.
+struct Sizes {
+    of_quantity: BTreeMap<&'static str, f64>,
+    length: f64,
+    force: f64,
+    /// Mean speed of the crank (rad/s).
+    speed: f64,
+}
+
+impl Sizes {
+    fn of<'a>(trajectory: &Trajectory, own: impl Iterator<Item = (&'a Channel, f64)>) -> Self {
+        let span = half_range(trajectory.times());
+        let speed = if span > 0.0 { half_range(trajectory.cranks()) / span } else { 0.0 };
+        let mut sizes = Sizes { of_quantity: BTreeMap::new(), length: 0.0, force: 0.0, speed };
+        for (channel, size) in own {
+            let of_quantity = sizes.of_quantity.entry(channel.kind.quantity).or_insert(0.0);
+            *of_quantity = of_quantity.larger(size);
+            match channel.kind.unit {
+                Unit::Metre => sizes.length = sizes.length.larger(size),
+                Unit::Newton => sizes.force = sizes.force.larger(size),
+                Unit::Radian
+                | Unit::RadianPerSecond
+                | Unit::RadianPerSecondSquared
+                | Unit::MetrePerSecond
+                | Unit::MetrePerSecondSquared
+                | Unit::NewtonMetre => {}
+            }
+        }
+        sizes
+    }
+
+    fn natural(&self, channel: &Channel, turn: f64) -> f64 {
+        let Sizes { length, force, speed, .. } = *self;
         let derived = match channel.kind.unit {
             Unit::Radian => turn,
             Unit::RadianPerSecond => speed * turn,
@@ -102,9 +148,8 @@ fn natural(trajectory: &Trajectory, sizes: &[f64], turn: f64) -> Vec<f64> {
             Unit::Newton => 0.0,
             Unit::NewtonMetre => force * length,
         };
-        of_quantity(channel.kind.quantity).larger(derived)
-    };
-    trajectory.channels().iter().map(natural).collect()
+        self.of_quantity.get(channel.kind.quantity).copied().unwrap_or(0.0).larger(derived)
+    }
 }
 
 /// Channel by channel `other` minus `reference`, for the channels that both have. Angles that always differ by the same

@@ -6,8 +6,9 @@
 //!
 //! No bound on anything else is less than this.
 
-use crate::compare::{largest_difference, magnitudes};
-use analytic::range::condition;
+use super::dependence::Dependence;
+use crate::compare::{largest_difference, magnitudes_by};
+use analytic::range::conditions;
 use analytic::{AssurSolver, TightAssurSolver, TightNewtonSolver};
 use linkage::case::Case;
 use linkage::error::Result;
@@ -48,15 +49,19 @@ pub(super) fn of_condition(stage: Stage, condition: f64) -> f64 {
     ULPS * f64::EPSILON * condition.powi(power(stage))
 }
 
-/// Errors allowed to the analytic sides, channel by channel.
+/// Errors allowed to the analytic sides, channel by channel. Each is judged by the numbers that it is made of: near a dead
+/// point of one group those of the others stay as they are.
 pub(super) struct Known {
     /// Size of the numbers in every channel, in its unit.
     magnitudes: Vec<f64>,
     /// Error of the integration in every channel, in its unit, of the reference and of the other side; zeros for a
     /// prescribed motion.
     integration: [Vec<f64>; 2],
-    /// Condition number of the pose at every instant, so far in a motion under forces; empty as long as nobody needs it.
-    conditions: Vec<f64>,
+    /// The groups that channels depend on.
+    dependence: Dependence,
+    /// Condition number of the pose at every instant, so far in a motion under forces, for every set of groups; empty as
+    /// long as nobody needs it.
+    conditions: Vec<Vec<f64>>,
 }
 
 impl Known {
@@ -83,7 +88,9 @@ impl Known {
         };
         let [reference, other] = sides;
         let integration = [integration(reference)?, integration(other)?];
-        Ok(Known { magnitudes: magnitudes(reference.1), integration, conditions: Vec::new() })
+        let dependence = Dependence::of(case, reference.1.channels());
+        let magnitudes = magnitudes_by(reference.1, &dependence.of, &|from, to| dependence.feeds(from, to));
+        Ok(Known { magnitudes, integration, dependence, conditions: Vec::new() })
     }
 
     /// Measures the condition of every pose, for a trajectory whose errors exceed those of well conditioned poses.
@@ -91,20 +98,27 @@ impl Known {
     /// # Errors
     /// Those of the solver.
     pub(super) fn measure(&mut self, case: &Case, solver: &dyn Solver) -> Result<()> {
-        let mut conditions = vec![1.0; case.grid.len()];
-        let mut worst: f64 = 1.0;
+        let sets = &self.dependence.sets;
+        let mut worst = vec![1.0; sets.len()];
+        let mut all = vec![Vec::new(); case.grid.len()];
         let mut visit = |row: usize, state: &State| {
             let frames = state.motions.iter().zip(&state.angles);
             let pose = Pose(frames.map(|(motion, &angle)| LinkPose { origin: motion.origin, angle }).collect());
-            // At a change point the condition of the pose has no bound, but no side calculates at that pose.
-            let own = state.passing.unwrap_or_else(|| condition(&case.mechanism, &case.structure.groups, &pose));
-            // What a motion under forces has lost once, it does not get back.
-            worst = if case.is_free() { worst.larger(own) } else { own };
-            conditions[row] = worst;
+            let own = conditions(&case.mechanism, &case.structure.groups, &pose);
+            for (set, worst) in sets.iter().zip(&mut worst) {
+                let own: f64 = match state.passing.filter(|_| !set.is_empty()) {
+                    // At a change point the condition of the pose has no bound, but no side calculates at that pose.
+                    Some(passing) => passing,
+                    None => set.iter().map(|&group| own[group]).product(),
+                };
+                // What a motion under forces has lost once, it does not get back.
+                *worst = if case.is_free() { worst.larger(own) } else { own };
+            }
+            all[row].clone_from(&worst);
             Ok(())
         };
         solver.each(case, &mut visit)?;
-        self.conditions = conditions;
+        self.conditions = all;
         Ok(())
     }
 
@@ -113,16 +127,16 @@ impl Known {
         self.magnitudes[channel]
     }
 
-    /// Relative rounding allowed in a stage at an instant.
-    fn rounding(&self, stage: Stage, row: usize) -> f64 {
-        let condition = self.conditions.get(row).copied().unwrap_or(1.0);
+    /// Relative rounding allowed in a channel of a stage at an instant.
+    fn rounding(&self, stage: Stage, channel: usize, row: usize) -> f64 {
+        let condition = self.conditions.get(row).map_or(1.0, |sets| sets[self.dependence.of[channel]]);
         usual(stage).larger(of_condition(stage, condition))
     }
 
     /// Relative difference allowed between the sides in a channel of a stage at an instant.
     pub(super) fn apart(&self, stage: Stage, channel: usize, row: usize) -> f64 {
         let integration = self.integration[0][channel] + self.integration[1][channel];
-        self.rounding(stage, row) + share(integration, self.magnitudes[channel])
+        self.rounding(stage, channel, row) + share(integration, self.magnitudes[channel])
     }
 
     /// Largest difference allowed between the sides in a channel over the run, in the channel's unit.
@@ -133,7 +147,7 @@ impl Known {
     /// Largest error allowed to the reference in a channel over the run, in the channel's unit.
     pub(super) fn error(&self, stage: Stage, channel: usize) -> f64 {
         let rows = 0..self.conditions.len().max(1);
-        let rounding = rows.map(|row| self.rounding(stage, row)).fold(0.0, f64::larger);
+        let rounding = rows.map(|row| self.rounding(stage, channel, row)).fold(0.0, f64::larger);
         rounding * self.magnitudes[channel] + self.integration[0][channel]
     }
 }

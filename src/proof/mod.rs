@@ -1,6 +1,7 @@
 //! The proof: a scenario solved by both analytic sides and by engines, compared, checked, and judged.
 
 mod checks;
+mod dependence;
 mod dial;
 mod doubt;
 mod engines;

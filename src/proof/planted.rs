@@ -14,7 +14,7 @@ use crate::proof::{EngineProof, Options, prove};
 use crate::scenario::Scenario;
 use analytic::witness::triad::Triad;
 use analytic::{AssurSolver, NewtonSolver};
-use linkage::case::{Case, Wanted};
+use linkage::case::{Case, Grid, Wanted};
 use linkage::engine::{Engine, Route, Settings};
 use linkage::error::Result;
 use linkage::mechanism::GROUND;
@@ -172,6 +172,38 @@ fn every_check_of_the_two_sides_finds_three_times_its_bound_and_passes_a_fifth()
             assert_eq!(check.verdict.word(), word, "{name} at {share}: {:e} of {:e}", check.value, check.bound);
         }
     }
+}
+
+/// Symptom: 1e-9 deg from a dead point the crank pin's own acceleration was wrong by 176 %, and the check between the
+/// sides was silent, because it measured by the largest accelerations of the mechanism and by the condition of the worst
+/// group. A channel is judged by the numbers that it is made of.
+#[test]
+fn regress_a_driving_link_is_judged_by_its_own_numbers_near_a_dead_point() {
+    let folded = [
+        ("C = { x_mm = 150, y_mm = 15 }", "C = { x_mm = 400, y_mm = 0 }"),
+        ("A = { x_m = 0.025995627740337, y_m = 0 }", "A = { x_mm = 300, y_mm = 0 }"),
+        ("B = { x_m = 0.34707193189181, y_m = 0 }", "B = { x_mm = 250, y_mm = 0 }"),
+        ("B = { x_mm = 250, y_mm = 0 }\nD", "B = { x_mm = 200, y_mm = 0 }\nD"),
+        ("crank_deg = 0\n", "crank_deg = 30\n"),
+        ("from_deg = 0\nto_deg = 360", "from_deg = 30\nto_deg = 40"),
+    ];
+    let swinging = folded.iter().fold(text("crank_rocker"), |text, (from, to)| text.replace(from, to));
+    let case = parsed("crank_rocker", &swinging).case;
+    let limit = ((0.4f64.powi(2) + 0.3f64.powi(2) - 0.45f64.powi(2)) / (2.0 * 0.4 * 0.3)).acos();
+    let cranks = [50.0, 1e-3, 1e-9].map(|off: f64| limit - off.to_radians());
+    let times = cranks.map(|crank| case.crank().time_of(crank)).to_vec();
+    let case = case.on(Grid::of_times(case.crank(), times)).unwrap();
+    let [truth, other] = [seen(&case, &AssurSolver), seen(&case, &NewtonSolver)];
+    let mut known = knowing(&case);
+    known.measure(&case, &AssurSolver).unwrap();
+    let alpha = case.crank().top_speed().powi(2);
+    let slower: Fault = |state, size| state.motions[1].alpha -= size;
+    for (size, is_found) in [(0.0, false), (0.2e-11 * alpha, false), (3e-11 * alpha, true), (1.76 * alpha, true)] {
+        let sides = [("assur", truth.clone()), ("newton", seen(&case, &assur(slower, size)))];
+        assert_eq!(checks::sides_differ(&sides, &known), is_found, "{size:e}");
+    }
+    // What the dyad itself loses there is rounding.
+    assert!(!checks::sides_differ(&[("assur", truth), ("newton", other)], &known));
 }
 
 /// NaN on the way from the observed quantities to the bound.

@@ -150,14 +150,14 @@ pub fn is_singular(mechanism: &Mechanism, group: &Group, pose: &Pose) -> bool {
     !(measure::of(&constraints.block(&jacobian, group), mechanism, group, pose).determinant.abs() > SINGULAR)
 }
 
-/// Condition number of a pose: the product of those of all groups, because errors pass from group to group.
-/// 1 for a mechanism without groups.
+/// Condition number of every group at a pose, in order of solution. Errors pass from group to group, so that those of
+/// a link grow with the product over its own group and those before it.
 #[must_use]
-pub fn condition(mechanism: &Mechanism, groups: &[Group], pose: &Pose) -> f64 {
+pub fn conditions(mechanism: &Mechanism, groups: &[Group], pose: &Pose) -> Vec<f64> {
     let constraints = Constraints::of(mechanism, Vec2::zeros(), Vec::new());
     let jacobian = constraints.at(&constraints.coordinates_of(pose)).jacobian;
     let of = |group| measure::of(&constraints.block(&jacobian, group), mechanism, group, pose).condition;
-    groups.iter().map(of).product()
+    groups.iter().map(of).collect()
 }
 
 /// All poses in ascending order of the crank angle.

@@ -95,6 +95,25 @@ impl Structure {
         Ok(())
     }
 
+    /// For every link, the groups that its motion depends on if all drives are prescribed: its own and those before it, as
+    /// indices in ascending order. None for the ground and for driving links.
+    #[must_use]
+    pub fn upstream(&self, mechanism: &Mechanism) -> Vec<Vec<usize>> {
+        let mut upstream: Vec<Vec<usize>> = vec![Vec::new(); mechanism.links().len()];
+        for (index, group) in self.groups.iter().enumerate() {
+            let ends = group.outer.iter().map(|&joint| &mechanism.joints()[joint]);
+            let neighbours = ends.flat_map(|joint| [joint.first.link, joint.second.link]);
+            let mut all: Vec<usize> = neighbours.flat_map(|link| upstream[link].iter().copied()).collect();
+            all.push(index);
+            all.sort_unstable();
+            all.dedup();
+            for &link in &group.links {
+                upstream[link].clone_from(&all);
+            }
+        }
+        upstream
+    }
+
     /// Structural formula, for example `I(ground, crank) -> II.2 RRR(coupler, rocker)`.
     #[must_use]
     pub fn formula(&self, mechanism: &Mechanism) -> String {
