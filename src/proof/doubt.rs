@@ -15,6 +15,11 @@ use super::runs::Runs;
 
 /// Number of steps around a jump in which an engine's values are doubtful.
 const STEPS: f64 = 8.0;
+/// The same for impulses of a free motion: they are read from six steps, one step late.
+const IMPULSES: f64 = 5.0;
+/// Share of a step by which runs of a prescribed motion, whose impulses are combined, have the jump of a load at different
+/// instants: their velocities differ by about a twelfth of its square.
+const APART: f64 = 0.25;
 
 /// Share of a drive's top speed that counts as standstill: the rounding of a law's formula, with room.
 const STANDSTILL: f64 = 1e-9;
@@ -58,11 +63,13 @@ impl Doubt {
                 doubt.forces[row] = true;
             }
         }
-        // Impulses of several runs are combined, and each run has the jump of the load at another instant: of a prescribed
-        // motion by less than a step.
-        let is_combined = route != Route::Differences && extrapolated > 0;
-        if case.is_free() || is_combined {
-            let reach = if case.is_free() { reach } else { 2.0 * resolution };
+        let own = route != Route::Differences;
+        let jumps = match (case.is_free(), own && extrapolated > 0) {
+            (true, _) => Some(if own { IMPULSES * 2.0 * resolution } else { reach }),
+            (false, true) => Some(APART * 2.0 * resolution),
+            (false, false) => None,
+        };
+        if let Some(reach) = jumps {
             for t in reversals(times, senses) {
                 for (row, _) in times.iter().enumerate().filter(|(_, own)| (*own - t).abs() <= reach) {
                     (doubt.forces[row], doubt.by_step[row]) = (true, true);

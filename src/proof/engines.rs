@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::judge::{ChannelProof, EngineInfo, Judge, Judged, describe};
 use super::known::Known;
-use super::observe::{Observed, Stopped};
+use super::observe::{Observed, Stopped, Watch};
 use super::options::Chosen;
 use super::order;
 use super::own_forces::{ForceFault, OwnForces};
@@ -64,7 +64,7 @@ pub(super) fn prove(
     let engine = chosen.engine.as_ref();
     let asked = engine.settings();
     let judge = Judge::new(scenario, reference, known, asked);
-    let mut bank = Bank::new(case, engine);
+    let mut bank = Bank::new(case, engine, Watch::Engine);
     // A step that cannot be is refused by the engine.
     let is_step = asked.resolution > 0.0 && asked.resolution.is_finite();
     let found = if chosen.free.any() && !engine.controls_error() && is_step {

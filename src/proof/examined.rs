@@ -104,7 +104,7 @@ mod tests {
 
     use super::*;
     use crate::diagnosis::{Cause, Slip};
-    use crate::proof::observe::observe;
+    use crate::proof::observe::{Watch, observe};
     use crate::proof::{Options, prove};
     use crate::scenario::Scenario;
     use analytic::{AssurSolver, NewtonSolver};
@@ -132,7 +132,7 @@ mod tests {
         let right = prove(&scenario, &Options::default()).unwrap();
         assert!(right.diagnosis.is_none());
         let seen = |solver: &dyn Solver| {
-            observe(case, solver, &mut |_| {}).unwrap_or_else(|stopped| panic!("{}", stopped.error))
+            observe(case, solver, Watch::Side, &mut |_| {}).unwrap_or_else(|stopped| panic!("{}", stopped.error))
         };
         for wrong in ["assur", "newton"] {
             let side = |name: &'static str, solver: &dyn Solver| match name == wrong {

@@ -18,7 +18,7 @@ use linkage::engine::{Engine, Settings};
 use linkage::error::{Advice, Result};
 use linkage::math::{KeepNan, Vec2};
 use linkage::solver::Provision;
-use linkage::trajectory::{CHANNELS, Channel, ChannelKind, Stage, Trajectory};
+use linkage::trajectory::{CHANNELS, Channel, ChannelKind, Stage, Subject, Trajectory};
 
 /// What is known about an engine that was run.
 #[derive(Clone, Debug, PartialEq)]
@@ -71,6 +71,24 @@ const MOST_ROUNDING: f64 = 0.1;
 /// Share of the widest conclusive bound from which a difference between sweeps counts.
 const COUNTS: f64 = 0.01;
 
+/// What a judgement is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Asks {
+    /// All channels, and the checks besides them.
+    All,
+    /// Reactions and balancing moment as the engine itself exerts them. Shaking force and moment are sums of them.
+    OwnForces,
+}
+
+impl Asks {
+    fn has(self, kind: &ChannelKind) -> bool {
+        match self {
+            Asks::All => true,
+            Asks::OwnForces => kind.stage >= Stage::Reactions && kind.subject != Subject::Frame,
+        }
+    }
+}
+
 /// What an engine's runs are judged by.
 pub(super) struct Judge<'a> {
     pub(super) scenario: &'a Scenario,
@@ -84,8 +102,8 @@ pub(super) struct Judge<'a> {
     known: &'a Known,
     /// Settings asked for; the search begins with them.
     pub(super) asked: Settings,
-    /// What is judged. Checks besides the channels belong to all stages together.
-    pub(super) stages: &'a [Stage],
+    /// What is judged.
+    pub(super) asks: Asks,
 }
 
 /// An engine at some settings, judged.
@@ -159,7 +177,7 @@ impl<'a> Judge<'a> {
     pub(super) fn new(scenario: &'a Scenario, reference: &'a Observed, known: &'a Known, asked: Settings) -> Self {
         let scales = scales(&reference.trajectory);
         let (reference, senses) = (&reference.trajectory, reference.senses.as_slice());
-        Judge { scenario, reference, scales, senses, known, asked, stages: &Stage::ALL }
+        Judge { scenario, reference, scales, senses, known, asked, asks: Asks::All }
     }
 
     /// The same for a search that begins with other settings.
@@ -167,14 +185,14 @@ impl<'a> Judge<'a> {
         Judge { asked, scales: self.scales.clone(), ..*self }
     }
 
-    /// The same for some stages only.
-    pub(super) fn of_stages(self, stages: &'a [Stage]) -> Self {
-        Judge { stages, ..self }
+    /// The same for the forces that an engine exerts.
+    pub(super) fn of_own_forces(self) -> Self {
+        Judge { asks: Asks::OwnForces, ..self }
     }
 
     /// Whether the reference has a channel that is judged.
     pub(super) fn has_channels(&self) -> bool {
-        self.reference.channels().iter().any(|channel| self.stages.contains(&channel.kind.stage))
+        self.reference.channels().iter().any(|channel| self.asks.has(channel.kind))
     }
 
     /// Judges an engine by its runs.
@@ -183,8 +201,10 @@ impl<'a> Judge<'a> {
         let doubt = Doubt::of(&self.scenario.case, self.senses, &runs, engine.settings());
         let late = self.after_the_beginning(engine)?;
         let channels = self.channels(engine, &runs, &doubt, late.as_ref())?;
-        let all = self.stages.len() == Stage::ALL.len();
-        let checks = if all { checks::of_engine(self.scenario, engine, &runs) } else { Vec::new() };
+        let checks = match self.asks {
+            Asks::All => checks::of_engine(self.scenario, engine, &runs),
+            Asks::OwnForces => Vec::new(),
+        };
         let verdict = overall(channels.iter().map(|c| &c.verdict).chain(checks.iter().map(|c| &c.verdict)));
         let case = late.as_ref().unwrap_or(&self.scenario.case);
         let (too_coarse, kept) = (doubt.too_coarse(), self.kept(&doubt, Stage::Reactions, case));
@@ -215,19 +235,22 @@ impl<'a> Judge<'a> {
         let channels = self.reference.channels();
         let mut all = Vec::with_capacity(channels.len());
         // Channels of one stage are judged at the same instants.
-        for &stage in self.stages {
+        for stage in Stage::ALL {
+            let is_own = |channel: &Channel| channel.kind.stage == stage && self.asks.has(channel.kind);
+            let indices: Vec<usize> = (0..channels.len()).filter(|&index| is_own(&channels[index])).collect();
+            if indices.is_empty() {
+                continue;
+            }
             let case = late.filter(|_| stage >= Stage::Accelerations).unwrap_or(&self.scenario.case);
             let keep = self.kept(doubt, stage, case);
             let left_out = keep.iter().filter(|&&kept| !kept).count();
-            let thin = |trajectory: &Trajectory| trajectory.of_stage(stage, &keep);
+            let thin = |trajectory: &Trajectory| trajectory.part(&keep, &is_own);
             let ladder = runs.ladder();
             let resolutions = ladder.resolutions.map(thin);
             let others = ladder.other_sweeps.map(|run| thin(run));
             let [double, single, half] = &resolutions;
             let ladder = Ladder { resolutions: [double, single, half], other_sweeps: others.map(|run| run) };
             let reference = &thin(self.reference);
-            let indices: Vec<usize> =
-                (0..channels.len()).filter(|&index| channels[index].kind.stage == stage).collect();
             let scales: Vec<f64> = indices.iter().map(|&index| self.scales[index]).collect();
             let mut stand =
                 Stand { engine, finest: finest.as_ref(), case, ladder, reference, left_out, noise: Vec::new() };
@@ -258,11 +281,11 @@ impl<'a> Judge<'a> {
         let is_open = self.reference.channels().iter().zip(&self.scales).any(|(channel, scale)| {
             let noise = engine.noise(case, channel.kind);
             let stage = channel.kind.stage;
-            stage >= Stage::Accelerations && self.stages.contains(&stage) && noise > MOST_ROUNDING * wanted * scale
+            stage >= Stage::Accelerations && self.asks.has(channel.kind) && noise > MOST_ROUNDING * wanted * scale
         });
         let late = || case.grid.times.iter().copied().filter(|&t| t > begin).collect();
         // Impulses of the first steps are read from later ones, however small their rounding.
-        let impulses = self.stages.len() < Stage::ALL.len();
+        let impulses = self.asks == Asks::OwnForces;
         (is_open || impulses).then(|| case.on(Grid::of_times(case.crank(), late()))).transpose()
     }
 

@@ -41,7 +41,7 @@ use linkage::case::Case;
 use linkage::error::Result;
 use linkage::solver::Solver;
 use linkage::trajectory::Trajectory;
-use observe::observe;
+use observe::{Watch, observe};
 
 /// All results of one proof.
 ///
@@ -156,7 +156,7 @@ fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: 
     let case = &scenario.case;
     let main = options.reference.solver();
     let engines = options.chosen(scenario)?;
-    let observed = |solver: &dyn Solver| -> Result<_> { Ok((solver.name(), observe(case, solver, &mut |_| {})?)) };
+    let observed = |solver: &dyn Solver| -> Result<_> { Ok((solver.name(), observe(case, solver, Watch::Side, &mut |_| {})?)) };
     let [first, second] = analytic::all();
     let sides = [observed(first)?, observed(second)?];
     let own = &sides.iter().find(|(name, _)| *name == main.name()).expect("the reference is one of the sides").1;

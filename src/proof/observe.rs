@@ -9,7 +9,18 @@ use linkage::mechanism::Side;
 use linkage::solver::{Sampler, Solver, State};
 use linkage::trajectory::{Stage, Trajectory};
 
-/// A trajectory and the quantities observed while it was computed.
+/// What is observed of a run besides its trajectory.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Watch {
+    /// All of it, for an analytic side.
+    Side,
+    /// What an engine's checks need: closure and balance of powers.
+    Engine,
+    /// What loads sense.
+    Senses,
+}
+
+/// A trajectory and the quantities observed while it was computed. Those that are not watched are empty or zero.
 #[derive(Clone, Debug)]
 pub(super) struct Observed {
     pub(super) trajectory: Trajectory,
@@ -74,18 +85,19 @@ impl From<Stopped> for Error {
     }
 }
 
-/// Solves `case` with `solver` and observes the closure of all joints and the balance of powers.
+/// Solves `case` with `solver` and observes what is watched.
 pub(super) fn observe(
     case: &Case,
     solver: &dyn Solver,
+    watch: Watch,
     progress: &mut dyn FnMut(f64),
 ) -> std::result::Result<Observed, Stopped> {
     let mut sampler = Sampler::new(case);
-    let with_power = case.wanted.has(Stage::BalancingMoment);
+    let with_power = watch != Watch::Senses && case.wanted.has(Stage::BalancingMoment);
     let mut power = if with_power { vec![0.0; case.grid.len()] } else { Vec::new() };
     let mut torque = power.clone();
     let (arm, size, steady) = (case.drive_arm(), case.mechanism.size(), case.is_steady());
-    let mut opening = vec![0.0f64; case.grid.len()];
+    let mut opening = if watch == Watch::Senses { Vec::new() } else { vec![0.0; case.grid.len()] };
     let mut senses = vec![Vec::new(); case.grid.len()];
     let (mut reach, mut moment): (f64, f64) = (0.0, 0.0);
     let mut unbalance = Unbalance::default();
@@ -100,12 +112,9 @@ pub(super) fn observe(
             load.sensed_link().map(of_link).or_else(|| load.sensed_point().map(of_point))
         });
         senses[row] = sensed.collect();
-        for joint in case.mechanism.joints() {
-            let sides = [joint.first, joint.second];
-            let places = sides.map(|side| state.motions[side.link].point(side.local));
-            let (distance, turn) = joint.opening(places, sides.map(|side| state.motions[side.link].direction));
-            opening[row] = opening[row].larger(distance).larger(turn * size);
-            reach = reach.larger(places[0].norm());
+        if let Some(opening) = opening.get_mut(row) {
+            let [own, far] = state.opening(case, size);
+            (*opening, reach) = (own, reach.larger(far));
         }
         if with_power {
             // A crank at rest has no power. Where the crank's speed changes, powers are compared, divided by the top
@@ -117,12 +126,10 @@ pub(super) fn observe(
                     (-power::of_known_forces(case, state) / top, power_of_drives(case, state) / top)
                 }
             };
-            let forces = state.forces.iter().map(|force| force.norm() * arm);
-            moment =
-                forces.fold(state.torques.iter().fold(moment, |most, torque| most.larger(torque.abs())), f64::larger);
+            moment = moment.larger(state.largest_moment(arm));
             // In the instant of starting, loads already act against a motion that the state does not show yet.
             let setting_off = case.is_free() && case.drives.iter().all(|drive| state.motions[drive.link].omega == 0.0);
-            if !setting_off {
+            if watch == Watch::Side && !setting_off {
                 unbalance.add(case, state);
             }
         }
@@ -141,7 +148,7 @@ pub(super) fn observe(
         reach,
         power,
         torque,
-        unbalance: with_power.then(|| unbalance.share()),
+        unbalance: (with_power && watch == Watch::Side).then(|| unbalance.share()),
         moment,
         passing,
     })

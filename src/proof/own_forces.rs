@@ -5,6 +5,7 @@
 //! ones are extrapolated.
 
 use super::judge::{ChannelProof, EngineInfo, Judge, Judged, describe};
+use super::observe::Watch;
 use super::options::Chosen;
 use super::runs::Bank;
 use super::settle::{Free, Search, Settling};
@@ -15,10 +16,8 @@ use linkage::engine::{Route, Settings};
 use linkage::error::Error;
 use linkage::trajectory::{Stage, Trajectory};
 
-/// Stages whose channels are forces.
-const FORCES: [Stage; 2] = [Stage::Reactions, Stage::BalancingMoment];
 /// Sweeps to begin with at the most, if the motion has needed as many.
-const ENOUGH: usize = 64;
+const ENOUGH: usize = 32;
 /// Share of the work allowed for an engine's settings that its own forces may take once more.
 const SHARE: f64 = 0.05;
 
@@ -40,8 +39,8 @@ pub struct OwnForces {
 }
 
 impl OwnForces {
-    /// Judges the forces that the engine exerts, whose motion has needed `sweeps`; `None` where no force is wanted, where the route is given, and for an
-    /// engine whose usual route is its own. The first route that is conclusive counts.
+    /// Judges the forces that the engine exerts, whose motion has needed `sweeps`; `None` where no force is wanted, where
+    /// the route is given, and for an engine whose usual route is its own. The first route that is conclusive counts.
     pub(super) fn judged(
         judge: &Judge,
         case: &Case,
@@ -50,7 +49,7 @@ impl OwnForces {
         progress: &mut dyn FnMut(f64),
     ) -> Option<OwnForces> {
         let free = chosen.own_forces?;
-        if !judge.asking(judge.asked).of_stages(&FORCES).has_channels() {
+        if !judge.asking(judge.asked).of_own_forces().has_channels() {
             return None;
         }
         let mut found: Option<OwnForces> = None;
@@ -93,7 +92,7 @@ impl OwnForces {
     pub(super) fn fault(&self, channels: &[ChannelProof]) -> Option<ForceFault> {
         let disagrees = |channel: &ChannelProof| matches!(channel.verdict, Verdict::Disagree { .. });
         let agrees = |channel: &ChannelProof| matches!(channel.verdict, Verdict::Agree { .. });
-        let is_force = |channel: &&ChannelProof| FORCES.contains(&channel.residual.channel.kind.stage);
+        let is_force = |channel: &&ChannelProof| channel.residual.channel.kind.stage >= Stage::Reactions;
         let (forces, motion): (Vec<&ChannelProof>, Vec<&ChannelProof>) = channels.iter().partition(is_force);
         if motion.into_iter().any(disagrees) {
             return None;
@@ -124,8 +123,8 @@ fn by_route(
     let free = Free { step: free.step || free.extrapolated, ..free };
     let extrapolated = if free.extrapolated { 0 } else { given.extrapolated };
     let engine = chosen.engine.with(Settings { resolution: step, route, extrapolated, ..given });
-    let judge = judge.asking(engine.settings()).of_stages(&FORCES);
-    let mut bank = Bank::new(case, engine.as_ref());
+    let judge = judge.asking(engine.settings()).of_own_forces();
+    let mut bank = Bank::new(case, engine.as_ref(), Watch::Senses);
     let search =
         Settling::new(&judge, &mut bank, engine.as_ref(), free, SHARE * chosen.budget).conclusive(finest, sweeps);
     match search.run(progress) {

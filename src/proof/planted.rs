@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::judge::ChannelProof;
 use super::known::Known;
-use super::observe::{Observed, observe};
+use super::observe::{Observed, Watch, observe};
 use super::options::Chosen;
 use super::settle::{self, Free};
 use super::{checks, engines, methods, oracle};
@@ -109,7 +109,7 @@ impl Engine for Planted<dyn Engine> {
 }
 
 fn seen(case: &Case, solver: &dyn Solver) -> Observed {
-    observe(case, solver, &mut |_| {}).unwrap_or_else(|stopped| panic!("{}", stopped.error))
+    observe(case, solver, Watch::Side, &mut |_| {}).unwrap_or_else(|stopped| panic!("{}", stopped.error))
 }
 
 fn assur(fault: Fault, size: f64) -> Planted<dyn Solver> {

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::known::Known;
-use super::observe::observe;
+use super::observe::{Watch, observe};
 use super::options::Chosen;
 use super::settle::{self, Free};
 use super::{EngineProof, ForceFault, engines, sensitivity};
@@ -109,7 +109,7 @@ fn proven(name: &str, by: &'static [Route], fault: Fault) -> EngineProof {
     let scenario = Scenario::load(&path).unwrap_or_else(|error| panic!("{error}"));
     let case = &scenario.case;
     let seen =
-        |solver: &dyn Solver| observe(case, solver, &mut |_| {}).unwrap_or_else(|stopped| panic!("{}", stopped.error));
+        |solver: &dyn Solver| observe(case, solver, Watch::Side, &mut |_| {}).unwrap_or_else(|stopped| panic!("{}", stopped.error));
     let sides = [seen(&AssurSolver), seen(&NewtonSolver)];
     let sensitivity = sensitivity::of(case, &AssurSolver, &sides[0].trajectory).unwrap();
     let both = [("assur", &sides[0].trajectory), ("newton", &sides[1].trajectory)];

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::observe::{Observed, Stopped, observe};
+use super::observe::{Observed, Stopped, Watch, observe};
 use crate::compare::{Ladder, OtherSweeps};
 use linkage::case::Case;
 use linkage::engine::{Engine, Kept, Settings};
@@ -51,6 +51,7 @@ pub(super) struct Bank<'a> {
     pub(super) case: &'a Case,
     kept: Kept,
     seen: Vec<(Settings, Arc<Observed>)>,
+    watch: Watch,
     /// Number of plain runs made so far.
     pub(super) count: usize,
     /// Their work, in steps without sweeps.
@@ -58,8 +59,8 @@ pub(super) struct Bank<'a> {
 }
 
 impl<'a> Bank<'a> {
-    pub(super) fn new(case: &'a Case, engine: &dyn Engine) -> Self {
-        Bank { case, kept: Kept::new(engine), seen: Vec::new(), count: 0, effort: 0.0 }
+    pub(super) fn new(case: &'a Case, engine: &dyn Engine, watch: Watch) -> Self {
+        Bank { case, kept: Kept::new(engine), seen: Vec::new(), watch, count: 0, effort: 0.0 }
     }
 
     /// The engine at `settings`. Its runs are those of the bank.
@@ -98,7 +99,7 @@ impl<'a> Bank<'a> {
         if let Some((_, seen)) = self.seen.iter().find(|(own, _)| *own == settings) {
             return Ok(Arc::clone(seen));
         }
-        let seen = Arc::new(observe(self.case, self.engine(settings).as_ref(), &mut |_| {})?);
+        let seen = Arc::new(observe(self.case, self.engine(settings).as_ref(), self.watch, &mut |_| {})?);
         self.seen.push((settings, Arc::clone(&seen)));
         Ok(seen)
     }

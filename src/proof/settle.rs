@@ -67,7 +67,7 @@ pub enum End {
 /// Work allowed by default, in steps without sweeps.
 pub(crate) const BUDGET: f64 = 2e7;
 /// Work within which a conclusive result is refined further, to the aimed accuracy.
-const THRIFT: f64 = 0.005;
+const THRIFT: f64 = 0.0015;
 /// Share of the widest conclusive bound that is aimed at: a proof a hundred times sharper costs little with
 /// extrapolation.
 const AIM: f64 = 0.01;
@@ -167,7 +167,7 @@ impl<'a, 'b> Settling<'a, 'b> {
             self.now.sweeps = self.now.sweeps.max(sweeps);
         }
         if self.free.step {
-            self.coarsest *= 2.0;
+            self.coarsest *= 4.0;
         }
         self
     }
@@ -360,7 +360,8 @@ impl<'a, 'b> Settling<'a, 'b> {
         let share = if self.free.sweeps { self.more_sweeps() } else { FEWER };
         let others = other_sweeps(self.bank.case, engine.as_ref(), settings.sweeps, share);
         let disagrees = !best.judged.against().is_empty();
-        if others.is_empty() || (best.need.share > 1.0 && !best.need.is_vague && !disagrees && !is_long) {
+        let is_asking = is_long && !self.conclusive && !best.need.is_of_instants();
+        if others.is_empty() || (best.need.share > 1.0 && !best.need.is_vague && !disagrees && !is_asking) {
             return Ok(best);
         }
         let found = match self.trial(settings, &others[..1], &mut |part| progress(0.7 + 0.2 * part)) {

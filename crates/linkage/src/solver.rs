@@ -2,7 +2,7 @@
 
 use crate::case::{Case, Wanted};
 use crate::error::{Error, ErrorKind, Result};
-use crate::math::{Motion, Vec2, cross, unit};
+use crate::math::{KeepNan, Motion, Vec2, cross, unit};
 use crate::mechanism::{GROUND, Joint, Side};
 use crate::trajectory::channel::rows;
 use crate::trajectory::{Channel, OfDrive, OfFrame, OfJoint, OfLink, OfPoint, OfSlider, Stage, Trajectory};
@@ -157,6 +157,28 @@ impl State {
             }
         });
         (force, moment)
+    }
+
+    /// Largest distance between the two sides of a joint (m), that of a prismatic joint across its guide, its wrong angle
+    /// (rad) counted at `size` (m); and the largest distance of a joint from the origin (m).
+    #[must_use]
+    pub fn opening(&self, case: &Case, size: f64) -> [f64; 2] {
+        let mut largest = [0.0; 2];
+        for joint in case.mechanism.joints() {
+            let sides = [joint.first, joint.second];
+            let places = sides.map(|side| self.motions[side.link].point(side.local));
+            let (distance, turn) = joint.opening(places, sides.map(|side| self.motions[side.link].direction));
+            let own = [distance.larger(turn * size), places[0].norm()];
+            largest = [largest[0].larger(own[0]), largest[1].larger(own[1])];
+        }
+        largest
+    }
+
+    /// Largest moment (N m): of a drive, or of a joint's force at `arm` (m).
+    #[must_use]
+    pub fn largest_moment(&self, arm: f64) -> f64 {
+        let torques = self.torques.iter().map(|torque| torque.abs());
+        self.forces.iter().map(|force| force.norm() * arm).chain(torques).fold(0.0, f64::larger)
     }
 
     /// The start pose of the case, at rest.

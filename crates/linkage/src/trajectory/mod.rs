@@ -86,16 +86,12 @@ impl Trajectory {
     /// The rows of the grid that `keep` holds.
     #[must_use]
     pub fn at_rows(&self, keep: &[bool]) -> Trajectory {
-        self.part(keep, |_| true)
+        self.part(keep, &|_| true)
     }
 
-    /// The channels of one stage at the rows of the grid that `keep` holds.
+    /// The `wanted` channels at the rows of the grid that `keep` holds.
     #[must_use]
-    pub fn of_stage(&self, stage: Stage, keep: &[bool]) -> Trajectory {
-        self.part(keep, |channel| channel.kind.stage == stage)
-    }
-
-    fn part(&self, keep: &[bool], wanted: impl Fn(&Channel) -> bool) -> Trajectory {
+    pub fn part(&self, keep: &[bool], wanted: &dyn Fn(&Channel) -> bool) -> Trajectory {
         let thin = |values: &[f64]| -> Vec<f64> {
             values.iter().zip(keep).filter(|(_, kept)| **kept).map(|(value, _)| *value).collect()
         };
