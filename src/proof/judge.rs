@@ -212,7 +212,8 @@ impl<'a> Judge<'a> {
         Ok(Judged { info: describe(engine), channels, checks, verdict, run, too_coarse, kept })
     }
 
-    /// Largest growth of the differences between runs with more and more sweeps, of any position whose differences count.
+    /// Largest growth of the differences between runs with more and more sweeps, of any position whose differences count;
+    /// of any force, if forces are judged that come from other worlds than the motion.
     fn growth(&self, runs: &Runs) -> f64 {
         let Ladder { resolutions: [_, single, _], other_sweeps } = runs.ladder();
         let of = |(channel, scale): (&Channel, &f64)| {
@@ -220,8 +221,11 @@ impl<'a> Judge<'a> {
             Some(others.growth(own, COUNTS * self.scenario.engine_rel * scale, channel.kind.periodic))
         };
         let all = self.reference.channels().iter().zip(&self.scales);
-        let positions = all.filter(|(channel, _)| channel.kind.stage == Stage::Positions);
-        positions.filter_map(of).fold(0.0, f64::larger)
+        let speaks = |channel: &Channel| match self.asks {
+            Asks::All => channel.kind.stage == Stage::Positions,
+            Asks::OwnForces => self.asks.has(channel.kind),
+        };
+        all.filter(|(channel, _)| speaks(channel)).filter_map(of).fold(0.0, f64::larger)
     }
 
     fn channels(

@@ -20,6 +20,7 @@ mod parties;
 mod planted;
 #[cfg(test)]
 mod planted_forces;
+mod room;
 mod runs;
 mod sensitivity;
 mod settle;
@@ -156,7 +157,8 @@ fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: 
     let case = &scenario.case;
     let main = options.reference.solver();
     let engines = options.chosen(scenario)?;
-    let observed = |solver: &dyn Solver| -> Result<_> { Ok((solver.name(), observe(case, solver, Watch::Side, &mut |_| {})?)) };
+    let observed =
+        |solver: &dyn Solver| -> Result<_> { Ok((solver.name(), observe(case, solver, Watch::Side, &mut |_| {})?)) };
     let [first, second] = analytic::all();
     let sides = [observed(first)?, observed(second)?];
     let own = &sides.iter().find(|(name, _)| *name == main.name()).expect("the reference is one of the sides").1;

@@ -108,8 +108,9 @@ fn proven(name: &str, by: &'static [Route], fault: Fault) -> EngineProof {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios").join(format!("{name}.toml"));
     let scenario = Scenario::load(&path).unwrap_or_else(|error| panic!("{error}"));
     let case = &scenario.case;
-    let seen =
-        |solver: &dyn Solver| observe(case, solver, Watch::Side, &mut |_| {}).unwrap_or_else(|stopped| panic!("{}", stopped.error));
+    let seen = |solver: &dyn Solver| {
+        observe(case, solver, Watch::Side, &mut |_| {}).unwrap_or_else(|stopped| panic!("{}", stopped.error))
+    };
     let sides = [seen(&AssurSolver), seen(&NewtonSolver)];
     let sensitivity = sensitivity::of(case, &AssurSolver, &sides[0].trajectory).unwrap();
     let both = [("assur", &sides[0].trajectory), ("newton", &sides[1].trajectory)];

@@ -14,6 +14,7 @@ use super::judge::{Judge, Judged};
 use super::need::{MOST_LEFT_OUT, Need, need};
 use super::observe::Stopped;
 use super::order;
+use super::room::room;
 use super::runs::{Bank, FEWER, other_sweeps, rungs};
 use super::stall::{Next, Stall};
 use crate::compare::Verdict;
@@ -125,6 +126,8 @@ pub(super) struct Settling<'a, 'b> {
     conclusive: bool,
     /// Finest step of a run, for steps that are free only above it.
     finest: f64,
+    /// Largest step (s) with room beside the dead points; `None` as long as nobody asks.
+    room: Option<f64>,
 }
 
 impl<'a, 'b> Settling<'a, 'b> {
@@ -156,6 +159,7 @@ impl<'a, 'b> Settling<'a, 'b> {
             aim: AIM,
             conclusive: false,
             finest: 0.0,
+            room: None,
         }
     }
 
@@ -198,6 +202,10 @@ impl<'a, 'b> Settling<'a, 'b> {
             let mut part = |part: f64| progress(1.0 - left + 0.5 * left * part);
             round += 1;
             let blame = match self.round(round > QUICK, &mut part) {
+                Ok(trial) if trial.need.is_vague && self.makes_room() => {
+                    best = best.or(Some(trial));
+                    Part::Discretisation
+                }
                 Ok(mut trial) => {
                     // No step and no sweeps help where the order is wrong.
                     if round > QUICK && order::look(self.judge, self.bank, &mut trial.judged)? {
@@ -238,8 +246,8 @@ impl<'a, 'b> Settling<'a, 'b> {
                 Err(stopped) if stopped.error.kind() == ErrorKind::Numeric => {
                     failure = Some(stopped);
                     // A run that fails may lack either; most lack a smaller step.
-                    failed += 1;
-                    if failed % FAILURES == 0 { Part::Iteration } else { Part::Discretisation }
+                    failed = if self.makes_room() { 0 } else { failed + 1 };
+                    if failed > 0 && failed % FAILURES == 0 { Part::Iteration } else { Part::Discretisation }
                 }
                 Err(stopped) => return Err(stopped),
             };
@@ -278,6 +286,23 @@ impl<'a, 'b> Settling<'a, 'b> {
         while self.coarsest > 4.0 * most.larger(self.now.resolution) {
             self.coarsest *= 0.5;
         }
+    }
+
+    /// Goes on at steps with room beside the dead points, if those of this round have none: they go through them, and fail
+    /// or show no order. Returns whether it is so.
+    fn makes_room(&mut self) -> bool {
+        let (case, engine) = (&self.judge.scenario.case, self.bank.engine(self.now));
+        let most = *self.room.get_or_insert_with(|| room(case, engine.as_ref()));
+        // A judgement takes steps of four times the finest one.
+        let is_cramped = 4.0 * self.now.resolution > most && !self.is_finest();
+        if is_cramped {
+            // The next round halves the step once more.
+            while 2.0 * self.now.resolution > most && !self.is_finest() {
+                self.now.resolution *= 0.5;
+            }
+            self.coarsest = 2.0 * self.now.resolution;
+        }
+        is_cramped
     }
 
     /// Changes the settings by what is to blame. Returns why it cannot.

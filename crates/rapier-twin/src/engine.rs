@@ -63,6 +63,10 @@ impl Engine for Rapier {
         Some(Box::new(move |case, state, t| equations.solve(case, state, t)))
     }
 
+    fn overrun(&self) -> f64 {
+        run::overrun(&self.settings) as f64
+    }
+
     fn formal_order(&self, case: &Case, channel: &ChannelKind) -> f64 {
         let native = self.settings.route == Route::Native && channel.stage >= Stage::Reactions;
         // Under forces, each step applies the loads of its start to the whole step.

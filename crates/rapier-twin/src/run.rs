@@ -43,7 +43,7 @@ pub(super) fn sweep(engine: &Rapier, case: &Case, visit: Visit, progress: Progre
     check(&engine.settings, end - begin)?;
     let start = match case.is_free() {
         true => 0,
-        false => begin as i64 - Window::BEHIND - SETTLING_STEPS - Window::extra(engine.settings.substeps),
+        false => begin as i64 - overrun(&engine.settings),
     };
     let total = (end as i64 + Window::AHEAD - start) as f64;
     let mut visited = None;
@@ -78,6 +78,11 @@ pub(super) fn sweep(engine: &Rapier, case: &Case, visit: Visit, progress: Progre
         let error = error.map_advice(|advice| advice.from_settings(resolution, false, sweeps));
         reached(error, case, visited)
     })
+}
+
+/// Steps of a prescribed motion before the first instant; those after the last one are fewer.
+pub(super) fn overrun(settings: &Settings) -> i64 {
+    Window::BEHIND + SETTLING_STEPS + Window::extra(settings.substeps)
 }
 
 /// Adds how far the run has come; the rows visited so far are valid.

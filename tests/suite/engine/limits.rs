@@ -1,16 +1,23 @@
 //! Steps that are far too large and poses that cannot be reached: the result is an error that helps, never plausible
 //! numbers.
 
+use std::path::Path;
+
+use analytic::range::{Extent, reachable};
 use analytic::{self, AssurSolver, NewtonSolver};
 use linkage::ErrorKind;
+use linkage::case::Grid;
+use linkage::math::statistics::largest_difference;
 use linkage::solver::Solver;
 use linkproof::engines::EngineName;
 use linkproof::proof::{Options, prove};
+use linkproof::scenario::Scenario;
 
 use super::stepping;
 use crate::common::shipped;
 use crate::common::sliders::short_rod;
 use crate::common::spec::four_bar;
+use crate::common::specimens::specimen;
 
 /// Story 40. Symptom: numbers are off by half, without a message. Cause: with a step of a tenth of a turn the loop
 /// opens by less than the limit that stops a run. The ladder of three steps must then be inconclusive: steps of 37 to
@@ -78,4 +85,47 @@ fn regress_42_a_slider_out_of_reach_is_an_error_with_its_crank_angle() {
     }
     let error = NewtonSolver.solve(&case).unwrap_err();
     assert!(error.message().contains("crank angle 261.34"), "{error}");
+}
+
+/// Symptom: 2 deg from the dead point of a class III group both builds jumped to the other branch, and nobody noticed:
+/// the loops had opened by 0.2 % only. A run that gets through stays on its branch; one that slips is stopped.
+#[test]
+fn regress_higher_groups_do_not_slip_unnoticed_near_their_dead_points() {
+    const FROM_THE_END: f64 = 2.0;
+    /// Farther from the exact motion is another configuration: twice the largest error met at steps of 4 deg.
+    const FAR: f64 = 17.0;
+    let (mut stopped, mut through) = (0, 0);
+    // Class III of order 3 and 4, class IV of order 2.
+    for index in [28, 158, 298, 328] {
+        let text = specimen(1, index, &mut Default::default()).toml(false);
+        let case = Scenario::parse(&text, Path::new("limits.toml")).unwrap().case;
+        let Ok(Extent::Limited(ends)) = reachable(&case) else { panic!("{index} has no dead point") };
+        let [from, to] = ends.map(|end| end.crank);
+        let room = FROM_THE_END.to_radians();
+        let span = to - from - 2.0 * room;
+        let cranks: Vec<f64> = (0..=120).map(|k| from + room + span * f64::from(k) / 120.0).collect();
+        let times = cranks.iter().map(|&crank| case.crank().time_of(crank)).collect();
+        let case = case.on(Grid::of_times(case.crank(), times)).unwrap();
+        let exact = AssurSolver.solve(&case).unwrap();
+        for degrees in [1.0, 2.0, 4.0f64] {
+            for engine in stepping(degrees.to_radians() / case.crank().top_speed().abs()) {
+                let name = format!("{index} {} at {degrees} deg", engine.name());
+                match engine.solve(&case) {
+                    Err(error) => {
+                        assert_eq!(error.kind(), ErrorKind::Numeric, "{name}: {error}");
+                        stopped += usize::from(error.message().contains("slipped into another assembly mode"));
+                    }
+                    Ok(run) => {
+                        through += 1;
+                        for ((channel, exact), (_, own)) in exact.iter().zip(run.iter()) {
+                            let angle = largest_difference(exact, own, true).to_degrees();
+                            let is_angle = channel.kind.periodic;
+                            assert!(!is_angle || angle < FAR, "{name}: {channel} is off by {angle} deg");
+                        }
+                    }
+                }
+            }
+        }
+    }
+    assert!(stopped >= 4 && through >= 8, "{stopped} stopped, {through} through");
 }

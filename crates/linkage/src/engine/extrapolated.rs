@@ -173,6 +173,10 @@ impl Engine for Extrapolated {
         self.coarsest().own_routes(case)
     }
 
+    fn overrun(&self) -> f64 {
+        self.coarsest().overrun()
+    }
+
     fn sweeps(&self, case: &Case) -> Option<[usize; 2]> {
         self.coarsest().sweeps(case)
     }

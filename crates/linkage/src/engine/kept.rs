@@ -190,6 +190,10 @@ impl Engine for Kept {
         self.inner.statics(case)
     }
 
+    fn overrun(&self) -> f64 {
+        self.inner.overrun()
+    }
+
     fn formal_order(&self, case: &Case, channel: &ChannelKind) -> f64 {
         self.inner.formal_order(case, channel)
     }

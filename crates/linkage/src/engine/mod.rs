@@ -60,6 +60,11 @@ pub trait Engine: Solver {
         None
     }
 
+    /// Steps that a run of a prescribed motion takes beyond either end of its grid.
+    fn overrun(&self) -> f64 {
+        0.0
+    }
+
     /// Order of convergence expected of a channel of a case, with the present route and extrapolation.
     fn formal_order(&self, case: &Case, channel: &ChannelKind) -> f64;
 
