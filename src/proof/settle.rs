@@ -293,7 +293,6 @@ impl<'a, 'b> Settling<'a, 'b> {
     fn makes_room(&mut self) -> bool {
         let (case, engine) = (&self.judge.scenario.case, self.bank.engine(self.now));
         let most = *self.room.get_or_insert_with(|| room(case, engine.as_ref()));
-        // A judgement takes steps of four times the finest one.
         let is_cramped = 4.0 * self.now.resolution > most && !self.is_finest();
         if is_cramped {
             // The next round halves the step once more.
@@ -350,7 +349,9 @@ impl<'a, 'b> Settling<'a, 'b> {
             extrapolated: times,
             ..self.now
         };
-        let is_open = |settings: &Settings| !self.free.step || 2.0 * settings.resolution <= self.coarsest * 1.000_001;
+        // A judgement takes steps of four times the finest one at least.
+        let coarsest = self.coarsest.larger(4.0 * self.now.resolution);
+        let is_open = |settings: &Settings| !self.free.step || 2.0 * settings.resolution <= coarsest * 1.000_001;
         times.rev().map(at).filter(is_open).collect()
     }
 

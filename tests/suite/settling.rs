@@ -2,11 +2,13 @@
 
 use std::path::Path;
 
+use linkage::engine::Route;
 use linkproof::engines::EngineName;
 use linkproof::proof::{End, Options, Proof, prove, prove_against};
 use linkproof::scenario::Scenario;
 
 use crate::common::shipped;
+use crate::common::spec::four_bar;
 use crate::common::specimens::specimen;
 
 fn parsed(text: &str) -> Scenario {
@@ -230,3 +232,17 @@ links = ["coupler", "rocker"]
 mode = "left"
 [grid]
 "#;
+
+/// Symptom: swung over its whole range, an engine went through the dead points on either side of its grid before it began
+/// and after it had ended, at every step that was tried; the search blamed the sweeps. Here both ends are 0.15 deg from
+/// one.
+#[test]
+fn regress_there_is_room_for_steps_beside_dead_points() {
+    let mut spec = four_bar([0.4, 0.3, 0.25, 0.2], true);
+    let limit = ((0.4f64.powi(2) + 0.3f64.powi(2) - 0.45f64.powi(2)) / (2.0 * 0.4 * 0.3)).acos();
+    let end = limit - 0.15f64.to_radians();
+    (spec.start, spec.grid, spec.dt) = (0.5, (-end, end / 50.0, 100), None);
+    let scenario = spec.scenario().unwrap_or_else(|error| panic!("{error}"));
+    let proof = prove(&scenario, &Options::default().route(Route::Differences)).unwrap();
+    assert_eq!(proof.verdict.word(), "agree", "{:?}", proof.verdict);
+}
