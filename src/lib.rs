@@ -51,6 +51,7 @@ pub mod compare;
 pub mod diagnosis;
 #[doc(hidden)]
 pub mod engines;
+mod files;
 #[doc(hidden)]
 pub mod proof;
 #[doc(hidden)]

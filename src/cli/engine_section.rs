@@ -1,9 +1,10 @@
 //! The `[engine]` section that keeps settings which a command has found.
 
-use std::fs;
+use std::io::{self, Write};
 use std::path::Path;
 
 use crate::engines::named;
+use crate::files;
 use crate::scenario::{EngineKeys, Scenario, edit};
 use linkage::engine::Settings;
 use linkage::error::{Error, ErrorKind, Result};
@@ -32,7 +33,7 @@ pub(super) fn keys(scenario: &Scenario, name: &str, settings: Settings) -> (Opti
 /// [`ErrorKind::Io`] if the file cannot be written, and those of [`edit::with_engine`].
 pub(super) fn write(file: &Path, scenario: &Scenario, keys: (Option<f64>, EngineKeys)) -> Result<()> {
     let text = edit::with_engine(&scenario.text, keys)?;
-    fs::write(file, text).map_err(|error| {
+    files::replace(file, |mut to| to.write_all(text.as_bytes())).map_err(|error: io::Error| {
         Error::new(ErrorKind::Io, format!("{} cannot be written: {error}", file.display()))
             .help("check that the file may be written to, or copy the section by hand")
     })

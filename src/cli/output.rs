@@ -1,10 +1,10 @@
 //! Writing to standard output, files and the terminal.
 
-use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use super::advice;
+use crate::files;
 use crate::report::errors;
 use linkage::error::{Error, ErrorKind, Result};
 
@@ -23,9 +23,9 @@ pub(super) fn write(text: &str, to: &Path) -> Result<()> {
     if to == Path::new("-") {
         return print(text);
     }
-    fs::write(to, text).map_err(|error| {
+    files::replace(to, |mut file| file.write_all(text.as_bytes())).map_err(|error: io::Error| {
         Error::new(ErrorKind::Io, format!("{} cannot be written: {error}", to.display()))
-            .help("check that the directory exists and may be written to")
+            .help("check that the directory exists, may be written to and has room")
     })
 }
 

@@ -37,7 +37,7 @@ use linkage::error::Result;
 use linkage::trajectory::Trajectory;
 use std::path::Path;
 
-/// Writes a recording to `path`, by way of `<path>.partial`. So only a complete recording replaces an older one.
+/// Writes a recording to `path`, by way of a temporary file. So only a complete recording replaces an older one.
 ///
 /// # Errors
 /// [`ErrorKind::Io`](linkage::ErrorKind::Io) with the path if a file cannot be written;

@@ -7,6 +7,7 @@ use super::recording::{Level, LogEntry, Recording};
 use super::scene::Scene;
 use super::schema;
 use super::shapes::stamp;
+use crate::files;
 use foxglove::messages::{FrameTransforms, Log, PointCloud, SceneUpdate, log::Level as LogLevel};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
@@ -14,34 +15,18 @@ use linkage::math::statistics::ascending;
 use linkage::trajectory::{ChannelKind, Subject, Trajectory};
 use mcap::McapResult;
 use prost::Message;
-use std::ffi::OsString;
-use std::fmt::Display;
-use std::fs::{self, File};
-use std::path::{Path, PathBuf};
+use std::fs::File;
+use std::path::Path;
 
 /// Number of point clouds above which only every second one is written.
 const CLOUDS: usize = 200;
 
 pub(super) fn write(recording: &Recording, path: &Path) -> Result<()> {
     check(recording)?;
-    let partial = partial(path);
-    let failed = |error: &dyn Display| {
+    files::replace(path, |file| fill(recording, file.try_clone()?)).map_err(|error| {
         Error::new(ErrorKind::Io, format!("the recording {} cannot be written: {error}", path.display()))
             .help("check that the directory exists, may be written to and has room, or record elsewhere")
-    };
-    let file = File::create(&partial).map_err(|error| failed(&error))?;
-    if let Err(error) = fill(recording, file) {
-        // The first error matters more than a leftover file.
-        let _ = fs::remove_file(&partial);
-        return Err(failed(&error));
-    }
-    fs::rename(&partial, path).map_err(|error| failed(&error))
-}
-
-fn partial(path: &Path) -> PathBuf {
-    let mut name = OsString::from(path);
-    name.push(".partial");
-    name.into()
+    })
 }
 
 fn check(recording: &Recording) -> Result<()> {

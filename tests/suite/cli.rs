@@ -3,6 +3,7 @@
 mod drive;
 mod engines;
 mod export;
+mod files;
 mod messages;
 mod modes;
 mod plan;

@@ -28,9 +28,8 @@ fn every_force_is_judged_twice_and_says_where_it_comes_from() {
         assert_eq!((proof.verdict.word(), own.verdict.word()), ("agree", "agree"), "{name}");
         let wanted: Vec<_> = engine.channels.iter().map(|channel| &channel.residual.channel).collect();
         // Shaking force and moment are sums of the frame's reactions.
-        let exerted = |channel: &&Channel| {
-            channel.kind.stage >= Stage::Reactions && channel.kind.subject != Subject::Frame
-        };
+        let exerted =
+            |channel: &&Channel| channel.kind.stage >= Stage::Reactions && channel.kind.subject != Subject::Frame;
         let wanted: Vec<_> = wanted.into_iter().filter(exerted).collect();
         let judged: Vec<_> = own.channels.iter().map(|channel| &channel.residual.channel).collect();
         assert_eq!((wanted, judged.len()), (judged.clone(), forces), "{name}");

@@ -356,17 +356,15 @@ fn a_file_cut_off_opens_up_to_the_cut_but_is_not_taken_for_whole() {
 }
 
 #[test]
-fn a_failed_run_leaves_the_older_recording_alone() {
+fn a_recording_that_cannot_be_written_is_an_error_with_its_path() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("old.mcap");
-    fs::write(&path, "an older recording").unwrap();
-    // A directory in the place of the partial file stops even a superuser; permissions do not.
-    fs::create_dir(directory.path().join("old.mcap.partial")).unwrap();
+    // A directory in the place of the file stops even a superuser; permissions do not.
+    fs::create_dir(&path).unwrap();
     let run = Run::over(turn(5));
     let error = run.write(&path).unwrap_err();
     assert_eq!(error.kind(), ErrorKind::Io);
     assert!(error.to_string().contains("old.mcap") && error.way_out().is_some(), "{error}");
-    assert_eq!(fs::read_to_string(&path).unwrap(), "an older recording");
 
     let error = run.write(&directory.path().join("missing/new.mcap")).unwrap_err();
     assert_eq!(error.kind(), ErrorKind::Io);
