@@ -11,8 +11,10 @@ use crate::mechanism::{GROUND, Mechanism};
 /// An equivalent condition is tested: with three more copies of any one equation, all equations still find owners among
 /// all links, three per link (Lee and Streinu, "Pebble game algorithms and sparse graphs", 2008).
 pub(super) fn check_sparse(mechanism: &Mechanism, drives: &[usize]) -> Result<()> {
+    let mut base = Owners::unassigned(mechanism, drives, OWNED);
+    base.assign_all(mechanism)?;
     for (index, joint) in mechanism.joints().iter().enumerate() {
-        let mut owners = Owners::unassigned(mechanism, drives, OWNED);
+        let mut owners = base.clone();
         let ends = [joint.first.link, joint.second.link];
         owners.add((0..3).map(|_| Equation { joint: index, of_drive: false, ends }));
         owners.assign_all(mechanism)?;
@@ -21,6 +23,7 @@ pub(super) fn check_sparse(mechanism: &Mechanism, drives: &[usize]) -> Result<()
 }
 
 /// One scalar equation of a joint or of a drive. One of the two links it touches will own it.
+#[derive(Clone, Copy)]
 struct Equation {
     joint: usize,
     of_drive: bool,
@@ -31,9 +34,12 @@ struct Equation {
 const OWNED: usize = 3;
 
 /// The owner of each equation.
+#[derive(Clone)]
 pub(super) struct Owners {
     equations: Vec<Equation>,
     owner: Vec<Option<usize>>,
+    /// The equations that each link owns.
+    owned: Vec<Vec<usize>>,
     /// Number of equations that the ground can own.
     of_ground: usize,
 }
@@ -47,7 +53,8 @@ impl Owners {
     }
 
     fn unassigned(mechanism: &Mechanism, drives: &[usize], of_ground: usize) -> Self {
-        let mut owners = Owners { equations: Vec::new(), owner: Vec::new(), of_ground };
+        let owned = vec![Vec::new(); mechanism.links().len()];
+        let mut owners = Owners { equations: Vec::new(), owner: Vec::new(), owned, of_ground };
         for (index, joint) in mechanism.joints().iter().enumerate() {
             let ends = [joint.first.link, joint.second.link];
             owners.add((0..joint.kind.equations()).map(|_| Equation { joint: index, of_drive: false, ends }));
@@ -65,7 +72,7 @@ impl Owners {
     fn assign_all(&mut self, mechanism: &Mechanism) -> Result<()> {
         for equation in 0..self.equations.len() {
             let mut visited = vec![false; mechanism.links().len()];
-            if !self.assign(equation, &mut visited) {
+            if self.owner[equation].is_none() && !self.assign(equation, &mut visited) {
                 return Err(over_constrained(mechanism, &visited));
             }
         }
@@ -80,9 +87,12 @@ impl Owners {
                 continue;
             }
             visited[link] = true;
-            let owned: Vec<usize> = (0..self.owner.len()).filter(|&e| self.owner[e] == Some(link)).collect();
+            let owned = self.owned[link].clone();
             if owned.len() < most || owned.into_iter().any(|other| self.assign(other, visited)) {
-                self.owner[equation] = Some(link);
+                if let Some(former) = self.owner[equation].replace(link) {
+                    self.owned[former].retain(|&own| own != equation);
+                }
+                self.owned[link].push(equation);
                 return true;
             }
         }
