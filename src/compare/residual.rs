@@ -51,9 +51,19 @@ impl Residual {
 /// The natural size is the widest half range among the quantity's channels, or their largest value if they are no
 /// coordinates, or, if larger, the value that follows from the crank's motion and the sizes of places and forces. So a
 /// quantity that vanishes in the whole mechanism is measured too.
+///
+/// On a grid of one instant nothing has a range: the natural size itself is the scale, one radian of angles and half the
+/// extent of all coordinates of lengths.
 #[must_use]
 pub fn scales(trajectory: &Trajectory) -> Vec<f64> {
-    let halves: Vec<f64> = trajectory.iter().map(|(_, values)| half_range(values)).collect();
+    let is_instant = trajectory.times().len() == 1;
+    let coordinates = || trajectory.iter().filter(|(channel, _)| channel.kind.unit == Unit::Metre);
+    let extent = half_range(&coordinates().flat_map(|(_, values)| values.iter().copied()).collect::<Vec<f64>>());
+    let half = |(channel, values): (&Channel, &[f64])| match is_instant && channel.kind.unit == Unit::Metre {
+        true => extent,
+        false => half_range(values),
+    };
+    let halves: Vec<f64> = trajectory.iter().map(half).collect();
     let largest = trajectory.iter().map(|(channel, values)| match channel.kind.unit {
         Unit::Radian | Unit::Metre => 0.0,
         Unit::RadianPerSecond
@@ -65,9 +75,13 @@ pub fn scales(trajectory: &Trajectory) -> Vec<f64> {
     });
     let own: Vec<[f64; 2]> = halves.iter().copied().zip(largest).map(|(half, largest)| [half, largest]).collect();
     let sizes: Vec<f64> = own.iter().map(|[half, largest]| half.larger(*largest)).collect();
-    let natural = natural(trajectory, &sizes, half_range(trajectory.cranks()));
+    let (turn, share) = match is_instant {
+        true => (1.0, 1.0),
+        false => (half_range(trajectory.cranks()), SMALLEST_SHARE),
+    };
+    let natural = natural(trajectory, &sizes, turn);
     let of = |([half, largest], natural): (&[f64; 2], f64)| {
-        half.larger(SMALLEST_OWN_SHARE * largest).larger(SMALLEST_SHARE * natural)
+        half.larger(SMALLEST_OWN_SHARE * largest).larger(share * natural)
     };
     own.iter().zip(natural).map(of).collect()
 }
@@ -237,6 +251,18 @@ mod tests {
         // A constant force is measured by itself.
         let b = trajectory(&[("joint.A.fx_N", vec![-500.0, 500.0]), ("joint.A.fy_N", vec![30.0, 30.0])]);
         assert_eq!(scales(&b), [500.0, 3.0]);
+    }
+
+    #[test]
+    fn one_instant_is_measured_by_the_size_of_the_mechanism() {
+        let a = trajectory(&[
+            ("link.a.angle_rad", vec![0.3]),
+            ("link.a.x_m", vec![-2.0]),
+            ("point.P.y_m", vec![4.0]),
+            ("link.a.omega_rad_s", vec![5.0]),
+            ("link.b.omega_rad_s", vec![0.0]),
+        ]);
+        assert_eq!(scales(&a), [1.0, 3.0, 3.0, 5.0, 5.0]);
     }
 
     #[test]

@@ -152,6 +152,9 @@ pub fn solve(case: &Case) -> Result<Trajectory> {
     Reference::Assur.solver().solve(case).map_err(|error| explained(case, error))
 }
 
+/// Share of the progress that the analytic sides are given.
+const SIDES: f64 = 0.1;
+
 /// The same, with the solvers' errors unchanged.
 fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: &mut dyn FnMut(f64)) -> Result<Proof> {
     let case = &scenario.case;
@@ -175,7 +178,7 @@ fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: 
     let engine_case = engine_case.on(case.grid.clone())?;
     let mut proofs = Vec::with_capacity(engines.len());
     for (index, engine) in engines.iter().enumerate() {
-        let mut part = |part: f64| progress((index as f64 + part) / engines.len() as f64);
+        let mut part = |part: f64| progress(SIDES + (1.0 - SIDES) * (index as f64 + part) / engines.len() as f64);
         let mut proof = engines::prove(scenario, &engine_case, engine, own, &known, &mut part)?;
         engines::tell_sensitivity(&mut proof, &own.trajectory, &sensitivity);
         proofs.push(proof);

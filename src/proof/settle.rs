@@ -80,8 +80,10 @@ const COARSEST: f64 = 16.0;
 const FAILURES: usize = 6;
 /// Rounds of a search that is not long.
 const QUICK: i32 = 3;
-/// Factor between numbers of sweeps.
-const MORE_SWEEPS: usize = 4;
+/// Factors between numbers of sweeps: far from the end of a search, and near to it.
+const MORE_SWEEPS: [usize; 2] = [4, 2];
+/// Largest bound, over what is wanted, that is near.
+const NEAR: f64 = 8.0;
 
 impl End {
     /// Puts into an inconclusive verdict what the search has tried, in place of advice to try it.
@@ -126,6 +128,10 @@ pub(super) struct Settling<'a, 'b> {
     conclusive: bool,
     /// Finest step of a run, for steps that are free only above it.
     finest: f64,
+    /// Number of sweeps over that before.
+    factor: usize,
+    /// Whether the last round was near to what is wanted.
+    near: bool,
     /// Largest step (s) with room beside the dead points; `None` as long as nobody asks.
     room: Option<f64>,
 }
@@ -159,6 +165,8 @@ impl<'a, 'b> Settling<'a, 'b> {
             aim: AIM,
             conclusive: false,
             finest: 0.0,
+            factor: MORE_SWEEPS[0],
+            near: false,
             room: None,
         }
     }
@@ -166,7 +174,7 @@ impl<'a, 'b> Settling<'a, 'b> {
     /// The same search, content as soon as every channel is conclusive, with coarser steps to begin with and none below
     /// `finest` (s), and with `sweeps` at least.
     pub(super) fn conclusive(mut self, finest: f64, sweeps: usize) -> Self {
-        (self.aim, self.conclusive, self.finest) = (1.0, true, finest);
+        (self.aim, self.conclusive, self.finest, self.factor) = (1.0, true, finest, MORE_SWEEPS[1]);
         if self.free.sweeps {
             self.now.sweeps = self.now.sweeps.max(sweeps);
         }
@@ -174,11 +182,6 @@ impl<'a, 'b> Settling<'a, 'b> {
             self.coarsest *= 4.0;
         }
         self
-    }
-
-    /// Factor between numbers of sweeps.
-    fn more_sweeps(&self) -> usize {
-        if self.conclusive { 2 } else { MORE_SWEEPS }
     }
 
     /// Whether there is no finer step to try.
@@ -218,6 +221,7 @@ impl<'a, 'b> Settling<'a, 'b> {
                     against = now;
                     let disagrees = !against.is_empty();
                     let (decided, sharp) = (trial.need.is_within(1.0), trial.need.is_within(self.aim));
+                    self.near = trial.need.is_within(NEAR);
                     let thrift = self.bank.effort > THRIFT * self.budget;
                     let blame = match stall.look_closer(trial.need, trial.blame, self.now.sweeps, self.free.sweeps) {
                         Next::Blames(part) => part,
@@ -307,15 +311,14 @@ impl<'a, 'b> Settling<'a, 'b> {
     /// Changes the settings by what is to blame. Returns why it cannot.
     fn refine(&mut self, blame: Part) -> Option<End> {
         let mut next = self.now;
+        let factor = MORE_SWEEPS[usize::from(self.conclusive || self.near)];
         match blame {
-            Part::Iteration if self.free.sweeps && self.now.sweeps < self.most_sweeps => {
-                next.sweeps *= self.more_sweeps()
-            }
+            Part::Iteration if self.free.sweeps && self.now.sweeps < self.most_sweeps => next.sweeps *= factor,
             // At a given step only more sweeps are left, and too few of them spoil the order that the step shows.
             Part::Discretisation
                 if self.is_finest() && self.free.sweeps && self.now.sweeps < self.judge.asked.sweeps =>
             {
-                next.sweeps *= self.more_sweeps();
+                next.sweeps *= factor;
             }
             // Coarser runs, extrapolated more often, have less rounding.
             Part::Rounding if self.free.step && self.coarsest < COARSEST * self.judge.asked.resolution => {
@@ -330,6 +333,7 @@ impl<'a, 'b> Settling<'a, 'b> {
         }
         if next.sweeps != self.now.sweeps {
             self.bank.keep_sweeps(&[next.sweeps, self.now.sweeps]);
+            self.factor = factor;
         }
         let previous = std::mem::replace(&mut self.now, next);
         let wanted: Vec<Settings> = self.candidates().into_iter().flat_map(|settings| rungs(settings, &[])).collect();
@@ -383,7 +387,7 @@ impl<'a, 'b> Settling<'a, 'b> {
         // At first, what the sweeps leave is asked only where the step is not to blame.
         let settings = best.judged.info.settings;
         let engine = self.bank.engine(settings);
-        let share = if self.free.sweeps { self.more_sweeps() } else { FEWER };
+        let share = if self.free.sweeps { self.factor } else { FEWER };
         let others = other_sweeps(self.bank.case, engine.as_ref(), settings.sweeps, share);
         let disagrees = !best.judged.against().is_empty();
         let is_asking = is_long && !self.conclusive && !best.need.is_of_instants();

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use linkage::case::Grid;
 use linkage::engine::Route;
 use linkproof::engines::EngineName;
 use linkproof::proof::{End, Options, Proof, prove, prove_against};
@@ -244,5 +245,15 @@ fn regress_there_is_room_for_steps_beside_dead_points() {
     (spec.start, spec.grid, spec.dt) = (0.5, (-end, end / 50.0, 100), None);
     let scenario = spec.scenario().unwrap_or_else(|error| panic!("{error}"));
     let proof = prove(&scenario, &Options::default().route(Route::Differences)).unwrap();
+    assert_eq!(proof.verdict.word(), "agree", "{:?}", proof.verdict);
+}
+
+/// Symptom: on a grid of one instant nothing has a range, and errors "may reach inf".
+#[test]
+fn regress_one_instant_can_be_judged() {
+    let mut scenario = shipped("crank_rocker.toml");
+    let time = scenario.case.grid.times[77];
+    scenario.case = scenario.case.on(Grid::of_times(scenario.case.crank(), vec![time])).unwrap();
+    let proof = proven(&scenario);
     assert_eq!(proof.verdict.word(), "agree", "{:?}", proof.verdict);
 }

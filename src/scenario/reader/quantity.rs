@@ -8,6 +8,10 @@ use crate::scenario::unit::{Family, Unit};
 use crate::scenario::words::choice;
 use linkage::error::{Error, Result};
 
+/// Sizes of quantities in SI between which products of mass, length and speeds, and their squares, are numbers.
+const SMALLEST: f64 = 1e-100;
+const LARGEST: f64 = 1e30;
+
 /// The values that a quantity may have.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Sign {
@@ -63,10 +67,7 @@ impl Table<'_> {
             let message = format!("found {found}, but {} {rule} here", families[index].noun);
             return Err(self.wrong_entry(entry, message).help(way_out));
         }
-        let value = unit.to_si(number);
-        if !value.is_finite() {
-            return Err(self.mistyped(entry.key, entry.value, "a finite number"));
-        }
+        let value = self.in_range(entry.key, entry.value, unit.to_si(number))?;
         self.used.push(entry.key);
         Ok(Some((index, value)))
     }
@@ -76,13 +77,21 @@ impl Table<'_> {
         let Some((_, at, unit)) = self.spelled(base, &[family])? else { return Ok(None) };
         let Entry { key, value, .. } = self.entries[at];
         let array = value.get_ref().as_array().ok_or_else(|| self.mistyped(key, value, "an array of numbers"))?;
-        let si = |element: &Spanned<DeValue>| {
-            let number = unit.to_si(self.finite(key, element)?);
-            if number.is_finite() { Ok(number) } else { Err(self.mistyped(key, element, "a finite number")) }
-        };
+        let si = |element: &Spanned<DeValue>| self.in_range(key, element, unit.to_si(self.finite(key, element)?));
         let values = array.iter().map(si).collect::<Result<_>>()?;
         self.used.push(key);
         Ok(Some(values))
+    }
+
+    /// A number in SI whose products with others of its kind stay numbers: zero, or of a size from 1e-100 to 1e30.
+    fn in_range(&self, key: &str, value: &Spanned<DeValue>, si: f64) -> Result<f64> {
+        match si == 0.0 || (SMALLEST..=LARGEST).contains(&si.abs()) {
+            true => Ok(si),
+            false => {
+                let range = "a number that is zero or of a size from 1e-100 to 1e30 in SI units";
+                Err(self.mistyped(key, value, range))
+            }
+        }
     }
 
     /// The one entry that spells `base` in a unit of the families: index of its family, its own index, and the unit.

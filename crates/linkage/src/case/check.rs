@@ -1,5 +1,7 @@
 //! Conditions between the parts of a case.
 
+use std::f64::consts::TAU;
+
 use super::grid::Grid;
 use super::parts::CaseParts;
 use crate::drive::{Course, Drive, DriveMotion, Load, MotionLaw, Motor, MotorLaw};
@@ -75,6 +77,13 @@ fn drives(parts: &CaseParts) -> Result<()> {
         }
         if !(drive.zero.is_finite() && drive.start.is_finite() && motion_is_sound(&drive.motion)) {
             return fault(ErrorKind::Input, format!("{names} has a number that is not finite: {drive:?}"));
+        }
+        let turns = drive.start.abs() / TAU;
+        if turns > Grid::MOST_TURNS {
+            let message = format!("{names} starts {turns:.1e} turns away, the limit is {:e}", Grid::MOST_TURNS);
+            return Err(Error::new(ErrorKind::Input, message)
+                .key("start.crank")
+                .help("give the crank angle of the start within a turn"));
         }
         if several && drive.constant_speed().is_none() {
             let message = format!("{names} has a speed that changes, beside other drives");

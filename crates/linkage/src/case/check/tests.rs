@@ -65,6 +65,13 @@ fn numbers_of_a_drive_are_such() {
 }
 
 #[test]
+fn a_drive_starts_within_the_turns_that_a_grid_may_have() {
+    for start in [-7e5, 7e5, 1e18] {
+        says(Input, "start.crank", &["turns away", "1e5"], |parts| parts.drives.crank_mut().start = start);
+    }
+}
+
+#[test]
 fn numbers_of_a_motor_are_such() {
     let good = || Motor::ideal(MotorLaw::Linear { at_rest: 2.0, slope: -0.1 }, 10.0);
     let case = turning(four_bar());
