@@ -11,7 +11,8 @@ use crate::mechanism::{GROUND, Joint};
 /// Difference of two opposite sides of a parallelogram, as a share of the mechanism's size, that is rounding.
 const EQUAL: f64 = 1e-12;
 
-/// A link that connects two others by revolute joints: these two, the world places of the joints, and the link itself.
+/// A link that connects two others by revolute joints: these two in ascending order, the world places of the joints, and
+/// the link itself.
 struct Bridge {
     ends: [usize; 2],
     places: [Vec2; 2],
@@ -29,21 +30,18 @@ pub(super) fn turning(parts: &CaseParts) -> Vec<bool> {
     for joint in mechanism.joints().iter().filter(|joint| joint.keeps_angle()) {
         unite(joint.first.link, joint.second.link);
     }
-    let bridges = bridges(parts);
+    let mut bridges = bridges(parts);
+    bridges.sort_by_key(|bridge| bridge.ends);
     let equal = EQUAL * mechanism.size();
-    for (index, one) in bridges.iter().enumerate() {
-        for other in bridges[index + 1..].iter().filter(|other| other.link != one.link) {
-            // The sides between the two bridges on both of the links that they connect.
-            let sides = match other.ends {
-                ends if ends == one.ends => [other.places[0] - one.places[0], other.places[1] - one.places[1]],
-                [second, first] if [first, second] == one.ends => {
-                    [other.places[1] - one.places[0], other.places[0] - one.places[1]]
+    for same in bridges.chunk_by(|one, other| one.ends == other.ends) {
+        for (index, one) in same.iter().enumerate() {
+            for other in same[index + 1..].iter().filter(|other| other.link != one.link) {
+                // The sides between the two bridges on both of the links that they connect.
+                let sides = [0, 1].map(|end| other.places[end] - one.places[end]);
+                if (sides[0] - sides[1]).norm() <= equal && sides[0].norm() > equal {
+                    unite(one.ends[0], one.ends[1]);
+                    unite(one.link, other.link);
                 }
-                _ => continue,
-            };
-            if (sides[0] - sides[1]).norm() <= equal && sides[0].norm() > equal {
-                unite(one.ends[0], one.ends[1]);
-                unite(one.link, other.link);
             }
         }
     }
@@ -57,7 +55,8 @@ fn bridges(parts: &CaseParts) -> Vec<Bridge> {
         let on: Vec<&Joint> = joints.iter().filter(|joint| !joint.keeps_angle() && joint.on(link).is_some()).collect();
         for (index, first) in on.iter().enumerate() {
             for second in &on[index + 1..] {
-                let ends = [first, second].map(|joint| joint.other(link));
+                let mut ends = [first, second].map(|joint| joint.other(link));
+                ends.sort_by_key(|end| end.link);
                 if ends[0].link != ends[1].link {
                     let places = ends.map(|end| parts.start.0[end.link].point(end.local));
                     found.push(Bridge { ends: ends.map(|end| end.link), places, link });

@@ -12,6 +12,8 @@ pub use pose::{LinkPose, Pose};
 pub use spanning_tree::{Branch, Tree};
 pub use structure::{Group, GroupKind, Structure};
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::{KeepNan, Vec2, cross, rotated};
 
@@ -289,13 +291,11 @@ impl Mechanism {
 
     /// Points that move, each name once: the first link that carries the point, and its place there.
     pub fn moving_points(&self) -> impl Iterator<Item = (&str, Side)> {
-        let on_ground = |name: &str| self.links[GROUND].points.iter().any(|point| point.name == name);
-        let mut seen: Vec<&str> = Vec::new();
+        let mut seen: BTreeSet<&str> = self.links[GROUND].points.iter().map(|point| point.name.as_str()).collect();
         let mut points = Vec::new();
         for (link, body) in self.links.iter().enumerate().skip(1) {
             for point in &body.points {
-                if !on_ground(&point.name) && !seen.contains(&point.name.as_str()) {
-                    seen.push(&point.name);
+                if seen.insert(&point.name) {
                     points.push((point.name.as_str(), Side { link, local: point.local }));
                 }
             }
@@ -329,18 +329,20 @@ impl Mechanism {
     }
 
     fn check_names(&self) -> Result<()> {
-        for (i, link) in self.links.iter().enumerate() {
-            if self.links[..i].iter().any(|other| other.name == link.name) {
+        let mut taken = BTreeSet::new();
+        for link in &self.links {
+            if !taken.insert(&link.name) {
                 return Err(Error::new(ErrorKind::Input, format!("two links are called \"{}\"", link.name))
                     .key(format!("links.{}", link.name))
                     .help("give every link its own name (\"ground\" is taken)"));
             }
         }
-        for (j, joint) in self.joints.iter().enumerate() {
+        let mut taken = BTreeSet::new();
+        for joint in &self.joints {
             let wrong = |message: String, help: &str| {
                 Err(Error::new(ErrorKind::Input, message).key(format!("joints.{}", joint.name)).help(help))
             };
-            if self.joints[..j].iter().any(|other| other.name == joint.name) {
+            if !taken.insert(&joint.name) {
                 return wrong(format!("two joints are called \"{}\"", joint.name), "give every joint its own name");
             }
             if let Some(axes) = joint.kind.axes()
@@ -359,14 +361,15 @@ impl Mechanism {
     }
 
     fn check_shared_points(&self) -> Result<()> {
-        let mut places: Vec<(&str, usize, Vec2)> = Vec::new();
+        let mut carriers: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
         for (link, body) in self.links.iter().enumerate() {
             for point in &body.points {
                 let key = || format!("links.{}.points.{}", body.name, point.name);
-                if places.iter().any(|&(name, other, _)| name == point.name && other == link) {
+                let others = carriers.entry(&point.name).or_default();
+                if others.contains(&link) {
                     return Err(Error::new(ErrorKind::Input, "the link has two points of this name").key(key()));
                 }
-                if let Some(&(_, other, _)) = places.iter().find(|&&(name, _, _)| name == point.name)
+                if let Some(&other) = others.first()
                     && !self.held_together(&point.name, link, other)
                 {
                     return Err(Error::new(
@@ -379,7 +382,7 @@ impl Mechanism {
                     .key(key())
                     .help("rename one of the points, or add the joint"));
                 }
-                places.push((&point.name, link, point.local));
+                others.push(link);
             }
         }
         Ok(())
@@ -393,10 +396,10 @@ impl Mechanism {
         let mut next = 0;
         while let Some(&link) = reached.get(next) {
             next += 1;
-            let pins = self.joints.iter().filter(|joint| joint.is_pin());
-            for joint in pins.filter(|joint| at(joint.first) && at(joint.second)) {
-                if joint.on(link).is_some() && !reached.contains(&joint.other(link).link) {
-                    reached.push(joint.other(link).link);
+            for joint in self.joints.iter().filter(|joint| joint.is_pin() && joint.on(link).is_some()) {
+                let other = joint.other(link).link;
+                if !reached.contains(&other) && at(joint.first) && at(joint.second) {
+                    reached.push(other);
                 }
             }
         }
