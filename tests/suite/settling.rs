@@ -257,3 +257,13 @@ fn regress_one_instant_can_be_judged() {
     let proof = proven(&scenario);
     assert_eq!(proof.verdict.word(), "agree", "{:?}", proof.verdict);
 }
+
+/// Symptom: a free crank that reverses under a motor of efficiency below 1 disagreed in all channels. The motor's moment
+/// jumps where power turns round, and came up to a step late: by how much is no power series of the step, and runs at h
+/// and h / 2 had the same error.
+#[test]
+fn regress_a_motor_s_jump_within_a_step_counts_by_its_share() {
+    let own = specimen(2, 92, &mut Default::default());
+    let proof = proven(&parsed(&own.toml(false)));
+    assert_eq!(proof.verdict.word(), "agree", "{:?}", proof.verdict);
+}

@@ -155,7 +155,19 @@ impl Acting {
                 *self.branch.insert(motor.branch(omega, if towards < 0.0 { -1.0 } else { 1.0 }))
             }
         };
-        let (moment, slope) = (branch.moment(omega), branch.slope(omega));
+        let (mut moment, mut slope) = (branch.moment(omega), branch.slope(omega));
+        // The speed may leave the branch within the step: where power turns round, the losses of a reducer make the moment
+        // jump. As with loads, both count by their shares of the step.
+        let next = 2.0 * omega - sense * self.before[case.crank().link];
+        let [least, most] = branch.speeds;
+        if next < least || next >= most {
+            let edge = if next < least { least } else { most };
+            let share = (omega - edge) / (omega - next);
+            let other = motor.branch(next, if next < omega { -1.0 } else { 1.0 });
+            let there = other.moment(next) + other.slope(next) * (omega - next);
+            moment = share * moment + (1.0 - share) * there;
+            slope = share * slope + (1.0 - share) * other.slope(next);
+        }
         if slope < 0.0 {
             return [sense * (omega - moment / slope), -slope];
         }
