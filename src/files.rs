@@ -1,7 +1,7 @@
 //! Files that appear whole or not at all.
 //!
-//! The content goes to a temporary file in the same directory, created new and locked, which then takes the place of the
-//! file. So a run that fails or is killed leaves an older file alone, and two runs to one path do not mix.
+//! The content goes to a temporary file in the same directory, created new and locked, which then takes the place of
+//! the file. So a run that fails or is killed leaves an older file alone, and two runs to one path do not mix.
 
 use std::fs::{self, File, TryLockError};
 use std::io;

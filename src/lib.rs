@@ -1,4 +1,5 @@
-//! Builds every planar mechanism twice, once analytically and once as a Rapier multibody, and proves that the two agree.
+//! Builds every planar mechanism twice, once analytically and once as a Rapier multibody, and proves that the two
+//! agree.
 //!
 //! One line, one fork, one join: a [`Scenario`] holds a [`Case`], an analytic side and an engine solve it, and their
 //! trajectories are compared. [`prove`] runs the whole line; [`solve`] gives the analytic solution alone.

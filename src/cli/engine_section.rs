@@ -9,8 +9,8 @@ use crate::scenario::{EngineKeys, Scenario, edit};
 use linkage::engine::Settings;
 use linkage::error::{Error, ErrorKind, Result};
 
-/// What a scenario must state to run an engine at `settings`: its step (s), and its other keys. The engine's usual route
-/// is left out unless the scenario states one: without it the engine's own forces are judged too.
+/// What a scenario must state to run an engine at `settings`: its step (s), and its other keys. The engine's usual
+/// route is left out unless the scenario states one: without it the engine's own forces are judged too.
 pub(super) fn keys(scenario: &Scenario, name: &str, settings: Settings) -> (Option<f64>, EngineKeys) {
     let Settings { resolution, sweeps, substeps, route, extrapolated } = settings;
     let engine = named(name, resolution);

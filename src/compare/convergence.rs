@@ -41,8 +41,8 @@ pub struct Convergence {
     pub error: f64,
     /// Safety factor.
     pub safety: f64,
-    /// Error that the sweeps of the middle run leave, safety factor not included, in the channel's unit; 0 for an engine
-    /// that does not iterate.
+    /// Error that the sweeps of the middle run leave, safety factor not included, in the channel's unit; 0 for an
+    /// engine that does not iterate.
     pub iteration: f64,
 }
 
@@ -81,9 +81,9 @@ impl Convergence {
         Convergence { observed, formal, error, safety, iteration: 0.0 }
     }
 
-    /// The same estimate for runs that are extrapolated. What is no power series of the step, such as the instants about
-    /// a load that jumps or a knot of its table, does not cancel: their errors were measured to be up to ten times the
-    /// difference of neighbouring runs (`benches/peers`).
+    /// The same estimate for runs that are extrapolated. What is no power series of the step, such as the instants
+    /// about a load that jumps or a knot of its table, does not cancel: their errors were measured to be up to ten
+    /// times the difference of neighbouring runs (`benches/peers`).
     #[must_use]
     pub fn extrapolated(self, times: usize) -> Self {
         let safety = match times {

@@ -62,7 +62,8 @@ impl OtherSweeps<&[f64]> {
         if last <= negligible { 0.0 } else { share(last, largest_difference(fewest, fewer, periodic)) }
     }
 
-    /// What the sweeps of the middle run leave, safety factor not included. Differences of at most `noise` show nothing.
+    /// What the sweeps of the middle run leave, safety factor not included. Differences of at most `noise` show
+    /// nothing.
     #[must_use]
     pub fn left(&self, single: &[f64], noise: f64, periodic: bool) -> f64 {
         let last = |fewer: &[f64]| largest_difference(fewer, single, periodic);

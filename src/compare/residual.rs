@@ -44,16 +44,16 @@ impl Residual {
     }
 }
 
-/// Scale of every channel: half the range of its values over the run. It is at least a thousandth of the natural size of
-/// its quantity, and of a rate, a force or a moment at least a tenth of its largest value, so that a constant one is
+/// Scale of every channel: half the range of its values over the run. It is at least a thousandth of the natural size
+/// of its quantity, and of a rate, a force or a moment at least a tenth of its largest value, so that a constant one is
 /// measured by itself. Coordinates have no such value, because their origin is arbitrary.
 ///
 /// The natural size is the widest half range among the quantity's channels, or their largest value if they are no
 /// coordinates, or, if larger, the value that follows from the crank's motion and the sizes of places and forces. So a
 /// quantity that vanishes in the whole mechanism is measured too.
 ///
-/// On a grid of one instant nothing has a range: the natural size itself is the scale, one radian of angles and half the
-/// extent of all coordinates of lengths.
+/// On a grid of one instant nothing has a range: the natural size itself is the scale, one radian of angles and half
+/// the extent of all coordinates of lengths.
 #[must_use]
 pub fn scales(trajectory: &Trajectory) -> Vec<f64> {
     let is_instant = trajectory.times().len() == 1;

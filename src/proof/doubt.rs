@@ -2,8 +2,9 @@
 //!
 //! Where a drive reverses, or its acceleration jumps, differences over a few steps to either side are not those of the
 //! motion: rates, accelerations and forces are not judged there.
-//! Where a link reverses whose load depends on the sense of its motion, the load jumps: forces are not judged there, nor
-//! accelerations if forces decide the motion. Impulses that are combined from several runs are not judged close to it.
+//! Where a link reverses whose load depends on the sense of its motion, the load jumps: forces are not judged there,
+//! nor accelerations if forces decide the motion. Impulses that are combined from several runs are not judged close to
+//! it.
 
 use linkage::case::Case;
 use linkage::drive::DriveMotion;
@@ -17,8 +18,8 @@ use super::runs::Runs;
 const STEPS: f64 = 8.0;
 /// The same for impulses of a free motion: they are read from six steps, one step late.
 const IMPULSES: f64 = 5.0;
-/// Share of a step by which runs of a prescribed motion, whose impulses are combined, have the jump of a load at different
-/// instants: their velocities differ by about a twelfth of its square.
+/// Share of a step by which runs of a prescribed motion, whose impulses are combined, have the jump of a load at
+/// different instants: their velocities differ by about a twelfth of its square.
 const APART: f64 = 0.25;
 
 /// Share of a drive's top speed that counts as standstill: the rounding of a law's formula, with room.

@@ -50,6 +50,12 @@ impl EngineProof {
     pub fn force_fault(&self) -> Option<ForceFault> {
         self.own_forces.as_ref()?.fault(&self.channels)
     }
+
+    /// The verdicts on channels and checks, and that on all of them.
+    fn verdicts_mut(&mut self) -> impl Iterator<Item = &mut Verdict> {
+        let channels = self.channels.iter_mut().map(|channel| &mut channel.verdict);
+        channels.chain(self.checks.iter_mut().map(|check| &mut check.verdict)).chain([&mut self.verdict])
+    }
 }
 
 /// Runs an engine on `case`, at the settings asked for or at those that it finds, and compares it with `reference`.
@@ -107,10 +113,7 @@ pub(super) fn prove(
     let is_open = matches!(proof.verdict, Verdict::Inconclusive { .. });
     if is_open && !chosen.free.step && !engine.controls_error() {
         let advice = tried(&judge, &mut bank, chosen);
-        let channels = proof.channels.iter_mut().map(|channel| &mut channel.verdict);
-        for verdict in
-            channels.chain(proof.checks.iter_mut().map(|check| &mut check.verdict)).chain([&mut proof.verdict])
-        {
+        for verdict in proof.verdicts_mut() {
             if let Verdict::Inconclusive { advice: own, .. } = verdict {
                 own.push(advice.clone());
             }
@@ -118,9 +121,7 @@ pub(super) fn prove(
     }
     if let Some(search) = &proof.search {
         let (end, budget) = (search.end, search.budget);
-        let channels = proof.channels.iter_mut().map(|channel| &mut channel.verdict);
-        let all = channels.chain(proof.checks.iter_mut().map(|check| &mut check.verdict));
-        all.chain([&mut proof.verdict]).for_each(|verdict| end.tell(verdict, budget));
+        proof.verdicts_mut().for_each(|verdict| end.tell(verdict, budget));
     }
     proof.own_forces =
         OwnForces::judged(&judge, case, chosen, proof.info.settings.sweeps, &mut |part| progress(0.7 + 0.3 * part));

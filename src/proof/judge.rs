@@ -54,8 +54,8 @@ pub struct ChannelProof {
     /// For a free motion: largest change over the run, as a share of the scale, per share of change in gravity and
     /// motor torque.
     pub sensitivity: Option<f64>,
-    /// Number of instants that are not judged: there a drive or a loaded link reverses, and the channel jumps, or a free
-    /// motion begins.
+    /// Number of instants that are not judged: there a drive or a loaded link reverses, and the channel jumps, or a
+    /// free motion begins.
     pub left_out: usize,
     /// What the bound rests on.
     pub basis: Basis,
@@ -212,8 +212,8 @@ impl<'a> Judge<'a> {
         Ok(Judged { info: describe(engine), channels, checks, verdict, run, too_coarse, kept })
     }
 
-    /// Largest growth of the differences between runs with more and more sweeps, of any position whose differences count;
-    /// of any force, if forces are judged that come from other worlds than the motion.
+    /// Largest growth of the differences between runs with more and more sweeps, of any position whose differences
+    /// count; of any force, if forces are judged that come from other worlds than the motion.
     fn growth(&self, runs: &Runs) -> f64 {
         let Ladder { resolutions: [_, single, _], other_sweeps } = runs.ladder();
         let of = |(channel, scale): (&Channel, &f64)| {
@@ -272,8 +272,8 @@ impl<'a> Judge<'a> {
         doubt.keeps(stage).into_iter().zip(self.reference.times()).map(|(kept, &t)| kept && t >= first).collect()
     }
 
-    /// The case without the instants of a beginning free motion at which second differences are carried back over several
-    /// steps, if their rounding would leave accelerations or forces open; `None` if it does not.
+    /// The case without the instants of a beginning free motion at which second differences are carried back over
+    /// several steps, if their rounding would leave accelerations or forces open; `None` if it does not.
     fn after_the_beginning(&self, engine: &dyn Engine) -> Result<Option<Case>> {
         let case = &self.scenario.case;
         let last = case.grid.times.iter().copied().fold(0.0, f64::larger);

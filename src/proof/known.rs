@@ -49,8 +49,8 @@ pub(super) fn of_condition(stage: Stage, condition: f64) -> f64 {
     ULPS * f64::EPSILON * condition.powi(power(stage))
 }
 
-/// Errors allowed to the analytic sides, channel by channel. Each is judged by the numbers that it is made of: near a dead
-/// point of one group those of the others stay as they are.
+/// Errors allowed to the analytic sides, channel by channel. Each is judged by the numbers that it is made of: near a
+/// dead point of one group those of the others stay as they are.
 pub(super) struct Known {
     /// Size of the numbers in every channel, in its unit.
     magnitudes: Vec<f64>,
@@ -59,15 +59,15 @@ pub(super) struct Known {
     integration: [Vec<f64>; 2],
     /// The groups that channels depend on.
     dependence: Dependence,
-    /// Condition number of the pose at every instant, so far in a motion under forces, for every set of groups; empty as
-    /// long as nobody needs it.
+    /// Condition number of the pose at every instant, so far in a motion under forces, for every set of groups; empty
+    /// as long as nobody needs it.
     conditions: Vec<Vec<f64>>,
 }
 
 impl Known {
     /// What both sides' trajectories are known to, the reference's first. `sensitivity` is how strongly a motion under
-    /// forces depends on them, channel by channel: the rounding of the forces is felt by as much. Empty for a prescribed
-    /// motion.
+    /// forces depends on them, channel by channel: the rounding of the forces is felt by as much. Empty for a
+    /// prescribed motion.
     ///
     /// # Errors
     /// Those of the tighter runs.

@@ -26,8 +26,8 @@ pub(super) struct Observed {
     pub(super) trajectory: Trajectory,
     /// Largest distance between the two sides of a joint (m) at every instant.
     pub(super) opening: Vec<f64>,
-    /// What the loads that depend on a sense of motion sense at every instant: the angular velocity of a link (rad/s, as
-    /// x) or the velocity of a point (m/s), load by load.
+    /// What the loads that depend on a sense of motion sense at every instant: the angular velocity of a link (rad/s,
+    /// as x) or the velocity of a point (m/s), load by load.
     pub(super) senses: Vec<Vec<Vec2>>,
     /// Largest distance of a joint from the origin (m).
     pub(super) reach: f64,

@@ -88,7 +88,8 @@ pub struct Options {
 pub(crate) struct Chosen {
     pub(crate) engine: Box<dyn Engine>,
     pub(crate) free: Free,
-    /// What is free where the engine's own forces are judged besides; `None` if a route is given, which alone counts then.
+    /// What is free where the engine's own forces are judged besides; `None` if a route is given, which alone counts
+    /// then.
     pub(crate) own_forces: Option<Free>,
     pub(crate) budget: f64,
 }

@@ -29,7 +29,8 @@ const NEGLIGIBLE: f64 = 0.01;
 /// Those of a run that is not numeric.
 pub(super) fn look(judge: &Judge, bank: &mut Bank, judged: &mut Judged) -> Result<bool, Stopped> {
     let wanted = judge.scenario.engine_rel;
-    // Second differences across a knot of a law of motion, where its third derivative jumps, have order 1 by themselves.
+    // Second differences across a knot of a law of motion, where its third derivative jumps, have order 1 by
+    // themselves.
     let is_smooth = bank.case.is_steady();
     let is_low = |own: &ChannelProof| {
         let Convergence { observed, formal, .. } = own.convergence;
@@ -75,7 +76,8 @@ pub(super) fn look(judge: &Judge, bank: &mut Bank, judged: &mut Judged) -> Resul
     Ok(is_found)
 }
 
-/// The order of three estimates, if it is the same low whole number each time and not that of rounding or of the sweeps.
+/// The order of three estimates, if it is the same low whole number each time and not that of rounding or of the
+/// sweeps.
 fn steady(coarse: &ChannelProof, middle: &ChannelProof, fine: &ChannelProof) -> Option<f64> {
     let orders = [coarse, middle, fine].map(|own| own.convergence.observed);
     let whole = fine.convergence.observed.round();

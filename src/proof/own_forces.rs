@@ -1,8 +1,8 @@
 //! Forces as an engine itself exerts them, judged besides those that follow from its motion by Newton and Euler.
 //!
 //! A search of its own, by the engine's own routes. It ends as soon as every force is conclusive; coarse runs,
-//! extrapolated, usually are. With a given step no run is finer than those that estimate the error of that step: coarser
-//! ones are extrapolated.
+//! extrapolated, usually are. With a given step no run is finer than those that estimate the error of that step:
+//! coarser ones are extrapolated.
 
 use super::judge::{ChannelProof, EngineInfo, Judge, Judged, describe};
 use super::observe::Watch;
@@ -39,8 +39,9 @@ pub struct OwnForces {
 }
 
 impl OwnForces {
-    /// Judges the forces that the engine exerts, whose motion has needed `sweeps`; `None` where no force is wanted, where
-    /// the route is given, and for an engine whose usual route is its own. The first route that is conclusive counts.
+    /// Judges the forces that the engine exerts, whose motion has needed `sweeps`; `None` where no force is wanted,
+    /// where the route is given, and for an engine whose usual route is its own. The first route that is conclusive
+    /// counts.
     pub(super) fn judged(
         judge: &Judge,
         case: &Case,
@@ -81,14 +82,15 @@ pub enum ForceFault {
 }
 
 impl OwnForces {
-    /// What they add to the engine's verdict. Where they stay open, they are told and take nothing back: the motion and its
-    /// forces are judged all the same, and impulses are of a lower order and need the true masses, with many sweeps.
+    /// What they add to the engine's verdict. Where they stay open, they are told and take nothing back: the motion and
+    /// its forces are judged all the same, and impulses are of a lower order and need the true masses, with many
+    /// sweeps.
     pub(super) fn adds(&self) -> Option<&Verdict> {
         Some(&self.verdict).filter(|verdict| !matches!(verdict, Verdict::Inconclusive { .. }))
     }
 
-    /// Which of the two judgements of the forces disagrees, `channels` being the first one; `None` if neither does, or if
-    /// the other one is open or the motion itself disagrees, so that nothing follows.
+    /// Which of the two judgements of the forces disagrees, `channels` being the first one; `None` if neither does, or
+    /// if the other one is open or the motion itself disagrees, so that nothing follows.
     pub(super) fn fault(&self, channels: &[ChannelProof]) -> Option<ForceFault> {
         let disagrees = |channel: &ChannelProof| matches!(channel.verdict, Verdict::Disagree { .. });
         let agrees = |channel: &ChannelProof| matches!(channel.verdict, Verdict::Agree { .. });

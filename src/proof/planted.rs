@@ -175,8 +175,8 @@ fn every_check_of_the_two_sides_finds_three_times_its_bound_and_passes_a_fifth()
 }
 
 /// Symptom: 1e-9 deg from a dead point the crank pin's own acceleration was wrong by 176 %, and the check between the
-/// sides was silent, because it measured by the largest accelerations of the mechanism and by the condition of the worst
-/// group. A channel is judged by the numbers that it is made of.
+/// sides was silent, because it measured by the largest accelerations of the mechanism and by the condition of the
+/// worst group. A channel is judged by the numbers that it is made of.
 #[test]
 fn regress_a_driving_link_is_judged_by_its_own_numbers_near_a_dead_point() {
     let folded = [
@@ -311,8 +311,8 @@ fn the_engine_s_own_checks_find_what_does_not_vanish_with_the_step() {
     }
 }
 
-/// Half a step late, velocities converge to the right values with order 1, and accelerations a quarter of a step. No bound
-/// from the engine's own runs would ever be too small for that.
+/// Half a step late, velocities converge to the right values with order 1, and accelerations a quarter of a step. No
+/// bound from the engine's own runs would ever be too small for that.
 #[test]
 fn regress_what_is_read_too_late_converges_at_another_order_and_disagrees() {
     let velocities: Fault = |state, late| {

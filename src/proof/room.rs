@@ -1,15 +1,15 @@
 //! Room for an engine's steps between the ends of a grid and the dead points beside it.
 //!
-//! A run of a prescribed motion begins some steps before the first instant and ends some after the last one. Near a limit
-//! of rotation only a small step leaves room for them.
+//! A run of a prescribed motion begins some steps before the first instant and ends some after the last one. Near a
+//! limit of rotation only a small step leaves room for them.
 
 use analytic::range::{Extent, reachable};
 use linkage::case::Case;
 use linkage::engine::Engine;
 use linkage::math::KeepNan;
 
-/// The largest step (s) for which a run of this engine stays within the crank angles that can be reached; infinite for a
-/// full turn, and where forces decide the motion.
+/// The largest step (s) for which a run of this engine stays within the crank angles that can be reached; infinite for
+/// a full turn, and where forces decide the motion.
 pub(super) fn room(case: &Case, engine: &dyn Engine) -> f64 {
     let steps = engine.overrun();
     let Some([from, to]) = limits(case).filter(|_| steps > 0.0) else { return f64::INFINITY };

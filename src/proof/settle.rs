@@ -1,8 +1,8 @@
 //! An engine that finds its own settings: coarse first, refined by what is to blame, until every channel is conclusive.
 //!
 //! Each round has one run more, at half the finest step so far. Its runs are combined in all ways: the engine as it is,
-//! extrapolated once, twice, ..., each judged at the step that leaves the finest run to tell the error. The best of them
-//! counts. A channel that is not conclusive blames its step, its sweeps or its rounding.
+//! extrapolated once, twice, ..., each judged at the step that leaves the finest run to tell the error. The best of
+//! them counts. A channel that is not conclusive blames its step, its sweeps or its rounding.
 //!
 //! Everything is decided by the engine's own runs and by counted work, so that the same input gives the same settings.
 
@@ -268,8 +268,8 @@ impl<'a, 'b> Settling<'a, 'b> {
                 if (!self.is_finest() || is_cut) && borne_out.is_empty() {
                     best.judged.doubt("no finer run bears it out", &Advice::SmallerStep { to: None });
                 }
-                // Impulses are of first order, and sweeps leave more in them than in the motion: where the search is cut off
-                // before all are conclusive, none is disproven.
+                // Impulses are of first order, and sweeps leave more in them than in the motion: where the search is
+                // cut off before all are conclusive, none is disproven.
                 if self.conclusive && end == End::Budget {
                     best.judged.doubt("the others are not conclusive", &Advice::MoreWork { to: 10.0 * self.budget });
                 }
@@ -292,8 +292,8 @@ impl<'a, 'b> Settling<'a, 'b> {
         }
     }
 
-    /// Goes on at steps with room beside the dead points, if those of this round have none: they go through them, and fail
-    /// or show no order. Returns whether it is so.
+    /// Goes on at steps with room beside the dead points, if those of this round have none: they go through them, and
+    /// fail or show no order. Returns whether it is so.
     fn makes_room(&mut self) -> bool {
         let (case, engine) = (&self.judge.scenario.case, self.bank.engine(self.now));
         let most = *self.room.get_or_insert_with(|| room(case, engine.as_ref()));
@@ -401,8 +401,8 @@ impl<'a, 'b> Settling<'a, 'b> {
             }
             found => found?,
         };
-        // A third run tells how fast the sweeps converge, before they are multiplied; and whether they do, before anything
-        // is disproven: sweeps that have hardly begun to converge differ little.
+        // A third run tells how fast the sweeps converge, before they are multiplied; and whether they do, before
+        // anything is disproven: sweeps that have hardly begun to converge differ little.
         let is_asked = found.blame == Part::Iteration && !found.need.is_within(self.aim) && self.free.sweeps;
         if others.len() < 2 || (!is_asked && found.judged.against().is_empty()) {
             return Ok(found);

@@ -9,8 +9,8 @@ const MOST_VAGUE: usize = 2;
 const BRINGS: f64 = 0.7;
 /// Part of the bound down to which more sweeps must bring it to be worth their work.
 const HELPS: f64 = 0.5;
-/// Rounds with finer steps and wider bounds after which rounding is to blame, also where the engine's noise is thought to
-/// be less.
+/// Rounds with finer steps and wider bounds after which rounding is to blame, also where the engine's noise is thought
+/// to be less.
 const MOST_WIDER: usize = 2;
 /// Rounds that pass before more sweeps are tried again, where they have brought little.
 const PATIENCE: usize = 3;
@@ -40,9 +40,9 @@ pub(super) enum Next {
 }
 
 impl Stall {
-    /// What to do after a round with `sweeps`, by its need and the part that is to blame. Too few sweeps may hide the order
-    /// of the step, and what they leave does not always show: where a smaller step brings little, more sweeps are tried, if
-    /// they are `free`, and are given up where they bring little too.
+    /// What to do after a round with `sweeps`, by its need and the part that is to blame. Too few sweeps may hide the
+    /// order of the step, and what they leave does not always show: where a smaller step brings little, more sweeps are
+    /// tried, if they are `free`, and are given up where they bring little too.
     pub(super) fn look_closer(&mut self, need: Need, blame: Part, sweeps: usize, free: bool) -> Next {
         self.vague = if need.is_vague { self.vague + 1 } else { 0 };
         let before = self.before.replace(need);

@@ -83,11 +83,10 @@ impl Output {
         self.writer.write_to_known_channel(&header, data)
     }
 
-    /// Writes the indexes and the end of the file, and syncs it to the disk.
+    /// Writes the indexes and the end of the file.
     pub fn finish(mut self) -> McapResult<()> {
         self.writer.finish()?;
-        let file =
-            self.writer.into_inner().into_inner().into_inner().map_err(|error| McapError::Io(error.into_error()))?;
-        Ok(file.sync_all()?)
+        let buffer = self.writer.into_inner().into_inner();
+        buffer.into_inner().map(drop).map_err(|error| McapError::Io(error.into_error()))
     }
 }

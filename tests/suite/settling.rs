@@ -54,8 +54,8 @@ fn the_same_input_finds_the_same_settings_and_the_same_bits() {
     assert_eq!(numbers(&one), numbers(&other));
 }
 
-/// The masses of this mechanism differ by a thousand, and an initial speed must go through all of them: below a thousand
-/// sweeps every run is wrong by the same share, and differs little from the others.
+/// The masses of this mechanism differ by a thousand, and an initial speed must go through all of them: below a
+/// thousand sweeps every run is wrong by the same share, and differs little from the others.
 #[test]
 fn regress_sweeps_that_have_hardly_begun_to_converge_prove_nothing() {
     let own = specimen(1, 397, &mut Default::default());
@@ -68,8 +68,8 @@ fn regress_sweeps_that_have_hardly_begun_to_converge_prove_nothing() {
     assert!(!(speed.residual.max > speed.bound), "{} {}", speed.residual.max, speed.bound);
 }
 
-/// A spline's third derivative jumps at its knots, and second differences across them are of order 1: that is no fault of
-/// an engine.
+/// A spline's third derivative jumps at its knots, and second differences across them are of order 1: that is no fault
+/// of an engine.
 #[test]
 fn regress_knots_of_a_law_of_motion_do_not_make_an_order_wrong() {
     let own = specimen(1, 374, &mut Default::default());
@@ -77,8 +77,8 @@ fn regress_knots_of_a_law_of_motion_do_not_make_an_order_wrong() {
     assert_eq!(proof.verdict.word(), "agree", "{:?}", proof.verdict);
 }
 
-/// A step that is given is kept to, and nothing finer is run for the result. Where it proves nothing, the free choice is
-/// tried, and its outcome told.
+/// A step that is given is kept to, and nothing finer is run for the result. Where it proves nothing, the free choice
+/// is tried, and its outcome told.
 #[test]
 fn a_given_step_is_kept_to_and_the_way_out_has_been_tried() {
     let scenario = shipped("crank_rocker.toml");
@@ -122,7 +122,8 @@ fn no_sweeps_where_there_is_no_loop() {
     assert_eq!((proof.verdict.word(), proof.engine().info.settings.sweeps), ("agree", 1));
 }
 
-/// Symptom: 4096 sweeps are not enough for a four-bar in free motion whose rocker is 156 times lighter than its coupler.
+/// Symptom: 4096 sweeps are not enough for a four-bar in free motion whose rocker is 156 times lighter than its
+/// coupler.
 /// Cause: the rows of the loop lay along world axes. With rows along and across the rocker 16 sweeps leave 1.5e-7.
 #[test]
 fn regress_a_light_rocker_behind_a_heavy_coupler_needs_few_sweeps() {
@@ -234,9 +235,9 @@ mode = "left"
 [grid]
 "#;
 
-/// Symptom: swung over its whole range, an engine went through the dead points on either side of its grid before it began
-/// and after it had ended, at every step that was tried; the search blamed the sweeps. Here both ends are 0.15 deg from
-/// one.
+/// Symptom: swung over its whole range, an engine went through the dead points on either side of its grid before it
+/// began and after it had ended, at every step that was tried; the search blamed the sweeps. Here both ends are 0.15
+/// deg from one.
 #[test]
 fn regress_there_is_room_for_steps_beside_dead_points() {
     let mut spec = four_bar([0.4, 0.3, 0.25, 0.2], true);
@@ -258,9 +259,9 @@ fn regress_one_instant_can_be_judged() {
     assert_eq!(proof.verdict.word(), "agree", "{:?}", proof.verdict);
 }
 
-/// Symptom: a free crank that reverses under a motor of efficiency below 1 disagreed in all channels. The motor's moment
-/// jumps where power turns round, and came up to a step late: by how much is no power series of the step, and runs at h
-/// and h / 2 had the same error.
+/// Symptom: a free crank that reverses under a motor of efficiency below 1 disagreed in all channels. The motor's
+/// moment jumps where power turns round, and came up to a step late: by how much is no power series of the step, and
+/// runs at h and h / 2 had the same error.
 #[test]
 fn regress_a_motor_s_jump_within_a_step_counts_by_its_share() {
     let own = specimen(2, 92, &mut Default::default());

@@ -111,8 +111,8 @@ fn regress_a_prescribed_link_does_not_suffer_from_a_dead_point() {
     }
 }
 
-/// Symptom: at a change point in free motion side 2 took ever smaller steps and had no answer after ten minutes; with an
-/// even number of loops it passed with errors up to 8e-7 rad, because the determinant of the whole kept its sign.
+/// Symptom: at a change point in free motion side 2 took ever smaller steps and had no answer after ten minutes; with
+/// an even number of loops it passed with errors up to 8e-7 rad, because the determinant of the whole kept its sign.
 /// Free motions pass change points since: see `dynamics/through.rs`. Those of several driving links do not.
 #[test]
 fn regress_a_free_motion_goes_on_at_a_change_point() {

@@ -62,7 +62,8 @@ impl Solver for TightAssurSolver {
     }
 }
 
-/// Motion under forces. One degree of freedom: its reduced equation of motion, if the crank angle alone gives its terms.
+/// Motion under forces. One degree of freedom: its reduced equation of motion, if the crank angle alone gives its
+/// terms.
 /// Otherwise, and for several freedoms: the transfer functions.
 fn free_motion(case: &Case, accuracy: f64, visit: Visit, progress: Progress) -> Result<()> {
     let share = if accuracy < ACCURACY { NARROWER } else { 1.0 };

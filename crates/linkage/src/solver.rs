@@ -159,8 +159,8 @@ impl State {
         (force, moment)
     }
 
-    /// Largest distance between the two sides of a joint (m), that of a prismatic joint across its guide, its wrong angle
-    /// (rad) counted at `size` (m); and the largest distance of a joint from the origin (m).
+    /// Largest distance between the two sides of a joint (m), that of a prismatic joint across its guide, its wrong
+    /// angle (rad) counted at `size` (m); and the largest distance of a joint from the origin (m).
     #[must_use]
     pub fn opening(&self, case: &Case, size: f64) -> [f64; 2] {
         let mut largest = [0.0; 2];

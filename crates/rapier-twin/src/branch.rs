@@ -1,7 +1,7 @@
 //! Whether the engine is still on the branch on which it began.
 //!
-//! Near a dead point two assembly modes of a group are close together, and an engine may slip from one to the other while
-//! its loops hardly open. Each mode has its own sign of the determinant of the group's constraints.
+//! Near a dead point two assembly modes of a group are close together, and an engine may slip from one to the other
+//! while its loops hardly open. Each mode has its own sign of the determinant of the group's constraints.
 
 use linkage::case::Case;
 use linkage::error::{Advice, Error, ErrorKind, Result};
@@ -101,8 +101,8 @@ fn turned_back(case: &Case, group: usize, t: f64) -> Error {
 }
 
 impl Watched {
-    /// Where change points are passed smoothly the determinant goes on through zero. Here it was on its way there, and has
-    /// come back with the slope reversed.
+    /// Where change points are passed smoothly the determinant goes on through zero. Here it was on its way there, and
+    /// has come back with the slope reversed.
     fn turns_back(&mut self, t: f64, determinant: f64) -> bool {
         let [older, newer] = self.last;
         self.last = [newer, Some((t, determinant))];

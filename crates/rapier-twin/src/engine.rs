@@ -40,7 +40,8 @@ impl Engine for Rapier {
     }
 
     fn own_routes(&self, case: &Case) -> &'static [Route] {
-        // Probes cost more, need many more sweeps at coarse steps, and their tiny steps leave an error that no run shows.
+        // Probes cost more, need many more sweeps at coarse steps, and their tiny steps leave an error that no run
+        // shows.
         let _ = case;
         &[Route::Native]
     }

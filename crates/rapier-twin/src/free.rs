@@ -37,7 +37,8 @@ pub(super) struct Acting {
     /// The same with those of added masses.
     relieved: Vec<Wrench>,
     branch: Option<Branch>,
-    /// Moment of the motor on the crank (N m) that is among the loads of the step, because Rapier's motor cannot have it.
+    /// Moment of the motor on the crank (N m) that is among the loads of the step, because Rapier's motor cannot have
+    /// it.
     direct: f64,
     /// One for each world.
     added: Vec<Option<Added>>,
@@ -156,8 +157,8 @@ impl Acting {
             }
         };
         let (mut moment, mut slope) = (branch.moment(omega), branch.slope(omega));
-        // The speed may leave the branch within the step: where power turns round, the losses of a reducer make the moment
-        // jump. As with loads, both count by their shares of the step.
+        // The speed may leave the branch within the step: where power turns round, the losses of a reducer make the
+        // moment jump. As with loads, both count by their shares of the step.
         let next = 2.0 * omega - sense * self.before[case.crank().link];
         let [least, most] = branch.speeds;
         if next < least || next >= most {
@@ -184,7 +185,8 @@ impl Acting {
 
 /// Gives worlds at the start pose the velocities of the driving links there.
 /// Returns the window of the motion that begins.
-/// If a load, or the losses of a reducer, depend on the sense of rotation of a link at rest, one step is tried and then undone.
+/// If a load, or the losses of a reducer, depend on the sense of rotation of a link at rest, one step is tried and then
+/// undone.
 /// In it the load does not act, and power flows from the motor.
 ///
 /// # Errors

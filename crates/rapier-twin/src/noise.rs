@@ -96,7 +96,8 @@ fn lever(case: &Case, reach: f64, subject: Subject) -> f64 {
 }
 
 /// Factor on the rounding of second differences at the beginning of a free motion.
-/// They, and impulses, are extrapolated back over its first steps, so the factor is the sum of the absolute Lagrange weights there.
+/// They, and impulses, are extrapolated back over its first steps, so the factor is the sum of the absolute Lagrange
+/// weights there.
 fn beginning(case: &Case, engine: &Rapier) -> f64 {
     let steps = first_steps(case, engine.build == Build::Impulse) as f64;
     let first = case.grid.times.iter().fold(f64::INFINITY, |least: f64, &t| least.smaller(t));

@@ -147,7 +147,8 @@ impl<'a> Run<'a> {
             Some(Route::Native) => Reader::Native(Native::new(case, &worlds, settings, reports_from)),
             Some(Route::Probe) => {
                 // A world placed in a pose has no gap to correct in its first substep.
-                // In the second substep it corrects the gap of the first, and the impulses would contain all of that correction.
+                // In the second substep it corrects the gap of the first, and the impulses would contain all of that
+                // correction.
                 // So a tiny step is not divided.
                 let engine = engine.set(Settings { substeps: 1, ..*settings });
                 let probed: Result<Vec<Guard>> = reporting()

@@ -133,7 +133,8 @@ pub trait World {
     fn set_drive(&mut self, drive: usize, omega: f64);
 
     /// Replaces a prescribed speed by a motor.
-    /// The moment on the link (N m) is `damping` (N m s/rad, not negative) times the speed that is missing to `target` (rad/s).
+    /// The moment on the link (N m) is `damping` (N m s/rad, not negative) times the speed that is missing to `target`
+    /// (rad/s).
     /// The speed that counts is the one at the END of the step.
     fn set_motor(&mut self, drive: usize, target: f64, damping: f64);
 
@@ -178,7 +179,8 @@ pub trait World {
 
 /// Additional moment of inertia of driving links, in units of all masses times the square of the mechanism's size.
 /// A link with prescribed speed may have any moment of inertia: it affects neither motion nor reactions.
-/// It affects the driving moment only where the speed changes, and is subtracted there ([`Ghost`](super::ghost::Ghost)).
+/// It affects the driving moment only where the speed changes, and is subtracted there
+/// ([`Ghost`](super::ghost::Ghost)).
 /// With a large one, the drives' rows hardly depend on those of the loops, and the sweeps converge.
 /// On a four-bar whose coupler is thirteen times as heavy as its crank, 32 sweeps then do what 1024 do without it.
 /// Ten times as much gives no further gain.
@@ -193,8 +195,8 @@ const ROD: f64 = 1.0 / 12.0;
 /// There a link has at least the mean mass, and the moment of inertia of a rod of it: where neighbours differ much, the
 /// sweeps hardly converge.
 /// What they add to the reactions is subtracted again ([`Ghost`](super::ghost::Ghost)).
-/// In a free motion the crank also carries rotor and gearbox. Stand-ins depend on the world's tree there, and loads take
-/// away what they do ([`added`](super::added)).
+/// In a free motion the crank also carries rotor and gearbox. Stand-ins depend on the world's tree there, and loads
+/// take away what they do ([`added`](super::added)).
 pub(super) fn masses(case: &Case, tree: &Tree) -> Vec<[f64; 2]> {
     let mut masses = bare_masses(case, tree);
     if case.is_free() {

@@ -20,8 +20,8 @@ use crate::common::{assert_within, chain, shipped};
 const SIDES: [&dyn Solver; 2] = [&AssurSolver, &NewtonSolver];
 const G: f64 = 9.81;
 
-/// Moment of inertia of N four-bars about the pivots, and the weights' moment with all bars level: all vertical bars turn
-/// by one angle, and the rods follow a circle without turning.
+/// Moment of inertia of N four-bars about the pivots, and the weights' moment with all bars level: all vertical bars
+/// turn by one angle, and the rods follow a circle without turning.
 fn pendulum(pairs: usize) -> [f64; 2] {
     let n = pairs as f64;
     [(n + 1.0) / 3.0 + n, G * ((n + 1.0) / 2.0 + n)]
@@ -54,8 +54,8 @@ fn by_series(c: f64, [mut theta, mut omega]: [f64; 2], step: f64, count: usize) 
     found
 }
 
-/// The N-four-bar problem of the multibody benchmarks, over ten seconds and some ten change points at which all loops are
-/// singular at once.
+/// The N-four-bar problem of the multibody benchmarks, over ten seconds and some ten change points at which all loops
+/// are singular at once.
 #[test]
 fn chains_of_four_bars_swing_through_their_change_points() {
     for pairs in [1, 2, 10] {
@@ -80,8 +80,8 @@ fn chains_of_four_bars_swing_through_their_change_points() {
     }
 }
 
-/// Largest difference between the sides over the largest number of the quantity (at least 1 in its unit), of the channels
-/// that `of` selects.
+/// Largest difference between the sides over the largest number of the quantity (at least 1 in its unit), of the
+/// channels that `of` selects.
 fn apart(found: &[Trajectory; 2], of: impl Fn(&Channel) -> bool) -> f64 {
     let largest = |unit: Unit| {
         let own = found[0].iter().filter(move |(channel, _)| channel.kind.unit == unit);
@@ -95,8 +95,8 @@ fn apart(found: &[Trajectory; 2], of: impl Fn(&Channel) -> bool) -> f64 {
     worst
 }
 
-/// One parallelogram by hand: the rod does not turn, so that its ends carry half of its weight and inertia each; the rest
-/// follows from the moments on a bar about its pivot.
+/// One parallelogram by hand: the rod does not turn, so that its ends carry half of its weight and inertia each; the
+/// rest follows from the moments on a bar about its pivot.
 #[test]
 fn the_reactions_of_one_four_bar_are_those_by_hand() {
     let case = shipped("n_four_bar_1.toml").case;
@@ -339,7 +339,8 @@ fn the_benchmark_agrees_with_rapier() {
 /// parallelogram whose own change points lie 4.8 deg from it: each has its window, and reactions have poles at both.
 #[test]
 fn higher_groups_pass_their_change_points() {
-    // The windows of two change points close together are ten times as narrow as usual: accelerations lose three digits.
+    // The windows of two change points close together are ten times as narrow as usual: accelerations lose three
+    // digits.
     let texts = [
         (include_str!("through/level_triad.toml"), 1e-8, 1e-5),
         (include_str!("through/behind_parallelogram.toml"), 1e-5, 1e-3),

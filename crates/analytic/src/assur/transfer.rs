@@ -100,8 +100,9 @@ impl<'a> TransferSide<'a> {
         Ok(())
     }
 
-    /// Refuses a step over a change point: there a clearance falls to zero and rises again, so that its slope at the end
-    /// leads back to less than nothing at the beginning. So does a step over a near miss, which smaller steps resolve.
+    /// Refuses a step over a change point: there a clearance falls to zero and rises again, so that its slope at the
+    /// end leads back to less than nothing at the beginning. So does a step over a near miss, which smaller steps
+    /// resolve.
     fn keep_clear(&mut self) -> std::result::Result<(), OutOfReach> {
         for ((step, target), at) in self.unit.iter_mut().zip(&self.target).zip(&self.at) {
             *step = target - at;

@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use linkage::math::{Motion, Vec2, cross};
 use linkage::mechanism::Pose;
 
-/// Largest turn of a driving link between two poses (rad). Over such a step no link turns so far that its turns could be
-/// miscounted.
+/// Largest turn of a driving link between two poses (rad). Over such a step no link turns so far that its turns could
+/// be miscounted.
 pub(super) const CLOSED_FORM_STEP: f64 = std::f64::consts::PI / 12.0;
 /// The same where Newton's method follows a group from pose to pose.
 pub(super) const FOLLOWED_STEP: f64 = std::f64::consts::PI / 90.0;
@@ -54,7 +54,8 @@ impl Turns {
     }
 }
 
-/// Angle of a direction (rad), from -pi to pi. Adding zero makes -0 a 0: on the axis -x it is +pi, as the count assumes.
+/// Angle of a direction (rad), from -pi to pi. Adding zero makes -0 a 0: on the axis -x it is +pi, as the count
+/// assumes.
 #[inline]
 fn principal(direction: Vec2) -> f64 {
     (direction.y + 0.0).atan2(direction.x)

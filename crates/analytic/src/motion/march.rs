@@ -20,11 +20,11 @@ pub(crate) type Method<const N: usize> = ExplicitRungeKutta<Ordinary, DormandPri
 /// Relative and absolute error allowed in each step, by the step's own estimate.
 /// The estimate is cautious: the run-up of `crank_rocker` is then exact to 2e-14 rad.
 pub const ACCURACY: f64 = 1e-11;
-/// Share of [`ACCURACY`] that the tighter runs allow, which show the error of the others. With still less, rounding takes
-/// over.
+/// Share of [`ACCURACY`] that the tighter runs allow, which show the error of the others. With still less, rounding
+/// takes over.
 pub(crate) const TIGHTER: f64 = 0.01;
-/// Share of the windows around change points that the tighter runs have. Other poses then carry the motion over a change
-/// point, and the difference shows that error too.
+/// Share of the windows around change points that the tighter runs have. Other poses then carry the motion over a
+/// change point, and the difference shows that error too.
 pub(crate) const NARROWER: f64 = 0.8;
 /// Largest number of consecutive pieces that take no time. With more, the motion does not get away from a kink.
 pub(crate) const MOST_EMPTY: usize = 8;

@@ -17,10 +17,12 @@ pub(super) const TRACKING_STEP: f64 = PI / 90.0;
 /// How often a failing step is halved. Near a dead point speeds grow without limit, and steps must shrink with what is
 /// left to it.
 pub(super) const HALVINGS: u32 = 40;
-/// Largest change of a link's velocity over a step beyond what its acceleration says, as a share of the largest velocity.
+/// Largest change of a link's velocity over a step beyond what its acceleration says, as a share of the largest
+/// velocity.
 /// Where two branches cross, the velocity jumps from one to the other however small the step is.
 const VELOCITY_JUMP: f64 = 0.1;
-/// Share of a block's determinant in the largest that columns of the same lengths can have, below which a pose is singular.
+/// Share of a block's determinant in the largest that columns of the same lengths can have, below which a pose is
+/// singular.
 /// A dyad's share is about a tenth of the sine of its transmission angle.
 /// Angles are known to about the rounding over this sine, so that below it the sine itself is mostly rounding.
 const SINGULAR: f64 = 1e-8;

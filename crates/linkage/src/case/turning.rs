@@ -1,8 +1,8 @@
 //! Which links can turn at all, from the joints and the start pose.
 //!
-//! Links that slide on each other keep their angle. In a parallelogram opposite links do too, and a chain of them passes it
-//! on. Whatever keeps the ground's angle only translates: its angular velocity is zero, and what a solver finds there is
-//! rounding. No load may take a sense of rotation from it.
+//! Links that slide on each other keep their angle. In a parallelogram opposite links do too, and a chain of them
+//! passes it on. Whatever keeps the ground's angle only translates: its angular velocity is zero, and what a solver
+//! finds there is rounding. No load may take a sense of rotation from it.
 
 use super::CaseParts;
 use crate::math::Vec2;
@@ -11,8 +11,8 @@ use crate::mechanism::{GROUND, Joint};
 /// Difference of two opposite sides of a parallelogram, as a share of the mechanism's size, that is rounding.
 const EQUAL: f64 = 1e-12;
 
-/// A link that connects two others by revolute joints: these two in ascending order, the world places of the joints, and
-/// the link itself.
+/// A link that connects two others by revolute joints: these two in ascending order, the world places of the joints,
+/// and the link itself.
 struct Bridge {
     ends: [usize; 2],
     places: [Vec2; 2],

@@ -35,7 +35,8 @@ impl Extrapolated {
 
 /// Weights of the runs at h, h / 2, ..., for an error of a sum of the powers `order`, `order` + 1, ... of the step: as
 /// many of them cancel as there are further runs.
-/// By Neville's scheme: T(k, j) = T(k + 1, j - 1) + (T(k + 1, j - 1) - T(k, j - 1)) / (2^p - 1), p the power that cancels.
+/// By Neville's scheme: T(k, j) = T(k + 1, j - 1) + (T(k + 1, j - 1) - T(k, j - 1)) / (2^p - 1), p the power that
+/// cancels.
 fn weights(order: f64, runs: usize) -> Vec<f64> {
     let mut rows: Vec<Vec<f64>> =
         (0..runs).map(|run| (0..runs).map(|k| f64::from(u8::from(k == run))).collect()).collect();

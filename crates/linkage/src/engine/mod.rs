@@ -42,8 +42,8 @@ pub trait Engine: Solver {
     /// Available routes to reactions and balancing moment, the cheapest first.
     fn routes(&self) -> &'static [Route];
 
-    /// Routes by which the engine itself says what it exerts on a case, the cheapest first. Empty for an engine whose usual
-    /// route is such a one.
+    /// Routes by which the engine itself says what it exerts on a case, the cheapest first. Empty for an engine whose
+    /// usual route is such a one.
     fn own_routes(&self, case: &Case) -> &'static [Route] {
         let _ = case;
         &[]
@@ -53,8 +53,8 @@ pub trait Engine: Solver {
     /// Both are 1 where the iteration has nothing to converge to.
     fn sweeps(&self, case: &Case) -> Option<[usize; 2]>;
 
-    /// Reactions and balancing moments of a motion by the engine's route, if they follow from the motion alone; `None` if
-    /// they come from the engine itself. An extrapolated motion then has the forces that belong to it.
+    /// Reactions and balancing moments of a motion by the engine's route, if they follow from the motion alone; `None`
+    /// if they come from the engine itself. An extrapolated motion then has the forces that belong to it.
     fn statics(&self, case: &Case) -> Option<Statics> {
         let _ = case;
         None

@@ -1,8 +1,10 @@
-//! Motion diagrams over one turn of the crank: displacement, velocity and acceleration, exact and by the graphical methods.
+//! Motion diagrams over one turn of the crank: displacement, velocity and acceleration, exact and by the graphical
+//! methods.
 //!
 //! Differentiation: chords of the displacement give the velocity at the midpoints of the divisions.
 //! Chords of that velocity give the acceleration at their ends.
-//! Integration: the exact velocity at the midpoints gives the displacement, and the exact acceleration there the velocity.
+//! Integration: the exact velocity at the midpoints gives the displacement, and the exact acceleration there the
+//! velocity.
 //! Each starts from its exact first value.
 
 use super::chord::{closed_slopes, integral, slopes};

@@ -144,8 +144,8 @@ impl Plan {
         Ok(())
     }
 
-    /// The same in those configurations of the dyads that lie nearest to the expected poses `like`, which become those of
-    /// the plan.
+    /// The same in those configurations of the dyads that lie nearest to the expected poses `like`, which become those
+    /// of the plan.
     ///
     /// # Errors
     /// Those of [`Plan::positions`]; [`Misfit::Singular`] where two configurations are about equally near.

@@ -12,13 +12,13 @@ use linkage::drive::Wrench;
 use linkage::math::{KeepNan, Motion, Vec2, angle, cross};
 use linkage::solver::State;
 
-/// Residue below which there is none, as a multiple of what leaving out the innermost nodes changes in it, and as a share
-/// of the largest reaction times its distance.
+/// Residue below which there is none, as a multiple of what leaving out the innermost nodes changes in it, and as a
+/// share of the largest reaction times its distance.
 const NOISE: f64 = 16.0;
 const LEAST: f64 = 1e-12;
 
-/// Distance from a change point (rad) within which reactions with a residue are not told. The place of the change point is
-/// known to some 1e-14 rad, and their relative error is that over the distance.
+/// Distance from a change point (rad) within which reactions with a residue are not told. The place of the change point
+/// is known to some 1e-14 rad, and their relative error is that over the distance.
 const NEAREST: f64 = 1e-7;
 
 /// Writes the loads on all links at their motions and angles (rad).
@@ -29,9 +29,10 @@ pub(in crate::assur) struct Unbounded;
 
 impl Window {
     /// Writes to `state`, whose motions and angles are known, the reactions and balancing moments with the driving link
-    /// at `place`, from its angular velocity and acceleration. `loads` finds the loads at motions and angles of the links.
-    /// In free motion `shaft` has the moment on the driving link and the moment of inertia that turns with it: the poses
-    /// around then have accelerations of their own at the same speed, so that a residue is that of the motion.
+    /// at `place`, from its angular velocity and acceleration. `loads` finds the loads at motions and angles of the
+    /// links.
+    /// In free motion `shaft` has the moment on the driving link and the moment of inertia that turns with it: the
+    /// poses around then have accelerations of their own at the same speed, so that a residue is that of the motion.
     pub(in crate::assur) fn reactions(
         &self,
         place: f64,

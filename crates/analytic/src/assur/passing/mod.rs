@@ -18,8 +18,8 @@ use window::Window;
 
 /// Largest estimated distance (rad) at which a change point is looked for: before a step can lead into its window.
 const LOOK: f64 = 1.0;
-/// A known change point up to this multiple of the estimated distance is the one that is meant, or comes before it: then
-/// what lies behind is looked for from there.
+/// A known change point up to this multiple of the estimated distance is the one that is meant, or comes before it:
+/// then what lies behind is looked for from there.
 const NEXT: f64 = 1.3;
 /// Distance (rad) up to which two change points are one, at which several groups are singular.
 const SAME: f64 = 1e-6;

@@ -1,10 +1,11 @@
 //! The surroundings of a change point, and polynomials through poses on both sides of it.
 //!
-//! Rounding of a pose at the distance x grows as 1 / x, that of the second transfer functions as 1 / x^3; the error of the
-//! polynomials grows with the distance of the nodes. Ten nodes on each side, at Chebyshev's places of x^2 between a tenth
-//! of the half width and all of it, are near the best of both: where the next singular pose (a complex one too) is r
-//! away, second transfer functions have errors of about 5e-13 for r = 2 rad, 1e-12 for 1 rad, 4e-12 for 0.6 rad and
-//! 3e-11 for 0.3 rad, with half widths from 0.5 to 0.15 rad. The half width is chosen by what leaving out nodes changes.
+//! Rounding of a pose at the distance x grows as 1 / x, that of the second transfer functions as 1 / x^3; the error of
+//! the polynomials grows with the distance of the nodes. Ten nodes on each side, at Chebyshev's places of x^2 between a
+//! tenth of the half width and all of it, are near the best of both: where the next singular pose (a complex one too)
+//! is r away, second transfer functions have errors of about 5e-13 for r = 2 rad, 1e-12 for 1 rad, 4e-12 for 0.6 rad
+//! and 3e-11 for 0.3 rad, with half widths from 0.5 to 0.15 rad. The half width is chosen by what leaving out nodes
+//! changes.
 
 use std::f64::consts::PI;
 
@@ -18,8 +19,8 @@ const SIDE: usize = 10;
 const CORE: f64 = 0.1;
 /// Half widths that are tried (rad).
 const WIDTHS: [f64; 11] = [0.5, 0.4, 0.3, 0.2, 0.15, 0.1, 0.07, 0.05, 0.03, 0.02, 0.012];
-/// Largest share of a half width at which the mechanism cannot be followed. Another singular pose is there, towards which
-/// reactions may grow without bound.
+/// Largest share of a half width at which the mechanism cannot be followed. Another singular pose is there, towards
+/// which reactions may grow without bound.
 const CLEAR: f64 = 0.5;
 /// Largest error of a second transfer function, as a share of the largest one, with which a change point is passed.
 const WORST: f64 = 1e-6;
@@ -151,8 +152,8 @@ impl Window {
         Ok(window)
     }
 
-    /// A group that has another change point between the innermost nodes, if there is one. Reactions have poles at both, and
-    /// only one is known here.
+    /// A group that has another change point between the innermost nodes, if there is one. Reactions have poles at
+    /// both, and only one is known here.
     fn other_inside(&mut self) -> Option<usize> {
         let near = |side: f64| {
             let own = self.nodes.iter().enumerate().filter(move |(_, node)| node.offset * side > 0.0);
@@ -244,8 +245,8 @@ impl Window {
         interpolate(&self.nodes, &weights(&self.offsets(), angle - self.at), motions);
     }
 
-    /// Velocities and accelerations of all links with the driving link at an angle, from its angular velocity (rad/s) and
-    /// acceleration (rad/s^2).
+    /// Velocities and accelerations of all links with the driving link at an angle, from its angular velocity (rad/s)
+    /// and acceleration (rad/s^2).
     /// Those of the driving link itself are exact.
     pub(in crate::assur) fn rates(&self, angle: f64, [omega, alpha]: [f64; 2], plan: &Plan, motions: &mut [Motion]) {
         let weights = weights(&self.offsets(), angle - self.at);

@@ -1,5 +1,5 @@
-//! Side 2 through change points: where the determinant of a block passes through zero although the mechanism goes on, it
-//! takes the branch on which velocities go on.
+//! Side 2 through change points: where the determinant of a block passes through zero although the mechanism goes on,
+//! it takes the branch on which velocities go on.
 //!
 //! The way is followed over the crank's angle, with the first and second derivatives of all coordinates by it.
 //! Around a change point (a [`Window`]) no system of equations is solved: the coordinates are an osculating polynomial
@@ -23,8 +23,8 @@ use window::Window;
 const LOOK: f64 = 0.8;
 /// Turn of the crank (rad) that shows the slope of the determinants at the start.
 const PROBE: f64 = 1e-4;
-/// A known change point up to this multiple of the estimated distance is the one that is meant, or comes before it: then
-/// what lies behind is looked for from there.
+/// A known change point up to this multiple of the estimated distance is the one that is meant, or comes before it:
+/// then what lies behind is looked for from there.
 const NEXT: f64 = 1.3;
 /// Distance (rad) up to which two change points are one, at which several groups are singular.
 const SAME: f64 = 1e-6;

@@ -1,7 +1,7 @@
 //! Multipliers beside a change point.
 //!
-//! The Jacobian is singular there, and multipliers generally grow with the inverse of the distance: that which does work
-//! along the other branch has nothing to hold it. Multiplier times distance is smooth in any case.
+//! The Jacobian is singular there, and multipliers generally grow with the inverse of the distance: that which does
+//! work along the other branch has nothing to hold it. Multiplier times distance is smooth in any case.
 
 use super::window::{Window, neville};
 use crate::newton::system::System;
@@ -10,21 +10,23 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::{KeepNan, Motion};
 use linkage::mechanism::EQUATIONS;
 
-/// Value at the change point of a multiplier times its distance that counts as zero: a multiple of the difference between
-/// all poses and those without the inner ones, and a share of the largest such product.
+/// Value at the change point of a multiplier times its distance that counts as zero: a multiple of the difference
+/// between all poses and those without the inner ones, and a share of the largest such product.
 const NOISE: f64 = 16.0;
 const LEAST: f64 = 1e-12;
 
-/// Distance from a change point (rad) within which such multipliers are not told: its place is known to about 1e-14 rad.
+/// Distance from a change point (rad) within which such multipliers are not told: its place is known to about 1e-14
+/// rad.
 const NEAREST: f64 = 1e-7;
 
 /// Writes the loads on all links at their motions and angles (rad).
 type Loads<'a> = &'a mut dyn FnMut(&[Motion], &[f64], &mut [Wrench]);
 
 impl Window {
-    /// Writes to the system the multipliers at the crank's angle `angle` (rad) for its angular velocity and acceleration.
-    /// `loads` finds the loads on all links. In free motion `shaft` has the moment on the crank and the moment of inertia
-    /// that turns with it: every pose then has the acceleration that belongs to it at this speed.
+    /// Writes to the system the multipliers at the crank's angle `angle` (rad) for its angular velocity and
+    /// acceleration.
+    /// `loads` finds the loads on all links. In free motion `shaft` has the moment on the crank and the moment of
+    /// inertia that turns with it: every pose then has the acceleration that belongs to it at this speed.
     pub(in crate::newton) fn multipliers(
         &self,
         system: &mut System,

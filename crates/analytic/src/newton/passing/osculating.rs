@@ -1,7 +1,8 @@
 //! Osculating polynomials: through values, first and second derivatives at several places (Hermite).
 //!
 //! p(x) = sum of l_i(x)^3 (c0 + c1 (x - x_i) + c2 (x - x_i)^2) with Lagrange's l_i and, from the derivatives of l_i^-3,
-//! c0 = f, c1 = f' - 3 s f, 2 c2 = f'' - 6 s f' + (9 s^2 + 3 t) f with s = sum of 1 / (x_i - x_j), t that of the squares.
+//! c0 = f, c1 = f' - 3 s f, 2 c2 = f'' - 6 s f' + (9 s^2 + 3 t) f with s = sum of 1 / (x_i - x_j), t that of the
+//! squares.
 
 /// Value, first and second derivative.
 type Jet = [f64; 3];

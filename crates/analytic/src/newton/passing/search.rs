@@ -18,8 +18,8 @@ const MOST_STEPS: usize = 200;
 /// Change at which Newton's method ends near a change point, where rounding is magnified.
 const COARSE: f64 = 1e-7;
 
-/// The angle (rad) at which the determinant of a block goes through zero, about `ahead` (rad) from a spot. Otherwise the
-/// angle up to which it does not.
+/// The angle (rad) at which the determinant of a block goes through zero, about `ahead` (rad) from a spot. Otherwise
+/// the angle up to which it does not.
 pub(super) fn change_point(system: &mut System, start: &Spot, block: usize, ahead: f64) -> Result<f64, f64> {
     let settled = std::mem::replace(&mut system.settled, COARSE);
     let found = approached(system, start, block, ahead);

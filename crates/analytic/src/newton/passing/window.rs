@@ -238,8 +238,8 @@ fn chosen(spots: &[Spot], at: f64) -> Vec<(f64, [&[f64]; 3])> {
     CHOSEN.iter().map(|&k| point(&spots[k], at)).collect()
 }
 
-/// The angle at which a block's determinant is zero, by inverse interpolation. `None` if it does not change its sign, or
-/// not steadily.
+/// The angle at which a block's determinant is zero, by inverse interpolation. `None` if it does not change its sign,
+/// or not steadily.
 fn crossing(spots: &[Spot], block: usize) -> Option<f64> {
     let shares: Vec<f64> = spots.iter().map(|spot| spot.shares[block]).collect();
     let inner = SIDE / 2..2 * SIDE - SIDE / 2;

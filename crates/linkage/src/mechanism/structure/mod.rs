@@ -95,8 +95,8 @@ impl Structure {
         Ok(())
     }
 
-    /// For every link, the groups that its motion depends on if all drives are prescribed: its own and those before it, as
-    /// indices in ascending order. None for the ground and for driving links.
+    /// For every link, the groups that its motion depends on if all drives are prescribed: its own and those before it,
+    /// as indices in ascending order. None for the ground and for driving links.
     #[must_use]
     pub fn upstream(&self, mechanism: &Mechanism) -> Vec<Vec<usize>> {
         let mut upstream: Vec<Vec<usize>> = vec![Vec::new(); mechanism.links().len()];

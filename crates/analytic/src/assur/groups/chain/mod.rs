@@ -253,7 +253,8 @@ impl Chain {
         followed
     }
 
-    /// Positions at these driving angles (rad) near the expected poses `like`, on whatever side of a singular pose they are.
+    /// Positions at these driving angles (rad) near the expected poses `like`, on whatever side of a singular pose they
+    /// are.
     /// Returns `false` if there are none so near.
     pub(super) fn positions_like(&mut self, like: &[Motion], angles: &[f64], motions: &mut [Motion]) -> bool {
         for node in &self.nodes {
