@@ -12,6 +12,7 @@ mod rpr;
 mod rrp;
 mod rrr;
 
+pub(in crate::assur) use chain::{Arrow, Contours, Hangs};
 pub use chain::{Chain, Closing, Node};
 pub use misfit::{Clearance, Misfit, SINGULAR};
 pub use prp::Prp;
@@ -67,6 +68,22 @@ impl Step {
                 true => Ok(()),
                 false => Err(Misfit::Lost),
             },
+        }
+    }
+
+    /// Whether the group has a [clearance](Plan::clearances).
+    pub(crate) fn has_clearance(&self) -> bool {
+        self.other().is_some()
+    }
+
+    /// Sine of the [clearance](Plan::clearances), which positions alone give.
+    #[inline]
+    pub(crate) fn sine(&self, motions: &[Motion]) -> Option<f64> {
+        match self {
+            Step::Rrr(dyad) => Some(dyad.sine()),
+            Step::Rrp(dyad) => Some(dyad.sine(motions)),
+            Step::Rpr(dyad) => Some(dyad.sine(motions)),
+            Step::Rpp(_) | Step::Prp(_) | Step::Chain(_) => None,
         }
     }
 
