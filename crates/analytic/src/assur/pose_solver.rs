@@ -30,6 +30,14 @@ pub struct PoseSolver<'a> {
     turns: Option<Turns>,
     /// Angles, angular velocities or accelerations of all driving links, as each stage needs them.
     pub(super) inputs: Vec<f64>,
+    /// Angular velocities and accelerations of all driving links, where all motions are found in one pass.
+    rates: [Vec<f64>; 2],
+    /// What the caller wants at the end of the way: all motions in one pass, for these rates of the crank. At a pose
+    /// they are known then.
+    in_one_pass: bool,
+    pub(super) omega: f64,
+    alpha: f64,
+    pub(super) has_motions: bool,
     pub(super) crank: f64,
     step: f64,
     pub(super) watch: Watch,
@@ -54,7 +62,12 @@ impl<'a> PoseSolver<'a> {
             statics,
             state,
             turns: None,
+            rates: [inputs.clone(), inputs.clone()],
             inputs,
+            in_one_pass: false,
+            omega: 0.0,
+            alpha: 0.0,
+            has_motions: false,
             crank: case.crank().start,
             step,
             watch,
@@ -87,17 +100,20 @@ impl<'a> PoseSolver<'a> {
     /// [`ErrorKind::Geometry`] if the crank angle cannot be reached on the branch, with the group and the angle at
     /// which it fails.
     pub fn solve(&mut self, crank: f64, omega: f64, alpha: f64, deepest: Stage) -> Result<&State> {
-        self.watch.shares = if deepest >= Stage::Velocities { omega } else { 0.0 };
+        // Only a normal number has an inverse.
+        self.in_one_pass = deepest >= Stage::Accelerations && omega.is_normal();
+        (self.omega, self.alpha) = (omega, alpha);
         self.go_to(crank)?;
         self.state.passing = None;
         if self.passing.as_ref().is_some_and(|passing| passing.inside().is_some()) {
             return self.solve_passing(omega, alpha, deepest);
         }
-        if deepest >= Stage::Velocities && !self.watch.has_shared() {
+        let has_motions = self.has_motions;
+        if deepest >= Stage::Velocities && !has_motions {
             self.drive(omega);
             self.plan.velocities(&self.inputs, &mut self.state.motions);
         }
-        if deepest >= Stage::Accelerations {
+        if deepest >= Stage::Accelerations && !has_motions {
             self.drive(alpha);
             self.plan.accelerations(&self.inputs, &mut self.state.motions);
         }
@@ -213,12 +229,7 @@ impl<'a> PoseSolver<'a> {
     /// Writes the crank's `rate` and those of further driving links, by their speed ratios, to the inputs.
     #[inline]
     pub(super) fn drive(&mut self, rate: f64) {
-        let (first, further) = self.inputs.split_first_mut().expect("there is a drive");
-        *first = rate;
-        if !further.is_empty() {
-            let ratios = self.case.drives.ratios(self.case.crank().time_of(self.crank));
-            further.iter_mut().zip(ratios.skip(1)).for_each(|(own, ratio)| *own = rate * ratio);
-        }
+        drive(self.case, self.crank, rate, &mut self.inputs);
     }
 
     /// One step, not divided.
@@ -240,7 +251,16 @@ impl<'a> PoseSolver<'a> {
                 | Misfit::Lost => reach,
             })?;
         } else {
-            self.plan.positions(&self.inputs, &mut self.state.motions)?;
+            self.has_motions = self.in_one_pass;
+            if self.in_one_pass {
+                for (rates, rate) in self.rates.iter_mut().zip([self.omega, self.alpha]) {
+                    drive(self.case, target, rate, rates);
+                }
+                let rates = [self.rates[0].as_slice(), &self.rates[1]];
+                self.plan.motions(&self.inputs, rates, &mut self.state.motions)?;
+            } else {
+                self.plan.positions(&self.inputs, &mut self.state.motions)?;
+            }
             if self.watch.is_needed() {
                 self.keep_clear(target)?;
             }
@@ -320,5 +340,16 @@ impl<'a> PoseSolver<'a> {
             .out_of_reach()
             .help(Advice::ShortenGrid)
             .or_help("check the lengths")
+    }
+}
+
+/// The rates of all driving links at a crank angle, by their speed ratios, for the crank's `rate`.
+#[inline]
+fn drive(case: &Case, crank: f64, rate: f64, rates: &mut [f64]) {
+    let (first, further) = rates.split_first_mut().expect("there is a drive");
+    *first = rate;
+    if !further.is_empty() {
+        let ratios = case.drives.ratios(case.crank().time_of(crank));
+        further.iter_mut().zip(ratios.skip(1)).for_each(|(own, ratio)| *own = rate * ratio);
     }
 }

@@ -12,34 +12,41 @@ const NARROW: f64 = 0.8;
 /// A clearance that is this many times the change over the rest of the way cannot fall to zero on it.
 const CLEAR: f64 = 4.0;
 
+/// The clearance of a group that has none.
+const NONE: Clearance = Clearance { sine: f64::NAN, rate: f64::NAN };
+
+/// What is seen of one group. Rates are per unit of the crank angle, NaN if they are not known.
+#[derive(Clone, Copy, Debug)]
+struct Seen {
+    last: Clearance,
+    now: Clearance,
+    /// Change of the clearance over the last step, per unit of the crank angle, without sign.
+    fall: f64,
+}
+
+impl Seen {
+    /// Whether the clearance may have fallen to zero and risen again, on a step of the crank in this sense.
+    #[inline]
+    fn may_pass(&self, sense: f64) -> bool {
+        // A rate that is not known might be any.
+        self.last.sine.smaller(self.now.sine) < NARROW
+            && !(self.last.rate * sense >= 0.0)
+            && self.now.rate * sense > 0.0
+    }
+}
+
 /// Clearances of all groups at the last two poses.
 #[derive(Debug)]
 pub(super) struct Watch {
-    /// Angular velocity of the crank for which the caller wants velocities, or 0. Those of the pose are then found once
-    /// for both.
-    pub(super) shares: f64,
-    has_shared: bool,
     is_needed: bool,
     motions: Vec<Motion>,
-    /// Clearances per unit of the crank's speed. A rate is NaN if it is not known.
-    last: Vec<Option<Clearance>>,
-    now: Vec<Option<Clearance>>,
-    /// Change of each clearance over the last step, per unit of the crank angle, without sign; NaN if it is not known.
-    falls: Vec<f64>,
+    groups: Vec<Seen>,
 }
 
 impl Watch {
     pub(super) fn of(plan: &Plan) -> Self {
-        let groups = plan.steps().len();
-        Watch {
-            shares: 0.0,
-            has_shared: false,
-            is_needed: plan.steps().iter().any(Step::has_clearance),
-            motions: Vec::new(),
-            last: Vec::with_capacity(groups),
-            now: Vec::with_capacity(groups),
-            falls: vec![f64::NAN; groups],
-        }
+        let groups = vec![Seen { last: NONE, now: NONE, fall: f64::NAN }; plan.steps().len()];
+        Watch { is_needed: plan.steps().iter().any(Step::has_clearance), motions: Vec::new(), groups }
     }
 
     /// Whether a group has a clearance at all.
@@ -48,92 +55,83 @@ impl Watch {
         self.is_needed
     }
 
-    /// Whether the state of the last pose has the velocities already that were [wanted](Watch::shares).
+    /// Reads the clearances from the velocities at this angular velocity of the crank. Returns whether a group may have
+    /// passed a change point.
     #[inline]
-    pub(super) fn has_shared(&self) -> bool {
-        self.has_shared
+    fn see(&mut self, plan: &Plan, motions: &[Motion], omega: f64, sense: f64) -> bool {
+        let per_unit = 1.0 / omega;
+        let mut may_pass = false;
+        for (group, seen) in plan.steps().iter().zip(&mut self.groups) {
+            if let Some(found) = group.clearance(motions) {
+                seen.now = Clearance { rate: found.rate * per_unit, ..found };
+                may_pass |= seen.may_pass(sense);
+            }
+        }
+        may_pass
     }
 
     /// Whether the positions alone tell that no group passes a change point on this step of the crank.
     /// On the way through one, both sines together are what the angle between the two links turns by. They must be many
     /// times that of the last step, and of the crank itself.
     fn is_far(&mut self, step: f64, plan: &Plan, motions: &[Motion]) -> bool {
-        self.now.clear();
         let mut is_far = true;
-        let before = self.last.iter().chain(std::iter::repeat(&None)).zip(&mut self.falls);
-        for (group, (before, fall)) in plan.steps().iter().zip(before) {
-            let sine = group.sine(motions);
-            if let Some(sine) = sine {
-                let last = before.map_or(f64::NAN, |before| before.sine);
-                let both = last + sine;
-                is_far &= both > CLEAR * step && both > CLEAR * *fall * step;
-                *fall = (sine - last).abs() / step;
+        for (group, seen) in plan.steps().iter().zip(&mut self.groups) {
+            if let Some(sine) = group.sine(motions) {
+                let both = seen.last.sine + sine;
+                is_far &= both > CLEAR * step && both > CLEAR * seen.fall * step;
+                seen.fall = (sine - seen.last.sine).abs() / step;
+                seen.now = Clearance { sine, rate: f64::NAN };
             }
-            self.now.push(sine.map(|sine| Clearance { sine, rate: f64::NAN }));
         }
         is_far
     }
 }
 
 impl PoseSolver<'_> {
-    /// Finds the clearances of a crank angle whose positions are known.
-    #[inline]
-    fn find_clearances(&mut self, crank: f64) {
-        let shares = self.watch.shares;
-        // The inverse of a smaller rate may be infinite.
-        self.watch.has_shared = shares.is_normal();
-        let rate = if self.watch.has_shared { shares } else { 1.0 };
+    /// Finds the clearances of a crank angle whose positions are known. Returns whether a group may have passed a change
+    /// point.
+    fn find_clearances(&mut self, crank: f64, sense: f64) -> bool {
         let from = std::mem::replace(&mut self.crank, crank);
-        self.drive(rate);
+        self.drive(1.0);
         self.crank = from;
-        let Watch { motions, now, .. } = &mut self.watch;
-        let motions = if shares.is_normal() {
-            &mut self.state.motions
-        } else {
-            motions.clone_from(&self.state.motions);
-            motions
-        };
+        let motions = &mut self.watch.motions;
+        motions.clone_from(&self.state.motions);
         self.plan.velocities(&self.inputs, motions);
-        let per_unit = 1.0 / rate;
-        now.clear();
-        let found = self.plan.clearances(motions);
-        now.extend(found.map(|found| found.map(|found| Clearance { rate: found.rate * per_unit, ..found })));
+        let motions = std::mem::take(&mut self.watch.motions);
+        let may_pass = self.watch.see(&self.plan, &motions, 1.0, sense);
+        self.watch.motions = motions;
+        may_pass
     }
 
     /// Refuses a step that passes over a change point: there a clearance falls to zero and rises again.
     #[inline]
     pub(super) fn keep_clear(&mut self, target: f64) -> Result<(), OutOfReach> {
-        self.watch.has_shared = false;
-        let step = (target - self.crank).abs();
-        if self.watch.shares == 0.0 {
-            if !self.watch.is_far(step, &self.plan, &self.state.motions) {
-                self.keep_clear_by_rates(target)?;
-            }
+        let step = target - self.crank;
+        let may_pass = if self.has_motions {
+            self.watch.see(&self.plan, &self.state.motions, self.omega, step)
         } else {
-            self.watch.falls.fill(f64::NAN);
-            self.keep_clear_by_rates(target)?;
+            !self.watch.is_far(step.abs(), &self.plan, &self.state.motions) && self.find_clearances(target, step)
+        };
+        if may_pass {
+            self.keep_clear_closely(target)?;
         }
-        let Watch { last, now, .. } = &mut self.watch;
-        std::mem::swap(last, now);
+        self.watch.groups.iter_mut().for_each(|seen| seen.last = seen.now);
         Ok(())
     }
 
-    #[inline]
-    fn keep_clear_by_rates(&mut self, target: f64) -> Result<(), OutOfReach> {
-        self.find_clearances(target);
+    /// The same for groups that may have passed one.
+    #[cold]
+    fn keep_clear_closely(&mut self, target: f64) -> Result<(), OutOfReach> {
         let sense = target - self.crank;
-        for group in 0..self.watch.last.len() {
-            // A rate that is not known might be any.
-            if let (Some(before), Some(after)) = (self.watch.last[group], self.watch.now[group])
-                && before.sine.smaller(after.sine) < NARROW
-                && !(before.rate * sense >= 0.0)
-                && after.rate * sense > 0.0
-            {
-                self.search(group, target, [before, after])?;
+        self.has_motions = false;
+        for group in 0..self.watch.groups.len() {
+            let seen = self.watch.groups[group];
+            if seen.may_pass(sense) {
+                self.search(group, target, [seen.last, seen.now])?;
                 // The search has left another pose and its clearances.
                 self.turn(target);
                 self.plan.positions(&self.inputs, &mut self.state.motions)?;
-                self.find_clearances(target);
+                self.find_clearances(target, sense);
             }
         }
         Ok(())
@@ -148,8 +146,8 @@ impl PoseSolver<'_> {
         if before.rate.is_nan() {
             self.turn(low);
             self.plan.positions(&self.inputs, &mut self.state.motions)?;
-            self.find_clearances(low);
-            before = self.watch.now[group].unwrap_or(before);
+            self.find_clearances(low, sense);
+            before = self.watch.groups[group].now;
             if before.rate * sense >= 0.0 {
                 return Ok(());
             }
@@ -166,8 +164,8 @@ impl PoseSolver<'_> {
                 Err(OutOfReach { why: Misfit::Lost, .. }) => return Ok(()),
                 Err(_) => return Err(OutOfReach { group, why: Misfit::Passed { crank: middle } }),
             }
-            self.find_clearances(middle);
-            let Some(now) = self.watch.now[group] else { return Ok(()) };
+            self.find_clearances(middle, sense);
+            let now = self.watch.groups[group].now;
             if now.sine < 10.0 * SINGULAR {
                 return Err(OutOfReach { group, why: Misfit::Passed { crank: middle } });
             }

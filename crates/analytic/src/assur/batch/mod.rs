@@ -1,12 +1,14 @@
 //! Many poses of one case in one call.
 //!
-//! A case of driving links and RRR dyads, loaded by moments of resistance only, is solved for several crank angles
-//! at once,
-//! as many as fit into the machine's registers. Such poses do not depend on each other.
+//! A case of driving links, RRR dyads and higher groups on pins, loaded by moments of resistance only, is solved for
+//! several crank angles at once, as many as fit into the machine's registers. Such poses do not depend on each other.
 //! Any other case is solved pose by pose.
 
-mod dyads;
+mod anchors;
+mod chains;
+mod elimination;
 mod equations;
+mod groups;
 mod lanes;
 mod poses;
 
@@ -15,8 +17,8 @@ use std::f64::consts::PI;
 use pulp::{Arch, Simd, WithSimd};
 use wide::f64x8;
 
-use self::dyads::Dyads;
-use self::equations::OF_DYAD;
+use self::anchors::Anchors;
+use self::groups::Groups;
 use self::lanes::{Eight, TILE, Window};
 pub use self::poses::Poses;
 use self::poses::{ALPHA, DIRECTION, Layout, OMEGA};
@@ -38,10 +40,11 @@ const FAR: f64 = 1e7;
 pub struct Batch<'a> {
     case: &'a Case,
     layout: Layout,
-    dyads: Option<Dyads>,
+    groups: Option<Groups>,
+    anchors: Option<Anchors<'a>>,
     work: Vec<Eight>,
     arch: Arch,
-    /// Solves poses that the dyads cannot solve, and makes the error message.
+    /// Solves poses that are not solved many at once, and makes the error message.
     poses: PoseSolver<'a>,
     /// Last crank angle reached (rad).
     crank: f64,
@@ -54,13 +57,18 @@ impl<'a> Batch<'a> {
     /// Those of [`PoseSolver::new`].
     pub fn of(case: &'a Case) -> Result<Self> {
         let poses = PoseSolver::new(case)?;
-        // Lanes keep the signs of the dyads, which change at a change point.
-        let dyads = if case.crank().through { None } else { Dyads::of(case, Layout::of(case, false)) };
+        // Lanes keep the signs of the groups, which change at a change point.
+        let groups = match case.crank().through {
+            true => None,
+            false => Groups::of(case, &poses.plan, Layout::of(case, false)),
+        };
+        let anchors = groups.as_ref().map(|groups| Anchors::of(case, groups)).transpose()?.flatten();
         Ok(Batch {
             case,
-            layout: Layout::of(case, dyads.is_none()),
-            dyads,
-            work: vec![Eight([0.0; TILE]); OF_DYAD * case.structure.groups.len()],
+            layout: Layout::of(case, groups.is_none()),
+            work: vec![Eight([0.0; TILE]); groups.as_ref().map_or(0, |groups| groups.columns)],
+            groups,
+            anchors,
             arch: Arch::new(),
             poses,
             crank: case.crank().start,
@@ -68,11 +76,11 @@ impl<'a> Batch<'a> {
     }
 
     /// Whether many poses are solved at once.
-    /// If not, the case has groups other than RRR dyads, or loads other than moments of resistance, and is solved
-    /// pose by pose.
+    /// If not, the case has groups other than RRR dyads and groups of four or six links on pins, or loads other than
+    /// moments of resistance, and is solved pose by pose.
     #[must_use]
     pub fn is_vectorised(&self) -> bool {
-        self.dyads.is_some()
+        self.groups.is_some()
     }
 
     /// The poses at the crank angles `cranks` (rad, as the scenario states them) for one angular velocity `omega`
@@ -80,7 +88,8 @@ impl<'a> Batch<'a> {
     /// To rounding, they are those of [`PoseSolver::solve`] at one crank angle after the other.
     /// It starts from the last crank angle reached, at first from the start pose.
     /// Where poses are [vectorised](Batch::is_vectorised), a crank angle gives the same bits at every place in the
-    /// list.
+    /// list. Higher groups are followed from the start pose in steps of two degrees; beside a dead point, and more than
+    /// 50 000 steps away, their poses are solved one by one.
     /// Rows more than 15 degrees apart take intermediate poses from one to the next.
     ///
     /// # Errors
@@ -88,13 +97,15 @@ impl<'a> Batch<'a> {
     /// `out`.
     pub fn solve(&mut self, cranks: &[f64], omega: f64, alpha: f64, deepest: Stage, out: &mut Poses) -> Result<()> {
         out.prepare(self.layout, cranks.len());
-        if let Some(dyads) = &self.dyads {
+        if let Some(groups) = &self.groups {
             let asked = Asked { cranks, omega, alpha, deepest };
-            self.arch.dispatch(Tiles { case: self.case, dyads, asked, work: &mut self.work, out });
+            let anchors = &mut self.anchors;
+            self.arch.dispatch(Tiles { case: self.case, groups, anchors, asked, work: &mut self.work, out });
         }
         for (row, &crank) in cranks.iter().enumerate() {
             let is_placed = self.is_vectorised() && out.is_placed(row);
-            if !(is_placed && (crank - self.crank).abs() <= STEP) {
+            // Anchors have taken the intermediate poses.
+            if !(is_placed && (self.anchors.is_some() || (crank - self.crank).abs() <= STEP)) {
                 let deepest = if is_placed { Stage::Positions } else { deepest };
                 match self.walk(crank, omega, alpha, deepest) {
                     Ok(_) if is_placed => {}
@@ -129,21 +140,19 @@ struct Asked<'a> {
 }
 
 /// All tiles of a batch. They are solved with the widest instructions of the machine.
-struct Tiles<'a> {
+struct Tiles<'a, 'c> {
     case: &'a Case,
-    dyads: &'a Dyads,
+    groups: &'a Groups,
+    anchors: &'a mut Option<Anchors<'c>>,
     asked: Asked<'a>,
     work: &'a mut [Eight],
     out: &'a mut Poses,
 }
 
 /// Input of the drives in one tile: directions, angular velocities and accelerations of the driving links.
-/// Unused rows repeat the last crank angle.
 #[inline(always)]
-fn drive(case: &Case, dyads: &Dyads, asked: Asked, cranks: &[f64], tile: &mut [Eight]) {
-    let mut own = [cranks[cranks.len() - 1]; TILE];
-    own[..cranks.len()].copy_from_slice(cranks);
-    for (index, (drive, driver)) in case.drives.iter().zip(&dyads.drivers).enumerate() {
+fn drive(case: &Case, groups: &Groups, asked: Asked, own: [f64; TILE], tile: &mut [Eight]) {
+    for (index, (drive, driver)) in case.drives.iter().zip(&groups.drivers).enumerate() {
         let (mut angles, mut ratios) = (own.map(|crank| case.crank().world_angle(crank)), [1.0; TILE]);
         if index > 0 {
             for (row, crank) in own.into_iter().enumerate() {
@@ -172,20 +181,26 @@ fn units(angles: [f64; TILE]) -> [Eight; 2] {
     [Eight(cos), Eight(sin)]
 }
 
-impl WithSimd for Tiles<'_> {
+impl WithSimd for Tiles<'_, '_> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let Tiles { case, dyads, asked, work, out } = self;
+        let Tiles { case, groups, anchors, asked, work, out } = self;
         for (cranks, tile) in asked.cranks.chunks(TILE).zip(out.tiles()) {
-            drive(case, dyads, asked, cranks, tile);
+            // Unused rows repeat the last crank angle.
+            let mut own = [cranks[cranks.len() - 1]; TILE];
+            own[..cranks.len()].copy_from_slice(cranks);
+            drive(case, groups, asked, own, tile);
+            if let Some(anchors) = anchors {
+                anchors.fill(&own, groups, work);
+            }
             for part in 0..Window::<S>::PARTS {
                 let mut tile = Window { simd, columns: &mut *tile, part };
                 let mut work = Window { simd, columns: &mut *work, part };
-                dyads.move_links(asked.deepest, &mut tile, &mut work);
+                groups.move_links(asked.deepest, &mut tile, &mut work);
                 if asked.deepest >= Stage::Reactions {
-                    dyads.load_joints(&mut tile, &work);
+                    groups.load_joints(&mut tile, &mut work);
                 }
             }
         }
