@@ -48,6 +48,8 @@ pub struct Batch<'a> {
     poses: PoseSolver<'a>,
     /// Last crank angle reached (rad).
     crank: f64,
+    /// Number of poses that have been solved singly.
+    singly: usize,
 }
 
 impl<'a> Batch<'a> {
@@ -72,6 +74,7 @@ impl<'a> Batch<'a> {
             arch: Arch::new(),
             poses,
             crank: case.crank().start,
+            singly: 0,
         })
     }
 
@@ -81,6 +84,12 @@ impl<'a> Batch<'a> {
     #[must_use]
     pub fn is_vectorised(&self) -> bool {
         self.groups.is_some()
+    }
+
+    /// How many poses have been solved one by one so far, because none could be solved many at once there.
+    #[must_use]
+    pub fn solved_singly(&self) -> usize {
+        self.singly
     }
 
     /// The poses at the crank angles `cranks` (rad, as the scenario states them) for one angular velocity `omega`
@@ -109,7 +118,10 @@ impl<'a> Batch<'a> {
                 let deepest = if is_placed { Stage::Positions } else { deepest };
                 match self.walk(crank, omega, alpha, deepest) {
                     Ok(_) if is_placed => {}
-                    Ok(state) => out.put(row, state),
+                    Ok(state) => {
+                        out.put(row, state);
+                        self.singly += 1;
+                    }
                     Err(error) => {
                         out.truncate(row);
                         return Err(error);
@@ -210,9 +222,9 @@ impl WithSimd for Tiles<'_, '_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use linkage::fixtures::{four_bar, turning};
+    use linkage::fixtures::{class_four, four_bar, turning, turning_from};
     use linkage::math::{KeepNan, Vec2};
-    use linkage::mechanism::Mechanism;
+    use linkage::mechanism::{Mechanism, StartGroup};
 
     /// All register widths of this machine.
     fn widths() -> Vec<Arch> {
@@ -241,22 +253,33 @@ mod tests {
         assert!(cos.0[1].is_nan() && cos.0[3].is_nan());
     }
 
-    #[test]
-    fn the_width_of_registers_does_not_show() {
-        let plain = four_bar();
-        let mut links = plain.links().to_vec();
-        for (link, mass) in links.iter_mut().zip([0.0, 1.2, 0.7, 2.3]) {
+    fn with_masses(mechanism: &Mechanism) -> Mechanism {
+        let mut links = mechanism.links().to_vec();
+        for (link, mass) in links.iter_mut().zip([0.0, 1.2, 0.7, 2.3, 0.9, 1.7]) {
             (link.mass, link.mass_centre, link.inertia) = (mass, Vec2::new(0.4, 0.1), 0.3 * mass);
         }
-        let case = turning(Mechanism::new(links, plain.joints().to_vec()).unwrap());
-        let case = case.with(|parts| parts.gravity = Vec2::new(0.0, -9.81)).unwrap();
-        let cranks: Vec<f64> = (0..500).map(|k| -0.0123 * f64::from(k)).collect();
-        let solve = |arch: Arch| {
-            let (mut batch, mut poses) = (Batch { arch, ..Batch::of(&case).unwrap() }, Poses::new());
-            batch.solve(&cranks, -97.2, 3.0, Stage::BalancingMoment, &mut poses).unwrap();
-            poses.tiles().flatten().flat_map(|column| column.0.map(f64::to_bits)).collect::<Vec<_>>()
-        };
-        let found: Vec<_> = widths().into_iter().map(solve).collect();
-        assert!(found.iter().all(|bits| *bits == found[0]));
+        Mechanism::new(links, mechanism.joints().to_vec()).unwrap()
+    }
+
+    /// The class IV group of reference 7.
+    fn quadrilateral() -> Case {
+        let first = StartGroup { rank: Some(1), ..StartGroup::default() };
+        turning_from(with_masses(&class_four(1.0, -1.0)), 70f64.to_radians(), &first)
+    }
+
+    #[test]
+    fn the_width_of_registers_does_not_show() {
+        for case in [turning(with_masses(&four_bar())), quadrilateral()] {
+            let case = case.with(|parts| parts.gravity = Vec2::new(0.0, -9.81)).unwrap();
+            let cranks: Vec<f64> = (0..500).map(|k| case.crank().start - 0.0123 * f64::from(k)).collect();
+            let solve = |arch: Arch| {
+                let (mut batch, mut poses) = (Batch { arch, ..Batch::of(&case).unwrap() }, Poses::new());
+                batch.solve(&cranks, -97.2, 3.0, Stage::BalancingMoment, &mut poses).unwrap();
+                assert_eq!(batch.solved_singly(), 0);
+                poses.tiles().flatten().flat_map(|column| column.0.map(f64::to_bits)).collect::<Vec<_>>()
+            };
+            let found: Vec<_> = widths().into_iter().map(solve).collect();
+            assert!(found.iter().all(|bits| *bits == found[0]));
+        }
     }
 }
