@@ -9,6 +9,7 @@ mod fixed;
 pub struct Lu {
     n: usize,
     a: Vec<f64>,
+    /// The row with which each was exchanged; for orders known in advance, the row that has come to each place.
     pivot: Vec<usize>,
     /// Inverses of the factored matrix's diagonal.
     inverse: Vec<f64>,

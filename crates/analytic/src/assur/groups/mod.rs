@@ -207,9 +207,16 @@ impl Plan {
         [omegas, alphas]: [&[f64]; 2],
         motions: &mut [Motion],
     ) -> std::result::Result<(), OutOfReach> {
-        self.turn_drivers(angles, motions);
-        self.drive_velocities(omegas, motions);
-        self.drive_accelerations(alphas, motions);
+        for (((driver, &angle), &omega), &alpha) in self.drivers.iter().zip(angles).zip(omegas).zip(alphas) {
+            let place = match driver.base {
+                GROUND => [driver.place, Vec2::zeros(), Vec2::zeros()],
+                base => {
+                    let (base, arm) = (&motions[base], motions[base].arm(driver.place));
+                    [base.origin + arm, base.velocity_beyond(arm), base.acceleration_beyond(arm)]
+                }
+            };
+            motions[driver.link] = Motion::of_point(driver.pivot, place, unit(angle), omega, alpha);
+        }
         for (group, step) in self.steps.iter_mut().enumerate() {
             // Most groups are of this kind. What it keeps from stage to stage then stays in registers.
             if let Step::Rrr(dyad) = step {

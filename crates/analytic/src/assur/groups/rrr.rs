@@ -35,8 +35,9 @@ pub struct Rrr {
     bases: [Vec2; 2],
     /// World vectors from the origins of the dyad's own links to the outer joints (m).
     outers: [Vec2; 2],
-    /// World vectors from the outer joints to the inner one, r1 and r2 (m).
+    /// World vectors from the outer joints to the inner one, r1 and r2 (m), and the place of the inner one (m).
     spans: [Vec2; 2],
+    inner: Vec2,
     /// 1 / D (1/m^2).
     inverse: f64,
 }
@@ -62,6 +63,7 @@ impl Rrr {
             bases: [Vec2::zeros(); 2],
             outers: [Vec2::zeros(); 2],
             spans: [Vec2::zeros(); 2],
+            inner: Vec2::zeros(),
             inverse: f64::NAN,
         }
     }
@@ -72,6 +74,12 @@ impl Rrr {
     #[must_use]
     pub fn spans(&self) -> ([Vec2; 2], f64) {
         (self.spans, self.inverse)
+    }
+
+    /// World place of the inner joint (m). Positions must be known.
+    #[inline]
+    pub(in crate::assur) fn inner(&self) -> Vec2 {
+        self.inner
     }
 
     #[inline]
@@ -93,6 +101,7 @@ impl Rrr {
         }
         let r1 = d * along + turned(d) * (self.side * across_squared.sqrt());
         self.spans = [r1, r1 - d];
+        self.inner = p1 + r1;
         for (k, (pivot, r)) in [p1, p2].into_iter().zip(self.spans).enumerate() {
             let Arm { link, outer, inverse_span, .. } = self.arms[k];
             let motion = &mut motions[link];

@@ -22,7 +22,7 @@ pub(in crate::assur) use contour::{Arrow, Contours, Hangs};
 use self::predict::Memory;
 use linkage::math::dense::Lu;
 use linkage::math::{KeepNan, Motion, Vec2, rotated, turned};
-use linkage::mechanism::{Group, Mechanism};
+use linkage::mechanism::{GROUND, Group, Mechanism, Side};
 
 /// Newton's method from the last pose needs a few iterations. If it needs more, it has lost the branch.
 const MAX_ITERATIONS: usize = 10;
@@ -111,9 +111,11 @@ impl Chain {
         let n = contours.nodes.len();
         let none = Vec2::zeros();
         let at = At { arm: none, place: none, velocity: none, acceleration: none };
+        // Joints on the ground stay where they are.
+        let root = |side: &Side| At { arm: side.local, place: side.local, ..at };
         let world = World {
             arrows: vec![none; contours.arrows.len()],
-            roots: vec![at; contours.roots.len()],
+            roots: contours.roots.iter().map(root).collect(),
             joints: vec![at; n],
         };
         Chain {
@@ -257,7 +259,8 @@ impl Chain {
 
     /// Places of the joints on links outside the group.
     fn find_roots(&mut self, motions: &[Motion]) {
-        for (root, side) in self.world.roots.iter_mut().zip(&self.contours.roots) {
+        let moving = |(_, side): &(&mut At, &Side)| side.link != GROUND;
+        for (root, side) in self.world.roots.iter_mut().zip(&self.contours.roots).filter(moving) {
             let motion = &motions[side.link];
             root.arm = motion.arm(side.local);
             root.place = motion.origin + root.arm;
@@ -339,8 +342,13 @@ impl Chain {
                     if !self.jacobian.factor() {
                         return false;
                     }
-                } else {
+                } else if self.is_sliding {
                     self.draw(motions);
+                } else {
+                    // The arrows turn as little as their links.
+                    for (vector, arrow) in self.world.arrows.iter_mut().zip(&self.contours.arrows) {
+                        *vector -= turned(*vector) * self.unknown[arrow.node];
+                    }
                 }
                 return self.hang(motions);
             }
