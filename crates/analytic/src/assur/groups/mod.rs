@@ -208,14 +208,17 @@ impl Plan {
         motions: &mut [Motion],
     ) -> std::result::Result<(), OutOfReach> {
         for (((driver, &angle), &omega), &alpha) in self.drivers.iter().zip(angles).zip(omegas).zip(alphas) {
-            let place = match driver.base {
-                GROUND => [driver.place, Vec2::zeros(), Vec2::zeros()],
-                base => {
-                    let (base, arm) = (&motions[base], motions[base].arm(driver.place));
-                    [base.origin + arm, base.velocity_beyond(arm), base.acceleration_beyond(arm)]
-                }
-            };
-            motions[driver.link] = Motion::of_point(driver.pivot, place, unit(angle), omega, alpha);
+            let direction = unit(angle);
+            let arm = rotated(direction, driver.pivot);
+            let mut place = [driver.place, Vec2::zeros(), Vec2::zeros()];
+            if driver.base != GROUND {
+                let (base, arm) = (&motions[driver.base], motions[driver.base].arm(driver.place));
+                place = [base.origin + arm, base.velocity_beyond(arm), base.acceleration_beyond(arm)];
+            }
+            let motion = &mut motions[driver.link];
+            (motion.direction, motion.origin) = (direction, place[0] - arm);
+            (motion.omega, motion.velocity) = (omega, place[1] - turned(arm) * omega);
+            (motion.alpha, motion.acceleration) = (alpha, place[2] + arm * (omega * omega) - turned(arm) * alpha);
         }
         for (group, step) in self.steps.iter_mut().enumerate() {
             // Most groups are of this kind. What it keeps from stage to stage then stays in registers.

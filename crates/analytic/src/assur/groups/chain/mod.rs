@@ -21,7 +21,7 @@ pub(in crate::assur) use contour::{Arrow, Contours, Hangs};
 
 use self::predict::Memory;
 use linkage::math::dense::Lu;
-use linkage::math::{KeepNan, Motion, Vec2, rotated, turned};
+use linkage::math::{Motion, Vec2, rotated, turned};
 use linkage::mechanism::{GROUND, Group, Mechanism, Side};
 
 /// Newton's method from the last pose needs a few iterations. If it needs more, it has lost the branch.
@@ -206,7 +206,7 @@ impl Chain {
         } else {
             MAX_TURN
         };
-        let followed = self.follow(allowed, motions) && self.memory.largest_change() <= MAX_TURN;
+        let followed = self.follow(allowed, motions) && self.memory.is_within(MAX_TURN);
         if followed {
             self.memory.remember(&self.step);
             self.at.iter_mut().zip(angles).for_each(|(at, angle)| *at = *angle);
@@ -320,13 +320,14 @@ impl Chain {
                 return false;
             }
             self.jacobian.solve(&mut self.unknown);
-            let change = self.unknown.iter().fold(0.0f64, |max, turn| max.larger(turn.abs()));
-            if !(change <= allowed) {
+            // NaN is not within any bound.
+            let within = |unknown: &[f64], bound: f64| unknown.iter().all(|change| change.abs() <= bound);
+            if !within(&self.unknown, allowed) {
                 return false;
             }
             self.memory.correct(&self.unknown);
             // Quadratic convergence: the remaining error is of the order of the square.
-            let is_last = change < LAST_CHANGE;
+            let is_last = within(&self.unknown, LAST_CHANGE);
             for (index, (node, &change)) in self.contours.nodes.iter().zip(&self.unknown).enumerate() {
                 if is_last && !node.is_guided() {
                     // The square of this turn is less than rounding.
@@ -337,7 +338,7 @@ impl Chain {
                 }
             }
             if is_last {
-                if change > SAME_POSE {
+                if !within(&self.unknown, SAME_POSE) {
                     self.assemble(motions);
                     if !self.jacobian.factor() {
                         return false;
