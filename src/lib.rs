@@ -47,12 +47,15 @@
 #[doc(hidden)]
 pub mod cli;
 #[doc(hidden)]
+pub mod bench;
+#[doc(hidden)]
 pub mod compare;
 #[doc(hidden)]
 pub mod diagnosis;
 #[doc(hidden)]
 pub mod engines;
 mod files;
+mod outside;
 #[doc(hidden)]
 pub mod proof;
 #[doc(hidden)]

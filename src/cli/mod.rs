@@ -2,6 +2,7 @@
 
 mod advice;
 mod bearings;
+mod bench;
 mod diagram;
 mod drive;
 mod engine_args;
@@ -53,6 +54,8 @@ enum Command {
     Solve(solve::Args),
     /// Find the cheapest settings of an engine that meet a wanted error, by measurement
     Tune(tune::Args),
+    /// Measure run time against error of every solver, engine and setting, and of other programs: diagrams and numbers
+    Bench(bench::Args),
     /// Show the structure of a mechanism: links, joints, mobility, driving link and Assur groups; its configurations;
     /// its range of motion
     Inspect(inspect::Args),
@@ -81,6 +84,7 @@ pub fn main() -> ExitCode {
         Command::Run(args) => run::run(&args),
         Command::Solve(args) => output::exit(solve::solve(&args)),
         Command::Tune(args) => output::exit(tune::run(&args)),
+        Command::Bench(args) => output::exit(bench::run(&args)),
         Command::Inspect(args) => output::exit(inspect::inspect(&args)),
         Command::Bearings(args) => output::exit(bearings::bearings(&args)),
         Command::Drive(args) => output::exit(drive::drive(&args)),

@@ -29,10 +29,10 @@ mod write;
 
 pub use model::Model;
 
-use linkage::case::{Case, Grid, Wanted};
+use super::start::first_state;
+use linkage::case::Case;
 use linkage::error::Result;
-use linkage::solver::{Solver, State};
-use linkage::trajectory::Stage;
+use linkage::solver::Solver;
 
 /// The case as MJCF, with the model name `name` and the time step `step` (s).
 /// The pose is that of the case at t = 0, and `solver` finds its speeds.
@@ -44,17 +44,4 @@ use linkage::trajectory::Stage;
 pub fn mjcf(case: &Case, solver: &dyn Solver, name: &str, step: f64) -> Result<String> {
     let start = first_state(case, solver)?;
     Ok(write::document(&Model::new(case, &start, name, step)?))
-}
-
-/// The state at t = 0, with velocities.
-fn first_state(case: &Case, solver: &dyn Solver) -> Result<State> {
-    let wanted = Wanted::of(&[Stage::Positions, Stage::Velocities]);
-    let case = case.on(Grid::of_times(case.crank(), vec![0.0]))?.wanting(wanted);
-    let mut found = State::at_rest(&case);
-    let mut keep = |_, state: &State| {
-        found.clone_from(state);
-        Ok(())
-    };
-    solver.each(&case, &mut keep)?;
-    Ok(found)
 }
