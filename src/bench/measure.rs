@@ -14,9 +14,9 @@ use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Stage, Trajectory};
 use linkage::work::{Count, Work, counted};
 
-/// Runs shorter than this (s) are repeated in a round, so often and so long.
-const SHORT: f64 = 2e-3;
-const MOST: usize = 20;
+/// A run shorter than this (s) is timed together with its repetitions, at most so many.
+const SHORT: f64 = 5e-3;
+const MOST: f64 = 1000.0;
 /// Runs longer than this (s) are timed twice at most, and peers too: they measure themselves.
 const LONG: f64 = 0.2;
 /// Rounds of what is long.
@@ -103,23 +103,22 @@ impl Desk<'_> {
         }
     }
 
-    /// Shortest time of a solver in this round, its solution and its work.
+    /// Time of a solver in this round, its solution and its work. What is short is timed several times at once, because
+    /// the clock itself takes time.
     fn timed<S: Solver + ?Sized>(&self, solver: &S) -> Result<(f64, Trajectory, Work), Error> {
-        let mut shortest = f64::INFINITY;
-        let mut whole = 0.0;
-        let mut last = None;
-        for _ in 0..MOST {
-            let since = (self.clock)();
-            let (found, work) = counted(|| solver.solve(self.case));
-            let seconds = (self.clock)() - since;
-            last = Some((found?, work));
-            (shortest, whole) = (shortest.smaller(seconds), whole + seconds);
-            if whole > SHORT {
-                break;
-            }
+        let since = (self.clock)();
+        let (found, work) = counted(|| solver.solve(self.case));
+        let first = (self.clock)() - since;
+        let found = found?;
+        if first >= SHORT {
+            return Ok((first, found, work));
         }
-        let (found, work) = last.expect("at least one run was made");
-        Ok((shortest, found, work))
+        let times = (SHORT / first).ceil().smaller(MOST).larger(1.0) as usize;
+        let since = (self.clock)();
+        for _ in 0..times {
+            drop(solver.solve(self.case)?);
+        }
+        Ok((((self.clock)() - since) / times as f64, found, work))
     }
 
     fn own<S: Solver + ?Sized>(&self, solver: &S) -> Result<Run, Error> {

@@ -69,7 +69,7 @@ enum Command {
     Diagram(diagram::Args),
     /// Find dimensions for a wanted motion: crank-rocker and slider-crank in closed form, any linkage by search
     Synthesize(synthesize::Args),
-    /// Write a mechanism as a model of another program: MuJoCo's MJCF
+    /// Write a mechanism for another program: MuJoCo's MJCF, or JSON
     Export(export::Args),
     /// List scenarios, or the available channels and solvers
     List(list::Args),

@@ -31,3 +31,9 @@ pub(crate) fn machine() -> Vec<(&'static str, String)> {
 fn value(line: &str) -> Option<&str> {
     line.split_once(':').map(|(_, value)| value.trim())
 }
+
+/// Processor time (s) that the present thread has used, where Linux tells it.
+pub(crate) fn processor_time() -> Option<f64> {
+    let told = fs::read_to_string("/proc/thread-self/schedstat").ok()?;
+    Some(told.split_whitespace().next()?.parse::<f64>().ok()? * 1e-9)
+}

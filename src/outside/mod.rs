@@ -5,5 +5,5 @@ mod machine;
 mod peer;
 mod process;
 
-pub(crate) use machine::machine;
+pub(crate) use machine::{machine, processor_time};
 pub(crate) use peer::{Command, Exports};

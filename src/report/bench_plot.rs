@@ -190,9 +190,10 @@ fn panel(area: &Area, bench: &Bench, stage: Stage, axis: Axis, [left, right]: [f
     Ok(())
 }
 
-/// A power of ten as label; values between are rounded.
+/// A power of ten as label, whose last digits may be rounding.
 fn power(value: f64) -> String {
-    if (0.01..10000.0).contains(&value) { format!("{value}") } else { format!("{value:.0e}") }
+    let rounded: f64 = format!("{value:.2e}").parse().unwrap_or(value);
+    if (0.01..10000.0).contains(&rounded) { format!("{rounded}") } else { format!("{rounded:.0e}") }
 }
 
 fn caption(stage: Stage) -> &'static str {

@@ -12,7 +12,7 @@ use linkage::solver::State;
 /// Version of the form.
 const FORMAT: u32 = 1;
 
-/// The case called `name`, whose state at t = 0 is `start`: poses and velocities count.
+/// The case called `name`, whose state at t = 0 is `start`: poses, velocities and accelerations count.
 pub(crate) fn text(name: &str, case: &Case, start: &State) -> String {
     let links = case.mechanism.links().iter().zip(&start.motions).zip(&start.angles);
     let links = links.map(|((link, motion), angle)| {
@@ -24,6 +24,7 @@ pub(crate) fn text(name: &str, case: &Case, start: &State) -> String {
             "start": {
                 "origin_m": pair(motion.origin), "angle_rad": angle,
                 "velocity_m_s": pair(motion.velocity), "omega_rad_s": motion.omega,
+                "acceleration_m_s2": pair(motion.acceleration), "alpha_rad_s2": motion.alpha,
             },
         })
     });

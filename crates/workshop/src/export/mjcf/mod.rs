@@ -13,6 +13,10 @@
 //!   A softer one lags.
 //!   The rotor does not enter the interaction forces that sensors read.
 //!   The torque sensor of the hinge therefore reads the driving moment.
+//! - A free link has no rotor but that of its motor, and the motor is an actuator whose moment falls with the speed.
+//!   Losses make two actuators of it: one drives, the other brakes.
+//! - Moments, forces and torsional springs and dampers are actuators on a hinge, on a fixed tendon whose length is an
+//!   angle or a difference of angles, or on a site; springs and dampers between points are spatial tendons.
 //! - A moment that resists the rotation of a link is dry friction.
 //!   It acts in the link's hinge if that is on the ground, else in a fixed tendon whose length is the link's angle.
 //!   At rest it holds the link, where [`Load::Resistance`](linkage::drive::Load::Resistance) is zero.
@@ -22,6 +26,7 @@
 //!   The file is therefore valid for any step, and the error is of second order in it.
 
 mod bodies;
+mod forces;
 mod model;
 mod names;
 mod shapes;

@@ -4,16 +4,19 @@ use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, BytesEnd, BytesStart, BytesText, Event};
 
 use super::bodies::Freedom;
+use super::forces::Target;
 use super::model::Model;
 use super::names::Names;
 use super::shapes::{self, Shape};
 use linkage::math::{KeepNan, Vec2};
-use linkage::mechanism::GROUND;
+use linkage::mechanism::{GROUND, Side};
 
 /// Stiffness of every constraint: see the module documentation.
 const STIFF: &str = "1e-9 0.5";
 /// Impedance of every constraint: the largest that MuJoCo accepts, at any gap.
 const HARD: &str = "0.9999 0.9999 1";
+/// Site on the ground to which forces in world axes refer.
+const AXES: &str = "world.axes";
 /// Colours of links, used in turn.
 const COLOURS: [&str; 6] = [
     "0.20 0.42 0.70 1",
@@ -90,6 +93,7 @@ pub(super) fn document(model: &Model) -> String {
         xml.nest("worldbody", &[], |xml| world(xml, model));
         loops(xml, model);
         tendons(xml, model);
+        actuators(xml, model);
         sensors(xml, model);
         keyframe(xml, model);
     });
@@ -186,10 +190,13 @@ fn joint(xml: &mut Xml, model: &Model, index: usize) {
         }
     }
     attributes.push(("ref", &reference));
-    if model.case.drives.iter().any(|drive| drive.joint == branch.joint) {
-        rotor = number(model.rotor());
+    if let Some(inertia) = model.armature(branch.joint) {
+        rotor = number(inertia);
         attributes.push(("armature", &rotor));
-        xml.comment("Drive: a rotor so heavy that its speed stays what it is at the start.");
+        xml.comment(match model.case.drives.iter().any(|drive| drive.joint == branch.joint && drive.is_free()) {
+            true => "Rotor and reducer of the motor.",
+            false => "Drive: a rotor so heavy that its speed stays what it is at the start.",
+        });
     }
     if let Some(found) = model.frictions.iter().find(|friction| friction.link == branch.link && friction.own_hinge) {
         friction = number(found.moment);
@@ -230,6 +237,14 @@ fn on_link(xml: &mut Xml, model: &Model, link: usize, colour: &str) {
     for (name, side) in model.case.mechanism.moving_points().filter(|(_, side)| side.link == link) {
         xml.leaf("site", &[("name", name), ("pos", &flat(side.local))]);
     }
+    for (name, place) in places(model, link) {
+        xml.leaf("site", &[("name", &name), ("pos", &flat(place))]);
+    }
+    let is_world = |target: &Target| matches!(target, Target::Place(_, _, false));
+    if link == GROUND && model.forces.actuators.iter().any(|own| is_world(&own.target)) {
+        xml.comment("Forces in world axes refer to it.");
+        xml.leaf("site", &[("name", AXES), ("pos", "0 0 0")]);
+    }
 }
 
 fn loops(xml: &mut Xml, model: &Model) {
@@ -245,22 +260,98 @@ fn loops(xml: &mut Xml, model: &Model) {
     });
 }
 
-/// Resistance to the rotation of links that have no hinge of their own on the ground.
+/// Tendons: sums of angles that frictions and actuators act on, and springs and dampers between points.
 fn tendons(xml: &mut Xml, model: &Model) {
     let long: Vec<_> = model.frictions.iter().filter(|friction| !friction.own_hinge).collect();
-    if long.is_empty() {
+    let sums: Vec<_> = model.forces.actuators.iter().filter_map(|own| Some((own, sum(&own.target)?))).collect();
+    if long.is_empty() && sums.is_empty() && model.forces.tendons.is_empty() {
         return;
     }
+    let hinge = |xml: &mut Xml, branch: usize, factor: f64| {
+        let joint = &model.case.mechanism.joints()[model.tree.branches[branch].joint];
+        xml.leaf("joint", &[("joint", &joint.name), ("coef", &number(factor))]);
+    };
     xml.nest("tendon", &[], |xml| {
         for friction in long {
             let name = &model.case.mechanism.links()[friction.link].name;
             xml.comment("Its length is the link's angle.");
             xml.nest("fixed", &[("name", name), ("frictionloss", &number(friction.moment))], |xml| {
-                for &hinge in &friction.hinges {
-                    let joint = &model.case.mechanism.joints()[model.tree.branches[hinge].joint];
-                    xml.leaf("joint", &[("joint", &joint.name), ("coef", "1")]);
+                friction.hinges.iter().for_each(|&branch| hinge(xml, branch, 1.0));
+            });
+        }
+        for (actuator, sum) in sums {
+            xml.comment("Its length is the angle that the load depends on.");
+            xml.nest("fixed", &[("name", &actuator.name)], |xml| {
+                sum.iter().for_each(|&(branch, factor)| hinge(xml, branch, factor));
+            });
+        }
+        for tendon in &model.forces.tendons {
+            let [stiffness, damping, length] = [tendon.stiffness, tendon.damping, tendon.free_length].map(number);
+            let spring =
+                [("name", tendon.name.as_str()), ("stiffness", &stiffness), ("springlength", &length), ("damping", &damping)];
+            xml.nest("spatial", &spring, |xml| {
+                for index in 0..tendon.ends.len() {
+                    xml.leaf("site", &[("site", &end(&tendon.name, index))]);
                 }
             });
+        }
+    });
+}
+
+/// Name of the site of a load.
+fn end(load: &str, index: usize) -> String {
+    format!("{load}.{}", ["first", "second"][index])
+}
+
+fn sum(target: &Target) -> Option<&[(usize, f64)]> {
+    match target {
+        Target::Sum(sum) => Some(sum),
+        Target::Hinge(_) | Target::Place(..) => None,
+    }
+}
+
+/// Places at which loads act on a link, with the names of their sites.
+fn places(model: &Model, link: usize) -> Vec<(String, Vec2)> {
+    let ends = model.forces.tendons.iter().flat_map(|tendon| {
+        let named = |(index, side): (usize, &Side)| (*side, end(&tendon.name, index));
+        tendon.ends.iter().enumerate().map(named).collect::<Vec<_>>()
+    });
+    let pushed = model.forces.actuators.iter().filter_map(|own| match own.target {
+        Target::Place(side, ..) => Some((side, end(&own.name, 0))),
+        Target::Hinge(_) | Target::Sum(_) => None,
+    });
+    ends.chain(pushed).filter(|(side, _)| side.link == link).map(|(side, name)| (name, side.local)).collect()
+}
+
+/// Motors and loads: no control enters, the force is `biasprm[0] + biasprm[1] length + biasprm[2] rate`.
+fn actuators(xml: &mut Xml, model: &Model) {
+    if model.forces.actuators.is_empty() {
+        return;
+    }
+    xml.nest("actuator", &[], |xml| {
+        for actuator in &model.forces.actuators {
+            let bias = numbers(actuator.bias);
+            let mut own = vec![("name", actuator.name.clone())];
+            match &actuator.target {
+                Target::Hinge(branch) => {
+                    let joint = &model.case.mechanism.joints()[model.tree.branches[*branch].joint];
+                    own.push(("joint", joint.name.clone()));
+                }
+                Target::Sum(_) => own.push(("tendon", actuator.name.clone())),
+                Target::Place(_, force, follows) => {
+                    own.push(("site", end(&actuator.name, 0)));
+                    if !follows {
+                        own.push(("refsite", AXES.into()));
+                    }
+                    own.push(("gear", numbers([force.x, force.y, 0.0, 0.0, 0.0, 0.0])));
+                }
+            }
+            own.extend([("gainprm", "0".to_string()), ("biastype", "affine".into()), ("biasprm", bias)]);
+            if let Some(range) = actuator.range {
+                own.extend([("forcelimited", "true".to_string()), ("forcerange", numbers(range))]);
+            }
+            let attributes: Vec<(&str, &str)> = own.iter().map(|(name, value)| (*name, value.as_str())).collect();
+            xml.leaf("general", &attributes);
         }
     });
 }
@@ -275,7 +366,7 @@ fn sensors(xml: &mut Xml, model: &Model) {
             let joint = &model.case.mechanism.joints()[branch.joint];
             let site = Names::side(joint, branch.link);
             xml.leaf("force", &[("name", &format!("{}.force", joint.name)), ("site", &site)]);
-            if joint.keeps_angle() || model.case.drives.iter().any(|drive| drive.joint == branch.joint) {
+            if joint.keeps_angle() || model.is_driven(branch.joint) {
                 xml.leaf("torque", &[("name", &format!("{}.moment", joint.name)), ("site", &site)]);
             }
         }
