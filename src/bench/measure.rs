@@ -17,9 +17,9 @@ use linkage::work::{Count, Work, counted};
 /// A run shorter than this (s) is timed together with its repetitions, at most so many.
 const SHORT: f64 = 5e-3;
 const MOST: f64 = 1000.0;
-/// Runs longer than this (s) are timed twice at most, and peers too: they measure themselves.
+/// Runs longer than this (s) are timed twice at most, those of peers once.
 const LONG: f64 = 0.2;
-/// Rounds of what is long.
+/// Rounds of what is long, and of peers.
 const FEW: usize = 2;
 /// Longest text of a reason.
 const REASON: usize = 300;
@@ -94,7 +94,8 @@ impl Desk<'_> {
             Runner::Side(_) | Runner::Engine(_) | Runner::Peer(..) if is_long && round >= FEW => {}
             Runner::Side(solver) => run.seconds.extend(self.timed(solver.as_ref()).map(|(seconds, ..)| seconds)),
             Runner::Engine(engine) => run.seconds.extend(self.timed(engine.as_ref()).map(|(seconds, ..)| seconds)),
-            Runner::Peer(index, way) if round < FEW => {
+            // A peer starts anew for every answer, and repeats short runs itself.
+            Runner::Peer(index, way) if round < FEW && !is_long => {
                 if let Ok(answer) = self.peers[*index].run(way) {
                     run.seconds.extend(answer.seconds.into_iter().filter(|seconds| *seconds > 0.0));
                 }
