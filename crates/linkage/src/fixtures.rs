@@ -93,6 +93,7 @@ pub fn turning(mechanism: Mechanism) -> Case {
         modes,
         grid: Grid::default(),
         wanted: Wanted::ALL,
+        only: None,
     })
     .unwrap()
 }

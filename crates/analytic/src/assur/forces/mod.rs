@@ -14,6 +14,7 @@ use higher::Higher;
 use linkage::case::Case;
 use linkage::drive::{Drive, Wrench};
 use linkage::solver::State;
+use linkage::work::{Count, Tally};
 use rrr::Pinned;
 use sliding::Sliding;
 
@@ -33,6 +34,7 @@ pub(super) struct Kinetostatics {
     drivers: Vec<(Body, Action, usize)>,
     /// Loads on every link; empty if there are none.
     loads: Vec<Wrench>,
+    tally: Tally,
 }
 
 impl Kinetostatics {
@@ -57,7 +59,7 @@ impl Kinetostatics {
             settled[drive.joint] = true;
         }
         let loads = if case.loads.is_empty() { 0 } else { case.mechanism.links().len() };
-        Kinetostatics { parts, drivers, loads: vec![Wrench::ZERO; loads] }
+        Kinetostatics { parts, drivers, loads: vec![Wrench::ZERO; loads], tally: Tally::default() }
     }
 
     /// Writes to `state` the reaction in every joint (first link on second) and the balancing moments on the
@@ -77,6 +79,7 @@ impl Kinetostatics {
     }
 
     fn balance(&mut self, case: &Case, plan: &Plan, state: &mut State) {
+        self.tally.one(Count::Forces);
         let State { motions, forces, moments, torques, .. } = state;
         let reactions = &mut Reactions { forces, moments, loads: &self.loads };
         for part in &mut self.parts {

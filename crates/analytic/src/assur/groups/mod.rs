@@ -22,6 +22,7 @@ pub use rrr::Rrr;
 
 use linkage::math::{KeepNan, Motion, Vec2, rotated, turned, unit};
 use linkage::mechanism::{AssemblyMode, GROUND, GroupKind, Mechanism, Structure};
+use linkage::work::{Count, Tally};
 
 /// Share of one configuration's squared distance from an expected pose in that of the other, up to which the first is
 /// the one expected.
@@ -86,6 +87,7 @@ impl Step {
 pub struct Plan {
     drivers: Vec<Driver>,
     steps: Vec<Step>,
+    tally: Tally,
 }
 
 /// A group that cannot be placed at some crank angle.
@@ -115,7 +117,7 @@ impl Plan {
             GroupKind::Prp => Step::Prp(Prp::of(mechanism, group)),
             GroupKind::Higher => Step::Chain(Chain::of(mechanism, group, structure.drivers.len())),
         });
-        Plan { drivers: drivers.collect(), steps: steps.collect() }
+        Plan { drivers: drivers.collect(), steps: steps.collect(), tally: Tally::default() }
     }
 
     /// The groups, in the order of [`Structure::groups`].
@@ -137,6 +139,7 @@ impl Plan {
     /// The first group that cannot be placed.
     #[inline]
     pub fn positions(&mut self, angles: &[f64], motions: &mut [Motion]) -> std::result::Result<(), OutOfReach> {
+        self.count_pose();
         self.turn_drivers(angles, motions);
         for (group, step) in self.steps.iter_mut().enumerate() {
             step.positions(angles, motions).map_err(|why| OutOfReach { group, why })?;
@@ -155,6 +158,7 @@ impl Plan {
         angles: &[f64],
         motions: &mut [Motion],
     ) -> std::result::Result<(), OutOfReach> {
+        self.count_pose();
         self.turn_drivers(angles, motions);
         for (group, step) in self.steps.iter_mut().enumerate() {
             let misfit = |why| OutOfReach { group, why };
@@ -184,6 +188,12 @@ impl Plan {
             }
         }
         Ok(())
+    }
+
+    #[inline]
+    fn count_pose(&mut self) {
+        self.tally.one(Count::Poses);
+        self.tally.many(Count::Groups, self.steps.len());
     }
 
     /// Determinant of a higher group at the last pose; `None` for a dyad.
@@ -219,6 +229,7 @@ impl Plan {
     /// Velocities of all links. Positions must be known. `omegas` are those of the driving links (rad/s).
     #[inline]
     pub fn velocities(&mut self, omegas: &[f64], motions: &mut [Motion]) {
+        self.tally.one(Count::Velocities);
         self.drive_velocities(omegas, motions);
         for step in &mut self.steps {
             match step {
@@ -248,6 +259,7 @@ impl Plan {
     /// Accelerations of all links. Velocities must be known. `alphas` are those of the driving links (rad/s^2).
     #[inline]
     pub fn accelerations(&mut self, alphas: &[f64], motions: &mut [Motion]) {
+        self.tally.one(Count::Accelerations);
         self.drive_accelerations(alphas, motions);
         for step in &mut self.steps {
             match step {

@@ -20,6 +20,7 @@ use self::contour::{Segment, contours};
 use linkage::math::dense::Lu;
 use linkage::math::{KeepNan, Motion, Vec2, cross, rotated, turned};
 use linkage::mechanism::{Group, Mechanism};
+use linkage::work::{Count, Tally};
 
 /// Newton's method from the last pose needs a few iterations. If it needs more, it has lost the branch.
 const MAX_ITERATIONS: usize = 10;
@@ -99,6 +100,7 @@ pub struct Chain {
     turned: Vec<[f64; MEMORY]>,
     equal_steps: usize,
     last_step: Vec<f64>,
+    tally: Box<Tally>,
 }
 
 impl Chain {
@@ -127,6 +129,7 @@ impl Chain {
             turned: vec![[0.0; MEMORY]; n],
             equal_steps: 0,
             last_step: vec![f64::NAN; drives],
+            tally: Box::default(),
         }
     }
 
@@ -342,6 +345,8 @@ impl Chain {
     fn follow(&mut self, allowed: f64, motions: &mut [Motion]) -> bool {
         for _ in 0..MAX_ITERATIONS {
             self.assemble(motions);
+            self.tally.one(Count::Iterations);
+            self.tally.one(Count::Factorisations);
             if !self.jacobian.factor() {
                 return false;
             }
@@ -357,6 +362,7 @@ impl Chain {
             if change < LAST_CHANGE {
                 if change > SAME_POSE {
                     self.assemble(motions);
+                    self.tally.one(Count::Factorisations);
                     if !self.jacobian.factor() {
                         return false;
                     }
