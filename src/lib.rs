@@ -45,9 +45,9 @@
 //! only in scenario files and carry their suffix there.
 
 #[doc(hidden)]
-pub mod cli;
-#[doc(hidden)]
 pub mod bench;
+#[doc(hidden)]
+pub mod cli;
 #[doc(hidden)]
 pub mod compare;
 #[doc(hidden)]

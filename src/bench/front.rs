@@ -95,9 +95,8 @@ mod tests {
             let places: Vec<[f64; 2]> = (0..12).map(|_| [random(), random()]).collect();
             let points: Vec<Point> = places.iter().map(|&[seconds, error]| point(seconds, error)).collect();
             let found = front(&points, Stage::Positions, Axis::Time, 0.0, &|_| true);
-            let beaten = |own: [f64; 2]| {
-                places.iter().any(|other| other[0] <= own[0] && other[1] <= own[1] && *other != own)
-            };
+            let beaten =
+                |own: [f64; 2]| places.iter().any(|other| other[0] <= own[0] && other[1] <= own[1] && *other != own);
             let mut expected: Vec<[f64; 2]> = places.iter().copied().filter(|&own| !beaten(own)).collect();
             expected.sort_by(|a, b| a[0].total_cmp(&b[0]));
             expected.dedup();

@@ -92,7 +92,9 @@ pub(super) fn plan(case: &Case, options: &Options) -> Plan {
     let versions = engines.iter().map(|engine| (engine.name().to_string(), engine.version())).collect();
     let curves: Vec<(&dyn Engine, Settings)> = engines
         .iter()
-        .flat_map(|engine| curves(engine.as_ref(), case, options).into_iter().map(move |curve| (engine.as_ref(), curve)))
+        .flat_map(|engine| {
+            curves(engine.as_ref(), case, options).into_iter().map(move |curve| (engine.as_ref(), curve))
+        })
         .collect();
     let share = options.budget() / curves.len().max(1) as f64;
     let mut left_out = 0;
@@ -191,9 +193,9 @@ fn work(case: &Case, engine: &dyn Engine, settings: &Settings) -> f64 {
 
 fn span(case: &Case) -> f64 {
     let times = &case.grid.times;
-    let ends = times.iter().fold([0.0f64; 2], |[first, last], &t| {
-        [if t < first { t } else { first }, if t > last { t } else { last }]
-    });
+    let ends = times
+        .iter()
+        .fold([0.0f64; 2], |[first, last], &t| [if t < first { t } else { first }, if t > last { t } else { last }]);
     ends[1] - ends[0]
 }
 

@@ -1,9 +1,9 @@
 //! Runs and their times, in rounds: every way once, then every way again, so that what else the machine does falls on
 //! all of them.
 
-use super::options::Clock;
 use super::effort::Effort;
 use super::ladder::{Planned, Runner};
+use super::options::Clock;
 use super::peer::{Answer, Peer};
 use super::point::{Outcome, Point, Run};
 use super::reference::{Floor, apart};
@@ -127,9 +127,8 @@ impl Desk<'_> {
         let counts = Count::ALL.into_iter().map(|what| (what.name().to_string(), work.of(what)));
         let effort = Effort(counts.filter(|(_, times)| *times > 0).collect());
         let apart = apart(self.reference, &found)?;
-        let errors = Stage::ALL.map(|stage| {
-            self.case.wanted.has(stage).then(|| self.floor.judged(stage, apart[stage as usize]))
-        });
+        let errors = Stage::ALL
+            .map(|stage| self.case.wanted.has(stage).then(|| self.floor.judged(stage, apart[stage as usize])));
         Ok(Run { errors, lacking: Vec::new(), seconds: vec![seconds], effort })
     }
 
@@ -143,7 +142,12 @@ impl Desk<'_> {
         }
         let span = wanted.iter().fold(0.0f64, |most, t| most.larger(t.abs()));
         if let Some(row) = (0..times.len()).find(|&row| !((times[row] - wanted[row]).abs() <= SAME * span)) {
-            return Err(format!("row {} of the answer is at {} s, and {} s is wanted", row + 1, times[row], wanted[row]));
+            return Err(format!(
+                "row {} of the answer is at {} s, and {} s is wanted",
+                row + 1,
+                times[row],
+                wanted[row]
+            ));
         }
         let seconds: Vec<f64> = answer.seconds.iter().copied().filter(|&own| own > 0.0 && own.is_finite()).collect();
         if seconds.is_empty() {
@@ -155,9 +159,6 @@ impl Desk<'_> {
             let missing: Vec<String> =
                 own.iter().map(ToString::to_string).filter(|name| column(name).is_none()).collect();
             if missing.len() == own.len() {
-                if stage == Stage::Positions {
-                    return Err("the answer has no position".into());
-                }
                 continue;
             }
             if let Some(first) = missing.first() {
@@ -172,11 +173,15 @@ impl Desk<'_> {
                     let apart = apart(self.reference, &found).map_err(|error| error.to_string())?;
                     errors[stage as usize] = Some(self.floor.judged(stage, apart[stage as usize]));
                 }
-                Err(error) if stage == Stage::Positions => return Err(error.to_string()),
                 Err(error) => lacking.push((stage, error.to_string())),
             }
         }
-        Ok(Run { errors, lacking, seconds, effort: answer.effort })
+        // A run without any channel is no run.
+        match (errors.iter().any(Option::is_some), lacking.first()) {
+            (true, _) => Ok(Run { errors, lacking, seconds, effort: answer.effort }),
+            (false, Some((_, reason))) => Err(reason.clone()),
+            (false, None) => Err("the answer has none of the wanted channels".into()),
+        }
     }
 }
 

@@ -23,7 +23,6 @@ pub use point::{Errors, Outcome, Party, Point, Run};
 pub use reference::Floor;
 
 use crate::scenario::Scenario;
-use linkage::case::Wanted;
 use linkage::error::Result;
 use linkage::trajectory::Stage;
 
@@ -65,12 +64,9 @@ pub fn bench(
     clock: Clock,
     progress: &mut dyn FnMut(f64),
 ) -> Result<Bench> {
-    let case = match options.stages.is_empty() {
-        true => scenario.case.clone(),
-        false => scenario.case.wanting(Wanted::of(&options.stages)),
-    };
-    let (reference, floor) = reference::of(&case)?;
-    let plan = ladder::plan(&case, options);
+    let case = &scenario.case;
+    let (reference, floor) = reference::of(case)?;
+    let plan = ladder::plan(case, options);
     let (mut found, left_out) = (plan.points, plan.left_out);
     let mut versions = plan.versions;
     let mut absent = Vec::new();
@@ -81,7 +77,7 @@ pub fn bench(
         }
     }
     let rounds = options.rounds();
-    let desk = measure::Desk { case: &case, reference: &reference, floor: &floor, peers, clock };
+    let desk = measure::Desk { case, reference: &reference, floor: &floor, peers, clock };
     let points = desk.measure(&found, rounds, progress, &mut versions);
     let own = |point: &&Point| point.party == Party::Side && point.is_usual && point.program == "assur";
     let unit = points.iter().find(own).and_then(Point::seconds).unwrap_or(f64::NAN);

@@ -1,7 +1,6 @@
 //! What is measured, and by which clock.
 
 use crate::engines::EngineName;
-use linkage::trajectory::Stage;
 
 /// Seconds on a clock, from any beginning.
 pub type Clock<'a> = &'a dyn Fn() -> f64;
@@ -10,10 +9,8 @@ pub type Clock<'a> = &'a dyn Fn() -> f64;
 pub const CLEAR: f64 = 100.0;
 
 /// What is measured.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Options {
-    /// Stages of channels that everybody delivers; if empty, all that the scenario wants.
-    pub stages: Vec<Stage>,
     /// Engines; if empty, all of this build.
     pub engines: Vec<EngineName>,
     /// A coarse picture: fewer settings and one round of timing.
@@ -27,7 +24,7 @@ pub struct Options {
 impl Options {
     /// Work allowed, given or usual.
     pub(super) fn budget(&self) -> f64 {
-        self.budget.unwrap_or(if self.is_quick { 3e5 } else { 5e6 })
+        self.budget.unwrap_or(if self.is_quick { 3e5 } else { 2e6 })
     }
 
     /// Rounds, given or usual; at least one.

@@ -115,6 +115,11 @@ impl Point {
     /// Way and resolution in words.
     #[must_use]
     pub fn told(&self) -> String {
-        [self.way.as_str(), self.resolution.as_str()].iter().filter(|part| !part.is_empty()).copied().collect::<Vec<_>>().join(", ")
+        [self.way.as_str(), self.resolution.as_str()]
+            .iter()
+            .filter(|part| !part.is_empty())
+            .copied()
+            .collect::<Vec<_>>()
+            .join(", ")
     }
 }

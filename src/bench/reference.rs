@@ -45,7 +45,10 @@ pub(super) fn of(case: &Case) -> Result<(Trajectory, Floor)> {
         let (between, left) = (apart(&tight, &other)?, apart(&tight, &solved(&AssurSolver)?)?);
         let errors = std::array::from_fn(|stage| between[stage][0].larger(LEFT * left[stage][0]).larger(f64::EPSILON));
         let basis = "difference of both sides at the tighter integration, or what the tighter integration leaves";
-        return Ok((tight, Floor { reference: "side 1 (assur), integrated a hundred times as tightly", basis, errors }));
+        return Ok((
+            tight,
+            Floor { reference: "side 1 (assur), integrated a hundred times as tightly", basis, errors },
+        ));
     }
     let (first, second) = (solved(&AssurSolver)?, solved(&NewtonSolver)?);
     let between = apart(&first, &second)?;

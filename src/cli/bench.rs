@@ -7,6 +7,7 @@ use std::time::Instant;
 use clap::builder::PossibleValuesParser;
 
 use super::engine_args::engine_names;
+use super::load::only;
 use super::output;
 use super::progress::Bar;
 use crate::bench::{Axis, Bench, Clock, Options, Peer, bench};
@@ -17,13 +18,12 @@ use crate::scenario::Scenario;
 use analytic::AssurSolver;
 use analytic::range::explained;
 use linkage::error::{Error, ErrorKind, Result};
-use linkage::trajectory::Stage;
 use workshop::export::{first_state, mjcf};
 
 const EXAMPLES: &str = "\
 Examples:
   linkproof bench scenarios/crank_rocker.toml --out bench --quick        a coarse picture, in seconds
-  linkproof bench scenarios/five_bar.toml --out bench --quick --stage positions --engine rapier
+  linkproof bench scenarios/five_bar.toml --out bench --quick --only positions --engine rapier
   linkproof bench scenarios/*.toml --out docs/bench --page docs/bench.md --peer mujoco='python3 examples/peers/mujoco_peer.py'
 
 Writes NAME.time.svg, NAME.solutions.svg, NAME.inner.svg and NAME.csv of every scenario, and bench.json, to the directory.
@@ -45,9 +45,9 @@ pub(super) struct Args {
     /// Fewer settings and one round of timing
     #[arg(long)]
     quick: bool,
-    /// Stage of channels that everybody delivers. May be given several times [default: all that the scenario wants]
-    #[arg(long, value_name = "STAGE", value_parser = PossibleValuesParser::new(Stage::ALL.map(Stage::name)))]
-    stage: Vec<String>,
+    /// Ask everybody for these channels only, as in `run`. May be given several times
+    #[arg(long, value_name = "WORD")]
+    only: Vec<String>,
     /// Engine. May be given several times [default: all of this build]
     #[arg(long, value_name = "ENGINE", value_parser = PossibleValuesParser::new(engine_names()))]
     engine: Vec<String>,
@@ -57,7 +57,7 @@ pub(super) struct Args {
     /// Longest time in seconds of one call of a peer
     #[arg(long, value_name = "S", default_value_t = LIMIT, value_parser = positive)]
     peer_limit: f64,
-    /// Work allowed to the engines of a scenario, in steps without sweeps [default: 5e6, with `--quick` 3e5]
+    /// Work allowed to the engines of a scenario, in steps without sweeps [default: 2e6, with `--quick` 3e5]
     #[arg(long, value_name = "STEPS", value_parser = positive)]
     budget: Option<f64>,
     /// Rounds of timing, of which the shortest counts [default: 3, with `--quick` 1]
@@ -85,15 +85,16 @@ fn positive(text: &str) -> std::result::Result<f64, String> {
 }
 
 pub(super) fn run(args: &Args) -> Result<()> {
-    let scenarios = args.files.iter().map(|file| Scenario::load(file)).collect::<Result<Vec<_>>>()?;
-    if let Some(twice) = (1..scenarios.len()).find(|&k| scenarios[..k].iter().any(|own| own.name == scenarios[k].name)) {
+    let scenarios =
+        args.files.iter().map(|file| only(Scenario::load(file)?, &args.only)).collect::<Result<Vec<_>>>()?;
+    if let Some(twice) = (1..scenarios.len()).find(|&k| scenarios[..k].iter().any(|own| own.name == scenarios[k].name))
+    {
         return Err(Error::new(ErrorKind::Input, format!("two scenarios are called \"{}\"", scenarios[twice].name))
             .help("their files in the directory would have the same names: give each a directory of its own"));
     }
     let machine = machine();
     let named = |name: &String| EngineName::named(name).expect("the argument parser knows all names");
     let options = Options {
-        stages: Stage::ALL.into_iter().filter(|stage| args.stage.iter().any(|name| name == stage.name())).collect(),
         engines: args.engine.iter().map(named).collect(),
         is_quick: args.quick,
         budget: args.budget,
@@ -103,7 +104,9 @@ pub(super) fn run(args: &Args) -> Result<()> {
         engine.with_step(1.0)?;
     }
     fs::create_dir_all(&args.out).map_err(|error| {
-        Error::new(ErrorKind::Io, format!("{} cannot be made: {error}", args.out.display())).key("--out")
+        Error::new(ErrorKind::Io, format!("{} cannot be made: {error}", args.out.display()))
+            .key("--out")
+            .help("give a directory that may be made or written to")
     })?;
     let since = Instant::now();
     let wall = move || since.elapsed().as_secs_f64();
@@ -136,18 +139,15 @@ fn used(since: Instant) -> f64 {
 
 /// One scenario, with a progress bar. Runs are timed by the first clock, peers stopped by the second.
 fn one(args: &Args, scenario: &Scenario, options: &Options, [used, wall]: [Clock; 2]) -> Result<Bench> {
-    let case = match options.stages.is_empty() {
-        true => scenario.case.clone(),
-        false => scenario.case.wanting(linkage::case::Wanted::of(&options.stages)),
-    };
+    let case = &scenario.case;
     let exports = match args.peer.is_empty() {
         true => None,
         false => {
-            let start = first_state(&case, &AssurSolver).map_err(|error| explained(&case, error))?;
-            let mjcf = mjcf::mjcf(&case, &AssurSolver, &scenario.name, usual_step(&case));
+            let start = first_state(case, &AssurSolver).map_err(|error| explained(case, error))?;
+            let mjcf = mjcf::mjcf(case, &AssurSolver, &scenario.name, usual_step(case));
             Some(Exports {
                 name: scenario.name.clone(),
-                case: case_json::text(&scenario.name, &case, &start),
+                case: case_json::text(&scenario.name, case, &start),
                 mjcf: mjcf.map_err(|error| error.to_string()),
                 is_quick: args.quick,
             })
@@ -166,11 +166,11 @@ fn one(args: &Args, scenario: &Scenario, options: &Options, [used, wall]: [Clock
 /// Diagrams and numbers of one scenario.
 fn put(args: &Args, found: &Bench, machine: &report::Machine) -> Result<()> {
     let place = |end: &str| args.out.join(format!("{}.{end}", found.scenario[0]));
-    output::write(&report::csv(found, machine)?, &place("csv"))?;
+    output::write(&report::rows(found, machine)?, &place("csv"))?;
     for axis in Axis::ALL {
-        let drawn = bench_plot::svg(found, axis).map_err(|message| Error::new(ErrorKind::Numeric, message))?;
-        if let Some(svg) = drawn {
-            output::write(&svg, &place(&format!("{}.svg", axis.name())))?;
+        let drawn = bench_plot::drawing(found, axis).map_err(|message| Error::new(ErrorKind::Numeric, message))?;
+        if let Some(text) = drawn {
+            output::write(&text, &place(&format!("{}.svg", axis.name())))?;
         }
     }
     Ok(())
@@ -179,7 +179,11 @@ fn put(args: &Args, found: &Bench, machine: &report::Machine) -> Result<()> {
 /// A word of a command line as a shell takes it.
 fn quoted(word: &str) -> String {
     let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./=:,+".contains(c);
-    if !word.is_empty() && word.chars().all(is_plain) { word.into() } else { format!("'{}'", word.replace('\'', "'\\''")) }
+    if !word.is_empty() && word.chars().all(is_plain) {
+        word.into()
+    } else {
+        format!("'{}'", word.replace('\'', "'\\''"))
+    }
 }
 
 /// The directory as a link on the page needs it.

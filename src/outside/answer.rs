@@ -9,7 +9,8 @@ const MOST: usize = 200;
 
 /// The last line of a program's output, as JSON: libraries print what they like before it.
 fn last(output: &str) -> Result<Value, String> {
-    let line = output.lines().rev().find(|line| !line.trim().is_empty()).ok_or("it wrote nothing to standard output")?;
+    let line =
+        output.lines().rev().find(|line| !line.trim().is_empty()).ok_or("it wrote nothing to standard output")?;
     serde_json::from_str(line.trim()).map_err(|error| format!("the last line of its output is no JSON: {error}"))
 }
 
@@ -76,7 +77,8 @@ fn columns(table: &str) -> Result<Vec<(String, Vec<f64>)>, String> {
     for (row, record) in reader.records().enumerate() {
         let record = record.map_err(|error| format!("row {} of its table: {error}", row + 1))?;
         for ((name, values), text) in columns.iter_mut().zip(&record) {
-            let value = text.trim().parse().map_err(|_| format!("row {} of {name} is \"{}\"", row + 1, excerpt(text)))?;
+            let value =
+                text.trim().parse().map_err(|_| format!("row {} of {name} is \"{}\"", row + 1, excerpt(text)))?;
             values.push(value);
         }
     }
@@ -93,9 +95,13 @@ mod tests {
 
     #[test]
     fn an_answer_is_the_last_line_and_a_table() {
-        let output = "a library greets\n{\"seconds\": [2e-3, 1e-3], \"work\": {\"steps\": 7}, \"version\": \"x 1\"}\n\n";
+        let output =
+            "a library greets\n{\"seconds\": [2e-3, 1e-3], \"work\": {\"steps\": 7}, \"version\": \"x 1\"}\n\n";
         let found = answer(output, || Ok("t_s,link.a.angle_rad\n0,1\n0.5,nan\n".into())).unwrap();
-        assert_eq!((found.seconds, found.version.as_str(), found.effort.of("steps")), (vec![2e-3, 1e-3], "x 1", Some(7)));
+        assert_eq!(
+            (found.seconds, found.version.as_str(), found.effort.of("steps")),
+            (vec![2e-3, 1e-3], "x 1", Some(7))
+        );
         assert_eq!(found.columns[0], ("t_s".to_string(), vec![0.0, 0.5]));
         assert!(found.columns[1].1[1].is_nan());
     }
@@ -116,7 +122,9 @@ mod tests {
         for bad in ["t_s\nx\n", "t_s,a\n0\n"] {
             assert!(answer("{\"seconds\": 1}", || Ok(bad.into())).is_err(), "{bad}");
         }
-        for (output, reason) in [("[]", "0 ways"), ("[1]", "no name"), ("{}", "no JSON array"), ("7\n", "no JSON array")] {
+        for (output, reason) in
+            [("[]", "0 ways"), ("[1]", "no name"), ("{}", "no JSON array"), ("7\n", "no JSON array")]
+        {
             let found = ways(output).unwrap_err();
             assert!(found.contains(reason), "{output}: {found}");
         }

@@ -94,9 +94,8 @@ impl Peer for Command<'_> {
     }
 
     fn run(&self, way: &Way) -> Result<Answer, String> {
-        let read = |output: &str, directory: &Path| {
-            answer::answer(output, || process::text(&directory.join("answer.csv")))
-        };
+        let read =
+            |output: &str, directory: &Path| answer::answer(output, || process::text(&directory.join("answer.csv")));
         self.call("solve", Some(way), read)
     }
 }

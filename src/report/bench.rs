@@ -90,7 +90,7 @@ pub(crate) fn text(bench: &Bench) -> String {
 ///
 /// # Errors
 /// [`ErrorKind::Io`] if the table cannot be written.
-pub(crate) fn csv(bench: &Bench, machine: &Machine) -> Result<String> {
+pub(crate) fn rows(bench: &Bench, machine: &Machine) -> Result<String> {
     let failed = |error: csv::Error| Error::new(ErrorKind::Io, format!("the table cannot be written: {error}"));
     let mut text = String::new();
     for (name, value) in machine {

@@ -27,7 +27,11 @@ pub(crate) fn page(benches: &[Bench], machine: &Machine, command: &str, pictures
          - A cell has the times at which a program reaches errors of 1e-3, 1e-6 and 1e-9 with the best of its settings; a dash: never.\n\
          - Raw numbers of every setting, with exact counts of work, are in the CSV and JSON files that the command writes.\n"
     );
-    let _ = writeln!(text, "Machine: {}.\n", machine.iter().map(|(name, value)| format!("{name}: {value}")).collect::<Vec<_>>().join("; "));
+    let _ = writeln!(
+        text,
+        "Machine: {}.\n",
+        machine.iter().map(|(name, value)| format!("{name}: {value}")).collect::<Vec<_>>().join("; ")
+    );
     let mut versions: Vec<String> = Vec::new();
     for (name, version) in benches.iter().flat_map(|bench| &bench.versions) {
         let told = format!("{name}: {version}");

@@ -45,7 +45,7 @@ type Drawn = Result<(), String>;
 ///
 /// # Errors
 /// What the library cannot draw.
-pub(crate) fn svg(bench: &Bench, axis: Axis) -> Result<Option<String>, String> {
+pub(crate) fn drawing(bench: &Bench, axis: Axis) -> Result<Option<String>, String> {
     if bench.points.iter().all(|point| axis.of(point).is_none()) {
         return Ok(None);
     }
@@ -168,8 +168,7 @@ fn panel(area: &Area, bench: &Bench, stage: Stage, axis: Axis, [left, right]: [f
             let point = &bench.points[*index];
             Some((cost(bench, axis, point)?, shown(point.error(stage)?.max)))
         };
-        let best: Vec<(f64, f64)> =
-            front(&bench.points, stage, axis, floor, &own).iter().filter_map(place).collect();
+        let best: Vec<(f64, f64)> = front(&bench.points, stage, axis, floor, &own).iter().filter_map(place).collect();
         chart.draw_series(LineSeries::new(best, paint.stroke_width(2))).map_err(told)?;
         for (index, point) in bench.points.iter().enumerate().filter(|(_, point)| own(point)) {
             if let (Some(at), Some(errors)) = (place(&index), point.error(stage)) {

@@ -81,7 +81,9 @@ pub(super) fn check_drive(drive: &Drive) -> Result<()> {
     // A rotor keeps a constant speed and permits no other law.
     match drive.constant_speed() {
         Some(_) => Ok(()),
-        None => Err(refused(format!("a drive with the law \"{}\"", drive.law_name()), "give the drive a constant speed")),
+        None => {
+            Err(refused(format!("a drive with the law \"{}\"", drive.law_name()), "give the drive a constant speed"))
+        }
     }
 }
 
@@ -167,7 +169,8 @@ fn motors(motor: &Motor, sense: f64, joint: &str, branch: usize) -> Result<Vec<A
     if motor.efficiency >= 1.0 {
         return Ok(vec![part(format!("{joint}.motor"), 1.0, None)]);
     }
-    let [forward, back] = if sense > 0.0 { [[0.0, ENDLESS], [-ENDLESS, 0.0]] } else { [[-ENDLESS, 0.0], [0.0, ENDLESS]] };
+    let [forward, back] =
+        if sense > 0.0 { [[0.0, ENDLESS], [-ENDLESS, 0.0]] } else { [[-ENDLESS, 0.0], [0.0, ENDLESS]] };
     Ok(vec![
         part(format!("{joint}.motor.drives"), motor.efficiency, Some(forward)),
         part(format!("{joint}.motor.brakes"), 1.0 / motor.efficiency, Some(back)),

@@ -287,8 +287,12 @@ fn tendons(xml: &mut Xml, model: &Model) {
         }
         for tendon in &model.forces.tendons {
             let [stiffness, damping, length] = [tendon.stiffness, tendon.damping, tendon.free_length].map(number);
-            let spring =
-                [("name", tendon.name.as_str()), ("stiffness", &stiffness), ("springlength", &length), ("damping", &damping)];
+            let spring = [
+                ("name", tendon.name.as_str()),
+                ("stiffness", &stiffness),
+                ("springlength", &length),
+                ("damping", &damping),
+            ];
             xml.nest("spatial", &spring, |xml| {
                 for index in 0..tendon.ends.len() {
                     xml.leaf("site", &[("site", &end(&tendon.name, index))]);
