@@ -6,6 +6,8 @@ pub mod outline;
 pub mod question;
 mod search;
 mod swept;
+#[cfg(test)]
+mod tests;
 mod tube;
 
 pub use outline::{Flaw, MOST_CORNERS, Outline};

@@ -4,13 +4,15 @@
 //! instants: the search ends when every part is proven, and what is left at the smallest size is told.
 
 use linkage::error::Result;
+use linkage::math::extremum::golden;
 use linkage::math::{KeepNan, Vec2};
 
 use super::gap::{Gap, Placed, Solid, gap};
 use super::tube::{MOST_HALVINGS, Part, Slice, Tubes};
 
-/// Steps of golden section that refine the smallest distance found.
+/// Steps of golden section that refine the smallest distance found, and how often it may leave its bracket.
 const REFINEMENTS: usize = 30;
+const STRIDES: usize = 8;
 
 /// Smallest distance of a pair over the range.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -142,24 +144,25 @@ impl Search<'_, '_> {
         let [from, to] = self.tubes.range();
         let (low, high) = (from.smaller(to), from.larger(to));
         let wide = (self.tolerance / self.tubes.scale()).sqrt();
-        let ends = [(own.crank - wide).larger(low), (own.crank + wide).smaller(high)];
-        let mut best = *own;
-        linkage::math::extremum::golden(ends, REFINEMENTS, |crank| {
-            let slice = self.tubes.slice(crank, 0.0)?;
-            let found = self.gap(pair, &slice, f64::INFINITY);
-            if found.now < best.distance {
-                (best.distance, best.crank, best.points) = (found.now, crank, found.points);
-            }
-            Ok::<f64, linkage::Error>(-found.now)
-        })?;
-        for crank in ends {
-            let slice = self.tubes.slice(crank, 0.0)?;
-            let found = self.gap(pair, &slice, f64::INFINITY);
-            if found.now < best.distance {
-                (best.distance, best.crank, best.points) = (found.now, crank, found.points);
+        for _ in 0..STRIDES {
+            let begun = own.crank;
+            let ends = [(begun - wide).larger(low), (begun + wide).smaller(high)];
+            let mut look = |crank: f64| {
+                let slice = self.tubes.slice(crank, 0.0)?;
+                let found = self.gap(pair, &slice, f64::INFINITY);
+                if found.now < own.distance {
+                    (own.distance, own.crank, own.points) = (found.now, crank, found.points);
+                }
+                Ok::<f64, linkage::Error>(-found.now)
+            };
+            golden(ends, REFINEMENTS, &mut look)?;
+            // Golden section does not look at the ends.
+            look(ends[0])?;
+            look(ends[1])?;
+            if (own.crank - begun).abs() < 0.9 * wide {
+                break;
             }
         }
-        *own = best;
         Ok(())
     }
 

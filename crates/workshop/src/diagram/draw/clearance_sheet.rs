@@ -15,6 +15,8 @@ use svg::node::element::{Circle, Group, Line, Path, Rectangle, Text, Title};
 const LONG: f64 = 200.0;
 const MARGIN: f64 = 10.0;
 const LETTERS: f64 = 4.0;
+/// Height of the words below.
+const CAPTION: f64 = 14.0;
 /// Positions of a link that make its swept area.
 const POSITIONS: usize = 240;
 
@@ -63,19 +65,23 @@ pub fn clearance(case: &Case, name: &str, asked: &Question, found: &Clearance) -
     let words = if let Some((pair, meeting)) = found.first_collision() {
         document = document.add(disc(sheet.paper(meeting.place), 2.2, ALARM));
         let [a, b] = pair.bodies.map(|body| &asked.bodies[body].name);
-        format!("first collision: {a} and {b} at {crank}")
+        [format!("first collision: {a} and {b}"), format!("at {crank}")]
     } else if let Some(pair) = smallest {
         let [one, two] = pair.smallest.points.map(|point| sheet.paper(point));
         let line = Line::new().set("x1", mm(one.x)).set("y1", mm(one.y)).set("x2", mm(two.x)).set("y2", mm(two.y));
         document = document.add(line.set("stroke", ALARM).set("stroke-width", 0.8));
         document = document.add(disc(one, 0.9, ALARM)).add(disc(two, 0.9, ALARM));
         let [a, b] = pair.bodies.map(|body| &asked.bodies[body].name);
-        format!("smallest distance {} mm: {a} and {b} at {crank}", significant(1e3 * pair.smallest.distance))
+        [format!("smallest distance {} mm:", significant(1e3 * pair.smallest.distance)), format!("{a} and {b} at {crank}")]
     } else {
-        crank
+        [crank, String::new()]
     };
-    let text = Text::new(clean(&words)).set("x", MARGIN).set("y", mm(sheet.size.y - 3.0)).set("font-size", LETTERS);
-    Ok(format!("{}\n", document.add(text.set("fill", BLACK))))
+    for (row, words) in words.iter().enumerate() {
+        let y = sheet.size.y - CAPTION + LETTERS * (1.0 + 1.3 * row as f64);
+        let text = Text::new(clean(words)).set("x", MARGIN).set("y", mm(y)).set("font-size", LETTERS);
+        document = document.add(text.set("fill", BLACK));
+    }
+    Ok(format!("{document}\n"))
 }
 
 /// Where the world lies on the paper.
@@ -99,8 +105,8 @@ impl Sheet {
         }
         let extent = (high - low).amax().larger(f64::MIN_POSITIVE);
         let scale = (LONG - 2.0 * MARGIN) / extent;
-        let size = (high - low) * scale + Vec2::new(2.0 * MARGIN, 2.0 * MARGIN + LETTERS + 3.0);
-        Sheet { low, scale, size: Vec2::new(size.x.larger(LONG * 0.6), size.y) }
+        let size = (high - low) * scale + Vec2::new(2.0 * MARGIN, 2.0 * MARGIN + CAPTION);
+        Sheet { low, scale, size: Vec2::new(size.x.larger(LONG * 0.5), size.y) }
     }
 
     fn document(&self, name: &str) -> Document {
@@ -118,7 +124,7 @@ impl Sheet {
 
     fn paper(&self, world: Vec2) -> Vec2 {
         let at = (world - self.low) * self.scale;
-        Vec2::new(MARGIN + at.x, self.size.y - MARGIN - LETTERS - 3.0 - at.y)
+        Vec2::new(MARGIN + at.x, self.size.y - MARGIN - CAPTION - at.y)
     }
 
     /// An outline as a path: its rounding is the width of a line with round joins.
