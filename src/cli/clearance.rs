@@ -100,7 +100,7 @@ fn answer(args: &Args, file: &Path) -> Result<(Scenario, Clearance)> {
     }
     if let Some(to) = &args.csv {
         let course = course(&scenario.case, asked)?;
-        output::write(&report::csv(asked, &scenario.case.grid.times, &course)?, to)?;
+        output::write(&report::distances(asked, &scenario.case.grid.times, &course)?, to)?;
     }
     if !is_said(&args.svg) && !is_said(&args.csv) && !is_said(&args.json) {
         output::print(&report::text(&scenario, asked, &found))?;

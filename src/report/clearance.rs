@@ -96,7 +96,8 @@ pub(crate) fn text(scenario: &Scenario, asked: &Question, found: &Clearance) -> 
         let _ = writeln!(text, "{areas}\n");
     }
     for &[from, to] in &found.open {
-        let _ = writeln!(text, "not proven from {} to {} deg: the mechanism is singular there", degrees(from), degrees(to));
+        let why = "the mechanism is singular there, or the work allowed is done";
+        let _ = writeln!(text, "not proven from {} to {} deg: {why}", degrees(from), degrees(to));
     }
     let said = |text: &mut String, what: &str, (pair, meeting): (&PairClearance, Meeting)| {
         let ([one, two], crank) = (names(asked, pair), degrees(meeting.cranks[1]));
@@ -179,7 +180,7 @@ pub(crate) fn json(scenarios: Vec<Value>) -> String {
 ///
 /// # Errors
 /// [`ErrorKind::Io`] if the table cannot be written.
-pub(crate) fn csv(asked: &Question, times: &[f64], course: &Course) -> Result<String> {
+pub(crate) fn distances(asked: &Question, times: &[f64], course: &Course) -> Result<String> {
     let failed = |error: csv::Error| Error::new(ErrorKind::Io, format!("the table cannot be written: {error}"));
     let mut writer = csv::Writer::from_writer(Vec::new());
     let name = |&[a, b]: &[usize; 2]| format!("{}.{}.distance_m", asked.bodies[a].name, asked.bodies[b].name);

@@ -36,7 +36,7 @@ const TOLERANCE: f64 = 1e-6;
 const TOUCH: f64 = 1e-9;
 /// Parts of the range, pair by pair, that one run may look at; and tests of one swept area.
 const BUDGET: usize = 20_000_000;
-const AREA_BUDGET: usize = 20_000_000;
+const AREA_BUDGET: usize = 8_000_000;
 
 /// What is known of a pair of bodies.
 #[derive(Clone, Debug, PartialEq)]
@@ -142,7 +142,7 @@ pub fn find(case: &Case, question: &Question, progress: &mut dyn FnMut(f64)) -> 
         pairs.push(PairClearance { bodies, smallest, collision, too_near });
     }
     progress(0.5);
-    let (distances, open) = (search.asked, merged(search.open, range));
+    let (distances, mut open) = (search.asked, search.open);
     let moving: Vec<usize> = (0..question.bodies.len()).filter(|&body| question.bodies[body].moves()).collect();
     let (mut swept, mut squares) = (Vec::with_capacity(moving.len()), 0);
     for (done, &body) in moving.iter().enumerate() {
@@ -150,8 +150,10 @@ pub fn find(case: &Case, question: &Question, progress: &mut dyn FnMut(f64)) -> 
         let mut sweep = Sweep::new(&mut tubes, *link, outline);
         swept.push((body, sweep.area(question.area, AREA_BUDGET)?));
         squares += sweep.tests;
+        open.append(&mut sweep.open);
         progress(0.5 + 0.5 * (done + 1) as f64 / moving.len() as f64);
     }
+    let open = merged(open, range);
     let work = Work { poses: tubes.poses, distances, squares };
     Ok(Clearance { range, pairs, swept, open, tolerance, work })
 }

@@ -58,7 +58,7 @@ impl Outline {
         check(corners, radius, 3)?;
         check_simple(corners)?;
         let mut corners = corners.to_vec();
-        if area(&corners) < 0.0 {
+        if convex::area(&corners) < 0.0 {
             corners.reverse();
         }
         let parts = convex::parts(&corners).ok_or(Flaw::Flat)?;
@@ -141,7 +141,7 @@ impl Outline {
     /// Area (m2) of the polygon without its rounding; 0 of a line.
     #[must_use]
     pub fn core_area(&self) -> f64 {
-        if self.solid { area(&self.corners) } else { 0.0 }
+        if self.solid { convex::area(&self.corners) } else { 0.0 }
     }
 }
 
@@ -151,12 +151,6 @@ pub fn nearest(place: Vec2, [a, b]: [Vec2; 2]) -> Vec2 {
     let along = b - a;
     let length = along.norm_squared();
     if length > 0.0 { a + along * ((place - a).dot(&along) / length).clamp(0.0, 1.0) } else { a }
-}
-
-/// Area of a polygon, positive counter-clockwise.
-fn area(corners: &[Vec2]) -> f64 {
-    let around = |k: usize| cross(corners[k] - corners[0], corners[(k + 1) % corners.len()] - corners[0]);
-    (0..corners.len()).map(around).sum::<f64>() / 2.0
 }
 
 fn extent(places: &[Vec2]) -> f64 {

@@ -13,6 +13,8 @@ use super::tube::{MOST_HALVINGS, Part, Slice, Tubes};
 /// Steps of golden section that refine the smallest distance found, and how often it may leave its bracket.
 const REFINEMENTS: usize = 30;
 const STRIDES: usize = 8;
+/// Halvings beyond [`MOST_HALVINGS`] by which a first meeting is enclosed.
+const FURTHER: u32 = 6;
 
 /// Smallest distance of a pair over the range.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -184,12 +186,17 @@ impl Search<'_, '_> {
                 clear = Some(to);
                 continue;
             }
-            let narrow = part.halvings >= MOST_HALVINGS;
-            if narrow && found.now <= enough {
-                return Ok(Some(Meeting {
-                    cranks: [clear.unwrap_or(from), slice.crank],
-                    place: (found.points[0] + found.points[1]) / 2.0,
-                }));
+            // A part that is proven to move is halved until it moves by less than what counts as contact.
+            let narrow = part.halvings >= MOST_HALVINGS + if slice.sound { FURTHER } else { 0 };
+            if narrow {
+                for crank in [slice.crank, to] {
+                    let there = self.tubes.slice(crank, 0.0)?;
+                    let found = self.gap(pair, &there, f64::INFINITY);
+                    if found.now <= enough {
+                        let place = (found.points[0] + found.points[1]) / 2.0;
+                        return Ok(Some(Meeting { cranks: [clear.unwrap_or(from), crank], place }));
+                    }
+                }
             }
             if narrow || self.budget == 0 {
                 self.leave(part);

@@ -39,7 +39,6 @@ impl Area {
 struct Node {
     part: Part,
     half: f64,
-    sound: bool,
     tube: Tube,
     parts: Vec<Vec<Track>>,
     sides: Vec<[Track; 2]>,
@@ -63,13 +62,15 @@ pub struct Sweep<'a, 'c> {
     rounding: f64,
     /// Tests of a square against a part of the range.
     pub tests: usize,
+    /// Ranges of crank angles (rad) whose positions are left out, because nothing is proven of them.
+    pub open: Vec<[f64; 2]>,
 }
 
 impl<'a, 'c> Sweep<'a, 'c> {
     /// For a link with an outline.
     pub fn new(tubes: &'a mut Tubes<'c>, link: usize, outline: &'a Outline) -> Self {
         let rounding = tubes.rounding();
-        Sweep { tubes, outline, link, nodes: Vec::new(), rounding, tests: 0 }
+        Sweep { tubes, outline, link, nodes: Vec::new(), rounding, tests: 0, open: Vec::new() }
     }
 
     /// The area, to a share `wanted` of itself, or as near as `budget` tests allow.
@@ -77,10 +78,9 @@ impl<'a, 'c> Sweep<'a, 'c> {
     /// # Errors
     /// Those of a pose.
     pub fn area(&mut self, wanted: f64, budget: usize) -> Result<Area> {
-        let parts: Vec<Part> = self.tubes.parts().collect();
-        let mut first = Vec::with_capacity(parts.len());
-        for part in parts {
-            first.push(self.node(part)?);
+        let first = self.sound_parts()?;
+        if first.is_empty() {
+            return Ok(Area { value: 0.0, least: 0.0, most: 0.0 });
         }
         let [low, high] = self.bounds(&first);
         let mut half = (high - low).amax() / 2.0 + self.rounding;
@@ -110,6 +110,23 @@ impl<'a, 'c> Sweep<'a, 'c> {
         Ok(best)
     }
 
+    /// The range in parts over which the bounds are proven, as far as such parts can be had.
+    fn sound_parts(&mut self) -> Result<Vec<u32>> {
+        let mut ahead: Vec<Part> = self.tubes.parts().rev().collect();
+        let mut found = Vec::with_capacity(ahead.len());
+        while let Some(part) = ahead.pop() {
+            let slice = self.tubes.at(part)?;
+            if slice.sound {
+                found.push(self.node(part)?);
+            } else if part.halvings < MOST_HALVINGS {
+                ahead.extend(part.halves().into_iter().rev());
+            } else {
+                self.open.push(self.tubes.ends(part));
+            }
+        }
+        Ok(found)
+    }
+
     /// Both corners of a box around all positions.
     fn bounds(&self, nodes: &[u32]) -> [Vec2; 2] {
         let radius = self.outline.radius();
@@ -126,12 +143,10 @@ impl<'a, 'c> Sweep<'a, 'c> {
     fn node(&mut self, part: Part) -> Result<u32> {
         let slice = self.tubes.at(part)?;
         let tube = slice.tubes[self.link];
-        // A link that no group places, as a crank, is known wherever the others are.
         let of = |corners: &Vec<Vec2>| corners.iter().map(|&corner| tube.point(corner)).collect();
         self.nodes.push(Node {
             part,
             half: slice.half,
-            sound: slice.sound,
             tube,
             parts: self.outline.parts().iter().map(of).collect(),
             sides: self.outline.sides().map(|side| side.map(|end| tube.point(end))).collect(),
@@ -140,16 +155,19 @@ impl<'a, 'c> Sweep<'a, 'c> {
         Ok(u32::try_from(self.nodes.len() - 1).unwrap_or(u32::MAX))
     }
 
-    /// The halves of a part, made once. The second follows the first.
-    fn halves(&mut self, node: u32) -> Result<[u32; 2]> {
+    /// The halves of a part, made once. The second follows the first. `None` where nothing is proven of a half.
+    fn halves(&mut self, node: u32) -> Result<Option<[u32; 2]>> {
         if let Some(first) = self.nodes[node as usize].halves {
-            return Ok([first, first + 1]);
+            return Ok(Some([first, first + 1]));
         }
         let [one, two] = self.nodes[node as usize].part.halves();
+        if !(self.tubes.at(one)?.sound && self.tubes.at(two)?.sound) {
+            return Ok(None);
+        }
         let first = self.node(one)?;
         self.node(two)?;
         self.nodes[node as usize].halves = Some(first);
-        Ok([first, first + 1])
+        Ok(Some([first, first + 1]))
     }
 
     fn judge(&mut self, centre: Vec2, half: f64, near: &[u32]) -> Result<Square> {
@@ -167,17 +185,17 @@ impl<'a, 'c> Sweep<'a, 'c> {
             // The border's own point moves away from the square, or towards it.
             let border = node.tube.point(node.tube.local(centre - away * (now + self.outline.radius())));
             let swing = away.dot(&border.rate).abs() * node.half;
-            if node.sound {
-                if self.least(node, centre) > about {
-                    continue;
-                }
-                if node.sides.iter().any(|side| passes(side, node.half, centre, about)) {
-                    return Ok(Square::Covered);
-                }
+            if self.least(node, centre) > about {
+                continue;
             }
-            let rough = !node.sound || swing + border.error > SPREAD * about;
-            if rough && node.part.halvings < MOST_HALVINGS {
-                ahead.extend(self.halves(index)?);
+            if node.sides.iter().any(|side| passes(side, node.half, centre, about)) {
+                return Ok(Square::Covered);
+            }
+            if swing + border.error > SPREAD * about
+                && node.part.halvings < MOST_HALVINGS
+                && let Some(halves) = self.halves(index)?
+            {
+                ahead.extend(halves);
                 continue;
             }
             kept.push(index);

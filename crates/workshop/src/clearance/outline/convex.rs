@@ -30,9 +30,15 @@ pub(super) fn parts(corners: &[Vec2]) -> Option<Vec<Vec<Vec2>>> {
     agree(corners, &parts).then_some(parts)
 }
 
+/// Area of a polygon, positive counter-clockwise.
+pub(super) fn area(corners: &[Vec2]) -> f64 {
+    let around = |k: usize| cross(corners[k] - corners[0], corners[(k + 1) % corners.len()] - corners[0]);
+    (0..corners.len()).map(around).sum::<f64>() / 2.0
+}
+
 /// Whether parts have together the area of the whole.
 fn agree(corners: &[Vec2], parts: &[Vec<Vec2>]) -> bool {
-    let (whole, sum) = (super::area(corners), parts.iter().map(|part| super::area(part)).sum::<f64>());
+    let (whole, sum) = (area(corners), parts.iter().map(|part| area(part)).sum::<f64>());
     (whole - sum).abs() <= 1e-9 * whole && whole > 0.0
 }
 
