@@ -74,8 +74,9 @@ fn distance(asked: &Question, state: &State, pair: [usize; 2]) -> f64 {
     (apart(&one, &two) - radii).larger(0.0)
 }
 
-/// States of side 2 at crank angles.
+/// States of side 2 at crank angles, which a drive of constant speed comes to, whatever the law.
 fn at(case: &Case, cranks: &[f64]) -> Vec<State> {
+    let case = &case.at_top_speed();
     let times: Vec<f64> = Grid::of_cranks(case.crank(), cranks.to_vec()).times;
     states(&NewtonSolver, case, &times).unwrap()
 }

@@ -107,7 +107,7 @@ fn housing_and_pairs() {
     let of = |section: &str| format!("radius_mm = 3\n[[clearance.housing]]\n{section}");
     refused(&of("line = [{ x_mm = 0, y_mm = 0 }]\n"), "[[clearance.housing]]", "clearance.housing[1]", &["`name` is missing"]);
     refused(&of("name = \"a b\"\n"), "name = \"a b\"", "clearance.housing.a b.name", &["letters, digits"]);
-    refused(&of("name = \"crank\"\n"), "name = \"crank\"\n\n", "clearance.housing.crank.name", &["is taken"]);
+    refused(&of("name = \"crank\"\n"), "name = \"crank\"", "clearance.housing.crank.name", &["is taken"]);
     refused(&of("name = \"housing\"\n"), "name = \"housing\"", "clearance.housing.housing.name", &["stands for all parts"]);
     refused(&of("name = \"wall\"\n"), "[[clearance.housing]]", "clearance.housing.wall", &["no outline", "`corners`"]);
     refused(

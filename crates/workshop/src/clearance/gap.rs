@@ -48,7 +48,8 @@ struct PlacedPiece {
 /// What is known of the distance of two bodies over a part of the range.
 #[derive(Clone, Copy, Debug)]
 pub struct Gap {
-    /// The distance at the middle (m): 0 where they meet. The true one is not larger.
+    /// The distance at the middle (m): 0 where they meet. The true one is not larger. Infinite if all pieces are
+    /// farther apart than what was asked for.
     pub now: f64,
     /// The nearest points at the middle, of the first and of the second body (m).
     pub points: [Vec2; 2],
@@ -62,6 +63,12 @@ impl Solid {
     pub fn new(link: usize, outline: &Outline, scale: f64) -> Self {
         let pieces = outline.parts().iter().map(|part| Piece::new(part, scale)).collect();
         Solid { link, radius: outline.radius(), pieces, scale }
+    }
+
+    /// Number of its convex parts.
+    #[must_use]
+    pub fn pieces(&self) -> usize {
+        self.pieces.len()
     }
 
     /// Where it is over a part of the range.
@@ -141,10 +148,6 @@ pub fn gap(
             };
             found.least = found.least.smaller(least);
         }
-    }
-    if !found.now.is_finite() {
-        // All pieces are farther than what was asked for; the bound says how far.
-        found.now = f64::INFINITY;
     }
     found
 }

@@ -34,8 +34,8 @@ use tube::Tubes;
 const TOLERANCE: f64 = 1e-6;
 /// Share of the mechanism's size that counts as no distance where nothing more can be proven.
 const TOUCH: f64 = 1e-9;
-/// Parts of the range, pair by pair, that one run may look at; and tests of one swept area.
-const BUDGET: usize = 20_000_000;
+/// Pairs of convex parts that one run may look at, at all parts of the range together; and tests of one swept area.
+const BUDGET: usize = 5_000_000;
 const AREA_BUDGET: usize = 8_000_000;
 
 /// What is known of a pair of bodies.

@@ -50,7 +50,7 @@ pub struct Search<'a, 'c> {
     pub touch: f64,
     /// Pairs of pieces whose nearest points were asked for.
     pub asked: usize,
-    /// Parts that may still be looked at.
+    /// Pairs of pieces that may still be looked at.
     pub budget: usize,
     /// Ranges of crank angles (rad) over which nothing is proven.
     pub open: Vec<[f64; 2]>,
@@ -63,6 +63,7 @@ impl Search<'_, '_> {
     }
 
     fn between(&mut self, bodies: [&Solid; 2], places: [&Placed; 2], slice: &Slice, enough: f64) -> Gap {
+        self.budget = self.budget.saturating_sub(bodies[0].pieces() * bodies[1].pieces());
         gap(bodies, places, slice, self.tubes.rounding(), enough, &mut self.asked)
     }
 
@@ -81,7 +82,6 @@ impl Search<'_, '_> {
             let mut bounds: Vec<(Part, bool, Vec<(usize, f64)>)> = Vec::with_capacity(parts.len());
             for (part, alive) in parts {
                 let slice = self.tubes.at(part)?;
-                self.budget = self.budget.saturating_sub(alive.len());
                 let placed: Vec<Option<Placed>> = (0..self.solids.len())
                     .map(|body| {
                         let needed = alive.iter().any(|&pair| pairs[pair].contains(&body));
@@ -179,7 +179,6 @@ impl Search<'_, '_> {
         let mut clear = None;
         while let Some(part) = ahead.pop() {
             let slice = self.tubes.at(part)?;
-            self.budget = self.budget.saturating_sub(1);
             let found = self.gap(pair, &slice, f64::INFINITY);
             let [from, to] = self.tubes.ends(part);
             if slice.sound && found.least > threshold {
