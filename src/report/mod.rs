@@ -3,6 +3,7 @@
 
 pub(crate) mod bearings;
 mod cells;
+pub(crate) mod clearance;
 pub(crate) mod closed_form;
 pub mod diagnosis;
 pub(crate) mod diagram;

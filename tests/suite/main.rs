@@ -10,6 +10,7 @@
 mod architecture;
 mod bad_scenarios;
 mod batch;
+mod clearance;
 mod cli;
 mod common;
 mod degenerate;
