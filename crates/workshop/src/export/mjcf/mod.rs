@@ -26,11 +26,14 @@
 //!   The file is therefore valid for any step, and the error is of second order in it.
 
 mod bodies;
+mod effects;
 mod forces;
+mod limits;
 mod model;
 mod names;
 mod shapes;
 mod write;
+mod xml;
 
 pub use model::Model;
 
@@ -48,5 +51,6 @@ use linkage::solver::Solver;
 /// Those of the solver.
 pub fn mjcf(case: &Case, solver: &dyn Solver, name: &str, step: f64) -> Result<String> {
     let start = first_state(case, solver)?;
-    Ok(write::document(&Model::new(case, &start, name, step)?))
+    let model = Model::new(case, &start, name, step)?;
+    Ok(write::document(&model, &forces::forces(&model)?))
 }

@@ -1,7 +1,7 @@
 //! Contents of the file as numbers: bodies, joints, loops, frictions and the first state.
 
 use super::bodies::{self, Body};
-use super::forces::{self, Forces};
+use super::limits;
 use super::names::Names;
 use linkage::case::Case;
 use linkage::drive::Load;
@@ -47,7 +47,6 @@ pub struct Model<'a> {
     /// One for each branch of the tree.
     pub(super) bodies: Vec<Body>,
     pub(super) frictions: Vec<Friction>,
-    pub(super) forces: Forces,
 }
 
 impl<'a> Model<'a> {
@@ -62,16 +61,15 @@ impl<'a> Model<'a> {
         }
         Names::check(&case.mechanism)?;
         for drive in case.drives.iter() {
-            forces::check_drive(drive)?;
+            limits::check_drive(drive)?;
         }
         for load in &case.loads {
-            forces::check(load)?;
+            limits::check(load)?;
         }
         let tree = Tree::of(&case.mechanism);
         let bodies = tree.branches.iter().map(|branch| bodies::body(case, start, branch)).collect();
-        let mut model = Model { case, name, step, tree, bodies, frictions: Vec::new(), forces: Forces::default() };
+        let mut model = Model { case, name, step, tree, bodies, frictions: Vec::new() };
         model.frictions = model.frictions();
-        model.forces = forces::forces(&model)?;
         Ok(model)
     }
 

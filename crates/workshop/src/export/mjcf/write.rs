@@ -1,22 +1,22 @@
 //! The XML document.
 
 use quick_xml::Writer;
-use quick_xml::events::{BytesDecl, BytesEnd, BytesStart, BytesText, Event};
+use quick_xml::events::{BytesDecl, Event};
 
 use super::bodies::Freedom;
-use super::forces::Target;
+use super::effects;
+use super::forces::Forces;
 use super::model::Model;
 use super::names::Names;
 use super::shapes::{self, Shape};
+use super::xml::{Xml, about_z, flat, number, numbers};
 use linkage::math::{KeepNan, Vec2};
-use linkage::mechanism::{GROUND, Side};
+use linkage::mechanism::GROUND;
 
 /// Stiffness of every constraint: see the module documentation.
 const STIFF: &str = "1e-9 0.5";
 /// Impedance of every constraint: the largest that MuJoCo accepts, at any gap.
 const HARD: &str = "0.9999 0.9999 1";
-/// Site on the ground to which forces in world axes refer.
-const AXES: &str = "world.axes";
 /// Colours of links, used in turn.
 const COLOURS: [&str; 6] = [
     "0.20 0.42 0.70 1",
@@ -27,60 +27,8 @@ const COLOURS: [&str; 6] = [
     "0.30 0.62 0.65 1",
 ];
 
-/// Shortest text that is parsed as the same number.
-fn number(value: f64) -> String {
-    match value.abs() {
-        0.0 => "0".into(),
-        size if (1e-4..1e7).contains(&size) => format!("{value}"),
-        _ => format!("{value:e}"),
-    }
-}
-
-fn numbers(values: impl IntoIterator<Item = f64>) -> String {
-    values.into_iter().map(number).collect::<Vec<_>>().join(" ")
-}
-
-/// A position in the plane.
-fn flat(place: Vec2) -> String {
-    numbers([place.x, place.y, 0.0])
-}
-
-/// A rotation about z.
-fn about_z(angle: f64) -> String {
-    numbers([0.0, 0.0, 1.0, angle])
-}
-
-type Attributes<'a> = &'a [(&'a str, &'a str)];
-
-/// An XML document in memory; writing to it cannot fail.
-struct Xml(Writer<Vec<u8>>);
-
-impl Xml {
-    fn put(&mut self, event: Event) {
-        self.0.write_event(event).expect("memory takes everything");
-    }
-
-    fn start<'a>(name: &'a str, attributes: Attributes<'a>) -> BytesStart<'a> {
-        BytesStart::new(name).with_attributes(attributes.iter().copied())
-    }
-
-    fn leaf(&mut self, name: &str, attributes: Attributes) {
-        self.put(Event::Empty(Self::start(name, attributes)));
-    }
-
-    fn nest(&mut self, name: &str, attributes: Attributes, inside: impl FnOnce(&mut Self)) {
-        self.put(Event::Start(Self::start(name, attributes)));
-        inside(self);
-        self.put(Event::End(BytesEnd::new(name)));
-    }
-
-    fn comment(&mut self, text: &str) {
-        self.put(Event::Comment(BytesText::from_escaped(format!(" {text} "))));
-    }
-}
-
 /// The whole document.
-pub(super) fn document(model: &Model) -> String {
+pub(super) fn document(model: &Model, forces: &Forces) -> String {
     let mut xml = Xml(Writer::new_with_indent(Vec::new(), b' ', 2));
     xml.put(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)));
     xml.nest("mujoco", &[("model", model.name)], |xml| {
@@ -90,10 +38,10 @@ pub(super) fn document(model: &Model) -> String {
             "; SI units, plane XOY. Load the keyframe \"start\": without it nothing moves."
         ));
         options(xml, model);
-        xml.nest("worldbody", &[], |xml| world(xml, model));
+        xml.nest("worldbody", &[], |xml| world(xml, model, forces));
         loops(xml, model);
-        tendons(xml, model);
-        actuators(xml, model);
+        effects::tendons(xml, model, forces);
+        effects::actuators(xml, model, forces);
         sensors(xml, model);
         keyframe(xml, model);
     });
@@ -141,18 +89,18 @@ fn view(model: &Model) -> (Vec2, f64) {
     ((low + high) / 2.0, (high - low).norm().larger(model.size()))
 }
 
-fn world(xml: &mut Xml, model: &Model) {
+fn world(xml: &mut Xml, model: &Model, forces: &Forces) {
     xml.leaf(
         "light",
         &[("pos", &numbers([0.0, 0.0, 10.0 * model.size()])), ("dir", "0 0 -1"), ("type", "directional")],
     );
-    on_link(xml, model, GROUND, "0.45 0.45 0.45 1");
+    on_link(xml, (model, forces), GROUND, "0.45 0.45 0.45 1");
     for link in model.children(GROUND) {
-        body(xml, model, link);
+        body(xml, model, forces, link);
     }
 }
 
-fn body(xml: &mut Xml, model: &Model, link: usize) {
+fn body(xml: &mut Xml, model: &Model, forces: &Forces, link: usize) {
     let index = model.branch_of(link).expect("every moving link is in the tree");
     let own = &model.bodies[index];
     let data = &model.case.mechanism.links()[link];
@@ -166,9 +114,9 @@ fn body(xml: &mut Xml, model: &Model, link: usize) {
         let inertial = [flat(data.mass_centre), number(mass), numbers([inertia; 3])];
         xml.leaf("inertial", &[("pos", &inertial[0]), ("mass", &inertial[1]), ("diaginertia", &inertial[2])]);
         joint(xml, model, index);
-        on_link(xml, model, link, COLOURS[(link - 1) % COLOURS.len()]);
+        on_link(xml, (model, forces), link, COLOURS[(link - 1) % COLOURS.len()]);
         for child in model.children(link) {
-            body(xml, model, child);
+            body(xml, model, forces, child);
         }
     });
 }
@@ -206,7 +154,7 @@ fn joint(xml: &mut Xml, model: &Model, index: usize) {
 }
 
 /// Shapes and sites of a link.
-fn on_link(xml: &mut Xml, model: &Model, link: usize, colour: &str) {
+fn on_link(xml: &mut Xml, (model, forces): (&Model, &Forces), link: usize, colour: &str) {
     for shape in shapes::of_link(model, link) {
         match shape {
             Shape::Ball(at, radius) => {
@@ -237,14 +185,7 @@ fn on_link(xml: &mut Xml, model: &Model, link: usize, colour: &str) {
     for (name, side) in model.case.mechanism.moving_points().filter(|(_, side)| side.link == link) {
         xml.leaf("site", &[("name", name), ("pos", &flat(side.local))]);
     }
-    for (name, place) in places(model, link) {
-        xml.leaf("site", &[("name", &name), ("pos", &flat(place))]);
-    }
-    let is_world = |target: &Target| matches!(target, Target::Place(_, _, false));
-    if link == GROUND && model.forces.actuators.iter().any(|own| is_world(&own.target)) {
-        xml.comment("Forces in world axes refer to it.");
-        xml.leaf("site", &[("name", AXES), ("pos", "0 0 0")]);
-    }
+    effects::sites(xml, forces, link);
 }
 
 fn loops(xml: &mut Xml, model: &Model) {
@@ -256,106 +197,6 @@ fn loops(xml: &mut Xml, model: &Model) {
             let joint = &model.case.mechanism.joints()[joint];
             let [first, second] = [joint.first.link, joint.second.link].map(|link| Names::side(joint, link));
             xml.leaf("connect", &[("name", &joint.name), ("site1", &first), ("site2", &second)]);
-        }
-    });
-}
-
-/// Tendons: sums of angles that frictions and actuators act on, and springs and dampers between points.
-fn tendons(xml: &mut Xml, model: &Model) {
-    let long: Vec<_> = model.frictions.iter().filter(|friction| !friction.own_hinge).collect();
-    let sums: Vec<_> = model.forces.actuators.iter().filter_map(|own| Some((own, sum(&own.target)?))).collect();
-    if long.is_empty() && sums.is_empty() && model.forces.tendons.is_empty() {
-        return;
-    }
-    let hinge = |xml: &mut Xml, branch: usize, factor: f64| {
-        let joint = &model.case.mechanism.joints()[model.tree.branches[branch].joint];
-        xml.leaf("joint", &[("joint", &joint.name), ("coef", &number(factor))]);
-    };
-    xml.nest("tendon", &[], |xml| {
-        for friction in long {
-            let name = &model.case.mechanism.links()[friction.link].name;
-            xml.comment("Its length is the link's angle.");
-            xml.nest("fixed", &[("name", name), ("frictionloss", &number(friction.moment))], |xml| {
-                friction.hinges.iter().for_each(|&branch| hinge(xml, branch, 1.0));
-            });
-        }
-        for (actuator, sum) in sums {
-            xml.comment("Its length is the angle that the load depends on.");
-            xml.nest("fixed", &[("name", &actuator.name)], |xml| {
-                sum.iter().for_each(|&(branch, factor)| hinge(xml, branch, factor));
-            });
-        }
-        for tendon in &model.forces.tendons {
-            let [stiffness, damping, length] = [tendon.stiffness, tendon.damping, tendon.free_length].map(number);
-            let spring = [
-                ("name", tendon.name.as_str()),
-                ("stiffness", &stiffness),
-                ("springlength", &length),
-                ("damping", &damping),
-            ];
-            xml.nest("spatial", &spring, |xml| {
-                for index in 0..tendon.ends.len() {
-                    xml.leaf("site", &[("site", &end(&tendon.name, index))]);
-                }
-            });
-        }
-    });
-}
-
-/// Name of the site of a load.
-fn end(load: &str, index: usize) -> String {
-    format!("{load}.{}", ["first", "second"][index])
-}
-
-fn sum(target: &Target) -> Option<&[(usize, f64)]> {
-    match target {
-        Target::Sum(sum) => Some(sum),
-        Target::Hinge(_) | Target::Place(..) => None,
-    }
-}
-
-/// Places at which loads act on a link, with the names of their sites.
-fn places(model: &Model, link: usize) -> Vec<(String, Vec2)> {
-    let ends = model.forces.tendons.iter().flat_map(|tendon| {
-        let named = |(index, side): (usize, &Side)| (*side, end(&tendon.name, index));
-        tendon.ends.iter().enumerate().map(named).collect::<Vec<_>>()
-    });
-    let pushed = model.forces.actuators.iter().filter_map(|own| match own.target {
-        Target::Place(side, ..) => Some((side, end(&own.name, 0))),
-        Target::Hinge(_) | Target::Sum(_) => None,
-    });
-    ends.chain(pushed).filter(|(side, _)| side.link == link).map(|(side, name)| (name, side.local)).collect()
-}
-
-/// Motors and loads: no control enters, the force is `biasprm[0] + biasprm[1] length + biasprm[2] rate`.
-fn actuators(xml: &mut Xml, model: &Model) {
-    if model.forces.actuators.is_empty() {
-        return;
-    }
-    xml.nest("actuator", &[], |xml| {
-        for actuator in &model.forces.actuators {
-            let bias = numbers(actuator.bias);
-            let mut own = vec![("name", actuator.name.clone())];
-            match &actuator.target {
-                Target::Hinge(branch) => {
-                    let joint = &model.case.mechanism.joints()[model.tree.branches[*branch].joint];
-                    own.push(("joint", joint.name.clone()));
-                }
-                Target::Sum(_) => own.push(("tendon", actuator.name.clone())),
-                Target::Place(_, force, follows) => {
-                    own.push(("site", end(&actuator.name, 0)));
-                    if !follows {
-                        own.push(("refsite", AXES.into()));
-                    }
-                    own.push(("gear", numbers([force.x, force.y, 0.0, 0.0, 0.0, 0.0])));
-                }
-            }
-            own.extend([("gainprm", "0".to_string()), ("biastype", "affine".into()), ("biasprm", bias)]);
-            if let Some(range) = actuator.range {
-                own.extend([("forcelimited", "true".to_string()), ("forcerange", numbers(range))]);
-            }
-            let attributes: Vec<(&str, &str)> = own.iter().map(|(name, value)| (*name, value.as_str())).collect();
-            xml.leaf("general", &attributes);
         }
     });
 }
