@@ -99,6 +99,7 @@ pub fn turning_from(mechanism: Mechanism, crank: f64, group: &StartGroup) -> Cas
         modes,
         grid: Grid::default(),
         wanted: Wanted::ALL,
+        only: None,
     })
     .unwrap()
 }

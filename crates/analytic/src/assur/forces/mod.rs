@@ -14,6 +14,7 @@ use higher::Higher;
 use linkage::case::Case;
 use linkage::drive::{Drive, Load, Wrench};
 use linkage::solver::State;
+use linkage::work::{Count, Tally};
 use rrr::Pinned;
 use sliding::Sliding;
 
@@ -35,6 +36,7 @@ pub(super) struct Kinetostatics {
     loads: Vec<Wrench>,
     /// The loads with their links, if all are moments of resistance. They need no place of a link.
     resistances: Option<Vec<(usize, Load)>>,
+    tally: Tally,
 }
 
 impl Kinetostatics {
@@ -61,7 +63,7 @@ impl Kinetostatics {
         let loads = if case.loads.is_empty() { 0 } else { case.mechanism.links().len() };
         let resistance = |load: &Load| load.resistance().map(|(link, _)| (link, load.clone()));
         let resistances = case.loads.iter().map(resistance).collect();
-        Kinetostatics { parts, drivers, loads: vec![Wrench::ZERO; loads], resistances }
+        Kinetostatics { parts, drivers, loads: vec![Wrench::ZERO; loads], resistances, tally: Tally::default() }
     }
 
     /// Writes to `state` the reaction in every joint (first link on second) and the balancing moments on the
@@ -88,6 +90,7 @@ impl Kinetostatics {
     }
 
     fn balance(&mut self, case: &Case, plan: &Plan, state: &mut State) {
+        self.tally.one(Count::Forces);
         let State { motions, forces, moments, torques, .. } = state;
         let reactions = &mut Reactions { forces, moments, loads: &self.loads };
         for part in &mut self.parts {

@@ -23,6 +23,7 @@ pub use rrr::Rrr;
 
 use linkage::math::{KeepNan, Motion, Vec2, rotated, turned, unit};
 use linkage::mechanism::{AssemblyMode, GROUND, GroupKind, Mechanism, Structure};
+use linkage::work::{Count, Tally};
 
 /// Share of one configuration's squared distance from an expected pose in that of the other, up to which the first is
 /// the one expected.
@@ -138,6 +139,7 @@ impl Step {
 pub struct Plan {
     drivers: Vec<Driver>,
     steps: Vec<Step>,
+    tally: Tally,
 }
 
 /// A group that cannot be placed at some crank angle.
@@ -167,7 +169,7 @@ impl Plan {
             GroupKind::Prp => Step::Prp(Prp::of(mechanism, group)),
             GroupKind::Higher => Step::Chain(Chain::of(mechanism, group, structure.drivers.len())),
         });
-        Plan { drivers: drivers.collect(), steps: steps.collect() }
+        Plan { drivers: drivers.collect(), steps: steps.collect(), tally: Tally::default() }
     }
 
     /// The groups, in the order of [`Structure::groups`].
@@ -189,6 +191,7 @@ impl Plan {
     /// The first group that cannot be placed.
     #[inline]
     pub fn positions(&mut self, angles: &[f64], motions: &mut [Motion]) -> std::result::Result<(), OutOfReach> {
+        self.count_pose();
         self.turn_drivers(angles, motions);
         for (group, step) in self.steps.iter_mut().enumerate() {
             step.positions(angles, motions).map_err(|why| OutOfReach { group, why })?;
@@ -207,6 +210,9 @@ impl Plan {
         [omegas, alphas]: [&[f64]; 2],
         motions: &mut [Motion],
     ) -> std::result::Result<(), OutOfReach> {
+        self.count_pose();
+        self.tally.one(Count::Velocities);
+        self.tally.one(Count::Accelerations);
         for (((driver, &angle), &omega), &alpha) in self.drivers.iter().zip(angles).zip(omegas).zip(alphas) {
             let direction = unit(angle);
             let arm = rotated(direction, driver.pivot);
@@ -246,6 +252,7 @@ impl Plan {
         angles: &[f64],
         motions: &mut [Motion],
     ) -> std::result::Result<(), OutOfReach> {
+        self.count_pose();
         self.turn_drivers(angles, motions);
         for (group, step) in self.steps.iter_mut().enumerate() {
             let misfit = |why| OutOfReach { group, why };
@@ -277,6 +284,12 @@ impl Plan {
         Ok(())
     }
 
+    #[inline]
+    fn count_pose(&mut self) {
+        self.tally.one(Count::Poses);
+        self.tally.many(Count::Groups, self.steps.len());
+    }
+
     /// Determinant of a higher group at the last pose; `None` for a dyad.
     pub(crate) fn determinant(&self, group: usize) -> Option<f64> {
         match &self.steps[group] {
@@ -305,6 +318,7 @@ impl Plan {
     /// Velocities of all links. Positions must be known. `omegas` are those of the driving links (rad/s).
     #[inline]
     pub fn velocities(&mut self, omegas: &[f64], motions: &mut [Motion]) {
+        self.tally.one(Count::Velocities);
         self.drive_velocities(omegas, motions);
         self.steps.iter_mut().for_each(|step| step.velocities(motions));
     }
@@ -325,6 +339,7 @@ impl Plan {
     /// Accelerations of all links. Velocities must be known. `alphas` are those of the driving links (rad/s^2).
     #[inline]
     pub fn accelerations(&mut self, alphas: &[f64], motions: &mut [Motion]) {
+        self.tally.one(Count::Accelerations);
         self.drive_accelerations(alphas, motions);
         self.steps.iter_mut().for_each(|step| step.accelerations(motions));
     }

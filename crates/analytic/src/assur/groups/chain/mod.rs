@@ -16,13 +16,14 @@ mod contour;
 mod predict;
 mod rates;
 
-pub use contour::{Closing, Node};
 pub(in crate::assur) use contour::{Arrow, Contours, Hangs};
+pub use contour::{Closing, Node};
 
 use self::predict::Memory;
 use linkage::math::dense::Lu;
 use linkage::math::{Motion, Vec2, rotated, turned};
 use linkage::mechanism::{GROUND, Group, Mechanism, Side};
+use linkage::work::{Count, Tally};
 
 /// Newton's method from the last pose needs a few iterations. If it needs more, it has lost the branch.
 const MAX_ITERATIONS: usize = 10;
@@ -101,6 +102,7 @@ pub struct Chain {
     size: f64,
     is_sliding: bool,
     memory: Memory,
+    tally: Box<Tally>,
 }
 
 impl Chain {
@@ -136,6 +138,7 @@ impl Chain {
             speeds: vec![0.0; n],
             size: mechanism.size(),
             memory: Memory::of(n, drives),
+            tally: Box::default(),
         }
     }
 
@@ -316,6 +319,8 @@ impl Chain {
     fn follow(&mut self, allowed: f64, motions: &mut [Motion]) -> bool {
         for _ in 0..MAX_ITERATIONS {
             self.assemble(motions);
+            self.tally.one(Count::Iterations);
+            self.tally.one(Count::Factorisations);
             if !self.jacobian.factor() {
                 return false;
             }
@@ -340,6 +345,7 @@ impl Chain {
             if is_last {
                 if !within(&self.unknown, SAME_POSE) {
                     self.assemble(motions);
+                    self.tally.one(Count::Factorisations);
                     if !self.jacobian.factor() {
                         return false;
                     }
