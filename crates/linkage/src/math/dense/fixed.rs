@@ -22,7 +22,7 @@ fn eliminate<const N: usize, const K: usize>(
     rows: &mut [[f64; N]; N],
     order: &mut [usize; N],
     inverse: &mut [f64; N],
-    sign: &mut f64,
+    [sign, product]: &mut [f64; 2],
 ) -> bool {
     let (mut best, mut size) = (K, rows[K][K].abs());
     for row in K + 1..N {
@@ -40,6 +40,7 @@ fn eliminate<const N: usize, const K: usize>(
         order.swap(K, best);
     }
     let above = rows[K];
+    *product *= above[K];
     let by = 1.0 / above[K];
     inverse[K] = by;
     for row in K + 1..N {
@@ -52,24 +53,25 @@ fn eliminate<const N: usize, const K: usize>(
     true
 }
 
-/// Factors a matrix of order `N` in place, at most 6. Returns the sign of the exchange of rows; `None` if it is singular.
+/// Factors a matrix of order `N` in place, at most 6. Returns the sign of the exchange of rows and the
+/// determinant; `None` if it is singular.
 /// `order` becomes the rows' numbers in the order of elimination.
-pub(super) fn factor<const N: usize>(a: &mut [f64], order: &mut [usize], inverse: &mut [f64]) -> Option<f64> {
+pub(super) fn factor<const N: usize>(a: &mut [f64], order: &mut [usize], inverse: &mut [f64]) -> Option<(f64, f64)> {
     const { assert!(N <= 6, "every column is eliminated") };
     let rows: &mut [[f64; N]; N] = first_mut(a.as_chunks_mut().0);
     let (order, inverse): (&mut [usize; N], &mut [f64; N]) = (first_mut(order), first_mut(inverse));
     *order = std::array::from_fn(|row| row);
-    let mut sign = 1.0;
+    let mut signs = [1.0; 2];
     // Written out instead of a loop: only so are the bounds of the inner loops constants.
     macro_rules! each {
         ($($column:literal)*) => {
-            $(if $column < N && !eliminate::<N, $column>(rows, order, inverse, &mut sign) {
+            $(if $column < N && !eliminate::<N, $column>(rows, order, inverse, &mut signs) {
                 return None;
             })*
         };
     }
     each!(0 1 2 3 4 5);
-    Some(sign)
+    Some((signs[0], signs[0] * signs[1]))
 }
 
 /// Solves A x = b for a factored matrix; `b` is replaced by `x`.
