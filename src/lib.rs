@@ -54,6 +54,8 @@ pub mod diagnosis;
 pub mod engines;
 mod files;
 #[doc(hidden)]
+pub mod mutate;
+#[doc(hidden)]
 pub mod proof;
 #[doc(hidden)]
 pub mod record;

@@ -5,6 +5,7 @@ mod dependence;
 mod dial;
 mod doubt;
 mod engines;
+mod entrants;
 mod examined;
 mod judge;
 mod known;
@@ -27,6 +28,7 @@ mod settle;
 mod stall;
 
 pub use engines::EngineProof;
+pub(crate) use entrants::{Entrant, Sides, TRUE_SIDES};
 pub use judge::{ChannelProof, EngineInfo};
 pub use options::{Options, Reference};
 pub use own_forces::{ForceFault, OwnForces};
@@ -37,12 +39,9 @@ use crate::compare::{Check, Verdict, overall};
 use crate::diagnosis::Diagnosis;
 use crate::scenario::Scenario;
 use analytic::range::explained;
-use known::Known;
 use linkage::case::Case;
 use linkage::error::Result;
-use linkage::solver::Solver;
 use linkage::trajectory::Trajectory;
-use observe::{Watch, observe};
 
 /// All results of one proof.
 ///
@@ -159,49 +158,25 @@ const SIDES: f64 = 0.1;
 fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: &mut dyn FnMut(f64)) -> Result<Proof> {
     let case = &scenario.case;
     let main = options.reference.solver();
-    let engines = options.chosen(scenario)?;
-    let observed =
-        |solver: &dyn Solver| -> Result<_> { Ok((solver.name(), observe(case, solver, Watch::Side, &mut |_| {})?)) };
-    let [first, second] = analytic::all();
-    let sides = [observed(first)?, observed(second)?];
-    let own = &sides.iter().find(|(name, _)| *name == main.name()).expect("the reference is one of the sides").1;
-    let (other, beside) = sides.iter().find(|(name, _)| *name != main.name()).expect("there are two sides");
-    let sensitivity = sensitivity::of(case, main, &own.trajectory)?;
-    let mut known = Known::of(case, [(main.name(), &own.trajectory), (other, &beside.trajectory)], &sensitivity)?;
-    if checks::sides_differ(&sides, &known) {
-        known.measure(case, first)?;
-    }
-    let mut checks = checks::of_sides(case, &sides, &known);
-    checks.extend(methods::checks(case, main)?);
-    checks.extend(oracle::checks(scenario)?);
-
-    let engine_case = engine_case.on(case.grid.clone())?;
-    let mut proofs = Vec::with_capacity(engines.len());
-    for (index, engine) in engines.iter().enumerate() {
-        let mut part = |part: f64| progress(SIDES + (1.0 - SIDES) * (index as f64 + part) / engines.len() as f64);
-        let mut proof = engines::prove(scenario, &engine_case, engine, own, &known, &mut part)?;
-        engines::tell_sensitivity(&mut proof, &own.trajectory, &sensitivity);
-        proofs.push(proof);
-    }
-    if let [EngineProof { failure: Some(error), trajectory: None, .. }] = proofs.as_slice() {
-        return Err(error.clone());
-    }
+    let sides = Sides::of(scenario, TRUE_SIDES, options.reference)?;
+    let proofs = sides.engines(scenario, engine_case, &|engine| engine, options, progress)?;
+    let own = sides.own();
     let disputes = match proofs.len() {
         1 => Vec::new(),
         _ => parties::disputes(main.name(), &own.trajectory, &proofs),
     };
-    let analytic = overall(checks.iter().map(|check| &check.verdict));
+    let analytic = sides.verdict();
     let verdict = overall([&analytic].into_iter().chain(proofs.iter().map(|proof| &proof.verdict)));
     Ok(Proof {
         scenario: scenario.name.clone(),
         title: scenario.title.clone(),
         formula: case.structure.formula(&case.mechanism),
         reference: main.name(),
-        diagnosis: examined::of(case, main, &sides, &known, &proofs),
-        checks,
+        diagnosis: examined::of(case, main, &sides.observed, &sides.known, &proofs),
+        reference_trajectory: own.trajectory.clone(),
+        checks: sides.checks,
         engines: proofs,
         disputes,
         verdict,
-        reference_trajectory: own.trajectory.clone(),
     })
 }

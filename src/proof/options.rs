@@ -94,6 +94,13 @@ pub(crate) struct Chosen {
     pub(crate) budget: f64,
 }
 
+impl Chosen {
+    /// The same with `around` the engine.
+    pub(crate) fn with_engine(self, around: &dyn Fn(Box<dyn Engine>) -> Box<dyn Engine>) -> Self {
+        Chosen { engine: around(self.engine), ..self }
+    }
+}
+
 impl Options {
     /// Adds an engine.
     #[must_use]

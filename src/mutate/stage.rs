@@ -1,0 +1,129 @@
+//! One scenario with its true parties, and proofs in which one of them has a fault.
+
+use std::sync::OnceLock;
+
+use super::effect::{Effect, effect};
+use super::kinds::Plant;
+use super::plan::Party;
+use super::planted::{Fault, Planted};
+use super::seen::{Eyes, Outcome};
+use crate::compare::overall;
+use crate::proof::{Entrant, Options, Sides, TRUE_SIDES};
+use crate::scenario::Scenario;
+use analytic::{AssurSolver, NewtonSolver, TightAssurSolver, TightNewtonSolver};
+use linkage::engine::{Engine, Kept};
+use linkage::error::Result;
+use linkage::solver::Solver;
+use linkage::trajectory::Trajectory;
+
+/// A scenario's proof without a fault, and what can be used again.
+pub(super) struct Stage<'a> {
+    pub(super) scenario: &'a Scenario,
+    options: &'a Options,
+    /// The analytic sides without a fault.
+    sides: Sides,
+    /// Exact answers of side 1.
+    right: Trajectory,
+    /// The engine's runs without a fault.
+    runs: OnceLock<Kept>,
+    /// Verdict of the proof without a fault, and the engine.
+    pub(super) verdict: &'static str,
+    pub(super) engine: &'static str,
+}
+
+impl<'a> Stage<'a> {
+    /// Proves the scenario without a fault.
+    ///
+    /// # Errors
+    /// Those of the proof.
+    pub(super) fn new(scenario: &'a Scenario, options: &'a Options) -> Result<Self> {
+        let sides = Sides::of(scenario, TRUE_SIDES, options.reference)?;
+        let right = AssurSolver.solve(&scenario.case)?;
+        let mut stage = Stage { scenario, options, sides, right, runs: OnceLock::new(), verdict: "", engine: "" };
+        let proofs = stage.sides.engines(scenario, &scenario.case, &|own| stage.kept(own), options, &mut |_| {})?;
+        let verdict = stage.sides.verdict();
+        (stage.verdict, stage.engine) = (overall([&verdict, &proofs[0].verdict]).word(), proofs[0].info.name);
+        Ok(stage)
+    }
+
+    /// The engine whose runs are kept for all proofs of this scenario.
+    fn kept(&self, engine: Box<dyn Engine>) -> Box<dyn Engine> {
+        self.runs.get_or_init(|| Kept::new(engine.as_ref())).with(engine.settings())
+    }
+
+    /// What a fault changes in exact answers.
+    pub(super) fn effect(&self, fault: Fault) -> Result<Effect> {
+        effect(&self.scenario.case, &self.right, fault)
+    }
+
+    /// The proof with a fault in one party.
+    pub(super) fn proven(&self, fault: Fault, party: Party) -> Outcome {
+        let outcome = match party {
+            Party::Assur | Party::Newton => self.in_side(fault, party),
+            Party::Engine => self.in_engine(fault),
+            Party::All => self.in_all(fault),
+        };
+        outcome.unwrap_or_else(|error| Outcome::Refused(error.message().into()))
+    }
+
+    fn in_side(&self, fault: Fault, party: Party) -> Result<Outcome> {
+        let wrong = planted_sides(fault);
+        let mut entrants = TRUE_SIDES;
+        let index = usize::from(party == Party::Newton);
+        entrants[index] = Entrant { solver: &wrong[index][0], tight: &wrong[index][1] };
+        let sides = Sides::of(self.scenario, entrants, self.options.reference)?;
+        let eyes = Eyes::default().sides(&sides, false);
+        if eyes.is_decided() {
+            return Ok(eyes.outcome());
+        }
+        let (scenario, options) = (self.scenario, self.options);
+        let proofs = sides.engines(scenario, &scenario.case, &|own| self.kept(own), options, &mut |_| {})?;
+        Ok(eyes.engine(&proofs[0], sides.trajectory()).outcome())
+    }
+
+    fn in_engine(&self, fault: Fault) -> Result<Outcome> {
+        let around = |own: Box<dyn Engine>| -> Box<dyn Engine> {
+            let inner = match fault.kind.plant {
+                Plant::Case(_) => own,
+                // Its runs are right; what it says of them is wrong.
+                Plant::Answer(_) => self.kept(own),
+            };
+            Box::new(Planted { fault, inner })
+        };
+        let (scenario, options) = (self.scenario, self.options);
+        let proofs = self.sides.engines(scenario, &scenario.case, &around, options, &mut |_| {})?;
+        if let Some(error) = &proofs[0].failure {
+            return Ok(Outcome::Refused(error.message().into()));
+        }
+        let eyes = Eyes::default().sides(&self.sides, false);
+        Ok(eyes.engine(&proofs[0], self.sides.trajectory()).outcome())
+    }
+
+    /// The fault in what all parties share: no party can contradict another, and what comes from outside is asked.
+    fn in_all(&self, fault: Fault) -> Result<Outcome> {
+        let reference = self.options.reference;
+        let sides = match fault.kind.plant {
+            Plant::Case(change) => {
+                let Some(case) = change(&self.scenario.case, fault.size) else {
+                    return Ok(Outcome::Refused("the case cannot be put together".into()));
+                };
+                Sides::of(&Scenario { case, ..self.scenario.clone() }, TRUE_SIDES, reference)?
+            }
+            Plant::Answer(_) => {
+                let wrong = planted_sides(fault);
+                let entrants = [0, 1].map(|side: usize| Entrant { solver: &wrong[side][0], tight: &wrong[side][1] });
+                Sides::of(self.scenario, entrants, reference)?
+            }
+        };
+        Ok(Eyes::default().sides(&sides, true).outcome())
+    }
+}
+
+/// Side 1 and side 2 with a fault, each as it is and with a tighter tolerance.
+fn planted_sides(fault: Fault) -> [[Planted<dyn Solver>; 2]; 2] {
+    let planted = |inner: Box<dyn Solver>| Planted { fault, inner };
+    [
+        [planted(Box::new(AssurSolver)), planted(Box::new(TightAssurSolver))],
+        [planted(Box::new(NewtonSolver)), planted(Box::new(TightNewtonSolver))],
+    ]
+}

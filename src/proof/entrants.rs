@@ -1,0 +1,135 @@
+//! Who takes part in a proof, and the two halves of a proof: the analytic sides, and the engines against one of them.
+
+use super::engines::{self, EngineProof};
+use super::known::Known;
+use super::observe::{Observed, Watch, observe};
+use super::options::{Options, Reference};
+use super::{SIDES, checks, methods, oracle, sensitivity};
+use crate::compare::{Check, Verdict, overall};
+use crate::scenario::Scenario;
+use analytic::{AssurSolver, NewtonSolver, TightAssurSolver, TightNewtonSolver};
+use linkage::case::Case;
+use linkage::engine::Engine;
+use linkage::error::Result;
+use linkage::solver::Solver;
+use linkage::trajectory::{Channel, Trajectory};
+
+/// An analytic side: its solver, and the same with a tighter tolerance where it integrates.
+#[derive(Clone, Copy)]
+pub(crate) struct Entrant<'a> {
+    /// The side. It has the name of one of [`analytic::all`].
+    pub(crate) solver: &'a dyn Solver,
+    /// The side with a tighter tolerance.
+    pub(crate) tight: &'a dyn Solver,
+}
+
+/// Side 1 and side 2 as they are.
+pub(crate) const TRUE_SIDES: [Entrant<'static>; 2] = [
+    Entrant { solver: &AssurSolver, tight: &TightAssurSolver },
+    Entrant { solver: &NewtonSolver, tight: &TightNewtonSolver },
+];
+
+/// Puts something around an engine.
+pub(crate) type Around<'a> = &'a (dyn Fn(Box<dyn Engine>) -> Box<dyn Engine> + Sync);
+
+/// The two analytic sides of a proof, observed and checked.
+pub(crate) struct Sides {
+    /// The reference first.
+    order: [usize; 2],
+    /// Side 1 and side 2 with their names.
+    pub(super) observed: [(&'static str, Observed); 2],
+    pub(super) known: Known,
+    /// How strongly a motion under forces depends on them, by channel of the reference.
+    pub(super) sensitivity: Vec<f64>,
+    /// Checks on both, published numbers among them.
+    pub(crate) checks: Vec<Check>,
+}
+
+/// Where two trajectories leave what is allowed in one channel.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Beyond {
+    /// The channel.
+    pub(crate) channel: Channel,
+    /// First instant beyond what is allowed (s), and its crank angle (rad).
+    pub(crate) since: (f64, f64),
+    /// Largest difference over what is allowed.
+    pub(crate) margin: f64,
+}
+
+impl Sides {
+    /// Both sides on the scenario's case, the side called `reference` being the reference.
+    ///
+    /// # Errors
+    /// Those of the sides.
+    pub(crate) fn of(scenario: &Scenario, entrants: [Entrant; 2], reference: Reference) -> Result<Self> {
+        let case = &scenario.case;
+        let observed = |entrant: Entrant| -> Result<_> {
+            Ok((entrant.solver.name(), observe(case, entrant.solver, Watch::Side, &mut |_| {})?))
+        };
+        let [first, second] = entrants;
+        let sides = [observed(first)?, observed(second)?];
+        let order = if sides[0].0 == reference.name() { [0, 1] } else { [1, 0] };
+        let main = entrants[order[0]].solver;
+        let [own, beside] = order.map(|side| &sides[side].1.trajectory);
+        let sensitivity = sensitivity::of(case, main, own)?;
+        let tight = order.map(|side| entrants[side].tight);
+        let mut known = Known::beside(case, [(tight[0], own), (tight[1], beside)], &sensitivity)?;
+        if checks::sides_differ(&sides, &known) {
+            known.measure(case, first.solver)?;
+        }
+        let mut checks = checks::of_sides(case, &sides, &known);
+        checks.extend(methods::checks(case, main)?);
+        checks.extend(oracle::checks(scenario, entrants.map(|entrant| entrant.solver))?);
+        Ok(Sides { order, observed: sides, known, sensitivity, checks })
+    }
+
+    /// What was observed of the reference.
+    pub(super) fn own(&self) -> &Observed {
+        &self.observed[self.order[0]].1
+    }
+
+    /// The reference's trajectory.
+    pub(crate) fn trajectory(&self) -> &Trajectory {
+        &self.own().trajectory
+    }
+
+    /// The verdict on all checks.
+    pub(crate) fn verdict(&self) -> Verdict {
+        overall(self.checks.iter().map(|check| &check.verdict))
+    }
+
+    /// Every channel in which the two sides differ by more than is allowed.
+    pub(crate) fn beyond(&self) -> Vec<Beyond> {
+        checks::beyond(&self.observed, &self.known)
+    }
+
+    /// Proofs of all engines of the options against the reference. The engines solve `case` on the scenario's instants;
+    /// `around` puts something around each of them.
+    ///
+    /// # Errors
+    /// Those of the options, of a case that does not fit the instants, and of an only engine that cannot start.
+    pub(crate) fn engines(
+        &self,
+        scenario: &Scenario,
+        case: &Case,
+        around: Around,
+        options: &Options,
+        progress: &mut dyn FnMut(f64),
+    ) -> Result<Vec<EngineProof>> {
+        let mut engines = options.chosen(scenario)?;
+        let case = case.on(scenario.case.grid.clone())?;
+        let count = engines.len() as f64;
+        let mut proofs = Vec::with_capacity(engines.len());
+        for (index, chosen) in engines.drain(..).enumerate() {
+            let chosen = chosen.with_engine(around);
+            let mut part = |part: f64| progress(SIDES + (1.0 - SIDES) * (index as f64 + part) / count);
+            let mut proof = engines::prove(scenario, &case, &chosen, self.own(), &self.known, &mut part)?;
+            engines::tell_sensitivity(&mut proof, self.trajectory(), &self.sensitivity);
+            proofs.push(proof);
+        }
+        if let [EngineProof { failure: Some(error), trajectory: None, .. }] = proofs.as_slice() {
+            return Err(error.clone());
+        }
+        Ok(proofs)
+    }
+}
