@@ -8,7 +8,7 @@ use super::plan::Party;
 use super::planted::{Fault, Planted};
 use super::seen::{Eyes, Outcome};
 use crate::compare::overall;
-use crate::proof::{Entrant, Options, Sides, TRUE_SIDES};
+use crate::proof::{Engines, Entrant, Options, Sides, TRUE_SIDES};
 use crate::scenario::Scenario;
 use analytic::{AssurSolver, NewtonSolver, TightAssurSolver, TightNewtonSolver};
 use linkage::engine::{Engine, Kept};
@@ -40,7 +40,8 @@ impl<'a> Stage<'a> {
         let sides = Sides::of(scenario, TRUE_SIDES, options.reference)?;
         let right = AssurSolver.solve(&scenario.case)?;
         let mut stage = Stage { scenario, options, sides, right, runs: OnceLock::new(), verdict: "", engine: "" };
-        let proofs = stage.sides.engines(scenario, &scenario.case, &|own| stage.kept(own), options, &mut |_| {})?;
+        let how = Engines { around: &|own| stage.kept(own), ..Engines::on(&scenario.case) };
+        let proofs = stage.sides.engines(scenario, &how, options, &mut |_| {})?;
         let verdict = stage.sides.verdict();
         (stage.verdict, stage.engine) = (overall([&verdict, &proofs[0].verdict]).word(), proofs[0].info.name);
         Ok(stage)
@@ -48,7 +49,7 @@ impl<'a> Stage<'a> {
 
     /// The engine whose runs are kept for all proofs of this scenario.
     fn kept(&self, engine: Box<dyn Engine>) -> Box<dyn Engine> {
-        self.runs.get_or_init(|| Kept::new(engine.as_ref())).with(engine.settings())
+        kept_in(&self.runs, engine)
     }
 
     /// What a fault changes in exact answers.
@@ -76,27 +77,38 @@ impl<'a> Stage<'a> {
         if eyes.is_decided() {
             return Ok(eyes.outcome());
         }
-        let (scenario, options) = (self.scenario, self.options);
-        let proofs = sides.engines(scenario, &scenario.case, &|own| self.kept(own), options, &mut |_| {})?;
-        Ok(eyes.engine(&proofs[0], sides.trajectory()).outcome())
+        self.judged(&sides, &|own| self.kept(own))
     }
 
     fn in_engine(&self, fault: Fault) -> Result<Outcome> {
+        let runs = OnceLock::new();
         let around = |own: Box<dyn Engine>| -> Box<dyn Engine> {
-            let inner = match fault.kind.plant {
-                Plant::Case(_) => own,
+            match fault.kind.plant {
+                Plant::Case(_) => kept_in(&runs, Box::new(Planted { fault, inner: own })),
                 // Its runs are right; what it says of them is wrong.
-                Plant::Answer(_) => self.kept(own),
-            };
-            Box::new(Planted { fault, inner })
+                Plant::Answer(_) => Box::new(Planted { fault, inner: self.kept(own) }),
+            }
         };
-        let (scenario, options) = (self.scenario, self.options);
-        let proofs = self.sides.engines(scenario, &scenario.case, &around, options, &mut |_| {})?;
-        if let Some(error) = &proofs[0].failure {
-            return Ok(Outcome::Refused(error.message().into()));
+        self.judged(&self.sides, &around)
+    }
+
+    /// The engine against these sides. Its own forces are asked where its motion and their forces agree: no verdict on
+    /// them takes a disagreement back.
+    fn judged(&self, sides: &Sides, around: &dyn Fn(Box<dyn Engine>) -> Box<dyn Engine>) -> Result<Outcome> {
+        let mut last = Outcome::Escaped;
+        for own_forces in [false, true] {
+            let how = Engines { case: &self.scenario.case, around, own_forces };
+            let proofs = sides.engines(self.scenario, &how, self.options, &mut |_| {})?;
+            if let Some(error) = &proofs[0].failure {
+                return Ok(Outcome::Refused(error.message().into()));
+            }
+            let eyes = Eyes::default().sides(sides, false).engine(&proofs[0], sides.trajectory());
+            last = eyes.outcome();
+            if last.is_found() {
+                break;
+            }
         }
-        let eyes = Eyes::default().sides(&self.sides, false);
-        Ok(eyes.engine(&proofs[0], self.sides.trajectory()).outcome())
+        Ok(last)
     }
 
     /// The fault in what all parties share: no party can contradict another, and what comes from outside is asked.
@@ -117,6 +129,11 @@ impl<'a> Stage<'a> {
         };
         Ok(Eyes::default().sides(&sides, true).outcome())
     }
+}
+
+/// The engine with the runs that are kept; they are those of the first engine that comes.
+fn kept_in(runs: &OnceLock<Kept>, engine: Box<dyn Engine>) -> Box<dyn Engine> {
+    runs.get_or_init(|| Kept::new(engine.as_ref())).with(engine.settings())
 }
 
 /// Side 1 and side 2 with a fault, each as it is and with a tighter tolerance.

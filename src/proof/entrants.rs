@@ -29,8 +29,22 @@ pub(crate) const TRUE_SIDES: [Entrant<'static>; 2] = [
     Entrant { solver: &NewtonSolver, tight: &TightNewtonSolver },
 ];
 
-/// Puts something around an engine.
-pub(crate) type Around<'a> = &'a (dyn Fn(Box<dyn Engine>) -> Box<dyn Engine> + Sync);
+/// How engines take part.
+pub(crate) struct Engines<'a> {
+    /// What they solve, on the scenario's instants.
+    pub(crate) case: &'a Case,
+    /// Puts something around each of them.
+    pub(crate) around: &'a dyn Fn(Box<dyn Engine>) -> Box<dyn Engine>,
+    /// Whether the forces that they exert are judged besides.
+    pub(crate) own_forces: bool,
+}
+
+impl<'a> Engines<'a> {
+    /// Engines as they are, on a case.
+    pub(crate) fn on(case: &'a Case) -> Self {
+        Engines { case, around: &|engine| engine, own_forces: true }
+    }
+}
 
 /// The two analytic sides of a proof, observed and checked.
 pub(crate) struct Sides {
@@ -103,25 +117,23 @@ impl Sides {
         checks::beyond(&self.observed, &self.known)
     }
 
-    /// Proofs of all engines of the options against the reference. The engines solve `case` on the scenario's instants;
-    /// `around` puts something around each of them.
+    /// Proofs of all engines of the options against the reference.
     ///
     /// # Errors
     /// Those of the options, of a case that does not fit the instants, and of an only engine that cannot start.
     pub(crate) fn engines(
         &self,
         scenario: &Scenario,
-        case: &Case,
-        around: Around,
+        how: &Engines,
         options: &Options,
         progress: &mut dyn FnMut(f64),
     ) -> Result<Vec<EngineProof>> {
         let mut engines = options.chosen(scenario)?;
-        let case = case.on(scenario.case.grid.clone())?;
+        let case = how.case.on(scenario.case.grid.clone())?;
         let count = engines.len() as f64;
         let mut proofs = Vec::with_capacity(engines.len());
         for (index, chosen) in engines.drain(..).enumerate() {
-            let chosen = chosen.with_engine(around);
+            let chosen = chosen.with_engine(how.around, how.own_forces);
             let mut part = |part: f64| progress(SIDES + (1.0 - SIDES) * (index as f64 + part) / count);
             let mut proof = engines::prove(scenario, &case, &chosen, self.own(), &self.known, &mut part)?;
             engines::tell_sensitivity(&mut proof, self.trajectory(), &self.sensitivity);

@@ -28,7 +28,7 @@ mod settle;
 mod stall;
 
 pub use engines::EngineProof;
-pub(crate) use entrants::{Entrant, Sides, TRUE_SIDES};
+pub(crate) use entrants::{Engines, Entrant, Sides, TRUE_SIDES};
 pub use judge::{ChannelProof, EngineInfo};
 pub use options::{Options, Reference};
 pub use own_forces::{ForceFault, OwnForces};
@@ -159,7 +159,7 @@ fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: 
     let case = &scenario.case;
     let main = options.reference.solver();
     let sides = Sides::of(scenario, TRUE_SIDES, options.reference)?;
-    let proofs = sides.engines(scenario, engine_case, &|engine| engine, options, progress)?;
+    let proofs = sides.engines(scenario, &Engines::on(engine_case), options, progress)?;
     let own = sides.own();
     let disputes = match proofs.len() {
         1 => Vec::new(),

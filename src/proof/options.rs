@@ -95,9 +95,9 @@ pub(crate) struct Chosen {
 }
 
 impl Chosen {
-    /// The same with `around` the engine.
-    pub(crate) fn with_engine(self, around: &dyn Fn(Box<dyn Engine>) -> Box<dyn Engine>) -> Self {
-        Chosen { engine: around(self.engine), ..self }
+    /// The same with `around` the engine, and with its own forces or without.
+    pub(crate) fn with_engine(self, around: &dyn Fn(Box<dyn Engine>) -> Box<dyn Engine>, own_forces: bool) -> Self {
+        Chosen { engine: around(self.engine), own_forces: self.own_forces.filter(|_| own_forces), ..self }
     }
 }
 

@@ -16,8 +16,11 @@ pub(super) const KINDS: &[Kind] = &[
         times(case, case.loads.len().checked_sub(1)?, 0.0)
     }),
     Kind::case(OF, "load", "the first load is larger by a share", |case, size| times(case, 0, 1.0 + size)).sized(1e-2),
-    Kind::case(OF, "load-sign", "the first load that can acts the other way", |case, _| {
-        (0..case.loads.len()).find_map(|index| times(case, index, -1.0))
+    // Not of a spring: one that pushes where it should pull drives a free motion to infinity, and no file can say it.
+    Kind::case(OF, "load-sign", "the first load that can, but no spring, acts the other way", |case, _| {
+        let springs = [LoadSort::Spring, LoadSort::TorsionSpring];
+        let others = (0..case.loads.len()).filter(|&index| !springs.contains(&case.loads[index].nature().sort));
+        others.filter_map(|index| times(case, index, -1.0)).next()
     }),
     Kind::case(OF, "load-twice", "the first load is counted twice", |case, _| times(case, 0, 2.0)),
     Kind::case(OF, "load-by-ratio", "the first load is divided by the reducer's ratio once more", |case, _| {
