@@ -17,7 +17,7 @@ Examples:
   linkproof mutate --list                                                       all kinds of faults
   linkproof mutate scenarios/crank_rocker.toml --kind mass --no-sizes           one kind, in every party
   linkproof mutate scenarios/quick_return.toml --kind force --party assur       one family, in side 1 only
-  linkproof mutate scenarios/*.toml --party trunk --no-sizes --kind gravity-sign   in what all share: who outside sees it?
+  linkproof mutate scenarios/quick_return.toml --party trunk --kind gravity-sign   in what all share: who outside sees it?
   linkproof mutate scenarios/loaded_slider.toml --kind spring-twice --json -    for a script
 
 Every fault stands alone, in an otherwise correct proof at default settings.

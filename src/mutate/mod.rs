@@ -14,6 +14,8 @@ mod planted;
 mod seen;
 mod stage;
 mod tally;
+#[cfg(test)]
+mod tests;
 
 pub use kinds::{Family, Kind, Plant, all};
 pub use plan::{Asked, Party, mutate};
