@@ -7,7 +7,7 @@ use clap::builder::PossibleValuesParser;
 use super::engine_args::EngineArgs;
 use super::progress::Bar;
 use super::{advice, exit_code, output};
-use crate::mutate::{Asked, Kind, Mutated, Party, all, mutate, tally};
+use crate::mutate::{Asked, Mutated, Party, all, mutate, named, tally};
 use crate::report::{errors, mutate as report};
 use crate::scenario::Scenario;
 use linkage::error::{Error, ErrorKind, Result};
@@ -69,8 +69,8 @@ pub(super) fn run(args: &Args) -> u8 {
         );
         return output::exit(Err(error.key("--engine").help("give one engine")));
     }
-    let named = |name: &String| Party::ALL.into_iter().find(|party| party.name() == name);
-    let parties = args.party.iter().filter_map(named).collect();
+    let party = |name: &String| Party::ALL.into_iter().find(|party| party.name() == name);
+    let parties = args.party.iter().filter_map(party).collect();
     let asked = Asked { kinds: args.kind.clone(), parties, with_sizes: !args.no_sizes, jobs: args.jobs, options };
     let (mut found, mut failures) = (Vec::new(), Vec::new());
     for file in &args.files {
@@ -115,7 +115,7 @@ fn exit(found: &[Mutated]) -> u8 {
 
 /// A kind or family by name.
 fn kind(text: &str) -> std::result::Result<String, String> {
-    if Kind::named(text).is_some() || all().any(|kind| kind.family.name() == text) {
+    if named(text).is_some() || all().any(|kind| kind.family.name() == text) {
         return Ok(text.into());
     }
     Err("there is no such kind and no such family; `linkproof mutate --list` has them all".into())

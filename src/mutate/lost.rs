@@ -1,6 +1,6 @@
 //! The size at which a fault is lost.
 
-use super::plan::Party;
+use super::mutant::Party;
 use super::planted::Fault;
 use super::stage::Stage;
 

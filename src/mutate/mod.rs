@@ -9,6 +9,7 @@
 mod effect;
 mod kinds;
 mod lost;
+mod mutant;
 mod plan;
 mod planted;
 mod seen;
@@ -17,37 +18,8 @@ mod tally;
 #[cfg(test)]
 mod tests;
 
-pub use kinds::{Family, Kind, Plant, all};
-pub use plan::{Asked, Party, mutate};
+pub use kinds::{At, Family, Kind, Plant, all, named};
+pub use mutant::{Mutant, Mutated, Party};
+pub use plan::{Asked, mutate};
 pub use seen::{Outcome, Sight};
 pub use tally::{Share, Tally, tally};
-
-/// One fault, planted in one party of one scenario's proof, and what came of it.
-#[derive(Clone)]
-pub struct Mutant {
-    /// The kind of fault.
-    pub kind: &'static Kind,
-    /// Where it is planted.
-    pub party: Party,
-    /// What came of it.
-    pub outcome: Outcome,
-    /// Largest change of exact answers, relative to the largest number of a quantity; `None` where there is no answer.
-    pub effect: Option<f64>,
-    /// Of a fault with a size that is found: the smallest size still found, to a factor of two.
-    pub smallest: Option<f64>,
-}
-
-/// All faults planted in one scenario.
-#[derive(Clone)]
-pub struct Mutated {
-    /// Name of the scenario.
-    pub scenario: String,
-    /// Verdict of its proof without a fault.
-    pub verdict: &'static str,
-    /// The engine.
-    pub engine: &'static str,
-    /// The faults, kind by kind.
-    pub mutants: Vec<Mutant>,
-    /// Kinds that the scenario has no part for.
-    pub without: Vec<&'static str>,
-}

@@ -6,42 +6,13 @@ use std::sync::mpsc;
 use super::effect::Effect;
 use super::kinds::{self, Kind};
 use super::lost::smallest;
+use super::mutant::{Mutant, Mutated, Party};
 use super::planted::Fault;
 use super::seen::Outcome;
 use super::stage::Stage;
-use super::{Mutant, Mutated};
 use crate::proof::Options;
 use crate::scenario::Scenario;
 use linkage::error::Result;
-
-/// Who gets a fault.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Party {
-    /// Side 1.
-    Assur,
-    /// Side 2.
-    Newton,
-    /// The engine.
-    Engine,
-    /// All of them alike: what they share is wrong.
-    All,
-}
-
-impl Party {
-    /// All parties.
-    pub const ALL: [Party; 4] = [Party::Assur, Party::Newton, Party::Engine, Party::All];
-
-    /// Name, as on the command line.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Party::Assur => "assur",
-            Party::Newton => "newton",
-            Party::Engine => "engine",
-            Party::All => "trunk",
-        }
-    }
-}
 
 /// What is asked for.
 #[derive(Clone, Debug, Default)]

@@ -4,7 +4,7 @@ use std::sync::OnceLock;
 
 use super::effect::{Effect, effect};
 use super::kinds::Plant;
-use super::plan::Party;
+use super::mutant::Party;
 use super::planted::{Fault, Planted};
 use super::seen::{Eyes, Outcome};
 use crate::compare::overall;

@@ -1,6 +1,7 @@
 //! Outcomes counted.
 
-use super::{Mutated, Outcome, Party};
+use super::mutant::{Mutated, Party};
+use super::seen::Outcome;
 
 /// Numbers of faults by outcome.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

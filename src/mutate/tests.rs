@@ -1,8 +1,9 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use super::kinds::{Kind, all};
-use super::plan::{Asked, Party, mutate};
+use super::kinds::{all, named};
+use super::mutant::Party;
+use super::plan::{Asked, mutate};
 use super::planted::Fault;
 use super::seen::Outcome;
 use super::stage::Stage;
@@ -15,7 +16,7 @@ fn scenario(name: &str) -> Scenario {
 }
 
 fn fault(name: &str, size: Option<f64>) -> Fault {
-    let kind = Kind::named(name).unwrap_or_else(|| panic!("{name}"));
+    let kind = named(name).unwrap_or_else(|| panic!("{name}"));
     Fault { kind, size: size.or(kind.size).unwrap_or(1.0) }
 }
 
@@ -63,8 +64,7 @@ fn the_smallest_size_is_found_and_half_of_it_is_lost() {
     let (scenario, options) = (scenario("crank_rocker"), Options::default());
     let stage = Stage::new(&scenario, &options).unwrap();
     for (name, party) in [("mass", Party::Assur), ("moment", Party::Engine)] {
-        let asked =
-            Asked { kinds: vec![name.into()], parties: vec![party], with_sizes: true, ..Asked::default() };
+        let asked = Asked { kinds: vec![name.into()], parties: vec![party], with_sizes: true, ..Asked::default() };
         let found = mutate(&scenario, &asked, &mut |_| {}).unwrap();
         let smallest = found.mutants[0].smallest.unwrap();
         assert!(stage.proven(fault(name, Some(smallest)), party).is_found(), "{name}: {smallest:e}");

@@ -1,6 +1,5 @@
 //! Checks besides the comparison of the two sides: closure, side against side, powers.
 
-use super::entrants::Beyond;
 use super::known::{Known, of_condition};
 use super::observe::Observed;
 use super::runs::Runs;
@@ -93,6 +92,17 @@ fn worst_instants<'a>(sides: &'a [(&'static str, Observed); 2], known: &Known) -
         values.iter().enumerate().map(at).max_by(|a, b| a.used().total_cmp(&b.used())).expect("there is an instant")
     };
     reference.channels().iter().enumerate().map(of).collect()
+}
+
+/// Where two trajectories leave what is allowed in one channel.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Beyond {
+    /// The channel.
+    pub(crate) channel: Channel,
+    /// First instant beyond what is allowed (s), and its crank angle (rad).
+    pub(crate) since: (f64, f64),
+    /// Largest difference over what is allowed.
+    pub(crate) margin: f64,
 }
 
 /// Every channel in which the two sides differ by more than what is allowed: since when, and by how much.

@@ -1,10 +1,11 @@
 //! Who takes part in a proof, and the two halves of a proof: the analytic sides, and the engines against one of them.
 
+use super::checks::{self, Beyond};
 use super::engines::{self, EngineProof};
 use super::known::Known;
 use super::observe::{Observed, Watch, observe};
 use super::options::{Options, Reference};
-use super::{SIDES, checks, methods, oracle, sensitivity};
+use super::{methods, oracle, sensitivity};
 use crate::compare::{Check, Verdict, overall};
 use crate::scenario::Scenario;
 use analytic::{AssurSolver, NewtonSolver, TightAssurSolver, TightNewtonSolver};
@@ -12,7 +13,10 @@ use linkage::case::Case;
 use linkage::engine::Engine;
 use linkage::error::Result;
 use linkage::solver::Solver;
-use linkage::trajectory::{Channel, Trajectory};
+use linkage::trajectory::Trajectory;
+
+/// Share of the progress that the analytic sides are given.
+const SIDES: f64 = 0.1;
 
 /// An analytic side: its solver, and the same with a tighter tolerance where it integrates.
 #[derive(Clone, Copy)]
@@ -57,17 +61,6 @@ pub(crate) struct Sides {
     pub(super) sensitivity: Vec<f64>,
     /// Checks on both, published numbers among them.
     pub(crate) checks: Vec<Check>,
-}
-
-/// Where two trajectories leave what is allowed in one channel.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Beyond {
-    /// The channel.
-    pub(crate) channel: Channel,
-    /// First instant beyond what is allowed (s), and its crank angle (rad).
-    pub(crate) since: (f64, f64),
-    /// Largest difference over what is allowed.
-    pub(crate) margin: f64,
 }
 
 impl Sides {

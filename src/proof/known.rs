@@ -72,7 +72,9 @@ impl Known {
     /// Those of the tighter runs.
     #[cfg(test)]
     pub(super) fn of(case: &Case, sides: [(&'static str, &Trajectory); 2], sensitivity: &[f64]) -> Result<Self> {
-        let tight = |name: &str| super::TRUE_SIDES.iter().find(|side| side.solver.name() == name).unwrap().tight;
+        let tight = |name: &str| -> &dyn Solver {
+            if name == "assur" { &analytic::TightAssurSolver } else { &analytic::TightNewtonSolver }
+        };
         Known::beside(case, sides.map(|(name, trajectory)| (tight(name), trajectory)), sensitivity)
     }
 

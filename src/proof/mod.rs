@@ -151,9 +151,6 @@ pub fn solve(case: &Case) -> Result<Trajectory> {
     Reference::Assur.solver().solve(case).map_err(|error| explained(case, error))
 }
 
-/// Share of the progress that the analytic sides are given.
-const SIDES: f64 = 0.1;
-
 /// The same, with the solvers' errors unchanged.
 fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: &mut dyn FnMut(f64)) -> Result<Proof> {
     let case = &scenario.case;

@@ -1,7 +1,7 @@
 //! Second derivatives that are answered.
 
+use super::kind::{Family, Kind};
 use super::touch::{arm, floating, moving_guide, output};
-use super::{Family, Kind};
 use linkage::math::turned;
 
 const OF: Family = Family::Acceleration;

@@ -2,8 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
+use super::kind::{Family, Kind};
 use super::touch::parts;
-use super::{Family, Kind};
 use crate::diagnosis::{at_speed, driven, reassembled};
 use linkage::case::{Case, Grid};
 use linkage::drive::{Drive, DriveMotion, MotionLaw};

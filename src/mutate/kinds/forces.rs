@@ -1,7 +1,7 @@
 //! Reactions and moments that are answered.
 
+use super::kind::{Family, Kind};
 use super::touch::{crank, crank_pin, output, slider};
-use super::{Family, Kind};
 use linkage::math::{Vec2, cross, rotated};
 use linkage::mechanism::Joint;
 

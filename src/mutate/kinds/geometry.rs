@@ -1,7 +1,7 @@
 //! Lengths, guides and configurations.
 
+use super::kind::{Family, Kind};
 use super::touch::{coupler, crank, ends, move_places, moving_guide, output, placed, slider};
-use super::{Family, Kind};
 use crate::diagnosis::others;
 use linkage::case::Case;
 use linkage::math::{Vec2, rotated, turned, unit};

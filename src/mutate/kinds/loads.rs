@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use super::kind::{Family, Kind};
 use super::touch::parts;
-use super::{Family, Kind};
 use linkage::case::Case;
 use linkage::drive::load::{Acts, LoadSort};
 use linkage::drive::{Course, Drive, Load};

@@ -1,7 +1,7 @@
 //! Gravity, masses, mass centres and moments of inertia.
 
+use super::kind::{Family, Kind};
 use super::touch::{crank, ends, heaviest, output, parts, with};
-use super::{Family, Kind};
 use linkage::case::Case;
 use linkage::math::Vec2;
 use linkage::mechanism::Link;

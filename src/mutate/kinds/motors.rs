@@ -1,7 +1,7 @@
 //! Motor and reducer of a free crank.
 
+use super::kind::{Family, Kind};
 use super::touch::parts;
-use super::{Family, Kind};
 use linkage::case::Case;
 use linkage::drive::{Motor, ShaftInertia};
 

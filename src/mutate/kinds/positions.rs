@@ -1,7 +1,7 @@
 //! Positions and angles that are answered.
 
+use super::kind::{Family, Kind};
 use super::touch::{arm, floating, output};
-use super::{Family, Kind};
 use linkage::math::{rotated, unit};
 use linkage::solver::State;
 

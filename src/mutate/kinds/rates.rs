@@ -1,7 +1,7 @@
 //! First derivatives that are answered.
 
+use super::kind::{Family, Kind};
 use super::touch::{arm, crank, floating, moving_guide, output};
-use super::{Family, Kind};
 use linkage::math::{rotated, turned};
 
 const OF: Family = Family::Rate;
