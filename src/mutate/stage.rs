@@ -8,7 +8,7 @@ use super::mutant::Party;
 use super::planted::{Fault, Planted};
 use super::seen::{Eyes, Outcome};
 use crate::compare::overall;
-use crate::proof::{Engines, Entrant, Options, Sides, TRUE_SIDES};
+use crate::proof::{EngineProof, Engines, Entrant, Ledger, Options, Sides, TRUE_SIDES};
 use crate::scenario::Scenario;
 use analytic::{AssurSolver, NewtonSolver, TightAssurSolver, TightNewtonSolver};
 use linkage::engine::{Engine, Kept};
@@ -16,9 +16,14 @@ use linkage::error::Result;
 use linkage::solver::Solver;
 use linkage::trajectory::Trajectory;
 
+/// What stands around an engine.
+type Around<'a> = &'a dyn Fn(Box<dyn Engine>) -> Box<dyn Engine>;
+
 /// A scenario's proof without a fault, and what can be used again.
 pub(super) struct Stage<'a> {
-    pub(super) scenario: &'a Scenario,
+    pub(super) scenario: Scenario,
+    /// The scenario with the whole mechanism, where only part of it is wanted.
+    whole: &'a Scenario,
     options: &'a Options,
     /// The analytic sides without a fault.
     sides: Sides,
@@ -37,14 +42,23 @@ impl<'a> Stage<'a> {
     /// # Errors
     /// Those of the proof.
     pub(super) fn new(scenario: &'a Scenario, options: &'a Options) -> Result<Self> {
-        let sides = Sides::of(scenario, TRUE_SIDES, options.reference)?;
+        let (whole, scenario) = (scenario, Scenario { case: scenario.case.scene()?.case, ..scenario.clone() });
+        let sides = Sides::of([&scenario, whole], TRUE_SIDES, options.reference, &mut Ledger::default())?;
         let right = AssurSolver.solve(&scenario.case)?;
-        let mut stage = Stage { scenario, options, sides, right, runs: OnceLock::new(), verdict: "", engine: "" };
-        let how = Engines { around: &|own| stage.kept(own), ..Engines::on(&scenario.case) };
-        let proofs = stage.sides.engines(scenario, &how, options, &mut |_| {})?;
+        let runs = OnceLock::new();
+        let mut stage = Stage { scenario, whole, options, sides, right, runs, verdict: "", engine: "" };
+        let proof = stage.engine(&stage.sides, &|own| stage.kept(own), true)?;
         let verdict = stage.sides.verdict();
-        (stage.verdict, stage.engine) = (overall([&verdict, &proofs[0].verdict]).word(), proofs[0].info.name);
+        (stage.verdict, stage.engine) = (overall([&verdict, &proof.verdict]).word(), proof.info.name);
         Ok(stage)
+    }
+
+    /// The engine's proof against these sides.
+    fn engine(&self, sides: &Sides, around: Around, own_forces: bool) -> Result<EngineProof> {
+        let how = Engines { case: &self.scenario.case, around, own_forces };
+        let engines = self.options.chosen(&self.scenario)?;
+        let mut proofs = sides.engines(&self.scenario, &how, engines, (&mut Ledger::default(), &mut |_| {}))?;
+        Ok(proofs.swap_remove(0))
     }
 
     /// The engine whose runs are kept for all proofs of this scenario.
@@ -72,7 +86,7 @@ impl<'a> Stage<'a> {
         let mut entrants = TRUE_SIDES;
         let index = usize::from(party == Party::Newton);
         entrants[index] = Entrant { solver: &wrong[index][0], tight: &wrong[index][1] };
-        let sides = Sides::of(self.scenario, entrants, self.options.reference)?;
+        let sides = self.sides([&self.scenario, self.whole], entrants)?;
         let eyes = Eyes::default().sides(&sides, false);
         if eyes.is_decided() {
             return Ok(eyes.outcome());
@@ -94,16 +108,14 @@ impl<'a> Stage<'a> {
 
     /// The engine against these sides. Its own forces are asked where its motion and their forces agree: no verdict on
     /// them takes a disagreement back.
-    fn judged(&self, sides: &Sides, around: &dyn Fn(Box<dyn Engine>) -> Box<dyn Engine>) -> Result<Outcome> {
+    fn judged(&self, sides: &Sides, around: Around) -> Result<Outcome> {
         let mut last = Outcome::Escaped;
         for own_forces in [false, true] {
-            let how = Engines { case: &self.scenario.case, around, own_forces };
-            let proofs = sides.engines(self.scenario, &how, self.options, &mut |_| {})?;
-            if let Some(error) = &proofs[0].failure {
+            let proof = self.engine(sides, around, own_forces)?;
+            if let Some(error) = &proof.failure {
                 return Ok(Outcome::Refused(error.message().into()));
             }
-            let eyes = Eyes::default().sides(sides, false).engine(&proofs[0], sides.trajectory());
-            last = eyes.outcome();
+            last = Eyes::default().sides(sides, false).engine(&proof, sides.trajectory()).outcome();
             if last.is_found() {
                 break;
             }
@@ -111,20 +123,24 @@ impl<'a> Stage<'a> {
         Ok(last)
     }
 
+    fn sides(&self, scenarios: [&Scenario; 2], entrants: [Entrant; 2]) -> Result<Sides> {
+        Sides::of(scenarios, entrants, self.options.reference, &mut Ledger::default())
+    }
+
     /// The fault in what all parties share: no party can contradict another, and what comes from outside is asked.
     fn in_all(&self, fault: Fault) -> Result<Outcome> {
-        let reference = self.options.reference;
         let sides = match fault.kind.plant {
             Plant::Case(change) => {
                 let Some(case) = change(&self.scenario.case, fault.size) else {
                     return Ok(Outcome::Refused("the case cannot be put together".into()));
                 };
-                Sides::of(&Scenario { case, ..self.scenario.clone() }, TRUE_SIDES, reference)?
+                let wrong = Scenario { case, ..self.scenario.clone() };
+                self.sides([&wrong, &wrong], TRUE_SIDES)?
             }
             Plant::Answer(_) => {
                 let wrong = planted_sides(fault);
                 let entrants = [0, 1].map(|side: usize| Entrant { solver: &wrong[side][0], tight: &wrong[side][1] });
-                Sides::of(self.scenario, entrants, reference)?
+                self.sides([&self.scenario, self.whole], entrants)?
             }
         };
         Ok(Eyes::default().sides(&sides, true).outcome())

@@ -3,8 +3,9 @@
 use super::checks::{self, Beyond};
 use super::engines::{self, EngineProof};
 use super::known::Known;
+use super::ledger::Ledger;
 use super::observe::{Observed, Watch, observe};
-use super::options::{Options, Reference};
+use super::options::{Chosen, Reference};
 use super::{methods, oracle, sensitivity};
 use crate::compare::{Check, Verdict, overall};
 use crate::scenario::Scenario;
@@ -64,29 +65,61 @@ pub(crate) struct Sides {
 }
 
 impl Sides {
-    /// Both sides on the scenario's case, the side called `reference` being the reference.
+    /// Both sides on the scene of a scenario, the side called `reference` being the reference. The first scenario has
+    /// the scene as its case, the second the whole.
     ///
     /// # Errors
     /// Those of the sides.
-    pub(crate) fn of(scenario: &Scenario, entrants: [Entrant; 2], reference: Reference) -> Result<Self> {
+    pub(crate) fn of(
+        [scenario, whole]: [&Scenario; 2],
+        entrants: [Entrant; 2],
+        reference: Reference,
+        ledger: &mut Ledger,
+    ) -> Result<Self> {
         let case = &scenario.case;
-        let observed = |entrant: Entrant| -> Result<_> {
-            Ok((entrant.solver.name(), observe(case, entrant.solver, Watch::Side, &mut |_| {})?))
+        let mut observed = |solver: &dyn Solver| -> Result<_> {
+            let why = if solver.name() == reference.name() { "the reference" } else { "checks the reference" };
+            let run = || observe(case, solver, Watch::Side, &mut |_| {});
+            Ok((solver.name(), ledger.done(solver.name(), why, run)?))
         };
         let [first, second] = entrants;
-        let sides = [observed(first)?, observed(second)?];
+        let sides = [observed(first.solver)?, observed(second.solver)?];
         let order = if sides[0].0 == reference.name() { [0, 1] } else { [1, 0] };
         let main = entrants[order[0]].solver;
         let [own, beside] = order.map(|side| &sides[side].1.trajectory);
-        let sensitivity = sensitivity::of(case, main, own)?;
         let tight = order.map(|side| entrants[side].tight);
-        let mut known = Known::beside(case, [(tight[0], own), (tight[1], beside)], &sensitivity)?;
-        if checks::sides_differ(&sides, &known) {
-            known.measure(case, first.solver)?;
+        let tighter = || -> Result<_> {
+            let sensitivity = sensitivity::of(case, main, own)?;
+            let known = Known::beside(case, [(tight[0], own), (tight[1], beside)], &sensitivity)?;
+            Ok((sensitivity, known))
+        };
+        let (sensitivity, mut known) = match case.is_free() {
+            true => ledger.done("tighter integration", "shows the error that both sides share", tighter)?,
+            false => {
+                ledger.skipped("integration", "the motion is prescribed");
+                tighter()?
+            }
+        };
+        match checks::sides_differ(&sides, &known) {
+            true => ledger.done("condition of every pose", "the sides differ by more than usual", || {
+                known.measure(case, first.solver)
+            })?,
+            false => ledger.skipped("condition of every pose", "the sides differ by usual rounding"),
         }
         let mut checks = checks::of_sides(case, &sides, &known);
-        checks.extend(methods::checks(case, main)?);
-        checks.extend(oracle::checks(scenario, entrants.map(|entrant| entrant.solver))?);
+        match methods::apply(case) {
+            true => checks.extend(
+                ledger.done("published methods", "others than ours for its triad", || methods::checks(case, main))?,
+            ),
+            false => ledger.skipped("published methods", "there is no triad of class III"),
+        }
+        match scenario.oracles.is_empty() {
+            true => ledger.skipped("published numbers", "there are none of wanted channels"),
+            false => {
+                let numbers = || oracle::checks(scenario, whole, entrants.map(|entrant| entrant.solver));
+                checks.extend(ledger.done("published numbers", "solved at their own crank angles", numbers)?);
+            }
+        }
         Ok(Sides { order, observed: sides, known, sensitivity, checks })
     }
 
@@ -110,25 +143,25 @@ impl Sides {
         checks::beyond(&self.observed, &self.known)
     }
 
-    /// Proofs of all engines of the options against the reference.
+    /// Proofs of the engines against the reference.
     ///
     /// # Errors
-    /// Those of the options, of a case that does not fit the instants, and of an only engine that cannot start.
+    /// Those of a case that does not fit the instants, and of an only engine that cannot start.
     pub(crate) fn engines(
         &self,
         scenario: &Scenario,
         how: &Engines,
-        options: &Options,
-        progress: &mut dyn FnMut(f64),
+        engines: Vec<Chosen>,
+        (ledger, progress): (&mut Ledger, &mut dyn FnMut(f64)),
     ) -> Result<Vec<EngineProof>> {
-        let mut engines = options.chosen(scenario)?;
         let case = how.case.on(scenario.case.grid.clone())?;
         let count = engines.len() as f64;
         let mut proofs = Vec::with_capacity(engines.len());
-        for (index, chosen) in engines.drain(..).enumerate() {
+        for (index, chosen) in engines.into_iter().enumerate() {
             let chosen = chosen.with_engine(how.around, how.own_forces);
             let mut part = |part: f64| progress(SIDES + (1.0 - SIDES) * (index as f64 + part) / count);
-            let mut proof = engines::prove(scenario, &case, &chosen, self.own(), &self.known, &mut part)?;
+            let told = (&mut *ledger, &mut part as &mut dyn FnMut(f64));
+            let mut proof = engines::prove(scenario, &case, &chosen, self.own(), &self.known, told)?;
             engines::tell_sensitivity(&mut proof, self.trajectory(), &self.sensitivity);
             proofs.push(proof);
         }

@@ -9,6 +9,7 @@ mod entrants;
 mod examined;
 mod judge;
 mod known;
+mod ledger;
 mod methods;
 mod need;
 mod observe;
@@ -30,6 +31,8 @@ mod stall;
 pub use engines::EngineProof;
 pub(crate) use entrants::{Engines, Entrant, Sides, TRUE_SIDES};
 pub use judge::{ChannelProof, EngineInfo};
+pub use ledger::Entry;
+pub(crate) use ledger::Ledger;
 pub use options::{Options, Reference};
 pub use own_forces::{ForceFault, OwnForces};
 pub use parties::Dispute;
@@ -39,7 +42,7 @@ use crate::compare::{Check, Verdict, overall};
 use crate::diagnosis::Diagnosis;
 use crate::scenario::Scenario;
 use analytic::range::explained;
-use linkage::case::Case;
+use linkage::case::{Case, Scene};
 use linkage::error::Result;
 use linkage::trajectory::Trajectory;
 
@@ -81,6 +84,10 @@ pub struct Proof {
     pub verdict: Verdict,
     /// The reference's trajectory.
     pub reference_trajectory: Trajectory,
+    /// The part of the scenario's case that was solved, and what nothing wanted depends on.
+    pub scene: Scene,
+    /// What was done, part by part, and what was not needed.
+    pub work: Vec<Entry>,
 }
 
 impl Proof {
@@ -148,15 +155,24 @@ pub fn prove_against(scenario: &Scenario, engine_case: &Case, options: &Options)
 /// # Errors
 /// Any reason why the mechanism cannot stay on its branch, with the crank angle and the interval that can be reached.
 pub fn solve(case: &Case) -> Result<Trajectory> {
+    let case = &case.scene()?.case;
     Reference::Assur.solver().solve(case).map_err(|error| explained(case, error))
 }
 
 /// The same, with the solvers' errors unchanged.
 fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: &mut dyn FnMut(f64)) -> Result<Proof> {
+    let scene = scenario.case.scene()?;
+    let (whole, scenario) = (scenario, &Scenario { case: scene.case.clone(), ..scenario.clone() });
     let case = &scenario.case;
     let main = options.reference.solver();
-    let sides = Sides::of(scenario, TRUE_SIDES, options.reference)?;
-    let proofs = sides.engines(scenario, &Engines::on(engine_case), options, progress)?;
+    let engines = options.chosen(scenario)?;
+    let mut ledger = Ledger::default();
+    let sides = Sides::of([scenario, whole], TRUE_SIDES, options.reference, &mut ledger)?;
+    let engine_case = match &whole.case.only {
+        Some(only) => engine_case.wanting_only(only).scene()?.case,
+        None => engine_case.clone(),
+    };
+    let proofs = sides.engines(scenario, &Engines::on(&engine_case), engines, (&mut ledger, progress))?;
     let own = sides.own();
     let disputes = match proofs.len() {
         1 => Vec::new(),
@@ -164,16 +180,28 @@ fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: 
     };
     let analytic = sides.verdict();
     let verdict = overall([&analytic].into_iter().chain(proofs.iter().map(|proof| &proof.verdict)));
+    let diagnosis = match verdict {
+        Verdict::Disagree { .. } => {
+            let examined = || examined::of(case, main, &sides.observed, &sides.known, &proofs);
+            ledger.done("diagnosis", "something disagrees", examined)
+        }
+        Verdict::Agree { .. } | Verdict::Expected { .. } | Verdict::Inconclusive { .. } => {
+            ledger.skipped("diagnosis", "nothing disagrees");
+            None
+        }
+    };
     Ok(Proof {
         scenario: scenario.name.clone(),
         title: scenario.title.clone(),
         formula: case.structure.formula(&case.mechanism),
         reference: main.name(),
-        diagnosis: examined::of(case, main, &sides.observed, &sides.known, &proofs),
+        diagnosis,
         reference_trajectory: own.trajectory.clone(),
         checks: sides.checks,
         engines: proofs,
         disputes,
         verdict,
+        scene,
+        work: ledger.0,
     })
 }

@@ -10,6 +10,7 @@ pub(crate) mod drive;
 pub(crate) mod drive_graphs;
 mod engines;
 pub(crate) mod errors;
+pub mod explain;
 pub(crate) mod inspect;
 pub mod json;
 pub(crate) mod lists;

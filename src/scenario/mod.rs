@@ -37,7 +37,7 @@ use std::path::{Path, PathBuf};
 
 use self::reader::{Sign, Table};
 use self::source::Source;
-use linkage::case::{Case, CaseParts, Grid};
+use linkage::case::{Case, CaseParts, Grid, Wanted};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::mechanism::assembly::{Choice, group_of};
 use linkage::mechanism::{Mechanism, StartGroup, Structure};
@@ -172,6 +172,24 @@ impl Scenario {
         })
     }
 
+    /// The same scenario with only the channels wanted that `words` ask for, as those of `want` in `[channels]`.
+    /// Published numbers of other channels are left out, and so are figures of the whole mechanism.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Input`] for a word that asks for nothing.
+    pub fn only(mut self, words: &[String]) -> Result<Scenario> {
+        let channels = settings::called(&self.case, words)
+            .map_err(|(message, help)| Error::new(ErrorKind::Input, message).help(help))?;
+        self.case = self.case.wanting_only(&channels);
+        let wanted = self.case.channels();
+        for oracle in &mut self.oracles {
+            oracle.series.retain(|series| wanted.contains(&series.channel));
+            oracle.figures.clear();
+        }
+        self.oracles.retain(|oracle| !oracle.series.is_empty());
+        Ok(self)
+    }
+
     /// The same scenario with every drive in its nominal motion, for questions about crank angles.
     #[must_use]
     pub fn nominal(self) -> Scenario {
@@ -227,7 +245,7 @@ fn read(root: &mut Table, asked: &Asked, lists: bool) -> Result<Found> {
     };
     let starts = start::groups(&start, groups, &mechanism, &structure, &groups_asked)?;
     let grid = grid::read(grid, drives.crank(), asked.without_grid)?;
-    let wanted = settings::wanted(channels)?;
+    let wanted = Wanted::ALL;
     let (dt, engine) = settings::engine(engine, drives.crank())?;
     let engine_rel = settings::engine_rel(tolerances)?;
     let placing = asked::Start {
@@ -250,7 +268,9 @@ fn read(root: &mut Table, asked: &Asked, lists: bool) -> Result<Found> {
     let (starts, choices, undecided) = (placed.starts, placed.choices, placed.undecided);
     let modes = choices.iter().map(|choice| choice.mode).collect();
     let start = placed.pose;
-    let case = Case::new(CaseParts { mechanism, structure, drives, loads, gravity, start, modes, grid, wanted })?;
+    let case =
+        Case::new(CaseParts { mechanism, structure, drives, loads, gravity, start, modes, grid, wanted, only: None })?;
+    let case = settings::wanted(channels, case)?;
     let mut oracles = oracle::read(oracles, &case)?;
     if !placed.is_own_branch {
         oracles.clear();

@@ -88,7 +88,14 @@ fn turn(case: &Case, count: usize) -> Vec<f64> {
 
 #[test]
 fn poses_are_those_of_the_pose_solver() {
-    let kinds = [("crank_rocker", true), ("ov7_base", true), ("five_bar", true), ("compressor", false)];
+    let kinds = [
+        ("crank_rocker", true),
+        ("ov7_base", true),
+        ("five_bar", true),
+        ("ov7_new", true),
+        ("fourth_class", true),
+        ("compressor", false),
+    ];
     for (name, is_vectorised) in kinds {
         let case = &shipped(&format!("{name}.toml")).case;
         assert_eq!(Batch::of(case).unwrap().is_vectorised(), is_vectorised, "{name}");
@@ -159,7 +166,7 @@ fn a_batch_goes_on_after_an_error() {
 
 #[test]
 fn a_row_has_the_same_bits_wherever_it_stands() {
-    for name in ["crank_rocker", "ov7_base", "five_bar"] {
+    for name in ["crank_rocker", "ov7_base", "five_bar", "ov7_new", "fourth_class"] {
         let case = &shipped(&format!("{name}.toml")).case;
         let omega = case.crank().at(0.0).omega;
         let cranks = turn(case, 1000);

@@ -33,6 +33,7 @@ mod range;
 mod rapier;
 mod record;
 mod scenario_docs;
+mod scenes;
 mod setting_off;
 mod settling;
 #[cfg(feature = "simbody")]
