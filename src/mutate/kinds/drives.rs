@@ -80,7 +80,7 @@ pub(super) const KINDS: &[Kind] = &[
         faster(case, last, 1.0 + size)
     })
     .sized(1e-2),
-    Kind::case(OF, "late", "every instant is taken later by a share of the run", |case, size| shifted(case, size))
+    Kind::case(OF, "late", "every instant is taken later by a share of a radian of the crank", |case, size| shifted(case, size))
         .sized(1e-3),
     Kind::case(OF, "clock", "the clock goes slow: time is counted in units larger by a share", |case, size| {
         scaled(case, 1.0 - size)
@@ -127,13 +127,12 @@ fn initial(case: &Case, to: impl Fn(f64) -> f64) -> Option<Case> {
     })
 }
 
-/// Instants earlier by a share of the run; none before t = 0 where the motion begins there.
-fn shifted(case: &Case, size: f64) -> Option<Case> {
-    let times = &case.grid.times;
-    let span = times.iter().fold(0.0f64, |most, t| if t.abs() > most { t.abs() } else { most });
+/// Instants earlier by the time of an angle (rad) at top speed; none before t = 0 where the motion begins there.
+fn shifted(case: &Case, angle: f64) -> Option<Case> {
     let begins = case.is_free() || case.crank().constant_speed().is_none();
-    let earlier = |&t: &f64| if begins && t - size * span < 0.0 { 0.0 } else { t - size * span };
-    (span > 0.0).then(|| case.on(Grid::of_times(case.crank(), times.iter().map(earlier).collect())).ok())?
+    let by = angle / case.crank().top_speed().abs();
+    let earlier = |&t: &f64| if begins && t < by { 0.0 } else { t - by };
+    case.on(Grid::of_times(case.crank(), case.grid.times.iter().map(earlier).collect())).ok()
 }
 
 fn scaled(case: &Case, factor: f64) -> Option<Case> {
