@@ -15,7 +15,7 @@ use linkage::error::{Error, ErrorKind, Result};
 const EXAMPLES: &str = "\
 Examples:
   linkproof mutate --list                                                       all kinds of faults
-  linkproof mutate scenarios/crank_rocker.toml --kind mass --no-sizes           one kind, in every party
+  linkproof mutate scenarios/crank_rocker.toml --kind mass-heaviest --no-sizes  one kind, in every party
   linkproof mutate scenarios/quick_return.toml --kind force --party assur       one family, in side 1 only
   linkproof mutate scenarios/quick_return.toml --party trunk --kind gravity-sign   in what all share: who outside sees it?
   linkproof mutate scenarios/loaded_slider.toml --kind spring-twice --json -    for a script

@@ -83,7 +83,7 @@ pub(super) const KINDS: &[Kind] = &[
     }),
     Kind::answer(
         OF,
-        "acceleration",
+        "acceleration-size",
         "the acceleration of the last moving frame is larger by a share",
         |at, state, size| {
             state.motions[floating(at.case)].acceleration *= 1.0 + size;

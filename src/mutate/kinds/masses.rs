@@ -22,7 +22,7 @@ pub(super) const KINDS: &[Kind] = &[
     Kind::case(OF, "mass-missing", "the heaviest link has no mass", |case, _| {
         on(case, heaviest(case), |link| link.mass = 1e-12)
     }),
-    Kind::case(OF, "mass", "the heaviest link is heavier by a share", |case, size| {
+    Kind::case(OF, "mass-heaviest", "the heaviest link is heavier by a share", |case, size| {
         on(case, heaviest(case), |link| link.mass *= 1.0 + size)
     })
     .sized(1e-2),
