@@ -231,7 +231,7 @@ fn exit_code(verdict: &Verdict) -> u8 {
 }
 
 /// The graver of two exit codes. Bad input is graver than disagreement, and disagreement graver than no proof.
-fn graver(a: u8, b: u8) -> u8 {
+pub(super) fn graver(a: u8, b: u8) -> u8 {
     let rank = |code: u8| match code {
         exit_code::BAD_INPUT => 3,
         exit_code::DISAGREE => 2,

@@ -3,6 +3,7 @@
 
 mod asked;
 pub mod catalogue;
+mod clearance;
 mod correction;
 pub mod edit;
 mod figure;
@@ -41,6 +42,7 @@ use linkage::case::{Case, CaseParts, Grid, Wanted};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::mechanism::assembly::{Choice, group_of};
 use linkage::mechanism::{Mechanism, StartGroup, Structure};
+use workshop::clearance::Question;
 
 /// Version of the file format that this crate reads.
 pub const FORMAT: i64 = 1;
@@ -80,6 +82,8 @@ pub struct Scenario {
     pub engine_rel: f64,
     /// Published numbers.
     pub oracles: Vec<Oracle>,
+    /// Outlines and what is asked of their distances, if the scenario asks.
+    pub clearance: Option<Question>,
     /// The start asked for in the file for each group, in the order of the structure.
     pub starts: Vec<StartGroup>,
     /// How each group was placed at the start, in the order of the structure.
@@ -169,6 +173,7 @@ impl Scenario {
             engine: EngineKeys::default(),
             engine_rel: settings::ENGINE_REL,
             oracles: Vec::new(),
+            clearance: None,
         })
     }
 
@@ -225,12 +230,13 @@ fn read(root: &mut Table, asked: &Asked, lists: bool) -> Result<Found> {
     let (gravity, loads) = (root.optional_table("gravity")?, root.tables("loads")?);
     let (mut start, grid, channels) = (root.table("start")?, root.table("grid")?, root.optional_table("channels")?);
     let (engine, tolerances) = (root.optional_table("engine")?, root.optional_table("tolerances")?);
-    let oracles = root.tables("oracle")?;
+    let (oracles, clearance) = (root.tables("oracle")?, root.optional_table("clearance")?);
     root.finish()?;
 
     let links = links::read(ground, links)?;
     let joints = joints::read(joints, &links)?;
     let mechanism = Mechanism::new(links, joints)?;
+    let clearance = clearance::read(clearance, &mechanism)?;
     let own_crank = start.quantity("crank", &unit::ANGLE, Sign::Any)?;
     let crank = asked.crank.unwrap_or(own_crank);
     let groups = start.tables("groups")?;
@@ -287,8 +293,21 @@ fn read(root: &mut Table, asked: &Asked, lists: bool) -> Result<Found> {
     }
     let source = root.source();
     let (path, text) = (source.path.to_path_buf(), source.text.to_string());
-    let scenario =
-        Scenario { name, title, source: cited, path, text, case, dt, engine, engine_rel, oracles, starts, choices };
+    let scenario = Scenario {
+        name,
+        title,
+        source: cited,
+        path,
+        text,
+        case,
+        dt,
+        engine,
+        engine_rel,
+        oracles,
+        clearance,
+        starts,
+        choices,
+    };
     Ok(Ok((scenario, undecided)))
 }
 

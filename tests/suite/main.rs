@@ -10,6 +10,8 @@
 mod architecture;
 mod bad_scenarios;
 mod batch;
+mod bench;
+mod clearance;
 mod cli;
 mod common;
 mod degenerate;

@@ -80,8 +80,10 @@ pub(super) const KINDS: &[Kind] = &[
         faster(case, last, 1.0 + size)
     })
     .sized(1e-2),
-    Kind::case(OF, "late", "every instant is taken later by a share of a radian of the crank", |case, size| shifted(case, size))
-        .sized(1e-3),
+    Kind::case(OF, "late", "every instant is taken later by a share of a radian of the crank", |case, size| {
+        shifted(case, size)
+    })
+    .sized(1e-3),
     Kind::case(OF, "clock", "the clock goes slow: time is counted in units larger by a share", |case, size| {
         scaled(case, 1.0 - size)
     })

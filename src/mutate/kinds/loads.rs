@@ -15,7 +15,8 @@ pub(super) const KINDS: &[Kind] = &[
     Kind::case(OF, "last-load-missing", "the last load is missing", |case, _| {
         times(case, case.loads.len().checked_sub(1)?, 0.0)
     }),
-    Kind::case(OF, "load-size", "the first load is larger by a share", |case, size| times(case, 0, 1.0 + size)).sized(1e-2),
+    Kind::case(OF, "load-size", "the first load is larger by a share", |case, size| times(case, 0, 1.0 + size))
+        .sized(1e-2),
     // Not of a spring: one that pushes where it should pull drives a free motion to infinity, and no file can say it.
     Kind::case(OF, "load-sign", "the first load that can, but no spring, acts the other way", |case, _| {
         let springs = [LoadSort::Spring, LoadSort::TorsionSpring];
