@@ -87,13 +87,18 @@ pub(crate) fn text(scenario: &Scenario, asked: &Question, found: &Clearance) -> 
     }
     let swept: Vec<_> = found.swept.iter().collect();
     if !swept.is_empty() {
-        let mut areas = table(["\nswept area", "\nmm2", "\nerror at most", "\nproven covered", "\nat most"], &[1, 2, 3, 4]);
+        let mut areas =
+            table(["\nswept area", "\nmm2", "\nerror at most", "\nproven covered", "\nat most"], &[1, 2, 3, 4]);
         for (body, area) in swept {
             let of = |value: f64| format!("{:.2}", 1e6 * value);
             let name = asked.bodies[*body].name.clone();
             areas.add_row([name, of(area.value), of(area.error()), of(area.least), of(area.most)]);
         }
         let _ = writeln!(text, "{areas}\n");
+        if let Some((body, area)) = found.swept.iter().find(|(_, area)| area.error() > asked.area * area.value) {
+            let (name, share) = (&asked.bodies[*body].name, area.error() / area.value);
+            let _ = writeln!(text, "the area of {name} is known to {share:.1e} only: the work allowed is done");
+        }
     }
     for &[from, to] in &found.open {
         let why = "the mechanism is singular there, or the work allowed is done";
@@ -127,7 +132,8 @@ fn significant(value: f64) -> String {
 
 /// The answer as JSON: one entry of the document.
 pub(crate) fn value(scenario: &Scenario, asked: &Question, found: &Clearance) -> Value {
-    let time = |crank: f64| Some(scenario.case.crank().time_of(crank)).filter(|t| t.is_finite() && !scenario.case.is_free());
+    let time =
+        |crank: f64| Some(scenario.case.crank().time_of(crank)).filter(|t| t.is_finite() && !scenario.case.is_free());
     let point = |point: Vec2| json!([point.x, point.y]);
     let meeting = |own: Option<Meeting>| {
         own.map(|own| {

@@ -176,7 +176,8 @@ fn check(case: &Case, asked: &Question, found: &Clearance, seen: &mut Seen, name
 #[test]
 fn shipped_mechanisms_against_brute_force() {
     let mut seen = Seen::default();
-    let names = ["crank_rocker", "quick_return", "scotch_yoke", "six_bar_slider", "class3_group", "fourth_class", "ov7_base"];
+    let names =
+        ["crank_rocker", "quick_return", "scotch_yoke", "six_bar_slider", "class3_group", "fourth_class", "ov7_base"];
     for (index, name) in names.into_iter().chain(["five_bar", "cycloidal_start", "tangent"]).enumerate() {
         let case = shipped(&format!("{name}.toml")).case;
         let mut random = Random::of_sample(11, index as u64);
@@ -214,7 +215,8 @@ fn random_mechanisms_against_brute_force() {
 #[test]
 fn planted_thin_crossings_are_found() {
     let (mut planted, mut missed) = (0, 0);
-    for (index, name) in ["crank_rocker", "quick_return", "class3_group", "fourth_class", "ov7_base"].iter().enumerate() {
+    for (index, name) in ["crank_rocker", "quick_return", "class3_group", "fourth_class", "ov7_base"].iter().enumerate()
+    {
         let case = shipped(&format!("{name}.toml")).case;
         let size = case.mechanism.size();
         let mut random = Random::of_sample(5, index as u64);
@@ -257,7 +259,8 @@ fn the_crankcase_is_clear() {
     let mut seen = Seen::default();
     check(case, asked, &found, &mut seen, "crankcase");
     assert_eq!((seen.pairs, seen.collisions), (13, 0));
-    let piston = found.pairs.iter().find(|pair| asked.bodies[pair.bodies[1]].name == "head" && pair.bodies[0] == 2).unwrap();
+    let piston =
+        found.pairs.iter().find(|pair| asked.bodies[pair.bodies[1]].name == "head" && pair.bodies[0] == 2).unwrap();
     // At the upper dead centre: 204 - 3 - (40 + 130 + 30) mm.
     assert_within!((piston.smallest.distance - 1e-3).abs(), 1e-12);
     // A piston 70 mm wide with a hollow of 44 x 32 mm below its crown, over a stroke of 80 mm; what its hollow leaves.
@@ -266,22 +269,22 @@ fn the_crankcase_is_clear() {
     assert!((area.least..=area.most).contains(&expected), "{area:?} {expected}");
     assert_within!((area.value - expected).abs(), 5e-4 * expected, "{area:?}");
     assert_within!(area.error(), asked.area * expected, "{area:?}");
-    // The rod by a raster of 0.5 mm at positions 0.5 deg apart.
+    // The rod by a raster of 2 mm at positions 1 deg apart.
     let rod = found.swept[1].1;
-    let positions: Vec<Vec<Vec2>> = at(case, &(0..720).map(|k| f64::from(k).to_radians() / 2.0).collect::<Vec<_>>())
+    let positions: Vec<Vec<Vec2>> = at(case, &(0..360).map(|k| f64::from(k).to_radians()).collect::<Vec<_>>())
         .iter()
         .map(|state| asked.bodies[1].outline.corners().iter().map(|&corner| state.motions[2].point(corner)).collect())
         .collect();
-    let step = 1e-3;
+    let step = 2e-3;
     let mut count = 0;
-    for i in -60..60 {
-        for k in -60..200 {
+    for i in -30..30 {
+        for k in -30..100 {
             let place = Vec2::new((f64::from(i) + 0.5) * step, (f64::from(k) + 0.5) * step);
             count += usize::from(positions.iter().any(|ends| to_segment(place, [ends[0], ends[1]]) <= 9e-3));
         }
     }
     let raster = f64::from(u32::try_from(count).unwrap()) * step * step;
-    assert_within!((raster - rod.value).abs(), 5e-3 * rod.value, "{raster} {rod:?}");
+    assert_within!((raster - rod.value).abs(), 1e-2 * rod.value, "{raster} {rod:?}");
 }
 
 /// One freedom under forces: the crank angles that the motion comes to. Of several freedoms no one angle tells the pose.

@@ -117,9 +117,8 @@ pub fn find(case: &Case, question: &Question, progress: &mut dyn FnMut(f64)) -> 
     let range = range(case)?;
     let case = &case.nominal();
     let size = case.mechanism.size();
-    let mut tubes = Tubes::new(case, range)?;
-    let solids: Vec<Solid> =
-        question.bodies.iter().map(|body| Solid::new(body.link, &body.outline, size)).collect();
+    let mut tubes = Tubes::new(case, range, question.extent())?;
+    let solids: Vec<Solid> = question.bodies.iter().map(|body| Solid::new(body.link, &body.outline, size)).collect();
     let tolerance = question.tolerance.unwrap_or(TOLERANCE * size);
     let mut search = Search {
         tubes: &mut tubes,
@@ -175,7 +174,7 @@ pub fn course(case: &Case, question: &Question) -> Result<Course> {
     let cranks = cranks(case)?;
     let case = &case.nominal();
     let size = case.mechanism.size();
-    let mut tubes = Tubes::new(case, [case.crank().start; 2])?;
+    let mut tubes = Tubes::new(case, [case.crank().start; 2], question.extent())?;
     let solids: Vec<Solid> = question.bodies.iter().map(|body| Solid::new(body.link, &body.outline, size)).collect();
     let rounding = tubes.rounding();
     let mut rows = Vec::with_capacity(cranks.len());
