@@ -117,10 +117,11 @@ pub(crate) fn text(scenario: &Scenario, asked: &Question, found: &Clearance) -> 
     let work = found.work;
     let _ = writeln!(
         text,
-        "{}: {} poses, {} distances of convex parts, {} tests of squares\n",
+        "{}: {} poses and {} distances of convex parts; for areas {} poses and {} tests of squares\n",
         standing(found).word(),
         work.poses,
         work.distances,
+        work.positions,
         work.squares
     );
     text
@@ -165,7 +166,10 @@ pub(crate) fn value(scenario: &Scenario, asked: &Question, found: &Clearance) ->
         "wanted_m": asked.wanted, "tolerance_m": found.tolerance, "pairs": pairs.collect::<Vec<_>>(),
         "swept": swept.collect::<Vec<_>>(), "first_collision": first(found.first_collision()),
         "first_too_near": first(found.first_too_near()), "not_proven_rad": found.open,
-        "work": {"poses": found.work.poses, "distances": found.work.distances, "squares": found.work.squares},
+        "work": {
+            "poses": found.work.poses, "distances": found.work.distances,
+            "area_poses": found.work.positions, "squares": found.work.squares,
+        },
     })
 }
 
