@@ -2,6 +2,7 @@
 
 mod advice;
 mod bearings;
+mod bench;
 mod clearance;
 mod diagram;
 mod drive;
@@ -54,6 +55,8 @@ enum Command {
     Solve(solve::Args),
     /// Find the cheapest settings of an engine that meet a wanted error, by measurement
     Tune(tune::Args),
+    /// Measure run time against error of every solver, engine and setting, and of other programs: diagrams and numbers
+    Bench(bench::Args),
     /// Show the structure of a mechanism: links, joints, mobility, driving link and Assur groups; its configurations;
     /// its range of motion
     Inspect(inspect::Args),
@@ -69,7 +72,7 @@ enum Command {
     Diagram(diagram::Args),
     /// Find dimensions for a wanted motion: crank-rocker and slider-crank in closed form, any linkage by search
     Synthesize(synthesize::Args),
-    /// Write a mechanism as a model of another program: MuJoCo's MJCF
+    /// Write a mechanism for another program: MuJoCo's MJCF, or JSON
     Export(export::Args),
     /// List scenarios, or the available channels and solvers
     List(list::Args),
@@ -84,6 +87,7 @@ pub fn main() -> ExitCode {
         Command::Run(args) => run::run(&args),
         Command::Solve(args) => output::exit(solve::solve(&args)),
         Command::Tune(args) => output::exit(tune::run(&args)),
+        Command::Bench(args) => output::exit(bench::run(&args)),
         Command::Inspect(args) => output::exit(inspect::inspect(&args)),
         Command::Bearings(args) => output::exit(bearings::bearings(&args)),
         Command::Clearance(args) => clearance::clearance(&args),

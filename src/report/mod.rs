@@ -2,6 +2,10 @@
 //! terminal.
 
 pub(crate) mod bearings;
+pub(crate) mod bench;
+pub(crate) mod bench_page;
+pub(crate) mod bench_plot;
+pub(crate) mod case_json;
 mod cells;
 pub(crate) mod clearance;
 pub(crate) mod closed_form;

@@ -22,7 +22,7 @@ const CRATES: &[(&str, &str, &str, &str)] = &[
         "linkproof",
         "",
         "analytic linkage rapier-twin simbody-twin workshop",
-        "annotate-snippets clap comfy-table csv foxglove indicatif mcap prost prost-types serde serde_json strsim tempfile toml toml_edit",
+        "annotate-snippets clap comfy-table csv foxglove indicatif mcap plotters prost prost-types serde serde_json strsim tempfile toml toml_edit",
     ),
 ];
 
@@ -54,14 +54,16 @@ const ROOMS: &[(&str, &str)] = &[
     ("workshop::motor", ""),
     ("workshop::synthesis", "task"),
     ("workshop::task", ""),
-    ("linkproof::cli", "compare engines files proof record report scenario tune"),
+    ("linkproof::bench", "compare engines scenario"),
+    ("linkproof::cli", "bench compare engines files outside proof record report scenario tune"),
     ("linkproof::compare", "tolerance"),
     ("linkproof::diagnosis", "compare"),
     ("linkproof::engines", ""),
     ("linkproof::files", ""),
+    ("linkproof::outside", "bench"),
     ("linkproof::proof", "compare diagnosis engines scenario tolerance"),
     ("linkproof::record", "files"),
-    ("linkproof::report", "compare diagnosis proof record scenario tune"),
+    ("linkproof::report", "bench compare diagnosis proof record scenario tune"),
     ("linkproof::scenario", ""),
     ("linkproof::tolerance", ""),
     ("linkproof::tune", "compare proof scenario"),
@@ -88,6 +90,9 @@ const NEVER: &[(&str, &str)] = &[
     // Engines come from one list only.
     ("linkproof::proof", "rapier_twin simbody_twin workshop"),
     ("linkproof::tune", "rapier_twin simbody_twin workshop"),
+    ("linkproof::bench", "rapier_twin simbody_twin workshop"),
+    // It knows other programs, and none of ours.
+    ("linkproof::outside", "analytic rapier_twin simbody_twin workshop linkage"),
     ("linkproof::cli", "rapier_twin simbody_twin"),
     // States of any solver can be drawn and exported.
     ("workshop::diagram", "analytic"),
@@ -106,11 +111,15 @@ const HOMES: &[(&str, &str)] = &[
     ("toml", "linkproof::scenario"),
     ("toml_edit", "linkproof::scenario"),
     ("comfy_table", "linkproof::report"),
+    ("plotters", "linkproof::report"),
+    // Other programs are run in one room.
+    ("Command", "linkproof::cli linkproof::outside"),
+    ("process", "linkproof::cli linkproof::outside"),
     ("serde", "linkproof::report"),
     ("strsim", "linkproof::scenario"),
-    ("serde_json", "linkproof::report"),
-    // `scenario` reads tables of published numbers, `report` writes tables of solutions.
-    ("csv", "linkproof::report linkproof::scenario"),
+    ("serde_json", "linkproof::outside linkproof::report"),
+    // `scenario` reads tables of published numbers, `outside` those of peers, `report` writes tables.
+    ("csv", "linkproof::outside linkproof::report linkproof::scenario"),
     ("clap", "linkproof::cli"),
     ("indicatif", "linkproof::cli"),
     ("annotate_snippets", "linkproof::report"),
@@ -118,14 +127,14 @@ const HOMES: &[(&str, &str)] = &[
     ("SystemTime", "linkproof::cli"),
     ("stdout", "linkproof::cli"),
     ("stderr", "linkproof::cli"),
-    // The command line only writes files; `record` and `scenario` read them.
-    ("fs", "linkproof::cli linkproof::files linkproof::record linkproof::scenario"),
-    ("File", "linkproof::files linkproof::record"),
+    // The command line only writes files; `outside`, `record` and `scenario` read them.
+    ("fs", "linkproof::cli linkproof::files linkproof::outside linkproof::record linkproof::scenario"),
+    ("File", "linkproof::files linkproof::outside linkproof::record"),
     ("OpenOptions", ""),
-    ("read_to_string", "linkproof::scenario"),
+    ("read_to_string", "linkproof::outside linkproof::scenario"),
     ("read_dir", "linkproof::files linkproof::scenario"),
-    ("tempfile", "linkproof::files"),
-    ("read", "linkproof::record linkproof::scenario"),
+    ("tempfile", "linkproof::files linkproof::outside"),
+    ("read", "linkproof::outside linkproof::record linkproof::scenario"),
     ("nalgebra", "linkage::math"),
     ("petgraph", "linkage::mechanism"),
     ("differential_equations", "analytic::motion analytic::reduced"),

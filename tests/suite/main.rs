@@ -10,6 +10,7 @@
 mod architecture;
 mod bad_scenarios;
 mod batch;
+mod bench;
 mod clearance;
 mod cli;
 mod common;

@@ -254,7 +254,9 @@ impl Case {
     #[must_use]
     pub fn spin(&self, motions: &[Motion], link: usize) -> f64 {
         let omega = motions[link].omega;
-        if self.can_turn(link) && omega.abs() > STANDSTILL * fastest(motions) { omega } else { 0.0 }
+        // NaN of any link fails.
+        let is_seen = || motions.iter().all(|motion| omega.abs() > STANDSTILL * motion.omega.abs());
+        if self.can_turn(link) && is_seen() { omega } else { 0.0 }
     }
 
     /// Whether a point of a link moves, by more than the rounding of the mechanism's speeds.

@@ -253,11 +253,10 @@ impl<'a> PoseSolver<'a> {
         } else {
             self.has_motions = self.in_one_pass;
             if self.in_one_pass {
-                for (rates, rate) in self.rates.iter_mut().zip([self.omega, self.alpha]) {
-                    drive(self.case, target, rate, rates);
-                }
-                let rates = [self.rates[0].as_slice(), &self.rates[1]];
-                self.plan.motions(&self.inputs, rates, &mut self.state.motions)?;
+                let [omegas, alphas] = &mut self.rates;
+                drive(self.case, target, self.omega, omegas);
+                drive(self.case, target, self.alpha, alphas);
+                self.plan.motions(&self.inputs, [omegas, alphas], &mut self.state.motions)?;
             } else {
                 self.plan.positions(&self.inputs, &mut self.state.motions)?;
             }

@@ -11,6 +11,8 @@ use linkage::math::{KeepNan, Motion};
 const NARROW: f64 = 0.8;
 /// A clearance that is this many times the change over the rest of the way cannot fall to zero on it.
 const CLEAR: f64 = 4.0;
+/// Angle by which the links of a dyad turn against each other while the crank turns by one unit, and hardly ever more.
+const FAST: f64 = 16.0;
 
 /// The clearance of a group that has none.
 const NONE: Clearance = Clearance { sine: f64::NAN, rate: f64::NAN };
@@ -20,7 +22,7 @@ const NONE: Clearance = Clearance { sine: f64::NAN, rate: f64::NAN };
 struct Seen {
     last: Clearance,
     now: Clearance,
-    /// Change of the clearance over the last step, per unit of the crank angle, without sign.
+    /// Change of the clearance over the last step, without sign.
     fall: f64,
 }
 
@@ -41,12 +43,14 @@ pub(super) struct Watch {
     is_needed: bool,
     motions: Vec<Motion>,
     groups: Vec<Seen>,
+    /// The last step of the crank (rad), without sign.
+    step: f64,
 }
 
 impl Watch {
     pub(super) fn of(plan: &Plan) -> Self {
         let groups = vec![Seen { last: NONE, now: NONE, fall: f64::NAN }; plan.steps().len()];
-        Watch { is_needed: plan.steps().iter().any(Step::has_clearance), motions: Vec::new(), groups }
+        Watch { is_needed: plan.steps().iter().any(Step::has_clearance), motions: Vec::new(), groups, step: 0.0 }
     }
 
     /// Whether a group has a clearance at all.
@@ -71,18 +75,20 @@ impl Watch {
     }
 
     /// Whether the positions alone tell that no group passes a change point on this step of the crank.
-    /// On the way through one, both sines together are what the angle between the two links turns by. They must be many
-    /// times that of the last step, and of the crank itself.
+    /// On the way through one, the angle between the two links turns by both sines together at least. They must be many
+    /// times the change over the last step, as it would be over this one, and more than links ever turn.
+    #[inline]
     fn is_far(&mut self, step: f64, plan: &Plan, motions: &[Motion]) -> bool {
-        let mut is_far = true;
+        let (steps, mut is_far) = (CLEAR * step / self.step, true);
         for (group, seen) in plan.steps().iter().zip(&mut self.groups) {
             if let Some(sine) = group.sine(motions) {
                 let both = seen.last.sine + sine;
-                is_far &= both > CLEAR * step && both > CLEAR * seen.fall * step;
-                seen.fall = (sine - seen.last.sine).abs() / step;
+                is_far &= both > FAST * step && both > steps * seen.fall;
+                seen.fall = (sine - seen.last.sine).abs();
                 seen.now = Clearance { sine, rate: f64::NAN };
             }
         }
+        self.step = step;
         is_far
     }
 }
@@ -107,13 +113,14 @@ impl PoseSolver<'_> {
     #[inline]
     pub(super) fn keep_clear(&mut self, target: f64) -> Result<(), OutOfReach> {
         let step = target - self.crank;
-        let may_pass = if self.has_motions {
-            self.watch.see(&self.plan, &self.state.motions, self.omega, step)
-        } else {
-            !self.watch.is_far(step.abs(), &self.plan, &self.state.motions) && self.find_clearances(target, step)
-        };
-        if may_pass {
-            self.keep_clear_closely(target)?;
+        if !self.watch.is_far(step.abs(), &self.plan, &self.state.motions) {
+            let may_pass = match self.has_motions {
+                true => self.watch.see(&self.plan, &self.state.motions, self.omega, step),
+                false => self.find_clearances(target, step),
+            };
+            if may_pass {
+                self.keep_clear_closely(target)?;
+            }
         }
         self.watch.groups.iter_mut().for_each(|seen| seen.last = seen.now);
         Ok(())

@@ -81,7 +81,7 @@ impl Chain {
         };
         let closings = contours.closings.iter().map(|closing| Closing {
             ends: closing.ends,
-            ways: closing.ways.clone(),
+            ways: closing.ways.iter().map(|stretch| (stretch.arrow, stretch.sign)).collect(),
             force: reader.layout.force(closing.joint),
             nodes: closing.nodes,
         });

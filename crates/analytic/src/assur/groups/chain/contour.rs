@@ -97,6 +97,19 @@ pub(in crate::assur) struct Arrow {
     pub(in crate::assur) spin: Option<usize>,
 }
 
+/// An arrow on the way to a closing joint.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::assur) struct Stretch {
+    /// Its number in [`Contours::arrows`], and its sign.
+    pub(in crate::assur) arrow: usize,
+    pub(in crate::assur) sign: f64,
+    /// As in [`Arrow`].
+    pub(super) carrier: usize,
+    pub(super) spin: Option<usize>,
+    /// The node whose slide it is.
+    pub(super) slide: Option<usize>,
+}
+
 /// A joint that closes a contour.
 #[derive(Clone, Debug)]
 pub struct Closing {
@@ -108,8 +121,8 @@ pub struct Closing {
     place: Side,
     /// Known joints from which the two ways start, by number: second with sign +1, first with -1.
     pub(in crate::assur) ends: [(usize, f64); 2],
-    /// Arrows along both ways, by number, with their signs.
-    pub(in crate::assur) ways: Vec<(usize, f64)>,
+    /// Arrows along both ways.
+    pub(in crate::assur) ways: Vec<Stretch>,
 }
 
 impl Closing {
@@ -207,6 +220,11 @@ impl Contours {
         // Both ways may begin with the same arrows. These cancel.
         let all = ways.clone();
         ways.retain(|&(arrow, sign)| !all.contains(&(arrow, -sign)));
+        let stretch = |(number, sign): (usize, f64)| {
+            let Arrow { node, local, carrier, spin } = self.arrows[number];
+            Stretch { arrow: number, sign, carrier, spin, slide: local.is_none().then_some(node) }
+        };
+        let ways = ways.into_iter().map(stretch).collect();
         Closing { joint, place: found.second, nodes: [first, second], ends: [second_end, first_end], ways }
     }
 }

@@ -194,7 +194,9 @@ impl Chain {
         for (kept, node) in self.kept.iter_mut().zip(&self.contours.nodes) {
             *kept = motions[node.link].direction;
         }
-        self.kept_slides.copy_from_slice(&self.slides);
+        if self.is_sliding {
+            self.kept_slides.copy_from_slice(&self.slides);
+        }
         self.find_roots(motions);
         // A prediction is a first change of the unknowns.
         let allowed = if self.memory.predict(&self.step) {
@@ -208,14 +210,16 @@ impl Chain {
         let followed = self.follow(allowed, motions) && self.memory.largest_change() <= MAX_TURN;
         if followed {
             self.memory.remember(&self.step);
-            self.at.copy_from_slice(angles);
+            self.at.iter_mut().zip(angles).for_each(|(at, angle)| *at = *angle);
             self.learn();
         } else {
             self.memory.forget();
             for (kept, node) in self.kept.iter().zip(&self.contours.nodes) {
                 motions[node.link].direction = *kept;
             }
-            self.slides.copy_from_slice(&self.kept_slides);
+            if self.is_sliding {
+                self.slides.copy_from_slice(&self.kept_slides);
+            }
         }
         followed
     }
@@ -283,24 +287,24 @@ impl Chain {
     fn assemble(&mut self, motions: &mut [Motion]) {
         self.draw(motions);
         self.jacobian.clear();
-        let Contours { nodes, closings, arrows, .. } = &self.contours;
+        let Contours { nodes, closings, .. } = &self.contours;
         for (index, closing) in closings.iter().enumerate() {
             let row = 2 * index;
             let mut gap = Vec2::zeros();
             for (root, sign) in closing.ends {
                 gap += self.world.roots[root].place * sign;
             }
-            for &(number, sign) in &closing.ways {
-                let (arrow, vector) = (&arrows[number], self.world.arrows[number] * sign);
+            for stretch in &closing.ways {
+                let vector = self.world.arrows[stretch.arrow] * stretch.sign;
                 gap += vector;
-                if let Some(column) = arrow.spin {
+                if let Some(column) = stretch.spin {
                     self.jacobian.add(row, column, -vector.y);
                     self.jacobian.add(row + 1, column, vector.x);
                 }
-                if arrow.local.is_none() {
-                    let axis = nodes[arrow.node].slide_axis(motions) * (sign * self.size);
-                    self.jacobian.add(row, arrow.node, axis.x);
-                    self.jacobian.add(row + 1, arrow.node, axis.y);
+                if let Some(node) = stretch.slide {
+                    let axis = nodes[node].slide_axis(motions) * (stretch.sign * self.size);
+                    self.jacobian.add(row, node, axis.x);
+                    self.jacobian.add(row + 1, node, axis.y);
                 }
             }
             self.unknown[row] = gap.x;

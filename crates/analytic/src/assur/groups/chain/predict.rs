@@ -88,9 +88,9 @@ impl Memory {
     pub(super) fn remember(&mut self, step: &[f64]) {
         self.equal_steps = if self.is_repeated { self.equal_steps + 1 } else { 1 };
         for (changes, present) in self.changes.iter_mut().zip(&self.present) {
-            changes.copy_within(..MEMORY - 1, 1);
-            changes[0] = *present;
+            let [a, b, c, d, _] = *changes;
+            *changes = [*present, a, b, c, d];
         }
-        self.last_step.copy_from_slice(step);
+        self.last_step.iter_mut().zip(step).for_each(|(last, step)| *last = *step);
     }
 }

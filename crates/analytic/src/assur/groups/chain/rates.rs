@@ -19,11 +19,8 @@ impl Chain {
             for (end, sign) in closing.ends {
                 rate -= ends[end].velocity * sign;
             }
-            for &(number, sign) in closing.ways.iter().filter(|_| self.is_sliding) {
-                let arrow = &arrows[number];
-                if arrow.spin.is_none() {
-                    rate -= turned(vectors[number] * sign) * motions[arrow.carrier].omega;
-                }
+            for led in closing.ways.iter().filter(|stretch| self.is_sliding && stretch.spin.is_none()) {
+                rate -= turned(vectors[led.arrow] * led.sign) * motions[led.carrier].omega;
             }
             (rates[0], rates[1]) = (rate.x, rate.y);
         }
@@ -73,15 +70,14 @@ impl Chain {
             for (end, sign) in closing.ends {
                 second -= ends[end].acceleration * sign;
             }
-            for &(number, sign) in &closing.ways {
-                let (arrow, vector) = (&arrows[number], vectors[number] * sign);
-                let carrier = &motions[arrow.carrier];
+            for stretch in &closing.ways {
+                let (vector, carrier) = (vectors[stretch.arrow] * stretch.sign, &motions[stretch.carrier]);
                 second += vector * (carrier.omega * carrier.omega);
-                if arrow.spin.is_none() {
+                if stretch.spin.is_none() {
                     second -= turned(vector) * carrier.alpha;
                 }
-                if arrow.local.is_none() {
-                    second -= coriolis(arrow.node, motions) * sign;
+                if let Some(node) = stretch.slide {
+                    second -= coriolis(node, motions) * stretch.sign;
                 }
             }
             (rates[0], rates[1]) = (second.x, second.y);
