@@ -19,6 +19,7 @@ mod plan;
 mod progress;
 mod run;
 mod solve;
+mod stress;
 mod synthesize;
 mod tune;
 
@@ -53,6 +54,8 @@ enum Command {
     Solve(solve::Args),
     /// Find the cheapest settings of an engine that meet a wanted error, by measurement
     Tune(tune::Args),
+    /// Turn one dial at a time until numbers are lost: where every solver and engine holds to, with maps of stability
+    Stress(stress::Args),
     /// Show the structure of a mechanism: links, joints, mobility, driving link and Assur groups; its configurations;
     /// its range of motion
     Inspect(inspect::Args),
@@ -81,6 +84,7 @@ pub fn main() -> ExitCode {
         Command::Run(args) => run::run(&args),
         Command::Solve(args) => output::exit(solve::solve(&args)),
         Command::Tune(args) => output::exit(tune::run(&args)),
+        Command::Stress(args) => stress::run(&args),
         Command::Inspect(args) => output::exit(inspect::inspect(&args)),
         Command::Bearings(args) => output::exit(bearings::bearings(&args)),
         Command::Drive(args) => output::exit(drive::drive(&args)),

@@ -237,6 +237,8 @@ impl Joint {
 pub struct Mechanism {
     links: Vec<Link>,
     joints: Vec<Joint>,
+    /// Asked for in every pose; computed once, because a link of many points has many more distances.
+    size: f64,
 }
 
 impl Mechanism {
@@ -247,7 +249,8 @@ impl Mechanism {
     /// itself, negative or non-finite masses and inertias, inertia without mass, a point name on two links that no
     /// joint holds together.
     pub fn new(links: Vec<Link>, joints: Vec<Joint>) -> Result<Self> {
-        let mechanism = Mechanism { links, joints };
+        let size = links.iter().map(Link::extent).fold(0.0, f64::larger);
+        let mechanism = Mechanism { links, joints, size: if size > 0.0 { size } else { 1.0 } };
         mechanism.check_names()?;
         for link in &mechanism.links {
             check_masses(link).map_err(|error| error.key(format!("links.{}", link.name)))?;
@@ -307,8 +310,7 @@ impl Mechanism {
     /// It is positive: 1 m where no link has an extent, and no length matters.
     #[must_use]
     pub fn size(&self) -> f64 {
-        let size = self.links.iter().map(Link::extent).fold(0.0, f64::larger);
-        if size > 0.0 { size } else { 1.0 }
+        self.size
     }
 
     /// Whether a link can turn. It cannot if joints that keep the angle connect it with the ground.
