@@ -401,6 +401,10 @@ impl Mechanism {
             for joint in self.joints.iter().filter(|joint| joint.is_pin() && joint.on(link).is_some()) {
                 let other = joint.other(link).link;
                 if !reached.contains(&other) && at(joint.first) && at(joint.second) {
+                    // On a link of many joints the others would take long.
+                    if other == b {
+                        return true;
+                    }
                     reached.push(other);
                 }
             }
