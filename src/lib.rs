@@ -62,6 +62,8 @@ pub mod report;
 #[doc(hidden)]
 pub mod scenario;
 #[doc(hidden)]
+pub mod specimens;
+#[doc(hidden)]
 pub mod stress;
 #[doc(hidden)]
 pub mod tolerance;

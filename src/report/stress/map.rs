@@ -53,7 +53,7 @@ fn drawn(text: &mut String, family: &Family, outcomes: &[&Outcome]) -> Drawn {
     let names = names(outcomes);
     legend(&head, family, &names)?;
     for (panel, group) in body.split_evenly((groups.len(), 1)).iter().zip(groups) {
-        draw(panel, family, outcomes, &names, group)?;
+        draw(&root, panel, family, outcomes, &names, group)?;
     }
     root.present()?;
     Ok(())
@@ -138,7 +138,9 @@ where
     if verdict == "disagree" { cross(area) } else { Ok(()) }
 }
 
+/// A panel. The chart tells its pixels as those of the whole sheet, `root`.
 fn draw<B: DrawingBackend>(
+    root: &DrawingArea<B, Shift>,
     panel: &DrawingArea<B, Shift>,
     family: &Family,
     outcomes: &[&Outcome],
@@ -155,8 +157,8 @@ where
     let mut chart = ChartBuilder::on(panel)
         .margin_right(16)
         .margin_top(6)
-        .x_label_area_size(36)
-        .y_label_area_size(66)
+        .x_label_area_size(42)
+        .y_label_area_size(76)
         .build_cartesian_2d((low..high).log_scale(), (ERRORS[0]..TOP).log_scale())?;
     let number = |value: &f64| super::summary::dial(rounded(*value));
     let error = |value: &f64| if *value > ERRORS[1] { String::new() } else { format!("{value:.0e}") };
@@ -198,7 +200,6 @@ where
             };
             let here = [place(dial, reached.error), place(dial, reached.bound)];
             if let (Some(last), 0) = (before, own.sample) {
-                let root = panel_of(panel);
                 root.draw(&PathElement::new([last[0], here[0]], colour.stroke_width(1)))?;
                 dashes(root, last[1], here[1], colour)?;
             }
@@ -206,15 +207,10 @@ where
             before = (own.sample == 0).then_some(here).or(before);
         }
         for (at, verdict) in marks {
-            mark(panel_of(panel), at, index, &verdict)?;
+            mark(root, at, index, &verdict)?;
         }
     }
     Ok(())
-}
-
-/// Pixels of the chart are those of the whole drawing; the panel's own begin at its corner.
-fn panel_of<'a, B: DrawingBackend>(panel: &'a DrawingArea<B, Shift>) -> &'a DrawingArea<B, Shift> {
-    panel
 }
 
 fn rounded(value: f64) -> f64 {

@@ -3,8 +3,9 @@
 mod chain;
 mod four_bar;
 mod long;
-mod singular;
+mod random;
 mod settings;
+mod singular;
 
 use super::Family;
 
@@ -22,4 +23,5 @@ pub static FAMILIES: &[Family] = &[
     chain::CHAIN,
     singular::CHANGE_POINT,
     singular::REDUNDANT,
+    random::RANDOM,
 ];

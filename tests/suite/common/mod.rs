@@ -6,12 +6,11 @@ pub mod four_link;
 pub mod higher;
 pub mod loads;
 pub mod random;
-pub mod sketch;
 pub mod sliders;
-pub mod spec;
 pub mod specimens;
 
 pub(crate) use dial::assert_within;
+pub use linkproof::specimens::{sketch, spec};
 use linkage::case::{Case, Grid};
 use linkage::math::Vec2;
 use linkage::solver::{Solver, State};

@@ -237,6 +237,8 @@ impl Joint {
 pub struct Mechanism {
     links: Vec<Link>,
     joints: Vec<Joint>,
+    /// Joints on every link, in order.
+    on: Vec<Vec<usize>>,
     /// Asked for in every pose; computed once, because a link of many points has many more distances.
     size: f64,
 }
@@ -250,7 +252,14 @@ impl Mechanism {
     /// joint holds together.
     pub fn new(links: Vec<Link>, joints: Vec<Joint>) -> Result<Self> {
         let size = links.iter().map(Link::extent).fold(0.0, f64::larger);
-        let mechanism = Mechanism { links, joints, size: if size > 0.0 { size } else { 1.0 } };
+        let mut on = vec![Vec::new(); links.len()];
+        for (index, joint) in joints.iter().enumerate() {
+            for side in [joint.first, joint.second] {
+                // A joint of a link with itself is refused below.
+                on[side.link].push(index);
+            }
+        }
+        let mechanism = Mechanism { links, joints, on, size: if size > 0.0 { size } else { 1.0 } };
         mechanism.check_names()?;
         for link in &mechanism.links {
             check_masses(link).map_err(|error| error.key(format!("links.{}", link.name)))?;
@@ -269,6 +278,12 @@ impl Mechanism {
     #[must_use]
     pub fn joints(&self) -> &[Joint] {
         &self.joints
+    }
+
+    /// Joints on a link, as indices in ascending order.
+    #[must_use]
+    pub fn joints_on(&self, link: usize) -> &[usize] {
+        &self.on[link]
     }
 
     /// Index of the link called `name`.

@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use linkage::math::{Vec2, rotated, unit};
-use linkproof::scenario::Scenario;
+use crate::scenario::Scenario;
 
 /// A link with its own points.
 #[derive(Clone, Debug)]
