@@ -9,7 +9,7 @@ use analytic::{AssurSolver, NewtonSolver};
 use linkage::math::KeepNan;
 use linkage::solver::Solver;
 use linkproof::proof::beside::sides;
-use linkproof::stress::Family;
+use linkproof::stress::named;
 
 /// Timings, of which the shortest counts. What takes longer than a second is timed once.
 const REPEATS: usize = 5;
@@ -30,7 +30,7 @@ fn shortest(mut run: impl FnMut()) -> f64 {
 fn main() {
     let asked: Vec<f64> = std::env::args().skip(1).filter_map(|word| word.parse().ok()).collect();
     let counts = if asked.is_empty() { vec![10.0, 100.0, 1000.0] } else { asked };
-    let chain = Family::named("chain").expect("the table has it");
+    let chain = named("chain").expect("the table has it");
     let case = |count: f64| (chain.setup)(count, 0, 0).unwrap_or_else(|error| panic!("{error}")).case;
     let mut before: Option<(f64, Vec<f64>)> = None;
     println!("| four-bars | what | time (s) | growth | n | n log n |\n|---|---|---|---|---|---|");

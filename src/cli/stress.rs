@@ -13,14 +13,14 @@ use linkage::error::{Error, ErrorKind, Result};
 
 const EXAMPLES: &str = "\
 Examples:
-  linkproof stress --quick --out stress                   a few points of every family
-  linkproof stress --out stress                           all of them, some minutes; begun again, it goes on where it was
-  linkproof stress transmission_angle chain --quick --out stress --jobs 1   two families, one point at a time
-  linkproof stress random --quick --out stress --seed 7   other random mechanisms
-  linkproof stress --quick --out stress --page stress.md  a page with tables and maps besides
+  linkproof stress speed change_point --quick --out stress    a few points of two families
+  linkproof stress speed --out stress                         all points; those that stand in stress/ are not run again
+  linkproof stress step --quick --out stress --jobs 1         one point at a time, with the same bytes
+  linkproof stress length_ratio --quick --out stress --page stress/page.md   a page with tables and maps besides
 
-Every family turns one dial. In the directory there is one JSON, one CSV and one SVG map for each; a point that stands in the
-JSON is not run again, unless the program or the point's inputs have changed.
+Without a family all of them are run: half a minute with --quick, some minutes without; begun again, a run goes on where it was.
+Every family turns one dial. In the directory there is one JSON, one CSV and one SVG map for each. A point that stands in the
+JSON is run again only if the program's version or the point's inputs have changed; to have all made anew, remove the file.
 Exit codes: 0 no silent wrong number and no panic, 1 one of them, 2 bad input or usage.";
 
 /// Seed of random mechanisms by default.
@@ -68,7 +68,9 @@ fn stress(args: &Args) -> Result<u8> {
     let chosen = |family: &&Family| args.families.is_empty() || args.families.iter().any(|name| name == family.name);
     let families: Vec<&'static Family> = FAMILIES.iter().filter(chosen).collect();
     std::fs::create_dir_all(&args.out).map_err(|error| {
-        Error::new(ErrorKind::Io, format!("{} cannot be made: {error}", args.out.display())).key("--out")
+        Error::new(ErrorKind::Io, format!("{} cannot be made: {error}", args.out.display()))
+            .key("--out")
+            .help("name a directory, or a place where one can be made")
     })?;
     let mut all: Vec<Job> = Vec::new();
     for &family in &families {
@@ -130,8 +132,9 @@ fn write_json(args: &Args, family: &'static Family, jobs: &[Job]) -> Result<()> 
 fn write_page(args: &Args, to: &Path, found: &[(&Family, Vec<&Outcome>)]) -> Result<()> {
     let stem = to.file_stem().and_then(|stem| stem.to_str()).unwrap_or("stress");
     let maps = to.with_file_name(stem);
-    std::fs::create_dir_all(&maps)
-        .map_err(|error| Error::new(ErrorKind::Io, format!("{} cannot be made: {error}", maps.display())).key("--page"))?;
+    std::fs::create_dir_all(&maps).map_err(|error| {
+        Error::new(ErrorKind::Io, format!("{} cannot be made: {error}", maps.display())).key("--page")
+    })?;
     for (family, outcomes) in found {
         output::write(&report::map(family, outcomes)?, &maps.join(format!("{}.svg", family.name)))?;
     }

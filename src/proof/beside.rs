@@ -18,9 +18,9 @@ pub struct Deviation {
     pub channel: Channel,
     /// Largest error, as a share of the channel's scale.
     pub error: f64,
-    /// What the sides know of their numbers, as a share of the scale, at the instant that uses most of it.
+    /// What the sides know of their numbers at the instant of that error, as a share of the scale.
     pub bound: f64,
-    /// Error over bound at that instant.
+    /// Largest error over bound at any instant.
     pub used: f64,
 }
 
@@ -144,14 +144,14 @@ fn deviations(truth: &Trajectory, own: &Trajectory, known: &Known) -> Result<Vec
     let scales = scales(truth);
     let of = |(index, (channel, values)): (usize, (&Channel, &[f64]))| {
         let (scale, stage) = (scales[index], channel.kind.stage);
-        let mut found = Deviation { channel: channel.clone(), error: 0.0, bound: 0.0, used: -1.0 };
+        let mut found = Deviation { channel: channel.clone(), error: 0.0, bound: 0.0, used: 0.0 };
         for (row, value) in values.iter().enumerate() {
             let bound = known.apart(stage, index, row) * known.magnitude(index);
-            found.error = found.error.larger(share(value.abs(), scale));
-            let used = share(value.abs(), bound);
-            if !(used <= found.used) {
-                (found.used, found.bound) = (used, share(bound, scale));
+            let error = share(value.abs(), scale);
+            if row == 0 || !(error <= found.error) {
+                (found.error, found.bound) = (error, share(bound, scale));
             }
+            found.used = found.used.larger(share(value.abs(), bound));
         }
         found
     };

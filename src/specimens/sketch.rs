@@ -1,10 +1,10 @@
 //! Mechanisms drawn at random in their start pose. Links have any place and direction, and a joint is put at the
 //! present place of its two links. So every drawing can be assembled, and its start pose is known without any formula.
 
-use linkage::math::{KeepNan, Vec2, rotated, unit};
-use linkage::mechanism::LinkPose;
 use chacha20::ChaCha20Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
+use linkage::math::{KeepNan, Vec2, rotated, unit};
+use linkage::mechanism::LinkPose;
 
 use super::spec::{Body, Guide, Other, Pin, Spec};
 

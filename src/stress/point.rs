@@ -40,7 +40,8 @@ pub(super) fn key_of(family: &Family, dial: f64, sample: u64, seed: u64) -> Stri
 
 /// FNV-1a of what the result depends on: the program's version, its engines, and the case with what runs on it.
 fn key(family: &Family, setup: Option<&Setup>, seed: u64) -> String {
-    let engines: Vec<String> = built().map(|name| name.with_step(1.0).map_or_else(|_| String::new(), |own| own.version())).collect();
+    let engines: Vec<String> =
+        built().map(|name| name.with_step(1.0).map_or_else(|_| String::new(), |own| own.version())).collect();
     let text = format!("{} {} {seed} {engines:?} {setup:?}", env!("CARGO_PKG_VERSION"), family.name);
     let hash = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
     format!("{:016x}", text.bytes().fold(0xcbf2_9ce4_8422_2325, hash))
@@ -52,7 +53,9 @@ fn built() -> impl Iterator<Item = EngineName> {
 
 /// An error as one line, with its crank angle.
 fn told(error: &Error) -> String {
-    let crank = error.crank().map_or_else(String::new, |crank| format!(" at crank angle {:.4} deg", crank.to_degrees()));
+    // Some messages tell the crank angle themselves.
+    let crank = error.crank().filter(|_| !error.message().contains("crank angle"));
+    let crank = crank.map_or_else(String::new, |crank| format!(" at crank angle {:.4} deg", crank.to_degrees()));
     format!("{}{crank}", error.message())
 }
 
@@ -108,8 +111,8 @@ fn of_engine(family: &Family, setup: &Setup, name: EngineName, truth: Option<(&T
         Engines::Found(work) => options.budget(work),
         Engines::None | Engines::Given { .. } => options,
     };
-    let proof = Scenario::of_case(family.name, setup.case.clone())
-        .and_then(|scenario| prove(&scenario, &options.engine(name)));
+    let proof =
+        Scenario::of_case(family.name, setup.case.clone()).and_then(|scenario| prove(&scenario, &options.engine(name)));
     match proof {
         Err(error) => Party::failed(name.name(), &told(&error)),
         Ok(proof) => {

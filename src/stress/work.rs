@@ -3,9 +3,9 @@
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use super::Family;
 use super::outcome::Outcome;
 use super::point::{key_of, run};
-use super::Family;
 
 /// A point that is to be done, or is done already.
 #[derive(Clone, Debug)]

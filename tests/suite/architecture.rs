@@ -14,6 +14,7 @@ use graph::Graph;
 const CRATES: &[(&str, &str, &str, &str)] = &[
     ("linkage", "crates/linkage", "", "nalgebra petgraph"),
     ("analytic", "crates/analytic", "linkage", "differential-equations num-integer pulp wide"),
+    ("precise", "crates/precise", "linkage", "qd"),
     ("rapier_twin", "crates/rapier-twin", "linkage", "parry2d parry2d-f64 rapier2d rapier2d-f64"),
     ("linkproof_simbody", "crates/simbody", "", ""),
     ("simbody_twin", "crates/simbody-twin", "linkage simbody", ""),
@@ -21,8 +22,8 @@ const CRATES: &[(&str, &str, &str, &str)] = &[
     (
         "linkproof",
         "",
-        "analytic linkage rapier-twin simbody-twin workshop",
-        "annotate-snippets clap comfy-table csv foxglove indicatif mcap prost prost-types serde serde_json strsim tempfile toml toml_edit",
+        "analytic linkage precise rapier-twin simbody-twin workshop",
+        "annotate-snippets chacha20 clap comfy-table csv foxglove indicatif mcap plotters prost prost-types serde serde_json strsim tempfile toml toml_edit",
     ),
 ];
 
@@ -52,15 +53,17 @@ const ROOMS: &[(&str, &str)] = &[
     ("workshop::motor", ""),
     ("workshop::synthesis", "task"),
     ("workshop::task", ""),
-    ("linkproof::cli", "compare engines files proof record report scenario tune"),
+    ("linkproof::cli", "compare engines files proof record report scenario stress tune"),
     ("linkproof::compare", "tolerance"),
     ("linkproof::diagnosis", "compare"),
     ("linkproof::engines", ""),
     ("linkproof::files", ""),
     ("linkproof::proof", "compare diagnosis engines scenario tolerance"),
     ("linkproof::record", "files"),
-    ("linkproof::report", "compare diagnosis proof record scenario tune"),
+    ("linkproof::report", "compare diagnosis proof record scenario stress tune"),
     ("linkproof::scenario", ""),
+    ("linkproof::specimens", "scenario"),
+    ("linkproof::stress", "compare engines proof scenario specimens"),
     ("linkproof::tolerance", ""),
     ("linkproof::tune", "compare proof scenario"),
 ];
@@ -86,6 +89,9 @@ const NEVER: &[(&str, &str)] = &[
     // Engines come from one list only.
     ("linkproof::proof", "rapier_twin simbody_twin workshop"),
     ("linkproof::tune", "rapier_twin simbody_twin workshop"),
+    ("linkproof::stress", "rapier_twin simbody_twin workshop"),
+    // Drawings of mechanisms are the same whatever solves them.
+    ("linkproof::specimens", "analytic rapier_twin simbody_twin workshop linkage::solver"),
     ("linkproof::cli", "rapier_twin simbody_twin"),
     // States of any solver can be drawn and exported.
     ("workshop::diagram", "analytic"),
@@ -120,7 +126,7 @@ const HOMES: &[(&str, &str)] = &[
     ("fs", "linkproof::cli linkproof::files linkproof::record linkproof::scenario"),
     ("File", "linkproof::files linkproof::record"),
     ("OpenOptions", ""),
-    ("read_to_string", "linkproof::scenario"),
+    ("read_to_string", "linkproof::files linkproof::scenario"),
     ("read_dir", "linkproof::files linkproof::scenario"),
     ("tempfile", "linkproof::files"),
     ("read", "linkproof::record linkproof::scenario"),
@@ -131,7 +137,9 @@ const HOMES: &[(&str, &str)] = &[
     ("pulp", "analytic::assur"),
     ("cobyla", "workshop::synthesis"),
     ("rand", "workshop::synthesis"),
-    ("chacha20", "workshop::synthesis"),
+    ("chacha20", "linkproof::specimens workshop::synthesis"),
+    ("plotters", "linkproof::report"),
+    ("qd", "precise::long"),
     ("rayon", "workshop::synthesis"),
     ("svg", "workshop::diagram"),
     ("quick_xml", "workshop::export"),

@@ -11,5 +11,6 @@ mod range;
 mod run;
 mod solve;
 mod starts;
+mod stress;
 mod synthesize;
 mod tools;

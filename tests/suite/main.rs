@@ -43,6 +43,7 @@ mod sliders_closed_form;
 mod specimens;
 mod start;
 mod stories;
+mod stress;
 mod synthesis;
 mod triad_methods;
 mod tune;

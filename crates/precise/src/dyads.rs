@@ -34,7 +34,8 @@ struct Dyad {
 pub fn solve(case: &Case) -> Result<Trajectory> {
     let task = Task::of(case)?;
     let start = at_start(case);
-    let dyads: Vec<Dyad> = case.structure.groups.iter().map(|group| dyad(case, &start, group)).collect::<Result<_>>()?;
+    let dyads: Vec<Dyad> =
+        case.structure.groups.iter().map(|group| dyad(case, &start, group)).collect::<Result<_>>()?;
     let mut instants = Vec::with_capacity(case.grid.len());
     for (row, &time) in case.grid.times.iter().enumerate() {
         let mut instant = Instant::at_rest(case);
@@ -116,7 +117,8 @@ fn forces(case: &Case, task: &Task, dyads: &[Dyad], instant: &mut Instant) {
     let mut acting: Vec<(Vector, Long)> = links.map(|link| instant.inertia(case, link)).collect();
     let joints = case.mechanism.joints();
     // What a link feels in a joint, as the force of the first link on the second.
-    let told = |joint: usize, link: usize, force: Vector| if joints[joint].second.link == link { force } else { -force };
+    let told =
+        |joint: usize, link: usize, force: Vector| if joints[joint].second.link == link { force } else { -force };
     for dyad in dyads.iter().rev() {
         let [a, b] = dyad.bases.map(|side| instant.frames[side.link].point(side.local));
         let c = instant.frames[dyad.links[0]].point(dyad.locals[0][1]);

@@ -150,7 +150,8 @@ impl Whole<'_> {
             let gap = sides[1].0.origin + arms[1] - sides[0].0.origin - arms[0];
             let [first, second] = [joint.first.link, joint.second.link];
             let (one, two) = (Long::ONE, Long::of(2.0));
-            let squares = arms[0] * (sides[0].0.omega * sides[0].0.omega) - arms[1] * (sides[1].0.omega * sides[1].0.omega);
+            let squares =
+                arms[0] * (sides[0].0.omega * sides[0].0.omega) - arms[1] * (sides[1].0.omega * sides[1].0.omega);
             let rows = [2 * index, 2 * index + 1];
             match joint.kind {
                 JointKind::Revolute => {
@@ -179,7 +180,8 @@ impl Whole<'_> {
                         What::Gaps(_) => -normal.dot(gap),
                         What::Rates => Long::ZERO,
                         What::Squares => {
-                            let turning = two * omega * axes[0].dot(speed(1) - speed(0)) + omega * omega * normal.dot(gap);
+                            let turning =
+                                two * omega * axes[0].dot(speed(1) - speed(0)) + omega * omega * normal.dot(gap);
                             turning - normal.dot(squares)
                         }
                     };

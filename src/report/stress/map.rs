@@ -71,7 +71,9 @@ where
         area.draw(&Text::new((*name).to_string(), (x + 12, 37), font.clone()))?;
     }
     for (k, (verdict, words)) in
-        [("agree", "agrees"), ("inconclusive", "inconclusive"), ("disagree", "disagrees"), ("fails", "fails")].into_iter().enumerate()
+        [("agree", "agrees"), ("inconclusive", "inconclusive"), ("disagree", "disagrees"), ("fails", "fails")]
+            .into_iter()
+            .enumerate()
     {
         let x = 20 + 110 * k as i32;
         mark(area, (x, 70), 0, verdict)?;
@@ -120,7 +122,10 @@ where
     let corners: Vec<(i32, i32)> = corners.iter().map(|(dx, dy)| (x + MARK * dx, y + MARK * dy)).collect();
     let cross = |area: &DrawingArea<B, Shift>| -> Drawn {
         for slope in [1, -1] {
-            area.draw(&PathElement::new([(x - MARK, y - slope * MARK), (x + MARK, y + slope * MARK)], colour.stroke_width(2)))?;
+            area.draw(&PathElement::new(
+                [(x - MARK, y - slope * MARK), (x + MARK, y + slope * MARK)],
+                colour.stroke_width(2),
+            ))?;
         }
         Ok(())
     };
@@ -160,7 +165,9 @@ where
         .x_label_area_size(42)
         .y_label_area_size(76)
         .build_cartesian_2d((low..high).log_scale(), (ERRORS[0]..TOP).log_scale())?;
-    let number = |value: &f64| super::summary::dial(rounded(*value));
+    // Where the dial spans less than a decade, its own values are written below the axis.
+    let narrow = high / low < 10.0;
+    let number = |value: &f64| if narrow { String::new() } else { super::summary::dial(rounded(*value)) };
     let error = |value: &f64| if *value > ERRORS[1] { String::new() } else { format!("{value:.0e}") };
     chart
         .configure_mesh()
@@ -175,8 +182,20 @@ where
         .label_style(("sans-serif", 12))
         .axis_desc_style(("sans-serif", 13))
         .draw()?;
-    chart.draw_series([PathElement::new([(low, ERRORS[1] * 10.0), (high, ERRORS[1] * 10.0)], RGBColor(150, 150, 150))])?;
+    chart.draw_series([PathElement::new(
+        [(low, ERRORS[1] * 10.0), (high, ERRORS[1] * 10.0)],
+        RGBColor(150, 150, 150),
+    )])?;
     let area = chart.plotting_area();
+    let mut written: Vec<f64> = Vec::new();
+    for dial in dials().filter(|_| narrow) {
+        if !written.contains(&dial) {
+            written.push(dial);
+            let (x, y) = area.map_coordinate(&(dial, ERRORS[0]));
+            root.draw(&PathElement::new([(x, y), (x, y + 5)], BLACK))?;
+            root.draw(&Text::new(super::summary::dial(dial), (x - 4, y + 7), ("sans-serif", 12).into_font()))?;
+        }
+    }
     let place = |dial: f64, error: f64| {
         let clipped = if error.is_nan() { ERRORS[1] } else { error.clamp(ERRORS[0] * 3.0, ERRORS[1]) };
         area.map_coordinate(&(dial, clipped))

@@ -136,7 +136,14 @@ pub(super) fn cells(outcomes: &[&Outcome], name: &str) -> [String; 6] {
         .collect();
     let error = |group: Group| largest.get(&group).map_or_else(String::new, |error| format!("{error:.1e}"));
     let [positions, rates, forces] = Group::ALL.map(error);
-    [stretches(0), others.join("; "), positions, rates, forces, if largest.is_empty() { String::new() } else { format!("{used:.1e}") }]
+    [
+        stretches(0),
+        others.join("; "),
+        positions,
+        rates,
+        forces,
+        if largest.is_empty() { String::new() } else { format!("{used:.1e}") },
+    ]
 }
 
 /// Neighbouring values of the dial with one verdict, as `1 .. 100`.
@@ -152,7 +159,8 @@ fn stretches(by_dial: &[(f64, usize)], wanted: usize) -> String {
         }
         last = is;
     }
-    let one = |[from, to]: &[f64; 2]| if from == to { dial(*from) } else { format!("{} .. {}", dial(*from), dial(*to)) };
+    let one =
+        |[from, to]: &[f64; 2]| if from == to { dial(*from) } else { format!("{} .. {}", dial(*from), dial(*to)) };
     found.iter().map(one).collect::<Vec<_>>().join(", ")
 }
 

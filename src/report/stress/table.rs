@@ -4,8 +4,26 @@ use crate::stress::{Family, Outcome};
 use linkage::error::{Error, ErrorKind, Result};
 
 const HEADER: [&str; 20] = [
-    "family", "dial", "sample", "party", "verdict", "group", "error", "bound", "channel", "used", "closure", "balance",
-    "step_s", "sweeps", "extrapolated", "steps", "work", "silent", "against", "why",
+    "family",
+    "dial",
+    "sample",
+    "party",
+    "verdict",
+    "group",
+    "error",
+    "bound",
+    "channel",
+    "used",
+    "closure",
+    "balance",
+    "step_s",
+    "sweeps",
+    "extrapolated",
+    "steps",
+    "work",
+    "silent",
+    "against",
+    "why",
 ];
 
 /// The table. Errors and bounds are shares of the channel's scale; empty cells are numbers that do not exist.

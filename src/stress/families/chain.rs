@@ -43,9 +43,8 @@ pub(in crate::stress) fn chain(count: usize, speed: f64) -> Result<Case> {
                 .mode(&[rod_name, bar], AssemblyMode::Left);
         }
     }
-    let times: Vec<f64> = (0..=INSTANTS)
-        .map(|k| (ANGLES[1] - ANGLES[0]) * k as f64 / INSTANTS as f64 / speed)
-        .collect();
+    let times: Vec<f64> =
+        (0..=INSTANTS).map(|k| (ANGLES[1] - ANGLES[0]) * k as f64 / INSTANTS as f64 / speed).collect();
     builder.gravity([0.0, -9.81]).crank("O0", speed).start(ANGLES[0]).times(&times).build()
 }
 

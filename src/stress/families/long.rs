@@ -17,7 +17,8 @@ const SWEEPS_OF_ALL: usize = 16;
 /// A crank-rocker whose wanted instants divide its last turn before `turns` (or all of them, if that is less).
 fn last_turn(turns: f64) -> Result<Case> {
     let span = if turns < 1.0 { turns } else { 1.0 };
-    let at = |part: usize| TAU / SPEED_OF_ALL * (turns - span * (1.0 - part as f64 / INSTANTS as f64));
+    // The last instant is a part before the end: rounding leads no grid beyond what is allowed.
+    let at = |part: usize| TAU / SPEED_OF_ALL * (turns - span * (1.0 - part as f64 / (INSTANTS + 1) as f64));
     let times: Vec<f64> = (0..=INSTANTS).map(at).collect();
     // Crank angles are measured from 0, so that the last one is `turns` turns, no more.
     builder(LENGTHS, rods(LENGTHS), SPEED_OF_ALL).start(0.0).times(&times).build()

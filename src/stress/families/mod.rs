@@ -25,3 +25,9 @@ pub static FAMILIES: &[Family] = &[
     singular::REDUNDANT,
     random::RANDOM,
 ];
+
+/// The family called `name`.
+#[must_use]
+pub fn named(name: &str) -> Option<&'static Family> {
+    FAMILIES.iter().find(|family| family.name == name)
+}

@@ -37,7 +37,8 @@ pub(super) const REDUNDANT: Family = Family {
         let names = |k: usize| ["P", "Q", "bar"].map(|word| format!("{word}{k}"));
         let points: Vec<[String; 3]> = (1..bars as usize).map(names).collect();
         let along = |k: usize| base * (k + 1) as f64 / (points.len() + 1) as f64;
-        let (mut ground, mut coupler) = (vec![("O", [0.0; 2]), ("C", [base, 0.0])], vec![("A", [0.0; 2]), ("B", [base, 0.0])]);
+        let (mut ground, mut coupler) =
+            (vec![("O", [0.0; 2]), ("C", [base, 0.0])], vec![("A", [0.0; 2]), ("B", [base, 0.0])]);
         ground.extend(points.iter().enumerate().map(|(k, [below, ..])| (below.as_str(), [along(k), 0.0])));
         coupler.extend(points.iter().enumerate().map(|(k, [_, above, _])| (above.as_str(), [along(k), 0.0])));
         let mut all = Case::builder()
