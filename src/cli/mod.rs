@@ -2,6 +2,7 @@
 
 mod advice;
 mod bearings;
+mod clearance;
 mod diagram;
 mod drive;
 mod engine_args;
@@ -61,6 +62,8 @@ enum Command {
     Inspect(inspect::Args),
     /// Largest reactions over the range of the grid, and the smallest journals that carry them
     Bearings(bearings::Args),
+    /// Smallest distances of links from each other and from a housing over the whole turn, first collision, swept areas
+    Clearance(clearance::Args),
     /// The mechanism reduced to its crank, its steady motion under its motor, flywheel and run-up; choice of a motor
     Drive(drive::Args),
     /// Velocity and acceleration plans at one crank angle, as a table, as JSON or drawn to scale
@@ -87,6 +90,7 @@ pub fn main() -> ExitCode {
         Command::Stress(args) => stress::run(&args),
         Command::Inspect(args) => output::exit(inspect::inspect(&args)),
         Command::Bearings(args) => output::exit(bearings::bearings(&args)),
+        Command::Clearance(args) => clearance::clearance(&args),
         Command::Drive(args) => output::exit(drive::drive(&args)),
         Command::Plan(args) => output::exit(plan::plan(&args)),
         Command::Diagram(args) => output::exit(diagram::diagram(&args)),

@@ -39,9 +39,14 @@ pub struct OwnForces {
 }
 
 impl OwnForces {
-    /// Judges the forces that the engine exerts, whose motion has needed `sweeps`; `None` where no force is wanted,
-    /// where the route is given, and for an engine whose usual route is its own. The first route that is conclusive
-    /// counts.
+    /// Whether there is anything to judge: not where no force is wanted, where the route is given, and for an engine
+    /// whose usual route is its own.
+    pub(super) fn are_asked(judge: &Judge, chosen: &Chosen) -> bool {
+        chosen.own_forces.is_some() && judge.asking(judge.asked).of_own_forces().has_channels()
+    }
+
+    /// Judges the forces that the engine exerts, whose motion has needed `sweeps`; `None` if they are not
+    /// [asked](OwnForces::are_asked). The first route that is conclusive counts.
     pub(super) fn judged(
         judge: &Judge,
         case: &Case,
@@ -50,9 +55,6 @@ impl OwnForces {
         progress: &mut dyn FnMut(f64),
     ) -> Option<OwnForces> {
         let free = chosen.own_forces?;
-        if !judge.asking(judge.asked).of_own_forces().has_channels() {
-            return None;
-        }
         let mut found: Option<OwnForces> = None;
         for &route in chosen.engine.own_routes(case) {
             let own = by_route(judge, case, chosen, (free, route, sweeps.min(ENOUGH)), progress);

@@ -3,6 +3,7 @@
 
 pub(crate) mod bearings;
 mod cells;
+pub(crate) mod clearance;
 pub(crate) mod closed_form;
 pub mod diagnosis;
 pub(crate) mod diagram;
@@ -10,6 +11,7 @@ pub(crate) mod drive;
 pub(crate) mod drive_graphs;
 mod engines;
 pub(crate) mod errors;
+pub mod explain;
 pub(crate) mod inspect;
 pub mod json;
 pub(crate) mod lists;

@@ -10,6 +10,7 @@
 mod architecture;
 mod bad_scenarios;
 mod batch;
+mod clearance;
 mod cli;
 mod common;
 mod degenerate;
@@ -33,6 +34,7 @@ mod range;
 mod rapier;
 mod record;
 mod scenario_docs;
+mod scenes;
 mod setting_off;
 mod settling;
 #[cfg(feature = "simbody")]

@@ -28,7 +28,7 @@ impl Solver for AssurSolver {
         if case.is_free() {
             return free_motion(case, ACCURACY, visit, progress);
         }
-        let mut poses = PoseSolver::counting_turns(case)?;
+        let mut poses = if case.wants_angles() { PoseSolver::counting_turns(case)? } else { PoseSolver::new(case)? };
         let deepest = case.wanted.deepest();
         for (done, row) in case.grid.ascending().into_iter().enumerate() {
             let drive = case.crank().at(case.grid.times[row]);

@@ -1,12 +1,14 @@
 //! The mechanism: links, joints, structure, and start pose. No time, no files, no solvers.
 
 pub mod assembly;
+mod outline;
 mod placing;
 pub mod pose;
 pub mod spanning_tree;
 pub mod structure;
 
 pub use assembly::{AssemblyMode, StartGroup, first_pose};
+pub use outline::ring;
 pub use placing::Handle;
 pub use pose::{LinkPose, Pose};
 pub use spanning_tree::{Branch, Tree};
