@@ -54,7 +54,8 @@ fn main() {
             whole.wanting_only(&channels).scene().unwrap().case
         };
         let cases: Vec<Case> = std::iter::once(whole.clone()).chain(words.iter().map(asked)).collect();
-        let solvers: [(&dyn Solver, usize); 3] = [(&AssurSolver, REPEATS), (&NewtonSolver, REPEATS), (engine.as_ref(), 3)];
+        let solvers: [(&dyn Solver, usize); 3] =
+            [(&AssurSolver, REPEATS), (&NewtonSolver, REPEATS), (engine.as_ref(), 3)];
         let mut best = vec![[f64::INFINITY; 3]; cases.len()];
         for (column, (solver, repeats)) in solvers.into_iter().enumerate() {
             for _ in 0..repeats {

@@ -92,7 +92,8 @@ fn answer(args: &Args, file: &Path) -> Result<(Scenario, Clearance)> {
         ));
     };
     let mut bar = Bar::new(&scenario.name);
-    let found = find(&scenario.case, asked, &mut |part| bar.at(part)).map_err(|error| explained(&scenario.case, error))?;
+    let found =
+        find(&scenario.case, asked, &mut |part| bar.at(part)).map_err(|error| explained(&scenario.case, error))?;
     drop(bar);
     let is_said = |to: &Option<PathBuf>| to.as_deref() == Some(Path::new("-"));
     if let Some(to) = &args.svg {

@@ -9,7 +9,9 @@ use linkage::case::Case;
 use linkage::error::{Error, Result};
 use linkage::math::KeepNan;
 use linkage::math::statistics::share;
+use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Trajectory};
+use linkage::work::{Work, counted};
 
 /// A channel of a side beside its truth.
 #[derive(Clone, Debug)]
@@ -35,6 +37,8 @@ pub struct Side {
     pub closure: Option<f64>,
     /// Balancing moment from equilibrium less that from powers, over the moments in the balance.
     pub balance: Option<f64>,
+    /// What it has done.
+    pub work: Work,
     /// Why there are no numbers.
     pub failure: Option<Error>,
 }
@@ -60,7 +64,10 @@ pub struct Sides {
 /// # Errors
 /// If `truth` stands on another grid. A side that fails is part of the result.
 pub fn sides(case: &Case, truth: Option<&Trajectory>) -> Result<Sides> {
-    let found = analytic::all().map(|side| (side, observe(case, side, Watch::Side, &mut |_| {}).map_err(Error::from)));
+    let solve = |side: &dyn Solver| observe(case, side, Watch::Side, &mut |_| {}).map_err(Error::from);
+    let counted = analytic::all().map(|side| (side, counted(|| solve(side))));
+    let works = counted.each_ref().map(|(_, (_, work))| *work);
+    let found = counted.map(|(side, (own, _))| (side, own));
     let names = found.each_ref().map(|(side, _)| side.name());
     let solved = |index: usize| Some((names[index], &found[index].1.as_ref().ok()?.trajectory));
     let solved: Vec<(&'static str, &Trajectory)> = (0..2).filter_map(solved).collect();
@@ -69,6 +76,7 @@ pub fn sides(case: &Case, truth: Option<&Trajectory>) -> Result<Sides> {
         deviations: Vec::new(),
         closure: None,
         balance: None,
+        work: works[index],
         failure: Some(error.clone()),
     };
     let (Some(&reference), Some(&other)) = (solved.first(), solved.last()) else {
@@ -115,6 +123,7 @@ pub fn sides(case: &Case, truth: Option<&Trajectory>) -> Result<Sides> {
             deviations,
             closure: Some(own.closure() / size.larger(own.reach)),
             balance: (!own.power.is_empty()).then(|| own.two_ways()),
+            work: works[index],
             failure: None,
         },
         Err(error) => {

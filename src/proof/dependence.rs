@@ -122,5 +122,12 @@ mod tests {
             assert_eq!(own.last(), Some(&index), "{}", name(group.links[0]));
         }
         assert_eq!(set("drive.torque_N_m"), (0..groups).collect::<Vec<_>>());
+        // What follows from the last groups of a set is what all of its groups say.
+        let (sets, count) = (&found.sets, found.sets.len());
+        assert!(count > 2);
+        for (from, to) in (0..count).flat_map(|from| (0..count).map(move |to| (from, to))) {
+            let all = sets[from].iter().all(|group| sets[to].contains(group));
+            assert_eq!(found.feeds(from, to), all, "{:?} {:?}", sets[from], sets[to]);
+        }
     }
 }

@@ -87,7 +87,8 @@ pub(crate) fn text(scenario: &Scenario, asked: &Question, found: &Clearance) -> 
     }
     let swept: Vec<_> = found.swept.iter().collect();
     if !swept.is_empty() {
-        let mut areas = table(["\nswept area", "\nmm2", "\nerror at most", "\nproven covered", "\nat most"], &[1, 2, 3, 4]);
+        let mut areas =
+            table(["\nswept area", "\nmm2", "\nerror at most", "\nproven covered", "\nat most"], &[1, 2, 3, 4]);
         for (body, area) in swept {
             let of = |value: f64| format!("{:.2}", 1e6 * value);
             let name = asked.bodies[*body].name.clone();
@@ -127,7 +128,8 @@ fn significant(value: f64) -> String {
 
 /// The answer as JSON: one entry of the document.
 pub(crate) fn value(scenario: &Scenario, asked: &Question, found: &Clearance) -> Value {
-    let time = |crank: f64| Some(scenario.case.crank().time_of(crank)).filter(|t| t.is_finite() && !scenario.case.is_free());
+    let time =
+        |crank: f64| Some(scenario.case.crank().time_of(crank)).filter(|t| t.is_finite() && !scenario.case.is_free());
     let point = |point: Vec2| json!([point.x, point.y]);
     let meeting = |own: Option<Meeting>| {
         own.map(|own| {

@@ -175,7 +175,9 @@ fn drawn(table: &mut Table, known: &[Point]) -> Result<Option<(&'static str, Vec
 /// The error of a flawed outline.
 fn flawed(table: &Table, key: &str, flaw: Flaw) -> Error {
     let (message, help) = match flaw {
-        Flaw::Few(0) if key == "line" => ("a line needs a place or more".into(), "one place is a disc, two are a capsule"),
+        Flaw::Few(0) if key == "line" => {
+            ("a line needs a place or more".into(), "one place is a disc, two are a capsule")
+        }
         Flaw::Few(count) => {
             (format!("found {count} corners, but a polygon has three or more"), "add corners, or write a `line`")
         }
@@ -183,9 +185,10 @@ fn flawed(table: &Table, key: &str, flaw: Flaw) -> Error {
             format!("found {count} corners, but at most {MOST_CORNERS} are handled"),
             "leave out corners that change the outline by less than its clearance",
         ),
-        Flaw::Repeated([a, b]) => {
-            (format!("corners {} and {} are in one place", a + 1, b + 1), "give every corner once; the last side closes by itself")
-        }
+        Flaw::Repeated([a, b]) => (
+            format!("corners {} and {} are in one place", a + 1, b + 1),
+            "give every corner once; the last side closes by itself",
+        ),
         Flaw::Crossing([a, b]) => (
             format!("the sides that begin at corners {} and {} touch or cross", a + 1, b + 1),
             "give the corners in their order around the outline",

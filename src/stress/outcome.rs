@@ -76,6 +76,8 @@ pub struct Party {
     pub runs: Option<usize>,
     /// Work of that search, in steps without sweeps.
     pub work: Option<f64>,
+    /// What was counted, in the order of [`Count::ALL`](linkage::work::Count::ALL): a side's run, all runs of an engine.
+    pub done: Vec<(String, u64)>,
     /// Channels beyond their bound although the verdict agrees: wrong numbers that nobody is told of.
     pub silent: usize,
 }
@@ -97,6 +99,7 @@ impl Party {
             steps: None,
             runs: None,
             work: None,
+            done: Vec::new(),
             silent: 0,
         }
     }

@@ -7,6 +7,7 @@ use linkage::error::{Error, Result};
 use linkage::math::KeepNan;
 use linkage::math::statistics::share;
 use linkage::trajectory::{Channel, Stage, Trajectory};
+use linkage::work::{Count, counted};
 
 use super::outcome::{Group, Outcome, Party, Reached, rounded};
 use super::{Engines, Family, Setup};
@@ -96,6 +97,7 @@ fn of_side(side: &Side, all: &Sides, against: &str) -> Party {
         balance: side.balance.map(rounded),
         verdict: all.verdict.word().into(),
         why: reason(&all.verdict),
+        done: side.work.iter().map(|(what, times)| (what.name().into(), times)).collect(),
         silent: if all.silent > 0 { beyond } else { 0 },
         ..Party::failed(side.name, "")
     }
@@ -111,15 +113,16 @@ fn of_engine(family: &Family, setup: &Setup, name: EngineName, truth: Option<(&T
         Engines::Found(work) => options.budget(work),
         Engines::None | Engines::Given { .. } => options,
     };
-    let proof =
-        Scenario::of_case(family.name, setup.case.clone()).and_then(|scenario| prove(&scenario, &options.engine(name)));
-    match proof {
+    let scenario = Scenario::of_case(family.name, setup.case.clone());
+    let (proof, work) = counted(|| scenario.and_then(|scenario| prove(&scenario, &options.engine(name))));
+    let own = [Count::Worlds, Count::Steps, Count::Sweeps, Count::Probes];
+    let done = own.map(|what| (what.name().to_string(), work.of(what))).into_iter().filter(|(_, times)| *times > 0);
+    let party = match proof {
         Err(error) => Party::failed(name.name(), &told(&error)),
-        Ok(proof) => {
-            // An engine that agrees with a reference which disagrees with itself is not told as agreeing.
-            of_proof(&setup.case, proof.engine(), &proof.verdict, truth)
-        }
-    }
+        // An engine that agrees with a reference which disagrees with itself is not told as agreeing.
+        Ok(proof) => of_proof(&setup.case, proof.engine(), &proof.verdict, truth),
+    };
+    Party { done: done.collect(), ..party }
 }
 
 fn of_proof(case: &Case, proof: &EngineProof, whole: &Verdict, truth: Option<(&Trajectory, &str)>) -> Party {

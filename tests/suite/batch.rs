@@ -8,9 +8,9 @@ use std::f64::consts::TAU;
 
 use crate::common::random::{for_each, within};
 use crate::common::{assert_within, shipped};
-use analytic::range::conditions;
 use analytic::PoseSolver;
 use analytic::assur::batch::{Batch, Poses};
+use analytic::range::conditions;
 use linkage::Result;
 use linkage::case::Case;
 use linkage::solver::State;
@@ -91,10 +91,8 @@ fn turn(case: &Case, count: usize) -> Vec<f64> {
 /// The largest condition number of a group at these poses.
 fn condition(case: &Case, states: &[State]) -> f64 {
     let pose = |state: &State| {
-        let link = |motion: &Motion| LinkPose {
-            origin: motion.origin,
-            angle: motion.direction.y.atan2(motion.direction.x),
-        };
+        let link =
+            |motion: &Motion| LinkPose { origin: motion.origin, angle: motion.direction.y.atan2(motion.direction.x) };
         Pose(state.motions.iter().map(link).collect())
     };
     let conditions = |state| conditions(&case.mechanism, &case.structure.groups, &pose(state));

@@ -176,7 +176,8 @@ fn check(case: &Case, asked: &Question, found: &Clearance, seen: &mut Seen, name
 #[test]
 fn shipped_mechanisms_against_brute_force() {
     let mut seen = Seen::default();
-    let names = ["crank_rocker", "quick_return", "scotch_yoke", "six_bar_slider", "class3_group", "fourth_class", "ov7_base"];
+    let names =
+        ["crank_rocker", "quick_return", "scotch_yoke", "six_bar_slider", "class3_group", "fourth_class", "ov7_base"];
     for (index, name) in names.into_iter().chain(["five_bar", "cycloidal_start", "tangent"]).enumerate() {
         let case = shipped(&format!("{name}.toml")).case;
         let mut random = Random::of_sample(11, index as u64);
@@ -214,7 +215,8 @@ fn random_mechanisms_against_brute_force() {
 #[test]
 fn planted_thin_crossings_are_found() {
     let (mut planted, mut missed) = (0, 0);
-    for (index, name) in ["crank_rocker", "quick_return", "class3_group", "fourth_class", "ov7_base"].iter().enumerate() {
+    for (index, name) in ["crank_rocker", "quick_return", "class3_group", "fourth_class", "ov7_base"].iter().enumerate()
+    {
         let case = shipped(&format!("{name}.toml")).case;
         let size = case.mechanism.size();
         let mut random = Random::of_sample(5, index as u64);
@@ -257,7 +259,8 @@ fn the_crankcase_is_clear() {
     let mut seen = Seen::default();
     check(case, asked, &found, &mut seen, "crankcase");
     assert_eq!((seen.pairs, seen.collisions), (13, 0));
-    let piston = found.pairs.iter().find(|pair| asked.bodies[pair.bodies[1]].name == "head" && pair.bodies[0] == 2).unwrap();
+    let piston =
+        found.pairs.iter().find(|pair| asked.bodies[pair.bodies[1]].name == "head" && pair.bodies[0] == 2).unwrap();
     // At the upper dead centre: 204 - 3 - (40 + 130 + 30) mm.
     assert_within!((piston.smallest.distance - 1e-3).abs(), 1e-12);
     // A piston 70 mm wide with a hollow of 44 x 32 mm below its crown, over a stroke of 80 mm; what its hollow leaves.

@@ -7,6 +7,7 @@ use linkage::case::Wanted;
 use linkage::math::KeepNan;
 use linkage::mechanism::AssemblyMode;
 use linkage::trajectory::Stage;
+use linkage::work::Count;
 use linkproof::Case;
 use linkproof::compare::Verdict;
 use linkproof::proof::beside::sides;
@@ -59,6 +60,24 @@ fn a_long_chain_keeps_its_digits() {
     for own in found.sides.iter().flat_map(|side| &side.deviations) {
         assert_within!(own.used, 1.0, "{}", own.channel);
     }
+}
+
+/// Side 1 does for a chain what it does for each of its four-bars: work counted, not timed. Side 2 iterates on blocks and
+/// needs no more of them per four-bar in a long chain.
+#[test]
+fn the_work_of_a_chain_is_that_of_its_four_bars() {
+    let work = |count: f64| {
+        let case = (named("chain").unwrap().setup)(count, 0, 0).unwrap().case;
+        sides(&case.wanting(Wanted::of(&[Stage::Positions])), None).unwrap().sides.map(|side| side.work)
+    };
+    let (short, long) = (work(20.0), work(200.0));
+    for what in [Count::Poses, Count::Iterations] {
+        assert!(long[0].of(what) <= short[0].of(what), "side 1, {}", what.name());
+    }
+    assert!(short[0].of(Count::Groups) > 0 && long[0].of(Count::Groups) <= 10 * short[0].of(Count::Groups));
+    let [few, many] = [short, long].map(|work| work[1].of(Count::Iterations));
+    println!("side 2: {few} and {many} iterations");
+    assert!(few > 0 && many <= 12 * few, "side 2: {few} and {many}");
 }
 
 /// A case that solvers refuse has its reason in the result, and the sides hold where a dead point is a hundredth of a

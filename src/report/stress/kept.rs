@@ -44,6 +44,8 @@ struct Row {
     steps: Option<f64>,
     runs: Option<usize>,
     work: Option<f64>,
+    #[serde(default)]
+    done: Vec<(String, u64)>,
     silent: usize,
 }
 
@@ -118,6 +120,7 @@ fn row(own: &Party) -> Row {
         steps: own.steps,
         runs: own.runs,
         work: own.work,
+        done: own.done.clone(),
         silent: own.silent,
     }
 }
@@ -142,6 +145,7 @@ fn party(own: Row) -> Option<Party> {
         steps: own.steps,
         runs: own.runs,
         work: own.work,
+        done: own.done,
         silent: own.silent,
     })
 }

@@ -3,7 +3,7 @@
 use crate::stress::{Family, Outcome};
 use linkage::error::{Error, ErrorKind, Result};
 
-const HEADER: [&str; 20] = [
+const HEADER: [&str; 21] = [
     "family",
     "dial",
     "sample",
@@ -21,6 +21,7 @@ const HEADER: [&str; 20] = [
     "extrapolated",
     "steps",
     "work",
+    "done",
     "silent",
     "against",
     "why",
@@ -54,6 +55,7 @@ pub(crate) fn csv<'a>(family: &Family, outcomes: impl Iterator<Item = &'a Outcom
                 count(party.extrapolated),
                 some(party.steps),
                 some(party.work),
+                party.done.iter().map(|(what, times)| format!("{times} {what}")).collect::<Vec<_>>().join(", "),
                 party.silent.to_string(),
                 party.against.clone(),
                 party.why.clone(),

@@ -39,7 +39,12 @@ fn sizes() {
     refused("radius_mm = 3\nwanted_mm = -1\n", "wanted_mm", "clearance.wanted_mm", &["must not be negative"]);
     refused("radius_mm = 3\ntolerance_mm = 0\n", "tolerance_mm", "clearance.tolerance_mm", &["must be positive"]);
     for share in ["area_rel = 0\n", "area_rel = 1\n", "area_rel = -1\n", "area_rel = 1e-9\n"] {
-        refused(&format!("radius_mm = 3\n{share}"), "area_rel", "clearance.area_rel", &["share of a swept area", "1e-3"]);
+        refused(
+            &format!("radius_mm = 3\n{share}"),
+            "area_rel",
+            "clearance.area_rel",
+            &["share of a swept area", "1e-3"],
+        );
     }
     refused("radius_mm = 3\nareas_rel = 1e-3\n", "areas_rel", "clearance.areas_rel", &["did you mean `area_rel`"]);
 }
@@ -94,21 +99,26 @@ fn outlines() {
     );
     let both = "corners = [{ x_mm = 1, y_mm = 0 }]\nline = [{ x_mm = 1, y_mm = 0 }]\n";
     refused(&of(both), "line =", "clearance.outlines.rocker.line", &["both given", "keep one"]);
-    refused(
-        &of("radius_mm = -1\n"),
-        "radius_mm = -1",
-        "clearance.outlines.rocker.radius_mm",
-        &["must be positive"],
-    );
+    refused(&of("radius_mm = -1\n"), "radius_mm = -1", "clearance.outlines.rocker.radius_mm", &["must be positive"]);
 }
 
 #[test]
 fn housing_and_pairs() {
     let of = |section: &str| format!("radius_mm = 3\n[[clearance.housing]]\n{section}");
-    refused(&of("line = [{ x_mm = 0, y_mm = 0 }]\n"), "[[clearance.housing]]", "clearance.housing[1]", &["`name` is missing"]);
+    refused(
+        &of("line = [{ x_mm = 0, y_mm = 0 }]\n"),
+        "[[clearance.housing]]",
+        "clearance.housing[1]",
+        &["`name` is missing"],
+    );
     refused(&of("name = \"a b\"\n"), "name = \"a b\"", "clearance.housing.a b.name", &["letters, digits"]);
     refused(&of("name = \"crank\"\n"), "name = \"crank\"", "clearance.housing.crank.name", &["is taken"]);
-    refused(&of("name = \"housing\"\n"), "name = \"housing\"", "clearance.housing.housing.name", &["stands for all parts"]);
+    refused(
+        &of("name = \"housing\"\n"),
+        "name = \"housing\"",
+        "clearance.housing.housing.name",
+        &["stands for all parts"],
+    );
     refused(&of("name = \"wall\"\n"), "[[clearance.housing]]", "clearance.housing.wall", &["no outline", "`corners`"]);
     refused(
         "radius_mm = 3\nignore = [{ bodies = [\"crank\", \"wal\"] }]\n",

@@ -9,13 +9,16 @@ use crate::common::assert_within;
 fn the_crankcase_is_clear_and_says_so() {
     let place = Place::new();
     let text = place.ok("clearance scenarios/crankcase.toml");
-    for part in ["clearance over crank angles 0.0000 to 360.0000 deg", "piston  head ", "1.0000", "swept area", "\nclear: "] {
+    for part in
+        ["clearance over crank angles 0.0000 to 360.0000 deg", "piston  head ", "1.0000", "swept area", "\nclear: "]
+    {
         assert!(text.contains(part), "`{part}` is not in:\n{text}");
     }
     assert_eq!(place.ok("clearance scenarios/crankcase.toml"), text, "same input, same bytes");
     let svg = place.ok("clearance scenarios/crankcase.toml --svg -");
     let drawing = roxmltree::Document::parse(&svg).unwrap();
-    let titles: Vec<&str> = drawing.descendants().filter(|node| node.has_tag_name("title")).filter_map(|n| n.text()).collect();
+    let titles: Vec<&str> =
+        drawing.descendants().filter(|node| node.has_tag_name("title")).filter_map(|n| n.text()).collect();
     assert!(titles.contains(&"swept by rod") && titles.contains(&"head"), "{titles:?}");
     let table = place.ok("clearance scenarios/crankcase.toml --csv -");
     assert!(table.starts_with("t_s,crank_rad,crank.piston.distance_m,"), "{table}");
@@ -40,7 +43,11 @@ fn a_collision_is_an_outcome() {
     place.edited("crankcase.toml", "near.toml", &[("wanted_mm = 0.4", "wanted_mm = 0.6")]);
     let outcome = place.run("clearance scenarios/near.toml");
     assert_eq!(outcome.code, 1, "{}", outcome.stdout);
-    assert!(outcome.stdout.contains("first nearer than the 0.6000 mm wanted: piston and cylinder_left"), "{}", outcome.stdout);
+    assert!(
+        outcome.stdout.contains("first nearer than the 0.6000 mm wanted: piston and cylinder_left"),
+        "{}",
+        outcome.stdout
+    );
 }
 
 #[test]

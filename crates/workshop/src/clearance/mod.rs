@@ -118,8 +118,7 @@ pub fn find(case: &Case, question: &Question, progress: &mut dyn FnMut(f64)) -> 
     let case = &case.nominal();
     let size = case.mechanism.size();
     let mut tubes = Tubes::new(case, range)?;
-    let solids: Vec<Solid> =
-        question.bodies.iter().map(|body| Solid::new(body.link, &body.outline, size)).collect();
+    let solids: Vec<Solid> = question.bodies.iter().map(|body| Solid::new(body.link, &body.outline, size)).collect();
     let tolerance = question.tolerance.unwrap_or(TOLERANCE * size);
     let mut search = Search {
         tubes: &mut tubes,

@@ -50,7 +50,8 @@ fn question(case: &Case, radius: f64, walls: &[(&str, Outline)]) -> Question {
             Body { name: own.name.clone(), link, outline: Outline::of_points(&places, radius).unwrap() }
         })
         .collect();
-    let wall = |(name, outline): &(&str, Outline)| Body { name: (*name).into(), link: GROUND, outline: outline.clone() };
+    let wall =
+        |(name, outline): &(&str, Outline)| Body { name: (*name).into(), link: GROUND, outline: outline.clone() };
     bodies.extend(walls.iter().map(wall));
     let pairs = pairs(&case.mechanism, &bodies, &[]);
     Question { bodies, pairs, wanted: None, tolerance: None, area: 2e-3 }

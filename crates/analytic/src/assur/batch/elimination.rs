@@ -116,7 +116,8 @@ impl<S: Simd, const N: usize> Factors<S, N> {
     pub(super) fn kept(work: &Window<S>, mut column: usize) -> Self {
         let (one, zero) = (Lanes::splat(work.simd, 1.0), Lanes::splat(work.simd, 0.0));
         let none = zero.exceeds(one);
-        let mut factors = Factors { rows: [[one; N]; N], inverse: [one; N], exchanges: [[none; N]; N], determinant: one };
+        let mut factors =
+            Factors { rows: [[one; N]; N], inverse: [one; N], exchanges: [[none; N]; N], determinant: one };
         let mut get = || {
             column += 1;
             work.get(column - 1)

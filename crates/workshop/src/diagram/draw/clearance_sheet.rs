@@ -31,10 +31,9 @@ pub fn clearance(case: &Case, name: &str, asked: &Question, found: &Clearance) -
     let [from, to] = found.range;
     let cranks: Vec<f64> = (0..=POSITIONS).map(|k| from + (to - from) * (k as f64 / POSITIONS as f64)).collect();
     let smallest = found.smallest().filter(|pair| pair.smallest.distance.is_finite());
-    let shown = found.first_collision().map_or_else(
-        || smallest.map_or(from, |pair| pair.smallest.crank),
-        |(_, meeting)| meeting.cranks[1],
-    );
+    let shown = found
+        .first_collision()
+        .map_or_else(|| smallest.map_or(from, |pair| pair.smallest.crank), |(_, meeting)| meeting.cranks[1]);
     let all = poses(case, &cranks)?;
     let here = poses(case, &[shown])?.remove(0);
     let sheet = Sheet::around(asked, &all);
@@ -72,7 +71,10 @@ pub fn clearance(case: &Case, name: &str, asked: &Question, found: &Clearance) -
         document = document.add(line.set("stroke", ALARM).set("stroke-width", 0.8));
         document = document.add(disc(one, 0.9, ALARM)).add(disc(two, 0.9, ALARM));
         let [a, b] = pair.bodies.map(|body| &asked.bodies[body].name);
-        [format!("smallest distance {} mm:", significant(1e3 * pair.smallest.distance)), format!("{a} and {b} at {crank}")]
+        [
+            format!("smallest distance {} mm:", significant(1e3 * pair.smallest.distance)),
+            format!("{a} and {b} at {crank}"),
+        ]
     } else {
         [crank, String::new()]
     };
@@ -138,7 +140,8 @@ impl Sheet {
             })
             .collect();
         // A single place is a line to itself.
-        let line = if corners.len() == 1 { [&corners[0], &corners[0]].map(String::from).join("L") } else { corners.join("L") };
+        let line =
+            if corners.len() == 1 { [&corners[0], &corners[0]].map(String::from).join("L") } else { corners.join("L") };
         let wide = (2.0 * outline.radius() * self.scale).larger(if outline.is_solid() { 0.0 } else { 0.2 });
         let path = Path::new().set("stroke", colour).set("stroke-width", mm(wide));
         match outline.is_solid() {

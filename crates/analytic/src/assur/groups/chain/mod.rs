@@ -16,8 +16,8 @@ mod contour;
 mod predict;
 mod rates;
 
-pub use contour::{Closing, Node};
 pub(in crate::assur) use contour::{Arrow, Contours, Hangs};
+pub use contour::{Closing, Node};
 
 use self::predict::Memory;
 use linkage::math::dense::Lu;
