@@ -76,7 +76,9 @@ fn stress(args: &Args) -> Result<u8> {
     for &family in &families {
         let kept = files::text(&json_of(&args.out, family)).map_err(|error| {
             let place = json_of(&args.out, family);
-            Error::new(ErrorKind::Io, format!("{} cannot be read: {error}", place.display())).key("--out")
+            Error::new(ErrorKind::Io, format!("{} cannot be read: {error}", place.display()))
+                .key("--out")
+                .help("name another directory, or remove what is in the way")
         })?;
         all.extend(jobs(family, args.quick, args.seed, &kept.map_or_else(Vec::new, |text| report::outcomes(&text))));
     }
@@ -133,7 +135,9 @@ fn write_page(args: &Args, to: &Path, found: &[(&Family, Vec<&Outcome>)]) -> Res
     let stem = to.file_stem().and_then(|stem| stem.to_str()).unwrap_or("stress");
     let maps = to.with_file_name(stem);
     std::fs::create_dir_all(&maps).map_err(|error| {
-        Error::new(ErrorKind::Io, format!("{} cannot be made: {error}", maps.display())).key("--page")
+        Error::new(ErrorKind::Io, format!("{} cannot be made: {error}", maps.display()))
+            .key("--page")
+            .help("name a file in a directory that may be written to")
     })?;
     for (family, outcomes) in found {
         output::write(&report::map(family, outcomes)?, &maps.join(format!("{}.svg", family.name)))?;

@@ -16,7 +16,7 @@ use linkage::math::statistics::share;
 use linkage::math::{KeepNan, Motion};
 use linkage::mechanism::{LinkPose, Pose};
 use linkage::solver::{Solver, State};
-use linkage::trajectory::{Channel, Stage, Trajectory};
+use linkage::trajectory::{Channel, Stage, Trajectory, Unit};
 
 /// Wanted: relative error of an analytic side in well conditioned poses. Each derivative, and each linear solve for
 /// forces, multiplies the rounding of its input by the condition of the pose, here at most some tens.
@@ -64,6 +64,8 @@ pub(super) struct Known {
     conditions: Vec<Vec<f64>>,
     /// Size of the crank angle at every instant of a prescribed motion (rad): it is a double, and both sides get it.
     turned: Vec<f64>,
+    /// Whether a channel is an angle. The numbers of angles have their turns in them already.
+    is_angle: Vec<bool>,
 }
 
 impl Known {
@@ -96,7 +98,8 @@ impl Known {
             true => Vec::new(),
             false => case.grid.cranks.iter().map(|crank| crank.abs()).collect(),
         };
-        Ok(Known { magnitudes, integration, dependence, conditions: Vec::new(), turned })
+        let is_angle = reference.1.channels().iter().map(|channel| channel.kind.unit == Unit::Radian).collect();
+        Ok(Known { magnitudes, integration, dependence, conditions: Vec::new(), turned, is_angle })
     }
 
     /// Measures the condition of every pose, for a trajectory whose errors exceed those of well conditioned poses.
@@ -140,7 +143,8 @@ impl Known {
     fn rounding(&self, stage: Stage, channel: usize, row: usize) -> f64 {
         let condition = self.conditions.get(row).map_or(1.0, |sets| sets[self.dependence.of[channel]]);
         // The crank angle is rounded before either side begins: what it leaves is felt like any error of a position.
-        let turned = self.turned.get(row).map_or(0.0, |turned| f64::EPSILON * turned * condition.powi(power(stage)));
+        let turned = self.turned.get(row).filter(|_| !self.is_angle[channel]);
+        let turned = turned.map_or(0.0, |turned| f64::EPSILON * turned * condition.powi(power(stage)));
         usual(stage).larger(of_condition(stage, condition)) + turned
     }
 

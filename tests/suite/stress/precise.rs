@@ -68,7 +68,7 @@ fn a_slider_crank_is_that_of_the_textbook() {
         for (name, own, size) in
             [("slide_m", x, 0.2), ("slide_speed_m_s", v, 2.0), ("slide_acceleration_m_s2", a, 60.0)]
         {
-            let off = column(&format!("slider.guide.{name}"))[row] - own;
+            let off = column(&format!("joint.guide.{name}"))[row] - own;
             assert_within!(off.abs() / size, 1e-15, "{name} at {t}: {off}");
         }
         // The massless rod is a strut: its force along itself, and the power of the crank is that of the piston.
