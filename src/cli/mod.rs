@@ -2,6 +2,7 @@
 
 mod advice;
 mod bearings;
+mod bench;
 mod clearance;
 mod diagram;
 mod drive;
@@ -14,6 +15,7 @@ mod inspect;
 mod list;
 mod load;
 mod motor_choice;
+mod mutate;
 mod output;
 mod panics;
 mod plan;
@@ -35,6 +37,7 @@ Examples:
   linkproof run scenarios/*.toml --no-record --json -   prove all, as JSON
   linkproof solve scenarios/ov7_base.toml --with assur --crank-deg 0:-360:-30
   linkproof tune scenarios/crank_rocker.toml --within 1e-3 --engine rapier --channel positions   the settings it takes
+  linkproof mutate scenarios/crank_rocker.toml --no-sizes --kind load   does the proof see faults?
   linkproof inspect scenarios/ov7_base.toml             links, joints, Assur groups
 
 Exit codes: 0 all agree, 1 something disagrees, 2 bad input or usage, 3 nothing proven either way.";
@@ -57,6 +60,10 @@ enum Command {
     Tune(tune::Args),
     /// Turn one dial at a time until numbers are lost: where every solver and engine holds to, with maps of stability
     Stress(stress::Args),
+    /// Plant faults in one party of a proof, or in what all share, and say which are found
+    Mutate(mutate::Args),
+    /// Measure run time against error of every solver, engine and setting, and of other programs: diagrams and numbers
+    Bench(bench::Args),
     /// Show the structure of a mechanism: links, joints, mobility, driving link and Assur groups; its configurations;
     /// its range of motion
     Inspect(inspect::Args),
@@ -72,7 +79,7 @@ enum Command {
     Diagram(diagram::Args),
     /// Find dimensions for a wanted motion: crank-rocker and slider-crank in closed form, any linkage by search
     Synthesize(synthesize::Args),
-    /// Write a mechanism as a model of another program: MuJoCo's MJCF
+    /// Write a mechanism for another program: MuJoCo's MJCF, or JSON
     Export(export::Args),
     /// List scenarios, or the available channels and solvers
     List(list::Args),
@@ -88,6 +95,8 @@ pub fn main() -> ExitCode {
         Command::Solve(args) => output::exit(solve::solve(&args)),
         Command::Tune(args) => output::exit(tune::run(&args)),
         Command::Stress(args) => stress::run(&args),
+        Command::Mutate(args) => mutate::run(&args),
+        Command::Bench(args) => output::exit(bench::run(&args)),
         Command::Inspect(args) => output::exit(inspect::inspect(&args)),
         Command::Bearings(args) => output::exit(bearings::bearings(&args)),
         Command::Clearance(args) => clearance::clearance(&args),

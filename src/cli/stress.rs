@@ -100,7 +100,7 @@ fn stress(args: &Args) -> Result<u8> {
         families.iter().map(|&family| (family, of(family, &all).collect())).collect();
     for (family, outcomes) in &found {
         let place = |extension: &str| args.out.join(format!("{}.{extension}", family.name));
-        output::write(&report::csv(family, outcomes.iter().copied())?, &place("csv"))?;
+        output::write(&report::rows(family, outcomes.iter().copied())?, &place("csv"))?;
         output::write(&report::map(family, outcomes)?, &place("svg"))?;
     }
     if let Some(to) = &args.page {

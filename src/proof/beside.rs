@@ -1,6 +1,7 @@
 //! The analytic sides by themselves: each against numbers from outside, or against the other side where there are none.
 
 use super::checks;
+use super::entrants::TRUE_SIDES;
 use super::known::Known;
 use super::observe::{Observed, Watch, observe};
 use super::sensitivity;
@@ -65,12 +66,12 @@ pub struct Sides {
 /// If `truth` stands on another grid. A side that fails is part of the result.
 pub fn sides(case: &Case, truth: Option<&Trajectory>) -> Result<Sides> {
     let solve = |side: &dyn Solver| observe(case, side, Watch::Side, &mut |_| {}).map_err(Error::from);
-    let counted = analytic::all().map(|side| (side, counted(|| solve(side))));
+    let counted = TRUE_SIDES.map(|side| (side.solver, counted(|| solve(side.solver))));
     let works = counted.each_ref().map(|(_, (_, work))| *work);
     let found = counted.map(|(side, (own, _))| (side, own));
     let names = found.each_ref().map(|(side, _)| side.name());
-    let solved = |index: usize| Some((names[index], &found[index].1.as_ref().ok()?.trajectory));
-    let solved: Vec<(&'static str, &Trajectory)> = (0..2).filter_map(solved).collect();
+    let solved = |index: usize| Some((TRUE_SIDES[index].tight, &found[index].1.as_ref().ok()?.trajectory));
+    let solved: Vec<(&dyn Solver, &Trajectory)> = (0..2).filter_map(solved).collect();
     let failed = |index: usize, error: &Error| Side {
         name: names[index],
         deviations: Vec::new(),
@@ -85,7 +86,7 @@ pub fn sides(case: &Case, truth: Option<&Trajectory>) -> Result<Sides> {
         return Ok(Sides { sides, checks: Vec::new(), verdict, silent: 0, trajectory: None });
     };
     let solver = found.iter().find(|(_, own)| own.is_ok()).expect("one side has a trajectory").0;
-    let mut known = Known::of(case, [reference, other], &sensitivity::of(case, solver, reference.1)?)?;
+    let mut known = Known::beside(case, [reference, other], &sensitivity::of(case, solver, reference.1)?)?;
     let judged = |known: &Known| -> Result<[Vec<Deviation>; 2]> {
         let mut all = [Vec::new(), Vec::new()];
         for (index, (_, own)) in found.iter().enumerate() {

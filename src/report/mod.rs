@@ -2,6 +2,10 @@
 //! terminal.
 
 pub(crate) mod bearings;
+pub(crate) mod bench;
+pub(crate) mod bench_page;
+pub(crate) mod bench_plot;
+pub(crate) mod case_json;
 mod cells;
 pub(crate) mod clearance;
 pub(crate) mod closed_form;
@@ -17,6 +21,7 @@ pub mod json;
 pub(crate) mod lists;
 pub(crate) mod modes;
 pub(crate) mod motor_choice;
+pub mod mutate;
 mod own_forces;
 pub(crate) mod plan;
 mod pretty;

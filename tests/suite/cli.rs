@@ -1,5 +1,6 @@
 //! The contract of the command line: exit codes, streams, JSON, CSV and messages, on the built command.
 
+mod bench;
 mod clearance;
 mod drive;
 mod engines;
@@ -7,6 +8,7 @@ mod export;
 mod files;
 mod messages;
 mod modes;
+mod mutate;
 mod plan;
 mod range;
 mod run;

@@ -10,6 +10,7 @@
 mod architecture;
 mod bad_scenarios;
 mod batch;
+mod bench;
 mod clearance;
 mod cli;
 mod common;
@@ -48,5 +49,6 @@ mod stories;
 mod stress;
 mod synthesis;
 mod triad_methods;
+mod trunk;
 mod tune;
 mod variants60;

@@ -62,6 +62,28 @@ impl Solver for TightAssurSolver {
     }
 }
 
+/// Side 1 at another accuracy of the integration of motions under forces, allowed in every step. A prescribed motion is
+/// not integrated.
+#[derive(Clone, Copy, Debug)]
+pub struct AssurAt(pub f64);
+
+impl Solver for AssurAt {
+    fn name(&self) -> &'static str {
+        AssurSolver.name()
+    }
+
+    fn provides(&self, channel: &Channel) -> Provision {
+        AssurSolver.provides(channel)
+    }
+
+    fn sweep(&self, case: &Case, visit: Visit, progress: Progress) -> Result<()> {
+        match case.is_free() {
+            true => free_motion(case, self.0, visit, progress),
+            false => AssurSolver.sweep(case, visit, progress),
+        }
+    }
+}
+
 /// Motion under forces. One degree of freedom: its reduced equation of motion, if the crank angle alone gives its
 /// terms.
 /// Otherwise, and for several freedoms: the transfer functions.

@@ -9,7 +9,7 @@ use linkage::mechanism::{Group, GroupKind, Side};
 use linkage::trajectory::Trajectory;
 
 use super::Long;
-use super::frame::{Frame, Instant};
+use super::frame::{Frame, Snapshot};
 use super::readings::trajectory;
 use super::task::{Task, at_start, stuck};
 use super::vector::Vector;
@@ -38,7 +38,7 @@ pub fn solve(case: &Case) -> Result<Trajectory> {
         case.structure.groups.iter().map(|group| dyad(case, &start, group)).collect::<Result<_>>()?;
     let mut instants = Vec::with_capacity(case.grid.len());
     for (row, &time) in case.grid.times.iter().enumerate() {
-        let mut instant = Instant::at_rest(case);
+        let mut instant = Snapshot::at_rest(case);
         instant.crank = task.angle(time);
         instant.frames[task.link] = task.crank(case, instant.crank);
         for dyad in &dyads {
@@ -111,7 +111,7 @@ impl Dyad {
 }
 
 /// Reactions and torque by the equilibrium of every dyad, the last first.
-fn forces(case: &Case, task: &Task, dyads: &[Dyad], instant: &mut Instant) {
+fn forces(case: &Case, task: &Task, dyads: &[Dyad], instant: &mut Snapshot) {
     // Force and moment about the world's origin on every link: weight, inertia, and what later groups exert.
     let links = 0..case.mechanism.links().len();
     let mut acting: Vec<(Vector, Long)> = links.map(|link| instant.inertia(case, link)).collect();

@@ -49,7 +49,7 @@ impl Frame {
 
 /// The whole mechanism at one instant.
 #[derive(Clone, Debug)]
-pub(crate) struct Instant {
+pub(crate) struct Snapshot {
     pub(crate) frames: Vec<Frame>,
     /// Force of the first link on the second in every joint.
     pub(crate) forces: Vec<Vector>,
@@ -60,10 +60,10 @@ pub(crate) struct Instant {
     pub(crate) crank: Long,
 }
 
-impl Instant {
-    pub(crate) fn at_rest(case: &Case) -> Instant {
+impl Snapshot {
+    pub(crate) fn at_rest(case: &Case) -> Snapshot {
         let joints = case.mechanism.joints().len();
-        Instant {
+        Snapshot {
             frames: vec![Frame::REST; case.mechanism.links().len()],
             forces: vec![Vector::ZERO; joints],
             moments: vec![Long::ZERO; joints],

@@ -10,11 +10,11 @@ use linkage::mechanism::{GROUND, Joint, Side};
 use linkage::trajectory::{Channel, OfDrive, OfFrame, OfJoint, OfLink, OfPoint, OfSlider, Reading, Trajectory};
 
 use super::Long;
-use super::frame::{Frame, Instant};
+use super::frame::{Frame, Snapshot};
 use super::vector::Vector;
 
 /// The trajectory of a case from its instants, one for each row of the grid.
-pub(crate) fn trajectory(case: &Case, instants: &[Instant]) -> Result<Trajectory> {
+pub(crate) fn trajectory(case: &Case, instants: &[Snapshot]) -> Result<Trajectory> {
     let places = Places::of(case);
     let channels = case.channels();
     let column = |channel: &Channel| {
@@ -56,7 +56,7 @@ impl<'a> Places<'a> {
         }
     }
 
-    fn read(&self, case: &Case, instant: &Instant, channel: &Channel) -> f64 {
+    fn read(&self, case: &Case, instant: &Snapshot, channel: &Channel) -> f64 {
         let of = channel.of.as_str();
         match channel.kind.reading {
             Reading::Link(reading) => {
@@ -124,7 +124,7 @@ fn of_point(frame: &Frame, local: linkage::math::Vec2, reading: OfPoint) -> f64 
 }
 
 /// Slide along the first link's axis with its rates: the second place as seen from the turning first link.
-fn slide(instant: &Instant, joint: &Joint) -> [Long; 3] {
+fn slide(instant: &Snapshot, joint: &Joint) -> [Long; 3] {
     let [first, second] = [joint.first, joint.second].map(|side| (&instant.frames[side.link], side.local));
     let axis = first.0.arm(joint.axis_on(joint.first.link).unwrap_or_default());
     let gap = second.0.point(second.1) - first.0.point(first.1);
@@ -139,7 +139,7 @@ fn slide(instant: &Instant, joint: &Joint) -> [Long; 3] {
 }
 
 /// What joints and drive exert on the ground, with the moment about the origin.
-fn shaking(case: &Case, instant: &Instant) -> (Vector, Long) {
+fn shaking(case: &Case, instant: &Snapshot) -> (Vector, Long) {
     let (mut force, mut moment) = (Vector::ZERO, -instant.torque);
     for (index, joint) in case.mechanism.joints().iter().enumerate() {
         let sign = match (joint.first.link, joint.second.link) {

@@ -9,7 +9,7 @@ use linkage::mechanism::{GROUND, Joint, JointKind};
 use linkage::trajectory::Trajectory;
 
 use super::Long;
-use super::frame::{Frame, Instant};
+use super::frame::{Frame, Snapshot};
 use super::readings::trajectory;
 use super::task::{Task, at_start, stuck};
 use super::vector::Vector;
@@ -32,7 +32,7 @@ const NEAR: f64 = 1e-10;
 pub fn solve(case: &Case) -> Result<Trajectory> {
     let task = Task::of(case)?;
     let whole = Whole { case, task, size: case.mechanism.size() };
-    let mut instants: Vec<Option<Instant>> = vec![None; case.grid.len()];
+    let mut instants: Vec<Option<Snapshot>> = vec![None; case.grid.len()];
     let (mut frames, mut time) = (at_start(case), 0.0);
     for row in case.grid.ascending() {
         let to = case.grid.times[row];
@@ -45,9 +45,9 @@ pub fn solve(case: &Case) -> Result<Trajectory> {
         }
         time = to;
         let instant = whole.instant(&frames).ok_or_else(|| stuck(case, row, "the pose is singular"))?;
-        instants[row] = Some(Instant { crank: whole.task.angle(to), ..instant });
+        instants[row] = Some(Snapshot { crank: whole.task.angle(to), ..instant });
     }
-    let instants: Vec<Instant> = instants.into_iter().map(|instant| instant.expect("every row is visited")).collect();
+    let instants: Vec<Snapshot> = instants.into_iter().map(|instant| instant.expect("every row is visited")).collect();
     trajectory(case, &instants)
 }
 
@@ -236,8 +236,8 @@ impl Whole<'_> {
     }
 
     /// Rates and forces in a closed pose.
-    fn instant(&self, frames: &[Frame]) -> Option<Instant> {
-        let mut instant = Instant::at_rest(self.case);
+    fn instant(&self, frames: &[Frame]) -> Option<Snapshot> {
+        let mut instant = Snapshot::at_rest(self.case);
         instant.frames = frames.to_vec();
         let rates = self.system(frames, What::Rates).solved()?;
         for (frame, own) in instant.frames[1..].iter_mut().zip(rates.as_chunks::<3>().0) {
@@ -265,7 +265,7 @@ impl Whole<'_> {
     }
 
     /// Equilibrium of all links: two forces and a moment about the world's origin each.
-    fn forces(&self, instant: &mut Instant) -> Option<()> {
+    fn forces(&self, instant: &mut Snapshot) -> Option<()> {
         let mut system = System::of(self.unknowns());
         let joints = self.case.mechanism.joints();
         for (index, joint) in joints.iter().enumerate() {

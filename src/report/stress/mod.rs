@@ -10,4 +10,4 @@ pub(crate) use kept::{json, outcomes};
 pub(crate) use map::map;
 pub(crate) use page::page;
 pub(crate) use summary::{Tally, text};
-pub(crate) use table::csv;
+pub(crate) use table::rows;

@@ -31,7 +31,7 @@ const HEADER: [&str; 21] = [
 ///
 /// # Errors
 /// [`ErrorKind::Io`] if the table cannot be written.
-pub(crate) fn csv<'a>(family: &Family, outcomes: impl Iterator<Item = &'a Outcome>) -> Result<String> {
+pub(crate) fn rows<'a>(family: &Family, outcomes: impl Iterator<Item = &'a Outcome>) -> Result<String> {
     let failed = |error: csv::Error| Error::new(ErrorKind::Io, format!("the table cannot be written: {error}"));
     let mut writer = csv::Writer::from_writer(Vec::new());
     writer.write_record(HEADER).map_err(failed)?;

@@ -8,4 +8,4 @@ mod solver;
 mod steps;
 mod system;
 
-pub use solver::{NewtonSolver, TightNewtonSolver};
+pub use solver::{NewtonAt, NewtonSolver, TightNewtonSolver};
