@@ -55,7 +55,7 @@ pub(super) fn heaviest(case: &Case) -> Option<usize> {
 pub(super) fn coupler(case: &Case) -> Option<usize> {
     let is_driven = |link: usize| case.drives.iter().any(|drive| drive.link == link);
     let long = || (1..case.mechanism.links().len()).filter(|&link| ends(case, link).is_some());
-    long().find(|&link| !is_driven(link)).or_else(|| long().last())
+    long().find(|&link| !is_driven(link)).or_else(|| long().next_back())
 }
 
 /// The places of joints on a link, each once, in the order of joints.
