@@ -1,6 +1,6 @@
 //! What is asked: bodies with outlines, the pairs of them that must not meet, and how well it must be known.
 
-use linkage::math::Vec2;
+use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{GROUND, Mechanism};
 
 use super::outline::Outline;
@@ -37,6 +37,14 @@ pub struct Question {
     pub tolerance: Option<f64>,
     /// Error that a swept area may have, as a share of it.
     pub area: f64,
+}
+
+impl Question {
+    /// Largest distance of a corner from the origin of its frame, with the rounding (m).
+    #[must_use]
+    pub fn extent(&self) -> f64 {
+        self.bodies.iter().map(|body| body.outline.extent()).fold(0.0, f64::larger)
+    }
 }
 
 /// All pairs of bodies that can meet: links that are not joined, and every link with the housing, but those of `ignored`.
