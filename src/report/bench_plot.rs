@@ -34,9 +34,9 @@ const OTHERS: [RGBColor; 5] = [
 const GREY: RGBColor = RGBColor(110, 110, 110);
 const PALE: RGBColor = RGBColor(236, 236, 236);
 const ROSE: RGBColor = RGBColor(252, 240, 240);
-/// Rows of the legend that tell failures, and their length (characters).
-const REASONS: usize = 5;
+/// Characters in a line of the legend, and the height of a small one (pixels).
 const WIDTH: usize = 72;
+const LINE: i32 = 14;
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 type Drawn = Result<(), String>;
@@ -267,16 +267,20 @@ fn legend(area: &Area, bench: &Bench) -> Drawn {
         }
     }
     y += 8;
-    let reasons = reasons(bench);
-    let more = reasons.len().saturating_sub(REASONS);
-    for (text, times) in reasons.into_iter().take(REASONS) {
-        for line in wrapped(&format!("x {times}: {}", cut(&text, 2 * WIDTH)), WIDTH) {
-            write(&line, 18, y, 11)?;
-            y += 14;
+    let (reasons, mut shown) = (reasons(bench), 0);
+    for (text, times) in &reasons {
+        let lines = wrapped(&format!("x {times}: {}", cut(text, 2 * WIDTH)), WIDTH);
+        if y + LINE * (lines.len() as i32 + 1) > PANEL.1 as i32 {
+            break;
         }
+        for line in lines {
+            write(&line, 18, y, 11)?;
+            y += LINE;
+        }
+        shown += 1;
     }
-    if more > 0 {
-        write(&format!("x and {more} more reasons: see the table"), 18, y, 11)?;
+    if shown < reasons.len() {
+        write(&format!("x and {} more reasons: see the table", reasons.len() - shown), 18, y, 11)?;
     }
     Ok(())
 }
