@@ -3,6 +3,7 @@
 use super::mutant::Party;
 use super::planted::Fault;
 use super::stage::Stage;
+use linkage::math::KeepNan;
 
 /// Smallest size over the first one that is tried: nothing that small is above rounding.
 const LEAST: f64 = 1e-16;
@@ -25,7 +26,7 @@ pub(super) fn smallest(stage: &Stage, fault: Fault, party: Party, margin: f64) -
     let guess = if margin.is_finite() && margin > 1.0 { whole / margin } else { whole / STEP };
     let mut found = whole;
     let mut lost = None;
-    let mut size = (guess * FACTOR).min(whole / FACTOR);
+    let mut size = (guess * FACTOR).smaller(whole / FACTOR);
     while lost.is_none() && size > LEAST * whole {
         if is_found(size) {
             found = size;

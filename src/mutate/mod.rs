@@ -1,7 +1,7 @@
 //! Does the cross-check see faults? Single faults, planted in one party of a proof at default settings, or in what all
 //! parties share.
 //!
-//! A third join: a fault stands around a solver or an engine, and the proof is the same as that of a user.
+//! A fault stands around a solver or an engine, and the proof is the same as that of a user.
 //! A fault in an analytic side that the other side contradicts needs no engine for its verdict. Other proofs with the
 //! engine unchanged take its runs from the first of them; their verdicts are those of new runs, because an engine's
 //! runs do not depend on what they are compared with.

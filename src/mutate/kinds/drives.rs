@@ -99,7 +99,7 @@ fn turned(case: &Case, index: usize, change: impl Fn(&mut Drive)) -> Option<Case
 }
 
 fn started(case: &Case, index: usize, to: impl Fn(f64) -> f64) -> Option<Case> {
-    let old = case.drives.iter().nth(index)?.start;
+    let old = case.drives.get(index)?.start;
     let new = to(old);
     if new == old {
         return None;
@@ -111,7 +111,7 @@ fn started(case: &Case, index: usize, to: impl Fn(f64) -> f64) -> Option<Case> {
 }
 
 fn faster(case: &Case, index: usize, factor: f64) -> Option<Case> {
-    let drive = case.drives.iter().nth(index)?;
+    let drive = case.drives.get(index)?;
     if drive.is_free() && drive.initial_speed() == 0.0 {
         return None;
     }

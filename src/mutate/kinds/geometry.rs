@@ -87,7 +87,7 @@ fn stretched(case: &Case, link: usize, factor: f64) -> Option<Case> {
 fn pivot(case: &Case, to: impl Fn(Vec2, f64) -> Vec2) -> Option<Case> {
     let pins = case.mechanism.joints().iter().enumerate().filter(|(_, joint)| joint.is_pin());
     let fixed = pins.filter(|(index, _)| *index != case.crank().joint);
-    let last = fixed.filter_map(|(_, joint)| joint.on(GROUND)).last()?;
+    let last = fixed.filter_map(|(_, joint)| joint.on(GROUND)).next_back()?;
     let (new, moved) = (to(last, case.mechanism.size()), |place, new| if place == last { new } else { place });
     if new == last {
         return None;

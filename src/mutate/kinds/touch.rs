@@ -40,6 +40,11 @@ pub(super) fn floating(case: &Case) -> usize {
     (1..case.mechanism.links().len()).rev().find(|&link| !held(link)).unwrap_or_else(|| output(case))
 }
 
+/// The last link that can turn: of another, rates of turning are rounding.
+pub(super) fn turner(case: &Case) -> usize {
+    (1..case.mechanism.links().len()).rev().find(|&link| case.can_turn(link)).unwrap_or_else(|| output(case))
+}
+
 /// The crank's link.
 pub(super) fn crank(case: &Case) -> usize {
     case.crank().link
@@ -55,7 +60,7 @@ pub(super) fn heaviest(case: &Case) -> Option<usize> {
 pub(super) fn coupler(case: &Case) -> Option<usize> {
     let is_driven = |link: usize| case.drives.iter().any(|drive| drive.link == link);
     let long = || (1..case.mechanism.links().len()).filter(|&link| ends(case, link).is_some());
-    long().find(|&link| !is_driven(link)).or_else(|| long().last())
+    long().find(|&link| !is_driven(link)).or_else(|| long().next_back())
 }
 
 /// The places of joints on a link, each once, in the order of joints.

@@ -1,6 +1,6 @@
 //! What is asked: bodies with outlines, the pairs of them that must not meet, and how well it must be known.
 
-use linkage::math::{KeepNan, Vec2};
+use linkage::math::KeepNan;
 use linkage::mechanism::{GROUND, Mechanism};
 
 use super::outline::Outline;
@@ -72,13 +72,9 @@ pub fn are_joined(mechanism: &Mechanism, [a, b]: [usize; 2]) -> bool {
         return true;
     }
     // From pin to pin at the same place of each link.
-    let mut reached: Vec<(usize, Vec2)> = Vec::new();
-    for joint in mechanism.joints().iter().filter(|joint| joint.is_pin()) {
-        reached.extend(joint.on(a).map(|place| (a, place)));
-    }
-    let starts = reached.len();
-    for start in 0..starts {
-        let mut pin = vec![reached[start]];
+    let pins = mechanism.joints().iter().filter(|joint| joint.is_pin());
+    for start in pins.filter_map(|joint| joint.on(a)) {
+        let mut pin = vec![(a, start)];
         let mut next = 0;
         while let Some(&(link, place)) = pin.get(next) {
             next += 1;
