@@ -24,7 +24,9 @@ const EXAMPLES: &str = "\
 Examples:
   linkproof bench scenarios/crank_rocker.toml --out bench --quick        a coarse picture, in seconds
   linkproof bench scenarios/five_bar.toml --out bench --quick --only positions --engine rapier
-  linkproof bench scenarios/*.toml --out docs/bench --page docs/bench.md --peer mujoco='python3 examples/peers/mujoco_peer.py'
+
+All scenarios, beside another program, with a page:
+  linkproof bench scenarios/*.toml --out bench --page bench.md --peer mujoco='python3 examples/peers/mujoco_peer.py'
 
 Writes NAME.time.svg, NAME.solutions.svg, NAME.inner.svg and NAME.csv of every scenario, and bench.json, to the directory.
 Times are ratios to that of side 1 in the same command; they may differ from run to run, errors and counts do not.
