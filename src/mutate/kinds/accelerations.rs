@@ -1,7 +1,7 @@
 //! Second derivatives that are answered.
 
 use super::kind::{Family, Kind};
-use super::touch::{arm, floating, moving_guide, output};
+use super::touch::{arm, floating, moving_guide, turner};
 use linkage::math::turned;
 
 const OF: Family = Family::Acceleration;
@@ -10,9 +10,9 @@ pub(super) const KINDS: &[Kind] = &[
     Kind::answer(
         OF,
         "centripetal-missing",
-        "the last link's acceleration lacks its centripetal part",
+        "the last turning link's acceleration lacks its centripetal part",
         |at, state, _| {
-            let link = output(at.case);
+            let link = turner(at.case);
             let arm = arm(at.case, state, link);
             let motion = &mut state.motions[link];
             (arm.norm() > 0.0).then(|| motion.acceleration += arm * (motion.omega * motion.omega))
@@ -21,20 +21,25 @@ pub(super) const KINDS: &[Kind] = &[
     Kind::answer(
         OF,
         "centripetal-sign",
-        "the centripetal part of the last link's acceleration points outwards",
+        "the centripetal part of the last turning link's acceleration points outwards",
         |at, state, _| {
-            let link = output(at.case);
+            let link = turner(at.case);
             let arm = arm(at.case, state, link);
             let motion = &mut state.motions[link];
             (arm.norm() > 0.0).then(|| motion.acceleration += arm * (2.0 * motion.omega * motion.omega))
         },
     ),
-    Kind::answer(OF, "tangential-missing", "the last link's acceleration lacks its tangential part", |at, state, _| {
-        let link = output(at.case);
-        let arm = arm(at.case, state, link);
-        let motion = &mut state.motions[link];
-        (arm.norm() > 0.0).then(|| motion.acceleration -= turned(arm) * motion.alpha)
-    }),
+    Kind::answer(
+        OF,
+        "tangential-missing",
+        "the last turning link's acceleration lacks its tangential part",
+        |at, state, _| {
+            let link = turner(at.case);
+            let arm = arm(at.case, state, link);
+            let motion = &mut state.motions[link];
+            (arm.norm() > 0.0).then(|| motion.acceleration -= turned(arm) * motion.alpha)
+        },
+    ),
     Kind::answer(
         OF,
         "coriolis-missing",
@@ -63,24 +68,39 @@ pub(super) const KINDS: &[Kind] = &[
             Some(())
         },
     ),
-    Kind::answer(OF, "alpha", "the angular acceleration of the last link is larger by a share", |at, state, size| {
-        state.motions[output(at.case)].alpha *= 1.0 + size;
-        Some(())
-    })
+    Kind::answer(
+        OF,
+        "alpha",
+        "the angular acceleration of the last turning link is larger by a share",
+        |at, state, size| {
+            state.motions[turner(at.case)].alpha *= 1.0 + size;
+            Some(())
+        },
+    )
     .sized(1e-2),
-    Kind::answer(OF, "alpha-sign", "the angular acceleration of the last link is counted clockwise", |at, state, _| {
-        state.motions[output(at.case)].alpha *= -1.0;
+    Kind::answer(
+        OF,
+        "alpha-sign",
+        "the angular acceleration of the last turning link is counted clockwise",
+        |at, state, _| {
+            state.motions[turner(at.case)].alpha *= -1.0;
+            Some(())
+        },
+    ),
+    Kind::answer(OF, "alpha-missing", "the angular acceleration of the last turning link is zero", |at, state, _| {
+        state.motions[turner(at.case)].alpha = 0.0;
         Some(())
     }),
-    Kind::answer(OF, "alpha-missing", "the angular acceleration of the last link is zero", |at, state, _| {
-        state.motions[output(at.case)].alpha = 0.0;
-        Some(())
-    }),
-    Kind::answer(OF, "alpha-degrees", "the angular acceleration of the last link is in degrees", |at, state, _| {
-        let alpha = &mut state.motions[output(at.case)].alpha;
-        *alpha = alpha.to_degrees();
-        Some(())
-    }),
+    Kind::answer(
+        OF,
+        "alpha-degrees",
+        "the angular acceleration of the last turning link is in degrees",
+        |at, state, _| {
+            let alpha = &mut state.motions[turner(at.case)].alpha;
+            *alpha = alpha.to_degrees();
+            Some(())
+        },
+    ),
     Kind::answer(
         OF,
         "acceleration-size",

@@ -1,7 +1,7 @@
 //! Positions and angles that are answered.
 
 use super::kind::{Family, Kind};
-use super::touch::{arm, floating, output};
+use super::touch::{arm, floating, output, turner};
 use linkage::math::{rotated, unit};
 use linkage::solver::State;
 
@@ -54,36 +54,41 @@ pub(super) const KINDS: &[Kind] = &[
         state.motions.iter_mut().skip(1).for_each(|motion| motion.origin.y *= -1.0);
         Some(())
     }),
-    Kind::answer(OF, "angle", "the angle of the last link is off (rad), its direction too", |at, state, size| {
-        turn(state, output(at.case), size);
-        Some(())
-    })
-    .sized(1e-3),
     Kind::answer(
         OF,
-        "angle-alone",
-        "the angle of the last link is off (rad), its direction is not",
+        "angle",
+        "the angle of the last turning link is off (rad), its direction too",
         |at, state, size| {
-            state.angles[output(at.case)] += size;
+            turn(state, turner(at.case), size);
             Some(())
         },
     )
     .sized(1e-3),
-    Kind::answer(OF, "angle-sign", "the angle of the last link is counted clockwise", |at, state, _| {
-        state.angles[output(at.case)] *= -1.0;
+    Kind::answer(
+        OF,
+        "angle-alone",
+        "the angle of the last turning link is off (rad), its direction is not",
+        |at, state, size| {
+            state.angles[turner(at.case)] += size;
+            Some(())
+        },
+    )
+    .sized(1e-3),
+    Kind::answer(OF, "angle-sign", "the angle of the last turning link is counted clockwise", |at, state, _| {
+        state.angles[turner(at.case)] *= -1.0;
         Some(())
     }),
-    Kind::answer(OF, "angle-degrees", "the angle of the last link is in degrees", |at, state, _| {
-        let angle = &mut state.angles[output(at.case)];
+    Kind::answer(OF, "angle-degrees", "the angle of the last turning link is in degrees", |at, state, _| {
+        let angle = &mut state.angles[turner(at.case)];
         *angle = angle.to_degrees();
         Some(())
     }),
     Kind::answer(
         OF,
         "angle-drift",
-        "the angle of the last link drifts by an angle (rad) over the run",
+        "the angle of the last turning link drifts by an angle (rad) over the run",
         |at, state, size| {
-            turn(state, output(at.case), size * share(at.row, at.case.grid.len()));
+            turn(state, turner(at.case), size * share(at.row, at.case.grid.len()));
             Some(())
         },
     )

@@ -1,27 +1,37 @@
 //! First derivatives that are answered.
 
 use super::kind::{Family, Kind};
-use super::touch::{arm, crank, floating, moving_guide, output};
+use super::touch::{arm, crank, floating, moving_guide, turner};
 use linkage::math::{rotated, turned};
 
 const OF: Family = Family::Rate;
 
 pub(super) const KINDS: &[Kind] = &[
-    Kind::answer(OF, "omega", "the angular velocity of the last link is larger by a share", |at, state, size| {
-        state.motions[output(at.case)].omega *= 1.0 + size;
-        Some(())
-    })
+    Kind::answer(
+        OF,
+        "omega",
+        "the angular velocity of the last turning link is larger by a share",
+        |at, state, size| {
+            state.motions[turner(at.case)].omega *= 1.0 + size;
+            Some(())
+        },
+    )
     .sized(1e-2),
-    Kind::answer(OF, "omega-sign", "the angular velocity of the last link is counted clockwise", |at, state, _| {
-        state.motions[output(at.case)].omega *= -1.0;
-        Some(())
-    }),
+    Kind::answer(
+        OF,
+        "omega-sign",
+        "the angular velocity of the last turning link is counted clockwise",
+        |at, state, _| {
+            state.motions[turner(at.case)].omega *= -1.0;
+            Some(())
+        },
+    ),
     Kind::answer(
         OF,
         "omega-degrees",
-        "the angular velocity of the last link is in degrees per second",
+        "the angular velocity of the last turning link is in degrees per second",
         |at, state, _| {
-            let omega = &mut state.motions[output(at.case)].omega;
+            let omega = &mut state.motions[turner(at.case)].omega;
             *omega = omega.to_degrees();
             Some(())
         },
@@ -29,14 +39,14 @@ pub(super) const KINDS: &[Kind] = &[
     Kind::answer(
         OF,
         "omega-relative",
-        "the angular velocity of the last link is that relative to the crank",
+        "the angular velocity of the last turning link is that relative to the crank",
         |at, state, _| {
-            let (last, first) = (output(at.case), crank(at.case));
+            let (last, first) = (turner(at.case), crank(at.case));
             (last != first).then(|| state.motions[last].omega -= state.motions[first].omega)
         },
     ),
     Kind::answer(OF, "velocity-half-arm", "half a length in a velocity: v = v0 + omega x r / 2", |at, state, _| {
-        let link = output(at.case);
+        let link = turner(at.case);
         let arm = arm(at.case, state, link);
         let motion = &mut state.motions[link];
         (arm.norm() > 0.0).then(|| motion.velocity -= turned(arm) * (0.5 * motion.omega))

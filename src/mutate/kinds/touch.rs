@@ -40,6 +40,11 @@ pub(super) fn floating(case: &Case) -> usize {
     (1..case.mechanism.links().len()).rev().find(|&link| !held(link)).unwrap_or_else(|| output(case))
 }
 
+/// The last link that can turn: of another, rates of turning are rounding.
+pub(super) fn turner(case: &Case) -> usize {
+    (1..case.mechanism.links().len()).rev().find(|&link| case.can_turn(link)).unwrap_or_else(|| output(case))
+}
+
 /// The crank's link.
 pub(super) fn crank(case: &Case) -> usize {
     case.crank().link
