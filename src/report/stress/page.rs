@@ -16,6 +16,8 @@ pub(crate) fn page(families: &[(&Family, Vec<&Outcome>)], command: &str, maps: &
          Errors are shares of a channel's scale, half its range over the run, of the worst channel.\n\
          *Over bound* is the largest error over bound of any channel where the verdict agrees: above 1 it would be a wrong \
          number that nobody is told of.\n\
+         *Widest bound* is that of a worst channel: agreement within a bound of 1 and more proves nothing by itself, and there \
+         the error against double-double is what counts.\n\
          The analytic sides `assur` and `newton` are held against numbers in double-double arithmetic (31 digits) where \
          these can be had, and against each other where not.\n\
          In the maps the thin dashed line is the bound, the full one the error.\n\
@@ -26,14 +28,17 @@ pub(crate) fn page(families: &[(&Family, Vec<&Outcome>)], command: &str, maps: &
     for (family, outcomes) in families {
         let _ = write!(
             text,
-            "\n## {}\n\n{}.\nDial: {}.\n\n| | agrees at | not | positions | rates | forces | over bound |\n|---|---|---|---|---|---|---|\n",
+            "\n## {}\n\n{}.\nDial: {}.\n\n| | agrees at | not | positions | rates | forces | over bound | widest bound |\n|---|---|---|---|---|---|---|---|\n",
             family.name,
             capital(family.title),
             family.dial
         );
         for name in names(outcomes) {
-            let [agrees, others, positions, rates, forces, used] = cells(outcomes, name);
-            let _ = writeln!(text, "| {name} | {agrees} | {others} | {positions} | {rates} | {forces} | {used} |");
+            let [agrees, others, positions, rates, forces, used, widest] = cells(outcomes, name);
+            let _ = writeln!(
+                text,
+                "| {name} | {agrees} | {others} | {positions} | {rates} | {forces} | {used} | {widest} |"
+            );
         }
         for own in outcomes.iter().filter(|own| !own.refused.is_empty()) {
             let _ = writeln!(text, "\nAt {}: {}.", super::summary::dial(own.dial), own.refused);

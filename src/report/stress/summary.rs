@@ -81,11 +81,12 @@ pub(crate) fn text(families: &[(&Family, Vec<&Outcome>)]) -> String {
 
 /// One family: a table of its parties, and the reasons of what does not agree.
 pub(super) fn body(outcomes: &[&Outcome]) -> String {
-    let mut found = table(["", "agrees at", "not", "largest error: positions", "rates", "forces", "over bound"], &[6]);
+    let header = ["", "agrees at", "not", "largest error: positions", "rates", "forces", "over bound", "widest bound"];
+    let mut found = table(header, &[6, 7]);
     let mut reasons = String::new();
     for name in names(outcomes) {
-        let [agrees, others, positions, rates, forces, used] = cells(outcomes, name);
-        found.add_row([name.to_string(), agrees, others, positions, rates, forces, used]);
+        let [agrees, others, positions, rates, forces, used, widest] = cells(outcomes, name);
+        found.add_row([name.to_string(), agrees, others, positions, rates, forces, used, widest]);
         for (word, at, why) in told(outcomes, name) {
             let _ = writeln!(reasons, "  {name} {word} at {at}: {why}");
         }
@@ -107,11 +108,12 @@ pub(super) fn names<'a>(outcomes: &[&'a Outcome]) -> Vec<&'a str> {
     names
 }
 
-/// Where a party agrees, where not, its largest errors where it agrees, and the largest share of a bound there.
-pub(super) fn cells(outcomes: &[&Outcome], name: &str) -> [String; 6] {
+/// Where a party agrees, where not, its largest errors where it agrees, and there the largest share of a bound and the
+/// widest bound of a worst channel.
+pub(super) fn cells(outcomes: &[&Outcome], name: &str) -> [String; 7] {
     let mut by_dial: Vec<(f64, usize)> = Vec::new();
     let mut largest: BTreeMap<Group, f64> = BTreeMap::new();
-    let mut used: f64 = 0.0;
+    let (mut used, mut widest): (f64, f64) = (0.0, 0.0);
     for own in outcomes {
         let Some(party) = own.parties.iter().find(|party| party.name == name) else { continue };
         let rank = rank(&party.verdict);
@@ -124,6 +126,7 @@ pub(super) fn cells(outcomes: &[&Outcome], name: &str) -> [String; 6] {
                 let most = largest.entry(own.group).or_insert(0.0);
                 *most = most.larger(own.error);
                 used = used.larger(own.used);
+                widest = widest.larger(own.bound);
             }
         }
     }
@@ -136,14 +139,11 @@ pub(super) fn cells(outcomes: &[&Outcome], name: &str) -> [String; 6] {
         .collect();
     let error = |group: Group| largest.get(&group).map_or_else(String::new, |error| format!("{error:.1e}"));
     let [positions, rates, forces] = Group::ALL.map(error);
-    [
-        stretches(0),
-        others.join("; "),
-        positions,
-        rates,
-        forces,
-        if largest.is_empty() { String::new() } else { format!("{used:.1e}") },
-    ]
+    let [used, widest] = [used, widest].map(|value| match largest.is_empty() {
+        true => String::new(),
+        false => format!("{value:.1e}"),
+    });
+    [stretches(0), others.join("; "), positions, rates, forces, used, widest]
 }
 
 /// Neighbouring values of the dial with one verdict, as `1 .. 100`.
