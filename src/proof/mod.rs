@@ -8,6 +8,7 @@ mod engines;
 mod examined;
 mod judge;
 mod known;
+pub(crate) mod memory;
 mod methods;
 mod need;
 mod observe;
@@ -111,7 +112,7 @@ impl Proof {
 ///
 /// # Errors
 /// If an analytic side cannot solve the case, with the crank angle. If a solver is not known. If the only engine cannot
-/// start. An engine that fails later, or that fails beside others, is part of the proof, with its trajectory up to the
+/// start. If the run would need more memory than is allowed. An engine that fails later, or that fails beside others, is part of the proof, with its trajectory up to the
 /// failure.
 pub fn prove(scenario: &Scenario, options: &Options) -> Result<Proof> {
     prove_with(scenario, options, &mut |_| {})
@@ -160,6 +161,7 @@ fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: 
     let case = &scenario.case;
     let main = options.reference.solver();
     let engines = options.chosen(scenario)?;
+    memory::check(case, memory::of_proof(case, engines.len()), options.memory)?;
     let observed =
         |solver: &dyn Solver| -> Result<_> { Ok((solver.name(), observe(case, solver, Watch::Side, &mut |_| {})?)) };
     let [first, second] = analytic::all();
@@ -192,16 +194,19 @@ fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: 
     };
     let analytic = overall(checks.iter().map(|check| &check.verdict));
     let verdict = overall([&analytic].into_iter().chain(proofs.iter().map(|proof| &proof.verdict)));
+    let diagnosis = examined::of(case, main, &sides, &known, &proofs);
+    let [one, two] = sides;
+    let reference = if one.0 == main.name() { one } else { two };
     Ok(Proof {
         scenario: scenario.name.clone(),
         title: scenario.title.clone(),
         formula: case.structure.formula(&case.mechanism),
         reference: main.name(),
-        diagnosis: examined::of(case, main, &sides, &known, &proofs),
+        diagnosis,
         checks,
         engines: proofs,
         disputes,
         verdict,
-        reference_trajectory: own.trajectory.clone(),
+        reference_trajectory: reference.1.trajectory,
     })
 }

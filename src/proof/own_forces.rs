@@ -4,6 +4,8 @@
 //! extrapolated, usually are. With a given step no run is finer than those that estimate the error of that step:
 //! coarser ones are extrapolated.
 
+use std::sync::Arc;
+
 use super::judge::{ChannelProof, EngineInfo, Judge, Judged, describe};
 use super::observe::Watch;
 use super::options::Chosen;
@@ -11,7 +13,7 @@ use super::runs::Bank;
 use super::settle::{Free, Search, Settling};
 use crate::compare::Verdict;
 use crate::engines::coarse_step;
-use linkage::case::Case;
+use linkage::case::{Case, Wanted};
 use linkage::engine::{Route, Settings};
 use linkage::error::Error;
 use linkage::trajectory::{Stage, Trajectory};
@@ -32,7 +34,7 @@ pub struct OwnForces {
     pub channels: Vec<ChannelProof>,
     /// Verdict on them together.
     pub verdict: Verdict,
-    /// The engine's trajectory by this route; `None` if it failed.
+    /// The engine's trajectory by this route, forces only; `None` if it failed.
     pub trajectory: Option<Trajectory>,
     /// Why there is no comparison.
     pub failure: Option<Error>,
@@ -53,6 +55,10 @@ impl OwnForces {
         if !judge.asking(judge.asked).of_own_forces().has_channels() {
             return None;
         }
+        // Nothing else of these runs is looked at.
+        let forces = [Stage::Reactions, Stage::BalancingMoment].map(|stage| case.wanted.has(stage).then_some(stage));
+        let forces: Vec<Stage> = forces.into_iter().flatten().collect();
+        let case = &case.wanting(Wanted::of(&forces));
         let mut found: Option<OwnForces> = None;
         for &route in chosen.engine.own_routes(case) {
             let own = by_route(judge, case, chosen, (free, route, sweeps.min(ENOUGH)), progress);
@@ -131,6 +137,7 @@ fn by_route(
         Settling::new(&judge, &mut bank, engine.as_ref(), free, SHARE * chosen.budget).conclusive(finest, sweeps);
     match search.run(progress) {
         Ok((Judged { info, mut channels, mut verdict, run, .. }, search)) => {
+            drop(bank);
             let (end, budget) = (search.end, chosen.budget);
             let all = channels.iter_mut().map(|channel| &mut channel.verdict).chain([&mut verdict]);
             all.for_each(|verdict| end.tell(verdict, budget));
@@ -139,7 +146,7 @@ fn by_route(
                 search: Some(search),
                 channels,
                 verdict,
-                trajectory: Some(run.trajectory.clone()),
+                trajectory: Some(Arc::unwrap_or_clone(run).trajectory),
                 failure: None,
             }
         }

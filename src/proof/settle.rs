@@ -366,6 +366,7 @@ impl<'a, 'b> Settling<'a, 'b> {
         let mut failure = None;
         let candidates = self.candidates();
         let all: Vec<Settings> = candidates.iter().flat_map(|&settings| rungs(settings, &[])).collect();
+        self.bank.keep_needed(&all);
         self.bank.prepare(&all, &mut |part| progress(0.7 * part));
         for settings in candidates {
             let trial = match self.trial(settings, &[], &mut |_| {}) {
