@@ -2,8 +2,8 @@
 
 use clap::builder::PossibleValuesParser;
 
-use crate::engines::EngineName;
 use super::output;
+use crate::engines::EngineName;
 use crate::proof::{Options, Reference, memory};
 use crate::scenario::Scenario;
 use linkage::case::Case;

@@ -11,16 +11,17 @@ use linkage::error::{Advice, Error, ErrorKind, Result};
 pub(crate) const MOST: f64 = 4e9;
 /// Memory that a run has besides its instants (bytes).
 const ELSE: f64 = 2e7;
-/// Trajectories of a proof at its peak: two sides, the three runs that are judged, the best one so far, one being made.
-const TRAJECTORIES: f64 = 7.0;
+/// Trajectories of a proof at its peak: two sides, the three runs that are judged, one with other sweeps, the
+/// best one so far, one being made.
+const TRAJECTORIES: f64 = 8.0;
 /// Kept runs of an engine at the peak: steps that are halved a few times, and other sweeps for some of them.
-const RUNS: f64 = 10.0;
+const RUNS: f64 = 12.0;
 /// Values of an instant besides its channels: time, crank angle, order, openings, powers.
 const BESIDE: usize = 6;
 
 /// Estimated memory (bytes) of a proof of a case by engines, one after the other.
 #[must_use]
-pub(crate) fn of_proof(case: &Case, engines: usize) -> f64 {
+pub fn of_proof(case: &Case, engines: usize) -> f64 {
     // Of every engine its trajectory is left.
     let trajectories = TRAJECTORIES + engines.saturating_sub(1) as f64;
     let row = trajectories * trajectory(case) + RUNS * Rows::bytes_of_row(case) as f64;
@@ -29,7 +30,7 @@ pub(crate) fn of_proof(case: &Case, engines: usize) -> f64 {
 
 /// Estimated memory (bytes) of one solution of a case by a solver that combines `runs` runs.
 #[must_use]
-pub(crate) fn of_solution(case: &Case, runs: usize) -> f64 {
+pub fn of_solution(case: &Case, runs: usize) -> f64 {
     let row = trajectory(case) + runs.saturating_sub(1) as f64 * Rows::bytes_of_row(case) as f64;
     ELSE + case.grid.len() as f64 * row
 }

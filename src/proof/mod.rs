@@ -8,7 +8,7 @@ mod engines;
 mod examined;
 mod judge;
 mod known;
-pub(crate) mod memory;
+pub mod memory;
 mod methods;
 mod need;
 mod observe;

@@ -12,4 +12,4 @@ mod run;
 mod solve;
 mod starts;
 mod synthesize;
-mod tools;
+pub mod tools;

@@ -32,6 +32,7 @@ mod random_proofs;
 mod range;
 mod rapier;
 mod record;
+mod robustness;
 mod scenario_docs;
 mod setting_off;
 mod settling;

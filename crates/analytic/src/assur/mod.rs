@@ -8,5 +8,6 @@ mod passing;
 mod pose_solver;
 pub(crate) mod transfer;
 mod turns;
+mod whole_turns;
 
 pub use pose_solver::PoseSolver;

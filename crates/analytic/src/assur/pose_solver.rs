@@ -26,19 +26,21 @@ const MEET: &str = "there the links of the group do not hold it, or two of its b
 /// Goes from crank angle to crank angle on one branch and solves the pose there, without allocation.
 #[derive(Debug)]
 pub struct PoseSolver<'a> {
-    case: &'a Case,
+    pub(super) case: &'a Case,
     plan: Plan,
     statics: Kinetostatics,
-    state: State,
+    pub(super) state: State,
     /// Turns of the links, if the caller or a load needs their angles.
-    turns: Option<Turns>,
+    pub(super) turns: Option<Turns>,
     /// Angles, angular velocities or accelerations of all driving links, as each stage needs them.
     inputs: Vec<f64>,
-    crank: f64,
+    pub(super) crank: f64,
     step: f64,
     watch: Watch,
     /// Change points, where the drive says that they are passed.
-    passing: Option<Passing>,
+    pub(super) passing: Option<Passing>,
+    /// Whole turns of the crank that were skipped (rad): positions are those of the crank angle less this.
+    pub(super) skipped: f64,
 }
 
 /// What is watched so that no step passes over a change point.
@@ -72,6 +74,7 @@ impl<'a> PoseSolver<'a> {
             step,
             watch: Watch::default(),
             passing: (case.crank().through && case.drives.further().is_empty()).then(|| Passing::new(1.0)),
+            skipped: 0.0,
         };
         solver.step_to(case.crank().start, 0)?;
         if case.loads.iter().any(Load::needs_angles) {
@@ -201,6 +204,12 @@ impl<'a> PoseSolver<'a> {
     /// The same where one step is not enough.
     #[cold]
     fn go_far_to(&mut self, target: f64) -> Result<()> {
+        self.skip_turns(target)?;
+        self.follow_to(target)
+    }
+
+    /// Follows the branch to a crank angle in small steps.
+    pub(super) fn follow_to(&mut self, target: f64) -> Result<()> {
         let from = self.crank;
         let parts = ((target - from).abs() / self.step).ceil();
         for part in 1..parts as usize {
@@ -236,7 +245,7 @@ impl<'a> PoseSolver<'a> {
     /// One step, not divided.
     #[inline]
     fn place(&mut self, target: f64) -> std::result::Result<(), OutOfReach> {
-        self.turn(target);
+        self.turn(target - self.skipped);
         if let Some(passing) = &mut self.passing {
             let from = self.case.crank().world_angle(self.crank);
             let placed = passing.place([from, self.inputs[0]], &mut self.plan, &mut self.state.motions);
@@ -287,7 +296,7 @@ impl<'a> PoseSolver<'a> {
             {
                 self.search(group, target, [before, after])?;
                 // The search has left another pose and its clearances.
-                self.turn(target);
+                self.turn(target - self.skipped);
                 self.plan.positions(&self.inputs, &mut self.state.motions)?;
                 self.find_clearances(target);
             }
@@ -309,7 +318,7 @@ impl<'a> PoseSolver<'a> {
                 return Ok(());
             }
             let middle = 0.5 * (low + high);
-            self.turn(middle);
+            self.turn(middle - self.skipped);
             match self.plan.positions(&self.inputs, &mut self.state.motions) {
                 Ok(()) => {}
                 Err(OutOfReach { why: Misfit::Lost, .. }) => return Ok(()),
