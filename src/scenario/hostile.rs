@@ -4,27 +4,31 @@
 //! a report, an escape character would command a terminal, and a change of direction would show another name than the
 //! one that is meant.
 
+use std::ops::Range;
+
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::source::Source;
-use linkage::error::{Error, ErrorKind, Result};
+use linkage::error::{Error, ErrorKind, Place, Result};
 use linkage::mechanism::{LONGEST_NAME, is_unseen};
 
 /// Longest text (characters).
 const LONGEST_TEXT: usize = 10_000;
 
+/// Gives the place of a range of bytes in the file.
+type Places<'a> = &'a dyn Fn(Range<usize>) -> Place;
+
 /// Checks all keys and texts of a file.
 ///
 /// # Errors
 /// [`ErrorKind::Input`] with the place and the key of the first that is refused.
-pub fn check(source: &Source, tree: &DeTable) -> Result<()> {
+pub fn check(source: Places, tree: &DeTable) -> Result<()> {
     table(source, tree, "")
 }
 
-fn table(source: &Source, table: &DeTable, path: &str) -> Result<()> {
+fn table(source: Places, table: &DeTable, path: &str) -> Result<()> {
     for (key, value) in table {
-        let place = || source.place(key.span());
+        let place = || source(key.span());
         let name: &str = key.get_ref();
         let refused = |message: String, help: &str| {
             let error = Error::new(ErrorKind::Input, message).at(place()).help(help);
@@ -45,9 +49,9 @@ fn table(source: &Source, table: &DeTable, path: &str) -> Result<()> {
 const UNSEEN_HELP: &str = "take out line breaks, control characters and changes of the writing direction";
 
 #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the TOML parser")]
-fn any(source: &Source, value: &Spanned<DeValue>, path: &str) -> Result<()> {
+fn any(source: Places, value: &Spanned<DeValue>, path: &str) -> Result<()> {
     let refused = |message: String, help: &str| {
-        Err(Error::new(ErrorKind::Input, message).key(path).at(source.place(value.span())).help(help))
+        Err(Error::new(ErrorKind::Input, message).key(path).at(source(value.span())).help(help))
     };
     match value.get_ref() {
         DeValue::String(text) if text.contains(is_unseen) => {

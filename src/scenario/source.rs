@@ -32,7 +32,7 @@ impl<'a> Source<'a> {
                 .at(self.place(error.span().unwrap_or(0..0)))
                 .help("a key is written `name = value`, a section `[name]`, text stands in \"quotes\"")
         })?;
-        hostile::check(self, tree.get_ref())?;
+        hostile::check(&|span| self.place(span), tree.get_ref())?;
         Ok(tree)
     }
 

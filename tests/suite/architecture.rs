@@ -60,7 +60,7 @@ const ROOMS: &[(&str, &str)] = &[
     ("linkproof::proof", "compare diagnosis engines scenario tolerance"),
     ("linkproof::record", "files"),
     ("linkproof::report", "compare diagnosis proof record scenario tune"),
-    ("linkproof::scenario", ""),
+    ("linkproof::scenario", "files"),
     ("linkproof::tolerance", ""),
     ("linkproof::tune", "compare proof scenario"),
 ];

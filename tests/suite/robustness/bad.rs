@@ -19,7 +19,7 @@ const TURNS: f64 = 1.5;
 /// Work of a search of settings, in steps.
 const BUDGET: f64 = 2e4;
 /// Longest time of one scenario, many times what the slowest one takes.
-const PATIENCE: Duration = Duration::from_secs(60);
+const PATIENCE: Duration = Duration::from_secs(300);
 
 /// How a scenario ended, in a few words.
 fn ending(bad: &Damaged) -> String {

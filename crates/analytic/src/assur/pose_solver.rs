@@ -27,7 +27,7 @@ const MEET: &str = "there the links of the group do not hold it, or two of its b
 #[derive(Debug)]
 pub struct PoseSolver<'a> {
     pub(super) case: &'a Case,
-    plan: Plan,
+    pub(super) plan: Plan,
     statics: Kinetostatics,
     pub(super) state: State,
     /// Turns of the links, if the caller or a load needs their angles.
@@ -39,8 +39,6 @@ pub struct PoseSolver<'a> {
     watch: Watch,
     /// Change points, where the drive says that they are passed.
     pub(super) passing: Option<Passing>,
-    /// Whole turns of the crank that were skipped (rad): positions are those of the crank angle less this.
-    pub(super) skipped: f64,
 }
 
 /// What is watched so that no step passes over a change point.
@@ -74,7 +72,6 @@ impl<'a> PoseSolver<'a> {
             step,
             watch: Watch::default(),
             passing: (case.crank().through && case.drives.further().is_empty()).then(|| Passing::new(1.0)),
-            skipped: 0.0,
         };
         solver.step_to(case.crank().start, 0)?;
         if case.loads.iter().any(Load::needs_angles) {
@@ -245,7 +242,7 @@ impl<'a> PoseSolver<'a> {
     /// One step, not divided.
     #[inline]
     fn place(&mut self, target: f64) -> std::result::Result<(), OutOfReach> {
-        self.turn(target - self.skipped);
+        self.turn(target);
         if let Some(passing) = &mut self.passing {
             let from = self.case.crank().world_angle(self.crank);
             let placed = passing.place([from, self.inputs[0]], &mut self.plan, &mut self.state.motions);
@@ -296,7 +293,7 @@ impl<'a> PoseSolver<'a> {
             {
                 self.search(group, target, [before, after])?;
                 // The search has left another pose and its clearances.
-                self.turn(target - self.skipped);
+                self.turn(target);
                 self.plan.positions(&self.inputs, &mut self.state.motions)?;
                 self.find_clearances(target);
             }
@@ -318,7 +315,7 @@ impl<'a> PoseSolver<'a> {
                 return Ok(());
             }
             let middle = 0.5 * (low + high);
-            self.turn(middle - self.skipped);
+            self.turn(middle);
             match self.plan.positions(&self.inputs, &mut self.state.motions) {
                 Ok(()) => {}
                 Err(OutOfReach { why: Misfit::Lost, .. }) => return Ok(()),

@@ -40,7 +40,7 @@ impl PoseSolver<'_> {
             let gone = before.iter().zip(&after).map(|(before, after)| turns * ((after - before) / TAU).round());
             counted.add(&gone.collect::<Vec<f64>>());
         }
-        self.skipped += turns * turn;
+        self.plan.skip(turns * turn);
         self.crank += turns * turn;
         Ok(())
     }
