@@ -1,6 +1,6 @@
 //! Solutions as CSV, one row per instant, with 17 significant digits, so that every double is read back exactly.
 
-use std::io::{Result, Write};
+use std::io::{Error, Result, Write};
 
 use analytic::reduced::RunUp;
 use linkage::trajectory::Trajectory;
@@ -29,6 +29,18 @@ pub(crate) fn run_up(run_up: &RunUp, to: &mut dyn Write) -> Result<()> {
     table(&own, &run_up.trajectory, rows, to)
 }
 
+/// The error below one of the CSV writer, with its kind.
+#[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the CSV writer")]
+fn io_error(error: csv::Error) -> Error {
+    if !error.is_io_error() {
+        return Error::other(error);
+    }
+    match error.into_kind() {
+        csv::ErrorKind::Io(error) => error,
+        other => Error::other(format!("{other:?}")),
+    }
+}
+
 /// A table with columns of its `own` and those of a trajectory. It is written row by row: as text it needs three times
 /// the memory of its numbers.
 fn table(
@@ -39,9 +51,9 @@ fn table(
 ) -> Result<()> {
     let mut writer = csv::Writer::from_writer(to);
     let names = trajectory.channels().iter().map(ToString::to_string);
-    writer.write_record(own.iter().map(ToString::to_string).chain(names))?;
+    writer.write_record(own.iter().map(ToString::to_string).chain(names)).map_err(io_error)?;
     for row in rows {
-        writer.write_record(row.iter().map(|value| format!("{value:.16e}")))?;
+        writer.write_record(row.iter().map(|value| format!("{value:.16e}"))).map_err(io_error)?;
     }
     writer.flush()
 }
