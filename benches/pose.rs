@@ -3,6 +3,7 @@
 
 mod four_bar;
 
+use linkage::case::Case;
 use linkage::math::KeepNan;
 use std::hint::black_box;
 use std::path::Path;
@@ -69,7 +70,67 @@ fn check(scenario: &Scenario, hand: &FourBar) {
     }
 }
 
+/// What is timed of a mechanism.
+#[derive(Clone, Copy, Debug)]
+enum Part {
+    All,
+    Positions,
+    Batch,
+}
+
+const PARTS: [(&str, Part); 3] = [("all", Part::All), ("positions", Part::Positions), ("batch", Part::Batch)];
+
+/// Solves one turn of a mechanism whenever it is called.
+fn turns_of(case: &Case, part: Part) -> Box<dyn FnMut() + '_> {
+    let (start, omega) = (case.crank().start, case.crank().at(0.0).omega);
+    let one_by_one = |deepest: Stage| -> Box<dyn FnMut() + '_> {
+        let mut poses = PoseSolver::new(case).unwrap();
+        Box::new(move || {
+            for k in 0..POSES {
+                let crank = start + angle(k);
+                let _ = black_box(poses.solve(black_box(crank), omega, 0.0, deepest).unwrap().torques[0]);
+            }
+        })
+    };
+    match part {
+        Part::All => one_by_one(Stage::BalancingMoment),
+        Part::Positions => one_by_one(Stage::Positions),
+        Part::Batch => {
+            let cranks: Vec<f64> = (0..POSES).map(|k| start + angle(k)).collect();
+            let mut found = Poses::new();
+            // A new batch for every turn, because one that has been used knows the anchors of its higher groups.
+            Box::new(move || {
+                let mut batch = Batch::of(case).unwrap();
+                batch.solve(black_box(&cranks), omega, 0.0, Stage::BalancingMoment, &mut found).unwrap();
+                assert_eq!(batch.solved_singly(), 0);
+                black_box(&found);
+            })
+        }
+    }
+}
+
+/// Solves a few turns and nothing else, for programs that count instructions:
+/// `valgrind --tool=callgrind target/release/deps/pose-... --turns ov7_new all 3`.
+fn count(name: &str, part: &str, turns: usize) {
+    if name == "hand" {
+        let crank_rocker = scenario("crank_rocker");
+        let (hand, omega) = (by_hand(&crank_rocker), crank_rocker.case.crank().at(0.0).omega);
+        for k in 0..turns * POSES {
+            black_box(hand.solve(black_box(angle(k % POSES)), omega));
+        }
+        return;
+    }
+    let scenario = scenario(name);
+    let part = PARTS.into_iter().find(|(known, _)| *known == part).expect("all, positions or batch").1;
+    let mut turn = turns_of(&scenario.case, part);
+    (0..turns).for_each(|_| turn());
+}
+
 fn main() {
+    let arguments: Vec<String> = std::env::args().collect();
+    if let Some([_, name, part, turns]) = arguments.windows(4).find(|found| found[0] == "--turns") {
+        return count(name, part, turns.parse().expect("a number of turns"));
+    }
     let crank_rocker = scenario("crank_rocker");
     let hand = by_hand(&crank_rocker);
     check(&crank_rocker, &hand);
@@ -88,24 +149,7 @@ fn main() {
     println!("{:20} {:>10} {:>10} {:>10}", "scenario", "all", "positions", "batch");
     for name in ["crank_rocker", "ov7_base", "ov7_new", "fourth_class"] {
         let scenario = scenario(name);
-        let drive = scenario.case.crank().clone();
-        let omega = drive.at(0.0).omega;
-        let time = |deepest: Stage| {
-            let mut poses = PoseSolver::new(&scenario.case).unwrap();
-            shortest(|| {
-                for k in 0..POSES {
-                    let crank = drive.start + angle(k);
-                    let _ = black_box(poses.solve(black_box(crank), omega, 0.0, deepest).unwrap().torques[0]);
-                }
-            })
-        };
-        let (all, positions) = (time(Stage::BalancingMoment) / measure, time(Stage::Positions) / measure);
-        let cranks: Vec<f64> = (0..POSES).map(|k| drive.start + angle(k)).collect();
-        let (mut batch, mut found) = (Batch::of(&scenario.case).unwrap(), Poses::new());
-        let at_once = shortest(|| {
-            batch.solve(black_box(&cranks), omega, 0.0, Stage::BalancingMoment, &mut found).unwrap();
-            black_box(&found);
-        });
-        println!("{name:20} {all:>10.2} {positions:>10.2} {:>10.2}", at_once / measure);
+        let [all, positions, batch] = PARTS.map(|(_, part)| shortest(turns_of(&scenario.case, part)) / measure);
+        println!("{name:20} {all:>10.2} {positions:>10.2} {batch:>10.2}");
     }
 }

@@ -45,6 +45,8 @@
 //! only in scenario files and carry their suffix there.
 
 #[doc(hidden)]
+pub mod bench;
+#[doc(hidden)]
 pub mod cli;
 #[doc(hidden)]
 pub mod compare;
@@ -53,6 +55,7 @@ pub mod diagnosis;
 #[doc(hidden)]
 pub mod engines;
 mod files;
+mod outside;
 #[doc(hidden)]
 pub mod proof;
 #[doc(hidden)]

@@ -5,19 +5,21 @@ use std::path::{Path, PathBuf};
 use super::load::load;
 use super::output;
 use crate::engines::usual_step;
+use crate::report::case_json;
 use analytic::AssurSolver;
 use analytic::range::explained;
 use linkage::error::Result;
-use workshop::export::mjcf;
+use workshop::export::{first_state, mjcf};
 
 const EXAMPLES: &str = "\
 Examples:
   linkproof export scenarios/crank_rocker.toml --mjcf              write crank_rocker.xml
   linkproof export scenarios/compressor.toml --mjcf compressor.mjcf --dt 1e-4
   linkproof export scenarios/ov7_base.toml --mjcf - | head
+  linkproof export scenarios/crank_rocker.toml --json -            the case as numbers, for any other program
   python -m mujoco.viewer --mjcf=crank_rocker.xml                  look at it; load the keyframe \"start\" to set it going
 
-docs/mjcf.md tells what is in the file and how exactly MuJoCo simulates it.";
+docs/mjcf.md tells what is in the model and how exactly MuJoCo simulates it, docs/peers.md what is in the JSON.";
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
@@ -27,8 +29,12 @@ pub(super) struct Args {
     file: PathBuf,
     /// Write MJCF to a file, to standard output with `-`, to NAME.xml in this directory without a value; NAME is the
     /// scenario's
-    #[arg(long, value_name = "PATH", required = true, num_args = 0..=1, value_parser = output::target)]
+    #[arg(long, value_name = "PATH", required_unless_present = "json", num_args = 0..=1, value_parser = output::target)]
     mjcf: Option<Option<PathBuf>>,
+    /// Write the case as JSON, in SI units and with its state at t = 0, to a file, to standard output with `-`, to
+    /// NAME.json in this directory without a value
+    #[arg(long, value_name = "PATH", num_args = 0..=1, value_parser = output::target)]
+    json: Option<Option<PathBuf>>,
     /// Time step in seconds that the file starts with [default: the scenario's, else a quarter of a degree of the
     /// fastest driving link]
     #[arg(long, value_name = "S", allow_hyphen_values = true)]
@@ -42,13 +48,23 @@ pub(super) struct Args {
 pub(super) fn export(args: &Args) -> Result<()> {
     let scenario = load(&args.file, &args.mode)?;
     let (case, dt) = (&scenario.case, args.dt.or(scenario.dt).unwrap_or_else(|| usual_step(&scenario.case)));
-    let text = mjcf::mjcf(case, &AssurSolver, &scenario.name, dt).map_err(|error| explained(case, error))?;
-    match args.mjcf.as_ref().and_then(Option::as_ref) {
-        Some(to) => output::write(&text, to),
+    if let Some(to) = &args.mjcf {
+        let text = mjcf::mjcf(case, &AssurSolver, &scenario.name, dt).map_err(|error| explained(case, error))?;
+        put(&text, to.as_deref(), &format!("{}.xml", scenario.name))?;
+    }
+    if let Some(to) = &args.json {
+        let start = first_state(case, &AssurSolver).map_err(|error| explained(case, error))?;
+        put(&case_json::text(&scenario.name, case, &start), to.as_deref(), &format!("{}.json", scenario.name))?;
+    }
+    Ok(())
+}
+
+fn put(text: &str, to: Option<&Path>, name: &str) -> Result<()> {
+    match to {
+        Some(to) => output::write(text, to),
         None => {
             // The user did not choose this name, so it is printed.
-            let name = format!("{}.xml", scenario.name);
-            output::write(&text, Path::new(&name))?;
+            output::write(text, Path::new(name))?;
             output::print(&format!("{name}\n"))
         }
     }

@@ -30,6 +30,11 @@ impl StartArgs {
     }
 }
 
+/// The scenario with only the channels that `words` ask for; as it is, without words.
+pub(super) fn only(scenario: Scenario, words: &[String]) -> Result<Scenario> {
+    if words.is_empty() { Ok(scenario) } else { scenario.only(words).map_err(|error| error.key("--only")) }
+}
+
 /// Reads a finite number.
 fn finite(text: &str) -> std::result::Result<f64, String> {
     let value: f64 = text.parse().map_err(|error| format!("{error}"))?;

@@ -2,6 +2,8 @@
 
 mod advice;
 mod bearings;
+mod bench;
+mod clearance;
 mod diagram;
 mod drive;
 mod engine_args;
@@ -53,11 +55,15 @@ enum Command {
     Solve(solve::Args),
     /// Find the cheapest settings of an engine that meet a wanted error, by measurement
     Tune(tune::Args),
+    /// Measure run time against error of every solver, engine and setting, and of other programs: diagrams and numbers
+    Bench(bench::Args),
     /// Show the structure of a mechanism: links, joints, mobility, driving link and Assur groups; its configurations;
     /// its range of motion
     Inspect(inspect::Args),
     /// Largest reactions over the range of the grid, and the smallest journals that carry them
     Bearings(bearings::Args),
+    /// Smallest distances of links from each other and from a housing over the whole turn, first collision, swept areas
+    Clearance(clearance::Args),
     /// The mechanism reduced to its crank, its steady motion under its motor, flywheel and run-up; choice of a motor
     Drive(drive::Args),
     /// Velocity and acceleration plans at one crank angle, as a table, as JSON or drawn to scale
@@ -66,7 +72,7 @@ enum Command {
     Diagram(diagram::Args),
     /// Find dimensions for a wanted motion: crank-rocker and slider-crank in closed form, any linkage by search
     Synthesize(synthesize::Args),
-    /// Write a mechanism as a model of another program: MuJoCo's MJCF
+    /// Write a mechanism for another program: MuJoCo's MJCF, or JSON
     Export(export::Args),
     /// List scenarios, or the available channels and solvers
     List(list::Args),
@@ -81,8 +87,10 @@ pub fn main() -> ExitCode {
         Command::Run(args) => run::run(&args),
         Command::Solve(args) => output::exit(solve::solve(&args)),
         Command::Tune(args) => output::exit(tune::run(&args)),
+        Command::Bench(args) => output::exit(bench::run(&args)),
         Command::Inspect(args) => output::exit(inspect::inspect(&args)),
         Command::Bearings(args) => output::exit(bearings::bearings(&args)),
+        Command::Clearance(args) => clearance::clearance(&args),
         Command::Drive(args) => output::exit(drive::drive(&args)),
         Command::Plan(args) => output::exit(plan::plan(&args)),
         Command::Diagram(args) => output::exit(diagram::diagram(&args)),

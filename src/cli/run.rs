@@ -9,15 +9,16 @@ use clap::builder::PossibleValuesParser;
 use super::engine_args::EngineArgs;
 use super::engine_section::{self, keys};
 use super::grid::GridArgs;
-use super::load::{StartArgs, reference_names};
+use super::load::{StartArgs, only, reference_names};
 use super::progress::Bar;
 use super::{advice, exit_code, output};
 use crate::compare::Verdict;
-use crate::proof::{EngineProof, Proof, memory, prove_with};
+use crate::proof::{EngineProof, Entry, Proof, memory, prove_with};
 use crate::record::{self as recorder, Recording, Side};
-use crate::report::{json, recorded, residuals, text};
+use crate::report::{explain, json, recorded, residuals, text};
 use crate::scenario::Scenario;
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::work::Work;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -31,6 +32,7 @@ Examples:
   linkproof run scenarios/crank_rocker.toml --no-record --start-crank-deg 90 --crank-deg 90:450:2   another start and grid
   linkproof run scenarios/crank_rocker_runup.toml --no-record --times 0,0.01,0.05,0.1   only these instants
   linkproof run scenarios/*.toml --no-record --json out.json   no recording, results for a script
+  linkproof run scenarios/ov7_base.toml --no-record --only point.9.positions --explain   one point, and what that takes
 
 Exit codes: 0 all agree, 1 something disagrees, 2 bad input or usage, 3 nothing proven either way.";
 
@@ -62,6 +64,14 @@ pub(super) struct Args {
     /// Write no recording
     #[arg(long, conflicts_with = "record")]
     no_record: bool,
+    /// Ask for these channels only: a stage (positions), a subject (point.P, joint.B, drive), a subject's stage
+    /// (point.P.positions) or a channel (joint.B.fx_N). What they do not depend on is not computed; published numbers of
+    /// other channels are left out. May be given several times
+    #[arg(long, value_name = "WORD")]
+    only: Vec<String>,
+    /// Show what ran, how often and why, and what was skipped
+    #[arg(long)]
+    explain: bool,
     /// Write the results as JSON to a file, or to standard output instead of the report with `-`
     #[arg(long, value_name = "FILE", value_parser = output::target)]
     json: Option<PathBuf>,
@@ -115,7 +125,7 @@ fn dial(text: &str) -> std::result::Result<f64, String> {
 }
 
 fn prove_file(args: &Args, file: &Path, quiet: bool) -> Result<(Scenario, Proof)> {
-    let scenario = args.start.load(file, &args.grid)?;
+    let scenario = only(args.start.load(file, &args.grid)?, &args.only)?;
     let options = args.engine.options(&args.reference);
     let engines = options.engines.len().max(1);
     args.engine.memory.tell(&scenario.case, memory::of_proof(&scenario.case, engines));
@@ -131,11 +141,21 @@ fn prove_file(args: &Args, file: &Path, quiet: bool) -> Result<(Scenario, Proof)
     };
     if !quiet {
         output::print(&text::proof(&proof, advice::told))?;
+        if args.explain {
+            output::print(&format!("{}\n", explain::text(&proof, &[recording_told(args)])))?;
+        }
         if args.tolerance_scale == Some(0.0) {
             output::print(&residuals::all(&proof))?;
         }
     }
     Ok((scenario, proof))
+}
+
+/// What the command does about the recording.
+fn recording_told(args: &Args) -> Entry {
+    let why = if args.no_record { "not asked for" } else { "written below" };
+    let work = (!args.no_record).then_some(Work::NONE);
+    Entry { part: "recording".into(), why, work }
 }
 
 /// Writes the settings of the first engine to the scenario file, if the proof has found them.
@@ -196,7 +216,7 @@ fn write_recording(scenario: &Scenario, proof: &Proof, args: &Args, path: &Path)
         name: &scenario.name,
         scenario_text: &scenario.text,
         metadata: &metadata,
-        mechanism: &scenario.case.mechanism,
+        mechanism: &proof.scene.case.mechanism,
         sides: &sides,
         errors: proof.engine().errors.as_ref(),
         log: &log,
@@ -213,7 +233,7 @@ fn exit_code(verdict: &Verdict) -> u8 {
 }
 
 /// The graver of two exit codes. Bad input is graver than disagreement, and disagreement graver than no proof.
-fn graver(a: u8, b: u8) -> u8 {
+pub(super) fn graver(a: u8, b: u8) -> u8 {
     let rank = |code: u8| match code {
         exit_code::BAD_INPUT => 3,
         exit_code::DISAGREE => 2,

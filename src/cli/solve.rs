@@ -6,7 +6,7 @@ use clap::builder::PossibleValuesParser;
 
 use super::engine_args::{MemoryArgs, SettingArgs, engine_names};
 use super::grid::GridArgs;
-use super::load::{StartArgs, reference_names};
+use super::load::{StartArgs, only, reference_names};
 use super::output;
 use super::progress::Bar;
 use crate::proof::memory;
@@ -22,6 +22,7 @@ Examples:
   linkproof solve scenarios/ov7_base.toml --with rapier --sweeps 4096 --extrapolate   other settings of the engine
   linkproof solve scenarios/crank_rocker.toml --with newton --crank-deg 0,12.5,70:90:5   single values and ranges
   linkproof solve scenarios/crank_rocker.toml --with assur --mode coupler,rocker=right
+  linkproof solve scenarios/ov7_base.toml --with assur --only point.9.positions   one point; nothing beyond it is solved
   linkproof solve scenarios/crank_rocker_runup.toml --with assur --start-crank-deg 90 --times 0,0.01,0.1
 
 Columns: t_s, crank_rad, then link.NAME, point.NAME, joint.NAME and drive channels (`linkproof list --channels`).";
@@ -43,6 +44,9 @@ pub(super) struct Args {
     settings: SettingArgs,
     #[command(flatten)]
     memory: MemoryArgs,
+    /// Ask for these channels only, as in `run`: what they do not depend on is not computed. May be given several times
+    #[arg(long, value_name = "WORD")]
+    only: Vec<String>,
     /// File to write to, `-` for standard output
     #[arg(long, value_name = "FILE", default_value = "-", value_parser = output::target)]
     csv: PathBuf,
@@ -53,8 +57,8 @@ fn solver_names() -> Vec<&'static str> {
 }
 
 pub(super) fn solve(args: &Args) -> Result<()> {
-    let scenario = args.start.load(&args.file, &args.grid)?;
-    let case = &scenario.case;
+    let scenario = only(args.start.load(&args.file, &args.grid)?, &args.only)?;
+    let case = &scenario.case.scene()?.case;
     let engine = match analytic::named(&args.with) {
         Some(_) => None,
         None => Some(args.settings.engine(&args.with, &scenario)?),

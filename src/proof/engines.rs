@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::judge::{ChannelProof, EngineInfo, Judge, Judged, describe};
 use super::known::Known;
+use super::ledger::Ledger;
 use super::observe::{Observed, Stopped, Watch};
 use super::options::Chosen;
 use super::order;
@@ -66,7 +67,7 @@ pub(super) fn prove(
     chosen: &Chosen,
     reference: &Observed,
     known: &Known,
-    progress: &mut dyn FnMut(f64),
+    (ledger, progress): (&mut Ledger, &mut dyn FnMut(f64)),
 ) -> Result<EngineProof> {
     let engine = chosen.engine.as_ref();
     let asked = engine.settings();
@@ -74,12 +75,16 @@ pub(super) fn prove(
     let mut bank = Bank::new(case, engine, Watch::Engine);
     // A step that cannot be is refused by the engine.
     let is_step = asked.resolution > 0.0 && asked.resolution.is_finite();
-    let found = if chosen.free.any() && !engine.controls_error() && is_step {
-        let search = Settling::new(&judge, &mut bank, engine, chosen.free, chosen.budget);
-        search.run(progress).map(|(judged, search)| (judged, Some(search)))
-    } else {
-        at_given(&judge, &mut bank, engine, progress).map(|judged| (judged, None))
-    };
+    let searches = chosen.free.any() && !engine.controls_error() && is_step;
+    let why =
+        if searches { "finds its settings, and its error from its own runs" } else { "its error from its own runs" };
+    let found = ledger.done(engine.name(), why, || match searches {
+        true => {
+            let search = Settling::new(&judge, &mut bank, engine, chosen.free, chosen.budget);
+            search.run(progress).map(|(judged, search)| (judged, Some(search)))
+        }
+        false => at_given(&judge, &mut bank, engine, progress).map(|judged| (judged, None)),
+    });
     let (judged, search) = match found {
         Ok(found) => found,
         Err(Stopped { error, kept }) => {
@@ -112,7 +117,9 @@ pub(super) fn prove(
     };
     let is_open = matches!(proof.verdict, Verdict::Inconclusive { .. });
     if is_open && !chosen.free.step && !engine.controls_error() {
-        let advice = tried(&judge, &mut bank, chosen);
+        let why = "the given step proves nothing: what a free one would";
+        let advice =
+            ledger.done(format!("{}, other settings", engine.name()), why, || tried(&judge, &mut bank, chosen));
         for verdict in proof.verdicts_mut() {
             if let Verdict::Inconclusive { advice: own, .. } = verdict {
                 own.push(advice.clone());
@@ -126,8 +133,15 @@ pub(super) fn prove(
     // Its runs are dropped before others are made.
     drop(bank);
     let trajectory = Arc::unwrap_or_clone(run).trajectory;
-    proof.own_forces =
-        OwnForces::judged(&judge, case, chosen, proof.info.settings.sweeps, &mut |part| progress(0.7 + 0.3 * part));
+    let sweeps = proof.info.settings.sweeps;
+    let part = format!("{}, own forces", engine.name());
+    match OwnForces::are_asked(&judge, chosen) {
+        true => {
+            let own = || OwnForces::judged(&judge, case, chosen, sweeps, &mut |part| progress(0.7 + 0.3 * part));
+            proof.own_forces = ledger.done(part, "what it exerts itself, beside what follows from its motion", own);
+        }
+        false => ledger.skipped(part, "no force is wanted, or its forces are read by its own route"),
+    }
     if let Some(verdict) = proof.own_forces.as_ref().and_then(OwnForces::adds) {
         proof.verdict = overall([&proof.verdict, verdict]);
     }

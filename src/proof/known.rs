@@ -12,8 +12,8 @@ use analytic::range::conditions;
 use analytic::{AssurSolver, TightAssurSolver, TightNewtonSolver};
 use linkage::case::Case;
 use linkage::error::Result;
-use linkage::math::KeepNan;
 use linkage::math::statistics::share;
+use linkage::math::{KeepNan, Motion};
 use linkage::mechanism::{LinkPose, Pose};
 use linkage::solver::{Solver, State};
 use linkage::trajectory::{Channel, Stage, Trajectory};
@@ -102,8 +102,11 @@ impl Known {
         let mut worst = vec![1.0; sets.len()];
         let mut all = vec![Vec::new(); case.grid.len()];
         let mut visit = |row: usize, state: &State| {
-            let frames = state.motions.iter().zip(&state.angles);
-            let pose = Pose(frames.map(|(motion, &angle)| LinkPose { origin: motion.origin, angle }).collect());
+            let frame = |motion: &Motion| LinkPose {
+                origin: motion.origin,
+                angle: motion.direction.y.atan2(motion.direction.x),
+            };
+            let pose = Pose(state.motions.iter().map(frame).collect());
             let own = conditions(&case.mechanism, &case.structure.groups, &pose);
             for (set, worst) in sets.iter().zip(&mut worst) {
                 let own: f64 = match state.passing.filter(|_| !set.is_empty()) {

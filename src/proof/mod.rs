@@ -8,6 +8,7 @@ mod engines;
 mod examined;
 mod judge;
 mod known;
+mod ledger;
 pub mod memory;
 mod methods;
 mod need;
@@ -29,6 +30,7 @@ mod stall;
 
 pub use engines::EngineProof;
 pub use judge::{ChannelProof, EngineInfo};
+pub use ledger::Entry;
 pub use options::{Options, Reference};
 pub use own_forces::{ForceFault, OwnForces};
 pub use parties::Dispute;
@@ -39,7 +41,8 @@ use crate::diagnosis::Diagnosis;
 use crate::scenario::Scenario;
 use analytic::range::explained;
 use known::Known;
-use linkage::case::Case;
+use ledger::Ledger;
+use linkage::case::{Case, Scene};
 use linkage::error::Result;
 use linkage::solver::Solver;
 use linkage::trajectory::Trajectory;
@@ -83,6 +86,10 @@ pub struct Proof {
     pub verdict: Verdict,
     /// The reference's trajectory.
     pub reference_trajectory: Trajectory,
+    /// The part of the scenario's case that was solved, and what nothing wanted depends on.
+    pub scene: Scene,
+    /// What was done, part by part, and what was not needed.
+    pub work: Vec<Entry>,
 }
 
 impl Proof {
@@ -150,6 +157,7 @@ pub fn prove_against(scenario: &Scenario, engine_case: &Case, options: &Options)
 /// # Errors
 /// Any reason why the mechanism cannot stay on its branch, with the crank angle and the interval that can be reached.
 pub fn solve(case: &Case) -> Result<Trajectory> {
+    let case = &case.scene()?.case;
     Reference::Assur.solver().solve(case).map_err(|error| explained(case, error))
 }
 
@@ -158,30 +166,63 @@ const SIDES: f64 = 0.1;
 
 /// The same, with the solvers' errors unchanged.
 fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: &mut dyn FnMut(f64)) -> Result<Proof> {
+    let scene = scenario.case.scene()?;
+    let (whole, scenario) = (scenario, &Scenario { case: scene.case.clone(), ..scenario.clone() });
     let case = &scenario.case;
     let main = options.reference.solver();
     let engines = options.chosen(scenario)?;
     memory::check(case, memory::of_proof(case, engines.len()), options.memory)?;
-    let observed =
-        |solver: &dyn Solver| -> Result<_> { Ok((solver.name(), observe(case, solver, Watch::Side, &mut |_| {})?)) };
+    let mut ledger = Ledger::default();
+    let mut observed = |solver: &dyn Solver| -> Result<_> {
+        let why = if solver.name() == main.name() { "the reference" } else { "checks the reference" };
+        let run = || observe(case, solver, Watch::Side, &mut |_| {});
+        Ok((solver.name(), ledger.done(solver.name(), why, run)?))
+    };
     let [first, second] = analytic::all();
     let sides = [observed(first)?, observed(second)?];
     let own = &sides.iter().find(|(name, _)| *name == main.name()).expect("the reference is one of the sides").1;
     let (other, beside) = sides.iter().find(|(name, _)| *name != main.name()).expect("there are two sides");
-    let sensitivity = sensitivity::of(case, main, &own.trajectory)?;
-    let mut known = Known::of(case, [(main.name(), &own.trajectory), (other, &beside.trajectory)], &sensitivity)?;
-    if checks::sides_differ(&sides, &known) {
-        known.measure(case, first)?;
+    let tighter = || -> Result<_> {
+        let sensitivity = sensitivity::of(case, main, &own.trajectory)?;
+        let known = Known::of(case, [(main.name(), &own.trajectory), (other, &beside.trajectory)], &sensitivity)?;
+        Ok((sensitivity, known))
+    };
+    let (sensitivity, mut known) = match case.is_free() {
+        true => ledger.done("tighter integration", "shows the error that both sides share", tighter)?,
+        false => {
+            ledger.skipped("integration", "the motion is prescribed");
+            tighter()?
+        }
+    };
+    match checks::sides_differ(&sides, &known) {
+        true => ledger
+            .done("condition of every pose", "the sides differ by more than usual", || known.measure(case, first))?,
+        false => ledger.skipped("condition of every pose", "the sides differ by usual rounding"),
     }
     let mut checks = checks::of_sides(case, &sides, &known);
-    checks.extend(methods::checks(case, main)?);
-    checks.extend(oracle::checks(scenario)?);
+    match methods::apply(case) {
+        true => checks.extend(
+            ledger.done("published methods", "others than ours for its triad", || methods::checks(case, main))?,
+        ),
+        false => ledger.skipped("published methods", "there is no triad of class III"),
+    }
+    match scenario.oracles.is_empty() {
+        true => ledger.skipped("published numbers", "there are none of wanted channels"),
+        false => {
+            let numbers = || oracle::checks(scenario, whole);
+            checks.extend(ledger.done("published numbers", "solved at their own crank angles", numbers)?);
+        }
+    }
 
+    let engine_case = match &whole.case.only {
+        Some(only) => engine_case.wanting_only(only).scene()?.case,
+        None => engine_case.clone(),
+    };
     let engine_case = engine_case.on(case.grid.clone())?;
     let mut proofs = Vec::with_capacity(engines.len());
     for (index, engine) in engines.iter().enumerate() {
         let mut part = |part: f64| progress(SIDES + (1.0 - SIDES) * (index as f64 + part) / engines.len() as f64);
-        let mut proof = engines::prove(scenario, &engine_case, engine, own, &known, &mut part)?;
+        let mut proof = engines::prove(scenario, &engine_case, engine, own, &known, (&mut ledger, &mut part))?;
         engines::tell_sensitivity(&mut proof, &own.trajectory, &sensitivity);
         proofs.push(proof);
     }
@@ -194,7 +235,16 @@ fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: 
     };
     let analytic = overall(checks.iter().map(|check| &check.verdict));
     let verdict = overall([&analytic].into_iter().chain(proofs.iter().map(|proof| &proof.verdict)));
-    let diagnosis = examined::of(case, main, &sides, &known, &proofs);
+    let diagnosis = match verdict {
+        Verdict::Disagree { .. } => {
+            let examined = || examined::of(case, main, &sides, &known, &proofs);
+            ledger.done("diagnosis", "something disagrees", examined)
+        }
+        Verdict::Agree { .. } | Verdict::Expected { .. } | Verdict::Inconclusive { .. } => {
+            ledger.skipped("diagnosis", "nothing disagrees");
+            None
+        }
+    };
     let [one, two] = sides;
     let reference = if one.0 == main.name() { one } else { two };
     Ok(Proof {
@@ -208,5 +258,7 @@ fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: 
         disputes,
         verdict,
         reference_trajectory: reference.1.trajectory,
+        scene,
+        work: ledger.0,
     })
 }

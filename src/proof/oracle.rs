@@ -13,11 +13,12 @@ use linkage::solver::{Solver, State};
 use linkage::trajectory::{Channel, Stage, Trajectory};
 
 /// One check for every series and figure of an oracle and for each analytic side.
-pub(super) fn checks(scenario: &Scenario) -> Result<Vec<Check>> {
+/// Series are those of channels of the `scenario`, figures those of the `whole` mechanism.
+pub(super) fn checks(scenario: &Scenario, whole: &Scenario) -> Result<Vec<Check>> {
     // Where forces decide the true motion, numbers at crank angles belong to the nominal motion.
-    let scenario = &scenario.clone().nominal();
-    let mut checks = of_series(scenario)?;
-    checks.extend(of_figures(scenario)?);
+    let nominal = |scenario: &Scenario| scenario.clone().nominal();
+    let mut checks = of_series(&nominal(scenario))?;
+    checks.extend(of_figures(&nominal(whole))?);
     Ok(checks)
 }
 

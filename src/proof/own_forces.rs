@@ -13,7 +13,7 @@ use super::runs::Bank;
 use super::settle::{Free, Search, Settling};
 use crate::compare::Verdict;
 use crate::engines::coarse_step;
-use linkage::case::{Case, Wanted};
+use linkage::case::Case;
 use linkage::engine::{Route, Settings};
 use linkage::error::Error;
 use linkage::trajectory::{Stage, Trajectory};
@@ -41,9 +41,14 @@ pub struct OwnForces {
 }
 
 impl OwnForces {
-    /// Judges the forces that the engine exerts, whose motion has needed `sweeps`; `None` where no force is wanted,
-    /// where the route is given, and for an engine whose usual route is its own. The first route that is conclusive
-    /// counts.
+    /// Whether there is anything to judge: not where no force is wanted, where the route is given, and for an engine
+    /// whose usual route is its own.
+    pub(super) fn are_asked(judge: &Judge, chosen: &Chosen) -> bool {
+        chosen.own_forces.is_some() && judge.asking(judge.asked).of_own_forces().has_channels()
+    }
+
+    /// Judges the forces that the engine exerts, whose motion has needed `sweeps`; `None` if they are not
+    /// [asked](OwnForces::are_asked). The first route that is conclusive counts.
     pub(super) fn judged(
         judge: &Judge,
         case: &Case,
@@ -52,13 +57,10 @@ impl OwnForces {
         progress: &mut dyn FnMut(f64),
     ) -> Option<OwnForces> {
         let free = chosen.own_forces?;
-        if !judge.asking(judge.asked).of_own_forces().has_channels() {
-            return None;
-        }
         // Nothing else of these runs is looked at.
-        let forces = [Stage::Reactions, Stage::BalancingMoment].map(|stage| case.wanted.has(stage).then_some(stage));
-        let forces: Vec<Stage> = forces.into_iter().flatten().collect();
-        let case = &case.wanting(Wanted::of(&forces));
+        let mut forces = case.channels();
+        forces.retain(|channel| channel.kind.stage >= Stage::Reactions);
+        let case = &case.wanting_only(&forces);
         let mut found: Option<OwnForces> = None;
         for &route in chosen.engine.own_routes(case) {
             let own = by_route(judge, case, chosen, (free, route, sweeps.min(ENOUGH)), progress);

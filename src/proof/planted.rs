@@ -5,6 +5,7 @@ use std::path::Path;
 
 use super::judge::ChannelProof;
 use super::known::Known;
+use super::ledger::Ledger;
 use super::observe::{Observed, Watch, observe};
 use super::options::Chosen;
 use super::settle::{self, Free};
@@ -279,7 +280,8 @@ fn engine_proven(scenario: &Scenario, fault: Fault, size: f64, grows: bool, free
     let engine: Box<dyn Engine> = Box::new(Planted { fault, size, grows, inner });
     let chosen = Chosen { engine, free, own_forces: None, budget: settle::BUDGET };
     let known = knowing(&scenario.case);
-    engines::prove(scenario, &scenario.case, &chosen, &reference, &known, &mut |_| {}).unwrap()
+    engines::prove(scenario, &scenario.case, &chosen, &reference, &known, (&mut Ledger::default(), &mut |_| {}))
+        .unwrap()
 }
 
 /// An opening that does not vanish with the step, and a moment that disagrees with its powers. Both are far below 1 %
@@ -358,7 +360,7 @@ fn errors_of_an_engine_have_the_sign_of_its_fault() {
 #[test]
 fn an_oracle_finds_a_unit_of_its_last_digit() {
     let name = "crank_rocker";
-    let oracle_checks = |text: &str| oracle::checks(&parsed(name, text)).unwrap();
+    let oracle_checks = |text: &str| oracle::checks(&parsed(name, text), &parsed(name, text)).unwrap();
     assert!(oracle_checks(&text(name)).iter().all(|check| ["agree", "expected"].contains(&check.verdict.word())));
     let moved = [
         ("value = 50, digits = 9", "value = 50.000000001, digits = 9", "link.rocker.angle_deg"),

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::known::Known;
+use super::ledger::Ledger;
 use super::observe::{Watch, observe};
 use super::options::Chosen;
 use super::settle::{self, Free};
@@ -119,7 +120,7 @@ fn proven(name: &str, by: &'static [Route], fault: Fault) -> EngineProof {
     let free = Free { step: true, sweeps: true, extrapolated: true };
     let engine = Box::new(Planted { fault, by, inner });
     let chosen = Chosen { engine, free, own_forces: Some(free), budget: settle::BUDGET };
-    engines::prove(&scenario, case, &chosen, &sides[0], &known, &mut |_| {}).unwrap()
+    engines::prove(&scenario, case, &chosen, &sides[0], &known, (&mut Ledger::default(), &mut |_| {})).unwrap()
 }
 
 const EXERTED: &[Route] = &[Route::Native, Route::Probe];

@@ -1,11 +1,11 @@
 //! The links as point clouds, for viewers that draw no scenes.
 
 use super::scene::Scene;
-use super::shapes::{GREY, outline, pose, stamp};
+use super::shapes::{GREY, pose, stamp};
 use foxglove::messages::packed_element_field::NumericType;
 use foxglove::messages::{PackedElementField, PointCloud};
 use linkage::math::{KeepNan, Vec2};
-use linkage::mechanism::GROUND;
+use linkage::mechanism::{GROUND, ring};
 
 /// Points per mechanism size along a segment of the first side; closer points would only fill the disk.
 const POINTS: f64 = 64.0;
@@ -83,9 +83,9 @@ fn fields() -> Vec<PackedElementField> {
 /// Points along a link's outline, its guides and its blocks. The ground has only its pivots and rails.
 fn of_link(scene: &Scene, link: usize) -> Vec<Vec2> {
     let mut points = if link == GROUND {
-        outline(&scene.pivots()).0
+        ring(&scene.pivots()).0
     } else {
-        let (corners, closed) = outline(&scene.places(link));
+        let (corners, closed) = ring(&scene.places(link));
         along(&corners, closed, scene.size)
     };
     points.extend(scene.strips(link).flat_map(|strip| along(&strip.points, strip.closed, scene.size)));

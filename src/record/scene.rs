@@ -3,7 +3,7 @@
 use super::guides::{Guide, Strip};
 use super::placed::{Placed, column};
 use super::recording::Side;
-use super::shapes::{Paint, extent, grey, outline, point, pose, stamp, turn, vector};
+use super::shapes::{Paint, extent, grey, point, pose, stamp, turn, vector};
 use foxglove::messages::line_primitive::Type as LineType;
 use foxglove::messages::{
     CylinderPrimitive, FrameTransform, FrameTransforms, LinePrimitive, Point3, SceneEntity, SceneUpdate,
@@ -11,7 +11,7 @@ use foxglove::messages::{
 };
 use linkage::math::statistics::ascending;
 use linkage::math::{KeepNan, Vec2};
-use linkage::mechanism::{GROUND, Link, Mechanism};
+use linkage::mechanism::{GROUND, Link, Mechanism, ring};
 
 /// Largest number of frames in a recording, unless it is so long that there would be fewer than [`FRAMES_PER_SECOND`].
 const FRAMES: f64 = 400.0;
@@ -134,7 +134,7 @@ impl<'a> Scene<'a> {
         let (colour, broad) = (Some(side.paint.colour()), side.paint.broad);
         let z = self.layer() * side.paint.layer;
         let places = self.places(index);
-        let (outline, closed) = outline(&places);
+        let (outline, closed) = ring(&places);
         let line = LinePrimitive {
             r#type: if closed { LineType::LineLoop } else { LineType::LineStrip } as i32,
             pose: pose(Vec2::zeros(), z, 0.0),
@@ -237,11 +237,11 @@ mod tests {
     #[test]
     fn three_points_off_a_line_close_and_three_on_it_do_not() {
         let places = |y| [Vec2::new(0.0, 0.0), Vec2::new(4.0, 0.0), Vec2::new(1.0, y)];
-        assert!(outline(&places(1.0)).1);
-        let (bar, closed) = outline(&places(0.0));
+        assert!(ring(&places(1.0)).1);
+        let (bar, closed) = ring(&places(0.0));
         assert!(!closed);
         let xs: Vec<f64> = bar.iter().map(|place| place.x).collect();
         assert!(xs.is_sorted() || xs.iter().rev().is_sorted(), "{xs:?}");
-        assert!(outline(&[]).0.is_empty());
+        assert!(ring(&[]).0.is_empty());
     }
 }

@@ -76,20 +76,3 @@ pub fn turn(angle: f64) -> Quaternion {
 pub fn pose(at: Vec2, z: f64, angle: f64) -> Option<Pose> {
     Some(Pose { position: Some(vector(at, z)), orientation: Some(turn(angle)) })
 }
-
-/// The line through all places, and whether it is closed: a polygon without crossings, or a bar if all lie on one line.
-pub fn outline(places: &[Vec2]) -> (Vec<Vec2>, bool) {
-    let mut sorted = places.to_vec();
-    let centre = places.iter().sum::<Vec2>() / places.len().max(1) as f64;
-    let axis = places.iter().map(|place| place - centre).max_by(|a, b| a.norm().total_cmp(&b.norm()));
-    let axis = axis.unwrap_or_else(Vec2::zeros);
-    let off = |place: &Vec2| linkage::math::cross(axis, place - centre).abs();
-    let closed = places.len() > 2 && places.iter().any(|place| off(place) > 1e-6 * axis.norm_squared());
-    if closed {
-        let bearing = |place: &Vec2| (place.y - centre.y).atan2(place.x - centre.x);
-        sorted.sort_by(|a, b| bearing(a).total_cmp(&bearing(b)));
-    } else {
-        sorted.sort_by(|a, b| axis.dot(a).total_cmp(&axis.dot(b)));
-    }
-    (sorted, closed)
-}

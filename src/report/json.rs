@@ -1,13 +1,16 @@
 //! Proofs as JSON, schema 2. Numbers that are not finite (an order that is hidden by rounding) are `null`.
 
+use std::collections::BTreeMap;
+
 use serde::Serialize;
 
 use super::diagnosis;
 use super::tell::Tell;
 use crate::compare::{Check, Verdict};
-use crate::proof::{ChannelProof, Dispute, End, EngineInfo, EngineProof, ForceFault, OwnForces, Proof, Search};
+use crate::proof::{ChannelProof, Dispute, End, EngineInfo, EngineProof, Entry, ForceFault, OwnForces, Proof, Search};
 use linkage::error::{Advice, Error};
 use linkage::solver::Provision;
+use linkage::work::Work;
 
 /// The whole document.
 #[derive(Debug, Serialize)]
@@ -37,6 +40,26 @@ struct Run {
     diagnosis: Option<diagnosis::Row>,
     #[serde(skip_serializing_if = "Option::is_none")]
     recording: Option<String>,
+    /// What nothing wanted depends on.
+    left_out: Left,
+    /// What was done, part by part.
+    work: Vec<Part>,
+}
+
+#[derive(Debug, Serialize)]
+struct Left {
+    links: Vec<String>,
+    joints: Vec<String>,
+    drives: Vec<String>,
+    loads: usize,
+}
+
+#[derive(Debug, Serialize)]
+struct Part {
+    part: String,
+    why: &'static str,
+    /// Exact counts by name; `null` for what was not needed.
+    counts: Option<BTreeMap<&'static str, u64>>,
 }
 
 #[derive(Debug, Serialize)]
@@ -206,6 +229,7 @@ impl Default for Document {
 
 fn run(proof: &Proof, recording: Option<String>, tell: Tell) -> Run {
     let times = proof.reference_trajectory.times();
+    let left = &proof.scene.left_out;
     Run {
         scenario: proof.scenario.clone(),
         title: proof.title.clone(),
@@ -227,7 +251,19 @@ fn run(proof: &Proof, recording: Option<String>, tell: Tell) -> Run {
             .filter(|_| matches!(proof.verdict, Verdict::Disagree { .. }))
             .map(diagnosis::row),
         recording,
+        left_out: Left {
+            links: left.links.clone(),
+            joints: left.joints.clone(),
+            drives: left.drives.clone(),
+            loads: left.loads,
+        },
+        work: proof.work.iter().map(part).collect(),
     }
+}
+
+fn part(entry: &Entry) -> Part {
+    let counts = |work: &Work| work.iter().map(|(what, times)| (what.name(), times)).collect();
+    Part { part: entry.part.clone(), why: entry.why, counts: entry.work.as_ref().map(counts) }
 }
 
 fn engine(proof: &EngineProof, tell: Tell) -> Engine {

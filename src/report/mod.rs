@@ -2,7 +2,12 @@
 //! terminal.
 
 pub(crate) mod bearings;
+pub(crate) mod bench;
+pub(crate) mod bench_page;
+pub(crate) mod bench_plot;
+pub(crate) mod case_json;
 mod cells;
+pub(crate) mod clearance;
 pub(crate) mod closed_form;
 pub mod diagnosis;
 pub(crate) mod diagram;
@@ -10,6 +15,7 @@ pub(crate) mod drive;
 pub(crate) mod drive_graphs;
 mod engines;
 pub(crate) mod errors;
+pub mod explain;
 pub(crate) mod inspect;
 pub mod json;
 pub(crate) mod lists;

@@ -69,7 +69,7 @@ fn points(mut table: Table) -> Result<Vec<Point>> {
 }
 
 /// A place: coordinates, or a distance and an angle from one of the points read before.
-fn place(mut table: Table, known: &[Point]) -> Result<Vec2> {
+pub fn place(mut table: Table, known: &[Point]) -> Result<Vec2> {
     let place = match table.optional_string("from")? {
         None => Vec2::new(table.quantity("x", &LENGTH, Sign::Any)?, table.quantity("y", &LENGTH, Sign::Any)?),
         Some(from) => {

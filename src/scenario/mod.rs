@@ -3,6 +3,7 @@
 
 mod asked;
 pub mod catalogue;
+mod clearance;
 mod correction;
 pub mod edit;
 mod figure;
@@ -39,10 +40,11 @@ use std::path::{Path, PathBuf};
 use self::reader::{Sign, Table};
 use self::source::Source;
 use crate::files;
-use linkage::case::{Case, CaseParts, Grid};
+use linkage::case::{Case, CaseParts, Grid, Wanted};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::mechanism::assembly::{Choice, group_of};
 use linkage::mechanism::{LONGEST_NAME, Mechanism, StartGroup, Structure};
+use workshop::clearance::Question;
 
 /// Version of the file format that this crate reads.
 pub const FORMAT: i64 = 1;
@@ -82,6 +84,8 @@ pub struct Scenario {
     pub engine_rel: f64,
     /// Published numbers.
     pub oracles: Vec<Oracle>,
+    /// Outlines and what is asked of their distances, if the scenario asks.
+    pub clearance: Option<Question>,
     /// The start asked for in the file for each group, in the order of the structure.
     pub starts: Vec<StartGroup>,
     /// How each group was placed at the start, in the order of the structure.
@@ -171,7 +175,26 @@ impl Scenario {
             engine: EngineKeys::default(),
             engine_rel: settings::ENGINE_REL,
             oracles: Vec::new(),
+            clearance: None,
         })
+    }
+
+    /// The same scenario with only the channels wanted that `words` ask for, as those of `want` in `[channels]`.
+    /// Published numbers of other channels are left out, and so are figures of the whole mechanism.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Input`] for a word that asks for nothing.
+    pub fn only(mut self, words: &[String]) -> Result<Scenario> {
+        let channels = settings::called(&self.case, words)
+            .map_err(|(message, help)| Error::new(ErrorKind::Input, message).help(help))?;
+        self.case = self.case.wanting_only(&channels);
+        let wanted = self.case.channels();
+        for oracle in &mut self.oracles {
+            oracle.series.retain(|series| wanted.contains(&series.channel));
+            oracle.figures.clear();
+        }
+        self.oracles.retain(|oracle| !oracle.series.is_empty());
+        Ok(self)
     }
 
     /// The same scenario with every drive in its nominal motion, for questions about crank angles.
@@ -209,12 +232,13 @@ fn read(root: &mut Table, asked: &Asked, lists: bool) -> Result<Found> {
     let (gravity, loads) = (root.optional_table("gravity")?, root.tables("loads")?);
     let (mut start, grid, channels) = (root.table("start")?, root.table("grid")?, root.optional_table("channels")?);
     let (engine, tolerances) = (root.optional_table("engine")?, root.optional_table("tolerances")?);
-    let oracles = root.tables("oracle")?;
+    let (oracles, clearance) = (root.tables("oracle")?, root.optional_table("clearance")?);
     root.finish()?;
 
     let links = links::read(ground, links)?;
     let joints = joints::read(joints, &links)?;
     let mechanism = Mechanism::new(links, joints)?;
+    let clearance = clearance::read(clearance, &mechanism)?;
     let own_crank = start.quantity("crank", &unit::ANGLE, Sign::Any)?;
     let crank = asked.crank.unwrap_or(own_crank);
     let groups = start.tables("groups")?;
@@ -229,7 +253,7 @@ fn read(root: &mut Table, asked: &Asked, lists: bool) -> Result<Found> {
     };
     let starts = start::groups(&start, groups, &mechanism, &structure, &groups_asked)?;
     let grid = grid::read(grid, drives.crank(), asked.without_grid)?;
-    let wanted = settings::wanted(channels)?;
+    let wanted = Wanted::ALL;
     let (dt, engine) = settings::engine(engine, drives.crank())?;
     let engine_rel = settings::engine_rel(tolerances)?;
     let placing = asked::Start {
@@ -252,7 +276,9 @@ fn read(root: &mut Table, asked: &Asked, lists: bool) -> Result<Found> {
     let (starts, choices, undecided) = (placed.starts, placed.choices, placed.undecided);
     let modes = choices.iter().map(|choice| choice.mode).collect();
     let start = placed.pose;
-    let case = Case::new(CaseParts { mechanism, structure, drives, loads, gravity, start, modes, grid, wanted })?;
+    let case =
+        Case::new(CaseParts { mechanism, structure, drives, loads, gravity, start, modes, grid, wanted, only: None })?;
+    let case = settings::wanted(channels, case)?;
     let mut oracles = oracle::read(oracles, &case)?;
     if !placed.is_own_branch {
         oracles.clear();
@@ -269,8 +295,21 @@ fn read(root: &mut Table, asked: &Asked, lists: bool) -> Result<Found> {
     }
     let source = root.source();
     let (path, text) = (source.path.to_path_buf(), source.text.to_string());
-    let scenario =
-        Scenario { name, title, source: cited, path, text, case, dt, engine, engine_rel, oracles, starts, choices };
+    let scenario = Scenario {
+        name,
+        title,
+        source: cited,
+        path,
+        text,
+        case,
+        dt,
+        engine,
+        engine_rel,
+        oracles,
+        clearance,
+        starts,
+        choices,
+    };
     Ok(Ok((scenario, undecided)))
 }
 

@@ -9,7 +9,7 @@ use super::series::{ExpectedCell, Known, OraclePoint, OracleSeries};
 use super::table_file;
 use super::unit::ANGLE;
 use super::words::suggestion;
-use linkage::case::{Case, Wanted};
+use linkage::case::Case;
 use linkage::error::{ErrorKind, Result};
 
 /// Numbers of one source.
@@ -76,8 +76,8 @@ impl OracleBasis {
 
 /// All oracles of a case.
 pub(super) fn read(tables: Vec<Table>, case: &Case) -> Result<Vec<Oracle>> {
-    let (wanted, all) = (case.wanted, case.wanting(Wanted::ALL).channels());
-    let channels = all.as_slice();
+    let (wanted, all) = (case.channels(), case.all_channels());
+    let (channels, wanted) = (all.as_slice(), wanted.as_slice());
     let mut inline = 0;
     let mut oracles = Vec::with_capacity(tables.len());
     for mut table in tables {

@@ -3,7 +3,6 @@
 use super::printed::{self, PrintedChannel};
 use super::reader::Table;
 use super::words::suggestion;
-use linkage::case::Wanted;
 use linkage::error::{ErrorKind, Result};
 use linkage::trajectory::{CHANNELS, Channel};
 
@@ -52,7 +51,7 @@ pub struct ExpectedCell {
 #[derive(Clone, Copy)]
 pub(super) struct Known<'a> {
     pub channels: &'a [Channel],
-    pub wanted: Wanted,
+    pub wanted: &'a [Channel],
     /// Number of decimals in a table that does not print zeros at the end.
     pub digits: Option<i32>,
     /// Known error of the published numbers, in the printed unit.
@@ -75,7 +74,7 @@ impl Known<'_> {
             return Err(table.wrong(ErrorKind::Input, "channel", message).help(self.help(&name)));
         };
         let stage = found.channel.kind.stage;
-        if self.wanted.has(stage) {
+        if self.wanted.contains(&found.channel) {
             return Ok((name, found));
         }
         let message = format!("this channel is one of the {}, which `channels.want` leaves out", stage.name());

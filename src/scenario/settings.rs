@@ -2,30 +2,55 @@
 
 use super::reader::{Sign, Table};
 use super::unit::{ANGLE, TIME};
-use super::words::suggestion;
-use linkage::case::Wanted;
+use super::words::{choice, nearest, suggestion};
+use linkage::case::Case;
 use linkage::drive::Drive;
 use linkage::error::{ErrorKind, Result};
-use linkage::trajectory::Stage;
+use linkage::trajectory::{Channel, Stage};
 
-/// Stages of channels that are wanted; all stages without a table.
-pub fn wanted(table: Option<Table>) -> Result<Wanted> {
-    let Some(mut table) = table else { return Ok(Wanted::ALL) };
+/// The case with its wanted channels; all of them without a table.
+pub fn wanted(table: Option<Table>, case: Case) -> Result<Case> {
+    let Some(mut table) = table else { return Ok(case) };
     let names = table.strings("want")?;
     table.finish()?;
-    let known = || Stage::ALL.into_iter().map(Stage::name);
+    let stages = || Stage::ALL.into_iter().map(Stage::name);
     if names.is_empty() {
-        let help = format!("name at least one, or leave the section out to get all; {}", suggestion("", known(), "\""));
+        let help =
+            format!("name at least one, or leave the section out to get all; {}", suggestion("", stages(), "\""));
         return Err(table.wrong(ErrorKind::Input, "want", "nothing is wanted").help(help));
     }
-    let stage = |name: &String| {
-        Stage::ALL.into_iter().find(|stage| stage.name() == name).ok_or_else(|| {
-            let error = table.wrong(ErrorKind::Input, "want", format!("there are no channels \"{name}\""));
-            error.help(suggestion(name, known(), "\""))
-        })
-    };
-    let stages: Vec<Stage> = names.iter().map(stage).collect::<Result<_>>()?;
-    Ok(Wanted::of(&stages))
+    let channels =
+        called(&case, &names).map_err(|(message, help)| table.wrong(ErrorKind::Input, "want", message).help(help))?;
+    Ok(case.wanting_only(&channels))
+}
+
+/// The channels that words ask for.
+///
+/// # Errors
+/// What is wrong with a word, and the way out.
+pub fn called(case: &Case, words: &[String]) -> std::result::Result<Vec<Channel>, (String, String)> {
+    let mut channels = Vec::new();
+    for word in words {
+        let own = case.channels_called(word);
+        if own.is_empty() {
+            let known = case.channel_words();
+            let stages = Stage::ALL.into_iter().map(Stage::name);
+            let ends = known.iter().find(|known| known.split_once('.').is_some_and(|(_, name)| name == word));
+            let near = ends.map(String::as_str).or_else(|| nearest(word, known.iter().map(String::as_str)));
+            let help = match near {
+                Some(near) => format!("did you mean \"{near}\"?"),
+                None => format!(
+                    "ask for {}, for a subject such as \"{}\", for its stage, \"{}.positions\", or for one channel",
+                    choice(stages, "\""),
+                    known[Stage::ALL.len()],
+                    known[Stage::ALL.len()],
+                ),
+            };
+            return Err((format!("there are no channels \"{word}\""), help));
+        }
+        channels.extend(own);
+    }
+    Ok(channels)
 }
 
 /// Settings of the engine in a scenario, besides its step. What is missing is found by the proof, or the engine's

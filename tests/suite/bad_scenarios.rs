@@ -66,6 +66,7 @@ macro_rules! bad {
     };
 }
 
+mod clearance;
 mod laws;
 mod loads;
 mod motors;

@@ -1,7 +1,8 @@
 //! Many poses in one call: the same numbers and the same errors as pose by pose, and the same bits at every place of a
 //! row.
 
-use linkage::math::KeepNan;
+use linkage::math::{KeepNan, Motion};
+use linkage::mechanism::{GroupKind, LinkPose, Pose};
 use std::cell::Cell;
 use std::f64::consts::TAU;
 
@@ -9,6 +10,7 @@ use crate::common::random::{for_each, within};
 use crate::common::{assert_within, shipped};
 use analytic::PoseSolver;
 use analytic::assur::batch::{Batch, Poses};
+use analytic::range::conditions;
 use linkage::Result;
 use linkage::case::Case;
 use linkage::solver::State;
@@ -86,9 +88,27 @@ fn turn(case: &Case, count: usize) -> Vec<f64> {
     (0..count).map(|k| case.crank().start + TAU * k as f64 / count as f64).collect()
 }
 
+/// The largest condition number of a group at these poses.
+fn condition(case: &Case, states: &[State]) -> f64 {
+    let pose = |state: &State| {
+        let link =
+            |motion: &Motion| LinkPose { origin: motion.origin, angle: motion.direction.y.atan2(motion.direction.x) };
+        Pose(state.motions.iter().map(link).collect())
+    };
+    let conditions = |state| conditions(&case.mechanism, &case.structure.groups, &pose(state));
+    states.iter().flat_map(conditions).fold(1.0, f64::larger)
+}
+
 #[test]
 fn poses_are_those_of_the_pose_solver() {
-    let kinds = [("crank_rocker", true), ("ov7_base", true), ("five_bar", true), ("compressor", false)];
+    let kinds = [
+        ("crank_rocker", true),
+        ("ov7_base", true),
+        ("five_bar", true),
+        ("ov7_new", true),
+        ("fourth_class", true),
+        ("compressor", false),
+    ];
     for (name, is_vectorised) in kinds {
         let case = &shipped(&format!("{name}.toml")).case;
         assert_eq!(Batch::of(case).unwrap().is_vectorised(), is_vectorised, "{name}");
@@ -99,7 +119,10 @@ fn poses_are_those_of_the_pose_solver() {
         outcome.unwrap();
         assert_eq!(poses.len(), 500);
         let found = differences(&rows(case, &poses), &states);
-        found.iter().for_each(|&found| assert_within!(found, ROUNDING, "{name}: {found:?}"));
+        // What is behind a higher group grows with its condition number, which is not near 1 as that of a dyad.
+        let is_higher = case.structure.groups.iter().any(|group| group.kind == GroupKind::Higher);
+        let bound = ROUNDING * if is_higher { condition(case, &states) } else { 1.0 };
+        found.iter().for_each(|&found| assert_within!(found, bound, "{name}: {found:?}"));
     }
 }
 
@@ -159,7 +182,7 @@ fn a_batch_goes_on_after_an_error() {
 
 #[test]
 fn a_row_has_the_same_bits_wherever_it_stands() {
-    for name in ["crank_rocker", "ov7_base", "five_bar"] {
+    for name in ["crank_rocker", "ov7_base", "five_bar", "ov7_new", "fourth_class"] {
         let case = &shipped(&format!("{name}.toml")).case;
         let omega = case.crank().at(0.0).omega;
         let cranks = turn(case, 1000);

@@ -1,5 +1,7 @@
 //! The contract of the command line: exit codes, streams, JSON, CSV and messages, on the built command.
 
+mod bench;
+mod clearance;
 mod drive;
 mod engines;
 mod export;

@@ -10,6 +10,8 @@
 mod architecture;
 mod bad_scenarios;
 mod batch;
+mod bench;
+mod clearance;
 mod cli;
 mod common;
 mod degenerate;
@@ -34,6 +36,7 @@ mod rapier;
 mod record;
 mod robustness;
 mod scenario_docs;
+mod scenes;
 mod setting_off;
 mod settling;
 #[cfg(feature = "simbody")]

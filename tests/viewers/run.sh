@@ -31,7 +31,7 @@ if [ "$everything" ]; then
     sed 's/^link = "rocker"/link = "coupler"/' "$top/scenarios/crank_rocker.toml" >"$fresh/resisted_coupler.toml"
     set -- "$@" "$fresh/compressor.mcap"
     for file in "$top"/scenarios/*.toml; do
-        # Motions under forces, loads and a law of motion that are not exported.
+        # Motions under forces have a check of their own; loads and a law of motion that are not exported.
         if grep -q '^motion = "free"' "$file"; then continue; fi
         case "$file" in */loaded_slider.toml | */cycloidal_start.toml) continue ;; esac
         set -- "$@" "$file"
@@ -75,5 +75,7 @@ if [ "$scenarios" -gt 0 ]; then sorted toml "$@" || failed=1; fi
 if [ -n "${readers:-}" ]; then wait "$readers" || failed=1; fi
 if [ "$everything" ]; then
     python "$here/mujoco_check.py" "$linkproof" --singular "$top"/scenarios/variants60/*.toml || failed=1
+    # Motions under forces, by way of peers of `linkproof bench`.
+    python "$here/peers_check.py" "$linkproof" || failed=1
 fi
 exit $failed

@@ -28,7 +28,7 @@ impl Solver for AssurSolver {
         if case.is_free() {
             return free_motion(case, ACCURACY, visit, progress);
         }
-        let mut poses = PoseSolver::counting_turns(case)?;
+        let mut poses = if case.wants_angles() { PoseSolver::counting_turns(case)? } else { PoseSolver::new(case)? };
         let deepest = case.wanted.deepest();
         for (done, row) in case.grid.ascending().into_iter().enumerate() {
             let drive = case.crank().at(case.grid.times[row]);
@@ -57,6 +57,28 @@ impl Solver for TightAssurSolver {
     fn sweep(&self, case: &Case, visit: Visit, progress: Progress) -> Result<()> {
         match case.is_free() {
             true => free_motion(case, TIGHTER * ACCURACY, visit, progress),
+            false => AssurSolver.sweep(case, visit, progress),
+        }
+    }
+}
+
+/// Side 1 at another accuracy of the integration of motions under forces, allowed in every step. A prescribed motion is
+/// not integrated.
+#[derive(Clone, Copy, Debug)]
+pub struct AssurAt(pub f64);
+
+impl Solver for AssurAt {
+    fn name(&self) -> &'static str {
+        AssurSolver.name()
+    }
+
+    fn provides(&self, channel: &Channel) -> Provision {
+        AssurSolver.provides(channel)
+    }
+
+    fn sweep(&self, case: &Case, visit: Visit, progress: Progress) -> Result<()> {
+        match case.is_free() {
+            true => free_motion(case, self.0, visit, progress),
             false => AssurSolver.sweep(case, visit, progress),
         }
     }

@@ -13,8 +13,8 @@ pub mod steady;
 pub mod witness;
 
 pub use assur::PoseSolver;
-pub use assur_solver::{AssurSolver, TightAssurSolver};
-pub use newton::{NewtonSolver, TightNewtonSolver};
+pub use assur_solver::{AssurAt, AssurSolver, TightAssurSolver};
+pub use newton::{NewtonAt, NewtonSolver, TightNewtonSolver};
 
 use linkage::solver::Solver;
 

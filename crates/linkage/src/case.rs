@@ -4,9 +4,12 @@
 mod builder;
 mod check;
 mod grid;
+mod only;
 mod parts;
+mod scene;
 mod turning;
 
+use std::collections::BTreeSet;
 use std::ops::Deref;
 
 use crate::Result;
@@ -14,11 +17,12 @@ use crate::drive::load::sense_of;
 use crate::drive::{Action, Drive, Load, Motor, Senses, Setting, Wrench};
 use crate::math::{KeepNan, Motion, Vec2};
 use crate::mechanism::Side;
-use crate::trajectory::{CHANNELS, Channel, Subject};
+use crate::trajectory::{CHANNELS, Channel, OfLink, Reading, Stage, Subject};
 
 pub use builder::CaseBuilder;
 pub use grid::Grid;
 pub use parts::{CaseParts, Wanted};
+pub use scene::{LeftOut, Scene};
 
 /// Share of the fastest link's angular velocity below which a speed is rounding and tells no sense of motion.
 const STANDSTILL: f64 = 1e-12;
@@ -92,10 +96,23 @@ impl Case {
         Ok(Case(CaseParts { grid, ..self.0.clone() }, self.1.clone()))
     }
 
-    /// The same problem with other channels wanted.
+    /// The same problem with all channels of other stages wanted.
     #[must_use]
     pub fn wanting(&self, wanted: Wanted) -> Case {
-        Case(CaseParts { wanted, ..self.0.clone() }, self.1.clone())
+        Case(CaseParts { wanted, only: None, ..self.0.clone() }, self.1.clone())
+    }
+
+    /// The same problem with only those of its channels wanted that `channels` has.
+    #[must_use]
+    pub fn wanting_only(&self, channels: &[Channel]) -> Case {
+        let stages: Vec<Stage> = channels.iter().map(|channel| channel.kind.stage).collect();
+        let mut case = self.wanting(Wanted::of(&stages));
+        let key = |channel: &Channel| (channel.kind.subject, channel.of.clone(), channel.kind.suffix);
+        let asked: BTreeSet<_> = channels.iter().map(key).collect();
+        let all = case.channels();
+        let own: Vec<Channel> = all.iter().filter(|channel| asked.contains(&key(channel))).cloned().collect();
+        case.0.only = (own.len() < all.len()).then_some(own);
+        case
     }
 
     /// The same problem with another motor of the crank, or without one.
@@ -124,22 +141,60 @@ impl Case {
     /// Within each of these the order is that of [`CHANNELS`].
     #[must_use]
     pub fn channels(&self) -> Vec<Channel> {
-        let links = self.mechanism.links()[1..].iter().map(|link| (Subject::Link, link.name.as_str()));
-        let points = self.mechanism.moving_points().map(|(name, _)| (Subject::Point, name));
-        let joints = self.mechanism.joints().iter().map(|joint| (Subject::Joint, joint.name.as_str()));
-        let sliders = self.mechanism.joints().iter().filter(|joint| joint.slides());
-        let sliders = sliders.map(|joint| (Subject::Slider, joint.name.as_str()));
-        let frame = std::iter::once((Subject::Frame, ""));
-        let moved = self.drives.with_moment().map(|(index, drive)| match index {
-            0 => (Subject::Drive, ""),
-            _ => (Subject::Motor, self.mechanism.joints()[drive.joint].name.as_str()),
-        });
-        let subjects = links.chain(points).chain(joints).chain(sliders).chain(frame).chain(moved);
-        let rows = |(subject, of): (Subject, &str)| {
-            let kinds = CHANNELS.iter().filter(move |kind| kind.subject == subject && self.wanted.has(kind.stage));
+        self.only.clone().unwrap_or_else(|| self.channels_of(|stage| self.wanted.has(stage)))
+    }
+
+    /// All channels that the case can have, in the same order.
+    #[must_use]
+    pub fn all_channels(&self) -> Vec<Channel> {
+        self.channels_of(|_| true)
+    }
+
+    fn channels_of(&self, is_wanted: impl Fn(Stage) -> bool) -> Vec<Channel> {
+        let rows = |(subject, _, of): (Subject, usize, &str)| {
+            let kinds = CHANNELS.iter().filter(|kind| kind.subject == subject && is_wanted(kind.stage));
             kinds.map(|kind| Channel { of: of.to_string(), kind }).collect::<Vec<_>>()
         };
-        subjects.flat_map(rows).collect()
+        self.subjects().flat_map(rows).collect()
+    }
+
+    /// Everything that has channels, in the order of columns: sort, number among its like, and name.
+    /// Points are numbered as in [`Mechanism::moving_points`](crate::mechanism::Mechanism::moving_points).
+    pub(crate) fn subjects(&self) -> impl Iterator<Item = (Subject, usize, &str)> {
+        let links = self.mechanism.links().iter().enumerate().skip(1);
+        let links = links.map(|(index, link)| (Subject::Link, index, link.name.as_str()));
+        let points = self.mechanism.moving_points().enumerate().map(|(index, (name, _))| (Subject::Point, index, name));
+        let joints = || self.mechanism.joints().iter().enumerate();
+        let sliders = joints().filter(|(_, joint)| joint.slides());
+        let sliders = sliders.map(|(index, joint)| (Subject::Slider, index, joint.name.as_str()));
+        let joints = joints().map(|(index, joint)| (Subject::Joint, index, joint.name.as_str()));
+        let frame = std::iter::once((Subject::Frame, 0, ""));
+        let moved = self.drives.with_moment().map(|(index, drive)| match index {
+            0 => (Subject::Drive, 0, ""),
+            _ => (Subject::Motor, index, self.mechanism.joints()[drive.joint].name.as_str()),
+        });
+        links.chain(points).chain(joints).chain(sliders).chain(frame).chain(moved)
+    }
+
+    /// The joints whose reactions are wanted, by themselves or as part of the force on the frame.
+    #[must_use]
+    pub fn wanted_reactions(&self) -> Vec<usize> {
+        let joints = self.mechanism.joints();
+        let is_wanted = |joint: &usize| match &self.only {
+            None => self.wanted.deepest() >= Stage::Reactions,
+            Some(only) => only.iter().any(|own| match own.kind.subject {
+                Subject::Joint | Subject::Slider => own.of == joints[*joint].name && own.kind.stage >= Stage::Reactions,
+                Subject::Frame => true,
+                Subject::Link | Subject::Point | Subject::Drive | Subject::Motor => false,
+            }),
+        };
+        (0..joints.len()).filter(is_wanted).collect()
+    }
+
+    /// Whether the angle of a link is wanted.
+    #[must_use]
+    pub fn wants_angles(&self) -> bool {
+        self.only.as_ref().is_none_or(|only| only.iter().any(|own| own.kind.reading == Reading::Link(OfLink::Angle)))
     }
 
     /// The crank: the driving link whose angle identifies an instant.
@@ -199,7 +254,9 @@ impl Case {
     #[must_use]
     pub fn spin(&self, motions: &[Motion], link: usize) -> f64 {
         let omega = motions[link].omega;
-        if self.can_turn(link) && omega.abs() > STANDSTILL * fastest(motions) { omega } else { 0.0 }
+        // NaN of any link fails.
+        let is_seen = || motions.iter().all(|motion| omega.abs() > STANDSTILL * motion.omega.abs());
+        if self.can_turn(link) && is_seen() { omega } else { 0.0 }
     }
 
     /// Whether a point of a link moves, by more than the rounding of the mechanism's speeds.

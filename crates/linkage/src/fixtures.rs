@@ -79,10 +79,16 @@ pub fn class_four(side_b: f64, side_d: f64) -> Mechanism {
 /// A case of a mechanism of dyads, all in mode left. Joint 0 drives link 1 from angle zero with 1 rad/s; no gravity,
 /// no loads, no grid.
 pub fn turning(mechanism: Mechanism) -> Case {
-    let drives = Drives::from(Drive::prescribed(0, 1, 0.0, 0.0, MotionLaw::ConstantSpeed(1.0)));
+    let left = StartGroup { mode: Some(AssemblyMode::Left), ..StartGroup::default() };
+    turning_from(mechanism, 0.0, &left)
+}
+
+/// The same mechanism turning, of other groups too: from this crank angle (rad), with all groups as `group` says.
+pub fn turning_from(mechanism: Mechanism, crank: f64, group: &StartGroup) -> Case {
+    let drives = Drives::from(Drive::prescribed(0, 1, 0.0, crank, MotionLaw::ConstantSpeed(1.0)));
     let structure = Structure::of(&mechanism, &drives.joints()).unwrap();
-    let left = vec![StartGroup { mode: Some(AssemblyMode::Left), ..StartGroup::default() }; structure.groups.len()];
-    let (start, modes) = first_pose(&mechanism, &structure, &drives.world_angles(0.0), &left).unwrap();
+    let groups = vec![group.clone(); structure.groups.len()];
+    let (start, modes) = first_pose(&mechanism, &structure, &drives.world_angles(crank), &groups).unwrap();
     Case::new(CaseParts {
         mechanism,
         structure,
@@ -93,6 +99,7 @@ pub fn turning(mechanism: Mechanism) -> Case {
         modes,
         grid: Grid::default(),
         wanted: Wanted::ALL,
+        only: None,
     })
     .unwrap()
 }

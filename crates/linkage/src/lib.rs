@@ -2,7 +2,7 @@
 //!
 //! Links, joints and Assur groups are in [`mechanism`], drives and loads in [`drive`].
 //! [`case`] has the problem as every solver receives it, [`trajectory`] the result that every solver returns.
-//! [`solver`] and [`engine`] have the traits of solvers and engines.
+//! [`solver`] and [`engine`] have the traits of solvers and engines, [`work`] counts what they do.
 //!
 //! SI units and world axes (x right, y up, angles counter-clockwise from +x) everywhere.
 
@@ -17,5 +17,6 @@ pub mod math;
 pub mod mechanism;
 pub mod solver;
 pub mod trajectory;
+pub mod work;
 
 pub use error::{Error, ErrorKind, Result};

@@ -7,10 +7,12 @@ use super::quiet::guarded;
 use super::world::{LinkFrame, World, masses, opening};
 use linkage::case::Case;
 use linkage::drive::{Drive, DriveMotion, Wrench};
+use linkage::engine::Settings;
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{LinkPose, Side};
 use linkage::solver::State;
+use linkage::work::{Count, Tally};
 
 /// Largest opening of a loop before the run is stopped, as a share of the mechanism's size.
 const LARGEST_GAP: f64 = 0.05;
@@ -35,6 +37,9 @@ pub(super) struct Guard<'a> {
     /// Mass (kg) and moment of inertia (kg m^2) of all links.
     masses: Vec<[f64; 2]>,
     step: f64,
+    /// Sweeps in a step, its substeps together.
+    sweeps: usize,
+    tally: Tally,
     /// The largest kinetic energy so far (J).
     /// Its lower limit is the energy of all links at one mechanism size from an axis, turning with the fastest drive.
     energy: f64,
@@ -43,8 +48,10 @@ pub(super) struct Guard<'a> {
 }
 
 impl<'a> Guard<'a> {
-    /// Supervises a world in its start pose with the time step `step` (s).
-    pub(super) fn new(case: &'a Case, world: Box<dyn World>, step: f64) -> Self {
+    /// Supervises a world in its start pose with the settings that it was built with.
+    pub(super) fn new(case: &'a Case, world: Box<dyn World>, settings: &Settings) -> Self {
+        let mut tally = Tally::default();
+        tally.one(Count::Worlds);
         let size = case.mechanism.size();
         let masses = masses(case, world.tree());
         let energy = masses.iter().map(|[mass, inertia]| 0.5 * (mass * size * size + inertia)).sum::<f64>();
@@ -56,7 +63,9 @@ impl<'a> Guard<'a> {
             frames: Vec::new(),
             centres: Vec::new(),
             masses,
-            step,
+            step: settings.resolution,
+            sweeps: settings.sweeps * settings.substeps,
+            tally,
             loads: vec![Wrench::ZERO; case.mechanism.links().len()],
             energy: energy * case.drives.top_speed().powi(2),
             first: true,
@@ -165,6 +174,8 @@ impl<'a> Guard<'a> {
     /// [`ErrorKind::Numeric`] in any of these cases: a loop has opened, a link has turned by more than a quarter turn,
     /// the kinetic energy has grown a hundredfold, a number is not finite, or the engine has panicked.
     pub(super) fn step(&mut self, t: f64) -> Result<()> {
+        self.tally.one(Count::Steps);
+        self.tally.many(Count::Sweeps, self.sweeps);
         let Guard { case, world, frames: before, centres, masses, size, .. } = self;
         let (links, joints) = (case.mechanism.links(), case.mechanism.joints());
         // Uses the frames before the step.
@@ -367,7 +378,7 @@ mod tests {
         let tree = if build == Build::Impulse { Tree::none(&case.mechanism) } else { Tree::of(&case.mechanism) };
         let world = engine.world(&case, tree, false).unwrap();
         let frames = world.frames().to_vec();
-        let mut guard = Guard::new(&case, Box::new(Broken { world, wrong, off, healthy, frames }), 1e-3);
+        let mut guard = Guard::new(&case, Box::new(Broken { world, wrong, off, healthy, frames }), &engine.settings);
         (0..healthy).try_for_each(|_| guard.step(0.249))?;
         guard.step(0.25)
     }

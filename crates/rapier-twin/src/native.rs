@@ -20,9 +20,9 @@ use linkage::solver::State;
 /// 3.8e-2, 2.0e-2, 2.1e-2 and 1.7e-2, 5.8e-3, 6.6e-3 at 0.32 deg a step.
 const LATE: f64 = 1.0;
 
-/// For every joint, the index of the world that reports it.
-pub(super) fn reporters(case: &Case, cuts: &[&[usize]]) -> Vec<usize> {
-    let of = |joint: usize| cuts.iter().position(|cut| cut.contains(&joint)).expect("the trees cover all joints");
+/// For every joint, the index of the world that reports it; none for some of the joints that nobody asks for.
+pub(super) fn reporters(case: &Case, cuts: &[&[usize]]) -> Vec<Option<usize>> {
+    let of = |joint: usize| cuts.iter().position(|cut| cut.contains(&joint));
     (0..case.mechanism.joints().len()).map(of).collect()
 }
 
@@ -31,7 +31,7 @@ pub(super) struct Native {
     step: f64,
     late: f64,
     ring: Ring,
-    reporters: Vec<usize>,
+    reporters: Vec<Option<usize>>,
     ghost: Option<Ghost>,
     row: Vec<f64>,
     /// Lowest step from which a reading may be interpolated: the one at or before its instant.
@@ -57,6 +57,7 @@ impl Native {
         let row = self.ring.push();
         let drives = 3 * self.reporters.len();
         for (joint, &world) in self.reporters.iter().enumerate() {
+            let Some(world) = world else { continue };
             let (force, moment) = worlds[world].world().reaction(joint).expect("the tree of this world cuts the joint");
             row[3 * joint..][..3].copy_from_slice(&[force.x, force.y, moment]);
         }

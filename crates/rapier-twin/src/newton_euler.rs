@@ -26,6 +26,7 @@ use linkage::math::Vec2;
 use linkage::math::dense::solve_pair;
 use linkage::mechanism::{EQUATIONS, Tree};
 use linkage::solver::State;
+use linkage::work::{Count, Tally};
 use seam::{Seam, Stand, Term};
 use stages::{Limb, Row, Stage, stages};
 
@@ -48,6 +49,7 @@ pub struct NewtonEuler {
     loads: Vec<Wrench>,
     /// Share of the loads that is included.
     load_share: f64,
+    tally: Tally,
 }
 
 impl NewtonEuler {
@@ -110,6 +112,7 @@ impl NewtonEuler {
             cut,
             masses,
             load_share,
+            tally: Tally::default(),
         }
     }
 
@@ -118,6 +121,7 @@ impl NewtonEuler {
     /// # Errors
     /// [`ErrorKind::Numeric`] where they are not determined.
     pub fn solve(&mut self, case: &Case, state: &mut State, t: f64) -> Result<()> {
+        self.tally.one(Count::Forces);
         self.begin(case, state);
         self.pass_on();
         if !self.find() {

@@ -18,15 +18,17 @@ use linkage::error::Result;
 use linkage::math::Vec2;
 use linkage::mechanism::LinkPose;
 use linkage::solver::State;
+use linkage::work::{Count, Tally};
 
 /// The worlds that are probed.
 pub(super) struct Probe<'a> {
     worlds: Vec<Guard<'a>>,
     /// The tiny step (s).
     step: f64,
-    reporters: Vec<usize>,
+    reporters: Vec<Option<usize>>,
     ghost: Option<Ghost>,
     poses: [Vec<LinkPose>; 2],
+    tally: Tally,
 }
 
 impl<'a> Probe<'a> {
@@ -36,7 +38,7 @@ impl<'a> Probe<'a> {
         let reporters = reporters(case, &cuts);
         let speed = case.drives.top_speed();
         let poses = [Vec::new(), Vec::new()];
-        Probe { reporters, step: turn / speed, ghost: Ghost::of(case, false), worlds, poses }
+        Probe { reporters, step: turn / speed, ghost: Ghost::of(case, false), worlds, poses, tally: Tally::default() }
     }
 
     /// Fills in the reactions and moments of a state. Its motion is that of the window at `t` (s).
@@ -64,6 +66,7 @@ impl<'a> Probe<'a> {
         (t, step, settling): (f64, f64, usize),
         state: &State,
     ) -> Result<()> {
+        self.tally.one(Count::Probes);
         let guard = &mut self.worlds[index];
         guard.set_step(step);
         guard.load(state);
@@ -83,7 +86,7 @@ impl<'a> Probe<'a> {
     /// Adds `share` times the reports of a world.
     fn add(&self, index: usize, share: f64, state: &mut State) {
         let world: &dyn World = self.worlds[index].world();
-        for joint in (0..self.reporters.len()).filter(|&joint| self.reporters[joint] == index) {
+        for joint in (0..self.reporters.len()).filter(|&joint| self.reporters[joint] == Some(index)) {
             let (force, moment) = world.reaction(joint).expect("the tree of this world cuts the joint");
             state.forces[joint] += force * share;
             state.moments[joint] += moment * share;

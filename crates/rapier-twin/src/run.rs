@@ -122,7 +122,7 @@ impl<'a> Run<'a> {
             Build::Impulse => Tree::none(mechanism),
         };
         let reporting = || match engine.build {
-            Build::Multibody => Tree::covering(mechanism),
+            Build::Multibody => Tree::covering(mechanism, &case.wanted_reactions()),
             Build::Impulse => vec![Tree::none(mechanism)],
         };
         if let (true, Some(Route::Probe)) = (case.is_free(), route) {
@@ -135,7 +135,7 @@ impl<'a> Run<'a> {
         let trees = if native { reporting() } else { vec![moving()] };
         let worlds: Result<Vec<Guard>> = trees
             .into_iter()
-            .map(|tree| Ok(Guard::new(case, engine.world_for(case, tree, loading)?, settings.resolution)))
+            .map(|tree| Ok(Guard::new(case, engine.world_for(case, tree, loading)?, settings)))
             .collect();
         let worlds = worlds?;
         let acting = if case.is_free() { Some(Acting::new(case, engine.precision, &worlds)?) } else { None };
@@ -153,7 +153,7 @@ impl<'a> Run<'a> {
                 let engine = engine.set(Settings { substeps: 1, ..*settings });
                 let probed: Result<Vec<Guard>> = reporting()
                     .into_iter()
-                    .map(|tree| Ok(Guard::new(case, engine.world_for(case, tree, Loading::Read)?, settings.resolution)))
+                    .map(|tree| Ok(Guard::new(case, engine.world_for(case, tree, Loading::Read)?, &engine.settings)))
                     .collect();
                 Reader::Probe(Probe::new(case, probed?, probe_turn(engine.precision)))
             }

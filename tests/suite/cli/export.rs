@@ -39,6 +39,29 @@ fn the_mode_moves_the_start_pose() {
 }
 
 #[test]
+fn the_case_as_json_has_what_a_solver_needs() {
+    let place = Place::new();
+    let text = place.ok("export scenarios/crank_rocker_runup.toml --json -");
+    let found: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let count = |key: &str| found[key].as_array().unwrap().len();
+    assert_eq!((count("links"), count("joints"), count("drives"), count("loads"), count("times_s")), (4, 4, 1, 1, 501));
+    assert_eq!(found["drives"][0]["motion"]["motor"]["torque"]["law"], "linear");
+    assert_eq!(found["loads"][0]["type"], "resistance");
+    // The state at t = 0 is that of the solution.
+    let solved = place.ok("solve scenarios/crank_rocker_runup.toml --with newton --times 0");
+    let rows: Vec<Vec<&str>> = solved.lines().map(|line| line.split(',').collect()).collect();
+    let column = rows[0].iter().position(|name| *name == "link.rocker.alpha_rad_s2").unwrap();
+    let rocker = &found["links"][3];
+    assert_eq!(rocker["name"], "rocker");
+    let alpha: f64 = rows[1][column].parse().unwrap();
+    assert_within!((rocker["start"]["alpha_rad_s2"].as_f64().unwrap() / alpha - 1.0).abs(), 1e-9);
+    let channels = found["channels"].as_array().unwrap();
+    let names: Vec<&str> = channels.iter().map(|channel| channel["name"].as_str().unwrap()).collect();
+    assert_eq!(names, rows[0][2..], "the columns of solve, in their order");
+    assert_eq!(place.ok("export scenarios/crank_rocker.toml --json"), "crank_rocker.json\n");
+}
+
+#[test]
 fn wrong_requests_are_refused() {
     let place = Place::new();
     place.refused("export scenarios/crank_rocker.toml", &["--mjcf"]);

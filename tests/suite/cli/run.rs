@@ -43,7 +43,7 @@ fn both_scenarios_agree_and_the_json_is_as_promised() {
     for run in document["runs"].as_array().unwrap() {
         assert_eq!(
             keys(run),
-            "checks:array engines:array reason:null reference:object scenario:text structure:text title:text verdict:text"
+            "checks:array engines:array left_out:object reason:null reference:object scenario:text structure:text title:text verdict:text work:array"
         );
         assert_eq!(run["verdict"], "agree");
         assert_eq!(keys(&run["reference"]), "from_s:number name:text samples:number to_s:number");

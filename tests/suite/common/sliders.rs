@@ -89,6 +89,7 @@ fn case(links: Vec<Link>, joints: Vec<Joint>, mode: AssemblyMode, start: f64, to
         modes: vec![mode],
         grid: Grid::of_cranks(&drive, cranks),
         wanted: Wanted::ALL,
+        only: None,
     });
     let case = case.unwrap();
     let closure = case.start.closure(&case.mechanism);

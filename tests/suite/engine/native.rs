@@ -47,7 +47,9 @@ fn read(case: &Case, build: Build, tree: &Tree, dt: f64, end: f64) -> Vec<Readin
 /// Every build with a tree for it; for the multibody, trees that together cut every joint.
 fn builds(case: &Case) -> Vec<(Build, Tree)> {
     let mut builds = vec![(Build::Impulse, Tree::none(&case.mechanism))];
-    builds.extend(Tree::covering(&case.mechanism).into_iter().map(|tree| (Build::Multibody, tree)));
+    builds.extend(
+        Tree::covering(&case.mechanism, &case.wanted_reactions()).into_iter().map(|tree| (Build::Multibody, tree)),
+    );
     builds
 }
 

@@ -33,7 +33,7 @@ fn along_all_trees(case: &Case) -> Vec<(Tree, NewtonEuler)> {
     let driven: Vec<usize> = case.drives.iter().map(|drive| drive.joint).collect();
     let masses: Vec<[f64; 2]> = case.mechanism.links().iter().map(|link| [link.mass, link.inertia]).collect();
     let mut trees = vec![Tree::with(&case.mechanism, &driven)];
-    for tree in Tree::covering(&case.mechanism) {
+    for tree in Tree::covering(&case.mechanism, &case.wanted_reactions()) {
         let whole = tree.branches.len() + 1 == case.mechanism.links().len();
         if whole && driven.iter().all(|joint| !tree.cut.contains(joint)) {
             trees.push(tree);

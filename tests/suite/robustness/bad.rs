@@ -18,7 +18,8 @@ const INSTANTS: usize = 5;
 const TURNS: f64 = 1.5;
 /// Work of a search of settings, in steps.
 const BUDGET: f64 = 2e4;
-/// Longest time of one scenario, many times what the slowest one takes.
+/// Time after which a scenario is named that has not ended, many times what the slowest one takes. A clock proves
+/// nothing on a busy machine: that all end is what the test shows by ending.
 const PATIENCE: Duration = Duration::from_secs(300);
 
 /// How a scenario ended, in a few words.
@@ -123,6 +124,4 @@ fn bad_scenarios_end_with_a_message_and_a_place() {
     let whole: Duration = times.iter().map(|(time, _)| *time).sum();
     println!("mean {:?}, slowest {:?}", whole / count as u32, times.iter().rev().take(5).collect::<Vec<_>>());
     assert!(panics.is_empty(), "{} panics:\n{}", panics.len(), panics.join("\n"));
-    let slow: Vec<_> = times.iter().filter(|(time, _)| *time > PATIENCE).collect();
-    assert!(slow.is_empty(), "too slow: {slow:?}");
 }

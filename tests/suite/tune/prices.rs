@@ -44,7 +44,7 @@ pub fn price_of(case: &Case, engine: &dyn Engine) -> f64 {
     let settings = engine.settings();
     let costs = costs(engine.name());
     let worlds = match engine.name().starts_with("rapier") {
-        true => Tree::covering(&case.mechanism).len() as f64,
+        true => Tree::covering(&case.mechanism, &case.wanted_reactions()).len() as f64,
         false => 1.0,
     };
     let end = |of: fn(f64, f64) -> f64| case.grid.times.iter().copied().fold(0.0, of);

@@ -8,6 +8,7 @@ mod passing;
 mod pose_solver;
 pub(crate) mod transfer;
 mod turns;
+mod watch;
 mod whole_turns;
 
 pub use pose_solver::PoseSolver;

@@ -3,11 +3,12 @@
 use super::forces::Kinetostatics;
 use super::passing::{self, Passing};
 use super::turns::{CLOSED_FORM_STEP, FOLLOWED_STEP, Turns};
-use crate::assur::groups::{Clearance, Misfit, OutOfReach, Plan, SINGULAR};
+use super::watch::Watch;
+use crate::assur::groups::{Misfit, OutOfReach, Plan};
 use linkage::case::Case;
 use linkage::drive::{Load, Wrench};
 use linkage::error::{Advice, Error, ErrorKind, Result};
-use linkage::math::{KeepNan, Motion};
+use linkage::math::Motion;
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 
@@ -15,11 +16,6 @@ use linkage::trajectory::Stage;
 const NUDGE: f64 = 1e-7;
 /// How often a failing step is halved: down to a millionth of it.
 pub(super) const HALVINGS: u32 = 20;
-
-/// Clearance of a dyad below which a change point may lie within a step.
-const NARROW: f64 = 0.8;
-/// A clearance that is this many times the change over the rest of the way cannot fall to zero on it.
-const CLEAR: f64 = 4.0;
 /// What a singular pose is.
 const MEET: &str = "there the links of the group do not hold it, or two of its branches meet";
 
@@ -33,22 +29,20 @@ pub struct PoseSolver<'a> {
     /// Turns of the links, if the caller or a load needs their angles.
     pub(super) turns: Option<Turns>,
     /// Angles, angular velocities or accelerations of all driving links, as each stage needs them.
-    inputs: Vec<f64>,
+    pub(super) inputs: Vec<f64>,
+    /// Angular velocities and accelerations of all driving links, where all motions are found in one pass.
+    rates: [Vec<f64>; 2],
+    /// What the caller wants at the end of the way: all motions in one pass, for these rates of the crank. At a pose
+    /// they are known then.
+    in_one_pass: bool,
+    pub(super) omega: f64,
+    alpha: f64,
+    pub(super) has_motions: bool,
     pub(super) crank: f64,
     step: f64,
-    watch: Watch,
+    pub(super) watch: Watch,
     /// Change points, where the drive says that they are passed.
     pub(super) passing: Option<Passing>,
-}
-
-/// What is watched so that no step passes over a change point.
-/// A closed form keeps the sign of a dyad's sine, and there the branch that it takes has a corner.
-#[derive(Debug, Default)]
-struct Watch {
-    motions: Vec<Motion>,
-    /// Clearances at the last pose, per unit of the crank's speed.
-    last: Vec<Option<Clearance>>,
-    now: Vec<Option<Clearance>>,
 }
 
 impl<'a> PoseSolver<'a> {
@@ -61,16 +55,22 @@ impl<'a> PoseSolver<'a> {
         let step = if plan.is_closed_form() { CLOSED_FORM_STEP } else { FOLLOWED_STEP };
         let (statics, state) = (Kinetostatics::of(case, &plan), State::at_start(case));
         let inputs = vec![0.0; case.drives.len()];
+        let watch = Watch::of(&plan);
         let mut solver = PoseSolver {
             case,
             plan,
             statics,
             state,
             turns: None,
+            rates: [inputs.clone(), inputs.clone()],
             inputs,
+            in_one_pass: false,
+            omega: 0.0,
+            alpha: 0.0,
+            has_motions: false,
             crank: case.crank().start,
             step,
-            watch: Watch::default(),
+            watch,
             passing: (case.crank().through && case.drives.further().is_empty()).then(|| Passing::new(1.0)),
         };
         solver.step_to(case.crank().start, 0)?;
@@ -100,16 +100,20 @@ impl<'a> PoseSolver<'a> {
     /// [`ErrorKind::Geometry`] if the crank angle cannot be reached on the branch, with the group and the angle at
     /// which it fails.
     pub fn solve(&mut self, crank: f64, omega: f64, alpha: f64, deepest: Stage) -> Result<&State> {
+        // Only a normal number has an inverse.
+        self.in_one_pass = deepest >= Stage::Accelerations && omega.is_normal();
+        (self.omega, self.alpha) = (omega, alpha);
         self.go_to(crank)?;
         self.state.passing = None;
         if self.passing.as_ref().is_some_and(|passing| passing.inside().is_some()) {
             return self.solve_passing(omega, alpha, deepest);
         }
-        if deepest >= Stage::Velocities {
+        let has_motions = self.has_motions;
+        if deepest >= Stage::Velocities && !has_motions {
             self.drive(omega);
             self.plan.velocities(&self.inputs, &mut self.state.motions);
         }
-        if deepest >= Stage::Accelerations {
+        if deepest >= Stage::Accelerations && !has_motions {
             self.drive(alpha);
             self.plan.accelerations(&self.inputs, &mut self.state.motions);
         }
@@ -217,7 +221,7 @@ impl<'a> PoseSolver<'a> {
 
     /// Writes the world angles of all driving links at a crank angle to the inputs.
     #[inline]
-    fn turn(&mut self, crank: f64) {
+    pub(super) fn turn(&mut self, crank: f64) {
         let (first, further) = self.inputs.split_first_mut().expect("there is a drive");
         *first = self.case.crank().world_angle(crank);
         if !further.is_empty() {
@@ -230,13 +234,8 @@ impl<'a> PoseSolver<'a> {
 
     /// Writes the crank's `rate` and those of further driving links, by their speed ratios, to the inputs.
     #[inline]
-    fn drive(&mut self, rate: f64) {
-        let (first, further) = self.inputs.split_first_mut().expect("there is a drive");
-        *first = rate;
-        if !further.is_empty() {
-            let ratios = self.case.drives.ratios(self.case.crank().time_of(self.crank));
-            further.iter_mut().zip(ratios.skip(1)).for_each(|(own, ratio)| *own = rate * ratio);
-        }
+    pub(super) fn drive(&mut self, rate: f64) {
+        drive(self.case, self.crank, rate, &mut self.inputs);
     }
 
     /// One step, not divided.
@@ -258,75 +257,22 @@ impl<'a> PoseSolver<'a> {
                 | Misfit::Lost => reach,
             })?;
         } else {
-            self.plan.positions(&self.inputs, &mut self.state.motions)?;
-            self.keep_clear(target)?;
+            self.has_motions = self.in_one_pass;
+            if self.in_one_pass {
+                let [omegas, alphas] = &mut self.rates;
+                drive(self.case, target, self.omega, omegas);
+                drive(self.case, target, self.alpha, alphas);
+                self.plan.motions(&self.inputs, [omegas, alphas], &mut self.state.motions)?;
+            } else {
+                self.plan.positions(&self.inputs, &mut self.state.motions)?;
+            }
+            if self.watch.is_needed() {
+                self.keep_clear(target)?;
+            }
         }
         self.crank = target;
         if let Some(turns) = &mut self.turns {
             turns.count(&self.state.motions);
-        }
-        Ok(())
-    }
-
-    /// Finds the clearances of a crank angle whose positions are known.
-    fn find_clearances(&mut self, crank: f64) {
-        let from = std::mem::replace(&mut self.crank, crank);
-        self.drive(1.0);
-        self.crank = from;
-        let Watch { motions, now, .. } = &mut self.watch;
-        motions.clone_from(&self.state.motions);
-        self.plan.velocities(&self.inputs, motions);
-        now.clear();
-        now.extend(self.plan.clearances(motions));
-    }
-
-    /// Refuses a step that passes over a change point: there a clearance falls to zero and rises again.
-    #[inline]
-    fn keep_clear(&mut self, target: f64) -> std::result::Result<(), OutOfReach> {
-        self.find_clearances(target);
-        let sense = target - self.crank;
-        for group in 0..self.watch.last.len() {
-            if let (Some(before), Some(after)) = (self.watch.last[group], self.watch.now[group])
-                && before.sine.smaller(after.sine) < NARROW
-                && before.rate * sense < 0.0
-                && after.rate * sense > 0.0
-            {
-                self.search(group, target, [before, after])?;
-                // The search has left another pose and its clearances.
-                self.turn(target);
-                self.plan.positions(&self.inputs, &mut self.state.motions)?;
-                self.find_clearances(target);
-            }
-        }
-        let Watch { last, now, .. } = &mut self.watch;
-        std::mem::swap(last, now);
-        Ok(())
-    }
-
-    /// Searches the smallest clearance of a group between the present crank angle and `target`, by bisection of its
-    /// slope. It is refused where it is zero to rounding.
-    #[cold]
-    fn search(&mut self, group: usize, target: f64, ends: [Clearance; 2]) -> std::result::Result<(), OutOfReach> {
-        let ([mut low, mut high], [mut before, mut after]) = ([self.crank, target], ends);
-        let sense = target - self.crank;
-        while (high - low).abs() > 8.0 * f64::EPSILON * high.abs().larger(1.0) {
-            let reach = before.rate.abs().larger(after.rate.abs()) * (high - low).abs();
-            if before.sine.smaller(after.sine) > CLEAR * reach {
-                return Ok(());
-            }
-            let middle = 0.5 * (low + high);
-            self.turn(middle);
-            match self.plan.positions(&self.inputs, &mut self.state.motions) {
-                Ok(()) => {}
-                Err(OutOfReach { why: Misfit::Lost, .. }) => return Ok(()),
-                Err(_) => return Err(OutOfReach { group, why: Misfit::Passed { crank: middle } }),
-            }
-            self.find_clearances(middle);
-            let Some(now) = self.watch.now[group] else { return Ok(()) };
-            if now.sine < 10.0 * SINGULAR {
-                return Err(OutOfReach { group, why: Misfit::Passed { crank: middle } });
-            }
-            if now.rate * sense < 0.0 { (low, before) = (middle, now) } else { (high, after) = (middle, now) }
         }
         Ok(())
     }
@@ -399,5 +345,16 @@ impl<'a> PoseSolver<'a> {
             .out_of_reach()
             .help(Advice::ShortenGrid)
             .or_help("check the lengths")
+    }
+}
+
+/// The rates of all driving links at a crank angle, by their speed ratios, for the crank's `rate`.
+#[inline]
+fn drive(case: &Case, crank: f64, rate: f64, rates: &mut [f64]) {
+    let (first, further) = rates.split_first_mut().expect("there is a drive");
+    *first = rate;
+    if !further.is_empty() {
+        let ratios = case.drives.ratios(case.crank().time_of(crank));
+        further.iter_mut().zip(ratios.skip(1)).for_each(|(own, ratio)| *own = rate * ratio);
     }
 }

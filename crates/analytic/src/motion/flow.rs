@@ -13,6 +13,7 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::{KeepNan, Vec2, cross, root};
 use linkage::mechanism::Side;
 use linkage::solver::State;
+use linkage::work::{Count, Tally};
 
 /// Largest turn of a driving link within a step (rad). The first trial of a step may lead anywhere; such a trial must
 /// be refused.
@@ -70,6 +71,7 @@ struct Work<'a> {
     inputs: Inputs,
     held: Held,
     fault: Option<Error>,
+    tally: Tally,
 }
 
 impl Held {
@@ -130,7 +132,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
         let inputs = Inputs { angles: zeros(), speeds: zeros(), accelerations: zeros() };
         Pieces {
             case,
-            work: RefCell::new(Work { side, inputs, held, fault: None }),
+            work: RefCell::new(Work { side, inputs, held, fault: None, tally: Tally::default() }),
             sensed: sensed.filter(|(_, senses)| *senses != Senses::Nothing).collect(),
             fastest: RefCell::new(vec![0.0; loads]),
             entered: Cell::new(0.0),
@@ -415,6 +417,7 @@ impl<const N: usize> ODE<f64, [f64; N]> for Pieces<'_, N> {
             rate.fill(f64::NAN);
             return;
         }
+        work.tally.one(Count::Evaluations);
         if let Err(error) = self.accelerate(work, t, y) {
             work.fault.get_or_insert(error);
             rate.fill(f64::NAN);

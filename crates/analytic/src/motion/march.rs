@@ -13,6 +13,7 @@ use linkage::math::KeepNan;
 
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::root;
+use linkage::work::{Count, Tally};
 
 /// DOP853 on a state of `N` numbers.
 pub(crate) type Method<const N: usize> = ExplicitRungeKutta<Ordinary, DormandPrince, f64, [f64; N], 8, 12, 16>;
@@ -101,8 +102,8 @@ pub(crate) fn march<const N: usize, F: Flow<N>>(
     let mut method: Method<N> = ExplicitRungeKutta::dop853().rtol(accuracy).atol(accuracy).max_steps(MOST_STEPS).h0(h0);
     let begun = method.init(flow, place.x, last, &place.y);
     checked(flow, begun, place.x)?;
-    let mut refused = None;
-    let (mut short, mut steps) = (0, 0);
+    let (mut refused, mut short, mut steps) = (None, 0, 0);
+    let mut tally = Tally::default();
     loop {
         steps += 1;
         let way = place.x - begun_at;
@@ -139,6 +140,7 @@ pub(crate) fn march<const N: usize, F: Flow<N>>(
         method.set_h(place.h);
         let before = (place.x, place.y);
         (place.x, place.y) = (if cut { target } else { method.t() }, *method.y());
+        tally.one(Count::Intervals);
         visit(flow, &[before, (place.x, place.y)])?;
         flow.begin(place.x, &place.y);
         if cut {

@@ -88,6 +88,27 @@ impl Solver for TightNewtonSolver {
     }
 }
 
+/// Side 2 at another accuracy of the integration of motions under forces: see [`AssurAt`](crate::AssurAt).
+#[derive(Clone, Copy, Debug)]
+pub struct NewtonAt(pub f64);
+
+impl Solver for NewtonAt {
+    fn name(&self) -> &'static str {
+        NewtonSolver.name()
+    }
+
+    fn provides(&self, channel: &Channel) -> Provision {
+        NewtonSolver.provides(channel)
+    }
+
+    fn sweep(&self, case: &Case, visit: Visit, progress: Progress) -> Result<()> {
+        match case.is_free() {
+            true => free_motion(case, self.0, visit, progress),
+            false => NewtonSolver.sweep(case, visit, progress),
+        }
+    }
+}
+
 fn free_motion(case: &Case, accuracy: f64, visit: Visit, progress: Progress) -> Result<()> {
     let mut system = System::new(case);
     system.settle().map_err(Error::out_of_reach)?;

@@ -11,6 +11,7 @@ use linkage::math::{KeepNan, Motion};
 use linkage::mechanism::EQUATIONS;
 use linkage::solver::State;
 use linkage::trajectory::Stage;
+use linkage::work::Count;
 
 /// Largest turn of the crank between two poses (rad). A prediction over this step stays on the branch.
 pub(super) const TRACKING_STEP: f64 = PI / 90.0;
@@ -105,10 +106,13 @@ impl System<'_> {
     /// Newton's method to rounding, from the pose in `q`. The factored Jacobian is that of the last pose but one (which
     /// differs from the last by rounding).
     pub(super) fn correct(&mut self) -> Result<()> {
+        self.tally.one(Count::Poses);
         let size = self.case.mechanism.size();
         let mut last = f64::INFINITY;
         for _ in 0..MAX_ITERATIONS {
             self.assemble();
+            self.tally.one(Count::Iterations);
+            self.tally.one(Count::Factorisations);
             if !self.jacobian.factor() {
                 return Err(self.lost("the Jacobian is singular there (dead point)"));
             }
@@ -144,6 +148,8 @@ impl System<'_> {
 
     /// Velocities and accelerations from the factored Jacobian.
     pub(super) fn differentiate(&mut self) {
+        self.tally.one(Count::Velocities);
+        self.tally.one(Count::Accelerations);
         self.rate.fill(0.0);
         let first = EQUATIONS * self.case.mechanism.joints().len();
         for (index, input) in self.inputs.iter().enumerate() {
@@ -176,6 +182,7 @@ impl System<'_> {
             self.lambda[i + 1] = link.mass * (self.second[i + 1] - self.case.gravity.y) - force.y;
             self.lambda[i + 2] = link.inertia * self.second[i + 2] - moment;
         }
+        self.tally.one(Count::Forces);
         self.jacobian.solve_transposed(&mut self.lambda);
     }
 

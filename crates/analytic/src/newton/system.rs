@@ -8,6 +8,7 @@ use linkage::drive::{Drive, DriveState, Wrench};
 use linkage::math::{Motion, Vec2, rotated, turned, unit};
 use linkage::mechanism::{EQUATIONS, Joint, Side};
 use linkage::trajectory::Stage;
+use linkage::work::Tally;
 
 /// Change (rad, or share of the size) below which two iterations running end Newton's method.
 const SETTLED: f64 = 1e-9;
@@ -42,6 +43,7 @@ pub(super) struct System<'a> {
     pub(super) loads: Vec<Wrench>,
     /// Change below which Newton's method ends.
     pub(super) settled: f64,
+    pub(super) tally: Tally,
 }
 
 impl<'a> System<'a> {
@@ -74,6 +76,7 @@ impl<'a> System<'a> {
             angles: vec![0.0; links.len() + 1],
             loads: vec![Wrench::ZERO; links.len() + 1],
             settled: SETTLED,
+            tally: Tally::default(),
             inputs: case.drives.iter().map(|drive| by_law(drive, 0.0)).collect(),
         }
     }

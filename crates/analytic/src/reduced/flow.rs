@@ -14,6 +14,7 @@ use crate::PoseSolver;
 use crate::motion::march::Flow;
 use linkage::drive::Branch;
 use linkage::error::{Error, Result};
+use linkage::work::{Count, Tally};
 
 /// Largest distance of a stage of a step from the step's beginning (rad). The first trial of a step may lead anywhere;
 /// such a trial must be refused.
@@ -31,6 +32,7 @@ pub(crate) struct Forces<'m, 'a> {
     /// Sense of the crank's speed: +1 or -1.
     pub(crate) way: Cell<f64>,
     pub(crate) branch: Cell<Option<Branch>>,
+    tally: RefCell<Tally>,
 }
 
 impl<'m, 'a> Forces<'m, 'a> {
@@ -43,7 +45,13 @@ impl<'m, 'a> Forces<'m, 'a> {
             piece: Cell::new(piece),
             way: Cell::new(way),
             branch: Cell::new(model.branch(0.0, way)),
+            tally: RefCell::default(),
         })
+    }
+
+    /// Counts an evaluation.
+    fn count(&self) {
+        self.tally.borrow_mut().one(Count::Evaluations);
     }
 
     /// Begins a step at this crank angle, however far it is.
@@ -107,6 +115,7 @@ impl InTime<'_, '_> {
 
 impl ODE<f64, [f64; 2]> for InTime<'_, '_> {
     fn diff(&self, _: f64, &[crank, omega]: &[f64; 2], rate: &mut [f64; 2]) {
+        self.0.count();
         *rate = [omega, self.0.acceleration(crank, omega)];
     }
 }
@@ -151,6 +160,7 @@ impl OverAngle<'_, '_> {
 impl ODE<f64, [f64; 3]> for OverAngle<'_, '_> {
     fn diff(&self, x: f64, &[energy, _, share]: &[f64; 3], rate: &mut [f64; 3]) {
         let way = self.0.way.get();
+        self.0.count();
         let reduced = self.0.reduced(way * x);
         let omega = way * (2.0 * energy / reduced.inertia).sqrt();
         let moment = reduced.applied + self.0.motor_moment(omega);

@@ -231,7 +231,7 @@ impl CaseBuilder {
         let (start, modes) = first_pose(&mechanism, &structure, &drives.world_angles(self.start), &starts)?;
         let grid = self.grid(drives.crank());
         let (gravity, loads, wanted) = (self.gravity, self.loads, self.wanted);
-        Case::new(CaseParts { mechanism, structure, drives, loads, gravity, start, modes, grid, wanted })
+        Case::new(CaseParts { mechanism, structure, drives, loads, gravity, start, modes, grid, wanted, only: None })
     }
 
     fn link_of(&self, name: &str, key: &str) -> Result<usize> {

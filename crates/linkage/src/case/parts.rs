@@ -4,7 +4,7 @@ use super::grid::Grid;
 use crate::drive::{Drives, Load};
 use crate::math::Vec2;
 use crate::mechanism::{AssemblyMode, Mechanism, Pose, Structure};
-use crate::trajectory::Stage;
+use crate::trajectory::{Channel, Stage};
 
 /// The stages of channels that a run must deliver.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,6 +57,8 @@ pub struct CaseParts {
     pub modes: Vec<AssemblyMode>,
     /// Instants wanted.
     pub grid: Grid,
-    /// Channels wanted.
+    /// Stages of the channels wanted.
     pub wanted: Wanted,
+    /// The channels wanted, where these are not all of the wanted stages: in the order of columns.
+    pub only: Option<Vec<Channel>>,
 }

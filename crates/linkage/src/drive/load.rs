@@ -1,6 +1,7 @@
 //! Loads on links other than gravity and inertia. What each does to the links is written here only.
 
 mod amount;
+mod links;
 mod sort;
 
 pub use sort::LoadSort;

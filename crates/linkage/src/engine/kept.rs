@@ -8,6 +8,7 @@ use crate::case::Case;
 use crate::error::{Error, Result};
 use crate::solver::{Progress, Provision, Solver, State, Visit};
 use crate::trajectory::{Channel, ChannelKind};
+use crate::work::{self, Work, counted};
 
 /// An engine that makes every run once, and hands out the states it has kept when the run is asked for again.
 /// Engines made from it by [`Engine::with`] share its runs, extrapolated ones too.
@@ -79,17 +80,21 @@ impl Kept {
         let threads = std::thread::available_parallelism().map_or(1, usize::from).min(missing.len());
         let next = AtomicUsize::new(0);
         let (tell, told) = mpsc::channel::<(usize, f64)>();
+        let done = Mutex::new(Work::NONE);
         std::thread::scope(|scope| {
             for _ in 0..threads {
-                let (tell, next, missing) = (tell.clone(), &next, &missing);
+                let (tell, next, missing, done) = (tell.clone(), &next, &missing, &done);
                 scope.spawn(move || {
                     loop {
                         let index = next.fetch_add(1, Ordering::Relaxed);
                         let Some(&settings) = missing.get(index) else { return };
                         // Nobody may listen any more; the run goes on.
-                        self.run(case, settings, &mut |part| {
+                        let mut told = |part| {
                             let _ = tell.send((index, part));
-                        });
+                        };
+                        let (_, work) = counted(|| self.run(case, settings, &mut told));
+                        let mut done = done.lock().unwrap_or_else(PoisonError::into_inner);
+                        *done = done.and(&work);
                     }
                 });
             }
@@ -100,6 +105,7 @@ impl Kept {
                 progress(missing.iter().zip(&parts).map(|(run, part)| run.work() * part).sum::<f64>() / whole);
             }
         });
+        work::add(&done.into_inner().unwrap_or_else(PoisonError::into_inner));
     }
 
     /// Forgets the runs whose settings are not wanted any more.

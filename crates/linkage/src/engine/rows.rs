@@ -8,7 +8,6 @@ use std::collections::BTreeMap;
 use crate::case::Case;
 use crate::error::Result;
 use crate::math::Vec2;
-use crate::mechanism::JointKind;
 use crate::solver::State;
 use crate::trajectory::Stage;
 
@@ -44,7 +43,7 @@ impl Layout {
         let with_forces = deepest >= Stage::Reactions;
         let has_sense = case.loads.iter().any(|load| load.sensed_link().is_some() || load.sensed_point().is_some());
         let joints = case.mechanism.joints();
-        let slides = |&index: &usize| matches!(joints[index].kind, JointKind::Prismatic { .. });
+        let slides = |&index: &usize| joints[index].slides();
         Layout {
             links: case.mechanism.links().len() - 1,
             velocities: has_sense || deepest >= Stage::Velocities,

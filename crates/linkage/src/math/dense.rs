@@ -1,5 +1,7 @@
 //! Dense linear systems that are factored in place, again and again, without allocation.
 
+mod fixed;
+
 /// Square system A x = b by LU decomposition with partial pivoting; the storage is reused between poses.
 ///
 /// nalgebra's own LU takes its matrix by value and so allocates in every pose, and it has no solve with the transpose.
@@ -34,39 +36,14 @@ impl Lu {
     /// Factors the matrix in place. Returns false if it is singular to working precision (or not finite).
     #[must_use]
     pub fn factor(&mut self) -> bool {
-        let n = self.n;
-        self.swap_sign = 1.0;
-        for k in 0..n {
-            let (mut best, mut size) = (k, self.a[k * n + k].abs());
-            for (row, entries) in self.a.chunks_exact(n).enumerate().skip(k + 1) {
-                let candidate = entries[k].abs();
-                if candidate > size {
-                    (best, size) = (row, candidate);
-                }
-            }
-            self.pivot[k] = best;
-            if !(size > f64::MIN_POSITIVE && size.is_finite()) {
-                return false;
-            }
-            let (above, below) = self.a.split_at_mut((k + 1) * n);
-            let pivot = &mut above[k * n..];
-            if best != k {
-                self.swap_sign = -self.swap_sign;
-                pivot.swap_with_slice(&mut below[(best - k - 1) * n..(best - k) * n]);
-            }
-            let inverse = 1.0 / pivot[k];
-            self.inverse[k] = inverse;
-            for entries in below.chunks_exact_mut(n) {
-                let factor = entries[k] * inverse;
-                entries[k] = factor;
-                if factor != 0.0 {
-                    for (entry, above) in entries[k + 1..].iter_mut().zip(&pivot[k + 1..]) {
-                        *entry -= factor * above;
-                    }
-                }
-            }
-        }
-        true
+        let Lu { n, a, pivot, inverse, swap_sign } = self;
+        let sign = match n {
+            4 => fixed::factor::<4>(a, pivot, inverse),
+            6 => fixed::factor::<6>(a, pivot, inverse),
+            _ => factor(a, pivot, inverse),
+        };
+        *swap_sign = sign.unwrap_or(1.0);
+        sign.is_some()
     }
 
     /// Determinant of the factored matrix.
@@ -89,41 +66,93 @@ impl Lu {
 
     /// Solves A x = b for the factored matrix; `b` is replaced by `x`.
     pub fn solve(&self, b: &mut [f64]) {
-        let n = self.n;
-        for (k, &pivot) in self.pivot.iter().enumerate() {
-            b.swap(k, pivot);
-        }
-        for (row, entries) in self.a.chunks_exact(n).enumerate().skip(1) {
-            let (known, rest) = b.split_at_mut(row);
-            rest[0] -= entries.iter().zip(known).map(|(a, x)| a * *x).sum::<f64>();
-        }
-        for (row, entries) in self.a.chunks_exact(n).enumerate().rev() {
-            let (rest, known) = b.split_at_mut(row + 1);
-            let sum: f64 = entries[row + 1..].iter().zip(known).map(|(a, x)| a * *x).sum();
-            rest[row] = (rest[row] - sum) * self.inverse[row];
+        match self.n {
+            4 => fixed::solve::<4>(&self.a, &self.pivot, &self.inverse, b),
+            6 => fixed::solve::<6>(&self.a, &self.pivot, &self.inverse, b),
+            _ => solve(&self.a, &self.pivot, &self.inverse, b),
         }
     }
 
     /// Solves A^T x = b for the factored matrix; `y` is replaced by `x`.
     pub fn solve_transposed(&self, y: &mut [f64]) {
-        let n = self.n;
-        // Row by row: each solved unknown is subtracted from all later rows.
-        for (row, entries) in self.a.chunks_exact(n).enumerate() {
-            let (solved, rest) = y[row..].split_first_mut().expect("as many numbers as rows");
-            *solved *= self.inverse[row];
-            for (y, a) in rest.iter_mut().zip(&entries[row + 1..]) {
-                *y -= a * *solved;
+        match self.n {
+            4 => fixed::solve_transposed::<4>(&self.a, &self.pivot, &self.inverse, y),
+            6 => fixed::solve_transposed::<6>(&self.a, &self.pivot, &self.inverse, y),
+            _ => solve_transposed(&self.a, &self.pivot, &self.inverse, y),
+        }
+    }
+}
+
+/// Factors a matrix of any order in place. Returns the sign of the exchange of rows.
+fn factor(a: &mut [f64], pivots: &mut [usize], inverse: &mut [f64]) -> Option<f64> {
+    let n = pivots.len();
+    let mut sign = 1.0;
+    for k in 0..n {
+        let (mut best, mut size) = (k, a[k * n + k].abs());
+        for (row, entries) in a.chunks_exact(n).enumerate().skip(k + 1) {
+            let candidate = entries[k].abs();
+            if candidate > size {
+                (best, size) = (row, candidate);
             }
         }
-        for (row, entries) in self.a.chunks_exact(n).enumerate().rev() {
-            let (rest, solved) = y.split_at_mut(row);
-            for (y, a) in rest.iter_mut().zip(entries) {
-                *y -= a * solved[0];
+        pivots[k] = best;
+        if !(size > f64::MIN_POSITIVE && size.is_finite()) {
+            return None;
+        }
+        let (above, below) = a.split_at_mut((k + 1) * n);
+        let pivot = &mut above[k * n..];
+        if best != k {
+            sign = -sign;
+            pivot.swap_with_slice(&mut below[(best - k - 1) * n..(best - k) * n]);
+        }
+        inverse[k] = 1.0 / pivot[k];
+        for entries in below.chunks_exact_mut(n) {
+            let factor = entries[k] * inverse[k];
+            entries[k] = factor;
+            if factor != 0.0 {
+                for (entry, above) in entries[k + 1..].iter_mut().zip(&pivot[k + 1..]) {
+                    *entry -= factor * above;
+                }
             }
         }
-        for (k, &pivot) in self.pivot.iter().enumerate().rev() {
-            y.swap(k, pivot);
+    }
+    Some(sign)
+}
+
+fn solve(a: &[f64], pivots: &[usize], inverse: &[f64], b: &mut [f64]) {
+    let n = pivots.len();
+    for (k, &pivot) in pivots.iter().enumerate() {
+        b.swap(k, pivot);
+    }
+    for (row, entries) in a.chunks_exact(n).enumerate().skip(1) {
+        let (known, rest) = b.split_at_mut(row);
+        rest[0] -= entries.iter().zip(known).map(|(a, x)| a * *x).sum::<f64>();
+    }
+    for (row, entries) in a.chunks_exact(n).enumerate().rev() {
+        let (rest, known) = b.split_at_mut(row + 1);
+        let sum: f64 = entries[row + 1..].iter().zip(known).map(|(a, x)| a * *x).sum();
+        rest[row] = (rest[row] - sum) * inverse[row];
+    }
+}
+
+fn solve_transposed(a: &[f64], pivots: &[usize], inverse: &[f64], y: &mut [f64]) {
+    let n = pivots.len();
+    // Row by row: each solved unknown is subtracted from all later rows.
+    for (row, entries) in a.chunks_exact(n).enumerate() {
+        let (solved, rest) = y[row..].split_first_mut().expect("as many numbers as rows");
+        *solved *= inverse[row];
+        for (y, a) in rest.iter_mut().zip(&entries[row + 1..]) {
+            *y -= a * *solved;
         }
+    }
+    for (row, entries) in a.chunks_exact(n).enumerate().rev() {
+        let (rest, solved) = y.split_at_mut(row);
+        for (y, a) in rest.iter_mut().zip(entries) {
+            *y -= a * solved[0];
+        }
+    }
+    for (k, &pivot) in pivots.iter().enumerate().rev() {
+        y.swap(k, pivot);
     }
 }
 
@@ -173,6 +202,42 @@ mod tests {
             lu.solve_transposed(&mut y);
             prop_assert!((DVector::from_vec(x) - matrix.clone().lu().solve(&b).unwrap()).norm() <= bound);
             prop_assert!((DVector::from_vec(y) - matrix.transpose().lu().solve(&b).unwrap()).norm() <= bound);
+        }
+    }
+
+    proptest! {
+        /// Singular and not finite matrices included.
+        #[test]
+        fn orders_known_in_advance_have_the_bits_of_any_order(
+            values in prop::collection::vec(-4i8..5, 36),
+            small in prop::bool::ANY,
+            odd in -1.0f64..1.0,
+        ) {
+            fn compare<const N: usize>(values: &[f64]) -> std::result::Result<(), TestCaseError> {
+                let (mut any, mut pivots, mut inverse) = (values[..N * N].to_vec(), vec![0; N], vec![0.0; N]);
+                let (mut own, mut own_pivots, mut own_inverse) = (any.clone(), pivots.clone(), inverse.clone());
+                let sign = factor(&mut any, &mut pivots, &mut inverse);
+                prop_assert_eq!(sign, fixed::factor::<N>(&mut own, &mut own_pivots, &mut own_inverse));
+                if sign.is_some() {
+                    let bits = |x: &[f64]| x.iter().map(|x| (x + 0.0).to_bits()).collect::<Vec<_>>();
+                    let (mut x, mut y) = (values[..N].to_vec(), values[..N].to_vec());
+                    solve(&any, &pivots, &inverse, &mut x);
+                    fixed::solve::<N>(&own, &own_pivots, &own_inverse, &mut y);
+                    prop_assert_eq!(bits(&x), bits(&y));
+                    solve_transposed(&any, &pivots, &inverse, &mut x);
+                    fixed::solve_transposed::<N>(&own, &own_pivots, &own_inverse, &mut y);
+                    prop_assert_eq!(bits(&x), bits(&y));
+                }
+                Ok(())
+            }
+            let mut values: Vec<f64> = values.iter().map(|&value| f64::from(value)).collect();
+            if !small {
+                values.iter_mut().zip(1..).for_each(|(value, k)| *value += odd * f64::from(k).sin());
+            }
+            compare::<4>(&values)?;
+            compare::<6>(&values)?;
+            values[7] = f64::NAN;
+            compare::<4>(&values)?;
         }
     }
 

@@ -2,6 +2,7 @@
 
 pub mod assembly;
 mod name;
+mod outline;
 mod placing;
 pub mod pose;
 pub mod spanning_tree;
@@ -9,6 +10,7 @@ pub mod structure;
 
 pub use assembly::{AssemblyMode, StartGroup, first_pose};
 pub use name::{LONGEST_NAME, is_sound_name, is_unseen};
+pub use outline::ring;
 pub use placing::Handle;
 pub use pose::{LinkPose, Pose};
 pub use spanning_tree::{Branch, Tree};

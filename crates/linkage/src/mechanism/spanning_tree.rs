@@ -38,13 +38,14 @@ impl Tree {
         Tree { branches: Vec::new(), cut: (0..mechanism.joints().len()).collect() }
     }
 
-    /// Trees such that every joint is cut in at least one of them.
-    /// The first is that of [`Tree::of`]. Each further tree cuts as many joints as possible that no earlier tree cuts.
+    /// Trees such that each of these joints is cut in at least one of them.
+    /// The first is that of [`Tree::of`]. Each further tree cuts as many of the joints as possible that no earlier tree
+    /// cuts.
     #[must_use]
-    pub fn covering(mechanism: &Mechanism) -> Vec<Self> {
+    pub fn covering(mechanism: &Mechanism, joints: &[usize]) -> Vec<Self> {
         let mut trees = vec![Tree::of(mechanism)];
         loop {
-            let covered = |joint: &usize| trees.iter().any(|tree| tree.cut.contains(joint));
+            let covered = |joint: &usize| !joints.contains(joint) || trees.iter().any(|tree| tree.cut.contains(joint));
             let (kept, wanted): (Vec<usize>, Vec<usize>) = (0..mechanism.joints().len()).partition(covered);
             if wanted.is_empty() {
                 return trees;
@@ -180,11 +181,11 @@ mod tests {
 
     #[test]
     fn every_joint_is_cut_in_one_of_the_covering_trees() {
-        let trees = Tree::covering(&four_bar());
+        let trees = Tree::covering(&four_bar(), &[0, 1, 2, 3]);
         // One cut per tree, four joints.
         assert_eq!(trees.iter().map(|tree| tree.cut.clone()).collect::<Vec<_>>(), [[2], [3], [1], [0]]);
         let class_four = class_four(1.0, 1.0);
-        let trees = Tree::covering(&class_four);
+        let trees = Tree::covering(&class_four, &(0..7).collect::<Vec<_>>());
         for tree in &trees {
             assert_eq!((tree.branches.len(), tree.cut.len()), (5, 2));
             let mut reached = vec![GROUND];
@@ -199,10 +200,16 @@ mod tests {
     }
 
     #[test]
+    fn only_the_joints_asked_for_need_a_tree() {
+        let cuts = |joints: &[usize]| Tree::covering(&four_bar(), joints).len();
+        assert_eq!([cuts(&[]), cuts(&[2]), cuts(&[3]), cuts(&[2, 0])], [1, 1, 2, 2]);
+    }
+
+    #[test]
     fn a_crank_alone_is_cut_off_as_a_whole() {
         let four_bar = four_bar();
         let alone = Mechanism::new(four_bar.links()[..2].to_vec(), four_bar.joints()[..1].to_vec()).unwrap();
-        let trees = Tree::covering(&alone);
+        let trees = Tree::covering(&alone, &[0]);
         assert_eq!(trees.len(), 2);
         assert_eq!((trees[1].branches.len(), &trees[1].cut), (0, &vec![0]));
     }

@@ -58,6 +58,14 @@ pub struct ChannelKind {
     pub stage: Stage,
 }
 
+impl ChannelKind {
+    /// Number of the row among those of its subject.
+    pub(crate) fn row(&self) -> usize {
+        let own = CHANNELS.iter().filter(|kind| kind.subject == self.subject);
+        own.take_while(|kind| kind.suffix != self.suffix).count()
+    }
+}
+
 const fn row(reading: Reading, suffix: &'static str, quantity: &'static str, unit: Unit, stage: Stage) -> ChannelKind {
     ChannelKind { subject: reading.subject(), reading, suffix, quantity, unit, periodic: false, stage }
 }
@@ -173,6 +181,13 @@ impl PartialEq for Channel {
 }
 
 impl Channel {
+    /// What the channel belongs to, as its name begins: `link.crank`, `joint.A`, `drive`.
+    #[must_use]
+    pub fn subject(&self) -> String {
+        let word = self.kind.subject.word();
+        if self.of.is_empty() { word.into() } else { format!("{word}.{}", self.of) }
+    }
+
     /// Channel called `name`, for example `link.crank.angle_rad`, `joint.A.fx_N` or `drive.torque_N_m`.
     #[must_use]
     pub fn named(name: &str) -> Option<Channel> {
@@ -189,13 +204,7 @@ impl Channel {
 
 impl fmt::Display for Channel {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let word = self.kind.subject.word();
-        if self.of.is_empty() {
-            write!(f, "{word}.")?
-        } else {
-            write!(f, "{word}.{}.", self.of)?
-        }
-        write!(f, "{}", self.kind.suffix)
+        write!(f, "{}.{}", self.subject(), self.kind.suffix)
     }
 }
 

@@ -1,7 +1,7 @@
 //! What a channel belongs to.
 
 /// What a channel belongs to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Subject {
     /// A link; positions are those of its mass centre.
     Link,

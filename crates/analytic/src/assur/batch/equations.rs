@@ -6,22 +6,19 @@
 
 use pulp::Simd;
 
-use super::dyads::{Arm, Body, Driver, Dyad, Dyads};
+use super::groups::{Arm, Body, Driver, Dyad, Groups, Part};
 use super::lanes::{Lanes, Plane, Window};
 use super::poses::{ACCELERATION, ALPHA, DIRECTION, OMEGA, ORIGIN, VELOCITY};
 use linkage::math::Vec2;
 use linkage::trajectory::Stage;
 
-/// Columns of a dyad in the working memory: two each for its spans r1 and r2, and 1 / (r1 x r2).
-pub(super) const OF_DYAD: usize = 5;
-
 /// A plane vector v, turned by 90 degrees and scaled, plus its centripetal part: alpha x v - omega^2 v.
 #[inline(always)]
-fn swung<S: Simd>(v: Plane<S>, omega: Lanes<S>, alpha: Lanes<S>) -> Plane<S> {
+pub(super) fn swung<S: Simd>(v: Plane<S>, omega: Lanes<S>, alpha: Lanes<S>) -> Plane<S> {
     v.turned() * alpha - v * (omega * omega)
 }
 
-impl Dyads {
+impl Groups {
     /// Motion of all links, up to the stage `deepest`. Directions and rates of the driving links are already in
     /// their columns.
     #[inline(always)]
@@ -29,19 +26,26 @@ impl Dyads {
         for driver in &self.drivers {
             driver.turn(deepest, tile);
         }
-        // Becomes NaN as soon as one dyad cannot be assembled.
+        // Becomes NaN as soon as one group cannot be assembled.
         let mut reach = Lanes::splat(tile.simd, 0.0);
-        for (index, dyad) in self.dyads.iter().enumerate() {
-            reach = reach + dyad.turn(deepest, tile, work, OF_DYAD * index);
+        for (part, first) in &self.parts {
+            let own = match part {
+                Part::Dyad(dyad) => dyad.turn(deepest, tile, work, *first),
+                Part::Chain(chain) => chain.turn(deepest, tile, work, *first),
+            };
+            reach = reach + own;
         }
         tile.put(self.layout.reach(), reach);
     }
 
     /// Reactions from the last dyad to the first, then those and the balancing moments of the driving links.
     #[inline(always)]
-    pub(super) fn load_joints<S: Simd>(&self, tile: &mut Window<S>, work: &Window<S>) {
-        for (index, dyad) in self.dyads.iter().enumerate().rev() {
-            dyad.hold(self.gravity, tile, work, OF_DYAD * index);
+    pub(super) fn load_joints<S: Simd>(&self, tile: &mut Window<S>, work: &mut Window<S>) {
+        for (part, first) in self.parts.iter().rev() {
+            match part {
+                Part::Dyad(dyad) => dyad.hold(self.gravity, tile, work, *first),
+                Part::Chain(chain) => chain.hold(self.gravity, tile, work, *first),
+            }
         }
         for (index, driver) in self.drivers.iter().enumerate() {
             let (force, moment) = driver.body.resultant(self.gravity, tile);
@@ -171,7 +175,7 @@ impl Dyad {
 impl Body {
     /// Resultant of all known forces on the link, and their moment about the pole.
     #[inline(always)]
-    fn resultant<S: Simd>(&self, gravity: Vec2, tile: &Window<S>) -> (Plane<S>, Lanes<S>) {
+    pub(super) fn resultant<S: Simd>(&self, gravity: Vec2, tile: &Window<S>) -> (Plane<S>, Lanes<S>) {
         let direction = tile.vector(self.link + DIRECTION);
         let (omega, alpha) = (tile.get(self.link + OMEGA), tile.get(self.link + ALPHA));
         let centre = tile.vector(self.link + ACCELERATION) + swung(direction.rotate(self.mass_centre), omega, alpha);

@@ -20,7 +20,7 @@ pub(super) struct Eight(pub(super) [f64; TILE]);
 /// One number per pose.
 #[derive(Clone, Copy)]
 pub(super) struct Lanes<S: Simd> {
-    simd: S,
+    pub(super) simd: S,
     value: S::f64s,
 }
 
@@ -75,10 +75,42 @@ impl<S: Simd> Lanes<S> {
         Lanes { value: S::as_simd_f64s(&column.0).0[0], ..self }
     }
 
+    #[inline(always)]
+    pub(super) fn abs(self) -> Self {
+        Lanes { value: self.simd.abs_f64s(self.value), ..self }
+    }
+
+    /// Where this is greater than the other. Nowhere where one of them is NaN.
+    #[inline(always)]
+    pub(super) fn exceeds(self, other: Self) -> Choice<S> {
+        Choice { simd: self.simd, mask: self.simd.greater_than_f64s(self.value, other.value) }
+    }
+
     /// 1 / self.
     #[inline(always)]
     pub(super) fn inverse(self) -> Self {
         Self::splat(self.simd, 1.0) / self
+    }
+}
+
+/// A choice per pose.
+#[derive(Clone, Copy)]
+pub(super) struct Choice<S: Simd> {
+    simd: S,
+    mask: S::m64s,
+}
+
+impl<S: Simd> Choice<S> {
+    /// The first number where the choice is made, elsewhere the second.
+    #[inline(always)]
+    pub(super) fn of(self, chosen: Lanes<S>, other: Lanes<S>) -> Lanes<S> {
+        Lanes { simd: self.simd, value: self.simd.select_f64s(self.mask, chosen.value, other.value) }
+    }
+
+    /// Both numbers, exchanged where the choice is made.
+    #[inline(always)]
+    pub(super) fn exchanged(self, a: Lanes<S>, b: Lanes<S>) -> (Lanes<S>, Lanes<S>) {
+        (self.of(b, a), self.of(a, b))
     }
 }
 
@@ -151,6 +183,12 @@ impl<S: Simd> Plane<S> {
     #[inline(always)]
     pub(super) fn turned(self) -> Self {
         Plane { x: -self.y, y: self.x }
+    }
+
+    /// This direction rotated by another: their product as complex numbers.
+    #[inline(always)]
+    pub(super) fn onwards(self, by: Self) -> Self {
+        Plane { x: self.x * by.x - self.y * by.y, y: self.x * by.y + self.y * by.x }
     }
 
     /// `v` rotated by this direction.

@@ -1,12 +1,14 @@
 //! Many poses of one case in one call.
 //!
-//! A case of driving links and RRR dyads, loaded by moments of resistance only, is solved for several crank angles
-//! at once,
-//! as many as fit into the machine's registers. Such poses do not depend on each other.
+//! A case of driving links, RRR dyads and higher groups on pins, loaded by moments of resistance only, is solved for
+//! several crank angles at once, as many as fit into the machine's registers. Such poses do not depend on each other.
 //! Any other case is solved pose by pose.
 
-mod dyads;
+mod anchors;
+mod chains;
+mod elimination;
 mod equations;
+mod groups;
 mod lanes;
 mod poses;
 
@@ -15,8 +17,8 @@ use std::f64::consts::PI;
 use pulp::{Arch, Simd, WithSimd};
 use wide::f64x8;
 
-use self::dyads::Dyads;
-use self::equations::OF_DYAD;
+use self::anchors::Anchors;
+use self::groups::Groups;
 use self::lanes::{Eight, TILE, Window};
 pub use self::poses::Poses;
 use self::poses::{ALPHA, DIRECTION, Layout, OMEGA};
@@ -38,13 +40,16 @@ const FAR: f64 = 1e7;
 pub struct Batch<'a> {
     case: &'a Case,
     layout: Layout,
-    dyads: Option<Dyads>,
+    groups: Option<Groups>,
+    anchors: Option<Anchors<'a>>,
     work: Vec<Eight>,
     arch: Arch,
-    /// Solves poses that the dyads cannot solve, and makes the error message.
+    /// Solves poses that are not solved many at once, and makes the error message.
     poses: PoseSolver<'a>,
     /// Last crank angle reached (rad).
     crank: f64,
+    /// Number of poses that have been solved singly.
+    singly: usize,
 }
 
 impl<'a> Batch<'a> {
@@ -54,25 +59,37 @@ impl<'a> Batch<'a> {
     /// Those of [`PoseSolver::new`].
     pub fn of(case: &'a Case) -> Result<Self> {
         let poses = PoseSolver::new(case)?;
-        // Lanes keep the signs of the dyads, which change at a change point.
-        let dyads = if case.crank().through { None } else { Dyads::of(case, Layout::of(case, false)) };
+        // Lanes keep the signs of the groups, which change at a change point.
+        let groups = match case.crank().through {
+            true => None,
+            false => Groups::of(case, &poses.plan, Layout::of(case, false)),
+        };
+        let anchors = groups.as_ref().map(|groups| Anchors::of(case, groups)).transpose()?.flatten();
         Ok(Batch {
             case,
-            layout: Layout::of(case, dyads.is_none()),
-            dyads,
-            work: vec![Eight([0.0; TILE]); OF_DYAD * case.structure.groups.len()],
+            layout: Layout::of(case, groups.is_none()),
+            work: vec![Eight([0.0; TILE]); groups.as_ref().map_or(0, |groups| groups.columns)],
+            groups,
+            anchors,
             arch: Arch::new(),
             poses,
             crank: case.crank().start,
+            singly: 0,
         })
     }
 
     /// Whether many poses are solved at once.
-    /// If not, the case has groups other than RRR dyads, or loads other than moments of resistance, and is solved
-    /// pose by pose.
+    /// If not, the case has groups other than RRR dyads and groups of four or six links on pins, or loads other than
+    /// moments of resistance, and is solved pose by pose.
     #[must_use]
     pub fn is_vectorised(&self) -> bool {
-        self.dyads.is_some()
+        self.groups.is_some()
+    }
+
+    /// How many poses have been solved one by one so far, because none could be solved many at once there.
+    #[must_use]
+    pub fn solved_singly(&self) -> usize {
+        self.singly
     }
 
     /// The poses at the crank angles `cranks` (rad, as the scenario states them) for one angular velocity `omega`
@@ -80,7 +97,8 @@ impl<'a> Batch<'a> {
     /// To rounding, they are those of [`PoseSolver::solve`] at one crank angle after the other.
     /// It starts from the last crank angle reached, at first from the start pose.
     /// Where poses are [vectorised](Batch::is_vectorised), a crank angle gives the same bits at every place in the
-    /// list.
+    /// list. Higher groups are followed from the start pose in steps of two degrees; beside a dead point, and more than
+    /// 50 000 steps away, their poses are solved one by one.
     /// Rows more than 15 degrees apart take intermediate poses from one to the next.
     ///
     /// # Errors
@@ -88,17 +106,22 @@ impl<'a> Batch<'a> {
     /// `out`.
     pub fn solve(&mut self, cranks: &[f64], omega: f64, alpha: f64, deepest: Stage, out: &mut Poses) -> Result<()> {
         out.prepare(self.layout, cranks.len());
-        if let Some(dyads) = &self.dyads {
+        if let Some(groups) = &self.groups {
             let asked = Asked { cranks, omega, alpha, deepest };
-            self.arch.dispatch(Tiles { case: self.case, dyads, asked, work: &mut self.work, out });
+            let anchors = &mut self.anchors;
+            self.arch.dispatch(Tiles { case: self.case, groups, anchors, asked, work: &mut self.work, out });
         }
         for (row, &crank) in cranks.iter().enumerate() {
             let is_placed = self.is_vectorised() && out.is_placed(row);
-            if !(is_placed && (crank - self.crank).abs() <= STEP) {
+            // Anchors have taken the intermediate poses.
+            if !(is_placed && (self.anchors.is_some() || (crank - self.crank).abs() <= STEP)) {
                 let deepest = if is_placed { Stage::Positions } else { deepest };
                 match self.walk(crank, omega, alpha, deepest) {
                     Ok(_) if is_placed => {}
-                    Ok(state) => out.put(row, state),
+                    Ok(state) => {
+                        out.put(row, state);
+                        self.singly += 1;
+                    }
                     Err(error) => {
                         out.truncate(row);
                         return Err(error);
@@ -129,21 +152,19 @@ struct Asked<'a> {
 }
 
 /// All tiles of a batch. They are solved with the widest instructions of the machine.
-struct Tiles<'a> {
+struct Tiles<'a, 'c> {
     case: &'a Case,
-    dyads: &'a Dyads,
+    groups: &'a Groups,
+    anchors: &'a mut Option<Anchors<'c>>,
     asked: Asked<'a>,
     work: &'a mut [Eight],
     out: &'a mut Poses,
 }
 
 /// Input of the drives in one tile: directions, angular velocities and accelerations of the driving links.
-/// Unused rows repeat the last crank angle.
 #[inline(always)]
-fn drive(case: &Case, dyads: &Dyads, asked: Asked, cranks: &[f64], tile: &mut [Eight]) {
-    let mut own = [cranks[cranks.len() - 1]; TILE];
-    own[..cranks.len()].copy_from_slice(cranks);
-    for (index, (drive, driver)) in case.drives.iter().zip(&dyads.drivers).enumerate() {
+fn drive(case: &Case, groups: &Groups, asked: Asked, own: [f64; TILE], tile: &mut [Eight]) {
+    for (index, (drive, driver)) in case.drives.iter().zip(&groups.drivers).enumerate() {
         let (mut angles, mut ratios) = (own.map(|crank| case.crank().world_angle(crank)), [1.0; TILE]);
         if index > 0 {
             for (row, crank) in own.into_iter().enumerate() {
@@ -172,20 +193,26 @@ fn units(angles: [f64; TILE]) -> [Eight; 2] {
     [Eight(cos), Eight(sin)]
 }
 
-impl WithSimd for Tiles<'_> {
+impl WithSimd for Tiles<'_, '_> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let Tiles { case, dyads, asked, work, out } = self;
+        let Tiles { case, groups, anchors, asked, work, out } = self;
         for (cranks, tile) in asked.cranks.chunks(TILE).zip(out.tiles()) {
-            drive(case, dyads, asked, cranks, tile);
+            // Unused rows repeat the last crank angle.
+            let mut own = [cranks[cranks.len() - 1]; TILE];
+            own[..cranks.len()].copy_from_slice(cranks);
+            drive(case, groups, asked, own, tile);
+            if let Some(anchors) = anchors {
+                anchors.fill(&own, groups, work);
+            }
             for part in 0..Window::<S>::PARTS {
                 let mut tile = Window { simd, columns: &mut *tile, part };
                 let mut work = Window { simd, columns: &mut *work, part };
-                dyads.move_links(asked.deepest, &mut tile, &mut work);
+                groups.move_links(asked.deepest, &mut tile, &mut work);
                 if asked.deepest >= Stage::Reactions {
-                    dyads.load_joints(&mut tile, &work);
+                    groups.load_joints(&mut tile, &mut work);
                 }
             }
         }
@@ -195,9 +222,9 @@ impl WithSimd for Tiles<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use linkage::fixtures::{four_bar, turning};
+    use linkage::fixtures::{class_four, four_bar, turning, turning_from};
     use linkage::math::{KeepNan, Vec2};
-    use linkage::mechanism::Mechanism;
+    use linkage::mechanism::{Mechanism, StartGroup};
 
     /// All register widths of this machine.
     fn widths() -> Vec<Arch> {
@@ -226,22 +253,33 @@ mod tests {
         assert!(cos.0[1].is_nan() && cos.0[3].is_nan());
     }
 
-    #[test]
-    fn the_width_of_registers_does_not_show() {
-        let plain = four_bar();
-        let mut links = plain.links().to_vec();
-        for (link, mass) in links.iter_mut().zip([0.0, 1.2, 0.7, 2.3]) {
+    fn with_masses(mechanism: &Mechanism) -> Mechanism {
+        let mut links = mechanism.links().to_vec();
+        for (link, mass) in links.iter_mut().zip([0.0, 1.2, 0.7, 2.3, 0.9, 1.7]) {
             (link.mass, link.mass_centre, link.inertia) = (mass, Vec2::new(0.4, 0.1), 0.3 * mass);
         }
-        let case = turning(Mechanism::new(links, plain.joints().to_vec()).unwrap());
-        let case = case.with(|parts| parts.gravity = Vec2::new(0.0, -9.81)).unwrap();
-        let cranks: Vec<f64> = (0..500).map(|k| -0.0123 * f64::from(k)).collect();
-        let solve = |arch: Arch| {
-            let (mut batch, mut poses) = (Batch { arch, ..Batch::of(&case).unwrap() }, Poses::new());
-            batch.solve(&cranks, -97.2, 3.0, Stage::BalancingMoment, &mut poses).unwrap();
-            poses.tiles().flatten().flat_map(|column| column.0.map(f64::to_bits)).collect::<Vec<_>>()
-        };
-        let found: Vec<_> = widths().into_iter().map(solve).collect();
-        assert!(found.iter().all(|bits| *bits == found[0]));
+        Mechanism::new(links, mechanism.joints().to_vec()).unwrap()
+    }
+
+    /// The class IV group of reference 7.
+    fn quadrilateral() -> Case {
+        let first = StartGroup { rank: Some(1), ..StartGroup::default() };
+        turning_from(with_masses(&class_four(1.0, -1.0)), 70f64.to_radians(), &first)
+    }
+
+    #[test]
+    fn the_width_of_registers_does_not_show() {
+        for case in [turning(with_masses(&four_bar())), quadrilateral()] {
+            let case = case.with(|parts| parts.gravity = Vec2::new(0.0, -9.81)).unwrap();
+            let cranks: Vec<f64> = (0..500).map(|k| case.crank().start - 0.0123 * f64::from(k)).collect();
+            let solve = |arch: Arch| {
+                let (mut batch, mut poses) = (Batch { arch, ..Batch::of(&case).unwrap() }, Poses::new());
+                batch.solve(&cranks, -97.2, 3.0, Stage::BalancingMoment, &mut poses).unwrap();
+                assert_eq!(batch.solved_singly(), 0);
+                poses.tiles().flatten().flat_map(|column| column.0.map(f64::to_bits)).collect::<Vec<_>>()
+            };
+            let found: Vec<_> = widths().into_iter().map(solve).collect();
+            assert!(found.iter().all(|bits| *bits == found[0]));
+        }
     }
 }

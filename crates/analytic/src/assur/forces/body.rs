@@ -90,13 +90,14 @@ impl Body {
     #[inline(always)]
     pub(super) fn resultant(&self, case: &Case, motions: &[Motion], reactions: &Reactions, pole: Vec2) -> (Vec2, f64) {
         let motion = &motions[self.link];
-        let mut force = (case.gravity - motion.point_acceleration(self.centre)) * self.mass;
+        let centre = motion.arm(self.centre);
+        let mut force = (case.gravity - motion.acceleration_beyond(centre)) * self.mass;
         let mut moment = -self.inertia * motion.alpha;
         if let Some(load) = reactions.loads.get(self.link) {
             force += load.force;
             moment += load.moment;
         }
-        moment += cross(motion.point(self.centre) - pole, force);
+        moment += cross(motion.origin + centre - pole, force);
         for action in &self.hanging {
             let hung = reactions.forces[action.joint] * action.sign;
             force += hung;

@@ -5,7 +5,7 @@
 //! The forces of the other joints follow from the outermost link inwards.
 
 use super::body::{Action, Body, Reactions};
-use crate::assur::groups::{Chain, Node, Plan, Step};
+use crate::assur::groups::{Chain, Plan, Step};
 use linkage::case::Case;
 use linkage::math::{Motion, Vec2, cross};
 
@@ -41,32 +41,33 @@ impl Higher {
     pub(super) fn solve(&mut self, case: &Case, plan: &Plan, motions: &[Motion], reactions: &mut Reactions) {
         let Step::Chain(chain) = &plan.steps()[self.step] else { unreachable!("the step is a chain") };
         let nodes = chain.nodes();
-        for (index, node) in nodes.iter().enumerate() {
-            self.carried[index] = self.bodies[index].resultant(case, motions, reactions, pole(node, motions));
-            self.cut[index] = (Vec2::zeros(), 0.0);
+        for (index, (carried, body)) in self.carried.iter_mut().zip(&self.bodies).enumerate() {
+            *carried = body.resultant(case, motions, reactions, chain.pole(index));
         }
-        gather(&mut self.carried, nodes, motions);
-        for (index, node) in nodes.iter().enumerate() {
-            let (force, moment) = self.carried[index];
-            self.multipliers[index] = node.axis(motions).map_or(moment, |axis| axis.dot(&force) * chain.size());
+        gather(&mut self.carried, chain);
+        for ((multiplier, node), (force, moment)) in self.multipliers.iter_mut().zip(nodes).zip(&self.carried) {
+            *multiplier = node.axis(motions).map_or(*moment, |axis| axis.dot(force) * chain.size());
         }
         chain.multipliers(&mut self.multipliers);
-        for (index, closing) in chain.closings().iter().enumerate() {
-            let force = Vec2::new(self.multipliers[2 * index], self.multipliers[2 * index + 1]);
+        self.cut.fill((Vec2::zeros(), 0.0));
+        for (closing, force) in chain.closings().iter().zip(self.multipliers.chunks_exact(2)) {
+            let force = Vec2::new(force[0], force[1]);
             reactions.forces[closing.joint] = force;
             for (node, sign) in closing.nodes.into_iter().zip([-1.0, 1.0]) {
                 let Some(node) = node else { continue };
                 let (total, moment) = &mut self.cut[node];
                 *total += force * sign;
-                *moment += cross(closing.place(motions) - pole(&nodes[node], motions), force) * sign;
+                // Only guides ask for moments.
+                if chain.is_sliding() {
+                    *moment += cross(closing.place(motions) - chain.pole(node), force) * sign;
+                }
             }
         }
-        gather(&mut self.cut, nodes, motions);
-        for (index, action) in self.hung.iter().enumerate() {
-            let force = self.carried[index].0 + self.cut[index].0;
-            if nodes[index].axis(motions).is_some() {
-                let moment = self.carried[index].1 + self.cut[index].1;
-                action.put_guided(-force, moment, pole(&nodes[index], motions), motions, reactions);
+        gather(&mut self.cut, chain);
+        for (index, (action, (carried, cut))) in self.hung.iter().zip(self.carried.iter().zip(&self.cut)).enumerate() {
+            let force = carried.0 + cut.0;
+            if nodes[index].is_guided() {
+                action.put_guided(-force, carried.1 + cut.1, chain.pole(index), motions, reactions);
             } else {
                 action.put(-force, reactions);
             }
@@ -74,19 +75,13 @@ impl Higher {
     }
 }
 
-/// World place of the joint between a node and its parent, on the node's own link.
-#[inline]
-fn pole(node: &Node, motions: &[Motion]) -> Vec2 {
-    motions[node.link].point(node.own)
-}
-
 /// Sums force and moment from the outermost link inwards.
 /// A link on a pin passes on a force only. A link on a guide turns with its parent and passes on its moment too.
-fn gather(carried: &mut [(Vec2, f64)], nodes: &[Node], motions: &[Motion]) {
-    for (index, node) in nodes.iter().enumerate().rev() {
+fn gather(carried: &mut [(Vec2, f64)], chain: &Chain) {
+    for (index, node) in chain.nodes().iter().enumerate().rev() {
         let Some(parent) = node.parent_node else { continue };
         let (force, moment) = carried[index];
-        let arm = pole(node, motions) - pole(&nodes[parent], motions);
+        let arm = chain.pole(index) - chain.pole(parent);
         carried[parent].0 += force;
         carried[parent].1 += cross(arm, force) + if node.is_guided() { moment } else { 0.0 };
     }

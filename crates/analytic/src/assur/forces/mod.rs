@@ -12,8 +12,9 @@ use crate::assur::groups::{Plan, Step};
 use body::{Action, Body, Reactions};
 use higher::Higher;
 use linkage::case::Case;
-use linkage::drive::{Drive, Wrench};
+use linkage::drive::{Drive, Load, Wrench};
 use linkage::solver::State;
+use linkage::work::{Count, Tally};
 use rrr::Pinned;
 use sliding::Sliding;
 
@@ -33,6 +34,9 @@ pub(super) struct Kinetostatics {
     drivers: Vec<(Body, Action, usize)>,
     /// Loads on every link; empty if there are none.
     loads: Vec<Wrench>,
+    /// The loads with their links, if all are moments of resistance. They need no place of a link.
+    resistances: Option<Vec<(usize, Load)>>,
+    tally: Tally,
 }
 
 impl Kinetostatics {
@@ -57,7 +61,9 @@ impl Kinetostatics {
             settled[drive.joint] = true;
         }
         let loads = if case.loads.is_empty() { 0 } else { case.mechanism.links().len() };
-        Kinetostatics { parts, drivers, loads: vec![Wrench::ZERO; loads] }
+        let resistance = |load: &Load| load.resistance().map(|(link, _)| (link, load.clone()));
+        let resistances = case.loads.iter().map(resistance).collect();
+        Kinetostatics { parts, drivers, loads: vec![Wrench::ZERO; loads], resistances, tally: Tally::default() }
     }
 
     /// Writes to `state` the reaction in every joint (first link on second) and the balancing moments on the
@@ -65,7 +71,14 @@ impl Kinetostatics {
     /// The balancing moments follow from equilibrium about the pivots.
     /// The pose must be the last one that `plan` has solved. Loads may use the state's angles.
     pub(super) fn solve(&mut self, case: &Case, plan: &Plan, state: &mut State) {
-        case.loads_on(&state.motions, &state.angles, &mut self.loads);
+        if let Some(resistances) = &self.resistances {
+            self.loads.fill(Wrench::ZERO);
+            for (link, load) in resistances {
+                self.loads[*link].moment += load.moment_in(case.spin(&state.motions, *link), 0.0);
+            }
+        } else {
+            case.loads_on(&state.motions, &state.angles, &mut self.loads);
+        }
         self.balance(case, plan, state);
     }
 
@@ -77,6 +90,7 @@ impl Kinetostatics {
     }
 
     fn balance(&mut self, case: &Case, plan: &Plan, state: &mut State) {
+        self.tally.one(Count::Forces);
         let State { motions, forces, moments, torques, .. } = state;
         let reactions = &mut Reactions { forces, moments, loads: &self.loads };
         for part in &mut self.parts {

@@ -12,6 +12,7 @@ mod rpr;
 mod rrp;
 mod rrr;
 
+pub(in crate::assur) use chain::{Arrow, Hangs};
 pub use chain::{Chain, Closing, Node};
 pub use misfit::{Clearance, Misfit, SINGULAR};
 pub use prp::Prp;
@@ -22,6 +23,7 @@ pub use rrr::Rrr;
 
 use linkage::math::{KeepNan, Motion, Vec2, rotated, turned, unit};
 use linkage::mechanism::{AssemblyMode, GROUND, GroupKind, Mechanism, Structure};
+use linkage::work::{Count, Tally};
 
 /// Share of one configuration's squared distance from an expected pose in that of the other, up to which the first is
 /// the one expected.
@@ -70,6 +72,57 @@ impl Step {
         }
     }
 
+    #[inline]
+    fn velocities(&mut self, motions: &mut [Motion]) {
+        match self {
+            Step::Rrr(dyad) => dyad.velocities(motions),
+            Step::Rrp(dyad) => dyad.velocities(motions),
+            Step::Rpr(dyad) => dyad.velocities(motions),
+            Step::Rpp(dyad) => dyad.velocities(motions),
+            Step::Prp(dyad) => dyad.velocities(motions),
+            Step::Chain(chain) => chain.velocities(motions),
+        }
+    }
+
+    #[inline]
+    fn accelerations(&mut self, motions: &mut [Motion]) {
+        match self {
+            Step::Rrr(dyad) => dyad.accelerations(motions),
+            Step::Rrp(dyad) => dyad.accelerations(motions),
+            Step::Rpr(dyad) => dyad.accelerations(motions),
+            Step::Rpp(dyad) => dyad.accelerations(motions),
+            Step::Prp(dyad) => dyad.accelerations(motions),
+            Step::Chain(chain) => chain.accelerations(motions),
+        }
+    }
+
+    /// Whether the group has a [clearance](Plan::clearances).
+    pub(crate) fn has_clearance(&self) -> bool {
+        self.other().is_some()
+    }
+
+    /// How far the group is from a singular pose: see [`Plan::clearances`].
+    #[inline]
+    pub(crate) fn clearance(&self, motions: &[Motion]) -> Option<Clearance> {
+        match self {
+            Step::Rrr(dyad) => Some(dyad.clearance(motions)),
+            Step::Rrp(dyad) => Some(dyad.clearance(motions)),
+            Step::Rpr(dyad) => Some(dyad.clearance(motions)),
+            Step::Rpp(_) | Step::Prp(_) | Step::Chain(_) => None,
+        }
+    }
+
+    /// Sine of the [clearance](Plan::clearances), which positions alone give.
+    #[inline]
+    pub(crate) fn sine(&self, motions: &[Motion]) -> Option<f64> {
+        match self {
+            Step::Rrr(dyad) => Some(dyad.sine()),
+            Step::Rrp(dyad) => Some(dyad.sine(motions)),
+            Step::Rpr(dyad) => Some(dyad.sine(motions)),
+            Step::Rpp(_) | Step::Prp(_) | Step::Chain(_) => None,
+        }
+    }
+
     /// A dyad of two configurations in its other one, and its links. `None` for the other groups.
     fn other(&self) -> Option<(Step, [usize; 2])> {
         match self {
@@ -86,6 +139,7 @@ impl Step {
 pub struct Plan {
     drivers: Vec<Driver>,
     steps: Vec<Step>,
+    tally: Tally,
 }
 
 /// A group that cannot be placed at some crank angle.
@@ -124,7 +178,7 @@ impl Plan {
             GroupKind::Prp => Step::Prp(Prp::of(mechanism, group)),
             GroupKind::Higher => Step::Chain(Chain::of(mechanism, group, structure.drivers.len())),
         });
-        Plan { drivers: drivers.collect(), steps: steps.collect() }
+        Plan { drivers: drivers.collect(), steps: steps.collect(), tally: Tally::default() }
     }
 
     /// The groups, in the order of [`Structure::groups`].
@@ -146,9 +200,42 @@ impl Plan {
     /// The first group that cannot be placed.
     #[inline]
     pub fn positions(&mut self, angles: &[f64], motions: &mut [Motion]) -> std::result::Result<(), OutOfReach> {
+        self.count_pose();
         self.turn_drivers(angles, motions);
         for (group, step) in self.steps.iter_mut().enumerate() {
             step.positions(angles, motions).map_err(|why| OutOfReach { group, why })?;
+        }
+        Ok(())
+    }
+
+    /// Positions, velocities and accelerations of all links in one pass, with what each of these takes.
+    ///
+    /// # Errors
+    /// Those of [`Plan::positions`].
+    #[inline]
+    pub(crate) fn motions(
+        &mut self,
+        angles: &[f64],
+        [omegas, alphas]: [&[f64]; 2],
+        motions: &mut [Motion],
+    ) -> std::result::Result<(), OutOfReach> {
+        self.count_pose();
+        self.tally.one(Count::Velocities);
+        self.tally.one(Count::Accelerations);
+        self.turn_drivers(angles, motions);
+        self.drive_velocities(omegas, motions);
+        self.drive_accelerations(alphas, motions);
+        for (group, step) in self.steps.iter_mut().enumerate() {
+            // Most groups are of this kind. What it keeps from stage to stage then stays in registers.
+            if let Step::Rrr(dyad) = step {
+                dyad.positions(motions).map_err(|why| OutOfReach { group, why })?;
+                dyad.velocities(motions);
+                dyad.accelerations(motions);
+            } else {
+                step.positions(angles, motions).map_err(|why| OutOfReach { group, why })?;
+                step.velocities(motions);
+                step.accelerations(motions);
+            }
         }
         Ok(())
     }
@@ -164,6 +251,7 @@ impl Plan {
         angles: &[f64],
         motions: &mut [Motion],
     ) -> std::result::Result<(), OutOfReach> {
+        self.count_pose();
         self.turn_drivers(angles, motions);
         for (group, step) in self.steps.iter_mut().enumerate() {
             let misfit = |why| OutOfReach { group, why };
@@ -195,6 +283,12 @@ impl Plan {
         Ok(())
     }
 
+    #[inline]
+    fn count_pose(&mut self) {
+        self.tally.one(Count::Poses);
+        self.tally.many(Count::Groups, self.steps.len());
+    }
+
     /// Determinant of a higher group at the last pose; `None` for a dyad.
     pub(crate) fn determinant(&self, group: usize) -> Option<f64> {
         match &self.steps[group] {
@@ -217,28 +311,15 @@ impl Plan {
     /// How far every group is from a singular pose at which two of its branches meet. Velocities must be known.
     /// `None` for groups that watch the sign of a determinant themselves.
     pub fn clearances<'a>(&'a self, motions: &'a [Motion]) -> impl Iterator<Item = Option<Clearance>> + 'a {
-        self.steps.iter().map(|step| match step {
-            Step::Rrr(dyad) => Some(dyad.clearance(motions)),
-            Step::Rrp(dyad) => Some(dyad.clearance(motions)),
-            Step::Rpr(dyad) => Some(dyad.clearance(motions)),
-            Step::Rpp(_) | Step::Prp(_) | Step::Chain(_) => None,
-        })
+        self.steps.iter().map(|step| step.clearance(motions))
     }
 
     /// Velocities of all links. Positions must be known. `omegas` are those of the driving links (rad/s).
     #[inline]
     pub fn velocities(&mut self, omegas: &[f64], motions: &mut [Motion]) {
+        self.tally.one(Count::Velocities);
         self.drive_velocities(omegas, motions);
-        for step in &mut self.steps {
-            match step {
-                Step::Rrr(dyad) => dyad.velocities(motions),
-                Step::Rrp(dyad) => dyad.velocities(motions),
-                Step::Rpr(dyad) => dyad.velocities(motions),
-                Step::Rpp(dyad) => dyad.velocities(motions),
-                Step::Prp(dyad) => dyad.velocities(motions),
-                Step::Chain(chain) => chain.velocities(motions),
-            }
-        }
+        self.steps.iter_mut().for_each(|step| step.velocities(motions));
     }
 
     /// Velocities of the driving links alone.
@@ -257,17 +338,9 @@ impl Plan {
     /// Accelerations of all links. Velocities must be known. `alphas` are those of the driving links (rad/s^2).
     #[inline]
     pub fn accelerations(&mut self, alphas: &[f64], motions: &mut [Motion]) {
+        self.tally.one(Count::Accelerations);
         self.drive_accelerations(alphas, motions);
-        for step in &mut self.steps {
-            match step {
-                Step::Rrr(dyad) => dyad.accelerations(motions),
-                Step::Rrp(dyad) => dyad.accelerations(motions),
-                Step::Rpr(dyad) => dyad.accelerations(motions),
-                Step::Rpp(dyad) => dyad.accelerations(motions),
-                Step::Prp(dyad) => dyad.accelerations(motions),
-                Step::Chain(chain) => chain.accelerations(motions),
-            }
-        }
+        self.steps.iter_mut().for_each(|step| step.accelerations(motions));
     }
 
     /// Accelerations of the driving links alone, after their velocities.

@@ -81,6 +81,11 @@ impl Rpr {
         self.pins.map(|pin| pin.link)
     }
 
+    /// The sine of its clearance.
+    pub(super) fn sine(&self, motions: &[Motion]) -> f64 {
+        self.along(motions).1.abs() / self.size
+    }
+
     /// How far the dyad is from a singular pose. Velocities must be known.
     pub(super) fn clearance(&self, motions: &[Motion]) -> Clearance {
         let (axis, along) = self.along(motions);

@@ -73,6 +73,11 @@ impl Rrp {
         [self.rod.link, self.guide.link]
     }
 
+    /// Sine of the transmission angle, without sign.
+    pub(super) fn sine(&self, motions: &[Motion]) -> f64 {
+        (self.guide.axis(motions).dot(&motions[self.rod.link].arm(self.span)) / self.span.norm()).abs()
+    }
+
     /// How far the dyad is from a singular pose. Velocities must be known.
     pub(super) fn clearance(&self, motions: &[Motion]) -> Clearance {
         let (axis, r, length) = (self.guide.axis(motions), motions[self.rod.link].arm(self.span), self.span.norm());

@@ -28,6 +28,8 @@ struct Arm {
 pub struct Rrr {
     arms: [Arm; 2],
     squared: [f64; 2],
+    /// 1 / (l1 l2) (1/m^2).
+    inverse_lengths: f64,
     side: f64,
     /// World vectors from the origins of the known links to the outer joints (m).
     bases: [Vec2; 2],
@@ -55,6 +57,7 @@ impl Rrr {
         Rrr {
             arms,
             squared,
+            inverse_lengths: 1.0 / (squared[0] * squared[1]).sqrt(),
             side: if mode == AssemblyMode::Right { -1.0 } else { 1.0 },
             bases: [Vec2::zeros(); 2],
             outers: [Vec2::zeros(); 2],
@@ -111,10 +114,17 @@ impl Rrr {
         self.arms.map(|arm| arm.link)
     }
 
+    /// Sine of the transmission angle, without sign.
+    #[inline]
+    pub(super) fn sine(&self) -> f64 {
+        (cross(self.spans[0], self.spans[1]) * self.inverse_lengths).abs()
+    }
+
     /// How far the dyad is from a singular pose. Velocities must be known.
+    #[inline]
     pub(super) fn clearance(&self, motions: &[Motion]) -> Clearance {
-        let ([r1, r2], lengths) = (self.spans, (self.squared[0] * self.squared[1]).sqrt());
-        let (sine, cosine) = (cross(r1, r2) / lengths, r1.dot(&r2) / lengths);
+        let [r1, r2] = self.spans;
+        let (sine, cosine) = (cross(r1, r2) * self.inverse_lengths, r1.dot(&r2) * self.inverse_lengths);
         let turn = motions[self.arms[1].link].omega - motions[self.arms[0].link].omega;
         Clearance { sine: sine.abs(), rate: sine.signum() * cosine * turn }
     }

@@ -1,6 +1,7 @@
 //! Drawings as SVG, with one unit per millimetre. Printed at full size they have the scale factors written on them.
 
 mod axes;
+mod clearance_sheet;
 mod document;
 mod figure;
 mod graph_sheet;
@@ -14,6 +15,7 @@ mod style;
 mod table;
 mod timing_sheet;
 
+pub use clearance_sheet::clearance;
 pub use graph_sheet::graphs;
 pub use motion_sheet::motion;
 pub use plan_sheet::plans;

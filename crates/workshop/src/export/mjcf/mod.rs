@@ -13,6 +13,10 @@
 //!   A softer one lags.
 //!   The rotor does not enter the interaction forces that sensors read.
 //!   The torque sensor of the hinge therefore reads the driving moment.
+//! - A free link has no rotor but that of its motor, and the motor is an actuator whose moment falls with the speed.
+//!   Losses make two actuators of it: one drives, the other brakes.
+//! - Moments, forces and torsional springs and dampers are actuators on a hinge, on a fixed tendon whose length is an
+//!   angle or a difference of angles, or on a site; springs and dampers between points are spatial tendons.
 //! - A moment that resists the rotation of a link is dry friction.
 //!   It acts in the link's hinge if that is on the ground, else in a fixed tendon whose length is the link's angle.
 //!   At rest it holds the link, where [`Load::Resistance`](linkage::drive::Load::Resistance) is zero.
@@ -22,17 +26,21 @@
 //!   The file is therefore valid for any step, and the error is of second order in it.
 
 mod bodies;
+mod effects;
+mod forces;
+mod limits;
 mod model;
 mod names;
 mod shapes;
 mod write;
+mod xml;
 
 pub use model::Model;
 
-use linkage::case::{Case, Grid, Wanted};
+use super::start::first_state;
+use linkage::case::Case;
 use linkage::error::Result;
-use linkage::solver::{Solver, State};
-use linkage::trajectory::Stage;
+use linkage::solver::Solver;
 
 /// The case as MJCF, with the model name `name` and the time step `step` (s).
 /// The pose is that of the case at t = 0, and `solver` finds its speeds.
@@ -43,18 +51,6 @@ use linkage::trajectory::Stage;
 /// Those of the solver.
 pub fn mjcf(case: &Case, solver: &dyn Solver, name: &str, step: f64) -> Result<String> {
     let start = first_state(case, solver)?;
-    Ok(write::document(&Model::new(case, &start, name, step)?))
-}
-
-/// The state at t = 0, with velocities.
-fn first_state(case: &Case, solver: &dyn Solver) -> Result<State> {
-    let wanted = Wanted::of(&[Stage::Positions, Stage::Velocities]);
-    let case = case.on(Grid::of_times(case.crank(), vec![0.0]))?.wanting(wanted);
-    let mut found = State::at_rest(&case);
-    let mut keep = |_, state: &State| {
-        found.clone_from(state);
-        Ok(())
-    };
-    solver.each(&case, &mut keep)?;
-    Ok(found)
+    let model = Model::new(case, &start, name, step)?;
+    Ok(write::document(&model, &forces::forces(&model)?))
 }

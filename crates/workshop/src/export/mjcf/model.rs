@@ -1,6 +1,7 @@
 //! Contents of the file as numbers: bodies, joints, loops, frictions and the first state.
 
 use super::bodies::{self, Body};
+use super::limits;
 use super::names::Names;
 use linkage::case::Case;
 use linkage::drive::Load;
@@ -59,23 +60,11 @@ impl<'a> Model<'a> {
                 .help("give a step such as 1e-3"));
         }
         Names::check(&case.mechanism)?;
-        if case.is_free() {
-            let message = "the motion is free, but the model for MuJoCo drives its links with prescribed speeds";
-            return Err(Error::new(ErrorKind::Unsupported, message)
-                .key("drive.motion")
-                .help("export a scenario whose drives are prescribed: take `motion = \"free\"` out"));
+        for drive in case.drives.iter() {
+            limits::check_drive(drive)?;
         }
-        // A rotor keeps a constant speed and permits no other law.
-        if let Some(drive) = case.drives.iter().find(|drive| drive.constant_speed().is_none()) {
-            let message =
-                format!("a drive with the law \"{}\" cannot be written to a model for MuJoCo", drive.law_name());
-            return Err(Error::new(ErrorKind::Unsupported, message).help("give the drive a constant speed"));
-        }
-        if let Some(load) = case.loads.iter().find(|load| load.resistance().is_none()) {
-            let message = format!("a load of type \"{}\" cannot be written to a model for MuJoCo", load.sort());
-            return Err(Error::new(ErrorKind::Unsupported, message).help(
-                "leave it out of the scenario, and add it to the model by hand: only moments of resistance are written",
-            ));
+        for load in &case.loads {
+            limits::check(load)?;
         }
         let tree = Tree::of(&case.mechanism);
         let bodies = tree.branches.iter().map(|branch| bodies::body(case, start, branch)).collect();
@@ -103,10 +92,21 @@ impl<'a> Model<'a> {
         if size > 0.0 { size } else { 1.0 }
     }
 
-    /// Inertia (kg m^2) of the rotor on a driven hinge.
+    /// Inertia (kg m^2) of the rotor that keeps the speed of a prescribed drive.
     #[must_use]
     pub fn rotor(&self) -> f64 {
         ROTOR * self.bulk()
+    }
+
+    /// Inertia (kg m^2) that turns with a driven hinge: that rotor, or what a free link's motor has.
+    pub(super) fn armature(&self, joint: usize) -> Option<f64> {
+        let drive = self.case.drives.iter().find(|drive| drive.joint == joint)?;
+        if drive.is_free() { Some(drive.moving_inertia()).filter(|own| *own > 0.0) } else { Some(self.rotor()) }
+    }
+
+    /// Whether a joint is driven.
+    pub(super) fn is_driven(&self, joint: usize) -> bool {
+        self.case.drives.iter().any(|drive| drive.joint == joint)
     }
 
     /// Mass (kg) and moment of inertia (kg m^2) of a link for MuJoCo: its own, or those of a light rod if it has none.
@@ -153,7 +153,7 @@ impl<'a> Model<'a> {
     }
 
     /// Hinges from the ground to `link`, as indices of branches, innermost last.
-    fn hinges(&self, mut link: usize) -> Vec<usize> {
+    pub(super) fn hinges(&self, mut link: usize) -> Vec<usize> {
         let mut hinges = Vec::new();
         while link != GROUND {
             let branch = self.branch_of(link).expect("every moving link is in the tree");

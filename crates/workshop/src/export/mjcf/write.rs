@@ -1,12 +1,15 @@
 //! The XML document.
 
 use quick_xml::Writer;
-use quick_xml::events::{BytesDecl, BytesEnd, BytesStart, BytesText, Event};
+use quick_xml::events::{BytesDecl, Event};
 
 use super::bodies::Freedom;
+use super::effects;
+use super::forces::Forces;
 use super::model::Model;
 use super::names::Names;
 use super::shapes::{self, Shape};
+use super::xml::{Xml, about_z, flat, number, numbers};
 use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::GROUND;
 
@@ -24,60 +27,8 @@ const COLOURS: [&str; 6] = [
     "0.30 0.62 0.65 1",
 ];
 
-/// Shortest text that is parsed as the same number.
-fn number(value: f64) -> String {
-    match value.abs() {
-        0.0 => "0".into(),
-        size if (1e-4..1e7).contains(&size) => format!("{value}"),
-        _ => format!("{value:e}"),
-    }
-}
-
-fn numbers(values: impl IntoIterator<Item = f64>) -> String {
-    values.into_iter().map(number).collect::<Vec<_>>().join(" ")
-}
-
-/// A position in the plane.
-fn flat(place: Vec2) -> String {
-    numbers([place.x, place.y, 0.0])
-}
-
-/// A rotation about z.
-fn about_z(angle: f64) -> String {
-    numbers([0.0, 0.0, 1.0, angle])
-}
-
-type Attributes<'a> = &'a [(&'a str, &'a str)];
-
-/// An XML document in memory; writing to it cannot fail.
-struct Xml(Writer<Vec<u8>>);
-
-impl Xml {
-    fn put(&mut self, event: Event) {
-        self.0.write_event(event).expect("memory takes everything");
-    }
-
-    fn start<'a>(name: &'a str, attributes: Attributes<'a>) -> BytesStart<'a> {
-        BytesStart::new(name).with_attributes(attributes.iter().copied())
-    }
-
-    fn leaf(&mut self, name: &str, attributes: Attributes) {
-        self.put(Event::Empty(Self::start(name, attributes)));
-    }
-
-    fn nest(&mut self, name: &str, attributes: Attributes, inside: impl FnOnce(&mut Self)) {
-        self.put(Event::Start(Self::start(name, attributes)));
-        inside(self);
-        self.put(Event::End(BytesEnd::new(name)));
-    }
-
-    fn comment(&mut self, text: &str) {
-        self.put(Event::Comment(BytesText::from_escaped(format!(" {text} "))));
-    }
-}
-
 /// The whole document.
-pub(super) fn document(model: &Model) -> String {
+pub(super) fn document(model: &Model, forces: &Forces) -> String {
     let mut xml = Xml(Writer::new_with_indent(Vec::new(), b' ', 2));
     xml.put(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)));
     xml.nest("mujoco", &[("model", model.name)], |xml| {
@@ -87,9 +38,10 @@ pub(super) fn document(model: &Model) -> String {
             "; SI units, plane XOY. Load the keyframe \"start\": without it nothing moves."
         ));
         options(xml, model);
-        xml.nest("worldbody", &[], |xml| world(xml, model));
+        xml.nest("worldbody", &[], |xml| world(xml, model, forces));
         loops(xml, model);
-        tendons(xml, model);
+        effects::tendons(xml, model, forces);
+        effects::actuators(xml, model, forces);
         sensors(xml, model);
         keyframe(xml, model);
     });
@@ -137,18 +89,18 @@ fn view(model: &Model) -> (Vec2, f64) {
     ((low + high) / 2.0, (high - low).norm().larger(model.size()))
 }
 
-fn world(xml: &mut Xml, model: &Model) {
+fn world(xml: &mut Xml, model: &Model, forces: &Forces) {
     xml.leaf(
         "light",
         &[("pos", &numbers([0.0, 0.0, 10.0 * model.size()])), ("dir", "0 0 -1"), ("type", "directional")],
     );
-    on_link(xml, model, GROUND, "0.45 0.45 0.45 1");
+    on_link(xml, (model, forces), GROUND, "0.45 0.45 0.45 1");
     for link in model.children(GROUND) {
-        body(xml, model, link);
+        body(xml, model, forces, link);
     }
 }
 
-fn body(xml: &mut Xml, model: &Model, link: usize) {
+fn body(xml: &mut Xml, model: &Model, forces: &Forces, link: usize) {
     let index = model.branch_of(link).expect("every moving link is in the tree");
     let own = &model.bodies[index];
     let data = &model.case.mechanism.links()[link];
@@ -162,9 +114,9 @@ fn body(xml: &mut Xml, model: &Model, link: usize) {
         let inertial = [flat(data.mass_centre), number(mass), numbers([inertia; 3])];
         xml.leaf("inertial", &[("pos", &inertial[0]), ("mass", &inertial[1]), ("diaginertia", &inertial[2])]);
         joint(xml, model, index);
-        on_link(xml, model, link, COLOURS[(link - 1) % COLOURS.len()]);
+        on_link(xml, (model, forces), link, COLOURS[(link - 1) % COLOURS.len()]);
         for child in model.children(link) {
-            body(xml, model, child);
+            body(xml, model, forces, child);
         }
     });
 }
@@ -186,10 +138,13 @@ fn joint(xml: &mut Xml, model: &Model, index: usize) {
         }
     }
     attributes.push(("ref", &reference));
-    if model.case.drives.iter().any(|drive| drive.joint == branch.joint) {
-        rotor = number(model.rotor());
+    if let Some(inertia) = model.armature(branch.joint) {
+        rotor = number(inertia);
         attributes.push(("armature", &rotor));
-        xml.comment("Drive: a rotor so heavy that its speed stays what it is at the start.");
+        xml.comment(match model.case.drives.iter().any(|drive| drive.joint == branch.joint && drive.is_free()) {
+            true => "Rotor and reducer of the motor.",
+            false => "Drive: a rotor so heavy that its speed stays what it is at the start.",
+        });
     }
     if let Some(found) = model.frictions.iter().find(|friction| friction.link == branch.link && friction.own_hinge) {
         friction = number(found.moment);
@@ -199,7 +154,7 @@ fn joint(xml: &mut Xml, model: &Model, index: usize) {
 }
 
 /// Shapes and sites of a link.
-fn on_link(xml: &mut Xml, model: &Model, link: usize, colour: &str) {
+fn on_link(xml: &mut Xml, (model, forces): (&Model, &Forces), link: usize, colour: &str) {
     for shape in shapes::of_link(model, link) {
         match shape {
             Shape::Ball(at, radius) => {
@@ -230,6 +185,7 @@ fn on_link(xml: &mut Xml, model: &Model, link: usize, colour: &str) {
     for (name, side) in model.case.mechanism.moving_points().filter(|(_, side)| side.link == link) {
         xml.leaf("site", &[("name", name), ("pos", &flat(side.local))]);
     }
+    effects::sites(xml, forces, link);
 }
 
 fn loops(xml: &mut Xml, model: &Model) {
@@ -245,26 +201,6 @@ fn loops(xml: &mut Xml, model: &Model) {
     });
 }
 
-/// Resistance to the rotation of links that have no hinge of their own on the ground.
-fn tendons(xml: &mut Xml, model: &Model) {
-    let long: Vec<_> = model.frictions.iter().filter(|friction| !friction.own_hinge).collect();
-    if long.is_empty() {
-        return;
-    }
-    xml.nest("tendon", &[], |xml| {
-        for friction in long {
-            let name = &model.case.mechanism.links()[friction.link].name;
-            xml.comment("Its length is the link's angle.");
-            xml.nest("fixed", &[("name", name), ("frictionloss", &number(friction.moment))], |xml| {
-                for &hinge in &friction.hinges {
-                    let joint = &model.case.mechanism.joints()[model.tree.branches[hinge].joint];
-                    xml.leaf("joint", &[("joint", &joint.name), ("coef", "1")]);
-                }
-            });
-        }
-    });
-}
-
 /// Reactions in the joints of the tree, and moments where there are any.
 fn sensors(xml: &mut Xml, model: &Model) {
     xml.comment(
@@ -275,7 +211,7 @@ fn sensors(xml: &mut Xml, model: &Model) {
             let joint = &model.case.mechanism.joints()[branch.joint];
             let site = Names::side(joint, branch.link);
             xml.leaf("force", &[("name", &format!("{}.force", joint.name)), ("site", &site)]);
-            if joint.keeps_angle() || model.case.drives.iter().any(|drive| drive.joint == branch.joint) {
+            if joint.keeps_angle() || model.is_driven(branch.joint) {
                 xml.leaf("torque", &[("name", &format!("{}.moment", joint.name)), ("site", &site)]);
             }
         }

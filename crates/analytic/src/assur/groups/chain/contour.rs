@@ -30,24 +30,39 @@ pub struct Node {
     /// It is the node itself if its joint is revolute, otherwise its parent's; `None` if a link outside the group
     /// leads it.
     pub spin: Option<usize>,
+    /// Where the joint to the parent is.
+    pub(in crate::assur) hangs: Hangs,
     pub(super) guided: Option<Guided>,
 }
 
+/// The place of a joint on the side that is known before.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::assur) enum Hangs {
+    /// One of the joints on links outside the group: its number in [`Contours::roots`].
+    Root(usize),
+    /// On another node, at the end of an arrow: its number in [`Contours::arrows`].
+    Arrow(usize),
+}
+
 impl Node {
-    fn of(joints: &[Joint], joint: usize, link: usize, before: &[Node]) -> Self {
+    fn of(joints: &[Joint], joint: usize, link: usize, before: &mut Contours) -> Self {
         let found = &joints[joint];
         let parent = found.other(link);
-        let parent_node = before.iter().position(|node| node.link == parent.link);
+        let parent_node = before.nodes.iter().position(|node| node.link == parent.link);
         let (guided, spin) = match found.kind {
-            JointKind::Revolute => (None, Some(before.len())),
+            JointKind::Revolute => (None, Some(before.nodes.len())),
             JointKind::Prismatic { .. } => {
                 let [axis, own] = [parent.link, link].map(|on| found.axis_on(on).expect("the joint is on the link"));
-                let spin = parent_node.and_then(|node| before[node].spin);
+                let spin = parent_node.and_then(|node| before.nodes[node].spin);
                 (Some(Guided { axis, turn: turn_between(axis, own) }), spin)
             }
         };
         let own = found.on(link).expect("the joint is on the link");
-        Node { link, joint, own, parent, parent_node, spin, guided }
+        let hangs = match parent_node {
+            Some(node) => Hangs::Arrow(before.arrow(node, Some(parent.local))),
+            None => Hangs::Root(before.root(parent)),
+        };
+        Node { link, joint, own, parent, parent_node, spin, hangs, guided }
     }
 
     /// Whether the joint to the parent is prismatic.
@@ -63,15 +78,36 @@ impl Node {
     pub fn axis(&self, motions: &[Motion]) -> Option<Vec2> {
         self.guided.map(|guided| motions[self.parent.link].arm(guided.axis))
     }
+
+    /// The same for a node that has one.
+    #[inline]
+    pub(super) fn slide_axis(&self, motions: &[Motion]) -> Vec2 {
+        self.axis(motions).expect("slides belong to prismatic joints")
+    }
 }
 
-/// Part of the way to a closing joint: a vector of one link, or the slide vector of a node.
+/// A vector of the tree: from a node's own joint to another joint on its link, or the slide of a node.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Segment {
-    pub(super) node: usize,
-    /// Vector in the link's frame; `None` for the node's slide.
-    pub(super) local: Option<Vec2>,
-    pub(super) sign: f64,
+pub(in crate::assur) struct Arrow {
+    pub(in crate::assur) node: usize,
+    /// The vector in the frame of the node's link; `None` for the node's slide.
+    pub(in crate::assur) local: Option<Vec2>,
+    /// The link that it turns with, and the node whose unknown is that link's angle.
+    pub(super) carrier: usize,
+    pub(in crate::assur) spin: Option<usize>,
+}
+
+/// An arrow on the way to a closing joint.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::assur) struct Stretch {
+    /// Its number in [`Contours::arrows`], and its sign.
+    pub(in crate::assur) arrow: usize,
+    pub(in crate::assur) sign: f64,
+    /// As in [`Arrow`].
+    pub(super) carrier: usize,
+    pub(super) spin: Option<usize>,
+    /// The node whose slide it is.
+    pub(super) slide: Option<usize>,
 }
 
 /// A joint that closes a contour.
@@ -83,9 +119,10 @@ pub struct Closing {
     pub nodes: [Option<usize>; 2],
     /// The joint on its second link.
     place: Side,
-    /// Known points from which the two ways start: second with sign +1, first with -1.
-    pub(super) ends: [(Side, f64); 2],
-    pub(super) segments: Vec<Segment>,
+    /// Known joints from which the two ways start, by number: second with sign +1, first with -1.
+    pub(in crate::assur) ends: [(usize, f64); 2],
+    /// Arrows along both ways.
+    pub(in crate::assur) ways: Vec<Stretch>,
 }
 
 impl Closing {
@@ -97,53 +134,97 @@ impl Closing {
     }
 }
 
-/// The group's links, parents before children, and the remaining joints.
-pub(super) fn contours(mechanism: &Mechanism, group: &Group) -> (Vec<Node>, Vec<Closing>) {
-    let joints = mechanism.joints();
-    let mut nodes: Vec<Node> = Vec::new();
-    let mut used = vec![false; joints.len()];
-    // Breadth first: all outer joints, then inner ones from the links already in the tree.
-    while nodes.len() < group.links.len() {
-        let known = |link: usize| !group.links.contains(&link) || nodes.iter().any(|node| node.link == link);
-        let hung = |&joint: &usize| {
-            let (a, b) = (joints[joint].first.link, joints[joint].second.link);
-            match (known(a), known(b)) {
-                (true, false) => Some((joint, b)),
-                (false, true) => Some((joint, a)),
-                _ => None,
-            }
-        };
-        let next = || group.outer.iter().chain(&group.inner).filter_map(hung);
-        // Prismatic joints first, so that none of them remains (Prim's spanning tree of smallest weight).
-        let slider = next().find(|&(joint, _)| joints[joint].slides());
-        let (joint, link) = slider.or_else(|| next().next()).expect("a group hangs together");
-        used[joint] = true;
-        nodes.push(Node::of(joints, joint, link, &nodes));
-    }
-    let left = group.inner.iter().chain(&group.outer).copied().filter(|&joint| !used[joint]);
-    let closings: Vec<Closing> = left.map(|joint| closing(mechanism, &nodes, joint)).collect();
-    (nodes, closings)
+/// The group's links as a tree and the joints that close its contours.
+#[derive(Clone, Debug, Default)]
+pub(in crate::assur) struct Contours {
+    /// The group's links, parents before children.
+    pub(in crate::assur) nodes: Vec<Node>,
+    /// The remaining joints.
+    pub(in crate::assur) closings: Vec<Closing>,
+    /// Joints on links outside the group.
+    pub(in crate::assur) roots: Vec<Side>,
+    /// All vectors from joint to joint.
+    pub(in crate::assur) arrows: Vec<Arrow>,
 }
 
-/// The way to a closing joint over both of its links.
-fn closing(mechanism: &Mechanism, nodes: &[Node], joint: usize) -> Closing {
-    let found = &mechanism.joints()[joint];
-    let mut segments = Vec::new();
-    let mut way = |side: Side, sign: f64| {
-        // Where sliders carry all links, an outer pin remains too. The way to it over the link outside is empty.
-        let node = nodes.iter().position(|node| node.link == side.link);
-        let (mut next, mut local, mut end) = (node, side.local, side);
-        while let Some(index) = next {
-            let own = &nodes[index];
-            segments.push(Segment { node: index, local: Some(local - own.own), sign });
-            if own.guided.is_some() {
-                segments.push(Segment { node: index, local: None, sign });
-            }
-            (next, local, end) = (own.parent_node, own.parent.local, own.parent);
+impl Contours {
+    pub(super) fn of(mechanism: &Mechanism, group: &Group) -> Self {
+        let joints = mechanism.joints();
+        let mut all = Contours::default();
+        let mut used = vec![false; joints.len()];
+        // Breadth first: all outer joints, then inner ones from the links already in the tree.
+        while all.nodes.len() < group.links.len() {
+            let known = |link: usize| !group.links.contains(&link) || all.nodes.iter().any(|node| node.link == link);
+            let hung = |&joint: &usize| {
+                let (a, b) = (joints[joint].first.link, joints[joint].second.link);
+                match (known(a), known(b)) {
+                    (true, false) => Some((joint, b)),
+                    (false, true) => Some((joint, a)),
+                    _ => None,
+                }
+            };
+            let next = || group.outer.iter().chain(&group.inner).filter_map(hung);
+            // Prismatic joints first, so that none of them remains (Prim's spanning tree of smallest weight).
+            let slider = next().find(|&(joint, _)| joints[joint].slides());
+            let (joint, link) = slider.or_else(|| next().next()).expect("a group hangs together");
+            used[joint] = true;
+            let node = Node::of(joints, joint, link, &mut all);
+            all.nodes.push(node);
         }
-        (node, (end, sign))
-    };
-    let (second, second_end) = way(found.second, 1.0);
-    let (first, first_end) = way(found.first, -1.0);
-    Closing { joint, place: found.second, nodes: [first, second], ends: [second_end, first_end], segments }
+        let left = group.inner.iter().chain(&group.outer).copied().filter(|&joint| !used[joint]);
+        for joint in left {
+            let closing = all.closing(&joints[joint], joint);
+            all.closings.push(closing);
+        }
+        all
+    }
+
+    /// The number of a joint on a link outside the group.
+    fn root(&mut self, side: Side) -> usize {
+        self.roots.iter().position(|&known| known == side).unwrap_or_else(|| {
+            self.roots.push(side);
+            self.roots.len() - 1
+        })
+    }
+
+    /// The number of the arrow from a node's own joint to the place `to` on its link, or of the node's slide.
+    fn arrow(&mut self, node: usize, to: Option<Vec2>) -> usize {
+        let own = &self.nodes[node];
+        let local = to.map(|to| to - own.own);
+        let known = self.arrows.iter().position(|arrow| arrow.node == node && arrow.local == local);
+        known.unwrap_or_else(|| {
+            let carrier = if local.is_some() { own.link } else { own.parent.link };
+            self.arrows.push(Arrow { node, local, carrier, spin: own.spin });
+            self.arrows.len() - 1
+        })
+    }
+
+    /// The way to a closing joint over both of its links.
+    fn closing(&mut self, found: &Joint, joint: usize) -> Closing {
+        let mut ways = Vec::new();
+        let mut way = |side: Side, sign: f64| {
+            // Where sliders carry all links, an outer pin remains too. The way to it over the link outside is empty.
+            let node = self.nodes.iter().position(|node| node.link == side.link);
+            let (mut next, mut to) = (node, side);
+            while let Some(index) = next {
+                ways.push((self.arrow(index, Some(to.local)), sign));
+                if self.nodes[index].guided.is_some() {
+                    ways.push((self.arrow(index, None), sign));
+                }
+                (next, to) = (self.nodes[index].parent_node, self.nodes[index].parent);
+            }
+            (node, (self.root(to), sign))
+        };
+        let (second, second_end) = way(found.second, 1.0);
+        let (first, first_end) = way(found.first, -1.0);
+        // Both ways may begin with the same arrows. These cancel.
+        let all = ways.clone();
+        ways.retain(|&(arrow, sign)| !all.contains(&(arrow, -sign)));
+        let stretch = |(number, sign): (usize, f64)| {
+            let Arrow { node, local, carrier, spin } = self.arrows[number];
+            Stretch { arrow: number, sign, carrier, spin, slide: local.is_none().then_some(node) }
+        };
+        let ways = ways.into_iter().map(stretch).collect();
+        Closing { joint, place: found.second, nodes: [first, second], ends: [second_end, first_end], ways }
+    }
 }

@@ -13,17 +13,21 @@
 //! J q'' = -(acceleration of the ends) + centripetal and Coriolis parts.
 
 mod contour;
+mod predict;
+mod rates;
 
+pub(in crate::assur) use contour::{Arrow, Contours, Hangs};
 pub use contour::{Closing, Node};
 
-use self::contour::{Segment, contours};
+use self::predict::Memory;
 use linkage::math::dense::Lu;
-use linkage::math::{KeepNan, Motion, Vec2, cross, rotated, turned};
+use linkage::math::{KeepNan, Motion, Vec2, rotated, turned};
 use linkage::mechanism::{Group, Mechanism};
+use linkage::work::{Count, Tally};
 
 /// Newton's method from the last pose needs a few iterations. If it needs more, it has lost the branch.
 const MAX_ITERATIONS: usize = 10;
-/// Largest turn of a link from the last pose (rad) that is accepted as a continuation. Its sine is compared.
+/// Largest turn of a link from the last pose (rad) that is accepted as a continuation.
 /// For a slide the limit is the same share of the mechanism's size.
 const MAX_TURN: f64 = 0.3;
 
@@ -42,44 +46,47 @@ const MAX_CORRECTION: f64 = 0.01;
 const LEAST_LEFT: f64 = 0.25;
 /// Steps of the driving angles (rad) below which a jump to another branch is no longer possible.
 const SMALLEST_STEP: f64 = 1e-6;
-/// Number of steps that a prediction uses.
-const MEMORY: usize = 5;
-/// Weights of the last steps, the newest first, for one to five known steps: binomial coefficients with
-/// alternating signs.
-const EXTRAPOLATION: [[f64; MEMORY]; MEMORY] = [
-    [1.0, 0.0, 0.0, 0.0, 0.0],
-    [2.0, -1.0, 0.0, 0.0, 0.0],
-    [3.0, -3.0, 1.0, 0.0, 0.0],
-    [4.0, -6.0, 4.0, -1.0, 0.0],
-    [5.0, -10.0, 10.0, -5.0, 1.0],
-];
 
 /// `direction` turned by a small angle (rad), to the seventh order of the angle, and of unit length to rounding.
 #[inline]
 fn slightly_turned(direction: Vec2, angle: f64) -> Vec2 {
     let square = angle * angle;
-    let sine = angle * (1.0 - square * (1.0 / 6.0 - square / 120.0));
-    let cosine = 1.0 - square * (0.5 - square * (1.0 / 24.0 - square / 720.0));
-    rotated(direction, Vec2::new(cosine, sine)).normalize()
+    let sine = angle * (1.0 - square * (1.0 / 6.0 - square * (1.0 / 120.0)));
+    let cosine = 1.0 - square * (0.5 - square * (1.0 / 24.0 - square * (1.0 / 720.0)));
+    let turned = rotated(direction, Vec2::new(cosine, sine));
+    // The length differs from 1 by 1e-8 at most, and that from its inverse root by the square of it.
+    turned * (1.5 - 0.5 * turned.norm_squared())
 }
 
-/// Angle of a small sine (rad), to the seventh order of the sine.
-#[inline]
-fn small_arcsine(sine: f64) -> f64 {
-    let square = sine * sine;
-    sine * (1.0 + square * (1.0 / 6.0 + square * (3.0 / 40.0)))
+/// A joint in the world: the vector to it from the origin of its link's frame, and its motion.
+#[derive(Clone, Copy, Debug)]
+struct At {
+    arm: Vec2,
+    place: Vec2,
+    velocity: Vec2,
+    acceleration: Vec2,
+}
+
+/// Vectors of the tree in the world, at the last pose.
+#[derive(Clone, Debug)]
+struct World {
+    arrows: Vec<Vec2>,
+    roots: Vec<At>,
+    /// The joints of the nodes to their parents.
+    joints: Vec<At>,
 }
 
 /// Higher group, prepared for solving.
 #[derive(Clone, Debug)]
 pub struct Chain {
-    nodes: Vec<Node>,
-    closings: Vec<Closing>,
+    contours: Contours,
+    world: World,
     jacobian: Lu,
     unknown: Vec<f64>,
     branch: f64,
-    /// Square of the determinant at the last pose, and its derivatives by the driving angles (1/rad).
+    /// Determinant at the last pose, its square, and the square's derivatives by the driving angles (1/rad).
     /// Every step corrects the derivative along itself (Broyden's update).
+    determinant: f64,
     square: f64,
     slopes: Vec<f64>,
     /// Driving angles at the last pose, and their changes to the wanted one (rad).
@@ -94,138 +101,88 @@ pub struct Chain {
     /// Length by which slides are divided, so that all unknowns are of one order of magnitude (m).
     size: f64,
     is_sliding: bool,
-    /// Changes of the unknowns in the last steps, the newest first; how many of these steps were the same; and that
-    /// step (rad of the driving angles).
-    turned: Vec<[f64; MEMORY]>,
-    equal_steps: usize,
-    last_step: Vec<f64>,
+    memory: Memory,
+    tally: Box<Tally>,
 }
 
 impl Chain {
     /// Prepares a group of a mechanism with this number of driving links.
     #[must_use]
     pub fn of(mechanism: &Mechanism, group: &Group, drives: usize) -> Self {
-        let (nodes, closings) = contours(mechanism, group);
-        let n = nodes.len();
-        let is_sliding = nodes.iter().any(|node| node.guided.is_some());
+        let contours = Contours::of(mechanism, group);
+        let n = contours.nodes.len();
+        let none = Vec2::zeros();
+        let at = At { arm: none, place: none, velocity: none, acceleration: none };
+        let world = World {
+            arrows: vec![none; contours.arrows.len()],
+            roots: vec![at; contours.roots.len()],
+            joints: vec![at; n],
+        };
         Chain {
-            nodes,
-            closings,
+            is_sliding: contours.nodes.iter().any(Node::is_guided),
+            contours,
+            world,
             jacobian: Lu::new(n),
             unknown: vec![0.0; n],
             branch: 0.0,
+            determinant: f64::NAN,
             square: f64::NAN,
             slopes: vec![0.0; drives],
             at: vec![f64::NAN; drives],
             step: vec![0.0; drives],
-            kept: vec![Vec2::zeros(); n],
+            kept: vec![none; n],
             slides: vec![f64::NAN; n],
             kept_slides: vec![0.0; n],
             speeds: vec![0.0; n],
             size: mechanism.size(),
-            is_sliding,
-            turned: vec![[0.0; MEMORY]; n],
-            equal_steps: 0,
-            last_step: vec![f64::NAN; drives],
+            memory: Memory::of(n, drives),
+            tally: Box::default(),
         }
     }
 
     /// The group's links, parents before children.
+    #[inline]
     #[must_use]
     pub fn nodes(&self) -> &[Node] {
-        &self.nodes
+        &self.contours.nodes
     }
 
     /// The joints that close its contours.
+    #[inline]
     #[must_use]
     pub fn closings(&self) -> &[Closing] {
-        &self.closings
+        &self.contours.closings
+    }
+
+    /// The tree and its contours.
+    pub(in crate::assur) fn contours(&self) -> &Contours {
+        &self.contours
     }
 
     /// Length by which the unknowns divide slides (m).
+    #[inline]
     #[must_use]
     pub fn size(&self) -> f64 {
         self.size
     }
 
-    /// A segment's vector, with its sign.
+    /// World place of the joint between a node and its parent, on the node's own link, at the last pose.
     #[inline]
-    fn vector(&self, segment: &Segment, motions: &[Motion]) -> Vec2 {
-        let node = &self.nodes[segment.node];
-        match segment.local {
-            Some(local) => motions[node.link].arm(local) * segment.sign,
-            None => self.axis(segment, motions) * self.slides[segment.node],
-        }
+    pub(in crate::assur) fn pole(&self, node: usize) -> Vec2 {
+        self.world.joints[node].place
     }
 
-    /// The axis of a slide segment, with its sign.
+    /// Whether a link of the group has a prismatic joint.
     #[inline]
-    fn axis(&self, segment: &Segment, motions: &[Motion]) -> Vec2 {
-        self.nodes[segment.node].axis(motions).expect("slides belong to prismatic joints") * segment.sign
-    }
-
-    /// The link that a segment's vector turns with, and the node whose unknown is its angle.
-    #[inline]
-    fn carrier(&self, segment: &Segment) -> (usize, Option<usize>) {
-        let node = &self.nodes[segment.node];
-        (if segment.local.is_some() { node.link } else { node.parent.link }, node.spin)
-    }
-
-    /// Turns every guided link with its parent.
-    fn aim(&self, motions: &mut [Motion]) {
-        if !self.is_sliding {
-            return;
-        }
-        for node in &self.nodes {
-            if let Some(guided) = node.guided {
-                motions[node.link].direction = rotated(motions[node.parent.link].direction, guided.turn);
-            }
-        }
-    }
-
-    /// Writes the gaps to `unknown` and their derivatives to the Jacobian.
-    fn assemble(&mut self, motions: &mut [Motion]) {
-        self.aim(motions);
-        self.jacobian.clear();
-        for (index, closing) in self.closings.iter().enumerate() {
-            let row = 2 * index;
-            let mut gap = Vec2::zeros();
-            for (side, sign) in closing.ends {
-                gap += motions[side.link].point(side.local) * sign;
-            }
-            for segment in &closing.segments {
-                let vector = self.vector(segment, motions);
-                gap += vector;
-                if let Some(column) = self.carrier(segment).1 {
-                    self.jacobian.add(row, column, -vector.y);
-                    self.jacobian.add(row + 1, column, vector.x);
-                }
-                if segment.local.is_none() {
-                    let axis = self.axis(segment, motions) * self.size;
-                    self.jacobian.add(row, segment.node, axis.x);
-                    self.jacobian.add(row + 1, segment.node, axis.y);
-                }
-            }
-            self.unknown[row] = gap.x;
-            self.unknown[row + 1] = gap.y;
-        }
-    }
-
-    /// Reads the slides of the start pose, which the links still have when the group is placed for the first time.
-    fn read_slides(&mut self, motions: &[Motion]) {
-        for (slide, node) in self.slides.iter_mut().zip(&self.nodes) {
-            let from = motions[node.parent.link].point(node.parent.local);
-            let to = motions[node.link].point(node.own);
-            *slide = node.axis(motions).map_or(0.0, |axis| axis.dot(&(to - from)));
-        }
+    pub(in crate::assur) fn is_sliding(&self) -> bool {
+        self.is_sliding
     }
 
     /// Takes the last pose for that of a first driving angle farther on by `way` (rad), some whole turns.
     pub(super) fn skip(&mut self, way: f64) {
         self.at[0] += way;
         // Whole turns are rounded: the next step is not the same as the last.
-        self.last_step.fill(f64::NAN);
-        self.equal_steps = 0;
+        self.memory.start_anew();
     }
 
     /// Positions at these driving angles (rad), from those of the last pose.
@@ -238,25 +195,38 @@ impl Chain {
             *step = angle - at;
         }
         if self.is_bold() {
-            self.last_step.fill(f64::NAN);
+            self.memory.forget();
             return false;
         }
-        for (kept, node) in self.kept.iter_mut().zip(&self.nodes) {
+        for (kept, node) in self.kept.iter_mut().zip(&self.contours.nodes) {
             *kept = motions[node.link].direction;
         }
-        self.kept_slides.copy_from_slice(&self.slides);
-        let allowed = if self.predict(motions) { MAX_CORRECTION } else { MAX_TURN };
-        let followed = self.follow(allowed, motions) && self.is_near(motions);
+        if self.is_sliding {
+            self.kept_slides.copy_from_slice(&self.slides);
+        }
+        self.find_roots(motions);
+        // A prediction is a first change of the unknowns.
+        let allowed = if self.memory.predict(&self.step) {
+            for (index, node) in self.contours.nodes.iter().enumerate() {
+                advance(node, &mut self.slides[index], self.memory.change(index), self.size, motions);
+            }
+            MAX_CORRECTION
+        } else {
+            MAX_TURN
+        };
+        let followed = self.follow(allowed, motions) && self.memory.largest_change() <= MAX_TURN;
         if followed {
-            self.remember(motions);
-            self.at.copy_from_slice(angles);
+            self.memory.remember(&self.step);
+            self.at.iter_mut().zip(angles).for_each(|(at, angle)| *at = *angle);
             self.learn();
         } else {
-            self.last_step.fill(f64::NAN);
-            for (kept, node) in self.kept.iter().zip(&self.nodes) {
+            self.memory.forget();
+            for (kept, node) in self.kept.iter().zip(&self.contours.nodes) {
                 motions[node.link].direction = *kept;
             }
-            self.slides.copy_from_slice(&self.kept_slides);
+            if self.is_sliding {
+                self.slides.copy_from_slice(&self.kept_slides);
+            }
         }
         followed
     }
@@ -265,91 +235,96 @@ impl Chain {
     /// are.
     /// Returns `false` if there are none so near.
     pub(super) fn positions_like(&mut self, like: &[Motion], angles: &[f64], motions: &mut [Motion]) -> bool {
-        for node in &self.nodes {
+        for node in &self.contours.nodes {
             motions[node.link].direction = like[node.link].direction;
         }
         self.read_slides(like);
         self.branch = 0.0;
+        self.find_roots(motions);
         if !self.follow(MAX_CORRECTION, motions) {
             return false;
         }
         self.at.copy_from_slice(angles);
-        self.last_step.fill(f64::NAN);
-        self.equal_steps = 0;
+        self.memory.start_anew();
         self.slopes.fill(0.0);
-        self.square = self.jacobian.determinant().powi(2);
+        self.square = self.determinant.powi(2);
         true
     }
 
     /// Determinant of the Jacobian at the last pose. Along a branch it goes through zero at a change point.
     pub(crate) fn determinant(&self) -> f64 {
-        self.jacobian.determinant()
+        self.determinant
     }
 
-    /// Stores the squared determinant of this pose, and how it has changed in this step.
-    fn learn(&mut self) {
-        let square = self.jacobian.determinant().powi(2);
-        let length = self.step.iter().map(|step| step * step).sum::<f64>();
-        if length > 0.0 && self.square.is_finite() {
-            let rest = square - self.square - self.foreseen();
-            self.slopes.iter_mut().zip(&self.step).for_each(|(slope, step)| *slope += rest * step / length);
+    /// Reads the slides of the start pose, which the links still have when the group is placed for the first time.
+    fn read_slides(&mut self, motions: &[Motion]) {
+        for (slide, node) in self.slides.iter_mut().zip(&self.contours.nodes) {
+            let from = motions[node.parent.link].point(node.parent.local);
+            let to = motions[node.link].point(node.own);
+            *slide = node.axis(motions).map_or(0.0, |axis| axis.dot(&(to - from)));
         }
-        self.square = square;
     }
 
-    /// Change of the squared determinant over this step, as extrapolated from the last ones.
-    fn foreseen(&self) -> f64 {
-        self.slopes.iter().zip(&self.step).map(|(slope, step)| slope * step).sum()
+    /// Places of the joints on links outside the group.
+    fn find_roots(&mut self, motions: &[Motion]) {
+        for (root, side) in self.world.roots.iter_mut().zip(&self.contours.roots) {
+            let motion = &motions[side.link];
+            root.arm = motion.arm(side.local);
+            root.place = motion.origin + root.arm;
+        }
     }
 
-    /// Whether this step of the driving angles is the same as the last one.
-    fn is_repeated(&self) -> bool {
-        self.step.iter().zip(&self.last_step).all(|(step, last)| (step - last).abs() <= 1e-6 * step.abs())
-    }
-
-    /// Turns the links as extrapolated from the last steps, if this step is the same, and returns whether it is.
-    /// The polynomial through the last steps is continued, so that its next difference is zero.
-    fn predict(&mut self, motions: &mut [Motion]) -> bool {
-        let repeated = self.is_repeated();
-        if repeated {
-            let weights = &EXTRAPOLATION[self.equal_steps.min(MEMORY) - 1];
-            for (index, turned) in self.turned.iter().enumerate() {
-                let change = turned.iter().zip(weights).map(|(turn, weight)| turn * weight).sum();
-                advance(&self.nodes[index], &mut self.slides[index], change, self.size, motions);
+    /// Vectors of the tree for the links' directions. Every guided link is turned with its parent.
+    fn draw(&mut self, motions: &mut [Motion]) {
+        let Contours { nodes, arrows, .. } = &self.contours;
+        for node in nodes.iter().filter(|_| self.is_sliding) {
+            if let Some(guided) = node.guided {
+                motions[node.link].direction = rotated(motions[node.parent.link].direction, guided.turn);
             }
         }
-        repeated
-    }
-
-    /// Stores the turns of this step for the next prediction.
-    fn remember(&mut self, motions: &[Motion]) {
-        self.equal_steps = if self.is_repeated() { self.equal_steps + 1 } else { 1 };
-        for (index, node) in self.nodes.iter().enumerate() {
-            let turn = match node.guided {
-                None => small_arcsine(cross(self.kept[index], motions[node.link].direction)),
-                Some(_) => (self.slides[index] - self.kept_slides[index]) / self.size,
+        for (vector, arrow) in self.world.arrows.iter_mut().zip(arrows) {
+            *vector = match arrow.local {
+                Some(local) => motions[arrow.carrier].arm(local),
+                None => nodes[arrow.node].slide_axis(motions) * self.slides[arrow.node],
             };
-            let turned = &mut self.turned[index];
-            turned.copy_within(..MEMORY - 1, 1);
-            turned[0] = turn;
         }
-        self.last_step.copy_from_slice(&self.step);
     }
 
-    /// Whether no link has turned or slid farther than a continuation allows.
-    fn is_near(&self, motions: &[Motion]) -> bool {
-        let mut slides = self.slides.iter().zip(&self.kept_slides);
-        if self.is_sliding && !slides.all(|(now, kept)| (now - kept).abs() <= MAX_TURN * self.size) {
-            return false;
+    /// Writes the gaps to `unknown` and their derivatives to the Jacobian.
+    fn assemble(&mut self, motions: &mut [Motion]) {
+        self.draw(motions);
+        self.jacobian.clear();
+        let Contours { nodes, closings, .. } = &self.contours;
+        for (index, closing) in closings.iter().enumerate() {
+            let row = 2 * index;
+            let mut gap = Vec2::zeros();
+            for (root, sign) in closing.ends {
+                gap += self.world.roots[root].place * sign;
+            }
+            for stretch in &closing.ways {
+                let vector = self.world.arrows[stretch.arrow] * stretch.sign;
+                gap += vector;
+                if let Some(column) = stretch.spin {
+                    self.jacobian.add(row, column, -vector.y);
+                    self.jacobian.add(row + 1, column, vector.x);
+                }
+                if let Some(node) = stretch.slide {
+                    let axis = nodes[node].slide_axis(motions) * (stretch.sign * self.size);
+                    self.jacobian.add(row, node, axis.x);
+                    self.jacobian.add(row + 1, node, axis.y);
+                }
+            }
+            self.unknown[row] = gap.x;
+            self.unknown[row + 1] = gap.y;
         }
-        let mut turns = self.kept.iter().zip(&self.nodes).map(|(kept, node)| (kept, motions[node.link].direction));
-        turns.all(|(kept, now)| kept.dot(&now) > 0.0 && cross(*kept, now).abs() <= MAX_TURN)
     }
 
     /// Newton's method to rounding. Leaves the factored Jacobian of the pose in which it ends.
     fn follow(&mut self, allowed: f64, motions: &mut [Motion]) -> bool {
         for _ in 0..MAX_ITERATIONS {
             self.assemble(motions);
+            self.tally.one(Count::Iterations);
+            self.tally.one(Count::Factorisations);
             if !self.jacobian.factor() {
                 return false;
             }
@@ -358,16 +333,27 @@ impl Chain {
             if !(change <= allowed) {
                 return false;
             }
-            for (index, change) in self.unknown.iter().enumerate() {
-                advance(&self.nodes[index], &mut self.slides[index], -change, self.size, motions);
-            }
+            self.memory.correct(&self.unknown);
             // Quadratic convergence: the remaining error is of the order of the square.
-            if change < LAST_CHANGE {
+            let is_last = change < LAST_CHANGE;
+            for (index, (node, &change)) in self.contours.nodes.iter().zip(&self.unknown).enumerate() {
+                if is_last && !node.is_guided() {
+                    // The square of this turn is less than rounding.
+                    let direction = &mut motions[node.link].direction;
+                    *direction -= turned(*direction) * change;
+                } else {
+                    advance(node, &mut self.slides[index], -change, self.size, motions);
+                }
+            }
+            if is_last {
                 if change > SAME_POSE {
                     self.assemble(motions);
+                    self.tally.one(Count::Factorisations);
                     if !self.jacobian.factor() {
                         return false;
                     }
+                } else {
+                    self.draw(motions);
                 }
                 return self.hang(motions);
             }
@@ -377,20 +363,44 @@ impl Chain {
 
     /// Origins of all links from their directions. Returns `false` if the pose lies beyond a singular one.
     fn hang(&mut self, motions: &mut [Motion]) -> bool {
-        self.aim(motions);
-        for (node, slide) in self.nodes.iter().zip(&self.slides) {
-            let mut at = motions[node.parent.link].point(node.parent.local);
+        let World { arrows, roots, joints } = &mut self.world;
+        for (index, node) in self.contours.nodes.iter().enumerate() {
+            let mut place = match node.hangs {
+                Hangs::Root(root) => roots[root].place,
+                Hangs::Arrow(arrow) => joints[self.contours.arrows[arrow].node].place + arrows[arrow],
+            };
             if let Some(axis) = node.axis(motions) {
-                at += axis * *slide;
+                place += axis * self.slides[index];
             }
             let motion = &mut motions[node.link];
-            motion.origin = at - motion.arm(node.own);
+            let arm = motion.arm(node.own);
+            motion.origin = place - arm;
+            (joints[index].arm, joints[index].place) = (arm, place);
         }
-        let sign = self.jacobian.determinant_sign();
+        self.determinant = self.jacobian.determinant();
+        // The product of many small pivots may vanish. Its sign does not.
+        let vanishes = self.determinant == 0.0;
+        let sign = if vanishes { self.jacobian.determinant_sign() } else { self.determinant.signum() };
         if self.branch == 0.0 {
             self.branch = sign;
         }
         sign == self.branch
+    }
+
+    /// Stores the squared determinant of this pose, and how it has changed in this step.
+    fn learn(&mut self) {
+        let square = self.determinant.powi(2);
+        let length = self.step.iter().map(|step| step * step).sum::<f64>();
+        if length > 0.0 && self.square.is_finite() {
+            let rest = (square - self.square - self.foreseen()) / length;
+            self.slopes.iter_mut().zip(&self.step).for_each(|(slope, step)| *slope += rest * step);
+        }
+        self.square = square;
+    }
+
+    /// Change of the squared determinant over this step, as extrapolated from the last ones.
+    fn foreseen(&self) -> f64 {
+        self.slopes.iter().zip(&self.step).map(|(slope, step)| slope * step).sum()
     }
 
     /// Whether this step might lead over a dead point. Near one, the square of the determinant is linear in the
@@ -400,93 +410,6 @@ impl Chain {
     fn is_bold(&self) -> bool {
         let goes = self.step.iter().any(|step| step.abs() > SMALLEST_STEP);
         goes && self.square + self.foreseen() < LEAST_LEFT * self.square
-    }
-
-    pub(super) fn velocities(&mut self, motions: &mut [Motion]) {
-        for node in self.led() {
-            motions[node.link].omega = motions[node.parent.link].omega;
-        }
-        for (index, closing) in self.closings.iter().enumerate() {
-            let mut rate = Vec2::zeros();
-            for (side, sign) in closing.ends {
-                rate -= motions[side.link].point_velocity(side.local) * sign;
-            }
-            for segment in closing.segments.iter().filter(|_| self.is_sliding) {
-                if let (carrier, None) = self.carrier(segment) {
-                    rate -= turned(self.vector(segment, motions)) * motions[carrier].omega;
-                }
-            }
-            self.unknown[2 * index] = rate.x;
-            self.unknown[2 * index + 1] = rate.y;
-        }
-        self.jacobian.solve(&mut self.unknown);
-        for (index, node) in self.nodes.iter().enumerate() {
-            let parent = &motions[node.parent.link];
-            let (at, omega) = match node.axis(motions) {
-                None => (parent.point_velocity(node.parent.local), self.unknown[index]),
-                Some(axis) => {
-                    self.speeds[index] = self.unknown[index] * self.size;
-                    let carried = parent.velocity_at(motions[node.link].point(node.own));
-                    (carried + axis * self.speeds[index], parent.omega)
-                }
-            };
-            let motion = &mut motions[node.link];
-            motion.omega = omega;
-            motion.velocity = at - turned(motion.arm(node.own)) * omega;
-        }
-    }
-
-    pub(super) fn accelerations(&mut self, motions: &mut [Motion]) {
-        for node in self.led() {
-            motions[node.link].alpha = motions[node.parent.link].alpha;
-        }
-        for (index, closing) in self.closings.iter().enumerate() {
-            let mut second = Vec2::zeros();
-            for (side, sign) in closing.ends {
-                second -= motions[side.link].point_acceleration(side.local) * sign;
-            }
-            for segment in &closing.segments {
-                let (carrier, spin) = self.carrier(segment);
-                let (motion, vector) = (&motions[carrier], self.vector(segment, motions));
-                second += vector * (motion.omega * motion.omega);
-                if spin.is_none() {
-                    second -= turned(vector) * motion.alpha;
-                }
-                if segment.local.is_none() {
-                    second -= self.coriolis(segment.node, turned(self.axis(segment, motions)), motions);
-                }
-            }
-            self.unknown[2 * index] = second.x;
-            self.unknown[2 * index + 1] = second.y;
-        }
-        self.jacobian.solve(&mut self.unknown);
-        for (index, node) in self.nodes.iter().enumerate() {
-            let parent = &motions[node.parent.link];
-            let (at, alpha) = match node.axis(motions) {
-                None => (parent.point_acceleration(node.parent.local), self.unknown[index]),
-                Some(axis) => {
-                    let carried = parent.acceleration_at(motions[node.link].point(node.own));
-                    let relative = axis * (self.unknown[index] * self.size);
-                    (carried + relative + self.coriolis(index, turned(axis), motions), parent.alpha)
-                }
-            };
-            let motion = &mut motions[node.link];
-            let own = motion.arm(node.own);
-            motion.alpha = alpha;
-            motion.acceleration = at - turned(own) * alpha + own * (motion.omega * motion.omega);
-        }
-    }
-
-    /// The nodes whose rotation is led by links outside the group, parents first.
-    /// Their angle is not an unknown of the group, so their rotation is known before the group is solved.
-    fn led(&self) -> impl Iterator<Item = &Node> {
-        self.nodes.iter().filter(|node| self.is_sliding && node.spin.is_none())
-    }
-
-    /// Coriolis acceleration of a sliding node along the normal of its axis.
-    #[inline]
-    fn coriolis(&self, node: usize, normal: Vec2, motions: &[Motion]) -> Vec2 {
-        normal * (2.0 * self.speeds[node] * motions[self.nodes[node].parent.link].omega)
     }
 
     /// Multipliers of the closing joints (forces on their second links, x and y in turn, N), in place: J^T lambda
@@ -503,7 +426,7 @@ impl Chain {
 /// Changes one unknown: turns the node's link by an angle (rad), or slides it by a share of `size`.
 #[inline]
 fn advance(node: &Node, slide: &mut f64, change: f64, size: f64, motions: &mut [Motion]) {
-    if node.guided.is_some() {
+    if node.is_guided() {
         *slide += change * size;
     } else {
         let direction = &mut motions[node.link].direction;

@@ -1,10 +1,15 @@
-//! The constants of a case of driving links and RRR dyads for [`super::equations`], derived once.
+//! The constants of a case of driving links, RRR dyads and higher groups on pins, derived once.
 
+use super::chains::Chain;
 use super::poses::Layout;
+use crate::assur::groups::{Plan, Step};
 use linkage::case::Case;
 use linkage::drive::Load;
 use linkage::math::Vec2;
 use linkage::mechanism::{AssemblyMode, GROUND, Group, GroupKind, Side};
+
+/// Columns of a dyad in the working memory: two each for its spans r1 and r2, and 1 / (r1 x r2).
+const OF_DYAD: usize = 5;
 
 /// A joint as it acts on one of its links: `sign` times its reaction, at `arm` from the link's pole, in the link's
 /// frame.
@@ -65,44 +70,77 @@ pub(super) struct Dyad {
     pub(super) inner: Action,
 }
 
-/// A case of driving links and RRR dyads.
+/// An Assur group.
 #[derive(Clone, Debug)]
-pub(super) struct Dyads {
+pub(super) enum Part {
+    Dyad(Dyad),
+    Chain(Chain),
+}
+
+/// A case of driving links, RRR dyads and higher groups on pins.
+#[derive(Clone, Debug)]
+pub(super) struct Groups {
     pub(super) layout: Layout,
     pub(super) gravity: Vec2,
     pub(super) drivers: Vec<Driver>,
-    pub(super) dyads: Vec<Dyad>,
+    /// Every group and its first column in the working memory.
+    pub(super) parts: Vec<(Part, usize)>,
+    /// Columns of the working memory.
+    pub(super) columns: usize,
 }
 
-impl Dyads {
-    /// The constants of a case. `None` if a group is of another kind, a driving link is attached to another
-    /// driving link, or a load is not a moment of resistance.
+impl Groups {
+    /// The constants of a case, whose start pose the plan has placed. `None` if a group is of another kind, a driving
+    /// link is attached to another driving link, or a load is not a moment of resistance.
     /// Such cases need places and other links, and are solved pose by pose.
-    pub(super) fn of(case: &Case, layout: Layout) -> Option<Self> {
+    pub(super) fn of(case: &Case, plan: &Plan, layout: Layout) -> Option<Self> {
         let groups = &case.structure.groups;
         let simple = |load: &Load| load.resistance().is_some();
         let hinged = |&(link, joint): &(usize, usize)| case.mechanism.joints()[joint].other(link).link == GROUND;
-        let known = groups.iter().all(|group| group.kind == GroupKind::Rrr) && case.loads.iter().all(simple);
-        if !(known && case.structure.drivers.iter().all(hinged)) {
+        if !(case.loads.iter().all(simple) && case.structure.drivers.iter().all(hinged)) {
             return None;
         }
         let mut settled = vec![false; case.mechanism.joints().len()];
-        let mut dyads = Vec::with_capacity(groups.len());
-        for (group, &mode) in groups.iter().zip(&case.modes).rev() {
-            dyads.push(Reader { case, layout, settled: &settled }.dyad(group, mode));
+        let mut parts = Vec::with_capacity(groups.len());
+        for (index, (group, &mode)) in groups.iter().zip(&case.modes).enumerate().rev() {
+            let reader = Reader { case, layout, settled: &settled };
+            parts.push(match (&plan.steps()[index], group.kind) {
+                (Step::Chain(chain), _) => Part::Chain(Chain::of(&reader, chain)?),
+                (_, GroupKind::Rrr) => Part::Dyad(reader.dyad(group, mode)),
+                (_, GroupKind::Rrp | GroupKind::Rpr | GroupKind::Rpp | GroupKind::Prp | GroupKind::Higher) => {
+                    return None;
+                }
+            });
             group.inner.iter().chain(&group.outer).for_each(|&joint| settled[joint] = true);
         }
-        dyads.reverse();
+        let mut columns = 0;
+        let place = |part: Part| {
+            let first = columns;
+            columns += match &part {
+                Part::Dyad(_) => OF_DYAD,
+                Part::Chain(chain) => chain.columns(),
+            };
+            (part, first)
+        };
+        let parts = parts.into_iter().rev().map(place).collect();
         let reader = Reader { case, layout, settled: &settled };
         let drivers = case.structure.drivers.iter().map(|&(link, joint)| reader.driver(link, joint)).collect();
-        Some(Dyads { layout, gravity: case.gravity, drivers, dyads })
+        Some(Groups { layout, gravity: case.gravity, drivers, parts, columns })
+    }
+
+    /// The higher groups and their first columns in the working memory.
+    pub(super) fn chains(&self) -> impl Iterator<Item = (&Chain, usize)> {
+        self.parts.iter().filter_map(|(part, first)| match part {
+            Part::Chain(chain) => Some((chain, *first)),
+            Part::Dyad(_) => None,
+        })
     }
 }
 
 /// Reads the constants from a case.
-struct Reader<'a> {
-    case: &'a Case,
-    layout: Layout,
+pub(super) struct Reader<'a> {
+    pub(super) case: &'a Case,
+    pub(super) layout: Layout,
     /// Joints whose reactions are known when the group is solved.
     settled: &'a [bool],
 }
@@ -117,7 +155,7 @@ impl Reader<'_> {
         (self.layout.link(link), local)
     }
 
-    fn action(&self, joint: usize, link: usize, pole: Vec2) -> Action {
+    pub(super) fn action(&self, joint: usize, link: usize, pole: Vec2) -> Action {
         let is_second = self.case.mechanism.joints()[joint].second.link == link;
         Action {
             force: self.layout.force(joint),
@@ -126,7 +164,7 @@ impl Reader<'_> {
         }
     }
 
-    fn body(&self, link: usize, pole: Vec2) -> Body {
+    pub(super) fn body(&self, link: usize, pole: Vec2) -> Body {
         let joints = self.case.mechanism.joints();
         let hanging = (0..joints.len()).filter(|&joint| self.settled[joint] && joints[joint].on(link).is_some());
         let body = &self.case.mechanism.links()[link];

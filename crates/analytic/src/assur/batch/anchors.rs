@@ -1,0 +1,139 @@
+//! Poses along the turn from which those of a batch start.
+//!
+//! Newton's method needs a start near the pose, on the branch of the start pose. Anchors stand every two degrees of the
+//! crank from the start pose on, in both directions. They are found one after the other, away from the start pose, so
+//! that they do not depend on what a batch is asked for.
+//! Between two of them, every link's angle is the polynomial of degree five with their angles and their first and
+//! second transfer functions. It is off by the sixth power of the distance.
+
+use super::groups::Groups;
+use super::lanes::{Eight, TILE};
+use crate::PoseSolver;
+use crate::assur::turns::FOLLOWED_STEP;
+use linkage::case::Case;
+use linkage::error::Result;
+use linkage::math::{Vec2, cross};
+use linkage::trajectory::Stage;
+
+/// Numbers of a start: direction of the link at the anchor, share of the way to the next one, and five coefficients of
+/// the turn from there (rad).
+pub(super) const OF_START: usize = 8;
+/// Numbers that an interval keeps of a link: those of a start, but for the share of the way.
+const KEPT: usize = OF_START - 1;
+/// Distance of two anchors (rad): a step of [`PoseSolver`], less what rounding may add.
+const STEP: f64 = FOLLOWED_STEP * (1.0 - 1e-9);
+/// Most intervals in one direction, about three hundred turns. Poses beyond are solved one by one.
+const MOST: usize = 50_000;
+
+/// The anchors of a case in both directions of its crank.
+#[derive(Debug)]
+pub(super) struct Anchors<'a> {
+    start: f64,
+    ways: [Way<'a>; 2],
+}
+
+/// The anchors in one direction.
+#[derive(Debug)]
+struct Way<'a> {
+    poses: PoseSolver<'a>,
+    /// Distance of two anchors (rad), with its sign.
+    step: f64,
+    links: Vec<usize>,
+    /// Direction of every link at the outermost anchor, its transfer functions, and those of the one before.
+    last: Vec<(Vec2, [f64; 2])>,
+    intervals: Vec<f64>,
+    count: usize,
+    is_open: bool,
+}
+
+impl<'a> Anchors<'a> {
+    /// The anchors for the higher groups of a case; `None` if it has none.
+    ///
+    /// # Errors
+    /// Those of [`PoseSolver::new`].
+    pub(super) fn of(case: &'a Case, groups: &Groups) -> Result<Option<Self>> {
+        let links: Vec<usize> = groups.chains().flat_map(|(chain, _)| chain.links().to_vec()).collect();
+        if links.is_empty() {
+            return Ok(None);
+        }
+        let way = |step: f64| -> Result<Way<'a>> {
+            let (poses, links, last) = (PoseSolver::new(case)?, links.clone(), Vec::with_capacity(links.len()));
+            let mut way = Way { poses, step, links, last, intervals: Vec::new(), count: 0, is_open: true };
+            way.poses.solve(case.crank().start, 1.0, 0.0, Stage::Accelerations)?;
+            way.last = way.read();
+            Ok(way)
+        };
+        Ok(Some(Anchors { start: case.crank().start, ways: [way(STEP)?, way(-STEP)?] }))
+    }
+
+    /// Writes the starts for the rows of a tile to the working memory; NaN where there is none.
+    pub(super) fn fill(&mut self, cranks: &[f64; TILE], groups: &Groups, work: &mut [Eight]) {
+        for (row, crank) in cranks.iter().enumerate() {
+            let way = &mut self.ways[usize::from(*crank < self.start)];
+            let place = (crank - self.start) / way.step;
+            // Beyond every interval where it is infinite, in the first one where it is NaN; then the share is NaN too.
+            let interval = place as usize;
+            let is_known = way.reach(self.start, interval);
+            let kept = way.intervals.chunks_exact(KEPT * way.links.len()).nth(interval).filter(|_| is_known);
+            let mut of_links = kept.map(|kept| kept.chunks_exact(KEPT));
+            for (chain, first) in groups.chains() {
+                for index in 0..chain.links().len() {
+                    let column = &mut work[first + OF_START * index..][..OF_START];
+                    let Some(kept) = of_links.as_mut().and_then(Iterator::next) else {
+                        column.iter_mut().for_each(|column| column.0[row] = f64::NAN);
+                        continue;
+                    };
+                    (column[0].0[row], column[1].0[row]) = (kept[0], kept[1]);
+                    column[2].0[row] = place - interval as f64;
+                    for (column, coefficient) in column[3..].iter_mut().zip(&kept[2..]) {
+                        column.0[row] = *coefficient;
+                    }
+                }
+            }
+        }
+    }
+}
+
+impl Way<'_> {
+    /// Goes on until an interval is known. Returns whether it is.
+    fn reach(&mut self, start: f64, interval: usize) -> bool {
+        if interval >= MOST {
+            return false;
+        }
+        while self.is_open && self.count <= interval {
+            let next = start + self.step * (self.count + 1) as f64;
+            // An error is told by the pose that meets it.
+            self.is_open = self.poses.solve(next, 1.0, 0.0, Stage::Accelerations).is_ok();
+            if self.is_open {
+                self.add();
+            }
+        }
+        interval < self.count
+    }
+
+    /// Direction and transfer functions of every link.
+    fn read(&self) -> Vec<(Vec2, [f64; 2])> {
+        let motions = &self.poses.state.motions;
+        self.links.iter().map(|&link| (motions[link].direction, [motions[link].omega, motions[link].alpha])).collect()
+    }
+
+    /// Keeps the interval from the last anchor to this one.
+    fn add(&mut self) {
+        let next = self.read();
+        for ((from, [omega, alpha]), (to, [omega_to, alpha_to])) in self.last.iter().zip(&next) {
+            let turn = cross(*from, *to).atan2(from.dot(to));
+            let (h, h2) = (self.step, self.step * self.step);
+            let (first, second) = (h * omega, 0.5 * h2 * alpha);
+            // What the first two terms leave of angle, rate and its rate at the end.
+            let angle = turn - first - second;
+            let rate = h * omega_to - first - 2.0 * second;
+            let bend = h2 * alpha_to - 2.0 * second;
+            let third = 10.0 * angle - 4.0 * rate + 0.5 * bend;
+            let fourth = -15.0 * angle + 7.0 * rate - bend;
+            let fifth = 6.0 * angle - 3.0 * rate + 0.5 * bend;
+            self.intervals.extend([from.x, from.y, first, second, third, fourth, fifth]);
+        }
+        self.last = next;
+        self.count += 1;
+    }
+}

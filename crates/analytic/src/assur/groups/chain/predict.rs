@@ -1,0 +1,96 @@
+//! What a group remembers of its last steps, and where it expects its unknowns after the next one.
+
+use linkage::math::KeepNan;
+
+/// Number of steps that a prediction uses.
+const MEMORY: usize = 5;
+/// Weights of the last steps, the newest first, for one to five known steps: binomial coefficients with
+/// alternating signs.
+const EXTRAPOLATION: [[f64; MEMORY]; MEMORY] = [
+    [1.0, 0.0, 0.0, 0.0, 0.0],
+    [2.0, -1.0, 0.0, 0.0, 0.0],
+    [3.0, -3.0, 1.0, 0.0, 0.0],
+    [4.0, -6.0, 4.0, -1.0, 0.0],
+    [5.0, -10.0, 10.0, -5.0, 1.0],
+];
+
+/// Changes of the unknowns from pose to pose.
+#[derive(Clone, Debug)]
+pub(super) struct Memory {
+    /// Changes of the unknowns in the last steps, the newest first; how many of these steps were the same; and that
+    /// step (rad of the driving angles).
+    changes: Vec<[f64; MEMORY]>,
+    equal_steps: usize,
+    last_step: Vec<f64>,
+    /// Changes of the unknowns in the present step, so far, and whether it is the same as the last one.
+    present: Vec<f64>,
+    is_repeated: bool,
+}
+
+impl Memory {
+    pub(super) fn of(unknowns: usize, drives: usize) -> Self {
+        Memory {
+            changes: vec![[0.0; MEMORY]; unknowns],
+            equal_steps: 0,
+            last_step: vec![f64::NAN; drives],
+            present: vec![0.0; unknowns],
+            is_repeated: false,
+        }
+    }
+
+    /// No step is known any more.
+    pub(super) fn forget(&mut self) {
+        self.last_step.fill(f64::NAN);
+    }
+
+    /// The same, and none was ever made.
+    pub(super) fn start_anew(&mut self) {
+        self.forget();
+        self.equal_steps = 0;
+    }
+
+    /// Begins a step of the driving angles. If it is the same as the last one, the changes of the unknowns are those
+    /// extrapolated from the last steps, otherwise none. Returns whether it is.
+    /// The polynomial through the last steps is continued, so that its next difference is zero.
+    pub(super) fn predict(&mut self, step: &[f64]) -> bool {
+        let same = |(step, last): (&f64, &f64)| (step - last).abs() <= 1e-6 * step.abs();
+        self.is_repeated = step.iter().zip(&self.last_step).all(same);
+        if self.is_repeated {
+            let weights = &EXTRAPOLATION[self.equal_steps.min(MEMORY) - 1];
+            for (present, changes) in self.present.iter_mut().zip(&self.changes) {
+                *present = changes.iter().zip(weights).map(|(change, weight)| change * weight).sum();
+            }
+        } else {
+            self.present.fill(0.0);
+        }
+        self.is_repeated
+    }
+
+    /// Change of an unknown in the present step, so far.
+    #[inline]
+    pub(super) fn change(&self, unknown: usize) -> f64 {
+        self.present[unknown]
+    }
+
+    /// Subtracts a correction of the unknowns.
+    #[inline]
+    pub(super) fn correct(&mut self, corrections: &[f64]) {
+        self.present.iter_mut().zip(corrections).for_each(|(present, correction)| *present -= correction);
+    }
+
+    /// The largest change of an unknown in the present step, so far.
+    #[inline]
+    pub(super) fn largest_change(&self) -> f64 {
+        self.present.iter().fold(0.0f64, |most, change| most.larger(change.abs()))
+    }
+
+    /// Stores the present step for the next prediction.
+    pub(super) fn remember(&mut self, step: &[f64]) {
+        self.equal_steps = if self.is_repeated { self.equal_steps + 1 } else { 1 };
+        for (changes, present) in self.changes.iter_mut().zip(&self.present) {
+            let [a, b, c, d, _] = *changes;
+            *changes = [*present, a, b, c, d];
+        }
+        self.last_step.iter_mut().zip(step).for_each(|(last, step)| *last = *step);
+    }
+}

@@ -1,0 +1,118 @@
+//! Velocities and accelerations of a higher group, with the factored Jacobian of its last pose.
+
+use super::{Chain, Contours, Hangs, Node, World};
+use linkage::math::{Motion, Vec2, turned};
+
+impl Chain {
+    /// Velocities of the group's links. Those of the links before it must be known.
+    pub(in crate::assur::groups) fn velocities(&mut self, motions: &mut [Motion]) {
+        for node in self.led() {
+            motions[node.link].omega = motions[node.parent.link].omega;
+        }
+        let Contours { nodes, closings, arrows, roots } = &self.contours;
+        let World { arrows: vectors, roots: ends, joints } = &mut self.world;
+        for (end, side) in ends.iter_mut().zip(roots) {
+            end.velocity = motions[side.link].velocity_beyond(end.arm);
+        }
+        for (closing, rates) in closings.iter().zip(self.unknown.chunks_exact_mut(2)) {
+            let mut rate = Vec2::zeros();
+            for (end, sign) in closing.ends {
+                rate -= ends[end].velocity * sign;
+            }
+            for led in closing.ways.iter().filter(|stretch| self.is_sliding && stretch.spin.is_none()) {
+                rate -= turned(vectors[led.arrow] * led.sign) * motions[led.carrier].omega;
+            }
+            (rates[0], rates[1]) = (rate.x, rate.y);
+        }
+        self.jacobian.solve(&mut self.unknown);
+        for (index, node) in nodes.iter().enumerate() {
+            let mut velocity = match node.hangs {
+                Hangs::Root(root) => ends[root].velocity,
+                Hangs::Arrow(arrow) => {
+                    let from = &arrows[arrow];
+                    joints[from.node].velocity + turned(vectors[arrow]) * motions[from.carrier].omega
+                }
+            };
+            let omega = match node.axis(motions) {
+                None => self.unknown[index],
+                Some(axis) => {
+                    let led = motions[node.parent.link].omega;
+                    self.speeds[index] = self.unknown[index] * self.size;
+                    velocity += turned(axis * self.slides[index]) * led + axis * self.speeds[index];
+                    led
+                }
+            };
+            joints[index].velocity = velocity;
+            let motion = &mut motions[node.link];
+            motion.omega = omega;
+            motion.velocity = velocity - turned(joints[index].arm) * omega;
+        }
+    }
+
+    /// Accelerations of the group's links, after their velocities. Those of the links before it must be known.
+    pub(in crate::assur::groups) fn accelerations(&mut self, motions: &mut [Motion]) {
+        for node in self.led() {
+            motions[node.link].alpha = motions[node.parent.link].alpha;
+        }
+        let Contours { nodes, closings, arrows, roots } = &self.contours;
+        let World { arrows: vectors, roots: ends, joints } = &mut self.world;
+        let speeds = &self.speeds;
+        // Coriolis acceleration of a sliding node along the normal of its axis.
+        let coriolis = |node: usize, motions: &[Motion]| {
+            let own: &Node = &nodes[node];
+            turned(own.slide_axis(motions)) * (2.0 * speeds[node] * motions[own.parent.link].omega)
+        };
+        for (end, side) in ends.iter_mut().zip(roots) {
+            end.acceleration = motions[side.link].acceleration_beyond(end.arm);
+        }
+        for (closing, rates) in closings.iter().zip(self.unknown.chunks_exact_mut(2)) {
+            let mut second = Vec2::zeros();
+            for (end, sign) in closing.ends {
+                second -= ends[end].acceleration * sign;
+            }
+            for stretch in &closing.ways {
+                let (vector, carrier) = (vectors[stretch.arrow] * stretch.sign, &motions[stretch.carrier]);
+                second += vector * (carrier.omega * carrier.omega);
+                if stretch.spin.is_none() {
+                    second -= turned(vector) * carrier.alpha;
+                }
+                if let Some(node) = stretch.slide {
+                    second -= coriolis(node, motions) * stretch.sign;
+                }
+            }
+            (rates[0], rates[1]) = (second.x, second.y);
+        }
+        self.jacobian.solve(&mut self.unknown);
+        for (index, node) in nodes.iter().enumerate() {
+            let mut acceleration = match node.hangs {
+                Hangs::Root(root) => ends[root].acceleration,
+                Hangs::Arrow(arrow) => {
+                    let (from, vector) = (&arrows[arrow], vectors[arrow]);
+                    let carrier = &motions[from.carrier];
+                    joints[from.node].acceleration + turned(vector) * carrier.alpha
+                        - vector * (carrier.omega * carrier.omega)
+                }
+            };
+            let alpha = match node.axis(motions) {
+                None => self.unknown[index],
+                Some(axis) => {
+                    let (parent, slide) = (&motions[node.parent.link], axis * self.slides[index]);
+                    acceleration += turned(slide) * parent.alpha - slide * (parent.omega * parent.omega);
+                    acceleration += axis * (self.unknown[index] * self.size) + coriolis(index, motions);
+                    parent.alpha
+                }
+            };
+            joints[index].acceleration = acceleration;
+            let arm = joints[index].arm;
+            let motion = &mut motions[node.link];
+            motion.alpha = alpha;
+            motion.acceleration = acceleration - turned(arm) * alpha + arm * (motion.omega * motion.omega);
+        }
+    }
+
+    /// The nodes whose rotation is led by links outside the group, parents first.
+    /// Their angle is not an unknown of the group, so their rotation is known before the group is solved.
+    fn led(&self) -> impl Iterator<Item = &Node> {
+        self.contours.nodes.iter().filter(|node| self.is_sliding && node.spin.is_none())
+    }
+}

@@ -1,0 +1,297 @@
+//! The smallest case that has the same values in the wanted channels.
+//!
+//! A mechanism stays one when Assur groups are taken off that no other group hangs on.
+//! Motion is handed on from the drives outwards: a link depends on its own group and those before it.
+//! Forces are handed on inwards: a reaction depends on the motion and the loads of its own group and of those that hang
+//! on it. What is left over is neither placed, nor a body of an engine, nor recorded.
+//! Where forces decide the motion, everything that has a mass counts, and nothing is left out.
+
+use super::{Case, CaseParts};
+use crate::drive::{Drive, Drives, Load};
+use crate::error::Result;
+use crate::mechanism::{AssemblyMode, GROUND, Group, Joint, Link, Mechanism, Pose, Side, Structure};
+use crate::trajectory::{Channel, Stage, Subject};
+
+/// The part of a case that its wanted channels depend on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scene {
+    /// That part, as a case of its own. The whole case, if everything is needed.
+    pub case: Case,
+    /// What nothing wanted depends on.
+    pub left_out: LeftOut,
+}
+
+/// What a scene does without, by name.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct LeftOut {
+    /// Links.
+    pub links: Vec<String>,
+    /// Joints.
+    pub joints: Vec<String>,
+    /// Assur groups, each by its links.
+    pub groups: Vec<String>,
+    /// Driven joints.
+    pub drives: Vec<String>,
+    /// Number of loads.
+    pub loads: usize,
+}
+
+impl LeftOut {
+    /// Whether it is nothing at all.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        *self == LeftOut::default()
+    }
+}
+
+impl Case {
+    /// The part of the case that the wanted channels depend on. Their values are the same but for rounding.
+    ///
+    /// # Errors
+    /// Those of [`Case::new`], should the part not be a mechanism by itself.
+    pub fn scene(&self) -> Result<Scene> {
+        let whole = || Scene { case: self.clone(), left_out: LeftOut::default() };
+        let channels = match &self.only {
+            Some(channels) if !self.is_free() => channels,
+            Some(_) | None => return Ok(whole()),
+        };
+        let mut needs = Needs::none(self);
+        for channel in channels {
+            needs.add(channel);
+        }
+        needs.close();
+        let left_out = needs.left_out();
+        if left_out.is_empty() { Ok(whole()) } else { Ok(Scene { case: needs.case()?, left_out }) }
+    }
+}
+
+/// What of a case is needed.
+struct Needs<'a> {
+    case: &'a Case,
+    /// For every link, the groups that its motion depends on, its own the last.
+    upstream: Vec<Vec<usize>>,
+    /// For every link: whether its motion is needed.
+    moves: Vec<bool>,
+    /// The same for the forces on it.
+    carries: Vec<bool>,
+}
+
+impl<'a> Needs<'a> {
+    fn none(case: &'a Case) -> Self {
+        let links = case.mechanism.links().len();
+        let upstream = case.structure.upstream(&case.mechanism);
+        let mut needs = Needs { case, upstream, moves: vec![false; links], carries: vec![false; links] };
+        // The crank's angle identifies the instant.
+        (needs.moves[GROUND], needs.moves[case.crank().link]) = (true, true);
+        needs
+    }
+
+    /// Adds what the channel itself reads.
+    fn add(&mut self, channel: &Channel) {
+        let mechanism = &self.case.mechanism;
+        match channel.kind.subject {
+            Subject::Link => self.moves[mechanism.link_named(&channel.of).expect("a channel of the case")] = true,
+            Subject::Point => {
+                let carrier = self.carrier(&channel.of);
+                self.moves[carrier] = true;
+            }
+            Subject::Joint | Subject::Slider => {
+                let joint = mechanism.joint_named(&channel.of).expect("a channel of the case");
+                let link = self.owner(joint);
+                self.moves[link] = true;
+                self.carries[link] |= channel.kind.stage >= Stage::Reactions;
+            }
+            Subject::Frame => self.carries.fill(true),
+            Subject::Drive => self.carries[self.case.crank().link] = true,
+            Subject::Motor => {
+                let joint = mechanism.joint_named(&channel.of).expect("a channel of the case");
+                let drive = self.case.drives.iter().find(|drive| drive.joint == joint).expect("a channel of the case");
+                self.carries[drive.link] = true;
+            }
+        }
+    }
+
+    /// The link with a point that depends on the fewest groups.
+    fn carrier(&self, point: &str) -> usize {
+        let links = self.case.mechanism.links().iter().enumerate().skip(1);
+        let own = links.filter(|(_, link)| link.points.iter().any(|own| own.name == point)).map(|(index, _)| index);
+        own.min_by_key(|&link| self.upstream[link].len()).expect("a channel of the case")
+    }
+
+    /// A link of the group, or the driving link, that a joint belongs to: of its two links the one solved later.
+    fn owner(&self, joint: usize) -> usize {
+        let joint = &self.case.mechanism.joints()[joint];
+        let place = |link: usize| match self.case.structure.drivers.iter().position(|&(own, _)| own == link) {
+            Some(driver) => (1, driver),
+            None => self.upstream[link].last().map_or((0, 0), |&group| (2, group)),
+        };
+        let (first, second) = (joint.first.link, joint.second.link);
+        if place(first) > place(second) { first } else { second }
+    }
+
+    /// Adds everything that the needed parts depend on.
+    fn close(&mut self) {
+        let (case, structure) = (self.case, &self.case.structure);
+        let ends = |joint: usize| {
+            let joint = &case.mechanism.joints()[joint];
+            [joint.first.link, joint.second.link]
+        };
+        // Forces go to everything that hangs on a link, directly or through others.
+        let carries = &mut self.carries;
+        for &(link, joint) in &structure.drivers {
+            carries[link] |= ends(joint).into_iter().any(|base| base != GROUND && carries[base]);
+        }
+        for group in &structure.groups {
+            let own = |link: &usize| group.links.contains(link);
+            let outer = group.outer.iter().flat_map(|&joint| ends(joint));
+            let hangs = outer.filter(|link| *link != GROUND && !own(link)).any(|link| carries[link]);
+            if hangs || group.links.iter().any(|&link| carries[link]) {
+                group.links.iter().for_each(|&link| carries[link] = true);
+            }
+        }
+        for link in 1..self.moves.len() {
+            self.moves[link] |= self.carries[link];
+        }
+        // Their loads depend on the motion of further links.
+        for load in &case.loads {
+            let links = load.links();
+            if links.iter().any(|&link| link != GROUND && self.carries[link]) {
+                links.iter().for_each(|&link| self.moves[link] = true);
+            }
+        }
+        // Motion comes from all groups and drives before.
+        for group in structure.groups.iter().rev() {
+            if group.links.iter().any(|&link| self.moves[link]) {
+                group.links.iter().for_each(|&link| self.moves[link] = true);
+                group.outer.iter().flat_map(|&joint| ends(joint)).for_each(|link| self.moves[link] = true);
+            }
+        }
+        for &(link, joint) in structure.drivers.iter().rev() {
+            if self.moves[link] {
+                ends(joint).into_iter().for_each(|base| self.moves[base] = true);
+            }
+        }
+    }
+
+    fn has_joint(&self, joint: &Joint) -> bool {
+        self.moves[joint.first.link] && self.moves[joint.second.link]
+    }
+
+    /// Loads count where forces are asked for.
+    fn has_load(&self, load: &Load) -> bool {
+        self.carries.contains(&true) && load.links().iter().all(|&link| self.moves[link])
+    }
+
+    fn left_out(&self) -> LeftOut {
+        let (case, mechanism) = (self.case, &self.case.mechanism);
+        let links = mechanism.links().iter().zip(&self.moves).filter(|(_, moves)| !**moves);
+        let joints = mechanism.joints().iter().filter(|joint| !self.has_joint(joint));
+        let groups = case.structure.groups.iter().filter(|group| !self.moves[group.links[0]]);
+        let drives = case.drives.iter().filter(|drive| !self.moves[drive.link]);
+        LeftOut {
+            links: links.map(|(link, _)| link.name.clone()).collect(),
+            joints: joints.map(|joint| joint.name.clone()).collect(),
+            groups: groups.map(|group| group.names(mechanism)).collect(),
+            drives: drives.map(|drive| mechanism.joints()[drive.joint].name.clone()).collect(),
+            loads: case.loads.iter().filter(|load| !self.has_load(load)).count(),
+        }
+    }
+
+    /// The needed part as a case.
+    fn case(&self) -> Result<Case> {
+        let (case, whole) = (self.case, &self.case.mechanism);
+        let link_number = numbers(self.moves.iter().copied());
+        let joint_number = numbers(whole.joints().iter().map(|joint| self.has_joint(joint)));
+        let own_joint = |joint: &Joint| {
+            let on = |side: Side| Side { link: link_number[side.link], ..side };
+            Joint { first: on(joint.first), second: on(joint.second), ..joint.clone() }
+        };
+        let joints = whole.joints().iter().filter(|joint| self.has_joint(joint)).map(own_joint).collect();
+        let mechanism = Mechanism::new(self.links(), joints)?;
+        let own_drive =
+            |drive: &Drive| Drive { link: link_number[drive.link], joint: joint_number[drive.joint], ..drive.clone() };
+        let further = case.drives.further().iter().filter(|drive| self.moves[drive.link]).map(own_drive).collect();
+        let drives = Drives::new(own_drive(case.crank()), further);
+        let structure = Structure::of(&mechanism, &drives.joints())?;
+        let modes = structure.groups.iter().map(|group| self.mode(group, &link_number)).collect();
+        let poses = case.start.0.iter().zip(&self.moves).filter(|(_, moves)| **moves).map(|(pose, _)| *pose);
+        let loads = case.loads.iter().filter(|load| self.has_load(load));
+        let scene = Case::new(CaseParts {
+            mechanism,
+            structure,
+            drives,
+            loads: loads.map(|load| load.on_links(|link| link_number[link])).collect(),
+            start: Pose(poses.collect()),
+            modes,
+            gravity: case.gravity,
+            grid: case.grid.clone(),
+            wanted: case.wanted,
+            only: None,
+        })?;
+        Ok(scene.wanting_only(case.only.as_deref().unwrap_or_default()))
+    }
+
+    /// The links that stay. A point that only a link left out has held together with its like on another link keeps its
+    /// name on the one that depends on fewer groups.
+    fn links(&self) -> Vec<Link> {
+        let whole = &self.case.mechanism;
+        let stays = |index: &usize| self.moves[*index];
+        let mut links: Vec<(usize, Link)> =
+            (0..whole.links().len()).filter(stays).map(|index| (index, whole.links()[index].clone())).collect();
+        let carriers = |name: &str| -> Vec<usize> {
+            let all = (0..whole.links().len()).filter(stays);
+            all.filter(|&link| whole.links()[link].points.iter().any(|point| point.name == name)).collect()
+        };
+        let pinned = |name: &str, [a, b]: [usize; 2]| {
+            whole.joints().iter().any(|joint| {
+                let at = |side: Side| {
+                    whole.links()[side.link].points.iter().any(|own| own.name == name && own.local == side.local)
+                };
+                joint.is_pin() && joint.on(a).is_some() && joint.on(b).is_some() && at(joint.first) && at(joint.second)
+            })
+        };
+        for (index, link) in &mut links {
+            for point in &mut link.points {
+                let all = carriers(&point.name);
+                if all.len() < 2 {
+                    continue;
+                }
+                let first = *all.iter().min_by_key(|&&own| (self.upstream[own].len(), own)).expect("there are two");
+                // Everything that pins of this name connect with the first link.
+                let mut reached = vec![first];
+                let mut next = 0;
+                while let Some(&own) = reached.get(next) {
+                    next += 1;
+                    let new =
+                        all.iter().filter(|&&other| !reached.contains(&other) && pinned(&point.name, [own, other]));
+                    let new: Vec<usize> = new.copied().collect();
+                    reached.extend(new);
+                }
+                if !reached.contains(index) {
+                    point.name = format!("{} of {}", point.name, link.name);
+                }
+            }
+        }
+        links.into_iter().map(|(_, link)| link).collect()
+    }
+
+    /// The assembly mode of a group of the part, whose links have the numbers `link_number` gives them.
+    fn mode(&self, group: &Group, link_number: &[usize]) -> AssemblyMode {
+        let links = |of: &Group| -> Vec<usize> { of.links.iter().map(|&link| link_number[link]).collect() };
+        let is_same = |own: &Group| self.moves[own.links[0]] && links(own) == group.links;
+        let place = self.case.structure.groups.iter().position(is_same);
+        self.case.modes[place.expect("groups that stay are groups of the part")]
+    }
+}
+
+/// New numbers of what stays, in order. Those of what does not stay are never asked for.
+fn numbers(stays: impl Iterator<Item = bool>) -> Vec<usize> {
+    let mut next = 0;
+    stays
+        .map(|stays| {
+            let own = next;
+            next += usize::from(stays);
+            own
+        })
+        .collect()
+}

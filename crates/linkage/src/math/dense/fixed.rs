@@ -1,0 +1,110 @@
+//! The same elimination for orders that the compiler knows: its loops are then straight lines of arithmetic.
+//!
+//! Operations and their order are those of any order, and so are the bits.
+//! A group of four links costs a third of what the general loops take.
+
+/// The first numbers of a slice. It has at least that many.
+#[inline(always)]
+fn first<T, const N: usize>(of: &[T]) -> &[T; N] {
+    of.first_chunk().expect("as many numbers as the order says")
+}
+
+/// The same, to be changed.
+#[inline(always)]
+fn first_mut<T, const N: usize>(of: &mut [T]) -> &mut [T; N] {
+    of.first_chunk_mut().expect("as many numbers as the order says")
+}
+
+/// One step of the elimination, with column and row `K`. Returns whether the matrix can be regular.
+#[inline(always)]
+fn eliminate<const N: usize, const K: usize>(
+    rows: &mut [[f64; N]; N],
+    pivots: &mut [usize; N],
+    inverse: &mut [f64; N],
+    sign: &mut f64,
+) -> bool {
+    let (mut best, mut size) = (K, rows[K][K].abs());
+    for row in K + 1..N {
+        let candidate = rows[row][K].abs();
+        if candidate > size {
+            (best, size) = (row, candidate);
+        }
+    }
+    pivots[K] = best;
+    if !(size > f64::MIN_POSITIVE && size.is_finite()) {
+        return false;
+    }
+    if best != K {
+        *sign = -*sign;
+        rows.swap(K, best);
+    }
+    let above = rows[K];
+    let by = 1.0 / above[K];
+    inverse[K] = by;
+    for row in K + 1..N {
+        let factor = rows[row][K] * by;
+        rows[row][K] = factor;
+        for column in K + 1..N {
+            rows[row][column] -= factor * above[column];
+        }
+    }
+    true
+}
+
+/// Factors a matrix of order `N` in place, at most 6. Returns the sign of the exchange of rows; `None` if it is singular.
+pub(super) fn factor<const N: usize>(a: &mut [f64], pivots: &mut [usize], inverse: &mut [f64]) -> Option<f64> {
+    const { assert!(N <= 6, "every column is eliminated") };
+    let rows: &mut [[f64; N]; N] = first_mut(a.as_chunks_mut().0);
+    let (pivots, inverse): (&mut [usize; N], &mut [f64; N]) = (first_mut(pivots), first_mut(inverse));
+    let mut sign = 1.0;
+    // Written out instead of a loop: only so are the bounds of the inner loops constants.
+    macro_rules! each {
+        ($($column:literal)*) => {
+            $(if $column < N && !eliminate::<N, $column>(rows, pivots, inverse, &mut sign) {
+                return None;
+            })*
+        };
+    }
+    each!(0 1 2 3 4 5);
+    Some(sign)
+}
+
+/// Solves A x = b for a factored matrix; `b` is replaced by `x`.
+pub(super) fn solve<const N: usize>(a: &[f64], pivots: &[usize], inverse: &[f64], b: &mut [f64]) {
+    let rows: &[[f64; N]; N] = first(a.as_chunks().0);
+    let (pivots, inverse, b): (&[usize; N], &[f64; N], &mut [f64; N]) = (first(pivots), first(inverse), first_mut(b));
+    for k in 0..N {
+        b.swap(k, pivots[k]);
+    }
+    let mut x = *b;
+    for row in 1..N {
+        x[row] -= (0..row).map(|k| rows[row][k] * x[k]).sum::<f64>();
+    }
+    for row in (0..N).rev() {
+        let sum = (row + 1..N).map(|k| rows[row][k] * x[k]).sum::<f64>();
+        x[row] = (x[row] - sum) * inverse[row];
+    }
+    *b = x;
+}
+
+/// Solves A^T x = b for a factored matrix; `y` is replaced by `x`.
+pub(super) fn solve_transposed<const N: usize>(a: &[f64], pivots: &[usize], inverse: &[f64], y: &mut [f64]) {
+    let rows: &[[f64; N]; N] = first(a.as_chunks().0);
+    let (pivots, inverse, y): (&[usize; N], &[f64; N], &mut [f64; N]) = (first(pivots), first(inverse), first_mut(y));
+    let mut x = *y;
+    for row in 0..N {
+        x[row] *= inverse[row];
+        for k in row + 1..N {
+            x[k] -= rows[row][k] * x[row];
+        }
+    }
+    for row in (0..N).rev() {
+        for k in 0..row {
+            x[k] -= rows[row][k] * x[row];
+        }
+    }
+    *y = x;
+    for k in (0..N).rev() {
+        y.swap(k, pivots[k]);
+    }
+}

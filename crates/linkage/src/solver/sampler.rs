@@ -1,0 +1,266 @@
+//! Collects the states of a run into the columns of a trajectory.
+
+use std::cell::LazyCell;
+use std::collections::BTreeMap;
+
+use super::state::State;
+use crate::case::Case;
+use crate::error::Result;
+use crate::math::{Motion, Vec2};
+use crate::mechanism::Side;
+use crate::trajectory::channel::rows;
+use crate::trajectory::{Channel, OfDrive, OfFrame, OfJoint, OfLink, OfPoint, OfSlider, Stage, Subject, Trajectory};
+
+/// Rows collected before they are written to their columns.
+/// Each column is a separate block of memory; a whole group of rows needs one access to it.
+const BLOCK: usize = 8;
+
+/// Collects states into the columns of a trajectory, row by row in any order.
+/// Only what has wanted channels is read.
+#[derive(Debug)]
+pub struct Sampler {
+    links: Vec<(usize, Mask)>,
+    points: Vec<(Side, Mask)>,
+    joints: Vec<(usize, Mask)>,
+    sliders: Vec<(usize, Mask)>,
+    frame: Mask,
+    /// The drives that exert a moment, the crank's first if it is one of them.
+    drives: Vec<(usize, Mask)>,
+    channels: Vec<Channel>,
+    columns: Vec<Vec<f64>>,
+    rows: Vec<usize>,
+    /// The last rows. The first `kept` rows of all are in the columns already.
+    block: Vec<f64>,
+    kept: usize,
+    /// Crank angles (rad, as the scenario states them): those of the grid, or those of the states where forces decide
+    /// the motion.
+    cranks: Vec<f64>,
+}
+
+/// The wanted rows of one subject in the table of channels.
+#[derive(Clone, Copy, Debug, Default)]
+struct Mask {
+    /// One bit a row.
+    rows: u16,
+    /// Whether rates and accelerations are among them.
+    beyond_positions: bool,
+}
+
+impl Mask {
+    fn add(&mut self, row: usize, stage: Stage) {
+        self.rows |= 1 << row;
+        self.beyond_positions |= stage > Stage::Positions;
+    }
+
+    fn is_empty(self) -> bool {
+        self.rows == 0
+    }
+}
+
+/// The wanted rows of every subject that has any, by its sort and its name.
+fn masks(channels: &[Channel]) -> BTreeMap<(Subject, &str), Mask> {
+    let mut masks: BTreeMap<(Subject, &str), Mask> = BTreeMap::new();
+    for channel in channels {
+        let mask = masks.entry((channel.kind.subject, channel.of.as_str())).or_default();
+        mask.add(channel.kind.row(), channel.kind.stage);
+    }
+    masks
+}
+
+impl Sampler {
+    /// Storage for all rows and wanted channels of a case.
+    #[must_use]
+    pub fn new(case: &Case) -> Self {
+        let channels = case.channels();
+        let columns = vec![vec![f64::NAN; case.grid.len()]; channels.len()];
+        let places: Vec<Side> = case.mechanism.moving_points().map(|(_, side)| side).collect();
+        let mut sampler = Sampler {
+            links: Vec::new(),
+            points: Vec::new(),
+            joints: Vec::new(),
+            sliders: Vec::new(),
+            frame: Mask::default(),
+            drives: Vec::new(),
+            block: vec![f64::NAN; BLOCK * channels.len()],
+            channels: Vec::new(),
+            columns,
+            rows: Vec::with_capacity(case.grid.len()),
+            kept: 0,
+            cranks: case.grid.cranks.clone(),
+        };
+        let masks = masks(&channels);
+        for (subject, index, name) in case.subjects() {
+            let Some(&mask) = masks.get(&(subject, name)) else { continue };
+            match subject {
+                Subject::Link => sampler.links.push((index, mask)),
+                Subject::Point => sampler.points.push((places[index], mask)),
+                Subject::Joint => sampler.joints.push((index, mask)),
+                Subject::Slider => sampler.sliders.push((index, mask)),
+                Subject::Frame => sampler.frame = mask,
+                Subject::Drive | Subject::Motor => sampler.drives.push((index, mask)),
+            }
+        }
+        Sampler { channels, ..sampler }
+    }
+
+    /// Stores a state in a row. The order of values is that of [`Case::channels`].
+    pub fn put(&mut self, case: &Case, row: usize, state: &State) {
+        if self.rows.len() == self.kept + BLOCK {
+            self.keep();
+        }
+        let (at, width) = (self.rows.len() - self.kept, self.channels.len());
+        self.rows.push(row);
+        if case.is_free() {
+            self.cranks[row] = state.angles[case.crank().link] - case.crank().zero;
+        }
+        let mut out = Row { values: &mut self.block[at * width..][..width] };
+        for &(index, mask) in &self.links {
+            let motion = &state.motions[index];
+            let centre = BodyPoint::of(motion, case.mechanism.links()[index].mass_centre, mask);
+            out.put(&rows::LINK, mask, |of| match of {
+                OfLink::Angle => state.angles[index],
+                OfLink::Omega => motion.omega,
+                OfLink::Alpha => motion.alpha,
+                OfLink::Centre(of) => centre.read(of),
+            });
+        }
+        for (side, mask) in &self.points {
+            let point = BodyPoint::of(&state.motions[side.link], side.local, *mask);
+            out.put(&rows::POINT, *mask, |of| point.read(of));
+        }
+        for &(index, mask) in &self.joints {
+            let force = &state.forces[index];
+            out.put(&rows::JOINT, mask, |of| match of {
+                OfJoint::ForceX => force.x,
+                OfJoint::ForceY => force.y,
+            });
+        }
+        for &(index, mask) in &self.sliders {
+            let slide = state.slide(&case.mechanism.joints()[index]).expect("the joint slides");
+            out.put(&rows::SLIDER, mask, |of| match of {
+                OfSlider::Slide => slide[0],
+                OfSlider::Speed => slide[1],
+                OfSlider::Acceleration => slide[2],
+                OfSlider::Moment => state.moments[index],
+            });
+        }
+        if !self.frame.is_empty() {
+            // Computed once, and only if a wanted row uses it.
+            let shaking = LazyCell::new(|| state.shaking(case));
+            out.put(&rows::FRAME, self.frame, |of| match of {
+                OfFrame::ForceX => shaking.0.x,
+                OfFrame::ForceY => shaking.0.y,
+                OfFrame::Moment => shaking.1,
+            });
+        }
+        for &(index, mask) in &self.drives {
+            let read = |of| match of {
+                OfDrive::Torque => state.torques[index],
+            };
+            match index {
+                0 => out.put(&rows::DRIVE, mask, read),
+                _ => out.put(&rows::MOTOR, mask, read),
+            }
+        }
+        debug_assert!(out.values.is_empty(), "as many values as channels");
+    }
+
+    /// Moves the rows of the block into their columns.
+    fn keep(&mut self) {
+        let width = self.channels.len();
+        let rows = &self.rows[self.kept..];
+        for (channel, column) in self.columns.iter_mut().enumerate() {
+            for (values, &row) in self.block.chunks_exact(width).zip(rows) {
+                column[row] = values[channel];
+            }
+        }
+        self.kept = self.rows.len();
+    }
+
+    /// The trajectory on the case's grid.
+    ///
+    /// # Errors
+    /// If a value is missing, NaN or infinite.
+    pub fn finish(mut self, case: &Case) -> Result<Trajectory> {
+        self.keep();
+        Trajectory::new(case.grid.times.clone(), self.cranks, self.channels, self.columns)
+    }
+
+    /// The trajectory so far: the stored rows in the order in which they came.
+    /// `None` if there are no rows, or if a number is not finite.
+    #[must_use]
+    pub fn so_far(mut self, case: &Case) -> Option<Trajectory> {
+        self.keep();
+        if self.rows.is_empty() {
+            return None;
+        }
+        let stored = |values: &[f64]| self.rows.iter().map(|&row| values[row]).collect::<Vec<f64>>();
+        let columns = self.columns.iter().map(|column| stored(column)).collect();
+        Trajectory::new(stored(&case.grid.times), stored(&self.cranks), self.channels, columns).ok()
+    }
+}
+
+/// The unfilled rest of a row; it is filled in the order of channels.
+struct Row<'a> {
+    values: &'a mut [f64],
+}
+
+impl Row<'_> {
+    /// Stores the wanted quantities of a subject. `read` gives their values.
+    #[inline(always)]
+    fn put<Of: Copy, const N: usize>(&mut self, rows: &[(Of, Stage); N], mask: Mask, read: impl Fn(Of) -> f64) {
+        if mask.rows == const { (1 << N) - 1 } {
+            let (own, rest) =
+                std::mem::take(&mut self.values).split_first_chunk_mut::<N>().expect("as many values as channels");
+            // Written out instead of a loop: every quantity is then a constant, and the compiler removes the match on
+            // it.
+            macro_rules! each {
+                ($($row:literal)*) => {{
+                    const { assert!(N <= [$($row),*].len(), "every row of a subject is put") };
+                    $(if $row < N {
+                        own[$row] = read(rows[$row].0);
+                    })*
+                }};
+            }
+            each!(0 1 2 3 4 5 6 7 8 9 10 11);
+            self.values = rest;
+            return;
+        }
+        for (row, &(of, _)) in rows.iter().enumerate() {
+            if mask.rows & (1 << row) != 0 {
+                let (own, rest) =
+                    std::mem::take(&mut self.values).split_first_mut().expect("as many values as channels");
+                *own = read(of);
+                self.values = rest;
+            }
+        }
+    }
+}
+
+/// Position (m), velocity (m/s) and acceleration (m/s^2) of a body point; the rates only where they are wanted.
+struct BodyPoint([Vec2; 3]);
+
+impl BodyPoint {
+    #[inline]
+    fn of(motion: &Motion, local: Vec2, mask: Mask) -> Self {
+        let arm = motion.arm(local);
+        let position = motion.origin + arm;
+        match mask.beyond_positions {
+            true => BodyPoint([position, motion.velocity_beyond(arm), motion.acceleration_beyond(arm)]),
+            false => BodyPoint([position, Vec2::zeros(), Vec2::zeros()]),
+        }
+    }
+
+    #[inline]
+    fn read(&self, of: OfPoint) -> f64 {
+        let BodyPoint([position, velocity, acceleration]) = self;
+        match of {
+            OfPoint::X => position.x,
+            OfPoint::Y => position.y,
+            OfPoint::VelocityX => velocity.x,
+            OfPoint::VelocityY => velocity.y,
+            OfPoint::AccelerationX => acceleration.x,
+            OfPoint::AccelerationY => acceleration.y,
+        }
+    }
+}

@@ -1,0 +1,115 @@
+//! The state of a mechanism, in the form that all solvers share.
+
+use crate::case::Case;
+use crate::math::{KeepNan, Motion, Vec2, cross, unit};
+use crate::mechanism::{GROUND, Joint};
+
+/// State of the whole mechanism at one instant, in the form that all solvers share.
+#[derive(Clone, Debug)]
+pub struct State {
+    /// Motion of every link's frame. The ground's motion is [`Motion::REST`].
+    pub motions: Vec<Motion>,
+    /// Angle of every link's frame, turns kept (rad).
+    pub angles: Vec<f64>,
+    /// Force of the first link on the second in every joint (N).
+    pub forces: Vec<Vec2>,
+    /// Moment of the first link on the second in every joint, about the joint's place on the second (N m). 0 in
+    /// revolute joints.
+    pub moments: Vec<f64>,
+    /// Balancing moment on every driving link (N m), in the order of
+    /// [`CaseParts::drives`](crate::case::CaseParts::drives).
+    pub torques: Vec<f64>,
+    /// Condition number that rounding goes by where the mechanism passes a change point. There that of the pose itself
+    /// grows without bound, but the solver does not calculate at the pose. `None` elsewhere.
+    pub passing: Option<f64>,
+}
+
+impl State {
+    /// A state at rest with all values zero.
+    #[must_use]
+    pub fn at_rest(case: &Case) -> Self {
+        State {
+            motions: vec![Motion::REST; case.mechanism.links().len()],
+            angles: vec![0.0; case.mechanism.links().len()],
+            forces: vec![Vec2::zeros(); case.mechanism.joints().len()],
+            moments: vec![0.0; case.mechanism.joints().len()],
+            torques: vec![0.0; case.drives.len()],
+            passing: None,
+        }
+    }
+
+    /// Slide of a prismatic joint (m) with its first and second derivative; `None` for a revolute joint.
+    /// s = e . (p2 - p1) along the axis e of the first link.
+    /// With p2 - p1 = s e: e . (v2 - v1) = s' and e . (a2 - a1) = s'' - s omega^2.
+    #[inline]
+    #[must_use]
+    pub fn slide(&self, joint: &Joint) -> Option<[f64; 3]> {
+        let [first, second] = [joint.first, joint.second].map(|side| (&self.motions[side.link], side.local));
+        let axis = first.0.arm(joint.axis_on(joint.first.link)?);
+        let slide = axis.dot(&(second.0.point(second.1) - first.0.point(first.1)));
+        let speed = axis.dot(&(second.0.point_velocity(second.1) - first.0.point_velocity(first.1)));
+        let second_derivative =
+            axis.dot(&(second.0.point_acceleration(second.1) - first.0.point_acceleration(first.1)));
+        Some([slide, speed, second_derivative + slide * first.0.omega * first.0.omega])
+    }
+
+    /// Shaking force (N) and shaking moment about the origin (N m).
+    /// They are the sum of what the joints with the ground, the drives, and the springs and dampers fastened to the
+    /// ground exert on the frame.
+    #[must_use]
+    pub fn shaking(&self, case: &Case) -> (Vec2, f64) {
+        // Drives stand on the frame, so their reactions there are opposite to the balancing moments.
+        let (mut force, mut moment) = (Vec2::zeros(), -self.torques.iter().sum::<f64>());
+        for (index, joint) in case.mechanism.joints().iter().enumerate() {
+            let sign = match (joint.first.link, joint.second.link) {
+                (GROUND, _) => -1.0,
+                (_, GROUND) => 1.0,
+                _ => continue,
+            };
+            let place = self.motions[joint.second.link].point(joint.second.local);
+            force += self.forces[index] * sign;
+            moment += (cross(place, self.forces[index]) + self.moments[index]) * sign;
+        }
+        case.each_load(&self.motions, &self.angles, |action| {
+            if action.link == GROUND {
+                force += action.force;
+                moment += action.about(Vec2::zeros());
+            }
+        });
+        (force, moment)
+    }
+
+    /// Largest distance between the two sides of a joint (m), that of a prismatic joint across its guide, its wrong
+    /// angle (rad) counted at `size` (m); and the largest distance of a joint from the origin (m).
+    #[must_use]
+    pub fn opening(&self, case: &Case, size: f64) -> [f64; 2] {
+        let mut largest = [0.0; 2];
+        for joint in case.mechanism.joints() {
+            let sides = [joint.first, joint.second];
+            let places = sides.map(|side| self.motions[side.link].point(side.local));
+            let (distance, turn) = joint.opening(places, sides.map(|side| self.motions[side.link].direction));
+            let own = [distance.larger(turn * size), places[0].norm()];
+            largest = [largest[0].larger(own[0]), largest[1].larger(own[1])];
+        }
+        largest
+    }
+
+    /// Largest moment (N m): of a drive, or of a joint's force at `arm` (m).
+    #[must_use]
+    pub fn largest_moment(&self, arm: f64) -> f64 {
+        let torques = self.torques.iter().map(|torque| torque.abs());
+        self.forces.iter().map(|force| force.norm() * arm).chain(torques).fold(0.0, f64::larger)
+    }
+
+    /// The start pose of the case, at rest.
+    #[must_use]
+    pub fn at_start(case: &Case) -> Self {
+        let mut state = State::at_rest(case);
+        for (index, pose) in case.start.0.iter().enumerate() {
+            state.motions[index].origin = pose.origin;
+            state.motions[index].direction = unit(pose.angle);
+            state.angles[index] = pose.angle;
+        }
+        state
+    }
+}

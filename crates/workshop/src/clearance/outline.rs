@@ -1,0 +1,209 @@
+//! Outlines of links and of the housing: lines and polygons, rounded by a radius.
+
+mod convex;
+
+use linkage::math::{KeepNan, Vec2, cross, turned};
+use linkage::mechanism::ring;
+
+/// Most corners of an outline. Every pair of parts is a distance, and every pair of sides a test for crossings.
+pub const MOST_CORNERS: usize = 500;
+/// Share of an outline's extent below which two corners are in one place, or a corner lies on a side.
+const TOUCHING: f64 = 1e-9;
+
+/// Why corners are no polygon. Numbers of corners count from 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Flaw {
+    /// Fewer corners than three.
+    Few(usize),
+    /// More corners than [`MOST_CORNERS`].
+    Many(usize),
+    /// Two corners in one place.
+    Repeated([usize; 2]),
+    /// The sides that begin at two corners touch or cross.
+    Crossing([usize; 2]),
+    /// No area: all corners on one line.
+    Flat,
+    /// A coordinate that is NaN or infinite, or a radius that is negative.
+    NoNumber,
+}
+
+/// An outline in the frame of its link: all places within a radius of a line, or of a polygon with its interior.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outline {
+    corners: Vec<Vec2>,
+    solid: bool,
+    radius: f64,
+    parts: Vec<Vec<Vec2>>,
+}
+
+impl Outline {
+    /// A line from place to place (m), rounded by `radius` (m): capsules; around a single place a disc.
+    ///
+    /// # Errors
+    /// [`Flaw::Few`] without a place, [`Flaw::Many`], [`Flaw::NoNumber`].
+    pub fn line(places: &[Vec2], radius: f64) -> Result<Outline, Flaw> {
+        check(places, radius, 1)?;
+        let parts = match places {
+            [one] => vec![vec![*one]],
+            _ => places.windows(2).map(<[Vec2]>::to_vec).collect(),
+        };
+        Ok(Outline { corners: places.to_vec(), solid: false, radius, parts })
+    }
+
+    /// A polygon with its interior, convex or not, in either sense, rounded by `radius` (m, may be 0).
+    ///
+    /// # Errors
+    /// A [`Flaw`] of its corners (m).
+    pub fn polygon(corners: &[Vec2], radius: f64) -> Result<Outline, Flaw> {
+        check(corners, radius, 3)?;
+        check_simple(corners)?;
+        let mut corners = corners.to_vec();
+        if convex::area(&corners) < 0.0 {
+            corners.reverse();
+        }
+        let parts = convex::parts(&corners).ok_or(Flaw::Flat)?;
+        Ok(Outline { corners, solid: true, radius, parts })
+    }
+
+    /// The outline of a link that states none: capsules of `radius` (m) along the [`ring`] of its points, and what is
+    /// between them. A bar is one capsule, a single point a disc.
+    ///
+    /// # Errors
+    /// [`Flaw::Few`] without a point, [`Flaw::NoNumber`].
+    pub fn of_points(places: &[Vec2], radius: f64) -> Result<Outline, Flaw> {
+        check(places, radius, 1)?;
+        let extent = extent(places);
+        let mut apart: Vec<Vec2> = Vec::new();
+        for &place in places {
+            if apart.iter().all(|known| (known - place).norm() > TOUCHING * extent) {
+                apart.push(place);
+            }
+        }
+        let (line, closed) = ring(&apart);
+        if !closed {
+            // All on one line: its ends are the whole.
+            let ends = if line.len() > 1 { vec![line[0], line[line.len() - 1]] } else { line };
+            return Outline::line(&ends, radius);
+        }
+        Outline::polygon(&line, radius).or_else(|_| Outline::polygon(&convex::hull(&apart), radius))
+    }
+
+    /// Corners of the line or polygon (m), a polygon's counter-clockwise.
+    #[must_use]
+    pub fn corners(&self) -> &[Vec2] {
+        &self.corners
+    }
+
+    /// Whether the interior belongs to it: a polygon, not a line.
+    #[must_use]
+    pub fn is_solid(&self) -> bool {
+        self.solid
+    }
+
+    /// Radius of the rounding (m).
+    #[must_use]
+    pub fn radius(&self) -> f64 {
+        self.radius
+    }
+
+    /// Convex parts whose union it is, without the rounding: places, segments, and counter-clockwise polygons (m).
+    #[must_use]
+    pub fn parts(&self) -> &[Vec<Vec2>] {
+        &self.parts
+    }
+
+    /// Its sides (m): pairs of ends. A single place is a side without length.
+    pub fn sides(&self) -> impl Iterator<Item = [Vec2; 2]> + '_ {
+        let count = self.corners.len();
+        let sides = if self.solid { count } else { (count - 1).max(1) };
+        (0..sides).map(move |k| [self.corners[k], self.corners[(k + 1) % count]])
+    }
+
+    /// Signed distance of a place from the outline (m), negative inside, and the direction in which it grows.
+    /// It changes by no more than the place does.
+    #[must_use]
+    pub fn distance(&self, place: Vec2) -> (f64, Vec2) {
+        let (mut least, mut away, mut inside) = (f64::INFINITY, Vec2::new(1.0, 0.0), false);
+        for [a, b] in self.sides() {
+            let off = place - nearest(place, [a, b]);
+            let distance = off.norm();
+            if distance < least {
+                let outward = || (-turned(b - a)).try_normalize(0.0).unwrap_or(away);
+                (least, away) = (distance, if distance > 0.0 { off / distance } else { outward() });
+            }
+            if self.solid && (a.y > place.y) != (b.y > place.y) {
+                inside ^= (cross(b - a, place - a) > 0.0) == (b.y > a.y);
+            }
+        }
+        if inside { (-least - self.radius, -away) } else { (least - self.radius, away) }
+    }
+
+    /// Area (m2) of the polygon without its rounding; 0 of a line.
+    #[must_use]
+    pub fn core_area(&self) -> f64 {
+        if self.solid { convex::area(&self.corners) } else { 0.0 }
+    }
+}
+
+/// The point of a segment that is nearest to a place.
+#[must_use]
+pub fn nearest(place: Vec2, [a, b]: [Vec2; 2]) -> Vec2 {
+    let along = b - a;
+    let length = along.norm_squared();
+    if length > 0.0 { a + along * ((place - a).dot(&along) / length).clamp(0.0, 1.0) } else { a }
+}
+
+fn extent(places: &[Vec2]) -> f64 {
+    places.iter().map(|place| (place - places[0]).norm()).fold(0.0, f64::larger)
+}
+
+fn check(places: &[Vec2], radius: f64, least: usize) -> Result<(), Flaw> {
+    match places.len() {
+        few if few < least => Err(Flaw::Few(few)),
+        many if many > MOST_CORNERS => Err(Flaw::Many(many)),
+        _ if !(radius >= 0.0 && radius.is_finite()) => Err(Flaw::NoNumber),
+        _ if places.iter().any(|place| !(place.x.is_finite() && place.y.is_finite())) => Err(Flaw::NoNumber),
+        _ => Ok(()),
+    }
+}
+
+/// Whether the sides of a polygon meet nowhere but at their common corners.
+fn check_simple(corners: &[Vec2]) -> Result<(), Flaw> {
+    let (count, near) = (corners.len(), TOUCHING * extent(corners));
+    let side = |k: usize| [corners[k], corners[(k + 1) % count]];
+    for i in 0..count {
+        if let Some(j) = (i + 1..count).find(|&j| (corners[i] - corners[j]).norm() <= near) {
+            return Err(Flaw::Repeated([i, j]));
+        }
+    }
+    if !(0..count).any(|k| {
+        let ([a, b], c) = (side(k), corners[(k + 2) % count]);
+        cross(b - a, c - a).abs() > near * (b - a).norm()
+    }) {
+        return Err(Flaw::Flat);
+    }
+    for i in 0..count {
+        for j in i + 1..count {
+            let is_next = j == i + 1 || (i == 0 && j == count - 1);
+            let touch = if is_next {
+                // Neighbours share a corner; a side that comes back over the one before lies on it.
+                let (one, two) = if j == i + 1 { (side(i), side(j)) } else { (side(j), side(i)) };
+                [(one, two[1]), (two, one[0])].iter().any(|&(own, end)| (end - nearest(end, own)).norm() <= near)
+            } else {
+                meet(side(i), side(j), near)
+            };
+            if touch {
+                return Err(Flaw::Crossing([i, j]));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Whether two segments cross, or come nearer than `near`.
+fn meet([a, b]: [Vec2; 2], [c, d]: [Vec2; 2], near: f64) -> bool {
+    let apart = |p: Vec2, q: Vec2, r: Vec2, s: Vec2| (cross(q - p, r - p) > 0.0) == (cross(q - p, s - p) > 0.0);
+    let crossing = !apart(a, b, c, d) && !apart(c, d, a, b);
+    let ends = [(a, [c, d]), (b, [c, d]), (c, [a, b]), (d, [a, b])];
+    crossing || ends.iter().any(|&(end, other)| (end - nearest(end, other)).norm() <= near)
+}

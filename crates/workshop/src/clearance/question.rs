@@ -1,0 +1,89 @@
+//! What is asked: bodies with outlines, the pairs of them that must not meet, and how well it must be known.
+
+use linkage::math::Vec2;
+use linkage::mechanism::{GROUND, Mechanism};
+
+use super::outline::Outline;
+
+/// A body: a link, or a part of the housing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Body {
+    /// Name for reports.
+    pub name: String,
+    /// Its link; [`GROUND`] for the housing.
+    pub link: usize,
+    /// Its outline in the frame of its link.
+    pub outline: Outline,
+}
+
+impl Body {
+    /// Whether it moves.
+    #[must_use]
+    pub fn moves(&self) -> bool {
+        self.link != GROUND
+    }
+}
+
+/// A question of clearance.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Question {
+    /// All bodies, in the order of reports.
+    pub bodies: Vec<Body>,
+    /// Pairs of bodies whose distance is wanted, by their numbers.
+    pub pairs: Vec<[usize; 2]>,
+    /// The distance that no pair may fall to (m), if there is one.
+    pub wanted: Option<f64>,
+    /// Error that a smallest distance may have (m); a millionth of the mechanism's size unless given.
+    pub tolerance: Option<f64>,
+    /// Error that a swept area may have, as a share of it.
+    pub area: f64,
+}
+
+/// All pairs of bodies that can meet: links that are not joined, and every link with the housing, but those of `ignored`.
+#[must_use]
+pub fn pairs(mechanism: &Mechanism, bodies: &[Body], ignored: &[[usize; 2]]) -> Vec<[usize; 2]> {
+    let mut pairs = Vec::new();
+    for second in 1..bodies.len() {
+        for first in 0..second {
+            let links = [first, second].map(|body| bodies[body].link);
+            let fixed = links == [GROUND; 2];
+            let joined = !links.contains(&GROUND) && are_joined(mechanism, links);
+            if !fixed && !joined && !ignored.contains(&[first, second]) && !ignored.contains(&[second, first]) {
+                pairs.push([first, second]);
+            }
+        }
+    }
+    pairs.sort_unstable();
+    pairs
+}
+
+/// Whether a joint holds two links together, or both are on one pin with others between them.
+#[must_use]
+pub fn are_joined(mechanism: &Mechanism, [a, b]: [usize; 2]) -> bool {
+    if mechanism.joints().iter().any(|joint| joint.on(a).is_some() && joint.on(b).is_some()) {
+        return true;
+    }
+    // From pin to pin at the same place of each link.
+    let mut reached: Vec<(usize, Vec2)> = Vec::new();
+    for joint in mechanism.joints().iter().filter(|joint| joint.is_pin()) {
+        reached.extend(joint.on(a).map(|place| (a, place)));
+    }
+    let starts = reached.len();
+    for start in 0..starts {
+        let mut pin = vec![reached[start]];
+        let mut next = 0;
+        while let Some(&(link, place)) = pin.get(next) {
+            next += 1;
+            for joint in mechanism.joints().iter().filter(|joint| joint.is_pin() && joint.on(link) == Some(place)) {
+                let other = joint.other(link);
+                if other.link == b {
+                    return true;
+                }
+                if !pin.contains(&(other.link, other.local)) {
+                    pin.push((other.link, other.local));
+                }
+            }
+        }
+    }
+    false
+}

@@ -1,0 +1,208 @@
+//! Smallest distances and first meetings of pairs over the range, by halving what is not proven clear.
+//!
+//! Every part of the range is proven clear of the smallest distance known so far, or halved. So nothing lies between
+//! instants: the search ends when every part is proven, and what is left at the smallest size is told.
+
+use linkage::error::Result;
+use linkage::math::extremum::golden;
+use linkage::math::{KeepNan, Vec2};
+
+use super::gap::{Gap, Placed, Solid, gap};
+use super::tube::{MOST_HALVINGS, Part, Slice, Tubes};
+
+/// Steps of golden section that refine the smallest distance found, and how often it may leave its bracket.
+const REFINEMENTS: usize = 30;
+const STRIDES: usize = 8;
+/// Halvings beyond [`MOST_HALVINGS`] by which a first meeting is enclosed.
+const FURTHER: u32 = 6;
+
+/// Smallest distance of a pair over the range.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Smallest {
+    /// The smallest distance found (m), 0 where the two meet: at the crank angle and the points below.
+    pub distance: f64,
+    /// No distance over the range is smaller than this (m), except over ranges that are not proven.
+    pub least: f64,
+    /// Crank angle of the distance (rad).
+    pub crank: f64,
+    /// The nearest points there, of the first and of the second body (m, world).
+    pub points: [Vec2; 2],
+}
+
+/// Where a pair first comes as near as a given distance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Meeting {
+    /// Two crank angles (rad) in the order of the motion: until the first the two are farther apart, at the second not.
+    pub cranks: [f64; 2],
+    /// Where they meet at the second (m, world).
+    pub place: Vec2,
+}
+
+/// What a search needs and what it has cost.
+pub struct Search<'a, 'c> {
+    /// The range.
+    pub tubes: &'a mut Tubes<'c>,
+    /// All bodies.
+    pub solids: &'a [Solid],
+    /// Distance (m) that two results may differ by.
+    pub tolerance: f64,
+    /// Distance (m) that counts as none.
+    pub touch: f64,
+    /// Pairs of pieces whose nearest points were asked for.
+    pub asked: usize,
+    /// Pairs of pieces that may still be looked at.
+    pub budget: usize,
+    /// Ranges of crank angles (rad) over which nothing is proven.
+    pub open: Vec<[f64; 2]>,
+}
+
+impl Search<'_, '_> {
+    fn gap(&mut self, pair: [usize; 2], slice: &Slice, enough: f64) -> Gap {
+        let [a, b] = pair.map(|body| &self.solids[body]);
+        self.between([a, b], [&a.placed(slice), &b.placed(slice)], slice, enough)
+    }
+
+    fn between(&mut self, bodies: [&Solid; 2], places: [&Placed; 2], slice: &Slice, enough: f64) -> Gap {
+        self.budget = self.budget.saturating_sub(bodies[0].pieces() * bodies[1].pieces());
+        gap(bodies, places, slice, self.tubes.rounding(), enough, &mut self.asked)
+    }
+
+    /// The smallest distances of pairs of bodies.
+    ///
+    /// # Errors
+    /// Those of a pose.
+    pub fn smallest(&mut self, pairs: &[[usize; 2]]) -> Result<Vec<Smallest>> {
+        let unknown =
+            Smallest { distance: f64::INFINITY, least: f64::INFINITY, crank: f64::NAN, points: [Vec2::zeros(); 2] };
+        let mut best = vec![unknown; pairs.len()];
+        let mut parts: Vec<(Part, Vec<usize>)> =
+            self.tubes.parts().map(|part| (part, (0..pairs.len()).collect())).collect();
+        while !parts.is_empty() {
+            // Every pair's distances at this size first: the smallest of them spares halvings.
+            let mut bounds: Vec<(Part, bool, Vec<(usize, f64)>)> = Vec::with_capacity(parts.len());
+            for (part, alive) in parts {
+                let slice = self.tubes.at(part)?;
+                let placed: Vec<Option<Placed>> = (0..self.solids.len())
+                    .map(|body| {
+                        let needed = alive.iter().any(|&pair| pairs[pair].contains(&body));
+                        needed.then(|| self.solids[body].placed(&slice))
+                    })
+                    .collect();
+                let mut least = Vec::with_capacity(alive.len());
+                for pair in alive {
+                    let [a, b] = pairs[pair];
+                    let (Some(one), Some(two)) = (&placed[a], &placed[b]) else { continue };
+                    let (solids, enough) = (self.solids, best[pair].distance);
+                    let found = self.between([&solids[a], &solids[b]], [one, two], &slice, enough);
+                    if found.now < best[pair].distance {
+                        let own = &mut best[pair];
+                        (own.distance, own.crank, own.points) = (found.now, slice.crank, found.points);
+                    }
+                    least.push((pair, found.least));
+                }
+                bounds.push((part, slice.sound, least));
+            }
+            parts = Vec::new();
+            for (part, sound, least) in bounds {
+                let mut alive = Vec::new();
+                for (pair, least) in least {
+                    let own = &mut best[pair];
+                    if sound && least >= own.distance - self.tolerance {
+                        own.least = own.least.smaller(least);
+                    } else if own.distance > 0.0 {
+                        alive.push(pair);
+                    }
+                }
+                if alive.is_empty() {
+                    continue;
+                }
+                if part.halvings < MOST_HALVINGS && self.budget > 0 {
+                    parts.extend(part.halves().map(|half| (half, alive.clone())));
+                } else {
+                    self.leave(part);
+                }
+            }
+        }
+        for (own, &pair) in best.iter_mut().zip(pairs) {
+            if own.distance > 0.0 && own.distance.is_finite() {
+                self.refine(own, pair)?;
+            }
+            own.least = own.least.smaller(own.distance).larger(0.0);
+        }
+        Ok(best)
+    }
+
+    /// Notes a part over which nothing is proven.
+    fn leave(&mut self, part: Part) {
+        let [from, to] = self.tubes.ends(part);
+        match self.open.last_mut() {
+            Some(last) if last[1] == from => last[1] = to,
+            _ => self.open.push([from, to]),
+        }
+    }
+
+    /// Follows the distance down to its minimum beside the best instant.
+    fn refine(&mut self, own: &mut Smallest, pair: [usize; 2]) -> Result<()> {
+        let [from, to] = self.tubes.range();
+        let (low, high) = (from.smaller(to), from.larger(to));
+        let wide = (self.tolerance / self.tubes.scale()).sqrt();
+        for _ in 0..STRIDES {
+            let begun = own.crank;
+            let ends = [(begun - wide).larger(low), (begun + wide).smaller(high)];
+            let mut look = |crank: f64| {
+                let slice = self.tubes.slice(crank, 0.0)?;
+                let found = self.gap(pair, &slice, f64::INFINITY);
+                if found.now < own.distance {
+                    (own.distance, own.crank, own.points) = (found.now, crank, found.points);
+                }
+                Ok::<f64, linkage::Error>(-found.now)
+            };
+            golden(ends, REFINEMENTS, &mut look)?;
+            // Golden section does not look at the ends.
+            look(ends[0])?;
+            look(ends[1])?;
+            if (own.crank - begun).abs() < 0.9 * wide {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// Where a pair first comes as near as `threshold` (m); `None` if it is proven farther apart all the way.
+    ///
+    /// # Errors
+    /// Those of a pose.
+    pub fn first(&mut self, pair: [usize; 2], threshold: f64) -> Result<Option<Meeting>> {
+        let enough = threshold + self.touch;
+        let mut ahead: Vec<Part> = self.tubes.parts().rev().collect();
+        // End of what is proven.
+        let mut clear = None;
+        while let Some(part) = ahead.pop() {
+            let slice = self.tubes.at(part)?;
+            let found = self.gap(pair, &slice, f64::INFINITY);
+            let [from, to] = self.tubes.ends(part);
+            if slice.sound && found.least > threshold {
+                clear = Some(to);
+                continue;
+            }
+            // A part that is proven to move is halved until it moves by less than what counts as contact.
+            let narrow = part.halvings >= MOST_HALVINGS + if slice.sound { FURTHER } else { 0 };
+            if narrow {
+                for crank in [slice.crank, to] {
+                    let there = self.tubes.slice(crank, 0.0)?;
+                    let found = self.gap(pair, &there, f64::INFINITY);
+                    if found.now <= enough {
+                        let place = (found.points[0] + found.points[1]) / 2.0;
+                        return Ok(Some(Meeting { cranks: [clear.unwrap_or(from), crank], place }));
+                    }
+                }
+            }
+            if narrow || self.budget == 0 {
+                self.leave(part);
+                continue;
+            }
+            ahead.extend(part.halves().into_iter().rev());
+        }
+        Ok(None)
+    }
+}

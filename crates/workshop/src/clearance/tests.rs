@@ -1,0 +1,202 @@
+//! Closed forms: a lever over a wall, a plate on a slider, areas of sectors and strips.
+
+use std::f64::consts::{PI, TAU};
+
+use linkage::case::Case;
+use linkage::math::Vec2;
+use linkage::mechanism::{AssemblyMode, GROUND};
+
+use super::question::pairs;
+use super::tube::Tubes;
+use super::*;
+
+/// Slider-crank along x: crank 0.1 m, rod 0.3 m.
+fn slider_crank() -> Case {
+    let case = Case::builder()
+        .ground(&[("O", [0.0, 0.0])])
+        .link("crank", &[("O", [0.0, 0.0]), ("A", [0.1, 0.0])])
+        .link("rod", &[("A", [0.0, 0.0]), ("B", [0.3, 0.0])])
+        .link("piston", &[("B", [0.0, 0.0])])
+        .pin("O", "ground", "crank")
+        .pin("A", "crank", "rod")
+        .pin("B", "rod", "piston")
+        .slider("bore", ("ground", "O"), ("piston", "B"), [0.0, 0.0])
+        .crank("O", 10.0)
+        .mode(&["rod", "piston"], AssemblyMode::Ahead);
+    case.build().unwrap()
+}
+
+fn four_bar() -> Case {
+    let case = Case::builder()
+        .ground(&[("O", [0.0, 0.0]), ("C", [0.4, 0.0])])
+        .link("crank", &[("O", [0.0, 0.0]), ("A", [0.1, 0.0])])
+        .link("coupler", &[("A", [0.0, 0.0]), ("B", [0.35, 0.0])])
+        .link("rocker", &[("C", [0.0, 0.0]), ("B", [0.25, 0.0])])
+        .pin("O", "ground", "crank")
+        .pin("A", "crank", "coupler")
+        .pin("B", "coupler", "rocker")
+        .pin("C", "ground", "rocker")
+        .crank("O", 10.0)
+        .mode(&["coupler", "rocker"], AssemblyMode::Left);
+    case.build().unwrap()
+}
+
+/// All links as capsules, and walls.
+fn question(case: &Case, radius: f64, walls: &[(&str, Outline)]) -> Question {
+    let links = case.mechanism.links().iter().enumerate().skip(1);
+    let mut bodies: Vec<Body> = links
+        .map(|(link, own)| {
+            let places: Vec<Vec2> = own.points.iter().map(|point| point.local).collect();
+            Body { name: own.name.clone(), link, outline: Outline::of_points(&places, radius).unwrap() }
+        })
+        .collect();
+    let wall =
+        |(name, outline): &(&str, Outline)| Body { name: (*name).into(), link: GROUND, outline: outline.clone() };
+    bodies.extend(walls.iter().map(wall));
+    let pairs = pairs(&case.mechanism, &bodies, &[]);
+    Question { bodies, pairs, wanted: None, tolerance: None, area: 2e-3 }
+}
+
+fn line(places: &[(f64, f64)], radius: f64) -> Outline {
+    let places: Vec<Vec2> = places.iter().map(|&(x, y)| Vec2::new(x, y)).collect();
+    Outline::line(&places, radius).unwrap()
+}
+
+fn of<'a>(asked: &Question, found: &'a Clearance, names: [&str; 2]) -> &'a PairClearance {
+    let is = |pair: &&PairClearance| pair.bodies.map(|body| asked.bodies[body].name.as_str()) == names;
+    found.pairs.iter().find(is).unwrap()
+}
+
+#[test]
+fn a_lever_over_a_wall() {
+    let case = slider_crank();
+    let asked = question(&case, 0.01, &[("floor", line(&[(-1.0, -0.15), (1.0, -0.15)], 0.005))]);
+    let found = find(&case, &asked, &mut |_| ()).unwrap();
+    let crank = of(&asked, &found, ["crank", "floor"]);
+    // The pin is lowest at 270 deg.
+    let expected = 0.15 - 0.1 - 0.015;
+    assert!((crank.smallest.distance - expected).abs() < 1e-12, "{crank:?}");
+    assert!((crank.smallest.crank - 1.5 * PI).abs() < 1e-6, "{crank:?}");
+    assert!(crank.smallest.least > expected - 1e-6 && crank.collision.is_none());
+    // The slider's distance from the floor is the same all the way.
+    let piston = of(&asked, &found, ["piston", "floor"]);
+    assert!((piston.smallest.distance - 0.135).abs() < 1e-12 && piston.smallest.least > 0.135 - 1e-6, "{piston:?}");
+    assert!(found.open.is_empty());
+    assert_eq!(found.smallest().unwrap().bodies, crank.bodies);
+}
+
+/// A nail that the crank's end passes within a ten-thousandth of a degree.
+#[test]
+fn a_thin_crossing_between_two_instants_is_found() {
+    let (case, radius) = (slider_crank(), 1e-7);
+    let at = 77.123_456_f64.to_radians();
+    // The nail's near side is 1e-13 m inside of the circle of the crank's end.
+    let nail = Vec2::new(at.cos(), at.sin()) * (0.1 + 2.0 * radius - 1e-13);
+    let mut asked = question(&case, radius, &[("nail", line(&[(nail.x, nail.y)], radius))]);
+    asked.pairs.retain(|pair| *pair == [0, 3]);
+    let samples = course(&case, &asked).unwrap();
+    assert!(samples.rows.iter().all(|row| row[0] > 0.0));
+    let found = find(&case, &asked, &mut |_| ()).unwrap();
+    let (pair, meeting) = found.first_collision().unwrap();
+    assert_eq!(pair.smallest.distance.max_zero(), 0.0, "{pair:?}");
+    assert!((meeting.cranks[1] - at).abs() < 1e-5 && meeting.cranks[0] <= meeting.cranks[1], "{meeting:?}");
+}
+
+trait MaxZero {
+    fn max_zero(self) -> f64;
+}
+impl MaxZero for f64 {
+    /// A distance below a billionth of the size is none.
+    fn max_zero(self) -> f64 {
+        if self < 3e-10 { 0.0 } else { self }
+    }
+}
+
+#[test]
+fn the_first_meeting_is_where_the_distance_falls_to_nothing() {
+    let (case, radius) = (slider_crank(), 0.01);
+    let asked = question(&case, radius, &[("post", line(&[(0.0, 0.09)], 0.004))]);
+    let found = find(&case, &asked, &mut |_| ()).unwrap();
+    let crank = of(&asked, &found, ["crank", "post"]);
+    let meeting = crank.collision.unwrap();
+    // The post is 0.014 m from the crank's line at sin(90 deg - a) = 0.014 / 0.09.
+    let expected = (0.014_f64 / 0.09).acos();
+    assert!((meeting.cranks[1] - expected).abs() < 1e-7, "{} {expected}", meeting.cranks[1]);
+    assert_eq!(crank.smallest.distance, 0.0);
+    assert_eq!(found.first_collision().unwrap().0.bodies[1], crank.bodies[1]);
+}
+
+#[test]
+fn swept_areas_are_closed_forms() {
+    let (case, radius) = (slider_crank(), 0.02);
+    let found = find(&case, &question(&case, radius, &[]), &mut |_| ()).unwrap();
+    let near = |(_, area): (usize, Area), expected: f64| {
+        assert!((area.least..=area.most).contains(&expected), "{area:?} {expected}");
+        assert!(area.error() < 3e-3 * expected, "{area:?} {expected}");
+        assert!((area.value - expected).abs() < 5e-4 * expected, "{area:?} {expected}");
+    };
+    // The crank a disc, the piston's disc a strip with round ends.
+    near(found.swept[0], PI * 0.12 * 0.12);
+    near(found.swept[2], 0.2 * 0.04 + PI * 0.02 * 0.02);
+    // Over 70 deg the crank sweeps a sector: an area, its border's length times the radius, and the disc.
+    let part = case.on(linkage::case::Grid::of_cranks(case.crank(), vec![0.3, 0.3 + PI * 70.0 / 180.0])).unwrap();
+    let found = find(&part, &question(&case, radius, &[]), &mut |_| ()).unwrap();
+    let turn = PI * 70.0 / 180.0;
+    near(found.swept[0], turn / 2.0 * 0.01 + (0.2 + 0.1 * turn) * radius + PI * radius * radius);
+}
+
+/// Tubes hold the true poses at any crank angle between, and neighbours overlap.
+#[test]
+fn tubes_hold_the_motion() {
+    for case in [slider_crank(), four_bar()] {
+        let mut tubes = Tubes::new(&case, [0.2, 0.2 + TAU]).unwrap();
+        let parts: Vec<_> = tubes.parts().flat_map(|part| part.halves()).collect();
+        let mut widest: f64 = 0.0;
+        for part in parts {
+            let slice = tubes.at(part).unwrap();
+            assert!(slice.sound, "{part:?}");
+            let [from, to] = tubes.ends(part);
+            let cranks: Vec<f64> = (0..=6).map(|k| from + (to - from) * f64::from(k) / 6.0).collect();
+            for (crank, pose) in cranks.iter().zip(poses(&case, &cranks).unwrap()) {
+                for (link, tube) in slice.tubes.iter().enumerate().skip(1) {
+                    for local in [Vec2::new(0.0, 0.0), Vec2::new(0.3, 0.0), Vec2::new(0.1, -0.2)] {
+                        let track = tube.point(local);
+                        let even = track.at + track.rate * (crank - slice.crank);
+                        let off = (pose[link].point(local) - even).norm();
+                        assert!(off <= track.error, "link {link}: {off} {}", track.error);
+                        widest = widest.larger(track.error);
+                    }
+                }
+            }
+        }
+        // Second order, not much more: h^2 / 2 times accelerations of up to 0.5 m/rad2.
+        assert!(widest < 0.005, "{widest}");
+    }
+}
+
+/// At a dead point nothing is proven, and that is told.
+#[test]
+fn a_singular_pose_is_left_open() {
+    // A parallelogram at its change point, passed smoothly.
+    let case = Case::builder()
+        .ground(&[("O", [0.0, 0.0]), ("C", [0.4, 0.0])])
+        .link("crank", &[("O", [0.0, 0.0]), ("A", [0.1, 0.0])])
+        .link("coupler", &[("A", [0.0, 0.0]), ("B", [0.4, 0.0])])
+        .link("rocker", &[("C", [0.0, 0.0]), ("B", [0.1, 0.0])])
+        .pin("O", "ground", "crank")
+        .pin("A", "crank", "coupler")
+        .pin("B", "coupler", "rocker")
+        .pin("C", "ground", "rocker")
+        .crank("O", 10.0)
+        .start(1.0)
+        .mode(&["coupler", "rocker"], AssemblyMode::Right)
+        .build()
+        .unwrap();
+    let case = case.with(|parts| parts.drives.crank_mut().through = true).unwrap();
+    let grid = linkage::case::Grid::of_cranks(case.crank(), vec![1.0, 4.0]);
+    let case = case.on(grid).unwrap();
+    let found = find(&case, &question(&case, 0.01, &[]), &mut |_| ()).unwrap();
+    assert_eq!(found.open.len(), 1, "{:?}", found.open);
+    let [from, to] = found.open[0];
+    assert!(from <= PI && PI <= to && to - from < 1e-3, "{:?}", found.open);
+}

@@ -1,0 +1,394 @@
+//! Where links are over an interval of crank angles: poses of side 1 at its middle, and a proven bound on the rest.
+//!
+//! Over the interval a link is taken to move evenly: its reference point along a straight line, its angle in proportion
+//! to the crank angle. How far the true motion may be from that follows group by group, for all crank angles of the
+//! interval at once (Krawczyk 1969; Moore 1977). With x the poses of a group's links, F(x) = 0 its joints, x0 the even
+//! motion and A an inverse of the derivative of F at the middle, T(x) = x - A F(x) maps the box |x - x0| <= r into
+//! itself and contracts if
+//!
+//!   |A| |F(x0)| + (|1 - A F'(middle)| + |A| |F' - F'(middle)|) r <= r.
+//!
+//! Then the box holds exactly one pose for every crank angle, and it is the one that begins at the middle: no other
+//! branch, no sampling. F is linear but for the sines and cosines of the links' angles, so that F(x0) and the change of
+//! F' have bounds in closed form: |exp(i a) - 1 - i a| <= a^2 / 2 and |exp(i a) - 1| <= |a|.
+
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+use analytic::PoseSolver;
+use linkage::case::Case;
+use linkage::error::Result;
+use linkage::math::{KeepNan, Matrix, Vec2, cross, rotated, turned};
+use linkage::mechanism::{GROUND, Group, Joint};
+use linkage::trajectory::Stage;
+
+/// Largest first part of the range (rad).
+const FIRST: f64 = std::f64::consts::PI / 24.0;
+/// Halvings of a first part after which no more is tried: a ten-millionth of it.
+pub const MOST_HALVINGS: u32 = 26;
+/// Trials of a larger box, and by how much the last one is widened.
+const TRIALS: usize = 12;
+const WIDER: f64 = 1.1;
+/// Rounding of a place, as a share of the lengths it is made of.
+const ROUNDING: f64 = 32.0 * f64::EPSILON;
+/// Slices that are kept. More are computed again when they are asked for again.
+const KEPT: usize = 20_000;
+
+/// A part of the range: one of the first parts, halved so many times.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Part {
+    /// Halvings.
+    pub halvings: u32,
+    /// Number among the parts of this size, in the order of the motion.
+    pub index: u64,
+}
+
+impl Part {
+    /// Its two halves, in the order of the motion.
+    #[must_use]
+    pub fn halves(self) -> [Part; 2] {
+        [0, 1].map(|half| Part { halvings: self.halvings + 1, index: 2 * self.index + half })
+    }
+}
+
+/// A point of a link over a part of the range: `at` + `rate` d at the distance d from the middle crank angle (m, m/rad),
+/// and at most `error` (m) from that.
+#[derive(Clone, Copy, Debug)]
+pub struct Track {
+    /// Place at the middle (m).
+    pub at: Vec2,
+    /// Derivative by the crank angle (m/rad).
+    pub rate: Vec2,
+    /// Largest distance of the true place from the even motion (m).
+    pub error: f64,
+}
+
+impl Track {
+    /// Largest distance from the place at the middle (m), within `half` (rad) of it.
+    #[must_use]
+    pub fn reach(&self, half: f64) -> f64 {
+        self.rate.norm() * half + self.error
+    }
+}
+
+/// A link over a part of the range.
+#[derive(Clone, Copy, Debug)]
+pub struct Tube {
+    /// Reference point in the link's frame (m).
+    centre: Vec2,
+    at: Vec2,
+    rate: Vec2,
+    direction: Vec2,
+    spin: f64,
+    /// Bounds of the reference point (m) and of the angle (rad).
+    off: f64,
+    twist: f64,
+    half: f64,
+}
+
+impl Tube {
+    const STILL: Tube = Tube {
+        centre: Vec2::new(0.0, 0.0),
+        at: Vec2::new(0.0, 0.0),
+        rate: Vec2::new(0.0, 0.0),
+        direction: Vec2::new(1.0, 0.0),
+        spin: 0.0,
+        off: 0.0,
+        twist: 0.0,
+        half: 0.0,
+    };
+
+    /// A point of the link (m, in its frame).
+    #[must_use]
+    pub fn point(&self, local: Vec2) -> Track {
+        let (arm, turn) = (rotated(self.direction, local - self.centre), self.turn());
+        Track {
+            at: self.at + arm,
+            rate: self.rate + turned(arm) * self.spin,
+            error: self.off + arm.norm() * (self.twist + turn * turn / 2.0),
+        }
+    }
+
+    /// Largest turn from the middle (rad).
+    fn turn(&self) -> f64 {
+        self.spin.abs() * self.half + self.twist
+    }
+
+    /// Origin and direction of the link's frame at the middle.
+    #[must_use]
+    pub fn frame(&self) -> (Vec2, Vec2) {
+        (self.at - rotated(self.direction, self.centre), self.direction)
+    }
+
+    /// A world place in the link's frame at the middle (m).
+    #[must_use]
+    pub fn local(&self, place: Vec2) -> Vec2 {
+        rotated(Vec2::new(self.direction.x, -self.direction.y), place - self.at) + self.centre
+    }
+}
+
+/// All links over a part of the range.
+#[derive(Debug)]
+pub struct Slice {
+    /// Crank angle at the middle (rad).
+    pub crank: f64,
+    /// Half of the part (rad), not negative.
+    pub half: f64,
+    /// The links.
+    pub tubes: Vec<Tube>,
+    /// Whether the bounds are proven. Without that only the poses at the middle are known.
+    pub sound: bool,
+}
+
+/// The range of crank angles, and where all links are over its parts.
+pub struct Tubes<'a> {
+    case: &'a Case,
+    solver: PoseSolver<'a>,
+    centres: Vec<Vec2>,
+    from: f64,
+    to: f64,
+    first: u64,
+    scale: f64,
+    kept: BTreeMap<Part, Rc<Slice>>,
+    /// Poses of side 1 that were computed.
+    pub poses: usize,
+}
+
+impl<'a> Tubes<'a> {
+    /// The range from one crank angle to another (rad, in the order of the motion).
+    ///
+    /// # Errors
+    /// Those of [`PoseSolver::new`].
+    pub fn new(case: &'a Case, [from, to]: [f64; 2]) -> Result<Self> {
+        let mechanism = &case.mechanism;
+        let centre = |link: usize| {
+            let places: Vec<Vec2> = mechanism.joints().iter().filter_map(|joint| joint.on(link)).collect();
+            places.iter().sum::<Vec2>() / (places.len() as f64).larger(1.0)
+        };
+        let first = ((to - from).abs() / FIRST - 1e-9).ceil().larger(1.0) as u64;
+        let ground = mechanism.links()[GROUND].points.iter().map(|point| point.local.norm()).fold(0.0, f64::larger);
+        Ok(Tubes {
+            case,
+            solver: PoseSolver::new(case)?,
+            centres: (0..mechanism.links().len()).map(centre).collect(),
+            from,
+            to,
+            first,
+            scale: mechanism.size() + ground,
+            kept: BTreeMap::new(),
+            poses: 0,
+        })
+    }
+
+    /// The parts that the range begins with.
+    pub fn parts(&self) -> impl DoubleEndedIterator<Item = Part> + use<> {
+        (0..self.first).map(|index| Part { halvings: 0, index })
+    }
+
+    /// Both ends of a part (rad), in the order of the motion.
+    #[must_use]
+    pub fn ends(&self, part: Part) -> [f64; 2] {
+        let count = self.first as f64 * f64::from(part.halvings).exp2();
+        [0, 1].map(|end| self.from + (self.to - self.from) * ((part.index + end) as f64 / count))
+    }
+
+    /// Both ends of the range (rad), in the order of the motion.
+    #[must_use]
+    pub fn range(&self) -> [f64; 2] {
+        [self.from, self.to]
+    }
+
+    /// Size of the mechanism with its place in the world (m).
+    #[must_use]
+    pub fn scale(&self) -> f64 {
+        self.scale
+    }
+
+    /// Rounding of places (m).
+    #[must_use]
+    pub fn rounding(&self) -> f64 {
+        ROUNDING * self.scale
+    }
+
+    /// All links over a part.
+    ///
+    /// # Errors
+    /// Those of [`PoseSolver::solve`].
+    pub fn at(&mut self, part: Part) -> Result<Rc<Slice>> {
+        if let Some(slice) = self.kept.get(&part) {
+            return Ok(Rc::clone(slice));
+        }
+        let [from, to] = self.ends(part);
+        let slice = Rc::new(self.slice(f64::midpoint(from, to), (to - from).abs() / 2.0)?);
+        if self.kept.len() < KEPT {
+            self.kept.insert(part, Rc::clone(&slice));
+        }
+        Ok(slice)
+    }
+
+    /// All links within `half` (rad) of a crank angle (rad).
+    ///
+    /// # Errors
+    /// Those of [`PoseSolver::solve`].
+    pub fn slice(&mut self, crank: f64, half: f64) -> Result<Slice> {
+        self.poses += 1;
+        let case = self.case;
+        let state = self.solver.solve(crank, 1.0, 0.0, Stage::Velocities)?;
+        let mut tubes = vec![Tube::STILL; state.motions.len()];
+        let rounding = ROUNDING * self.scale;
+        for (link, tube) in tubes.iter_mut().enumerate().skip(1) {
+            let (motion, centre) = (&state.motions[link], self.centres[link]);
+            let (at, rate) = (motion.point(centre), motion.point_velocity(centre));
+            let (direction, spin) = (motion.direction, motion.omega);
+            *tube = Tube { centre, at, rate, direction, spin, off: rounding, twist: ROUNDING, half };
+        }
+        for drive in case.drives.iter() {
+            // It turns evenly about its pivot, which does not move.
+            let joint = &case.mechanism.joints()[drive.joint];
+            let (pivot, carrier) = (joint.on(drive.link), joint.other(drive.link));
+            let (pivot, motion) = (pivot.unwrap_or_else(Vec2::zeros), &state.motions[drive.link]);
+            let carried = if carrier.link == GROUND { 0.0 } else { f64::INFINITY };
+            let tube = &mut tubes[drive.link];
+            (tube.centre, tube.at, tube.rate) = (pivot, motion.point(pivot), Vec2::zeros());
+            tube.off += carried;
+        }
+        let sound = case.structure.groups.iter().all(|group| enclose(case, group, half, &mut tubes, rounding));
+        Ok(Slice { crank, half, tubes, sound })
+    }
+}
+
+/// Widens the tubes of a group's links until they are proven to hold its motion. Returns whether they are.
+fn enclose(case: &Case, group: &Group, half: f64, tubes: &mut [Tube], rounding: f64) -> bool {
+    let size = 3 * group.links.len();
+    let joints: Vec<&Joint> =
+        group.inner.iter().chain(&group.outer).map(|&joint| &case.mechanism.joints()[joint]).collect();
+    if joints.len() * 2 != size {
+        return false;
+    }
+    let column = |link: usize| group.links.iter().position(|&own| own == link).map(|index| 3 * index);
+    let mut derivative = Matrix::zeros(size, size);
+    let mut open = vec![0.0; size];
+    for (row, joint) in joints.iter().enumerate() {
+        equations(joint, tubes, half, &column, 2 * row, &mut derivative, &mut open);
+    }
+    open.iter_mut().for_each(|open| *open += rounding);
+    let Some(inverse) = derivative.clone().try_inverse() else { return false };
+    let own = (Matrix::identity(size, size) - &inverse * &derivative).abs();
+    let inverse = inverse.abs();
+    let least: Vec<f64> =
+        (0..size).map(|i| (0..size).map(|k| inverse[(i, k)] * open[k]).sum::<f64>() * (1.0 + ROUNDING)).collect();
+    let mut radii = least.clone();
+    for _ in 0..TRIALS {
+        radii.iter_mut().for_each(|radius| *radius *= WIDER);
+        for (index, &link) in group.links.iter().enumerate() {
+            let [x, y, twist] = [0, 1, 2].map(|k| radii[3 * index + k]);
+            (tubes[link].off, tubes[link].twist) = (x.hypot(y), twist);
+        }
+        // The change of every equation over the box.
+        let mut change = vec![0.0; size];
+        for (row, joint) in joints.iter().enumerate() {
+            let [one, two] = changes(joint, tubes, half, &column, &radii);
+            (change[2 * row], change[2 * row + 1]) = (one, two);
+        }
+        let next: Vec<f64> = (0..size)
+            .map(|i| least[i] + (0..size).map(|k| own[(i, k)] * radii[k] + inverse[(i, k)] * change[k]).sum::<f64>())
+            .collect();
+        if next.iter().zip(&radii).all(|(next, radius)| next < radius) {
+            for (index, &link) in group.links.iter().enumerate() {
+                let [x, y, twist] = [0, 1, 2].map(|k| next[3 * index + k]);
+                (tubes[link].off, tubes[link].twist) = (x.hypot(y) + rounding, twist + ROUNDING);
+            }
+            return true;
+        }
+        if !next.iter().all(|radius| radius.is_finite()) {
+            return false;
+        }
+        radii = next;
+    }
+    false
+}
+
+/// Puts the derivative of a joint's two equations at the middle into `derivative`, and into `open` how far the even
+/// motion may leave them open: links of the group move evenly, others are in their tubes.
+fn equations(
+    joint: &Joint,
+    tubes: &[Tube],
+    half: f64,
+    column: &impl Fn(usize) -> Option<usize>,
+    row: usize,
+    derivative: &mut Matrix,
+    open: &mut [f64],
+) {
+    let sides = [joint.first, joint.second];
+    let own = sides.map(|side| column(side.link));
+    let even = [0, 1].map(|k| {
+        let tube = tubes[sides[k].link];
+        if own[k].is_some() { Tube { off: 0.0, twist: 0.0, ..tube } } else { tube }
+    });
+    let [first, second] = [0, 1].map(|k| even[k].point(sides[k].local));
+    let arms = [0, 1].map(|k| rotated(even[k].direction, sides[k].local - even[k].centre));
+    let (gap, rate) = (second.at - first.at, second.rate - first.rate);
+    let error = first.error + second.error;
+    let Some(axes) = joint.kind.axes() else {
+        for k in 0..2 {
+            open[row + k] = gap[k].abs() + rate[k].abs() * half + error;
+        }
+        for (side, sign) in [(0, -1.0), (1, 1.0)] {
+            let Some(at) = own[side] else { continue };
+            let lever = turned(arms[side]) * sign;
+            derivative[(row, at)] = sign;
+            derivative[(row + 1, at + 1)] = sign;
+            (derivative[(row, at + 2)], derivative[(row + 1, at + 2)]) = (lever.x, lever.y);
+        }
+        return;
+    };
+    let [along, other] = [0, 1].map(|k| rotated(even[k].direction, axes[k]));
+    let (normal, turn, twist) = (turned(along), even[0].turn(), even[0].twist);
+    let linear = normal.dot(&rate) - even[0].spin * along.dot(&gap);
+    open[row] = normal.dot(&gap).abs()
+        + linear.abs() * half
+        + error
+        + gap.norm() * (twist + turn * turn / 2.0)
+        + turn * rate.norm() * half;
+    let angle = cross(along, other).atan2(along.dot(&other));
+    open[row + 1] = angle.abs() + (even[1].spin - even[0].spin).abs() * half + twist + even[1].twist;
+    if let Some(at) = own[0] {
+        (derivative[(row, at)], derivative[(row, at + 1)]) = (-normal.x, -normal.y);
+        derivative[(row, at + 2)] = -along.dot(&gap) - normal.dot(&turned(arms[0]));
+        derivative[(row + 1, at + 2)] = -1.0;
+    }
+    if let Some(at) = own[1] {
+        (derivative[(row, at)], derivative[(row, at + 1)]) = (normal.x, normal.y);
+        derivative[(row, at + 2)] = normal.dot(&turned(arms[1]));
+        derivative[(row + 1, at + 2)] = 1.0;
+    }
+}
+
+/// How much the derivative of a joint's two equations changes over the tubes, times the radii of the box.
+fn changes(
+    joint: &Joint,
+    tubes: &[Tube],
+    half: f64,
+    column: &impl Fn(usize) -> Option<usize>,
+    radii: &[f64],
+) -> [f64; 2] {
+    let sides = [joint.first, joint.second];
+    let own = sides.map(|side| column(side.link));
+    let turns = sides.map(|side| tubes[side.link].turn());
+    let arms = sides.map(|side| (side.local - tubes[side.link].centre).norm());
+    if joint.kind.axes().is_none() {
+        let each = [0, 1].map(|k| own[k].map_or(0.0, |at| arms[k] * turns[k] * radii[at + 2]));
+        return [each[0] + each[1]; 2];
+    }
+    let [first, second] = sides.map(|side| tubes[side.link].point(side.local));
+    let (gap, rate) = (second.at - first.at, second.rate - first.rate);
+    let moved = rate.norm() * half + first.error + second.error;
+    let mut sum = 0.0;
+    if let Some(at) = own[0] {
+        sum += turns[0] * (radii[at] + radii[at + 1]) + (turns[0] * gap.norm() + moved) * radii[at + 2];
+    }
+    if let Some(at) = own[1] {
+        sum += turns[0] * (radii[at] + radii[at + 1]) + arms[1] * (turns[0] + turns[1]) * radii[at + 2];
+    }
+    [sum, 0.0]
+}

@@ -1,0 +1,127 @@
+//! Motors and loads as MuJoCo has them: actuators, and tendons with springs and dampers.
+
+use super::limits::line;
+use super::model::Model;
+use linkage::drive::{Course, Load, Motor};
+use linkage::error::Result;
+use linkage::math::{Vec2, angle};
+use linkage::mechanism::Side;
+
+/// Forces that are large enough never to be reached.
+const ENDLESS: f64 = 1e30;
+
+/// What an actuator acts on.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Target {
+    /// The hinge of a branch.
+    Hinge(usize),
+    /// A fixed tendon: branches with their coefficients, whose coordinates it adds.
+    Sum(Vec<(usize, f64)>),
+    /// A place of a link, with a force in world axes or in those of the link (N).
+    Place(Side, Vec2, bool),
+}
+
+/// A force or moment `constant + stiffness * length + damping * rate`, limited to a range.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Actuator {
+    pub name: String,
+    pub target: Target,
+    pub bias: [f64; 3],
+    pub range: Option<[f64; 2]>,
+}
+
+/// A tendon between two places with a spring or a damper.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Tendon {
+    pub name: String,
+    pub ends: [Side; 2],
+    pub stiffness: f64,
+    pub free_length: f64,
+    pub damping: f64,
+}
+
+/// Everything that acts on the links besides gravity, constraints and dry friction.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Forces {
+    pub actuators: Vec<Actuator>,
+    pub tendons: Vec<Tendon>,
+}
+
+/// Forces of all motors and loads; those of resistances are [frictions](super::model::Friction).
+pub(super) fn forces(model: &Model) -> Result<Forces> {
+    let mut found = Forces::default();
+    for drive in model.case.drives.iter() {
+        let joint = &model.case.mechanism.joints()[drive.joint].name;
+        let branch = model.branch_of(drive.link).expect("a driving link is in the tree");
+        if let Some(motor) = drive.moving_motor() {
+            found.actuators.extend(motors(motor, drive.sense(), joint, branch)?);
+        }
+    }
+    for (index, load) in model.case.loads.iter().enumerate() {
+        let name = format!("load.{}", index + 1);
+        let constant = |course: &Course| course.at(0.0);
+        let turning = |links: &[(usize, f64)]| {
+            let mut sum: Vec<(usize, f64)> = Vec::new();
+            for &(link, sign) in links {
+                sum.extend(model.hinges(link).into_iter().map(|branch| (branch, sign)));
+            }
+            // What both links turn with has no part in their twist.
+            let both: Vec<usize> = sum.iter().filter(|(_, sign)| *sign < 0.0).map(|(branch, _)| *branch).collect();
+            let is_common = |branch: usize| both.contains(&branch) && sum.contains(&(branch, 1.0));
+            sum.iter().copied().filter(|&(branch, _)| !is_common(branch)).collect::<Vec<_>>()
+        };
+        let mut put = |target: Target, bias: [f64; 3]| {
+            let target = match target {
+                Target::Sum(sum) if sum.is_empty() => return,
+                Target::Sum(sum) if sum.len() == 1 && sum[0].1 == 1.0 => Target::Hinge(sum[0].0),
+                other => other,
+            };
+            found.actuators.push(Actuator { name: name.clone(), target, bias, range: None });
+        };
+        match load {
+            Load::Resistance { .. } | Load::ResistingForce { .. } => {}
+            Load::Moment { link, moment, .. } => {
+                put(Target::Sum(turning(&[(*link, 1.0)])), [constant(moment), 0.0, 0.0]);
+            }
+            Load::Force { at, force: [x, y], follows } => {
+                put(Target::Place(*at, Vec2::new(constant(x), constant(y)), *follows), [1.0, 0.0, 0.0]);
+            }
+            &Load::Spring { ends, stiffness, free_length } => {
+                found.tendons.push(Tendon { name, ends, stiffness, free_length, damping: 0.0 });
+            }
+            &Load::Damper { ends, damping } => {
+                found.tendons.push(Tendon { name, ends, stiffness: 0.0, free_length: 0.0, damping });
+            }
+            &Load::TorsionSpring { links: [first, second], stiffness, free_angle } => {
+                // A tendon's length is the difference of the angles as the poses have them; the twist begins in
+                // (-pi, pi].
+                let begun = model.case.start.0[second].angle - model.case.start.0[first].angle;
+                let free = free_angle + begun - angle::wrapped(begun);
+                put(Target::Sum(turning(&[(second, 1.0), (first, -1.0)])), [stiffness * free, -stiffness, 0.0]);
+            }
+            &Load::TorsionDamper { links: [first, second], damping } => {
+                put(Target::Sum(turning(&[(second, 1.0), (first, -1.0)])), [0.0, 0.0, -damping]);
+            }
+        }
+    }
+    Ok(found)
+}
+
+/// A motor on the crank's hinge. Losses make two of it: what drives, and what brakes.
+fn motors(motor: &Motor, sense: f64, joint: &str, branch: usize) -> Result<Vec<Actuator>> {
+    let [at_rest, slope] = line(&motor.law)?;
+    let (constant, damping) = (sense * motor.ratio * at_rest, motor.ratio * motor.ratio * slope);
+    let part = |name: String, share: f64, range: Option<[f64; 2]>| {
+        let bias = [share * constant, 0.0, share * damping];
+        Actuator { name, target: Target::Hinge(branch), bias, range }
+    };
+    if motor.efficiency >= 1.0 {
+        return Ok(vec![part(format!("{joint}.motor"), 1.0, None)]);
+    }
+    let [forward, back] =
+        if sense > 0.0 { [[0.0, ENDLESS], [-ENDLESS, 0.0]] } else { [[-ENDLESS, 0.0], [0.0, ENDLESS]] };
+    Ok(vec![
+        part(format!("{joint}.motor.drives"), motor.efficiency, Some(forward)),
+        part(format!("{joint}.motor.brakes"), 1.0 / motor.efficiency, Some(back)),
+    ])
+}

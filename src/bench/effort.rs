@@ -1,0 +1,50 @@
+//! Exact effort of a run: numbers that no clock enters.
+
+/// What a run has done, by name: `steps`, `sweeps`, `poses`, `evaluations`, `factorisations`, ...
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Effort(pub Vec<(String, u64)>);
+
+/// Counts of which each is one solution of the whole mechanism at one state, the first that there is.
+const SOLUTIONS: [&[&str]; 3] = [&["steps", "probes"], &["evaluations"], &["poses"]];
+/// Counts of the inner work of such a solution, the first that there is.
+const INNER: [&[&str]; 4] = [&["sweeps"], &["factorisations"], &["iterations"], &["groups"]];
+
+impl Effort {
+    /// How often something was done; `None` if nobody counted it.
+    #[must_use]
+    pub fn of(&self, name: &str) -> Option<u64> {
+        self.0.iter().find(|(own, _)| own == name).map(|&(_, times)| times)
+    }
+
+    fn first(&self, wanted: &[&[&str]]) -> Option<u64> {
+        wanted.iter().map(|names| names.iter().filter_map(|name| self.of(name)).sum::<u64>()).find(|&sum| sum > 0)
+    }
+
+    /// Solutions of the whole mechanism: steps and probes of an engine, else evaluations of the equation of motion, else
+    /// poses.
+    #[must_use]
+    pub fn solutions(&self) -> Option<u64> {
+        self.first(&SOLUTIONS)
+    }
+
+    /// Inner work: sweeps of an engine, else factorisations, else iterations, else groups placed.
+    #[must_use]
+    pub fn inner(&self) -> Option<u64> {
+        self.first(&INNER)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_comes_first_counts() {
+        let effort = |counts: &[(&str, u64)]| Effort(counts.iter().map(|&(name, n)| (name.to_string(), n)).collect());
+        let engine = effort(&[("poses", 3), ("steps", 10), ("probes", 2), ("sweeps", 40)]);
+        assert_eq!((engine.solutions(), engine.inner()), (Some(12), Some(40)));
+        let side = effort(&[("poses", 3), ("factorisations", 0), ("iterations", 5)]);
+        assert_eq!((side.solutions(), side.inner()), (Some(3), Some(5)));
+        assert_eq!((effort(&[]).solutions(), effort(&[]).inner()), (None, None));
+    }
+}

@@ -1,0 +1,113 @@
+//! Pareto fronts: the points that no other beats in cost and error at once.
+
+use super::point::Point;
+use linkage::trajectory::Stage;
+
+/// What a point costs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Axis {
+    /// Shortest time.
+    Time,
+    /// Solutions of the whole mechanism.
+    Solutions,
+    /// Inner work: sweeps, factorisations, iterations.
+    Inner,
+}
+
+impl Axis {
+    /// All axes.
+    pub const ALL: [Axis; 3] = [Axis::Time, Axis::Solutions, Axis::Inner];
+
+    /// Last part of file names.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Axis::Time => "time",
+            Axis::Solutions => "solutions",
+            Axis::Inner => "inner",
+        }
+    }
+
+    /// Cost of a point along the axis: seconds, or a count.
+    #[must_use]
+    pub fn of(self, point: &Point) -> Option<f64> {
+        let effort = || point.run().map(|run| &run.effort);
+        match self {
+            Axis::Time => point.seconds(),
+            Axis::Solutions => effort()?.solutions().map(|count| count as f64),
+            Axis::Inner => effort()?.inner().map(|count| count as f64),
+        }
+    }
+}
+
+/// Indices of the points that no other beats in a stage, the cheapest first. What is equal in both stays once.
+/// An error on the floor counts as the floor: below it nobody is better than another.
+#[must_use]
+pub fn front(points: &[Point], stage: Stage, axis: Axis, floor: f64, of: &dyn Fn(&Point) -> bool) -> Vec<usize> {
+    let place = |index: usize| {
+        let point = Some(&points[index]).filter(|point| of(point))?;
+        let error = point.error(stage)?.max;
+        Some((axis.of(point)?, if error > floor { error } else { floor }, index))
+    };
+    let mut placed: Vec<(f64, f64, usize)> = (0..points.len()).filter_map(place).collect();
+    placed.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    let mut best = f64::INFINITY;
+    let mut front = Vec::new();
+    for (_, error, index) in placed {
+        if error < best {
+            best = error;
+            front.push(index);
+        }
+    }
+    front
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::effort::Effort;
+    use super::super::point::{Errors, Outcome, Party, Run};
+    use super::*;
+
+    fn point(seconds: f64, error: f64) -> Point {
+        let errors = Errors { max: error, rms: error, is_limited: false };
+        let run =
+            Run { errors: [Some(errors); 5], lacking: Vec::new(), seconds: vec![seconds], effort: Effort::default() };
+        Point {
+            program: "p".into(),
+            party: Party::Peer,
+            way: String::new(),
+            resolution: String::new(),
+            settings: None,
+            is_usual: false,
+            outcome: Outcome::Answered(run),
+        }
+    }
+
+    /// Against the definition: no other point is at least as good in both and better in one.
+    #[test]
+    fn the_front_is_what_nobody_beats() {
+        let mut state = 1u64;
+        let mut random = || {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            ((state >> 40) % 20) as f64 + 1.0
+        };
+        for _ in 0..50 {
+            let places: Vec<[f64; 2]> = (0..12).map(|_| [random(), random()]).collect();
+            let points: Vec<Point> = places.iter().map(|&[seconds, error]| point(seconds, error)).collect();
+            let found = front(&points, Stage::Positions, Axis::Time, 0.0, &|_| true);
+            let beaten =
+                |own: [f64; 2]| places.iter().any(|other| other[0] <= own[0] && other[1] <= own[1] && *other != own);
+            let mut expected: Vec<[f64; 2]> = places.iter().copied().filter(|&own| !beaten(own)).collect();
+            expected.sort_by(|a, b| a[0].total_cmp(&b[0]));
+            expected.dedup();
+            assert_eq!(found.iter().map(|&index| places[index]).collect::<Vec<_>>(), expected);
+        }
+    }
+
+    #[test]
+    fn below_the_floor_nobody_is_better() {
+        let points = [point(1.0, 1e-9), point(2.0, 1e-15), point(3.0, 1e-16)];
+        assert_eq!(front(&points, Stage::Positions, Axis::Time, 1e-14, &|_| true), [0, 1]);
+        assert!(front(&points, Stage::Positions, Axis::Solutions, 0.0, &|_| true).is_empty());
+    }
+}

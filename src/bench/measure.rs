@@ -1,0 +1,199 @@
+//! Runs and their times, in rounds: every way once, then every way again, so that what else the machine does falls on
+//! all of them.
+
+use super::effort::Effort;
+use super::ladder::{Planned, Runner};
+use super::options::Clock;
+use super::peer::{Answer, Peer};
+use super::point::{Outcome, Point, Run};
+use super::reference::{Floor, apart};
+use linkage::case::Case;
+use linkage::error::Error;
+use linkage::math::KeepNan;
+use linkage::solver::Solver;
+use linkage::trajectory::{Channel, Stage, Trajectory};
+use linkage::work::{Count, Work, counted};
+
+/// A run shorter than this (s) is timed together with its repetitions, at most so many.
+const SHORT: f64 = 5e-3;
+const MOST: f64 = 1000.0;
+/// Runs longer than this (s) are timed twice at most, those of peers once.
+const LONG: f64 = 0.2;
+/// Rounds of what is long, and of peers.
+const FEW: usize = 2;
+/// Longest text of a reason.
+const REASON: usize = 300;
+/// Relative difference of instants that are the same.
+const SAME: f64 = 1e-9;
+
+/// What runs are measured by.
+pub(super) struct Desk<'a> {
+    pub(super) case: &'a Case,
+    pub(super) reference: &'a Trajectory,
+    pub(super) floor: &'a Floor,
+    pub(super) peers: &'a [&'a dyn Peer],
+    pub(super) clock: Clock<'a>,
+}
+
+impl Desk<'_> {
+    /// All points. Versions that peers tell are added to `versions`.
+    pub(super) fn measure(
+        &self,
+        planned: &[Planned],
+        rounds: usize,
+        progress: &mut dyn FnMut(f64),
+        versions: &mut Vec<(String, String)>,
+    ) -> Vec<Point> {
+        let all = (rounds * planned.len()).max(1) as f64;
+        let mut points: Vec<Point> = Vec::new();
+        for round in 0..rounds {
+            for (index, way) in planned.iter().enumerate() {
+                progress((round * planned.len() + index) as f64 / all);
+                match round {
+                    0 => {
+                        let outcome = self.first(way, versions);
+                        points.push(Point {
+                            program: way.program.clone(),
+                            party: way.party,
+                            way: way.way.clone(),
+                            resolution: way.resolution.clone(),
+                            settings: way.settings,
+                            is_usual: way.is_usual,
+                            outcome: outcome.map_or_else(|reason| Outcome::Failed(short(&reason)), Outcome::Answered),
+                        });
+                    }
+                    _ => self.again(way, round, &mut points[index]),
+                }
+            }
+        }
+        points
+    }
+
+    fn first(&self, way: &Planned, versions: &mut Vec<(String, String)>) -> Result<Run, String> {
+        let told = |error: Error| error.to_string();
+        match &way.runner {
+            Runner::Side(solver) => self.own(solver.as_ref()).map_err(told),
+            Runner::Engine(engine) => self.own(engine.as_ref()).map_err(told),
+            Runner::Peer(index, way) => {
+                let peer = self.peers[*index];
+                let answer = peer.run(way)?;
+                let version = (peer.name().to_string(), answer.version.clone());
+                if !versions.contains(&version) && !answer.version.is_empty() {
+                    versions.push(version);
+                }
+                self.judged(answer)
+            }
+        }
+    }
+
+    /// One more round of what answered.
+    fn again(&self, way: &Planned, round: usize, point: &mut Point) {
+        let Outcome::Answered(run) = &mut point.outcome else { return };
+        let is_long = run.seconds.iter().any(|&seconds| seconds > LONG);
+        match &way.runner {
+            Runner::Side(_) | Runner::Engine(_) | Runner::Peer(..) if is_long && round >= FEW => {}
+            Runner::Side(solver) => run.seconds.extend(self.timed(solver.as_ref()).map(|(seconds, ..)| seconds)),
+            Runner::Engine(engine) => run.seconds.extend(self.timed(engine.as_ref()).map(|(seconds, ..)| seconds)),
+            // A peer starts anew for every answer, and repeats short runs itself.
+            Runner::Peer(index, way) if round < FEW && !is_long => {
+                if let Ok(answer) = self.peers[*index].run(way) {
+                    run.seconds.extend(answer.seconds.into_iter().filter(|seconds| *seconds > 0.0));
+                }
+            }
+            Runner::Peer(..) => {}
+        }
+    }
+
+    /// Time of a solver in this round, its solution and its work. What is short is timed several times at once, because
+    /// the clock itself takes time.
+    fn timed<S: Solver + ?Sized>(&self, solver: &S) -> Result<(f64, Trajectory, Work), Error> {
+        let since = (self.clock)();
+        let (found, work) = counted(|| solver.solve(self.case));
+        let first = (self.clock)() - since;
+        let found = found?;
+        if first >= SHORT {
+            return Ok((first, found, work));
+        }
+        let times = (SHORT / first).ceil().smaller(MOST).larger(1.0) as usize;
+        let since = (self.clock)();
+        for _ in 0..times {
+            drop(solver.solve(self.case)?);
+        }
+        Ok((((self.clock)() - since) / times as f64, found, work))
+    }
+
+    fn own<S: Solver + ?Sized>(&self, solver: &S) -> Result<Run, Error> {
+        let (seconds, found, work) = self.timed(solver)?;
+        let counts = Count::ALL.into_iter().map(|what| (what.name().to_string(), work.of(what)));
+        let effort = Effort(counts.filter(|(_, times)| *times > 0).collect());
+        let apart = apart(self.reference, &found)?;
+        let errors = Stage::ALL
+            .map(|stage| self.case.wanted.has(stage).then(|| self.floor.judged(stage, apart[stage as usize])));
+        Ok(Run { errors, lacking: Vec::new(), seconds: vec![seconds], effort })
+    }
+
+    /// A peer's answer as a run; everything that is wrong with it is a reason.
+    fn judged(&self, answer: Answer) -> Result<Run, String> {
+        let column = |name: &str| answer.columns.iter().find(|(own, _)| own == name).map(|(_, values)| values);
+        let times = column("t_s").ok_or("the answer has no column t_s")?;
+        let wanted = &self.case.grid.times;
+        if times.len() != wanted.len() {
+            return Err(format!("the answer has {} instants, and {} are wanted", times.len(), wanted.len()));
+        }
+        let span = wanted.iter().fold(0.0f64, |most, t| most.larger(t.abs()));
+        if let Some(row) = (0..times.len()).find(|&row| !((times[row] - wanted[row]).abs() <= SAME * span)) {
+            return Err(format!(
+                "row {} of the answer is at {} s, and {} s is wanted",
+                row + 1,
+                times[row],
+                wanted[row]
+            ));
+        }
+        let seconds: Vec<f64> = answer.seconds.iter().copied().filter(|&own| own > 0.0 && own.is_finite()).collect();
+        if seconds.is_empty() {
+            return Err("the answer has no time above 0 s".into());
+        }
+        let (mut errors, mut lacking) = ([None; Stage::ALL.len()], Vec::new());
+        for stage in Stage::ALL.into_iter().filter(|&stage| self.case.wanted.has(stage)) {
+            let own: Vec<&Channel> = self.reference.channels().iter().filter(|one| one.kind.stage == stage).collect();
+            let missing: Vec<String> =
+                own.iter().map(ToString::to_string).filter(|name| column(name).is_none()).collect();
+            if missing.len() == own.len() {
+                continue;
+            }
+            if let Some(first) = missing.first() {
+                let more = missing.len() - 1;
+                lacking.push((stage, format!("the answer lacks {first}{}", and_more(more))));
+                continue;
+            }
+            let columns = own.iter().map(|one| column(&one.to_string()).cloned().unwrap_or_default()).collect();
+            let channels = own.into_iter().cloned().collect();
+            match Trajectory::new(wanted.clone(), self.reference.cranks().to_vec(), channels, columns) {
+                Ok(found) => {
+                    let apart = apart(self.reference, &found).map_err(|error| error.to_string())?;
+                    errors[stage as usize] = Some(self.floor.judged(stage, apart[stage as usize]));
+                }
+                Err(error) => lacking.push((stage, error.to_string())),
+            }
+        }
+        // A run without any channel is no run.
+        match (errors.iter().any(Option::is_some), lacking.first()) {
+            (true, _) => Ok(Run { errors, lacking, seconds, effort: answer.effort }),
+            (false, Some((_, reason))) => Err(reason.clone()),
+            (false, None) => Err("the answer has none of the wanted channels".into()),
+        }
+    }
+}
+
+fn and_more(more: usize) -> String {
+    if more == 0 { String::new() } else { format!(" and {more} more") }
+}
+
+/// The first line of a reason, not too long for a diagram.
+fn short(reason: &str) -> String {
+    let line = reason.lines().find(|line| !line.trim().is_empty()).unwrap_or("no reason was given").trim();
+    match line.char_indices().nth(REASON) {
+        Some((end, _)) => format!("{}...", &line[..end]),
+        None => line.to_string(),
+    }
+}

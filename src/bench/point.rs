@@ -1,0 +1,125 @@
+//! One way of solving a scenario, and what came of it.
+
+use super::effort::Effort;
+use linkage::engine::Settings;
+use linkage::math::KeepNan;
+use linkage::trajectory::Stage;
+
+/// Whose way it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Party {
+    /// An analytic side.
+    Side,
+    /// An engine of this build.
+    Engine,
+    /// Another program.
+    Peer,
+}
+
+impl Party {
+    /// Name in tables.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Party::Side => "side",
+            Party::Engine => "engine",
+            Party::Peer => "peer",
+        }
+    }
+}
+
+/// Errors of one stage of channels over their scales.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Errors {
+    /// Largest over instants and channels.
+    pub max: f64,
+    /// Largest root mean square of a channel.
+    pub rms: f64,
+    /// Whether the reference's own error is more than a hundredth of it.
+    pub is_limited: bool,
+}
+
+/// A run that answered.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Run {
+    /// Errors by stage, in the order of [`Stage::ALL`]; `None` where nothing was wanted, or a peer has no such channel.
+    pub errors: [Option<Errors>; Stage::ALL.len()],
+    /// Stages of which a peer delivers only a part, with what it lacks: they count as failures.
+    pub lacking: Vec<(Stage, String)>,
+    /// Times of all rounds (s).
+    pub seconds: Vec<f64>,
+    /// What was done.
+    pub effort: Effort,
+}
+
+/// What came of it.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Outcome {
+    /// It answered.
+    Answered(Run),
+    /// It failed, for this reason.
+    Failed(String),
+}
+
+/// One way of solving a scenario.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Point {
+    /// Name of solver, engine or peer.
+    pub program: String,
+    /// Whose it is.
+    pub party: Party,
+    /// Settings besides the resolution, in words.
+    pub way: String,
+    /// Step or accuracy, in words.
+    pub resolution: String,
+    /// Settings of an engine.
+    pub settings: Option<Settings>,
+    /// Whether the settings are those that the program has without being asked. Only sides say so.
+    pub is_usual: bool,
+    /// What came of it.
+    pub outcome: Outcome,
+}
+
+impl Point {
+    /// The run, if it answered.
+    #[must_use]
+    pub fn run(&self) -> Option<&Run> {
+        match &self.outcome {
+            Outcome::Answered(run) => Some(run),
+            Outcome::Failed(_) => None,
+        }
+    }
+
+    /// Shortest time (s).
+    #[must_use]
+    pub fn seconds(&self) -> Option<f64> {
+        let least = self.run()?.seconds.iter().copied().fold(f64::INFINITY, f64::smaller);
+        (least.is_finite() && least > 0.0).then_some(least)
+    }
+
+    /// Largest error of a stage.
+    #[must_use]
+    pub fn error(&self, stage: Stage) -> Option<Errors> {
+        self.run()?.errors[stage as usize]
+    }
+
+    /// Why there is no error of a stage, if the stage was failed.
+    #[must_use]
+    pub fn failure(&self, stage: Stage) -> Option<&str> {
+        match &self.outcome {
+            Outcome::Failed(reason) => Some(reason),
+            Outcome::Answered(run) => run.lacking.iter().find(|(own, _)| *own == stage).map(|(_, what)| what.as_str()),
+        }
+    }
+
+    /// Way and resolution in words.
+    #[must_use]
+    pub fn told(&self) -> String {
+        [self.way.as_str(), self.resolution.as_str()]
+            .iter()
+            .filter(|part| !part.is_empty())
+            .copied()
+            .collect::<Vec<_>>()
+            .join(", ")
+    }
+}

@@ -1,0 +1,194 @@
+//! `linkproof bench`.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use clap::builder::PossibleValuesParser;
+
+use super::engine_args::engine_names;
+use super::load::only;
+use super::output;
+use super::progress::Bar;
+use crate::bench::{Axis, Bench, Clock, Options, Peer, bench};
+use crate::engines::{EngineName, usual_step};
+use crate::outside::{Command, Exports, machine, processor_time};
+use crate::report::{bench as report, bench_page, bench_plot, case_json};
+use crate::scenario::Scenario;
+use analytic::AssurSolver;
+use analytic::range::explained;
+use linkage::error::{Error, ErrorKind, Result};
+use workshop::export::{first_state, mjcf};
+
+const EXAMPLES: &str = "\
+Examples:
+  linkproof bench scenarios/crank_rocker.toml --out bench --quick        a coarse picture, in seconds
+  linkproof bench scenarios/five_bar.toml --out bench --quick --only positions --engine rapier
+  linkproof bench scenarios/*.toml --out docs/bench --page docs/bench.md --peer mujoco='python3 examples/peers/mujoco_peer.py'
+
+Writes NAME.time.svg, NAME.solutions.svg, NAME.inner.svg and NAME.csv of every scenario, and bench.json, to the directory.
+Times are ratios to that of side 1 in the same command; they may differ from run to run, errors and counts do not.
+docs/peers.md tells how any other program is put on the diagrams.";
+
+/// Longest time of one call of a peer (s).
+const LIMIT: f64 = 60.0;
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Args {
+    /// Scenario files
+    #[arg(value_name = "FILE", required = true)]
+    files: Vec<PathBuf>,
+    /// Directory for diagrams and numbers; it is made if it is missing
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Fewer settings and one round of timing
+    #[arg(long)]
+    quick: bool,
+    /// Ask everybody for these channels only, as in `run`. May be given several times
+    #[arg(long, value_name = "WORD")]
+    only: Vec<String>,
+    /// Engine. May be given several times [default: all of this build]
+    #[arg(long, value_name = "ENGINE", value_parser = PossibleValuesParser::new(engine_names()))]
+    engine: Vec<String>,
+    /// Another program, by a name and the command that runs it. May be given several times
+    #[arg(long, value_name = "NAME=COMMAND", value_parser = peer)]
+    peer: Vec<(String, String)>,
+    /// Longest time in seconds of one call of a peer
+    #[arg(long, value_name = "S", default_value_t = LIMIT, value_parser = positive)]
+    peer_limit: f64,
+    /// Work allowed to the engines of a scenario, in steps without sweeps [default: 2e6, with `--quick` 3e5]
+    #[arg(long, value_name = "STEPS", value_parser = positive)]
+    budget: Option<f64>,
+    /// Rounds of timing, of which the shortest counts [default: 3, with `--quick` 1]
+    #[arg(long, value_name = "N")]
+    rounds: Option<usize>,
+    /// Write a page of Markdown with the results of all scenarios
+    #[arg(long, value_name = "FILE", value_parser = output::target)]
+    page: Option<PathBuf>,
+}
+
+/// Reads a peer's name and command.
+fn peer(text: &str) -> std::result::Result<(String, String), String> {
+    let (name, command) = text.split_once('=').ok_or("expected NAME=COMMAND, for example mujoco='python3 peer.py'")?;
+    let is_name = !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || "-_.".contains(c));
+    match (is_name, command.trim().is_empty()) {
+        (true, false) => Ok((name.into(), command.trim().into())),
+        (false, _) => Err(format!("\"{name}\" is no name: letters, digits, -, _ and . are possible")),
+        (true, true) => Err("the command is empty".into()),
+    }
+}
+
+fn positive(text: &str) -> std::result::Result<f64, String> {
+    let value: f64 = text.parse().map_err(|error| format!("{error}"))?;
+    if value > 0.0 && value.is_finite() { Ok(value) } else { Err("it must be greater than 0".into()) }
+}
+
+pub(super) fn run(args: &Args) -> Result<()> {
+    let scenarios =
+        args.files.iter().map(|file| only(Scenario::load(file)?, &args.only)).collect::<Result<Vec<_>>>()?;
+    if let Some(twice) = (1..scenarios.len()).find(|&k| scenarios[..k].iter().any(|own| own.name == scenarios[k].name))
+    {
+        return Err(Error::new(ErrorKind::Input, format!("two scenarios are called \"{}\"", scenarios[twice].name))
+            .help("their files in the directory would have the same names: give each a directory of its own"));
+    }
+    let machine = machine();
+    let named = |name: &String| EngineName::named(name).expect("the argument parser knows all names");
+    let options = Options {
+        engines: args.engine.iter().map(named).collect(),
+        is_quick: args.quick,
+        budget: args.budget,
+        rounds: args.rounds,
+    };
+    for engine in &options.engines {
+        engine.with_step(1.0)?;
+    }
+    fs::create_dir_all(&args.out).map_err(|error| {
+        Error::new(ErrorKind::Io, format!("{} cannot be made: {error}", args.out.display()))
+            .key("--out")
+            .help("give a directory that may be made or written to")
+    })?;
+    let since = Instant::now();
+    let wall = move || since.elapsed().as_secs_f64();
+    let used = move || used(since);
+    let mut benches = Vec::new();
+    for scenario in &scenarios {
+        let found = one(args, scenario, &options, [&used, &wall])?;
+        output::print(&format!("{}\n", report::text(&found)))?;
+        put(args, &found, &machine)?;
+        benches.push(found);
+    }
+    output::write(&report::json(&benches, &machine), &args.out.join("bench.json"))?;
+    match &args.page {
+        Some(page) => {
+            let command: Vec<String> = std::env::args().skip(1).map(|word| quoted(&word)).collect();
+            let command = format!("linkproof {}", command.join(" "));
+            output::write(&bench_page::page(&benches, &machine, &command, &seen_from(page, &args.out)), page)
+        }
+        None => Ok(()),
+    }
+}
+
+/// Processor time (s) that this thread has used; where Linux does not tell, time on the clock. Other work on the machine
+/// then disturbs less.
+fn used(since: Instant) -> f64 {
+    // Linux brings the number up to date when the thread yields.
+    std::thread::yield_now();
+    processor_time().unwrap_or_else(|| since.elapsed().as_secs_f64())
+}
+
+/// One scenario, with a progress bar. Runs are timed by the first clock, peers stopped by the second.
+fn one(args: &Args, scenario: &Scenario, options: &Options, [used, wall]: [Clock; 2]) -> Result<Bench> {
+    let case = &scenario.case;
+    let exports = match args.peer.is_empty() {
+        true => None,
+        false => {
+            let start = first_state(case, &AssurSolver).map_err(|error| explained(case, error))?;
+            let mjcf = mjcf::mjcf(case, &AssurSolver, &scenario.name, usual_step(case));
+            Some(Exports {
+                name: scenario.name.clone(),
+                case: case_json::text(&scenario.name, case, &start),
+                mjcf: mjcf.map_err(|error| error.to_string()),
+                is_quick: args.quick,
+            })
+        }
+    };
+    let commands: Vec<Command> = exports
+        .iter()
+        .flat_map(|exports| args.peer.iter().map(move |own| (exports, own)))
+        .map(|(exports, (name, command))| Command::new(name, command, exports, args.peer_limit, wall))
+        .collect();
+    let peers: Vec<&dyn Peer> = commands.iter().map(|command| command as &dyn Peer).collect();
+    let mut bar = Bar::new(&scenario.name);
+    bench(scenario, options, &peers, used, &mut |part| bar.at(part))
+}
+
+/// Diagrams and numbers of one scenario.
+fn put(args: &Args, found: &Bench, machine: &report::Machine) -> Result<()> {
+    let place = |end: &str| args.out.join(format!("{}.{end}", found.scenario[0]));
+    output::write(&report::rows(found, machine)?, &place("csv"))?;
+    for axis in Axis::ALL {
+        let drawn = bench_plot::drawing(found, axis).map_err(|message| Error::new(ErrorKind::Numeric, message))?;
+        if let Some(text) = drawn {
+            output::write(&text, &place(&format!("{}.svg", axis.name())))?;
+        }
+    }
+    Ok(())
+}
+
+/// A word of a command line as a shell takes it.
+fn quoted(word: &str) -> String {
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./=:,+".contains(c);
+    if !word.is_empty() && word.chars().all(is_plain) {
+        word.into()
+    } else {
+        format!("'{}'", word.replace('\'', "'\\''"))
+    }
+}
+
+/// The directory as a link on the page needs it.
+fn seen_from(page: &Path, directory: &Path) -> String {
+    let beside = page.parent().and_then(|parent| directory.strip_prefix(parent).ok()).unwrap_or(directory);
+    let text = beside.to_string_lossy();
+    if text.is_empty() { String::new() } else { format!("{text}/") }
+}

@@ -1,0 +1,110 @@
+//! `linkproof clearance`.
+
+use std::path::{Path, PathBuf};
+
+use super::progress::Bar;
+use super::run::graver;
+use super::{exit_code, output};
+use crate::report::clearance::{self as report, Standing};
+use crate::scenario::Scenario;
+use analytic::range::explained;
+use linkage::error::{Error, ErrorKind, Result};
+use workshop::clearance::{Clearance, Question, course, find};
+use workshop::diagram::draw;
+
+const EXAMPLES: &str = "\
+Examples:
+  linkproof clearance scenarios/crankcase.toml
+  linkproof clearance scenarios/crankcase.toml --svg swept.svg        outlines, housing and swept areas
+  linkproof clearance scenarios/crankcase.toml --csv distances.csv    every distance at the instants of the grid
+  linkproof clearance scenarios/crankcase.toml --json -
+
+Every distance holds for the whole range of the grid, not for its instants only: docs/clearance.md says how.
+Outlines and housing are in the scenario's section [clearance].
+
+Exit codes: 0 all clear, 1 links collide or are nearer than wanted, 2 bad input or usage, 3 a part of the range is not proven.";
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Args {
+    /// Scenario files with a section `[clearance]`
+    #[arg(required = true, value_name = "FILE")]
+    files: Vec<PathBuf>,
+    /// Draw outlines, housing, swept areas and nearest points to a file, or to standard output instead of the text with
+    /// `-`; of one scenario only
+    #[arg(long, value_name = "FILE", value_parser = output::target, conflicts_with_all = ["json", "csv"])]
+    svg: Option<PathBuf>,
+    /// Write the distance of every pair at the instants of the grid as CSV to a file, or to standard output instead of
+    /// the text with `-`; of one scenario only
+    #[arg(long, value_name = "FILE", value_parser = output::target, conflicts_with = "json")]
+    csv: Option<PathBuf>,
+    /// Write the results as JSON to a file, or to standard output instead of the text with `-`
+    #[arg(long, value_name = "FILE", value_parser = output::target)]
+    json: Option<PathBuf>,
+}
+
+/// Answers for every file. A bad file does not stop the others.
+pub(super) fn clearance(args: &Args) -> u8 {
+    if (args.svg.is_some() || args.csv.is_some()) && args.files.len() > 1 {
+        let message = format!("{} scenarios are given, but a drawing or table is of one", args.files.len());
+        output::show(&Error::new(ErrorKind::Input, message).help("give one scenario, or write --json"));
+        return exit_code::BAD_INPUT;
+    }
+    let mut worst = exit_code::AGREE;
+    let mut documents = Vec::new();
+    for file in &args.files {
+        match answer(args, file) {
+            Ok((scenario, found)) => {
+                let code = match report::standing(&found) {
+                    Standing::Clear => exit_code::AGREE,
+                    Standing::Collides | Standing::TooNear => exit_code::DISAGREE,
+                    Standing::Open => exit_code::INCONCLUSIVE,
+                };
+                worst = graver(worst, code);
+                documents.push(report::value(&scenario, question(&scenario), &found));
+            }
+            Err(error) => {
+                output::show(&error);
+                worst = exit_code::BAD_INPUT;
+                documents.push(report::failure(&file.display().to_string(), &error));
+            }
+        }
+    }
+    if let Some(to) = &args.json
+        && let Err(error) = output::write(&report::json(documents), to)
+    {
+        output::show(&error);
+        worst = exit_code::BAD_INPUT;
+    }
+    worst
+}
+
+fn question(scenario: &Scenario) -> &Question {
+    scenario.clearance.as_ref().expect("only scenarios that ask are answered")
+}
+
+fn answer(args: &Args, file: &Path) -> Result<(Scenario, Clearance)> {
+    let scenario = Scenario::load(file)?;
+    let Some(asked) = &scenario.clearance else {
+        let message = format!("the scenario {} asks nothing about clearance", file.display());
+        return Err(Error::new(ErrorKind::Input, message).key("clearance").help(
+            "add a section `[clearance]`, for example with `radius_mm = 5` for all links; docs/scenario.md describes it",
+        ));
+    };
+    let mut bar = Bar::new(&scenario.name);
+    let found =
+        find(&scenario.case, asked, &mut |part| bar.at(part)).map_err(|error| explained(&scenario.case, error))?;
+    drop(bar);
+    let is_said = |to: &Option<PathBuf>| to.as_deref() == Some(Path::new("-"));
+    if let Some(to) = &args.svg {
+        output::write(&draw::clearance(&scenario.case, &scenario.name, asked, &found)?, to)?;
+    }
+    if let Some(to) = &args.csv {
+        let course = course(&scenario.case, asked)?;
+        output::write(&report::distances(asked, &scenario.case.grid.times, &course)?, to)?;
+    }
+    if !is_said(&args.svg) && !is_said(&args.csv) && !is_said(&args.json) {
+        output::print(&report::text(&scenario, asked, &found))?;
+    }
+    Ok((scenario, found))
+}

@@ -1,0 +1,134 @@
+//! What a peer says: its ways and its answer as JSON, its solution as CSV.
+
+use serde_json::{Map, Value};
+
+use crate::bench::{Answer, Effort, Way};
+
+/// Most ways that a peer may have.
+const MOST: usize = 200;
+
+/// The last line of a program's output, as JSON: libraries print what they like before it.
+fn last(output: &str) -> Result<Value, String> {
+    let line =
+        output.lines().rev().find(|line| !line.trim().is_empty()).ok_or("it wrote nothing to standard output")?;
+    serde_json::from_str(line.trim()).map_err(|error| format!("the last line of its output is no JSON: {error}"))
+}
+
+fn word(object: &Map<String, Value>, key: &str) -> Option<String> {
+    object.get(key).and_then(Value::as_str).map(|text| text.chars().filter(|c| !c.is_control()).collect())
+}
+
+/// The refusal in a peer's words, if it is one.
+fn refused(value: &Value) -> Option<String> {
+    value.as_object().and_then(|object| word(object, "refused"))
+}
+
+/// Ways in which a peer wants to be run.
+///
+/// # Errors
+/// Why they are none.
+pub(super) fn ways(output: &str) -> Result<Vec<Way>, String> {
+    let value = last(output)?;
+    if let Some(reason) = refused(&value) {
+        return Err(format!("it refuses: {reason}"));
+    }
+    let list = value.as_array().ok_or("its ways are no JSON array")?;
+    if list.is_empty() || list.len() > MOST {
+        return Err(format!("it has {} ways, and 1 to {MOST} are possible", list.len()));
+    }
+    let way = |value: &Value| {
+        let object = value.as_object()?;
+        Some(Way { name: word(object, "name")?, resolution: word(object, "resolution")?, told: value.to_string() })
+    };
+    list.iter().map(|value| way(value).ok_or_else(|| format!("the way {value} has no name or no resolution"))).collect()
+}
+
+/// A peer's answer, from its output and its table.
+///
+/// # Errors
+/// Why it is none.
+pub(super) fn answer(output: &str, table: impl FnOnce() -> Result<String, String>) -> Result<Answer, String> {
+    let value = last(output)?;
+    if let Some(reason) = refused(&value) {
+        return Err(format!("it refuses: {reason}"));
+    }
+    let object = value.as_object().ok_or("its answer is no JSON object")?;
+    let seconds = match object.get("seconds") {
+        Some(Value::Array(times)) => times.iter().filter_map(Value::as_f64).collect(),
+        Some(one) => one.as_f64().into_iter().collect(),
+        None => return Err("its answer has no \"seconds\"".into()),
+    };
+    let counts = object.get("work").and_then(Value::as_object);
+    let counts = counts.into_iter().flatten().filter_map(|(name, times)| Some((name.clone(), times.as_u64()?)));
+    Ok(Answer {
+        version: word(object, "version").unwrap_or_default(),
+        columns: columns(&table()?)?,
+        seconds,
+        effort: Effort(counts.collect()),
+    })
+}
+
+/// The columns of a table.
+fn columns(table: &str) -> Result<Vec<(String, Vec<f64>)>, String> {
+    let mut reader = csv::Reader::from_reader(table.as_bytes());
+    let header = reader.headers().map_err(|error| format!("its table cannot be read: {error}"))?.clone();
+    let mut columns: Vec<(String, Vec<f64>)> =
+        header.iter().map(|name| (name.trim().to_string(), Vec::new())).collect();
+    for (row, record) in reader.records().enumerate() {
+        let record = record.map_err(|error| format!("row {} of its table: {error}", row + 1))?;
+        for ((name, values), text) in columns.iter_mut().zip(&record) {
+            let value =
+                text.trim().parse().map_err(|_| format!("row {} of {name} is \"{}\"", row + 1, excerpt(text)))?;
+            values.push(value);
+        }
+    }
+    Ok(columns)
+}
+
+fn excerpt(text: &str) -> String {
+    text.chars().take(20).filter(|c| !c.is_control()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_answer_is_the_last_line_and_a_table() {
+        let output =
+            "a library greets\n{\"seconds\": [2e-3, 1e-3], \"work\": {\"steps\": 7}, \"version\": \"x 1\"}\n\n";
+        let found = answer(output, || Ok("t_s,link.a.angle_rad\n0,1\n0.5,nan\n".into())).unwrap();
+        assert_eq!(
+            (found.seconds, found.version.as_str(), found.effort.of("steps")),
+            (vec![2e-3, 1e-3], "x 1", Some(7))
+        );
+        assert_eq!(found.columns[0], ("t_s".to_string(), vec![0.0, 0.5]));
+        assert!(found.columns[1].1[1].is_nan());
+    }
+
+    #[test]
+    fn everything_else_is_a_reason() {
+        let table = || Ok("t_s\n0\n".to_string());
+        for (output, reason) in [
+            ("", "nothing"),
+            ("hello", "no JSON"),
+            ("[]", "no JSON object"),
+            ("{}", "no \"seconds\""),
+            ("{\"refused\": \"a slider\"}", "refuses: a slider"),
+        ] {
+            let found = answer(output, table).unwrap_err();
+            assert!(found.contains(reason), "{output}: {found}");
+        }
+        for bad in ["t_s\nx\n", "t_s,a\n0\n"] {
+            assert!(answer("{\"seconds\": 1}", || Ok(bad.into())).is_err(), "{bad}");
+        }
+        for (output, reason) in
+            [("[]", "0 ways"), ("[1]", "no name"), ("{}", "no JSON array"), ("7\n", "no JSON array")]
+        {
+            let found = ways(output).unwrap_err();
+            assert!(found.contains(reason), "{output}: {found}");
+        }
+        let found = ways("[{\"name\": \"RK4\", \"resolution\": \"1 ms\", \"dt\": 0.001}]").unwrap();
+        assert_eq!((found[0].name.as_str(), found[0].told.contains("0.001")), ("RK4", true));
+    }
+}

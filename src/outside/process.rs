@@ -1,0 +1,92 @@
+//! A program with a time limit. What it writes goes to files, so that it can neither block nor fill the memory.
+
+use std::fs::{self, File};
+use std::path::Path;
+use std::process::{Child, Command, ExitStatus};
+use std::time::Duration;
+
+use crate::bench::Clock;
+
+/// Pauses between two looks at a program that runs: short at first, so that a quick one is not kept waiting.
+const PAUSES: [Duration; 2] = [Duration::from_millis(2), Duration::from_millis(20)];
+/// Most bytes that are taken from a program.
+const MOST: u64 = 256 << 20;
+/// Characters of standard error that are told.
+const TOLD: usize = 200;
+
+/// Runs a shell command with arguments in a directory, and returns what it has written to standard output.
+///
+/// # Errors
+/// Why there is none: it cannot be started, takes too long, writes too much, or ends with an error.
+pub(super) fn run(
+    command: &str,
+    arguments: &[&str],
+    directory: &Path,
+    limit: f64,
+    clock: Clock,
+) -> Result<String, String> {
+    let [out, err] = ["stdout", "stderr"].map(|name| directory.join(name));
+    let file = |path: &Path| File::create(path).map_err(|error| format!("{}: {error}", path.display()));
+    let mut shell = Command::new("sh");
+    // The first word after the script is its name; arguments are never read as a script.
+    shell.arg("-c").arg(format!("exec {command} \"$@\"")).arg("peer").args(arguments);
+    shell.stdin(std::process::Stdio::null()).stdout(file(&out)?).stderr(file(&err)?);
+    #[cfg(unix)]
+    std::os::unix::process::CommandExt::process_group(&mut shell, 0);
+    let mut child = shell.spawn().map_err(|error| format!("it cannot be started: {error}"))?;
+    let status = wait(&mut child, &[&out, &err], limit, clock)?;
+    let written = text(&out)?;
+    if status.success() {
+        return Ok(written);
+    }
+    let complaint = text(&err).unwrap_or_default();
+    let last = complaint.lines().rev().find(|line| !line.trim().is_empty()).unwrap_or("nothing on standard error");
+    Err(format!("it ended with {status}: {}", last.trim().chars().take(TOLD).collect::<String>()))
+}
+
+fn wait(child: &mut Child, files: &[&Path], limit: f64, clock: Clock) -> Result<ExitStatus, String> {
+    let since = clock();
+    loop {
+        match child.try_wait() {
+            Ok(Some(status)) => return Ok(status),
+            Ok(None) => {}
+            Err(error) => return Err(format!("it cannot be waited for: {error}")),
+        }
+        let taken = clock() - since;
+        let written = files.iter().filter_map(|file| fs::metadata(file).ok()).map(|found| found.len()).max();
+        let reason = match (taken > limit, written > Some(MOST)) {
+            (true, _) => format!("it was stopped after {limit} s without an answer"),
+            (false, true) => format!("it was stopped after {MOST} bytes of output"),
+            (false, false) => {
+                std::thread::sleep(PAUSES[usize::from(taken > 0.1)]);
+                continue;
+            }
+        };
+        stop(child);
+        return Err(reason);
+    }
+}
+
+/// Ends a program and those that it has started.
+fn stop(child: &mut Child) {
+    #[cfg(unix)]
+    // It leads a process group of its own.
+    let _ = Command::new("kill").args(["-KILL", "--", &format!("-{}", child.id())]).status();
+    // What has ended meanwhile need not be ended.
+    let _ = child.kill();
+    let _ = child.wait();
+}
+
+/// Text of a file; bytes that are no text are replaced.
+pub(super) fn text(path: &Path) -> Result<String, String> {
+    let size = fs::metadata(path).map_err(|error| format!("{} is not there: {error}", name(path)))?.len();
+    if size > MOST {
+        return Err(format!("{} has more than {MOST} bytes", name(path)));
+    }
+    let bytes = fs::read(path).map_err(|error| format!("{} cannot be read: {error}", name(path)))?;
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
+}
+
+fn name(path: &Path) -> String {
+    path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
+}

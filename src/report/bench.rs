@@ -1,0 +1,216 @@
+//! Points of a work-precision diagram as text, CSV and JSON.
+
+use std::fmt::Write;
+
+use serde_json::{Value, json};
+
+use super::cells::table;
+use super::pretty::pretty;
+use crate::bench::{Axis, Bench, Outcome, Party, Point, front};
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::trajectory::Stage;
+
+/// Names and values that describe machine and build.
+pub(crate) type Machine = [(&'static str, String)];
+
+/// Errors for which it is told who reaches them first.
+const DECADES: [f64; 4] = [1e-3, 1e-6, 1e-9, 1e-12];
+
+/// Time of a point over that of side 1.
+pub(crate) fn ratio(bench: &Bench, point: &Point) -> Option<f64> {
+    Some(point.seconds()? / bench.unit)
+}
+
+/// A ratio with three digits.
+pub(crate) fn short(ratio: f64) -> String {
+    match ratio {
+        ratio if ratio >= 99.95 => format!("{ratio:.0}"),
+        ratio if ratio >= 9.995 => format!("{ratio:.1}"),
+        ratio => format!("{ratio:.2}"),
+    }
+}
+
+/// The fastest point whose error in a stage is at most `within`, of the points that `of` takes.
+pub(crate) fn fastest<'a>(
+    bench: &'a Bench,
+    stage: Stage,
+    within: f64,
+    of: &dyn Fn(&Point) -> bool,
+) -> Option<&'a Point> {
+    let meets = |point: &&Point| of(point) && point.error(stage).is_some_and(|errors| errors.max <= within);
+    let timed = bench.points.iter().filter(meets).filter_map(|point| Some((point.seconds()?, point)));
+    timed.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, point)| point)
+}
+
+/// The fronts as text: who is best at which error.
+pub(crate) fn text(bench: &Bench) -> String {
+    let mut text = String::new();
+    let _ = writeln!(text, "{}: {}\n", bench.scenario[0], bench.scenario[1]);
+    let failed = bench.points.iter().filter(|point| point.run().is_none()).count();
+    let _ = writeln!(
+        text,
+        "{} settings on {} instants, {failed} failed; times over that of side 1 (assur). Reference: {}.",
+        bench.points.len(),
+        bench.instants,
+        bench.floor.reference
+    );
+    for &stage in &bench.stages {
+        let floor = bench.floor.errors[stage as usize];
+        let _ = writeln!(text, "\n{}: the reference is known to {floor:.1e}", stage.name());
+        let mut rows = table(["error", "time", "solutions", "program", "settings"], &[0, 1, 2]);
+        for index in front(&bench.points, stage, Axis::Time, floor, &|_| true) {
+            let point = &bench.points[index];
+            let Some(errors) = point.error(stage) else { continue };
+            let mark = if errors.is_limited { " (floor)" } else { "" };
+            rows.add_row([
+                format!("{:.1e}{mark}", errors.max),
+                ratio(bench, point).map_or_else(String::new, short),
+                Axis::Solutions.of(point).map_or_else(String::new, |count| count.to_string()),
+                point.program.clone(),
+                point.told(),
+            ]);
+        }
+        let _ = writeln!(text, "{rows}");
+        for within in DECADES {
+            let other = fastest(bench, stage, within, &|point| point.party != Party::Side);
+            let told = other.and_then(|point| Some(format!("{} {}", short(ratio(bench, point)?), point.program)));
+            let _ = writeln!(text, "  other programs at {within:e}: {}", told.unwrap_or_else(|| "none".into()));
+        }
+    }
+    for (reason, times) in super::bench_plot::reasons(bench) {
+        let _ = writeln!(text, "\nfailed {times} times: {reason}");
+    }
+    if bench.left_out > 0 {
+        let _ = writeln!(text, "\n{} finer settings were not run: the work that was allowed is done.", bench.left_out);
+    }
+    text
+}
+
+/// All points as CSV, with the machine's description in lines that begin with `#`.
+///
+/// # Errors
+/// [`ErrorKind::Io`] if the table cannot be written.
+pub(crate) fn rows(bench: &Bench, machine: &Machine) -> Result<String> {
+    let failed = |error: csv::Error| Error::new(ErrorKind::Io, format!("the table cannot be written: {error}"));
+    let mut text = String::new();
+    for (name, value) in machine {
+        let _ = writeln!(text, "# {name}: {value}");
+    }
+    for (name, version) in &bench.versions {
+        let _ = writeln!(text, "# {name}: {version}");
+    }
+    let _ = writeln!(text, "# reference: {}; its error: {}", bench.floor.reference, bench.floor.basis);
+    for &stage in &bench.stages {
+        let _ = writeln!(text, "# floor of {}: {:e}", stage.name(), bench.floor.errors[stage as usize]);
+    }
+    let counts = counts(bench);
+    let mut header: Vec<String> =
+        ["scenario", "program", "party", "way", "resolution", "ratio"].map(String::from).to_vec();
+    for &stage in &bench.stages {
+        header.extend(["max", "rms", "limited", "front"].map(|what| format!("{}_{what}", stage.name())));
+    }
+    header.extend(counts.iter().cloned());
+    header.extend(["seconds", "all_seconds", "failure"].map(String::from));
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    writer.write_record(&header).map_err(failed)?;
+    let fronts = fronts(bench);
+    for (index, point) in bench.points.iter().enumerate() {
+        let mut row = vec![
+            bench.scenario[0].clone(),
+            point.program.clone(),
+            point.party.name().into(),
+            point.way.clone(),
+            point.resolution.clone(),
+            ratio(bench, point).map_or_else(String::new, |ratio| format!("{ratio:.6e}")),
+        ];
+        for (&stage, front) in bench.stages.iter().zip(&fronts) {
+            row.extend(match point.error(stage) {
+                Some(errors) => [
+                    format!("{:.6e}", errors.max),
+                    format!("{:.6e}", errors.rms),
+                    errors.is_limited.to_string(),
+                    front.contains(&index).to_string(),
+                ],
+                None => Default::default(),
+            });
+        }
+        let run = point.run();
+        let of = |name: &String| run.and_then(|run| run.effort.of(name)).map_or_else(String::new, |n| n.to_string());
+        row.extend(counts.iter().map(of));
+        row.push(point.seconds().map_or_else(String::new, |seconds| format!("{seconds:.6e}")));
+        let all = run.map_or(&[][..], |run| &run.seconds);
+        row.push(all.iter().map(|seconds| format!("{seconds:.6e}")).collect::<Vec<_>>().join(" "));
+        row.push(match &point.outcome {
+            Outcome::Failed(reason) => reason.clone(),
+            Outcome::Answered(run) => run.lacking.iter().map(|(_, what)| what.clone()).collect::<Vec<_>>().join("; "),
+        });
+        writer.write_record(&row).map_err(failed)?;
+    }
+    let bytes = writer.into_inner().map_err(|error| failed(error.into_error().into()))?;
+    Ok(text + &String::from_utf8(bytes).expect("names and numbers are text"))
+}
+
+/// Names of everything that was counted, in the order of its first appearance.
+fn counts(bench: &Bench) -> Vec<String> {
+    let mut names: Vec<String> = Vec::new();
+    for (name, _) in bench.points.iter().filter_map(Point::run).flat_map(|run| &run.effort.0) {
+        if !names.contains(name) {
+            names.push(name.clone());
+        }
+    }
+    names
+}
+
+/// The front over time of every stage.
+fn fronts(bench: &Bench) -> Vec<Vec<usize>> {
+    let of = |&stage: &Stage| front(&bench.points, stage, Axis::Time, bench.floor.errors[stage as usize], &|_| true);
+    bench.stages.iter().map(of).collect()
+}
+
+/// Everything as JSON, schema 1.
+pub(crate) fn json(benches: &[Bench], machine: &Machine) -> String {
+    let machine: serde_json::Map<String, Value> =
+        machine.iter().map(|(name, value)| ((*name).to_string(), json!(value))).collect();
+    pretty(&json!({
+        "schema": 1, "machine": machine,
+        "scenarios": benches.iter().map(scenario).collect::<Vec<_>>(),
+    }))
+}
+
+fn scenario(bench: &Bench) -> Value {
+    let by_stage = |of: &dyn Fn(Stage) -> Value| {
+        let rows = bench.stages.iter().map(|&stage| (stage.name().to_string(), of(stage)));
+        Value::Object(rows.collect())
+    };
+    let points = bench.points.iter().map(|point| {
+        let run = point.run();
+        let errors = by_stage(&|stage| match point.error(stage) {
+            Some(errors) => json!({ "max": errors.max, "rms": errors.rms, "limited": errors.is_limited }),
+            None => json!(point.failure(stage).map(|reason| json!({ "failed": reason }))),
+        });
+        let counts = run.map(|run| {
+            run.effort.0.iter().map(|(name, times)| (name.clone(), json!(times))).collect::<serde_json::Map<_, _>>()
+        });
+        json!({
+            "program": point.program, "party": point.party.name(), "way": point.way, "resolution": point.resolution,
+            "ratio": ratio(bench, point), "errors": errors, "work": counts,
+            "seconds": run.map(|run| run.seconds.clone()),
+        })
+    });
+    let versions: serde_json::Map<String, Value> =
+        bench.versions.iter().map(|(name, version)| (name.clone(), json!(version))).collect();
+    json!({
+        "scenario": bench.scenario[0], "title": bench.scenario[1], "instants": bench.instants, "span_s": bench.span,
+        "free": bench.is_free, "reference": bench.floor.reference, "floor_basis": bench.floor.basis,
+        "floor": by_stage(&|stage| json!(bench.floor.errors[stage as usize])),
+        "ratio_to": "side 1 (assur)", "versions": versions, "not_run": bench.left_out,
+        "absent": bench.absent.iter().map(|(name, reason)| json!({ "peer": name, "reason": reason })).collect::<Vec<_>>(),
+        "front": by_stage(&|stage| {
+            json!(Axis::ALL.map(|axis| {
+                let floor = bench.floor.errors[stage as usize];
+                json!({ "over": axis.name(), "points": front(&bench.points, stage, axis, floor, &|_| true) })
+            }))
+        }),
+        "points": points.collect::<Vec<_>>(),
+    })
+}

@@ -1,0 +1,117 @@
+//! The page of documentation that holds work-precision results: Markdown, made anew by one command.
+
+use std::fmt::Write;
+
+use super::bench::{Machine, fastest, ratio, short};
+use super::bench_plot::reasons;
+use crate::bench::{Axis, Bench, CLEAR, Point, front};
+use linkage::trajectory::Stage;
+
+/// Errors in the cells of the tables.
+const WITHIN: [f64; 3] = [1e-3, 1e-6, 1e-9];
+/// Most reasons of failures that are listed for a scenario.
+const REASONS: usize = 6;
+
+/// The page. `command` made it; `pictures` is the directory of the diagrams as seen from the page.
+pub(crate) fn page(benches: &[Bench], machine: &Machine, command: &str, pictures: &str) -> String {
+    let mut text = String::new();
+    let _ = writeln!(
+        text,
+        "# Run time against error\n\n\
+         Made by one command; do not edit it by hand:\n\n```sh\n{command}\n```\n\n\
+         - *Error*: largest difference to the reference over all instants and channels of a stage, over each channel's scale.\n\
+         - *Time*: shortest of several runs, over that of side 1 (`assur`) at its usual accuracy in the same command.\n\
+         \x20 Peers measure themselves, without building the model and without writing ([peers](peers.md)).\n\
+         - *Floor*: the reference's own error. Points less than {CLEAR} times above it are marked.\n\
+         - *Front*: what nothing else beats in time and error.\n\
+         - A cell has the times at which a program reaches errors of 1e-3, 1e-6 and 1e-9 with the best of its settings; a dash: never.\n\
+         - Raw numbers of every setting, with exact counts of work, are in the CSV and JSON files that the command writes.\n"
+    );
+    let _ = writeln!(
+        text,
+        "Machine: {}.\n",
+        machine.iter().map(|(name, value)| format!("{name}: {value}")).collect::<Vec<_>>().join("; ")
+    );
+    let mut versions: Vec<String> = Vec::new();
+    for (name, version) in benches.iter().flat_map(|bench| &bench.versions) {
+        let told = format!("{name}: {version}");
+        if !versions.contains(&told) {
+            versions.push(told);
+        }
+    }
+    let _ = writeln!(text, "Versions: {}.\n", versions.join("; "));
+    for bench in benches {
+        scenario(&mut text, bench, pictures);
+    }
+    // One newline at the end.
+    format!("{}\n", text.trim_end())
+}
+
+fn scenario(text: &mut String, bench: &Bench, pictures: &str) {
+    let [name, title] = &bench.scenario;
+    let failed = bench.points.iter().filter(|point| point.run().is_none()).count();
+    let _ = writeln!(text, "## {name}\n\n{title}.\n");
+    let links: Vec<String> = Axis::ALL
+        .into_iter()
+        .filter(|axis| bench.points.iter().any(|point| axis.of(point).is_some()))
+        .map(|axis| format!("[{}]({pictures}{name}.{}.svg)", axis.name(), axis.name()))
+        .collect();
+    let _ = writeln!(
+        text,
+        "{} settings on {} instants, {failed} failed. Diagrams over {}.\n",
+        bench.points.len(),
+        bench.instants,
+        links.join(", ")
+    );
+    let stages: Vec<&str> = bench.stages.iter().map(|stage| stage.name()).collect();
+    let _ = writeln!(text, "| | {} |", stages.join(" | "));
+    let _ = writeln!(text, "|---|{}", "---|".repeat(stages.len()));
+    let floors = bench.stages.iter().map(|&stage| format!("{:.0e}", bench.floor.errors[stage as usize]));
+    let _ = writeln!(text, "| floor | {} |", floors.collect::<Vec<_>>().join(" | "));
+    let mut programs: Vec<&str> = Vec::new();
+    for point in &bench.points {
+        if !programs.contains(&point.program.as_str()) {
+            programs.push(&point.program);
+        }
+    }
+    for program in programs {
+        let cells = bench.stages.iter().map(|&stage| cell(bench, program, stage));
+        let _ = writeln!(text, "| {program} | {} |", cells.collect::<Vec<_>>().join(" | "));
+    }
+    text.push('\n');
+    for &stage in &bench.stages {
+        let floor = bench.floor.errors[stage as usize];
+        let told = front(&bench.points, stage, Axis::Time, floor, &|_| true).into_iter().filter_map(|index| {
+            let point = &bench.points[index];
+            let errors = point.error(stage)?;
+            let mark = if errors.is_limited { ", floor" } else { "" };
+            Some(format!("{} ({:.0e} at {}{mark})", named(point), errors.max, short(ratio(bench, point)?)))
+        });
+        let _ = writeln!(text, "- Front of {}: {}.", stage.name(), told.collect::<Vec<_>>().join("; "));
+    }
+    for (reason, times) in reasons(bench).into_iter().take(REASONS) {
+        let _ = writeln!(text, "- Failed {times} times: {reason}");
+    }
+    if bench.left_out > 0 {
+        let _ = writeln!(text, "- {} finer settings were not run: the work allowed was done.", bench.left_out);
+    }
+    text.push('\n');
+}
+
+fn named(point: &Point) -> String {
+    let told = point.told();
+    if told.is_empty() { point.program.clone() } else { format!("{} {told}", point.program) }
+}
+
+/// Times at which a program reaches the errors of the table.
+fn cell(bench: &Bench, program: &str, stage: Stage) -> String {
+    let own = |point: &Point| point.program == program;
+    if !bench.points.iter().any(|point| own(point) && point.error(stage).is_some()) {
+        return String::new();
+    }
+    let at = |within: f64| {
+        let found = fastest(bench, stage, within, &own).and_then(|point| ratio(bench, point));
+        found.map_or_else(|| "–".to_string(), short)
+    };
+    WITHIN.map(at).join(" / ")
+}

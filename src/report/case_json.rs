@@ -1,0 +1,145 @@
+//! A case as JSON, for other programs: everything that it takes to solve it, in SI units. docs/peers.md lists the keys.
+
+use serde_json::{Value, json};
+
+use super::pretty::pretty;
+use linkage::case::Case;
+use linkage::drive::{Acts, Course, Drive, DriveMotion, Load, MotionLaw, Motor, MotorLaw};
+use linkage::math::Vec2;
+use linkage::mechanism::Side;
+use linkage::solver::State;
+
+/// Version of the form.
+const FORMAT: u32 = 1;
+
+/// The case called `name`, whose state at t = 0 is `start`: poses, velocities and accelerations count.
+pub(crate) fn text(name: &str, case: &Case, start: &State) -> String {
+    let links = case.mechanism.links().iter().zip(&start.motions).zip(&start.angles);
+    let links = links.map(|((link, motion), angle)| {
+        let points: serde_json::Map<String, Value> =
+            link.points.iter().map(|point| (point.name.clone(), pair(point.local))).collect();
+        json!({
+            "name": link.name, "mass_kg": link.mass, "inertia_kg_m2": link.inertia,
+            "mass_centre_m": pair(link.mass_centre), "points_m": points,
+            "start": {
+                "origin_m": pair(motion.origin), "angle_rad": angle,
+                "velocity_m_s": pair(motion.velocity), "omega_rad_s": motion.omega,
+                "acceleration_m_s2": pair(motion.acceleration), "alpha_rad_s2": motion.alpha,
+            },
+        })
+    });
+    let joints = case.mechanism.joints().iter().map(|joint| {
+        json!({
+            "name": joint.name, "type": joint.kind.name(),
+            "first": side(case, joint.first), "second": side(case, joint.second),
+            "axes": joint.kind.axes().map(|axes| axes.map(pair)),
+        })
+    });
+    let value = json!({
+        "format": FORMAT, "name": name, "gravity_m_s2": pair(case.gravity),
+        "links": links.collect::<Vec<_>>(), "joints": joints.collect::<Vec<_>>(),
+        "drives": case.drives.iter().map(|own| drive(case, own)).collect::<Vec<_>>(),
+        "loads": case.loads.iter().map(|own| load(case, own)).collect::<Vec<_>>(),
+        "size_m": case.mechanism.size(), "top_speed_rad_s": case.drives.top_speed(),
+        "free": case.is_free(), "times_s": case.grid.times,
+        "channels": case.channels().iter().map(|channel| json!({
+            "name": channel.to_string(), "stage": channel.kind.stage.name(), "unit": channel.kind.unit.symbol(),
+        })).collect::<Vec<_>>(),
+    });
+    pretty(&value)
+}
+
+fn pair(vector: Vec2) -> Value {
+    json!([vector.x, vector.y])
+}
+
+fn name(case: &Case, link: usize) -> &str {
+    &case.mechanism.links()[link].name
+}
+
+fn side(case: &Case, side: Side) -> Value {
+    json!({ "link": name(case, side.link), "at_m": pair(side.local) })
+}
+
+fn drive(case: &Case, drive: &Drive) -> Value {
+    let motion = match &drive.motion {
+        DriveMotion::Prescribed { law, .. } => law_of(law),
+        DriveMotion::Free { initial_speed, nominal_speed, motor } => json!({
+            "law": "free", "initial_speed_rad_s": initial_speed, "sense": nominal_speed.signum(),
+            "motor": motor.as_ref().map(motor_of),
+        }),
+    };
+    json!({
+        "joint": case.mechanism.joints()[drive.joint].name, "link": name(case, drive.link),
+        "zero_rad": drive.zero, "start_rad": drive.start, "motion": motion,
+    })
+}
+
+fn law_of(law: &MotionLaw) -> Value {
+    match law {
+        MotionLaw::ConstantSpeed(omega) => json!({ "law": law.name(), "speed_rad_s": omega }),
+        MotionLaw::Ramp { speed, time } => json!({ "law": law.name(), "speed_rad_s": speed, "time_s": time }),
+        MotionLaw::Cycloidal { rise, time } => json!({ "law": law.name(), "rise_rad": rise, "time_s": time }),
+        // Its spline has no short form.
+        MotionLaw::Table(_) => json!({ "law": law.name() }),
+    }
+}
+
+fn motor_of(motor: &Motor) -> Value {
+    let law = match &motor.law {
+        MotorLaw::Constant { torque } => json!({ "law": "constant", "torque_N_m": torque }),
+        MotorLaw::Linear { at_rest, slope } => {
+            json!({ "law": "linear", "torque_at_rest_N_m": at_rest, "slope_N_m_s": slope })
+        }
+        MotorLaw::Kloss { breakdown_torque, breakdown_slip, synchronous_speed } => json!({
+            "law": "kloss", "breakdown_torque_N_m": breakdown_torque, "breakdown_slip": breakdown_slip,
+            "synchronous_speed_rad_s": synchronous_speed,
+        }),
+        MotorLaw::Table { speeds, torques } => {
+            json!({ "law": "table", "speeds_rad_s": speeds, "torques_N_m": torques })
+        }
+    };
+    json!({
+        "torque": law, "ratio": motor.ratio, "efficiency": motor.efficiency,
+        "inertia_on_crank_kg_m2": motor.inertia_on_crank(),
+    })
+}
+
+/// A constant as a number, a table as what it is.
+fn course(course: &Course) -> Value {
+    match course {
+        Course::Constant(value) => json!(value),
+        Course::Table { turns, .. } => json!({ "table_over_turns": turns }),
+    }
+}
+
+fn load(case: &Case, load: &Load) -> Value {
+    let link = |index: usize| name(case, index);
+    let both = |ends: &[Side; 2]| ends.map(|end| side(case, end));
+    let sort = load.sort();
+    match load {
+        Load::Resistance { link: own, moment } => json!({ "type": sort, "link": link(*own), "moment_N_m": moment }),
+        Load::Moment { link: own, moment, acts } => {
+            let acts = match acts {
+                Acts::Always => "always",
+                Acts::CounterClockwise => "counter_clockwise",
+                Acts::Clockwise => "clockwise",
+            };
+            json!({ "type": sort, "link": link(*own), "moment_N_m": course(moment), "acts": acts })
+        }
+        Load::Force { at, force, follows } => json!({
+            "type": sort, "at": side(case, *at), "force_N": force.each_ref().map(course), "follows": follows,
+        }),
+        Load::ResistingForce { at, force } => json!({ "type": sort, "at": side(case, *at), "force_N": force }),
+        Load::Spring { ends, stiffness, free_length } => json!({
+            "type": sort, "ends": both(ends), "stiffness_N_m": stiffness, "free_length_m": free_length,
+        }),
+        Load::Damper { ends, damping } => json!({ "type": sort, "ends": both(ends), "damping_N_s_m": damping }),
+        Load::TorsionSpring { links, stiffness, free_angle } => json!({
+            "type": sort, "links": links.map(link), "stiffness_N_m_rad": stiffness, "free_angle_rad": free_angle,
+        }),
+        Load::TorsionDamper { links, damping } => {
+            json!({ "type": sort, "links": links.map(link), "damping_N_m_s_rad": damping })
+        }
+    }
+}

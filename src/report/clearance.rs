@@ -1,0 +1,197 @@
+//! Clearance: smallest distances, first collision, swept areas.
+
+use std::fmt::Write;
+
+use serde_json::{Value, json};
+
+use super::cells::table;
+use super::pretty::pretty;
+use crate::scenario::Scenario;
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::Vec2;
+use workshop::clearance::{Clearance, Course, Meeting, PairClearance, Question};
+
+/// How a question is answered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Standing {
+    /// All pairs are clear, by as much as wanted, all the way.
+    Clear,
+    /// A pair collides.
+    Collides,
+    /// No pair collides, but one is nearer than wanted.
+    TooNear,
+    /// Nothing was found, but parts of the range are not proven.
+    Open,
+}
+
+/// How a question is answered.
+pub(crate) fn standing(found: &Clearance) -> Standing {
+    if found.first_collision().is_some() {
+        Standing::Collides
+    } else if found.first_too_near().is_some() {
+        Standing::TooNear
+    } else if !found.open.is_empty() {
+        Standing::Open
+    } else {
+        Standing::Clear
+    }
+}
+
+impl Standing {
+    fn word(self) -> &'static str {
+        match self {
+            Standing::Clear => "clear",
+            Standing::Collides => "collides",
+            Standing::TooNear => "too near",
+            Standing::Open => "not proven",
+        }
+    }
+}
+
+fn millimetres(value: f64) -> String {
+    format!("{:.4}", 1e3 * value + 0.0)
+}
+
+fn degrees(value: f64) -> String {
+    format!("{:.4}", value.to_degrees() + 0.0)
+}
+
+fn place(point: Vec2) -> String {
+    format!("({:.3}, {:.3})", 1e3 * point.x + 0.0, 1e3 * point.y + 0.0)
+}
+
+fn names<'a>(asked: &'a Question, pair: &PairClearance) -> [&'a str; 2] {
+    pair.bodies.map(|body| asked.bodies[body].name.as_str())
+}
+
+/// The answer as text.
+pub(crate) fn text(scenario: &Scenario, asked: &Question, found: &Clearance) -> String {
+    let mut text = String::new();
+    let [from, to] = found.range.map(degrees);
+    let _ = writeln!(text, "{}: {}\n\nclearance over crank angles {from} to {to} deg\n", scenario.name, scenario.title);
+    if found.pairs.is_empty() {
+        let _ = writeln!(text, "no two bodies can meet: all links are joined, and there is no housing\n");
+    } else {
+        let header = ["bodies", "", "smallest mm", "at crank deg", "nearest points mm", "", "first contact at deg"];
+        let mut table = table(header, &[2, 3, 6]);
+        for pair in &found.pairs {
+            let [first, second] = names(asked, pair);
+            let smallest = &pair.smallest;
+            let [one, two] = smallest.points.map(place);
+            let contact = pair.collision.map_or(String::new(), |meeting| degrees(meeting.cranks[1]));
+            let row = [millimetres(smallest.distance), degrees(smallest.crank), one, two, contact];
+            table.add_row([first, second].map(String::from).into_iter().chain(row));
+        }
+        let _ = writeln!(text, "{table}\n");
+        let _ = writeln!(text, "no distance is smaller by more than {} mm", significant(1e3 * found.tolerance));
+    }
+    let swept: Vec<_> = found.swept.iter().collect();
+    if !swept.is_empty() {
+        let mut areas =
+            table(["\nswept area", "\nmm2", "\nerror at most", "\nproven covered", "\nat most"], &[1, 2, 3, 4]);
+        for (body, area) in swept {
+            let of = |value: f64| format!("{:.2}", 1e6 * value);
+            let name = asked.bodies[*body].name.clone();
+            areas.add_row([name, of(area.value), of(area.error()), of(area.least), of(area.most)]);
+        }
+        let _ = writeln!(text, "{areas}\n");
+    }
+    for &[from, to] in &found.open {
+        let why = "the mechanism is singular there, or the work allowed is done";
+        let _ = writeln!(text, "not proven from {} to {} deg: {why}", degrees(from), degrees(to));
+    }
+    let said = |text: &mut String, what: &str, (pair, meeting): (&PairClearance, Meeting)| {
+        let ([one, two], crank) = (names(asked, pair), degrees(meeting.cranks[1]));
+        let _ = writeln!(text, "{what}: {one} and {two} at crank angle {crank} deg, place {} mm", place(meeting.place));
+    };
+    if let Some(first) = found.first_collision() {
+        said(&mut text, "first collision", first);
+    }
+    if let (Some(wanted), Some(first)) = (asked.wanted, found.first_too_near()) {
+        said(&mut text, &format!("first nearer than the {} mm wanted", millimetres(wanted)), first);
+    }
+    let work = found.work;
+    let _ = writeln!(
+        text,
+        "{}: {} poses, {} distances of convex parts, {} tests of squares\n",
+        standing(found).word(),
+        work.poses,
+        work.distances,
+        work.squares
+    );
+    text
+}
+
+fn significant(value: f64) -> String {
+    format!("{value:.1e}")
+}
+
+/// The answer as JSON: one entry of the document.
+pub(crate) fn value(scenario: &Scenario, asked: &Question, found: &Clearance) -> Value {
+    let time =
+        |crank: f64| Some(scenario.case.crank().time_of(crank)).filter(|t| t.is_finite() && !scenario.case.is_free());
+    let point = |point: Vec2| json!([point.x, point.y]);
+    let meeting = |own: Option<Meeting>| {
+        own.map(|own| {
+            let [clear, crank] = own.cranks;
+            json!({"clear_until_rad": clear, "crank_rad": crank, "t_s": time(crank), "place_m": point(own.place)})
+        })
+    };
+    let pairs = found.pairs.iter().map(|pair| {
+        let smallest = &pair.smallest;
+        json!({
+            "bodies": names(asked, pair),
+            "smallest_m": smallest.distance, "proven_least_m": smallest.least,
+            "crank_rad": smallest.crank, "t_s": time(smallest.crank),
+            "points_m": smallest.points.map(point),
+            "collision": meeting(pair.collision), "too_near": meeting(pair.too_near),
+        })
+    });
+    let swept = found.swept.iter().map(|(body, area)| {
+        json!({
+            "link": asked.bodies[*body].name, "area_m2": area.value, "error_m2": area.error(),
+            "least_m2": area.least, "most_m2": area.most,
+        })
+    });
+    let first = |first: Option<(&PairClearance, Meeting)>| {
+        first.map(|(pair, own)| json!({"bodies": names(asked, pair), "at": meeting(Some(own))}))
+    };
+    json!({
+        "scenario": scenario.name, "standing": standing(found).word(), "range_rad": found.range,
+        "wanted_m": asked.wanted, "tolerance_m": found.tolerance, "pairs": pairs.collect::<Vec<_>>(),
+        "swept": swept.collect::<Vec<_>>(), "first_collision": first(found.first_collision()),
+        "first_too_near": first(found.first_too_near()), "not_proven_rad": found.open,
+        "work": {"poses": found.work.poses, "distances": found.work.distances, "squares": found.work.squares},
+    })
+}
+
+/// A scenario that could not be answered, as an entry of the document.
+pub(crate) fn failure(file: &str, error: &Error) -> Value {
+    json!({
+        "scenario": file, "error": error.message(), "line": error.place().map(linkage::error::Place::line),
+        "key": error.scenario_key(), "help": error.way_out(),
+    })
+}
+
+/// The document of all scenarios, schema 1.
+pub(crate) fn json(scenarios: Vec<Value>) -> String {
+    pretty(&json!({"schema": 1, "scenarios": scenarios}))
+}
+
+/// Distances of all pairs at the instants of a grid, as CSV with 17 significant digits.
+///
+/// # Errors
+/// [`ErrorKind::Io`] if the table cannot be written.
+pub(crate) fn distances(asked: &Question, times: &[f64], course: &Course) -> Result<String> {
+    let failed = |error: csv::Error| Error::new(ErrorKind::Io, format!("the table cannot be written: {error}"));
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let name = |&[a, b]: &[usize; 2]| format!("{}.{}.distance_m", asked.bodies[a].name, asked.bodies[b].name);
+    let header = ["t_s", "crank_rad"].map(String::from).into_iter().chain(asked.pairs.iter().map(name));
+    writer.write_record(header).map_err(failed)?;
+    for ((t, crank), row) in times.iter().zip(&course.cranks).zip(&course.rows) {
+        let values = [*t, *crank].into_iter().chain(row.iter().copied());
+        writer.write_record(values.map(|value| format!("{value:.16e}"))).map_err(failed)?;
+    }
+    let bytes = writer.into_inner().map_err(|error| failed(error.into_error().into()))?;
+    Ok(String::from_utf8(bytes).expect("names and numbers are text"))
+}

@@ -1,0 +1,77 @@
+//! What a proof has done, how often and why, and what it did not need.
+
+use std::fmt::Write;
+
+use crate::proof::{Entry, Proof};
+use linkage::case::{Case, LeftOut};
+use linkage::trajectory::Stage;
+use linkage::work::Work;
+
+/// The page of one proof. `further` are parts that the command adds: recording, other files.
+#[must_use]
+pub fn text(proof: &Proof, further: &[Entry]) -> String {
+    let case = &proof.scene.case;
+    let mut text = String::new();
+    let _ = writeln!(text, "{}: what ran, how often, and why", proof.scenario);
+    let _ = writeln!(text, "asked      {}", asked(case));
+    let _ = writeln!(text, "left out   {}\n", left_out(&proof.scene.left_out));
+    let entries = || proof.work.iter().chain(further);
+    let _ = writeln!(text, "Ran:");
+    for entry in entries() {
+        if let Some(work) = &entry.work {
+            let _ = writeln!(text, "  {}: {}\n      {}", entry.part, entry.why, counts(work));
+        }
+    }
+    let _ = writeln!(text, "Skipped:");
+    for (part, why) in skipped(case, entries()) {
+        let _ = writeln!(text, "  {part}: {why}");
+    }
+    text
+}
+
+/// The wanted channels, in short.
+fn asked(case: &Case) -> String {
+    let (own, all) = (case.channels(), case.all_channels().len());
+    let stages: Vec<&str> = Stage::ALL.into_iter().filter(|&stage| case.wanted.has(stage)).map(Stage::name).collect();
+    let instants = case.grid.len();
+    match &case.only {
+        None => format!("{} of everything at {instants} instants: {} of {all} channels", stages.join(", "), own.len()),
+        Some(only) => {
+            let names: Vec<String> = only.iter().map(ToString::to_string).collect();
+            let shown = names.iter().take(SHOWN).cloned().collect::<Vec<_>>().join(", ");
+            let rest = if names.len() > SHOWN { format!(" and {} more", names.len() - SHOWN) } else { String::new() };
+            format!("{shown}{rest} at {instants} instants")
+        }
+    }
+}
+
+/// Names that are listed; the others are counted.
+const SHOWN: usize = 8;
+
+fn left_out(left: &LeftOut) -> String {
+    if left.is_empty() {
+        return "nothing: every part of the mechanism is needed".into();
+    }
+    let listed = |what: &str, names: &[String]| match names.len() {
+        0 => None,
+        count if count > SHOWN => Some(format!("{count} {what}")),
+        _ => Some(format!("{what} {}", names.join(", "))),
+    };
+    let loads = (left.loads > 0).then(|| format!("{} loads", left.loads));
+    let all = [listed("links", &left.links), listed("joints", &left.joints), listed("drives", &left.drives), loads];
+    format!("{}: nothing asked depends on them", all.into_iter().flatten().collect::<Vec<_>>().join("; "))
+}
+
+/// `361 poses, 722 groups`, or that nothing is counted there.
+fn counts(work: &Work) -> String {
+    let all: Vec<String> = work.iter().map(|(what, times)| format!("{times} {}", what.name())).collect();
+    if all.is_empty() { "nothing that is counted".into() } else { all.join(", ") }
+}
+
+fn skipped<'a>(case: &'a Case, entries: impl Iterator<Item = &'a Entry>) -> Vec<(String, String)> {
+    let stages = Stage::ALL.into_iter().filter(|&stage| stage > case.wanted.deepest());
+    let mut all: Vec<(String, String)> =
+        stages.map(|stage| (stage.name().replace('_', " "), "nothing asked needs them".into())).collect();
+    all.extend(entries.filter(|entry| entry.work.is_none()).map(|entry| (entry.part.clone(), entry.why.into())));
+    all
+}

@@ -1,0 +1,154 @@
+//! Work and precision: floor, fronts, failures that stay, answers of peers that are none.
+
+use std::cell::Cell;
+
+use analytic::NewtonSolver;
+use linkage::case::Grid;
+use linkage::solver::Solver;
+use linkage::trajectory::{Stage, Trajectory};
+use linkproof::bench::{Answer, Axis, Bench, CLEAR, Effort, Options, Party, Peer, Way, bench, front};
+use linkproof::engines::EngineName;
+use linkproof::scenario::Scenario;
+
+use crate::common::shipped;
+
+/// A clock that goes on by a second whenever it is read.
+fn measured(scenario: &Scenario, peers: &[&dyn Peer]) -> Bench {
+    let now = Cell::new(0.0);
+    let clock = || {
+        now.set(now.get() + 1.0);
+        now.get()
+    };
+    let options = Options { is_quick: true, engines: vec![EngineName::Rapier], ..Options::default() };
+    bench(scenario, &options, peers, &clock, &mut |_| {}).unwrap()
+}
+
+/// A scenario on few instants.
+fn few(name: &str) -> Scenario {
+    let mut scenario = shipped(name);
+    let last = scenario.case.grid.times.iter().fold(0.0f64, |most, &t| if t > most { t } else { most });
+    let times = (0..=8).map(|k| f64::from(k) / 8.0 * last).collect();
+    let grid = Grid::of_times(scenario.case.crank(), times);
+    scenario.case = scenario.case.on(grid).unwrap();
+    scenario
+}
+
+#[test]
+fn engines_are_measured_clear_of_the_floor() {
+    for name in ["crank_rocker.toml", "crank_rocker_runup.toml", "ov7_new.toml"] {
+        let found = measured(&few(name), &[]);
+        assert_eq!(found.stages, Stage::ALL);
+        for stage in Stage::ALL {
+            let floor = found.floor.errors[stage as usize];
+            let engines = found.points.iter().filter(|point| point.party == Party::Engine);
+            let errors: Vec<_> = engines.filter_map(|point| point.error(stage)).collect();
+            assert!(errors.len() >= 6, "{name} {stage:?}: {}", errors.len());
+            for errors in errors {
+                assert!(errors.max >= CLEAR * floor && !errors.is_limited, "{name} {stage:?}: {errors:?} {floor:e}");
+                assert!(errors.rms <= errors.max, "{name} {stage:?}: {errors:?}");
+            }
+            // The sides are on the floor and say so.
+            let sides = found.points.iter().filter(|point| point.party == Party::Side && point.is_usual);
+            assert!(sides.filter_map(|point| point.error(stage)).all(|errors| errors.is_limited), "{name} {stage:?}");
+            let best = front(&found.points, stage, Axis::Solutions, floor, &|point| point.party == Party::Engine);
+            assert!(!best.is_empty(), "{name} {stage:?}");
+        }
+    }
+}
+
+#[test]
+fn a_finer_step_does_more_and_errs_less() {
+    let found = measured(&few("crank_rocker.toml"), &[]);
+    let plain = found.points.iter().filter(|point| {
+        point.settings.is_some_and(|own| own.extrapolated == 0 && own.route == linkage::engine::Route::Differences)
+    });
+    let rows: Vec<(u64, f64)> = plain
+        .map(|point| (point.run().unwrap().effort.of("steps").unwrap(), point.error(Stage::Positions).unwrap().max))
+        .collect();
+    assert!(rows.len() >= 2, "{rows:?}");
+    assert!(rows.windows(2).all(|pair| pair[0].0 < pair[1].0 && pair[0].1 > pair[1].1), "{rows:?}");
+}
+
+#[test]
+fn what_fails_stays_with_its_reason() {
+    let found = measured(&few("crank_rocker_runup.toml"), &[]);
+    let failed: Vec<_> = found.points.iter().filter_map(|point| point.failure(Stage::Positions)).collect();
+    assert!(!failed.is_empty() && failed.iter().all(|reason| reason.contains("probe")), "{failed:?}");
+}
+
+/// Same input, same numbers but times: also the counts.
+#[test]
+fn errors_and_counts_are_the_same_again() {
+    let of = |bench: Bench| {
+        let told = |point: &linkproof::bench::Point| {
+            format!("{:?} {:?}", point.settings, point.run().map(|run| (run.errors, run.effort.clone())))
+        };
+        bench.points.iter().map(told).collect::<Vec<_>>()
+    };
+    let scenario = few("five_bar.toml");
+    assert_eq!(of(measured(&scenario, &[])), of(measured(&scenario, &[])));
+}
+
+/// A peer whose answer is that of side 2, changed by a function.
+struct Planted(Trajectory, Box<dyn Fn(&mut Answer)>);
+
+impl Peer for Planted {
+    fn name(&self) -> &str {
+        "planted"
+    }
+
+    fn ways(&self) -> Result<Vec<Way>, String> {
+        Ok(vec![Way { name: "as it is".into(), resolution: "none".into(), told: "{}".into() }])
+    }
+
+    fn run(&self, _: &Way) -> Result<Answer, String> {
+        let columns = self.0.iter().map(|(channel, values)| (channel.to_string(), values.to_vec()));
+        let columns = std::iter::once(("t_s".to_string(), self.0.times().to_vec())).chain(columns).collect();
+        let effort = Effort(vec![("steps".into(), 7)]);
+        let mut answer = Answer { version: "planted 1".into(), columns, seconds: vec![0.5, 0.25], effort };
+        (self.1)(&mut answer);
+        Ok(answer)
+    }
+}
+
+#[test]
+fn answers_that_are_none_are_failures_with_a_reason() {
+    let scenario = few("crank_rocker.toml");
+    let exact = NewtonSolver.solve(&scenario.case).unwrap();
+    let with = |change: Box<dyn Fn(&mut Answer)>| {
+        let found = measured(&scenario, &[&Planted(exact.clone(), change)]);
+        found.points.into_iter().find(|point| point.party == Party::Peer).unwrap()
+    };
+    let good = with(Box::new(|_| {}));
+    assert!(Stage::ALL.iter().all(|&stage| good.error(stage).unwrap().max < 1e-9 && good.failure(stage).is_none()));
+    assert_eq!((good.seconds(), good.run().unwrap().effort.solutions()), (Some(0.25), Some(7)));
+    let of = |name: &'static str, change: fn(&mut Vec<f64>)| -> Box<dyn Fn(&mut Answer)> {
+        Box::new(move |answer| change(&mut answer.columns.iter_mut().find(|(own, _)| own == name).unwrap().1))
+    };
+    let whole: [(Box<dyn Fn(&mut Answer)>, &str); 6] = [
+        (Box::new(|answer| answer.columns.clear()), "no column t_s"),
+        (Box::new(|answer| answer.columns.truncate(1)), "none of the wanted channels"),
+        (of("t_s", |times| times[3] += 1e-3), "row 4 of the answer"),
+        (of("t_s", |times| times[0] = f64::NAN), "row 1 of the answer"),
+        (of("t_s", |times| times.truncate(2)), "2 instants"),
+        (Box::new(|answer| answer.seconds = vec![f64::NAN, -1.0, 0.0]), "no time"),
+    ];
+    for (change, reason) in whole {
+        let point = with(change);
+        assert!(point.run().is_none(), "{reason}");
+        let told = point.failure(Stage::Velocities).unwrap();
+        assert!(told.contains(reason), "{reason}: {told}");
+    }
+    // What concerns one stage leaves the others.
+    let nan = with(of("joint.B.fx_N", |values| values[2] = f64::NAN));
+    assert!(nan.failure(Stage::Reactions).unwrap().contains("joint.B.fx_N is NaN"));
+    assert!(nan.error(Stage::Positions).is_some() && nan.error(Stage::Reactions).is_none());
+    let short = with(of("joint.B.fx_N", |values| values.truncate(1)));
+    assert!(short.failure(Stage::Reactions).is_some() && short.error(Stage::Positions).is_some());
+    let lacking = with(Box::new(|answer| answer.columns.retain(|(name, _)| !name.starts_with("joint.B."))));
+    let told = lacking.failure(Stage::Reactions).unwrap();
+    assert!(told.contains("lacks joint.B.fx_N and 1 more"), "{told}");
+    // A stage that a peer does not have at all is none of its failures.
+    let silent = with(Box::new(|answer| answer.columns.retain(|(name, _)| !name.starts_with("joint."))));
+    assert!(silent.error(Stage::Reactions).is_none() && silent.failure(Stage::Reactions).is_none());
+}

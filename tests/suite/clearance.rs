@@ -1,0 +1,315 @@
+//! Clearance against brute force: distances by formulas of its own, at poses of the other side, many times as fine as
+//! the grid.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use analytic::NewtonSolver;
+use linkage::case::{Case, Grid};
+use linkage::math::{KeepNan, Vec2, cross};
+use linkage::mechanism::GROUND;
+use linkage::solver::{Solver, State};
+use linkproof::scenario::Scenario;
+use workshop::clearance::question::pairs;
+use workshop::clearance::{Body, Clearance, Outline, Question, course, find};
+
+use crate::common::sketch::Random;
+use crate::common::specimens::specimen;
+use crate::common::{assert_within, shipped, states};
+
+/// Instants of the brute force.
+const FINE: usize = 800;
+
+/// An outline in the world: corners, and whether the interior belongs to it.
+type Shape = (Vec<Vec2>, bool);
+
+fn side_count((corners, solid): &Shape) -> usize {
+    if *solid { corners.len() } else { (corners.len() - 1).max(1) }
+}
+
+fn side((corners, _): &Shape, k: usize) -> [Vec2; 2] {
+    [corners[k], corners[(k + 1) % corners.len()]]
+}
+
+fn to_segment(p: Vec2, [a, b]: [Vec2; 2]) -> f64 {
+    let (along, off) = (b - a, p - a);
+    let share = if along.norm_squared() > 0.0 { off.dot(&along) / along.norm_squared() } else { 0.0 };
+    (off - along * share.clamp(0.0, 1.0)).norm()
+}
+
+fn between(one: [Vec2; 2], two: [Vec2; 2]) -> f64 {
+    let splits = |[a, b]: [Vec2; 2], [c, d]: [Vec2; 2]| cross(b - a, c - a) * cross(b - a, d - a) < 0.0;
+    if splits(one, two) && splits(two, one) {
+        return 0.0;
+    }
+    let ends = [to_segment(one[0], two), to_segment(one[1], two), to_segment(two[0], one), to_segment(two[1], one)];
+    ends.into_iter().fold(f64::INFINITY, f64::smaller)
+}
+
+/// Whether a place is inside, by the sum of the angles at which the sides are seen.
+fn holds(shape: &Shape, p: Vec2) -> bool {
+    let seen = |k: usize| {
+        let [a, b] = side(shape, k).map(|corner| corner - p);
+        cross(a, b).atan2(a.dot(&b))
+    };
+    shape.1 && (0..shape.0.len()).map(seen).sum::<f64>().abs() > std::f64::consts::PI
+}
+
+fn apart(one: &Shape, two: &Shape) -> f64 {
+    if holds(one, two.0[0]) || holds(two, one.0[0]) {
+        return 0.0;
+    }
+    let sides = (0..side_count(one)).flat_map(|i| (0..side_count(two)).map(move |j| (i, j)));
+    sides.map(|(i, j)| between(side(one, i), side(two, j))).fold(f64::INFINITY, f64::smaller)
+}
+
+/// The distance of a pair of bodies in a state (m).
+fn distance(asked: &Question, state: &State, pair: [usize; 2]) -> f64 {
+    let [one, two] = pair.map(|body| {
+        let Body { link, outline, .. } = &asked.bodies[body];
+        let corners = outline.corners().iter().map(|&corner| state.motions[*link].point(corner)).collect();
+        (corners, outline.is_solid())
+    });
+    let radii: f64 = pair.iter().map(|&body| asked.bodies[body].outline.radius()).sum();
+    (apart(&one, &two) - radii).larger(0.0)
+}
+
+/// States of side 2 at crank angles, which a drive of constant speed comes to, whatever the law.
+fn at(case: &Case, cranks: &[f64]) -> Vec<State> {
+    let case = &case.at_top_speed();
+    let times: Vec<f64> = Grid::of_cranks(case.crank(), cranks.to_vec()).times;
+    states(&NewtonSolver, case, &times).unwrap()
+}
+
+/// All links with outlines of random width, every third a random polygon, and a housing of pins and plates.
+fn asked(random: &mut Random, case: &Case) -> Question {
+    let mechanism = &case.mechanism;
+    let size = mechanism.size();
+    let mut bodies = Vec::new();
+    for (link, own) in mechanism.links().iter().enumerate().skip(1) {
+        let places: Vec<Vec2> = own.points.iter().map(|point| point.local).collect();
+        let radius = size * random.number(0.005, 0.03);
+        let outline = if random.index(3) == 0 {
+            // A star, seldom convex, around the link's first point.
+            let corners = random.index(7) + 3;
+            let corner = |k: usize| {
+                let angle = std::f64::consts::TAU * (k as f64 + random.number(0.0, 0.6)) / corners as f64;
+                places[0] + linkage::math::unit(angle) * (size * random.number(0.02, 0.25))
+            };
+            let corners: Vec<Vec2> = (0..corners).map(corner).collect();
+            Outline::polygon(&corners, if random.yes() { 0.0 } else { radius }).unwrap()
+        } else {
+            Outline::of_points(&places, radius).unwrap()
+        };
+        bodies.push(Body { name: own.name.clone(), link, outline });
+    }
+    for part in 0..3 {
+        let centre = mechanism.links()[GROUND].points[0].local + random.vector(0.2 * size, 1.2 * size);
+        let outline = match part {
+            0 => Outline::line(&[centre], size * random.number(0.0, 0.02)).unwrap(),
+            1 => Outline::line(&[centre, centre + random.vector(0.05 * size, 0.6 * size)], 0.0).unwrap(),
+            _ => {
+                let arm = random.vector(0.02 * size, 0.2 * size);
+                let turned = linkage::math::turned(arm);
+                Outline::polygon(&[centre, centre + arm, centre + turned * 0.7], 0.01 * size).unwrap()
+            }
+        };
+        bodies.push(Body { name: format!("part_{part}"), link: GROUND, outline });
+    }
+    let pairs = pairs(mechanism, &bodies, &[]);
+    Question { bodies, pairs, wanted: Some(0.02 * size), tolerance: None, area: 0.05 }
+}
+
+/// What brute force has seen.
+#[derive(Default, Debug)]
+struct Seen {
+    pairs: usize,
+    collisions: usize,
+    /// Collisions that no instant of the grid shows.
+    between_instants: usize,
+    poses: usize,
+    distances: usize,
+}
+
+/// No sample is below what is proven, what is found is there, and nothing meets before the first meeting.
+fn check(case: &Case, asked: &Question, found: &Clearance, seen: &mut Seen, name: &str) {
+    assert!(found.open.is_empty(), "{name}: {:?}", found.open);
+    let ([from, to], size) = (found.range, case.mechanism.size());
+    let cranks: Vec<f64> = (0..=FINE).map(|k| from + (to - from) * (k as f64 / FINE as f64)).collect();
+    let fine = at(case, &cranks);
+    let grid = course(case, asked).unwrap();
+    // What the sides know of poses, with condition numbers of up to some thousands.
+    let rounding = 1e-10 * size;
+    for (index, pair) in found.pairs.iter().enumerate() {
+        let what = || format!("{name}: {:?}", pair.bodies.map(|body| &asked.bodies[body].name));
+        let samples: Vec<f64> = fine.iter().map(|state| distance(asked, state, pair.bodies)).collect();
+        let least = samples.iter().copied().fold(f64::INFINITY, f64::smaller);
+        assert_within!(pair.smallest.least - least, rounding, "{}: {pair:?}", what());
+        let there = distance(asked, &at(case, &[pair.smallest.crank])[0], pair.bodies);
+        assert_within!((there - pair.smallest.distance).abs(), rounding, "{}: {there} {pair:?}", what());
+        assert_within!(pair.smallest.distance - pair.smallest.least, found.tolerance * (1.0 + 1e-9), "{}", what());
+        for (meeting, threshold) in [(pair.collision, 0.0), (pair.too_near, asked.wanted.unwrap())] {
+            let gone = |crank: f64| (crank - from).abs();
+            let end = meeting.map_or(f64::INFINITY, |meeting| gone(meeting.cranks[0]));
+            let before = cranks.iter().zip(&samples).filter(|(crank, _)| gone(**crank) < end);
+            let nearest = before.map(|(_, &sample)| sample).fold(f64::INFINITY, f64::smaller);
+            assert!(nearest > threshold - rounding, "{}: {nearest} before {meeting:?}", what());
+            if let Some(meeting) = meeting {
+                let there = distance(asked, &at(case, &[meeting.cranks[1]])[0], pair.bodies);
+                assert_within!(there - threshold, 2e-9 * size, "{}: {meeting:?}", what());
+                assert_within!(gone(meeting.cranks[1]) - gone(meeting.cranks[0]), 1e-6, "{}: {meeting:?}", what());
+            }
+        }
+        seen.pairs += 1;
+        if pair.collision.is_some() {
+            seen.collisions += 1;
+            seen.between_instants += usize::from(grid.rows.iter().all(|row| row[index] > 0.0));
+        }
+    }
+    for (body, area) in &found.swept {
+        assert!(0.0 <= area.least && area.least <= area.value && area.value <= area.most, "{name}: {body} {area:?}");
+    }
+    seen.poses += found.work.poses;
+    seen.distances += found.work.distances;
+}
+
+#[test]
+fn shipped_mechanisms_against_brute_force() {
+    let mut seen = Seen::default();
+    let names =
+        ["crank_rocker", "quick_return", "scotch_yoke", "six_bar_slider", "class3_group", "fourth_class", "ov7_base"];
+    for (index, name) in names.into_iter().chain(["five_bar", "cycloidal_start", "tangent"]).enumerate() {
+        let case = shipped(&format!("{name}.toml")).case;
+        let mut random = Random::of_sample(11, index as u64);
+        let asked = asked(&mut random, &case);
+        let found = find(&case, &asked, &mut |_| ()).unwrap_or_else(|error| panic!("{name}: {error}"));
+        check(&case, &asked, &found, &mut seen, name);
+    }
+    println!("{seen:?}");
+    assert!(seen.pairs > 100 && seen.collisions > 10, "{seen:?}");
+}
+
+#[test]
+fn random_mechanisms_against_brute_force() {
+    let count = if std::env::var_os("LINKPROOF_NIGHTLY").is_some() { 600 } else { 30 };
+    let (mut seen, mut used) = (Seen::default(), 0);
+    for index in 0..count {
+        let own = specimen(29, index, &mut BTreeMap::new());
+        let text = own.toml(false);
+        let case = Scenario::parse(&text, Path::new("specimen.toml")).unwrap_or_else(|error| panic!("{error}")).case;
+        if case.is_free() {
+            continue;
+        }
+        used += 1;
+        let mut random = Random::of_sample(30, index);
+        let asked = asked(&mut random, &case);
+        let found = find(&case, &asked, &mut |_| ()).unwrap_or_else(|error| panic!("{index}: {error}"));
+        check(&case, &asked, &found, &mut seen, &format!("{index} ({})", own.sort));
+    }
+    println!("{used} mechanisms: {seen:?}");
+    assert!(seen.pairs > 100 && seen.collisions > 10, "{seen:?}");
+}
+
+/// A nail just inside of the path of a coupler's corner, between two instants of the grid: samples at the grid, and at
+/// twenty times as many, all miss it.
+#[test]
+fn planted_thin_crossings_are_found() {
+    let (mut planted, mut missed) = (0, 0);
+    for (index, name) in ["crank_rocker", "quick_return", "class3_group", "fourth_class", "ov7_base"].iter().enumerate()
+    {
+        let case = shipped(&format!("{name}.toml")).case;
+        let size = case.mechanism.size();
+        let mut random = Random::of_sample(5, index as u64);
+        let [from, to] = [case.grid.cranks[0], case.grid.cranks[case.grid.len() - 1]];
+        for _ in 0..4 {
+            let crank = from + (to - from) * random.number(0.05, 0.95);
+            let link = 1 + random.index(case.mechanism.links().len() - 1);
+            let local = case.mechanism.links()[link].points[0].local + random.vector(0.1 * size, 0.2 * size);
+            let motion = at(&case, &[crank])[0].motions[link];
+            // As near to the path as is left when it is crossed for a hundred-thousandth of a degree only.
+            let (place, way) = (motion.point(local), motion.point_velocity(local).normalize());
+            let radius = 1e-6 * size;
+            let depth = 1e-12 * size;
+            let nail = place + linkage::math::turned(way) * (2.0 * radius - depth);
+            let bodies = vec![
+                Body { name: "link".into(), link, outline: Outline::line(&[local], radius).unwrap() },
+                Body { name: "nail".into(), link: GROUND, outline: Outline::line(&[nail], radius).unwrap() },
+            ];
+            let asked = Question { bodies, pairs: vec![[0, 1]], wanted: None, tolerance: None, area: f64::INFINITY };
+            let found = find(&case, &asked, &mut |_| ()).unwrap();
+            let meeting = found.pairs[0].collision.unwrap_or_else(|| panic!("{name}: {crank} {:?}", found.pairs));
+            planted += 1;
+            let fine: Vec<f64> = (0..=7_200).map(|k| from + (to - from) * (f64::from(k) / 7_200.0)).collect();
+            let fine = case.on(Grid::of_cranks(case.crank(), fine)).unwrap();
+            missed += usize::from(course(&fine, &asked).unwrap().rows.iter().all(|row| row[0] > 0.0));
+            // The path may cross the nail once more, but not later than here.
+            assert!((meeting.cranks[1] - from).abs() <= (crank - from).abs() + 1e-3, "{name}: {meeting:?} {crank}");
+        }
+    }
+    println!("{planted} planted, {missed} missed by 7 200 samples");
+    assert!(missed * 10 >= planted * 8, "{missed} of {planted}");
+}
+
+/// The shipped housing: brute force, and the areas of a raster.
+#[test]
+fn the_crankcase_is_clear() {
+    let scenario = shipped("crankcase.toml");
+    let (case, asked) = (&scenario.case, scenario.clearance.as_ref().unwrap());
+    let found = find(case, asked, &mut |_| ()).unwrap();
+    let mut seen = Seen::default();
+    check(case, asked, &found, &mut seen, "crankcase");
+    assert_eq!((seen.pairs, seen.collisions), (13, 0));
+    let piston =
+        found.pairs.iter().find(|pair| asked.bodies[pair.bodies[1]].name == "head" && pair.bodies[0] == 2).unwrap();
+    // At the upper dead centre: 204 - 3 - (40 + 130 + 30) mm.
+    assert_within!((piston.smallest.distance - 1e-3).abs(), 1e-12);
+    // A piston 70 mm wide with a hollow of 44 x 32 mm below its crown, over a stroke of 80 mm; what its hollow leaves.
+    let expected = (70.0 * 130.0 - 44.0 * 32.0) * 1e-6;
+    let area = found.swept[2].1;
+    assert!((area.least..=area.most).contains(&expected), "{area:?} {expected}");
+    assert_within!((area.value - expected).abs(), 5e-4 * expected, "{area:?}");
+    assert_within!(area.error(), asked.area * expected, "{area:?}");
+    // The rod by a raster of 0.5 mm at positions 0.5 deg apart.
+    let rod = found.swept[1].1;
+    let positions: Vec<Vec<Vec2>> = at(case, &(0..720).map(|k| f64::from(k).to_radians() / 2.0).collect::<Vec<_>>())
+        .iter()
+        .map(|state| asked.bodies[1].outline.corners().iter().map(|&corner| state.motions[2].point(corner)).collect())
+        .collect();
+    let step = 1e-3;
+    let mut count = 0;
+    for i in -60..60 {
+        for k in -60..200 {
+            let place = Vec2::new((f64::from(i) + 0.5) * step, (f64::from(k) + 0.5) * step);
+            count += usize::from(positions.iter().any(|ends| to_segment(place, [ends[0], ends[1]]) <= 9e-3));
+        }
+    }
+    let raster = f64::from(u32::try_from(count).unwrap()) * step * step;
+    assert_within!((raster - rod.value).abs(), 5e-3 * rod.value, "{raster} {rod:?}");
+}
+
+/// One freedom under forces: the crank angles that the motion comes to. Of several freedoms no one angle tells the pose.
+#[test]
+fn motions_under_forces() {
+    let case = shipped("crank_rocker_runup.toml").case;
+    let asked = asked(&mut Random::of_sample(3, 1), &case);
+    let found = find(&case, &asked, &mut |_| ()).unwrap();
+    let solved = analytic::AssurSolver.solve(&case).unwrap();
+    let reached = solved.cranks().iter().copied().fold(f64::NEG_INFINITY, f64::larger);
+    let turn = std::f64::consts::TAU;
+    let expected = reached.smaller(found.range[0] + turn);
+    assert_within!((found.range[1] - expected).abs(), 1e-12, "{:?}", found.range);
+    assert_eq!(course(&case, &asked).unwrap().cranks, solved.cranks());
+    let case = shipped("double_pendulum.toml").case;
+    let error = find(&case, &asked, &mut |_| ()).unwrap_err();
+    assert_eq!(error.kind(), linkage::ErrorKind::Unsupported);
+}
+
+/// Without the section nothing of it is asked, and with it a proof has the same bits.
+#[test]
+fn a_run_does_not_depend_on_it() {
+    let with = shipped("crankcase.toml");
+    let text = with.text.split("# Crank and counterweight").next().unwrap();
+    let without = Scenario::parse(text, Path::new("crankcase.toml")).unwrap();
+    assert!(without.clearance.is_none() && with.clearance.is_some());
+    assert_eq!(with.case, without.case);
+}

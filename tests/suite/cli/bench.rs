@@ -1,0 +1,96 @@
+//! `linkproof bench`, with peers that behave and peers that do not.
+
+use std::fs;
+use std::os::unix::fs::PermissionsExt;
+
+use serde_json::Value;
+
+use super::tools::Place;
+
+const QUICK: &str = "--quick --engine rapier --only positions";
+
+/// A peer as a script. `solve` runs with the path of its table as `$csv`.
+fn peer(place: &Place, name: &str, solve: &str) {
+    let ways = r#"echo '[{"name": "as it is", "resolution": "none"}]'"#;
+    let csv = r#"csv=$(sed -n 's/.*"csv":"\([^"]*\)".*/\1/p' "$2")"#;
+    let text = format!("#!/bin/sh\nif [ \"$1\" = ways ]; then\n{ways}\nelse\n{csv}\n{solve}\nfi\n");
+    fs::write(place.path(name), text).unwrap();
+    fs::set_permissions(place.path(name), fs::Permissions::from_mode(0o755)).unwrap();
+}
+
+const TIME: &str = r#"echo '{"seconds": [0.5], "version": "script 1", "work": {"steps": 3}}'"#;
+
+#[test]
+fn diagrams_and_numbers_are_written() {
+    let place = Place::new();
+    let text = place.ok(&format!("bench scenarios/five_bar.toml --out out/deep {QUICK} --page page.md"));
+    assert!(text.contains("positions: the reference is known to"), "{text}");
+    for end in ["time", "solutions", "inner"] {
+        let drawn = fs::read_to_string(place.path(&format!("out/deep/five_bar.{end}.svg"))).unwrap();
+        assert!(roxmltree::Document::parse(&drawn).unwrap().root_element().has_tag_name("svg"));
+    }
+    let table = fs::read_to_string(place.path("out/deep/five_bar.csv")).unwrap();
+    assert!(table.starts_with("# cpu: ") && table.contains("# cores: ") && table.contains("# build: "), "{table}");
+    let rows = table.lines().filter(|line| !line.starts_with('#')).count();
+    let found: Value = serde_json::from_str(&fs::read_to_string(place.path("out/deep/bench.json")).unwrap()).unwrap();
+    let points = found["scenarios"][0]["points"].as_array().unwrap();
+    assert_eq!(rows, points.len() + 1);
+    assert_eq!(points[0]["ratio"], 1.0);
+    let page = fs::read_to_string(place.path("page.md")).unwrap();
+    assert!(
+        page.contains("## five_bar") && page.contains("out/deep/five_bar.time.svg") && page.contains("linkproof bench"),
+        "{page}"
+    );
+}
+
+#[test]
+fn peers_are_points_and_never_a_crash() {
+    let place = Place::new();
+    place.ok("solve scenarios/five_bar.toml --with newton --only positions --csv good.csv");
+    let copy = format!("cp {} \"$csv\"", place.path("good.csv").display());
+    peer(&place, "good", &format!("echo a library greets; {copy}; {TIME}"));
+    peer(&place, "hangs", "sleep 30 & sleep 30");
+    peer(&place, "garbage", "head -c 2000 /dev/urandom");
+    peer(&place, "fails", "echo it went wrong >&2; exit 3");
+    peer(&place, "silent", TIME);
+    peer(&place, "nan", &format!("sed '2,$s/[^,]*$/nan/' {} > \"$csv\"; {TIME}", place.path("good.csv").display()));
+    peer(&place, "refuses", r#"echo '{"refused": "five bars are too many"}'"#);
+    peer(&place, "half", &format!("cut -d, -f1-4 {} > \"$csv\"; {TIME}", place.path("good.csv").display()));
+    let names = ["good", "hangs", "garbage", "fails", "silent", "nan", "refuses", "half", "absent"];
+    let peers: Vec<String> = names.iter().map(|name| format!("--peer {name}=./{name}")).collect();
+    let line = format!("bench scenarios/five_bar.toml --out out {QUICK} --peer-limit 1 {}", peers.join(" "));
+    place.ok(&line);
+    let found: Value = serde_json::from_str(&fs::read_to_string(place.path("out/bench.json")).unwrap()).unwrap();
+    let points = found["scenarios"][0]["points"].as_array().unwrap();
+    let of = |name: &str| &points.iter().find(|point| point["program"] == name).unwrap()["errors"]["positions"];
+    assert!(of("good")["max"].as_f64().unwrap() < 1e-9, "{}", of("good"));
+    assert_eq!(found["scenarios"][0]["versions"]["good"], "script 1");
+    for (name, reason) in [
+        ("hangs", "stopped after 1 s"),
+        ("garbage", "output"),
+        ("fails", "it went wrong"),
+        ("silent", "answer.csv is not there"),
+        ("nan", "NaN"),
+        ("refuses", "five bars are too many"),
+        ("half", "lacks"),
+    ] {
+        let told = of(name)["failed"].as_str().unwrap_or_default();
+        assert!(told.contains(reason), "{name}: {told}");
+    }
+    let absent = found["scenarios"][0]["absent"].as_array().unwrap();
+    assert!(absent.len() == 1 && absent[0]["peer"] == "absent", "{absent:?}");
+    let drawn = fs::read_to_string(place.path("out/five_bar.time.svg")).unwrap();
+    assert!(drawn.contains("refuses: it refuses"), "failures are on the diagram");
+}
+
+#[test]
+fn wrong_requests_are_refused() {
+    let place = Place::new();
+    place.refused("bench scenarios/five_bar.toml", &["--out"]);
+    place.refused("bench scenarios/five_bar.toml --out out --peer sh", &["NAME=COMMAND"]);
+    place.refused("bench scenarios/five_bar.toml --out out --peer a/b=sh", &["is no name"]);
+    place.refused("bench scenarios/five_bar.toml scenarios/five_bar.toml --out out", &["two scenarios", "five_bar"]);
+    place.refused("bench scenarios/five_bar.toml --out scenarios/five_bar.toml", &["--out"]);
+    place.refused("bench scenarios/five_bar.toml --out out --only up", &["--only"]);
+    place.refused("bench scenarios/five_bar.toml --out out --budget 0", &["greater than 0"]);
+}

@@ -1,0 +1,65 @@
+//! `clearance`: what it says, what it writes, and its exit codes.
+
+use serde_json::Value;
+
+use super::tools::Place;
+use crate::common::assert_within;
+
+#[test]
+fn the_crankcase_is_clear_and_says_so() {
+    let place = Place::new();
+    let text = place.ok("clearance scenarios/crankcase.toml");
+    for part in
+        ["clearance over crank angles 0.0000 to 360.0000 deg", "piston  head ", "1.0000", "swept area", "\nclear: "]
+    {
+        assert!(text.contains(part), "`{part}` is not in:\n{text}");
+    }
+    assert_eq!(place.ok("clearance scenarios/crankcase.toml"), text, "same input, same bytes");
+    let svg = place.ok("clearance scenarios/crankcase.toml --svg -");
+    let drawing = roxmltree::Document::parse(&svg).unwrap();
+    let titles: Vec<&str> =
+        drawing.descendants().filter(|node| node.has_tag_name("title")).filter_map(|n| n.text()).collect();
+    assert!(titles.contains(&"swept by rod") && titles.contains(&"head"), "{titles:?}");
+    let table = place.ok("clearance scenarios/crankcase.toml --csv -");
+    assert!(table.starts_with("t_s,crank_rad,crank.piston.distance_m,"), "{table}");
+    assert_eq!(table.lines().count(), 182);
+}
+
+#[test]
+fn a_collision_is_an_outcome() {
+    let place = Place::new();
+    place.edited("crankcase.toml", "longer.toml", &[("x_mm = 130,", "x_mm = 132,")]);
+    let outcome = place.run("clearance scenarios/longer.toml --json out.json");
+    assert_eq!((outcome.code, outcome.stderr.as_str()), (1, ""));
+    assert!(outcome.stdout.contains("first collision: piston and head at crank angle"), "{}", outcome.stdout);
+    let found: Value = serde_json::from_str(&std::fs::read_to_string(place.path("out.json")).unwrap()).unwrap();
+    let first = &found["scenarios"][0]["first_collision"];
+    assert_eq!(first["bodies"], serde_json::json!(["piston", "head"]));
+    // The crown reaches 201 mm: 40 sin a + sqrt(132^2 - 40^2 cos^2 a) + 30 = 201.
+    let crank = first["at"]["crank_rad"].as_f64().unwrap();
+    let height = 40.0 * crank.sin() + (132.0f64.powi(2) - (40.0 * crank.cos()).powi(2)).sqrt() + 30.0;
+    assert_within!((height - 201.0).abs(), 1e-6, "{first}");
+    // Only too near: no collision, but less than wanted.
+    place.edited("crankcase.toml", "near.toml", &[("wanted_mm = 0.4", "wanted_mm = 0.6")]);
+    let outcome = place.run("clearance scenarios/near.toml");
+    assert_eq!(outcome.code, 1, "{}", outcome.stdout);
+    assert!(
+        outcome.stdout.contains("first nearer than the 0.6000 mm wanted: piston and cylinder_left"),
+        "{}",
+        outcome.stdout
+    );
+}
+
+#[test]
+fn what_cannot_be_answered_is_refused() {
+    let place = Place::new();
+    place.refused("clearance scenarios/crank_rocker.toml", &["asks nothing about clearance", "[clearance]"]);
+    let outcome = place.run("clearance scenarios/crankcase.toml scenarios/crank_rocker.toml --json -");
+    assert_eq!(outcome.code, 2);
+    let found: Value = serde_json::from_str(&outcome.stdout).unwrap();
+    assert_eq!(found["scenarios"][0]["standing"], "clear");
+    assert!(found["scenarios"][1]["error"].as_str().unwrap().contains("asks nothing"), "{found}");
+    let files = "scenarios/crankcase.toml scenarios/crankcase.toml";
+    place.refused(&format!("clearance {files} --svg out.svg"), &["2 scenarios", "give one scenario"]);
+    place.refused("clearance scenarios/crankcase.toml --svg a.svg --csv a.csv", &["cannot be used with"]);
+}

@@ -1,0 +1,150 @@
+//! Nothing is computed that nobody asked for, and what is asked for keeps its values.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use analytic::{AssurSolver, NewtonSolver};
+use linkage::case::{Case, Grid};
+use linkage::math::{KeepNan, largest_size};
+use linkage::solver::Solver;
+use linkage::work::{Count, counted};
+use linkproof::scenario::{Scenario, files_in};
+
+use crate::common::specimens::specimen;
+use crate::common::{assert_within, shipped};
+
+/// Rounding of a side beside its largest number, in poses as well conditioned as those of the shipped scenarios.
+const ROUNDING: f64 = 1e-9;
+
+/// Every subject of a case asked for by itself: its values are those of the whole, by both sides.
+fn subjects_keep_their_values(case: &Case, about: &str) {
+    let times = case.grid.times.iter().step_by(case.grid.len().div_ceil(12)).copied().collect();
+    let case = &case.on(Grid::of_times(case.crank(), times)).unwrap();
+    for solver in [&AssurSolver as &dyn Solver, &NewtonSolver] {
+        let Ok(whole) = solver.solve(case) else { continue };
+        let mut words = case.channel_words();
+        words.retain(|word| word.split('.').count() < 3 || word.ends_with(".positions"));
+        // Where forces decide the motion, a word only chooses columns.
+        words.truncate(if case.is_free() { 8 } else { words.len() });
+        for word in words {
+            let own = case.wanting_only(&case.channels_called(&word));
+            let scene = own.scene().unwrap_or_else(|error| panic!("{about}, {word}: {error}"));
+            let part = solver.solve(&scene.case).unwrap_or_else(|error| panic!("{about}, {word}: {error}"));
+            assert_eq!(part.channels().len(), own.channels().len(), "{about}, {word}");
+            for (channel, values) in part.iter() {
+                let expected = whole.column(channel).expect("a channel of the whole");
+                let off = values.iter().zip(expected).fold(0.0f64, |most, (a, b)| most.larger((a - b).abs()));
+                // A channel that is nothing but rounding is measured by its stage.
+                let of_stage = whole.iter().filter(|(other, _)| other.kind.unit == channel.kind.unit);
+                let size = of_stage.map(|(_, values)| largest_size(values)).fold(0.0, f64::larger);
+                assert_within!(off, ROUNDING * size, "{about}, {word}, {channel} by {}", solver.name());
+            }
+        }
+    }
+}
+
+#[test]
+fn subjects_of_shipped_scenarios_keep_their_values() {
+    let files = files_in(&Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios")).unwrap();
+    for file in files {
+        let scenario = Scenario::load(&file).unwrap();
+        subjects_keep_their_values(&scenario.case, &scenario.name);
+    }
+}
+
+/// Loads between links, several drives, sliders: what no shipped scenario has.
+#[test]
+fn subjects_of_random_mechanisms_keep_their_values() {
+    for index in 0..40 {
+        let text = specimen(14, index, &mut BTreeMap::new()).toml(true);
+        let scenario = Scenario::parse(&text, Path::new("specimen.toml")).unwrap();
+        subjects_keep_their_values(&scenario.case, &format!("specimen {index}"));
+    }
+}
+
+fn asked(case: &Case, words: &[&str]) -> Case {
+    let channels: Vec<_> = words.iter().flat_map(|word| case.channels_called(word)).collect();
+    case.wanting_only(&channels)
+}
+
+/// Groups that a pose costs.
+fn groups(case: &Case) -> f64 {
+    let work = counted(|| AssurSolver.solve(&case.scene().unwrap().case).unwrap()).1;
+    work.of(Count::Groups) as f64 / work.of(Count::Poses) as f64
+}
+
+#[test]
+fn several_points_of_one_group_cost_one_group() {
+    let case = shipped("ov7_base.toml").case;
+    assert_eq!(groups(&asked(&case, &["point.3.positions"])), 1.0);
+    assert_eq!(groups(&asked(&case, &["point.3", "link.rod_23.positions", "link.rocker_43"])), 1.0);
+    assert_eq!(groups(&asked(&case, &["point.5.positions"])), 2.0);
+    assert_eq!(groups(&asked(&case, &["point.9.positions"])), 3.0);
+    assert_eq!(groups(&asked(&case, &["point.2.positions"])), 0.0);
+}
+
+/// A reaction depends on everything that hangs on its joint, and on nothing beside.
+#[test]
+fn reactions_need_what_hangs_on_their_joint() {
+    let case = shipped("ov7_base.toml").case;
+    let scene = |words: &[&str]| asked(&case, words).scene().unwrap();
+    assert!(scene(&["joint.3a"]).left_out.is_empty());
+    assert!(scene(&["frame.fx_N"]).left_out.is_empty() && scene(&["drive"]).left_out.is_empty());
+    let six_bar = shipped("six_bar_slider.toml").case;
+    let last = six_bar.structure.groups.last().unwrap();
+    let joint = &six_bar.mechanism.joints()[last.inner[0]].name;
+    assert_eq!(asked(&six_bar, &[&format!("joint.{joint}")]).scene().unwrap().left_out.loads, 0);
+    // The slides of a joint are no forces.
+    let links = |words: &[&str]| scene(words).case.mechanism.links().len();
+    assert_eq!((links(&["link.crank"]), links(&["point.3.velocities"]), links(&["link.rod_35.positions"])), (2, 4, 6));
+}
+
+/// Where forces decide the motion, every mass counts.
+#[test]
+fn a_free_motion_leaves_nothing_out() {
+    let case = shipped("ov7_new_runup.toml").case;
+    let own = asked(&case, &["link.crank"]);
+    let scene = own.scene().unwrap();
+    assert!(scene.left_out.is_empty() && scene.case == own);
+    assert_eq!(AssurSolver.solve(&scene.case).unwrap().channels().len(), own.channels().len());
+}
+
+/// Two links may share a point that only a link left out has held together.
+#[test]
+fn a_point_that_nothing_holds_together_any_more_gets_two_names() {
+    let case = shipped("ov7_base.toml").case;
+    for word in ["link.rocker_43.positions", "link.rod_35", "point.5.velocities", "link.rocker_65.angle_rad"] {
+        let scene = asked(&case, &[word]).scene().unwrap();
+        assert!(!scene.left_out.is_empty(), "{word}");
+    }
+}
+
+/// Exact work of some questions to shipped scenarios, part by part. A change of these numbers is a change of cost.
+#[test]
+fn work_is_what_it_was() {
+    let questions = [
+        ("crank_rocker.toml", ""),
+        ("crank_rocker.toml", "positions"),
+        ("ov7_base.toml", ""),
+        ("ov7_base.toml", "positions"),
+        ("ov7_base.toml", "point.3.positions"),
+        ("ov7_base.toml", "joint.7"),
+        ("fourth_class.toml", "point.A.positions"),
+        ("crank_rocker_runup.toml", ""),
+        ("crank_rocker_runup.toml", "link.crank"),
+    ];
+    let mut pages = String::new();
+    for (file, word) in questions {
+        let mut scenario = shipped(file);
+        if !word.is_empty() {
+            scenario = scenario.only(&[word.to_string()]).unwrap();
+        }
+        let proof = linkproof::prove(&scenario, &linkproof::Options::default()).unwrap();
+        assert_eq!(proof.verdict.word(), "agree", "{file} {word}");
+        pages += &linkproof::report::explain::text(&proof, &[]);
+        pages += "\n";
+    }
+    insta::with_settings!({ snapshot_path => "scenes", prepend_module_to_snapshot => false, omit_expression => true }, {
+        insta::assert_snapshot!("work", pages);
+    });
+}
