@@ -55,6 +55,8 @@ pub mod diagnosis;
 #[doc(hidden)]
 pub mod engines;
 mod files;
+#[doc(hidden)]
+pub mod mutate;
 mod outside;
 #[doc(hidden)]
 pub mod proof;

@@ -15,6 +15,7 @@ mod inspect;
 mod list;
 mod load;
 mod motor_choice;
+mod mutate;
 mod output;
 mod panics;
 mod plan;
@@ -35,6 +36,7 @@ Examples:
   linkproof run scenarios/*.toml --no-record --json -   prove all, as JSON
   linkproof solve scenarios/ov7_base.toml --with assur --crank-deg 0:-360:-30
   linkproof tune scenarios/crank_rocker.toml --within 1e-3 --engine rapier --channel positions   the settings it takes
+  linkproof mutate scenarios/crank_rocker.toml --no-sizes --kind load   does the proof see faults?
   linkproof inspect scenarios/ov7_base.toml             links, joints, Assur groups
 
 Exit codes: 0 all agree, 1 something disagrees, 2 bad input or usage, 3 nothing proven either way.";
@@ -55,6 +57,8 @@ enum Command {
     Solve(solve::Args),
     /// Find the cheapest settings of an engine that meet a wanted error, by measurement
     Tune(tune::Args),
+    /// Plant faults in one party of a proof, or in what all share, and say which are found
+    Mutate(mutate::Args),
     /// Measure run time against error of every solver, engine and setting, and of other programs: diagrams and numbers
     Bench(bench::Args),
     /// Show the structure of a mechanism: links, joints, mobility, driving link and Assur groups; its configurations;
@@ -87,6 +91,7 @@ pub fn main() -> ExitCode {
         Command::Run(args) => run::run(&args),
         Command::Solve(args) => output::exit(solve::solve(&args)),
         Command::Tune(args) => output::exit(tune::run(&args)),
+        Command::Mutate(args) => mutate::run(&args),
         Command::Bench(args) => output::exit(bench::run(&args)),
         Command::Inspect(args) => output::exit(inspect::inspect(&args)),
         Command::Bearings(args) => output::exit(bearings::bearings(&args)),

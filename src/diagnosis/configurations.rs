@@ -8,7 +8,7 @@ use linkage::mechanism::{AssemblyMode, LinkPose, Side};
 
 /// Puts the mechanism together again after a change of its lengths or of its drives' start angles: dyads in their
 /// modes, higher groups as near as they can be to where they were.
-pub(super) fn reassembled(parts: &mut CaseParts) -> Option<()> {
+pub(crate) fn reassembled(parts: &mut CaseParts) -> Option<()> {
     let wanted = wanted(parts);
     assembled(parts, &wanted)
 }
@@ -42,7 +42,7 @@ fn assembled(parts: &mut CaseParts, wanted: &[StartGroup]) -> Option<()> {
 }
 
 /// The case with one group in another of its configurations, for all of them that are known.
-pub(super) fn others(case: &Case) -> Vec<(Change, Case)> {
+pub(crate) fn others(case: &Case) -> Vec<(Change, Case)> {
     let mut found = Vec::new();
     for (index, group) in case.structure.groups.iter().enumerate() {
         // Not all configurations of groups of more than four links are known.

@@ -121,7 +121,7 @@ pub(super) fn all(case: &Case) -> Vec<Knob> {
 }
 
 /// Changes links and joints. The structure stays what it is.
-pub(super) fn changed(parts: &mut CaseParts, change: impl FnOnce(&mut [Link], &mut [Joint])) -> Option<()> {
+pub(crate) fn changed(parts: &mut CaseParts, change: impl FnOnce(&mut [Link], &mut [Joint])) -> Option<()> {
     let (mut links, mut joints) = (parts.mechanism.links().to_vec(), parts.mechanism.joints().to_vec());
     change(&mut links, &mut joints);
     for link in &mut links {
@@ -240,7 +240,8 @@ fn of_drive(case: &Case, index: usize, drive: &Drive) -> Vec<Knob> {
     vec![Knob { is_far: true, ..speed }, Knob { is_far: true, ..angle }]
 }
 
-fn driven(parts: &mut CaseParts, index: usize, change: impl FnOnce(&mut Drive)) {
+/// Changes one drive, and the crank angles of the grid with it.
+pub(crate) fn driven(parts: &mut CaseParts, index: usize, change: impl FnOnce(&mut Drive)) {
     let (mut change, mut number) = (Some(change), 0);
     parts.drives = parts.drives.map(|drive| {
         let mut own = drive.clone();
@@ -255,7 +256,8 @@ fn driven(parts: &mut CaseParts, index: usize, change: impl FnOnce(&mut Drive)) 
     parts.grid = Grid::of_times(parts.drives.crank(), parts.grid.times.clone());
 }
 
-fn at_speed(law: &MotionLaw, speed: f64) -> MotionLaw {
+/// The law with another top speed (rad/s).
+pub(crate) fn at_speed(law: &MotionLaw, speed: f64) -> MotionLaw {
     let factor = speed / law.top_speed();
     match law {
         MotionLaw::ConstantSpeed(_) => MotionLaw::ConstantSpeed(speed),

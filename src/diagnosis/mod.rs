@@ -21,6 +21,8 @@ mod whole;
 
 pub use alone::{Party, Standing, standing};
 pub use cause::{Axis, Cause, Change, How, Part, Slip};
+pub(crate) use configurations::{others, reassembled};
 pub use diagnose::{Diagnosis, diagnose};
+pub(crate) use knobs::{at_speed, changed, driven};
 pub use question::{Judged, Question};
 pub use since::{Since, since};

@@ -9,7 +9,7 @@ use crate::tolerance::{Basis, Origin, Tolerance};
 use linkage::case::Case;
 use linkage::engine::{Engine, Route};
 use linkage::math::KeepNan;
-use linkage::math::statistics::share;
+use linkage::math::statistics::{ascending, share};
 use linkage::trajectory::{Channel, ChannelKind, Stage};
 
 /// Wanted of an analytic side: closure of the joints, relative to the mechanism's size or its distance from the origin.
@@ -92,6 +92,37 @@ fn worst_instants<'a>(sides: &'a [(&'static str, Observed); 2], known: &Known) -
         values.iter().enumerate().map(at).max_by(|a, b| a.used().total_cmp(&b.used())).expect("there is an instant")
     };
     reference.channels().iter().enumerate().map(of).collect()
+}
+
+/// Where two trajectories leave what is allowed in one channel.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Beyond {
+    /// The channel.
+    pub(crate) channel: Channel,
+    /// First instant beyond what is allowed (s), and its crank angle (rad).
+    pub(crate) since: (f64, f64),
+    /// Largest difference over what is allowed.
+    pub(crate) margin: f64,
+}
+
+/// Every channel in which the two sides differ by more than what is allowed: since when, and by how much.
+pub(super) fn beyond(sides: &[(&'static str, Observed); 2], known: &Known) -> Vec<Beyond> {
+    let [reference, other] = [0, 1].map(|side| &sides[side].1.trajectory);
+    let rows = ascending(reference.times());
+    let errors = difference(reference, other).expect("both sides stand on one grid");
+    let of = |worst: Worst| {
+        let index = reference.channels().iter().position(|own| own == worst.channel)?;
+        let values = errors.column(worst.channel)?;
+        // Written so that NaN counts as beyond.
+        let is_beyond = |row: &&usize| {
+            let relative = share(values[**row].abs(), known.magnitude(index));
+            !(relative <= known.apart(worst.channel.kind.stage, index, **row))
+        };
+        let first = *rows.iter().find(is_beyond)?;
+        let since = (reference.times()[first], reference.cranks()[first]);
+        Some(Beyond { channel: worst.channel.clone(), since, margin: worst.used() })
+    };
+    worst_instants(sides, known).into_iter().filter_map(of).collect()
 }
 
 /// Whether the two sides differ by more than what is allowed.

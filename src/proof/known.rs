@@ -9,7 +9,6 @@
 use super::dependence::Dependence;
 use crate::compare::{largest_difference, magnitudes_by};
 use analytic::range::conditions;
-use analytic::{AssurSolver, TightAssurSolver, TightNewtonSolver};
 use linkage::case::Case;
 use linkage::error::Result;
 use linkage::math::statistics::share;
@@ -71,15 +70,24 @@ impl Known {
     ///
     /// # Errors
     /// Those of the tighter runs.
+    #[cfg(test)]
     pub(super) fn of(case: &Case, sides: [(&'static str, &Trajectory); 2], sensitivity: &[f64]) -> Result<Self> {
-        let integration = |(name, trajectory): (&'static str, &Trajectory)| -> Result<Vec<f64>> {
+        let tight = |name: &str| -> &dyn Solver {
+            if name == "assur" { &analytic::TightAssurSolver } else { &analytic::TightNewtonSolver }
+        };
+        Known::beside(case, sides.map(|(name, trajectory)| (tight(name), trajectory)), sensitivity)
+    }
+
+    /// The same, each trajectory with the side that makes the tighter run beside it.
+    ///
+    /// # Errors
+    /// Those of the tighter runs.
+    pub(super) fn beside(case: &Case, sides: [(&dyn Solver, &Trajectory); 2], sensitivity: &[f64]) -> Result<Self> {
+        let integration = |(tight, trajectory): (&dyn Solver, &Trajectory)| -> Result<Vec<f64>> {
             if !case.is_free() {
                 return Ok(vec![0.0; trajectory.channels().len()]);
             }
-            let tight = match name == AssurSolver.name() {
-                true => TightAssurSolver.solve(case)?,
-                false => TightNewtonSolver.solve(case)?,
-            };
+            let tight = tight.solve(case)?;
             let of = |((channel, ours), (_, theirs)): ((&Channel, &[f64]), (_, &[f64]))| {
                 SAFETY * largest_difference(ours, theirs, channel.kind.periodic)
             };

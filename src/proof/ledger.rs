@@ -15,7 +15,7 @@ pub struct Entry {
 
 /// All parts so far, in their order.
 #[derive(Debug, Default)]
-pub(super) struct Ledger(pub(super) Vec<Entry>);
+pub(crate) struct Ledger(pub(super) Vec<Entry>);
 
 impl Ledger {
     /// Does a part and counts it.

@@ -5,6 +5,7 @@ mod dependence;
 mod dial;
 mod doubt;
 mod engines;
+mod entrants;
 mod examined;
 mod judge;
 mod known;
@@ -29,8 +30,10 @@ mod settle;
 mod stall;
 
 pub use engines::EngineProof;
+pub(crate) use entrants::{Engines, Entrant, Sides, TRUE_SIDES};
 pub use judge::{ChannelProof, EngineInfo};
 pub use ledger::Entry;
+pub(crate) use ledger::Ledger;
 pub use options::{Options, Reference};
 pub use own_forces::{ForceFault, OwnForces};
 pub use parties::Dispute;
@@ -40,13 +43,9 @@ use crate::compare::{Check, Verdict, overall};
 use crate::diagnosis::Diagnosis;
 use crate::scenario::Scenario;
 use analytic::range::explained;
-use known::Known;
-use ledger::Ledger;
 use linkage::case::{Case, Scene};
 use linkage::error::Result;
-use linkage::solver::Solver;
 use linkage::trajectory::Trajectory;
-use observe::{Watch, observe};
 
 /// All results of one proof.
 ///
@@ -161,9 +160,6 @@ pub fn solve(case: &Case) -> Result<Trajectory> {
     Reference::Assur.solver().solve(case).map_err(|error| explained(case, error))
 }
 
-/// Share of the progress that the analytic sides are given.
-const SIDES: f64 = 0.1;
-
 /// The same, with the solvers' errors unchanged.
 fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: &mut dyn FnMut(f64)) -> Result<Proof> {
     let scene = scenario.case.scene()?;
@@ -173,71 +169,22 @@ fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: 
     let engines = options.chosen(scenario)?;
     memory::check(case, memory::of_proof(case, engines.len()), options.memory)?;
     let mut ledger = Ledger::default();
-    let mut observed = |solver: &dyn Solver| -> Result<_> {
-        let why = if solver.name() == main.name() { "the reference" } else { "checks the reference" };
-        let run = || observe(case, solver, Watch::Side, &mut |_| {});
-        Ok((solver.name(), ledger.done(solver.name(), why, run)?))
-    };
-    let [first, second] = analytic::all();
-    let sides = [observed(first)?, observed(second)?];
-    let own = &sides.iter().find(|(name, _)| *name == main.name()).expect("the reference is one of the sides").1;
-    let (other, beside) = sides.iter().find(|(name, _)| *name != main.name()).expect("there are two sides");
-    let tighter = || -> Result<_> {
-        let sensitivity = sensitivity::of(case, main, &own.trajectory)?;
-        let known = Known::of(case, [(main.name(), &own.trajectory), (other, &beside.trajectory)], &sensitivity)?;
-        Ok((sensitivity, known))
-    };
-    let (sensitivity, mut known) = match case.is_free() {
-        true => ledger.done("tighter integration", "shows the error that both sides share", tighter)?,
-        false => {
-            ledger.skipped("integration", "the motion is prescribed");
-            tighter()?
-        }
-    };
-    match checks::sides_differ(&sides, &known) {
-        true => ledger
-            .done("condition of every pose", "the sides differ by more than usual", || known.measure(case, first))?,
-        false => ledger.skipped("condition of every pose", "the sides differ by usual rounding"),
-    }
-    let mut checks = checks::of_sides(case, &sides, &known);
-    match methods::apply(case) {
-        true => checks.extend(
-            ledger.done("published methods", "others than ours for its triad", || methods::checks(case, main))?,
-        ),
-        false => ledger.skipped("published methods", "there is no triad of class III"),
-    }
-    match scenario.oracles.is_empty() {
-        true => ledger.skipped("published numbers", "there are none of wanted channels"),
-        false => {
-            let numbers = || oracle::checks(scenario, whole);
-            checks.extend(ledger.done("published numbers", "solved at their own crank angles", numbers)?);
-        }
-    }
-
+    let sides = Sides::of([scenario, whole], TRUE_SIDES, options.reference, &mut ledger)?;
     let engine_case = match &whole.case.only {
         Some(only) => engine_case.wanting_only(only).scene()?.case,
         None => engine_case.clone(),
     };
-    let engine_case = engine_case.on(case.grid.clone())?;
-    let mut proofs = Vec::with_capacity(engines.len());
-    for (index, engine) in engines.iter().enumerate() {
-        let mut part = |part: f64| progress(SIDES + (1.0 - SIDES) * (index as f64 + part) / engines.len() as f64);
-        let mut proof = engines::prove(scenario, &engine_case, engine, own, &known, (&mut ledger, &mut part))?;
-        engines::tell_sensitivity(&mut proof, &own.trajectory, &sensitivity);
-        proofs.push(proof);
-    }
-    if let [EngineProof { failure: Some(error), trajectory: None, .. }] = proofs.as_slice() {
-        return Err(error.clone());
-    }
+    let proofs = sides.engines(scenario, &Engines::on(&engine_case), engines, (&mut ledger, progress))?;
+    let own = sides.own();
     let disputes = match proofs.len() {
         1 => Vec::new(),
         _ => parties::disputes(main.name(), &own.trajectory, &proofs),
     };
-    let analytic = overall(checks.iter().map(|check| &check.verdict));
+    let analytic = sides.verdict();
     let verdict = overall([&analytic].into_iter().chain(proofs.iter().map(|proof| &proof.verdict)));
     let diagnosis = match verdict {
         Verdict::Disagree { .. } => {
-            let examined = || examined::of(case, main, &sides, &known, &proofs);
+            let examined = || examined::of(case, main, &sides.observed, &sides.known, &proofs);
             ledger.done("diagnosis", "something disagrees", examined)
         }
         Verdict::Agree { .. } | Verdict::Expected { .. } | Verdict::Inconclusive { .. } => {
@@ -245,19 +192,17 @@ fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: 
             None
         }
     };
-    let [one, two] = sides;
-    let reference = if one.0 == main.name() { one } else { two };
     Ok(Proof {
         scenario: scenario.name.clone(),
         title: scenario.title.clone(),
         formula: case.structure.formula(&case.mechanism),
         reference: main.name(),
         diagnosis,
-        checks,
+        reference_trajectory: own.trajectory.clone(),
+        checks: sides.checks,
         engines: proofs,
         disputes,
         verdict,
-        reference_trajectory: reference.1.trajectory,
         scene,
         work: ledger.0,
     })

@@ -96,6 +96,13 @@ pub(crate) struct Chosen {
     pub(crate) budget: f64,
 }
 
+impl Chosen {
+    /// The same with `around` the engine, and with its own forces or without.
+    pub(crate) fn with_engine(self, around: &dyn Fn(Box<dyn Engine>) -> Box<dyn Engine>, own_forces: bool) -> Self {
+        Chosen { engine: around(self.engine), own_forces: self.own_forces.filter(|_| own_forces), ..self }
+    }
+}
+
 impl Options {
     /// Adds an engine.
     #[must_use]

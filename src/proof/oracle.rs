@@ -14,11 +14,11 @@ use linkage::trajectory::{Channel, Stage, Trajectory};
 
 /// One check for every series and figure of an oracle and for each analytic side.
 /// Series are those of channels of the `scenario`, figures those of the `whole` mechanism.
-pub(super) fn checks(scenario: &Scenario, whole: &Scenario) -> Result<Vec<Check>> {
+pub(super) fn checks(scenario: &Scenario, whole: &Scenario, sides: [&dyn Solver; 2]) -> Result<Vec<Check>> {
     // Where forces decide the true motion, numbers at crank angles belong to the nominal motion.
     let nominal = |scenario: &Scenario| scenario.clone().nominal();
-    let mut checks = of_series(&nominal(scenario))?;
-    checks.extend(of_figures(&nominal(whole))?);
+    let mut checks = of_series(&nominal(scenario), sides)?;
+    checks.extend(of_figures(&nominal(whole), sides)?);
     Ok(checks)
 }
 
@@ -26,7 +26,7 @@ pub(super) fn checks(scenario: &Scenario, whole: &Scenario) -> Result<Vec<Check>
 /// number may have more digits than that.
 const ULPS: f64 = 16.0;
 
-fn of_series(scenario: &Scenario) -> Result<Vec<Check>> {
+fn of_series(scenario: &Scenario, [first, second]: [&dyn Solver; 2]) -> Result<Vec<Check>> {
     let all = || scenario.oracles.iter().flat_map(|oracle| oracle.series.iter().map(move |series| (oracle, series)));
     let points = |series: &OracleSeries| {
         let wrong = series.wrong.iter().flat_map(|(_, cells)| cells);
@@ -42,7 +42,6 @@ fn of_series(scenario: &Scenario) -> Result<Vec<Check>> {
     let stages: Vec<Stage> = all().map(|(_, series)| series.channel.kind.stage).collect();
     let base = &scenario.case;
     let case = base.on(Grid::of_cranks(base.crank(), cranks))?.wanting(Wanted::of(&stages));
-    let [first, second] = analytic::all();
     let solved = [first.solve(&case)?, second.solve(&case)?];
     let mut checks = Vec::new();
     for (side, solver) in [first, second].into_iter().enumerate() {
@@ -129,9 +128,8 @@ fn column(oracle: &Oracle, series: &OracleSeries, solved: &Trajectory) -> Result
     Ok(x.iter().zip(y).map(|(x, y)| x.hypot(*y)).collect())
 }
 
-fn of_figures(scenario: &Scenario) -> Result<Vec<Check>> {
+fn of_figures(scenario: &Scenario, solvers: [&dyn Solver; 2]) -> Result<Vec<Check>> {
     let all = || scenario.oracles.iter().flat_map(|oracle| oracle.figures.iter().map(move |figure| (oracle, figure)));
-    let solvers = analytic::all();
     let mut values = [Vec::new(), Vec::new()];
     for (values, solver) in values.iter_mut().zip(solvers) {
         let mut measured = Measured { scenario, solver, means: None };

@@ -93,7 +93,7 @@ impl OwnForces {
     /// What they add to the engine's verdict. Where they stay open, they are told and take nothing back: the motion and
     /// its forces are judged all the same, and impulses are of a lower order and need the true masses, with many
     /// sweeps.
-    pub(super) fn adds(&self) -> Option<&Verdict> {
+    pub(crate) fn adds(&self) -> Option<&Verdict> {
         Some(&self.verdict).filter(|verdict| !matches!(verdict, Verdict::Inconclusive { .. }))
     }
 

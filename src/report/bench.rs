@@ -49,7 +49,8 @@ pub(crate) fn text(bench: &Bench) -> String {
     let failed = bench.points.iter().filter(|point| point.run().is_none()).count();
     let _ = writeln!(
         text,
-        "{} settings on {} instants, {failed} failed; times over that of side 1 (assur). Reference: {}.",
+        "{} settings on {} instants, {failed} failed; times over that of side 1 (assur). Reference: {}.\n\
+         The fronts: what nothing beats, then what no engine and no peer beats.",
         bench.points.len(),
         bench.instants,
         bench.floor.reference
@@ -58,7 +59,10 @@ pub(crate) fn text(bench: &Bench) -> String {
         let floor = bench.floor.errors[stage as usize];
         let _ = writeln!(text, "\n{}: the reference is known to {floor:.1e}", stage.name());
         let mut rows = table(["error", "time", "solutions", "program", "settings"], &[0, 1, 2]);
-        for index in front(&bench.points, stage, Axis::Time, floor, &|_| true) {
+        let sides = front(&bench.points, stage, Axis::Time, floor, &|_| true);
+        let others = front(&bench.points, stage, Axis::Time, floor, &|point| point.party != Party::Side);
+        let others = others.into_iter().filter(|index| !sides.contains(index)).collect::<Vec<_>>();
+        for index in sides.iter().copied().chain(others) {
             let point = &bench.points[index];
             let Some(errors) = point.error(stage) else { continue };
             let mark = if errors.is_limited { " (floor)" } else { "" };

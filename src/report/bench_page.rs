@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::bench::{Machine, fastest, ratio, short};
 use super::bench_plot::reasons;
-use crate::bench::{Axis, Bench, CLEAR, Point, front};
+use crate::bench::{Axis, Bench, CLEAR, Party, Point, front};
 use linkage::trajectory::Stage;
 
 /// Errors in the cells of the tables.
@@ -51,17 +51,11 @@ fn scenario(text: &mut String, bench: &Bench, pictures: &str) {
     let [name, title] = &bench.scenario;
     let failed = bench.points.iter().filter(|point| point.run().is_none()).count();
     let _ = writeln!(text, "## {name}\n\n{title}.\n");
-    let links: Vec<String> = Axis::ALL
-        .into_iter()
-        .filter(|axis| bench.points.iter().any(|point| axis.of(point).is_some()))
-        .map(|axis| format!("[{}]({pictures}{name}.{}.svg)", axis.name(), axis.name()))
-        .collect();
     let _ = writeln!(
         text,
-        "{} settings on {} instants, {failed} failed. Diagrams over {}.\n",
+        "{} settings on {} instants, {failed} failed. [Diagram]({pictures}{name}.time.svg), [numbers]({pictures}{name}.csv).\n",
         bench.points.len(),
-        bench.instants,
-        links.join(", ")
+        bench.instants
     );
     let stages: Vec<&str> = bench.stages.iter().map(|stage| stage.name()).collect();
     let _ = writeln!(text, "| | {} |", stages.join(" | "));
@@ -80,14 +74,9 @@ fn scenario(text: &mut String, bench: &Bench, pictures: &str) {
     }
     text.push('\n');
     for &stage in &bench.stages {
-        let floor = bench.floor.errors[stage as usize];
-        let told = front(&bench.points, stage, Axis::Time, floor, &|_| true).into_iter().filter_map(|index| {
-            let point = &bench.points[index];
-            let errors = point.error(stage)?;
-            let mark = if errors.is_limited { ", floor" } else { "" };
-            Some(format!("{} ({:.0e} at {}{mark})", named(point), errors.max, short(ratio(bench, point)?)))
-        });
-        let _ = writeln!(text, "- Front of {}: {}.", stage.name(), told.collect::<Vec<_>>().join("; "));
+        let of_others = told(bench, stage, &|point| point.party != Party::Side);
+        let _ = writeln!(text, "- Front of {}: {}.", stage.name(), told(bench, stage, &|_| true));
+        let _ = writeln!(text, "  Of engines and peers: {}.", if of_others.is_empty() { "none" } else { &of_others });
     }
     for (reason, times) in reasons(bench).into_iter().take(REASONS) {
         let _ = writeln!(text, "- Failed {times} times: {reason}");
@@ -96,6 +85,18 @@ fn scenario(text: &mut String, bench: &Bench, pictures: &str) {
         let _ = writeln!(text, "- {} finer settings were not run: the work allowed was done.", bench.left_out);
     }
     text.push('\n');
+}
+
+/// A front over time, by name.
+fn told(bench: &Bench, stage: Stage, of: &dyn Fn(&Point) -> bool) -> String {
+    let floor = bench.floor.errors[stage as usize];
+    let told = front(&bench.points, stage, Axis::Time, floor, of).into_iter().filter_map(|index| {
+        let point = &bench.points[index];
+        let errors = point.error(stage)?;
+        let mark = if errors.is_limited { ", floor" } else { "" };
+        Some(format!("{} ({:.0e} at {}{mark})", named(point), errors.max, short(ratio(bench, point)?)))
+    });
+    told.collect::<Vec<_>>().join("; ")
 }
 
 fn named(point: &Point) -> String {

@@ -7,7 +7,7 @@ use plotters::prelude::{
 };
 use plotters::style::IntoFont;
 
-use crate::bench::{Axis, Bench, CLEAR, Point, front};
+use crate::bench::{Axis, Bench, CLEAR, Party, Point, front};
 use linkage::math::KeepNan;
 use linkage::trajectory::Stage;
 
@@ -180,8 +180,10 @@ fn panel(area: &Area, bench: &Bench, stage: Stage, axis: Axis, [left, right]: [f
             }
         }
     }
+    // The sides are so far ahead that nothing else would have a ring.
     let best = front(&bench.points, stage, axis, floor, &|_| true);
-    let rings = best.iter().filter_map(|&index| {
+    let others = front(&bench.points, stage, axis, floor, &|point| point.party != Party::Side);
+    let rings = best.iter().chain(&others).filter_map(|&index| {
         let point = &bench.points[index];
         Some(Circle::new((cost(bench, axis, point)?, shown(point.error(stage)?.max)), 6, GREY.stroke_width(1)))
     });
@@ -237,7 +239,8 @@ fn legend(area: &Area, bench: &Bench) -> Drawn {
     }
     y += 6;
     for text in [
-        "Line: what no other setting of the same program beats; ring: what nothing beats.".to_string(),
+        "Line: what no other setting of the same program beats; ring: nothing, or no engine and peer, beats it."
+            .to_string(),
         format!("Grey line: the reference's own error ({}).", bench.floor.basis),
         format!("Hollow: less than {CLEAR} times above it (dashes), limited by the reference."),
         "Cross in the band above: failed. Errors: largest over instants and channels.".to_string(),

@@ -95,6 +95,10 @@ pub(crate) fn text(scenario: &Scenario, asked: &Question, found: &Clearance) -> 
             areas.add_row([name, of(area.value), of(area.error()), of(area.least), of(area.most)]);
         }
         let _ = writeln!(text, "{areas}\n");
+        if let Some((body, area)) = found.swept.iter().find(|(_, area)| area.error() > asked.area * area.value) {
+            let (name, share) = (&asked.bodies[*body].name, area.error() / area.value);
+            let _ = writeln!(text, "the area of {name} is known to {share:.1e} only: the work allowed is done");
+        }
     }
     for &[from, to] in &found.open {
         let why = "the mechanism is singular there, or the work allowed is done";
@@ -113,10 +117,11 @@ pub(crate) fn text(scenario: &Scenario, asked: &Question, found: &Clearance) -> 
     let work = found.work;
     let _ = writeln!(
         text,
-        "{}: {} poses, {} distances of convex parts, {} tests of squares\n",
+        "{}: {} poses and {} distances of convex parts; for areas {} poses and {} tests of squares\n",
         standing(found).word(),
         work.poses,
         work.distances,
+        work.positions,
         work.squares
     );
     text
@@ -161,7 +166,10 @@ pub(crate) fn value(scenario: &Scenario, asked: &Question, found: &Clearance) ->
         "wanted_m": asked.wanted, "tolerance_m": found.tolerance, "pairs": pairs.collect::<Vec<_>>(),
         "swept": swept.collect::<Vec<_>>(), "first_collision": first(found.first_collision()),
         "first_too_near": first(found.first_too_near()), "not_proven_rad": found.open,
-        "work": {"poses": found.work.poses, "distances": found.work.distances, "squares": found.work.squares},
+        "work": {
+            "poses": found.work.poses, "distances": found.work.distances,
+            "area_poses": found.work.positions, "squares": found.work.squares,
+        },
     })
 }
 

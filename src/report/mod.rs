@@ -21,6 +21,7 @@ pub mod json;
 pub(crate) mod lists;
 pub(crate) mod modes;
 pub(crate) mod motor_choice;
+pub mod mutate;
 mod own_forces;
 pub(crate) mod plan;
 mod pretty;

@@ -5,7 +5,7 @@ use super::reader::{Sign, Table};
 use super::unit::LENGTH;
 use super::words::suggestion;
 use linkage::error::{Error, ErrorKind, Result};
-use linkage::math::Vec2;
+use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{GROUND, Link, Mechanism, Point, is_sound_name};
 use workshop::clearance::question::pairs;
 use workshop::clearance::{Body, Flaw, MOST_CORNERS, Outline, Question};
@@ -14,6 +14,9 @@ use workshop::clearance::{Body, Flaw, MOST_CORNERS, Outline, Question};
 const AREA: f64 = 5e-3;
 /// Smallest share: the number of squares grows with its inverse.
 const SMALLEST_AREA: f64 = 1e-5;
+/// Smallest tolerance, and largest extent of an outline, in sizes of the mechanism: beyond them rounding decides.
+const FINEST: f64 = 1e-10;
+const FARTHEST: f64 = 1e6;
 /// Most parts of a housing.
 const MOST_PARTS: usize = 200;
 /// Name that stands for all parts of the housing.
@@ -25,6 +28,14 @@ pub fn read(table: Option<Table>, mechanism: &Mechanism) -> Result<Option<Questi
     let radius = table.optional_quantity("radius", &LENGTH, Sign::Positive)?;
     let wanted = table.optional_quantity("wanted", &LENGTH, Sign::NotNegative)?;
     let tolerance = table.optional_quantity("tolerance", &LENGTH, Sign::Positive)?;
+    let size = mechanism.size();
+    if tolerance.is_some_and(|tolerance| tolerance < FINEST * size) {
+        let message =
+            format!("distances are found to {:.1e} m and no better: {FINEST:e} of the mechanism's size", FINEST * size);
+        return Err(table
+            .wrong(ErrorKind::Input, "tolerance", message)
+            .help("give a larger tolerance, or leave it out"));
+    }
     let area = area(&mut table)?;
     let (outlines, housing) = (table.optional_table("outlines")?, table.tables("housing")?);
     let ignored = table.tables("ignore")?;
@@ -37,6 +48,15 @@ pub fn read(table: Option<Table>, mechanism: &Mechanism) -> Result<Option<Questi
     for part in housing {
         let body = wall(part, mechanism, &bodies)?;
         bodies.push(body);
+    }
+    let ground = mechanism.links()[GROUND].points.iter().map(|point| point.local.norm()).fold(0.0, f64::larger);
+    if let Some(far) = bodies.iter().find(|body| !(body.outline.extent() <= FARTHEST * (size + ground))) {
+        let message = format!(
+            "the outline of \"{}\" extends to {:.3e} m, the mechanism to {size:.3e} m",
+            far.name,
+            far.outline.extent()
+        );
+        return Err(table.fault(message).help("check the units of its corners and its radius"));
     }
     let ignored = ignored.into_iter().map(|pair| ignore(pair, &bodies)).collect::<Result<Vec<_>>>()?.concat();
     let pairs = pairs(mechanism, &bodies, &ignored);

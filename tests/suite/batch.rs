@@ -6,7 +6,9 @@ use linkage::mechanism::{GroupKind, LinkPose, Pose};
 use std::cell::Cell;
 use std::f64::consts::TAU;
 
+use crate::common::higher::{Among, FAMILIES, mechanism};
 use crate::common::random::{for_each, within};
+use crate::common::sketch::Random;
 use crate::common::{assert_within, shipped};
 use analytic::PoseSolver;
 use analytic::assur::batch::{Batch, Poses};
@@ -197,6 +199,57 @@ fn a_row_has_the_same_bits_wherever_it_stands() {
             }
         }
     }
+}
+
+#[test]
+fn pieces_of_a_turn_on_threads_have_the_bits_of_the_whole() {
+    for name in ["ov7_base", "ov7_new", "fourth_class"] {
+        let case = &shipped(&format!("{name}.toml")).case;
+        let cranks = turn(case, 720);
+        let bits = |cranks: &[f64]| {
+            let states = rows(case, &at_once(case, cranks, Stage::BalancingMoment).0);
+            states.iter().flat_map(|state| sorts(state).concat()).map(f64::to_bits).collect::<Vec<_>>()
+        };
+        let whole = bits(&cranks);
+        for threads in [2, 5] {
+            let pieces: Vec<u64> = std::thread::scope(|scope| {
+                let start = |piece| scope.spawn(move || bits(piece));
+                let running: Vec<_> = cranks.chunks(cranks.len().div_ceil(threads)).map(start).collect();
+                running.into_iter().flat_map(|piece| piece.join().unwrap()).collect()
+            });
+            assert!(pieces == whole, "{name} on {threads} threads");
+        }
+    }
+}
+
+/// Random groups of four and six links, alone and with dyads. Most of them end at a dead point on their way round.
+#[test]
+fn random_higher_groups_agree_and_fail_alike() {
+    let (mut random, mut solved, mut ended) = (Random::from_seed(23), 0, 0);
+    for among in [Among::Alone, Among::BehindADyad, Among::CarryingADyad] {
+        for family in FAMILIES.iter().filter(|family| matches!(family.topology.links, 4 | 6)) {
+            for _ in 0..12 {
+                let Ok(scenario) = mechanism(&mut random, family, among).0.scenario() else { continue };
+                let case = &scenario.case;
+                if !Batch::of(case).unwrap().is_vectorised() {
+                    continue;
+                }
+                for way in [1.0, -1.0] {
+                    let cranks: Vec<f64> = (0..400).map(|k| case.crank().start + way * 0.016 * f64::from(k)).collect();
+                    let (states, expected) = one_by_one(case, &cranks, Stage::Positions);
+                    let (poses, outcome) = at_once(case, &cranks, Stage::Positions);
+                    assert_eq!(outcome.is_err(), expected.is_err(), "{}", family.topology.name);
+                    assert_eq!(poses.len(), states.len(), "{}", family.topology.name);
+                    ended += usize::from(outcome.is_err());
+                    solved += 1;
+                    let found = differences(&rows(case, &poses), &states);
+                    let bound = ROUNDING * condition(case, &states);
+                    found[..2].iter().for_each(|&found| assert_within!(found, bound, "{}", family.topology.name));
+                }
+            }
+        }
+    }
+    assert!(solved >= 60 && ended >= 20, "{solved} turns, {ended} of them ended");
 }
 
 #[test]

@@ -10,7 +10,7 @@ use linkproof::bench::{Answer, Axis, Bench, CLEAR, Effort, Options, Party, Peer,
 use linkproof::engines::EngineName;
 use linkproof::scenario::Scenario;
 
-use crate::common::shipped;
+use crate::common::{assert_within, shipped};
 
 /// A clock that goes on by a second whenever it is read.
 fn measured(scenario: &Scenario, peers: &[&dyn Peer]) -> Bench {
@@ -87,6 +87,18 @@ fn errors_and_counts_are_the_same_again() {
     };
     let scenario = few("five_bar.toml");
     assert_eq!(of(measured(&scenario, &[])), of(measured(&scenario, &[])));
+}
+
+/// What `cargo bench --bench run_up` times: no accuracy leaves more than it allows in every step.
+#[test]
+fn sides_keep_their_accuracy() {
+    let found = measured(&few("crank_rocker_runup.toml"), &[]);
+    let sides: Vec<_> = found.points.iter().filter(|point| point.party == Party::Side).collect();
+    assert_eq!(sides.len(), 4);
+    for point in sides {
+        let error = point.error(Stage::Positions).unwrap().max;
+        assert_within!(error, 1e-8, "{} {}", point.program, point.resolution);
+    }
 }
 
 /// A peer whose answer is that of side 2, changed by a function.

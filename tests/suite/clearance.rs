@@ -269,22 +269,22 @@ fn the_crankcase_is_clear() {
     assert!((area.least..=area.most).contains(&expected), "{area:?} {expected}");
     assert_within!((area.value - expected).abs(), 5e-4 * expected, "{area:?}");
     assert_within!(area.error(), asked.area * expected, "{area:?}");
-    // The rod by a raster of 0.5 mm at positions 0.5 deg apart.
+    // The rod by a raster of 2 mm at positions 1 deg apart.
     let rod = found.swept[1].1;
-    let positions: Vec<Vec<Vec2>> = at(case, &(0..720).map(|k| f64::from(k).to_radians() / 2.0).collect::<Vec<_>>())
+    let positions: Vec<Vec<Vec2>> = at(case, &(0..360).map(|k| f64::from(k).to_radians()).collect::<Vec<_>>())
         .iter()
         .map(|state| asked.bodies[1].outline.corners().iter().map(|&corner| state.motions[2].point(corner)).collect())
         .collect();
-    let step = 1e-3;
+    let step = 2e-3;
     let mut count = 0;
-    for i in -60..60 {
-        for k in -60..200 {
+    for i in -30..30 {
+        for k in -30..100 {
             let place = Vec2::new((f64::from(i) + 0.5) * step, (f64::from(k) + 0.5) * step);
             count += usize::from(positions.iter().any(|ends| to_segment(place, [ends[0], ends[1]]) <= 9e-3));
         }
     }
     let raster = f64::from(u32::try_from(count).unwrap()) * step * step;
-    assert_within!((raster - rod.value).abs(), 5e-3 * rod.value, "{raster} {rod:?}");
+    assert_within!((raster - rod.value).abs(), 1e-2 * rod.value, "{raster} {rod:?}");
 }
 
 /// One freedom under forces: the crank angles that the motion comes to. Of several freedoms no one angle tells the pose.

@@ -8,6 +8,7 @@ mod export;
 mod files;
 mod messages;
 mod modes;
+mod mutate;
 mod plan;
 mod range;
 mod run;

@@ -49,5 +49,6 @@ mod start;
 mod stories;
 mod synthesis;
 mod triad_methods;
+mod trunk;
 mod tune;
 mod variants60;

@@ -46,6 +46,9 @@ fn sizes() {
             &["share of a swept area", "1e-3"],
         );
     }
+    let tiny = "radius_mm = 3\ntolerance_mm = 1e-9\n";
+    refused(tiny, "tolerance_mm", "clearance.tolerance_mm", &["3.5e-11 m and no better", "larger tolerance"]);
+    refused("radius_m = 1e29\n", "[clearance]", "clearance", &["\"crank\" extends to 1.000e29 m", "check the units"]);
     refused("radius_mm = 3\nareas_rel = 1e-3\n", "areas_rel", "clearance.areas_rel", &["did you mean `area_rel`"]);
 }
 

@@ -9,17 +9,19 @@ mod fixed;
 pub struct Lu {
     n: usize,
     a: Vec<f64>,
+    /// The row with which each was exchanged; for orders known in advance, the row that has come to each place.
     pivot: Vec<usize>,
     /// Inverses of the factored matrix's diagonal.
     inverse: Vec<f64>,
     swap_sign: f64,
+    determinant: f64,
 }
 
 impl Lu {
     /// Storage for `n` equations; all coefficients zero.
     #[must_use]
     pub fn new(n: usize) -> Self {
-        Lu { n, a: vec![0.0; n * n], pivot: vec![0; n], inverse: vec![0.0; n], swap_sign: 1.0 }
+        Lu { n, a: vec![0.0; n * n], pivot: vec![0; n], inverse: vec![0.0; n], swap_sign: 1.0, determinant: f64::NAN }
     }
 
     /// Sets all coefficients to zero, ready for the next matrix.
@@ -36,20 +38,21 @@ impl Lu {
     /// Factors the matrix in place. Returns false if it is singular to working precision (or not finite).
     #[must_use]
     pub fn factor(&mut self) -> bool {
-        let Lu { n, a, pivot, inverse, swap_sign } = self;
-        let sign = match n {
+        let Lu { n, a, pivot, inverse, swap_sign, determinant } = self;
+        let found = match n {
             4 => fixed::factor::<4>(a, pivot, inverse),
             6 => fixed::factor::<6>(a, pivot, inverse),
             _ => factor(a, pivot, inverse),
         };
-        *swap_sign = sign.unwrap_or(1.0);
-        sign.is_some()
+        (*swap_sign, *determinant) = found.unwrap_or((1.0, f64::NAN));
+        found.is_some()
     }
 
     /// Determinant of the factored matrix.
+    #[inline]
     #[must_use]
     pub fn determinant(&self) -> f64 {
-        (0..self.n).fold(self.swap_sign, |product, k| product * self.a[k * self.n + k])
+        self.determinant
     }
 
     /// Pivots of the factored matrix in the order of elimination. Their product is the determinant except for its sign.
@@ -83,10 +86,10 @@ impl Lu {
     }
 }
 
-/// Factors a matrix of any order in place. Returns the sign of the exchange of rows.
-fn factor(a: &mut [f64], pivots: &mut [usize], inverse: &mut [f64]) -> Option<f64> {
+/// Factors a matrix of any order in place. Returns the sign of the exchange of rows, and the determinant.
+fn factor(a: &mut [f64], pivots: &mut [usize], inverse: &mut [f64]) -> Option<(f64, f64)> {
     let n = pivots.len();
-    let mut sign = 1.0;
+    let (mut sign, mut product) = (1.0, 1.0);
     for k in 0..n {
         let (mut best, mut size) = (k, a[k * n + k].abs());
         for (row, entries) in a.chunks_exact(n).enumerate().skip(k + 1) {
@@ -105,6 +108,7 @@ fn factor(a: &mut [f64], pivots: &mut [usize], inverse: &mut [f64]) -> Option<f6
             sign = -sign;
             pivot.swap_with_slice(&mut below[(best - k - 1) * n..(best - k) * n]);
         }
+        product *= pivot[k];
         inverse[k] = 1.0 / pivot[k];
         for entries in below.chunks_exact_mut(n) {
             let factor = entries[k] * inverse[k];
@@ -116,7 +120,7 @@ fn factor(a: &mut [f64], pivots: &mut [usize], inverse: &mut [f64]) -> Option<f6
             }
         }
     }
-    Some(sign)
+    Some((sign, sign * product))
 }
 
 fn solve(a: &[f64], pivots: &[usize], inverse: &[f64], b: &mut [f64]) {

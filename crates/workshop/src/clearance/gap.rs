@@ -4,7 +4,7 @@
 //! parts are as far apart as their extreme corners, and these move evenly but for a proven error. So a wrong pair of
 //! nearest points makes the bound weak, never wrong.
 
-use linkage::math::{KeepNan, Vec2};
+use linkage::math::{KeepNan, Vec2, turned};
 use parry2d_f64::math::{Pose, Rot2, Vector};
 use parry2d_f64::query::{self, ClosestPoints};
 use parry2d_f64::shape::{ConvexPolygon, Segment, Shape};
@@ -14,6 +14,9 @@ use super::tube::{Slice, Track};
 
 /// Largest distance that is asked for, in sizes of the mechanism.
 const FAR: f64 = 1e9;
+
+/// Distance of two parts, in sizes of the mechanism, below which the direction of their nearest points is not enough.
+const CLOSE: f64 = 1e-5;
 
 /// A body's outline made ready for distances.
 pub struct Solid {
@@ -141,12 +144,20 @@ pub fn gap(
                     found.points = [middle; 2];
                 }
             }
-            let least = if core > 0.0 {
-                apart(&own.corners, &other.corners, (p - q) / core, slice.half) - radii - rounding
-            } else {
-                f64::NEG_INFINITY
+            let mut least = f64::NEG_INFINITY;
+            let mut ask = |normal: Vec2| {
+                let apart = apart(&own.corners, &other.corners, normal, slice.half);
+                least = least.larger(apart);
             };
-            found.least = found.least.smaller(least);
+            if core > 0.0 {
+                ask((p - q) / core);
+            }
+            if core < CLOSE * a.scale {
+                // Of points so close the direction is rounding. One of the sides is between the two, or nothing is.
+                normals(&own.corners, -1.0, &mut ask);
+                normals(&other.corners, 1.0, &mut ask);
+            }
+            found.least = found.least.smaller(least - radii - rounding);
         }
     }
     found
@@ -163,6 +174,18 @@ fn closest(pieces: [&Piece; 2], placed: [&PlacedPiece; 2], places: [&Placed; 2],
         }
         // Any two points of the pieces bound the distance from above.
         Ok(ClosestPoints::Disjoint) | Err(_) => placed.map(|piece| piece.centre),
+    }
+}
+
+/// Passes the normals of a convex part's sides to `ask`, outwards for the sign 1, inwards for -1; those of a segment in
+/// both directions.
+fn normals(corners: &[Track], sign: f64, ask: &mut impl FnMut(Vec2)) {
+    let count = corners.len();
+    for k in 0..count {
+        let along = corners[(k + 1) % count].at - corners[k].at;
+        if along.norm() > 0.0 {
+            ask(turned(along).normalize() * -sign);
+        }
     }
 }
 

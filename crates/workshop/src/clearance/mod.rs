@@ -54,8 +54,10 @@ pub struct PairClearance {
 /// Exact work of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Work {
-    /// Poses of side 1.
+    /// Poses of side 1 for distances.
     pub poses: usize,
+    /// Further poses of side 1 for swept areas.
+    pub positions: usize,
     /// Pairs of convex parts whose nearest points were asked for.
     pub distances: usize,
     /// Tests of a square of the plane against a part of the range.
@@ -117,7 +119,7 @@ pub fn find(case: &Case, question: &Question, progress: &mut dyn FnMut(f64)) -> 
     let range = range(case)?;
     let case = &case.nominal();
     let size = case.mechanism.size();
-    let mut tubes = Tubes::new(case, range)?;
+    let mut tubes = Tubes::new(case, range, question.extent())?;
     let solids: Vec<Solid> = question.bodies.iter().map(|body| Solid::new(body.link, &body.outline, size)).collect();
     let tolerance = question.tolerance.unwrap_or(TOLERANCE * size);
     let mut search = Search {
@@ -142,6 +144,7 @@ pub fn find(case: &Case, question: &Question, progress: &mut dyn FnMut(f64)) -> 
     }
     progress(0.5);
     let (distances, mut open) = (search.asked, search.open);
+    let poses = tubes.poses;
     let moving: Vec<usize> = (0..question.bodies.len()).filter(|&body| question.bodies[body].moves()).collect();
     let (mut swept, mut squares) = (Vec::with_capacity(moving.len()), 0);
     for (done, &body) in moving.iter().enumerate() {
@@ -153,7 +156,7 @@ pub fn find(case: &Case, question: &Question, progress: &mut dyn FnMut(f64)) -> 
         progress(0.5 + 0.5 * (done + 1) as f64 / moving.len() as f64);
     }
     let open = merged(open, range);
-    let work = Work { poses: tubes.poses, distances, squares };
+    let work = Work { poses, positions: tubes.poses - poses, distances, squares };
     Ok(Clearance { range, pairs, swept, open, tolerance, work })
 }
 
@@ -174,7 +177,7 @@ pub fn course(case: &Case, question: &Question) -> Result<Course> {
     let cranks = cranks(case)?;
     let case = &case.nominal();
     let size = case.mechanism.size();
-    let mut tubes = Tubes::new(case, [case.crank().start; 2])?;
+    let mut tubes = Tubes::new(case, [case.crank().start; 2], question.extent())?;
     let solids: Vec<Solid> = question.bodies.iter().map(|body| Solid::new(body.link, &body.outline, size)).collect();
     let rounding = tubes.rounding();
     let mut rows = Vec::with_capacity(cranks.len());

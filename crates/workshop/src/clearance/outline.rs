@@ -138,10 +138,10 @@ impl Outline {
         if inside { (-least - self.radius, -away) } else { (least - self.radius, away) }
     }
 
-    /// Area (m2) of the polygon without its rounding; 0 of a line.
+    /// Largest distance of a corner from the origin, with the rounding (m).
     #[must_use]
-    pub fn core_area(&self) -> f64 {
-        if self.solid { convex::area(&self.corners) } else { 0.0 }
+    pub fn extent(&self) -> f64 {
+        self.corners.iter().map(|corner| corner.norm()).fold(0.0, f64::larger) + self.radius
     }
 }
 

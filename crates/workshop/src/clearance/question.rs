@@ -1,6 +1,6 @@
 //! What is asked: bodies with outlines, the pairs of them that must not meet, and how well it must be known.
 
-use linkage::math::Vec2;
+use linkage::math::KeepNan;
 use linkage::mechanism::{GROUND, Mechanism};
 
 use super::outline::Outline;
@@ -39,6 +39,14 @@ pub struct Question {
     pub area: f64,
 }
 
+impl Question {
+    /// Largest distance of a corner from the origin of its frame, with the rounding (m).
+    #[must_use]
+    pub fn extent(&self) -> f64 {
+        self.bodies.iter().map(|body| body.outline.extent()).fold(0.0, f64::larger)
+    }
+}
+
 /// All pairs of bodies that can meet: links that are not joined, and every link with the housing, but those of `ignored`.
 #[must_use]
 pub fn pairs(mechanism: &Mechanism, bodies: &[Body], ignored: &[[usize; 2]]) -> Vec<[usize; 2]> {
@@ -64,13 +72,9 @@ pub fn are_joined(mechanism: &Mechanism, [a, b]: [usize; 2]) -> bool {
         return true;
     }
     // From pin to pin at the same place of each link.
-    let mut reached: Vec<(usize, Vec2)> = Vec::new();
-    for joint in mechanism.joints().iter().filter(|joint| joint.is_pin()) {
-        reached.extend(joint.on(a).map(|place| (a, place)));
-    }
-    let starts = reached.len();
-    for start in 0..starts {
-        let mut pin = vec![reached[start]];
+    let pins = mechanism.joints().iter().filter(|joint| joint.is_pin());
+    for start in pins.filter_map(|joint| joint.on(a)) {
+        let mut pin = vec![(a, start)];
         let mut next = 0;
         while let Some(&(link, place)) = pin.get(next) {
             next += 1;

@@ -16,6 +16,9 @@ const STRIDES: usize = 8;
 /// Halvings beyond [`MOST_HALVINGS`] by which a first meeting is enclosed.
 const FURTHER: u32 = 6;
 
+/// A part of the range, whether its bounds are proven, and the bound of every pair that is not done yet (m).
+type Bounds = (Part, bool, Vec<(usize, f64)>);
+
 /// Smallest distance of a pair over the range.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Smallest {
@@ -79,7 +82,7 @@ impl Search<'_, '_> {
             self.tubes.parts().map(|part| (part, (0..pairs.len()).collect())).collect();
         while !parts.is_empty() {
             // Every pair's distances at this size first: the smallest of them spares halvings.
-            let mut bounds: Vec<(Part, bool, Vec<(usize, f64)>)> = Vec::with_capacity(parts.len());
+            let mut bounds: Vec<Bounds> = Vec::with_capacity(parts.len());
             for (part, alive) in parts {
                 let slice = self.tubes.at(part)?;
                 let placed: Vec<Option<Placed>> = (0..self.solids.len())

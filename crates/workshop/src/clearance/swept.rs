@@ -13,6 +13,11 @@ use super::tube::{MOST_HALVINGS, Part, Track, Tube, Tubes};
 
 /// Share of a square's half diagonal within which the outline's border moves over a part of the range.
 const SPREAD: f64 = 0.5;
+/// A window is so many times as wide as its part of the range. Those of its ancestors, so many, are asked too.
+const WINDOW: f64 = 4.0;
+const ANCESTORS: usize = 4;
+/// Share of a square's half diagonal below which a border is taken as not crossing it.
+const CROSSING: f64 = 0.02;
 /// Halvings of the first square after which no more is tried.
 const MOST_DIVISIONS: usize = 24;
 
@@ -42,7 +47,16 @@ struct Node {
     tube: Tube,
     parts: Vec<Vec<Track>>,
     sides: Vec<[Track; 2]>,
+    parent: Option<u32>,
     halves: Option<u32>,
+    /// The sides over a wider part around the same middle, once they were asked for.
+    window: Option<Window>,
+}
+
+/// Sides of an outline over a part of the range; none if nothing is proven of them.
+struct Window {
+    half: f64,
+    sides: Vec<[Track; 2]>,
 }
 
 /// What a square is.
@@ -117,7 +131,7 @@ impl<'a, 'c> Sweep<'a, 'c> {
         while let Some(part) = ahead.pop() {
             let slice = self.tubes.at(part)?;
             if slice.sound {
-                found.push(self.node(part)?);
+                found.push(self.node(part, None)?);
             } else if part.halvings < MOST_HALVINGS {
                 ahead.extend(part.halves().into_iter().rev());
             } else {
@@ -140,7 +154,7 @@ impl<'a, 'c> Sweep<'a, 'c> {
         ends
     }
 
-    fn node(&mut self, part: Part) -> Result<u32> {
+    fn node(&mut self, part: Part, parent: Option<u32>) -> Result<u32> {
         let slice = self.tubes.at(part)?;
         let tube = slice.tubes[self.link];
         let of = |corners: &Vec<Vec2>| corners.iter().map(|&corner| tube.point(corner)).collect();
@@ -149,10 +163,47 @@ impl<'a, 'c> Sweep<'a, 'c> {
             half: slice.half,
             tube,
             parts: self.outline.parts().iter().map(of).collect(),
-            sides: self.outline.sides().map(|side| side.map(|end| tube.point(end))).collect(),
+            sides: self.sides(&tube),
+            parent,
             halves: None,
+            window: None,
         });
         Ok(u32::try_from(self.nodes.len() - 1).unwrap_or(u32::MAX))
+    }
+
+    fn sides(&self, tube: &Tube) -> Vec<[Track; 2]> {
+        self.outline.sides().map(|side| side.map(|end| tube.point(end))).collect()
+    }
+
+    /// Whether a side passes over a disc within a wider part around a node's middle or that of one of its ancestors.
+    /// A part of the range that is as short as the square is small moves a side only into it, and not over it.
+    fn is_passed(&mut self, node: u32, centre: Vec2, about: f64) -> Result<bool> {
+        let mut next = Some(node);
+        for _ in 0..ANCESTORS {
+            let Some(index) = next else { break };
+            if self.nodes[index as usize].window.is_none() {
+                let window = self.window(self.nodes[index as usize].part)?;
+                self.nodes[index as usize].window = Some(window);
+            }
+            let own = &self.nodes[index as usize];
+            if let Some(Window { half, sides }) = &own.window
+                && sides.iter().any(|side| passes(side, *half, centre, about))
+            {
+                return Ok(true);
+            }
+            next = own.parent;
+        }
+        Ok(false)
+    }
+
+    fn window(&mut self, part: Part) -> Result<Window> {
+        let ([from, to], range) = (self.tubes.ends(part), self.tubes.range());
+        let (middle, half) = (f64::midpoint(from, to), WINDOW * (to - from).abs() / 2.0);
+        let low = (middle - half).larger(range[0].smaller(range[1]));
+        let high = (middle + half).smaller(range[0].larger(range[1]));
+        let slice = self.tubes.slice(f64::midpoint(low, high), (high - low) / 2.0)?;
+        let sides = if slice.sound { self.sides(&slice.tubes[self.link]) } else { Vec::new() };
+        Ok(Window { half: slice.half, sides })
     }
 
     /// The halves of a part, made once. The second follows the first. `None` where nothing is proven of a half.
@@ -164,17 +215,19 @@ impl<'a, 'c> Sweep<'a, 'c> {
         if !(self.tubes.at(one)?.sound && self.tubes.at(two)?.sound) {
             return Ok(None);
         }
-        let first = self.node(one)?;
-        self.node(two)?;
+        let first = self.node(one, Some(node))?;
+        self.node(two, Some(node))?;
         self.nodes[node as usize].halves = Some(first);
         Ok(Some([first, first + 1]))
     }
 
     fn judge(&mut self, centre: Vec2, half: f64, near: &[u32]) -> Result<Square> {
         let about = half * std::f64::consts::SQRT_2 + self.rounding;
-        let mut ahead = near.to_vec();
-        let (mut kept, mut lowest) = (Vec::new(), (f64::INFINITY, Vec2::new(1.0, 0.0)));
-        while let Some(index) = ahead.pop() {
+        // Coarse parts first: one of them may cover the square, and spares the halves of all others.
+        let (mut ahead, mut next) = (near.to_vec(), 0);
+        let (mut kept, mut crossing, mut lowest) = (Vec::new(), Vec::new(), (f64::INFINITY, Vec2::new(1.0, 0.0)));
+        while let Some(&index) = ahead.get(next) {
+            next += 1;
             self.tests += 1;
             let node = &self.nodes[index as usize];
             let (now, away) = self.outline.distance(node.tube.local(centre));
@@ -199,8 +252,16 @@ impl<'a, 'c> Sweep<'a, 'c> {
                 continue;
             }
             kept.push(index);
+            if swing > CROSSING * about {
+                crossing.push(index);
+            }
             if now - swing < lowest.0 {
                 lowest = (now - swing, away);
+            }
+        }
+        for index in crossing {
+            if self.is_passed(index, centre, about)? {
+                return Ok(Square::Covered);
             }
         }
         Ok(if kept.is_empty() { Square::Free } else { Square::Border(kept, share(lowest, half)) })

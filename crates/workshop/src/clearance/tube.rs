@@ -155,11 +155,12 @@ pub struct Tubes<'a> {
 }
 
 impl<'a> Tubes<'a> {
-    /// The range from one crank angle to another (rad, in the order of the motion).
+    /// The range from one crank angle to another (rad, in the order of the motion). `extent` is the largest distance of
+    /// a place that is asked for from the origin of its frame (m): rounding goes with it.
     ///
     /// # Errors
     /// Those of [`PoseSolver::new`].
-    pub fn new(case: &'a Case, [from, to]: [f64; 2]) -> Result<Self> {
+    pub fn new(case: &'a Case, [from, to]: [f64; 2], extent: f64) -> Result<Self> {
         let mechanism = &case.mechanism;
         let centre = |link: usize| {
             let places: Vec<Vec2> = mechanism.joints().iter().filter_map(|joint| joint.on(link)).collect();
@@ -174,7 +175,7 @@ impl<'a> Tubes<'a> {
             from,
             to,
             first,
-            scale: mechanism.size() + ground,
+            scale: mechanism.size() + ground + extent,
             kept: BTreeMap::new(),
             poses: 0,
         })

@@ -33,7 +33,7 @@ impl Pinned {
 
     #[inline]
     pub(super) fn solve(&self, case: &Case, dyad: &Rrr, motions: &[Motion], reactions: &mut Reactions) {
-        let pole = self.inner.place(motions);
+        let pole = dyad.inner();
         let ([r1, r2], inverse) = dyad.spans();
         let (force_a, moment_a) = self.bodies[0].resultant(case, motions, reactions, pole);
         let (force_b, moment_b) = self.bodies[1].resultant(case, motions, reactions, pole);

@@ -222,9 +222,19 @@ impl Plan {
         self.count_pose();
         self.tally.one(Count::Velocities);
         self.tally.one(Count::Accelerations);
-        self.turn_drivers(angles, motions);
-        self.drive_velocities(omegas, motions);
-        self.drive_accelerations(alphas, motions);
+        for (((driver, &angle), &omega), &alpha) in self.drivers.iter().zip(angles).zip(omegas).zip(alphas) {
+            let direction = unit(angle);
+            let arm = rotated(direction, driver.pivot);
+            let mut place = [driver.place, Vec2::zeros(), Vec2::zeros()];
+            if driver.base != GROUND {
+                let (base, arm) = (&motions[driver.base], motions[driver.base].arm(driver.place));
+                place = [base.origin + arm, base.velocity_beyond(arm), base.acceleration_beyond(arm)];
+            }
+            let motion = &mut motions[driver.link];
+            (motion.direction, motion.origin) = (direction, place[0] - arm);
+            (motion.omega, motion.velocity) = (omega, place[1] - turned(arm) * omega);
+            (motion.alpha, motion.acceleration) = (alpha, place[2] + arm * (omega * omega) - turned(arm) * alpha);
+        }
         for (group, step) in self.steps.iter_mut().enumerate() {
             // Most groups are of this kind. What it keeps from stage to stage then stays in registers.
             if let Step::Rrr(dyad) = step {

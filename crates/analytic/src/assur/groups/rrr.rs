@@ -35,9 +35,11 @@ pub struct Rrr {
     bases: [Vec2; 2],
     /// World vectors from the origins of the dyad's own links to the outer joints (m).
     outers: [Vec2; 2],
-    /// World vectors from the outer joints to the inner one, r1 and r2 (m).
+    /// World vectors from the outer joints to the inner one, r1 and r2 (m), and the place of the inner one (m).
     spans: [Vec2; 2],
-    /// 1 / D (1/m^2).
+    inner: Vec2,
+    /// D = d^2 h (m^2), and 1 / D.
+    product: f64,
     inverse: f64,
 }
 
@@ -62,6 +64,8 @@ impl Rrr {
             bases: [Vec2::zeros(); 2],
             outers: [Vec2::zeros(); 2],
             spans: [Vec2::zeros(); 2],
+            inner: Vec2::zeros(),
+            product: f64::NAN,
             inverse: f64::NAN,
         }
     }
@@ -72,6 +76,12 @@ impl Rrr {
     #[must_use]
     pub fn spans(&self) -> ([Vec2; 2], f64) {
         (self.spans, self.inverse)
+    }
+
+    /// World place of the inner joint (m). Positions must be known.
+    #[inline]
+    pub(in crate::assur) fn inner(&self) -> Vec2 {
+        self.inner
     }
 
     #[inline]
@@ -91,8 +101,11 @@ impl Rrr {
         if across_squared * d_squared * d_squared <= SINGULAR * SINGULAR * self.squared[0] * self.squared[1] {
             return Err(Misfit::Singular);
         }
-        let r1 = d * along + turned(d) * (self.side * across_squared.sqrt());
+        let across = self.side * across_squared.sqrt();
+        let r1 = d * along + turned(d) * across;
+        self.product = d_squared * across;
         self.spans = [r1, r1 - d];
+        self.inner = p1 + r1;
         for (k, (pivot, r)) in [p1, p2].into_iter().zip(self.spans).enumerate() {
             let Arm { link, outer, inverse_span, .. } = self.arms[k];
             let motion = &mut motions[link];
@@ -117,14 +130,14 @@ impl Rrr {
     /// Sine of the transmission angle, without sign.
     #[inline]
     pub(super) fn sine(&self) -> f64 {
-        (cross(self.spans[0], self.spans[1]) * self.inverse_lengths).abs()
+        (self.product * self.inverse_lengths).abs()
     }
 
     /// How far the dyad is from a singular pose. Velocities must be known.
     #[inline]
     pub(super) fn clearance(&self, motions: &[Motion]) -> Clearance {
         let [r1, r2] = self.spans;
-        let (sine, cosine) = (cross(r1, r2) * self.inverse_lengths, r1.dot(&r2) * self.inverse_lengths);
+        let (sine, cosine) = (self.product * self.inverse_lengths, r1.dot(&r2) * self.inverse_lengths);
         let turn = motions[self.arms[1].link].omega - motions[self.arms[0].link].omega;
         Clearance { sine: sine.abs(), rate: sine.signum() * cosine * turn }
     }
@@ -132,7 +145,7 @@ impl Rrr {
     #[inline]
     pub(super) fn velocities(&mut self, motions: &mut [Motion]) {
         let [r1, r2] = self.spans;
-        self.inverse = 1.0 / cross(r1, r2);
+        self.inverse = 1.0 / self.product;
         let [v1, v2] = [0, 1].map(|k| motions[self.arms[k].base.link].velocity_beyond(self.bases[k]));
         let quotient = (v2 - v1) * self.inverse;
         for (k, (v, omega)) in [(v1, quotient.dot(&r2)), (v2, quotient.dot(&r1))].into_iter().enumerate() {

@@ -2,6 +2,7 @@
 //!
 //! Operations and their order are those of any order, and so are the bits.
 //! A group of four links costs a third of what the general loops take.
+//! Instead of the exchanges one after the other, the order of rows that they lead to is kept.
 
 /// The first numbers of a slice. It has at least that many.
 #[inline(always)]
@@ -19,9 +20,9 @@ fn first_mut<T, const N: usize>(of: &mut [T]) -> &mut [T; N] {
 #[inline(always)]
 fn eliminate<const N: usize, const K: usize>(
     rows: &mut [[f64; N]; N],
-    pivots: &mut [usize; N],
+    order: &mut [usize; N],
     inverse: &mut [f64; N],
-    sign: &mut f64,
+    [sign, product]: &mut [f64; 2],
 ) -> bool {
     let (mut best, mut size) = (K, rows[K][K].abs());
     for row in K + 1..N {
@@ -30,15 +31,16 @@ fn eliminate<const N: usize, const K: usize>(
             (best, size) = (row, candidate);
         }
     }
-    pivots[K] = best;
     if !(size > f64::MIN_POSITIVE && size.is_finite()) {
         return false;
     }
     if best != K {
         *sign = -*sign;
         rows.swap(K, best);
+        order.swap(K, best);
     }
     let above = rows[K];
+    *product *= above[K];
     let by = 1.0 / above[K];
     inverse[K] = by;
     for row in K + 1..N {
@@ -51,32 +53,32 @@ fn eliminate<const N: usize, const K: usize>(
     true
 }
 
-/// Factors a matrix of order `N` in place, at most 6. Returns the sign of the exchange of rows; `None` if it is singular.
-pub(super) fn factor<const N: usize>(a: &mut [f64], pivots: &mut [usize], inverse: &mut [f64]) -> Option<f64> {
+/// Factors a matrix of order `N` in place, at most 6. Returns the sign of the exchange of rows and the
+/// determinant; `None` if it is singular.
+/// `order` becomes the rows' numbers in the order of elimination.
+pub(super) fn factor<const N: usize>(a: &mut [f64], order: &mut [usize], inverse: &mut [f64]) -> Option<(f64, f64)> {
     const { assert!(N <= 6, "every column is eliminated") };
     let rows: &mut [[f64; N]; N] = first_mut(a.as_chunks_mut().0);
-    let (pivots, inverse): (&mut [usize; N], &mut [f64; N]) = (first_mut(pivots), first_mut(inverse));
-    let mut sign = 1.0;
+    let (order, inverse): (&mut [usize; N], &mut [f64; N]) = (first_mut(order), first_mut(inverse));
+    *order = std::array::from_fn(|row| row);
+    let mut signs = [1.0; 2];
     // Written out instead of a loop: only so are the bounds of the inner loops constants.
     macro_rules! each {
         ($($column:literal)*) => {
-            $(if $column < N && !eliminate::<N, $column>(rows, pivots, inverse, &mut sign) {
+            $(if $column < N && !eliminate::<N, $column>(rows, order, inverse, &mut signs) {
                 return None;
             })*
         };
     }
     each!(0 1 2 3 4 5);
-    Some(sign)
+    Some((signs[0], signs[0] * signs[1]))
 }
 
 /// Solves A x = b for a factored matrix; `b` is replaced by `x`.
-pub(super) fn solve<const N: usize>(a: &[f64], pivots: &[usize], inverse: &[f64], b: &mut [f64]) {
+pub(super) fn solve<const N: usize>(a: &[f64], order: &[usize], inverse: &[f64], b: &mut [f64]) {
     let rows: &[[f64; N]; N] = first(a.as_chunks().0);
-    let (pivots, inverse, b): (&[usize; N], &[f64; N], &mut [f64; N]) = (first(pivots), first(inverse), first_mut(b));
-    for k in 0..N {
-        b.swap(k, pivots[k]);
-    }
-    let mut x = *b;
+    let (order, inverse, b): (&[usize; N], &[f64; N], &mut [f64; N]) = (first(order), first(inverse), first_mut(b));
+    let mut x = order.map(|row| b[row]);
     for row in 1..N {
         x[row] -= (0..row).map(|k| rows[row][k] * x[k]).sum::<f64>();
     }
@@ -88,9 +90,9 @@ pub(super) fn solve<const N: usize>(a: &[f64], pivots: &[usize], inverse: &[f64]
 }
 
 /// Solves A^T x = b for a factored matrix; `y` is replaced by `x`.
-pub(super) fn solve_transposed<const N: usize>(a: &[f64], pivots: &[usize], inverse: &[f64], y: &mut [f64]) {
+pub(super) fn solve_transposed<const N: usize>(a: &[f64], order: &[usize], inverse: &[f64], y: &mut [f64]) {
     let rows: &[[f64; N]; N] = first(a.as_chunks().0);
-    let (pivots, inverse, y): (&[usize; N], &[f64; N], &mut [f64; N]) = (first(pivots), first(inverse), first_mut(y));
+    let (order, inverse, y): (&[usize; N], &[f64; N], &mut [f64; N]) = (first(order), first(inverse), first_mut(y));
     let mut x = *y;
     for row in 0..N {
         x[row] *= inverse[row];
@@ -103,8 +105,7 @@ pub(super) fn solve_transposed<const N: usize>(a: &[f64], pivots: &[usize], inve
             x[k] -= rows[row][k] * x[row];
         }
     }
-    *y = x;
-    for k in (0..N).rev() {
-        y.swap(k, pivots[k]);
+    for (&row, x) in order.iter().zip(x) {
+        y[row] = x;
     }
 }

@@ -21,8 +21,8 @@ pub use contour::{Closing, Node};
 
 use self::predict::Memory;
 use linkage::math::dense::Lu;
-use linkage::math::{KeepNan, Motion, Vec2, rotated, turned};
-use linkage::mechanism::{Group, Mechanism};
+use linkage::math::{Motion, Vec2, rotated, turned};
+use linkage::mechanism::{GROUND, Group, Mechanism, Side};
 use linkage::work::{Count, Tally};
 
 /// Newton's method from the last pose needs a few iterations. If it needs more, it has lost the branch.
@@ -113,9 +113,11 @@ impl Chain {
         let n = contours.nodes.len();
         let none = Vec2::zeros();
         let at = At { arm: none, place: none, velocity: none, acceleration: none };
+        // Joints on the ground stay where they are.
+        let root = |side: &Side| At { arm: side.local, place: side.local, ..at };
         let world = World {
             arrows: vec![none; contours.arrows.len()],
-            roots: vec![at; contours.roots.len()],
+            roots: contours.roots.iter().map(root).collect(),
             joints: vec![at; n],
         };
         Chain {
@@ -214,7 +216,7 @@ impl Chain {
         } else {
             MAX_TURN
         };
-        let followed = self.follow(allowed, motions) && self.memory.largest_change() <= MAX_TURN;
+        let followed = self.follow(allowed, motions) && self.memory.is_within(MAX_TURN);
         if followed {
             self.memory.remember(&self.step);
             self.at.iter_mut().zip(angles).for_each(|(at, angle)| *at = *angle);
@@ -267,7 +269,8 @@ impl Chain {
 
     /// Places of the joints on links outside the group.
     fn find_roots(&mut self, motions: &[Motion]) {
-        for (root, side) in self.world.roots.iter_mut().zip(&self.contours.roots) {
+        let moving = |(_, side): &(&mut At, &Side)| side.link != GROUND;
+        for (root, side) in self.world.roots.iter_mut().zip(&self.contours.roots).filter(moving) {
             let motion = &motions[side.link];
             root.arm = motion.arm(side.local);
             root.place = motion.origin + root.arm;
@@ -329,13 +332,14 @@ impl Chain {
                 return false;
             }
             self.jacobian.solve(&mut self.unknown);
-            let change = self.unknown.iter().fold(0.0f64, |max, turn| max.larger(turn.abs()));
-            if !(change <= allowed) {
+            // NaN is not within any bound.
+            let within = |unknown: &[f64], bound: f64| unknown.iter().all(|change| change.abs() <= bound);
+            if !within(&self.unknown, allowed) {
                 return false;
             }
             self.memory.correct(&self.unknown);
             // Quadratic convergence: the remaining error is of the order of the square.
-            let is_last = change < LAST_CHANGE;
+            let is_last = within(&self.unknown, LAST_CHANGE);
             for (index, (node, &change)) in self.contours.nodes.iter().zip(&self.unknown).enumerate() {
                 if is_last && !node.is_guided() {
                     // The square of this turn is less than rounding.
@@ -346,14 +350,19 @@ impl Chain {
                 }
             }
             if is_last {
-                if change > SAME_POSE {
+                if !within(&self.unknown, SAME_POSE) {
                     self.assemble(motions);
                     self.tally.one(Count::Factorisations);
                     if !self.jacobian.factor() {
                         return false;
                     }
-                } else {
+                } else if self.is_sliding {
                     self.draw(motions);
+                } else {
+                    // The arrows turn as little as their links.
+                    for (vector, arrow) in self.world.arrows.iter_mut().zip(&self.contours.arrows) {
+                        *vector -= turned(*vector) * self.unknown[arrow.node];
+                    }
                 }
                 return self.hang(motions);
             }

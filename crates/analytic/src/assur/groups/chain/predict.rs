@@ -1,7 +1,5 @@
 //! What a group remembers of its last steps, and where it expects its unknowns after the next one.
 
-use linkage::math::KeepNan;
-
 /// Number of steps that a prediction uses.
 const MEMORY: usize = 5;
 /// Weights of the last steps, the newest first, for one to five known steps: binomial coefficients with
@@ -78,10 +76,10 @@ impl Memory {
         self.present.iter_mut().zip(corrections).for_each(|(present, correction)| *present -= correction);
     }
 
-    /// The largest change of an unknown in the present step, so far.
+    /// Whether no unknown has changed by more than this in the present step.
     #[inline]
-    pub(super) fn largest_change(&self) -> f64 {
-        self.present.iter().fold(0.0f64, |most, change| most.larger(change.abs()))
+    pub(super) fn is_within(&self, bound: f64) -> bool {
+        self.present.iter().all(|change| change.abs() <= bound)
     }
 
     /// Stores the present step for the next prediction.

@@ -2,6 +2,7 @@
 
 use super::{Chain, Contours, Hangs, Node, World};
 use linkage::math::{Motion, Vec2, turned};
+use linkage::mechanism::GROUND;
 
 impl Chain {
     /// Velocities of the group's links. Those of the links before it must be known.
@@ -11,7 +12,7 @@ impl Chain {
         }
         let Contours { nodes, closings, arrows, roots } = &self.contours;
         let World { arrows: vectors, roots: ends, joints } = &mut self.world;
-        for (end, side) in ends.iter_mut().zip(roots) {
+        for (end, side) in ends.iter_mut().zip(roots).filter(|(_, side)| side.link != GROUND) {
             end.velocity = motions[side.link].velocity_beyond(end.arm);
         }
         for (closing, rates) in closings.iter().zip(self.unknown.chunks_exact_mut(2)) {
@@ -62,7 +63,7 @@ impl Chain {
             let own: &Node = &nodes[node];
             turned(own.slide_axis(motions)) * (2.0 * speeds[node] * motions[own.parent.link].omega)
         };
-        for (end, side) in ends.iter_mut().zip(roots) {
+        for (end, side) in ends.iter_mut().zip(roots).filter(|(_, side)| side.link != GROUND) {
             end.acceleration = motions[side.link].acceleration_beyond(end.arm);
         }
         for (closing, rates) in closings.iter().zip(self.unknown.chunks_exact_mut(2)) {

@@ -1,0 +1,122 @@
+//! `linkproof mutate`.
+
+use std::path::PathBuf;
+
+use clap::builder::PossibleValuesParser;
+
+use super::engine_args::EngineArgs;
+use super::progress::Bar;
+use super::{advice, exit_code, output};
+use crate::mutate::{Asked, Mutated, Party, all, mutate, named, tally};
+use crate::report::{errors, mutate as report};
+use crate::scenario::Scenario;
+use linkage::error::{Error, ErrorKind, Result};
+
+const EXAMPLES: &str = "\
+Examples:
+  linkproof mutate --list                                                       all kinds of faults
+  linkproof mutate scenarios/crank_rocker.toml --kind mass-heaviest --no-sizes  one kind, in every party
+  linkproof mutate scenarios/quick_return.toml --kind force --party assur       one family, in side 1 only
+  linkproof mutate scenarios/quick_return.toml --party trunk --kind gravity-sign   in what all share: who outside sees it?
+  linkproof mutate scenarios/loaded_slider.toml --kind spring-twice --json -    for a script
+
+Every fault stands alone, in an otherwise correct proof at default settings.
+A fault that changes no exact answer is not counted: side 1 is solved with it and without it.
+
+Exit codes: 0 no fault in one party escapes, 1 some escape, 2 bad input or usage, 3 none escapes, but some prove nothing either way.";
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Args {
+    /// Scenario files
+    #[arg(required_unless_present = "list", value_name = "FILE")]
+    files: Vec<PathBuf>,
+    /// Kind of fault, or family of kinds. May be given several times [default: all]
+    #[arg(long, value_name = "KIND", value_parser = kind)]
+    kind: Vec<String>,
+    /// Who gets the fault. May be given several times [default: each in turn]
+    #[arg(long, value_name = "PARTY", value_parser = PossibleValuesParser::new(Party::ALL.map(Party::name)))]
+    party: Vec<String>,
+    /// Do not search the size at which a fault is lost
+    #[arg(long)]
+    no_sizes: bool,
+    /// Number of faults examined side by side; results do not depend on it [default: the number of cores]
+    #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
+    jobs: usize,
+    /// List the kinds of faults
+    #[arg(long)]
+    list: bool,
+    #[command(flatten)]
+    engine: EngineArgs,
+    /// Write the results as JSON to a file, or to standard output instead of the report with `-`
+    #[arg(long, value_name = "FILE", value_parser = output::target)]
+    json: Option<PathBuf>,
+    /// Write figures and tables as Markdown to a file
+    #[arg(long, value_name = "FILE", value_parser = output::target)]
+    markdown: Option<PathBuf>,
+}
+
+/// Plants faults in every file's proof. A bad file does not stop the others.
+pub(super) fn run(args: &Args) -> u8 {
+    if args.list {
+        return output::exit(output::print(&report::list()));
+    }
+    let options = args.engine.options("assur");
+    if options.engines.len() > 1 {
+        let error = Error::new(
+            ErrorKind::Input,
+            format!("found {} engines, but faults are planted in one", options.engines.len()),
+        );
+        return output::exit(Err(error.key("--engine").help("give one engine")));
+    }
+    let party = |name: &String| Party::ALL.into_iter().find(|party| party.name() == name);
+    let parties = args.party.iter().filter_map(party).collect();
+    let asked = Asked { kinds: args.kind.clone(), parties, with_sizes: !args.no_sizes, jobs: args.jobs, options };
+    let (mut found, mut failures) = (Vec::new(), Vec::new());
+    for file in &args.files {
+        let one = Scenario::load(file).and_then(|scenario| {
+            let mut bar = Bar::new(&scenario.name);
+            mutate(&scenario, &asked, &mut |part| bar.at(part))
+        });
+        match one {
+            Ok(one) => found.push(one),
+            Err(error) => {
+                output::show(&error);
+                failures.push((file.display().to_string(), errors::text(&error, advice::told)));
+            }
+        }
+    }
+    match written(args, &found, &failures) {
+        Ok(()) if failures.is_empty() => exit(&found),
+        Ok(()) => exit_code::BAD_INPUT,
+        Err(error) => output::exit(Err(error)),
+    }
+}
+
+fn written(args: &Args, found: &[Mutated], failures: &[(String, String)]) -> Result<()> {
+    let is_quiet = args.json.as_ref().is_some_and(|to| to.as_os_str() == "-");
+    if !is_quiet {
+        output::print(&report::text(found))?;
+    }
+    if let Some(to) = &args.json {
+        output::write(&report::json(found, failures), to)?;
+    }
+    args.markdown.as_ref().map_or(Ok(()), |to| output::write(&report::markdown(found), to))
+}
+
+fn exit(found: &[Mutated]) -> u8 {
+    let planted = tally(found).planted;
+    match (planted.escaped, planted.inconclusive) {
+        (0, 0) => exit_code::AGREE,
+        (0, _) => exit_code::INCONCLUSIVE,
+        (_, _) => exit_code::DISAGREE,
+    }
+}
+
+/// A kind or family by name.
+fn kind(text: &str) -> std::result::Result<String, String> {
+    if named(text).is_some() || all().any(|kind| kind.family.name() == text) {
+        return Ok(text.into());
+    }
+    Err("there is no such kind and no such family; `linkproof mutate --list` has them all".into())
+}

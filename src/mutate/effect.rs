@@ -1,0 +1,65 @@
+//! What a fault changes in exact answers: a fault that changes nothing is none.
+
+use super::kinds::{At, Plant};
+use super::planted::{Fault, Planted};
+use crate::compare::magnitudes;
+use analytic::AssurSolver;
+use linkage::case::Case;
+use linkage::error::Result;
+use linkage::math::KeepNan;
+use linkage::math::statistics::share;
+use linkage::solver::{Solver, State};
+use linkage::trajectory::{Stage, Trajectory};
+
+/// Change, relative to the largest number of a quantity, that is rounding: of a case solved once more with other
+/// numbers, which follow from each other. It is a tenth and less of what the two sides are allowed to differ by.
+fn rounding(stage: Stage) -> f64 {
+    match stage {
+        Stage::Positions => 1e-13,
+        Stage::Velocities | Stage::Accelerations => 1e-12,
+        Stage::Reactions | Stage::BalancingMoment => 1e-11,
+    }
+}
+
+/// What a fault does to a case.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Effect {
+    /// The case has no part that the fault is in.
+    None,
+    /// Exact answers are the same to rounding: the largest change, relative to the largest number of the quantity.
+    Equivalent(f64),
+    /// Exact answers change, by so much at most.
+    Changes(f64),
+    /// There is no exact answer any more.
+    Unsolved,
+}
+
+/// What a fault changes in the exact answers of side 1, whose right ones are `right`.
+pub(super) fn effect(case: &Case, right: &Trajectory, fault: Fault) -> Result<Effect> {
+    let is_planted = match fault.kind.plant {
+        Plant::Case(change) => change(case, fault.size).is_some(),
+        Plant::Answer(change) => {
+            let mut any = false;
+            let mut look = |row: usize, state: &State| {
+                any |= change(At { case, row }, &mut state.clone(), fault.size).is_some();
+                Ok(())
+            };
+            AssurSolver.each(case, &mut look)?;
+            any
+        }
+    };
+    if !is_planted {
+        return Ok(Effect::None);
+    }
+    let Ok(wrong) = Planted { fault, inner: Box::new(AssurSolver) }.solve(case) else { return Ok(Effect::Unsolved) };
+    let sizes = magnitudes(right);
+    let (mut largest, mut beyond) = (0.0f64, false);
+    for ((channel, ours), (size, (_, theirs))) in right.iter().zip(sizes.iter().zip(wrong.iter())) {
+        // Whole turns count here.
+        let change = ours.iter().zip(theirs).fold(0.0f64, |most, (a, b)| most.larger((a - b).abs()));
+        let relative = share(change, *size);
+        largest = largest.larger(relative);
+        beyond |= !(relative <= rounding(channel.kind.stage));
+    }
+    Ok(if beyond { Effect::Changes(largest) } else { Effect::Equivalent(largest) })
+}

@@ -1,0 +1,105 @@
+//! What a kind of fault is.
+
+use linkage::case::Case;
+use linkage::solver::State;
+
+/// What a fault is in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Family {
+    /// Lengths, guides and configurations.
+    Geometry,
+    /// Angles and speeds of driving links, and instants.
+    Drive,
+    /// Gravity, masses, mass centres and moments of inertia.
+    Mass,
+    /// Loads, springs and dampers.
+    Load,
+    /// Motor and reducer.
+    Motor,
+    /// Positions and angles that are answered.
+    Position,
+    /// First derivatives.
+    Rate,
+    /// Second derivatives.
+    Acceleration,
+    /// Reactions and moments.
+    Force,
+}
+
+impl Family {
+    /// Name in tables.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Family::Geometry => "geometry",
+            Family::Drive => "drive",
+            Family::Mass => "mass",
+            Family::Load => "load",
+            Family::Motor => "motor",
+            Family::Position => "position",
+            Family::Rate => "rate",
+            Family::Acceleration => "acceleration",
+            Family::Force => "force",
+        }
+    }
+}
+
+/// One answered state among all of a run.
+#[derive(Clone, Copy)]
+pub struct At<'a> {
+    /// The case that was asked.
+    pub case: &'a Case,
+    /// Row of the grid.
+    pub row: usize,
+}
+
+/// How a fault is planted. A size is relative to what the fault is in: a share of a length, of a mass, an angle in rad.
+#[derive(Clone, Copy)]
+pub enum Plant {
+    /// In the case that a party gets. `None` where the case has no such part.
+    Case(fn(&Case, f64) -> Option<Case>),
+    /// In every state that a party answers. `None` where the state has no such part.
+    Answer(fn(At, &mut State, f64) -> Option<()>),
+}
+
+/// A kind of fault.
+#[derive(Clone, Copy)]
+pub struct Kind {
+    /// Name, as on the command line.
+    pub name: &'static str,
+    /// What is wrong, in words.
+    pub says: &'static str,
+    /// What it is in.
+    pub family: Family,
+    /// Its size at first, if it has one that can be made smaller.
+    pub size: Option<f64>,
+    /// How it is planted.
+    pub plant: Plant,
+}
+
+impl Kind {
+    /// A fault in the case, of a fixed size.
+    pub(super) const fn case(
+        family: Family,
+        name: &'static str,
+        says: &'static str,
+        change: fn(&Case, f64) -> Option<Case>,
+    ) -> Kind {
+        Kind { name, says, family, size: None, plant: Plant::Case(change) }
+    }
+
+    /// A fault in an answer, of a fixed size.
+    pub(super) const fn answer(
+        family: Family,
+        name: &'static str,
+        says: &'static str,
+        change: fn(At, &mut State, f64) -> Option<()>,
+    ) -> Kind {
+        Kind { name, says, family, size: None, plant: Plant::Answer(change) }
+    }
+
+    /// The same with a size that can be made smaller.
+    pub(super) const fn sized(self, size: f64) -> Kind {
+        Kind { size: Some(size), ..self }
+    }
+}

@@ -1,0 +1,37 @@
+//! Kinds of single faults: one row each, in the table of its family.
+
+mod accelerations;
+mod drives;
+mod forces;
+mod geometry;
+mod kind;
+mod loads;
+mod masses;
+mod motors;
+mod positions;
+mod rates;
+mod touch;
+
+pub use kind::{At, Family, Kind, Plant};
+
+/// All kinds, family by family.
+pub fn all() -> impl Iterator<Item = &'static Kind> {
+    let tables: [&'static [Kind]; 9] = [
+        geometry::KINDS,
+        drives::KINDS,
+        masses::KINDS,
+        loads::KINDS,
+        motors::KINDS,
+        positions::KINDS,
+        rates::KINDS,
+        accelerations::KINDS,
+        forces::KINDS,
+    ];
+    tables.into_iter().flatten()
+}
+
+/// The kind called `name`.
+#[must_use]
+pub fn named(name: &str) -> Option<&'static Kind> {
+    all().find(|kind| kind.name == name)
+}

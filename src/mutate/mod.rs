@@ -1,0 +1,25 @@
+//! Does the cross-check see faults? Single faults, planted in one party of a proof at default settings, or in what all
+//! parties share.
+//!
+//! A fault stands around a solver or an engine, and the proof is the same as that of a user.
+//! A fault in an analytic side that the other side contradicts needs no engine for its verdict. Other proofs with the
+//! engine unchanged take its runs from the first of them; their verdicts are those of new runs, because an engine's
+//! runs do not depend on what they are compared with.
+
+mod effect;
+mod kinds;
+mod lost;
+mod mutant;
+mod plan;
+mod planted;
+mod seen;
+mod stage;
+mod tally;
+#[cfg(test)]
+mod tests;
+
+pub use kinds::{At, Family, Kind, Plant, all, named};
+pub use mutant::{Mutant, Mutated, Party};
+pub use plan::{Asked, mutate};
+pub use seen::{Outcome, Sight};
+pub use tally::{Share, Tally, tally};

@@ -1,0 +1,162 @@
+//! One scenario with its true parties, and proofs in which one of them has a fault.
+
+use std::sync::OnceLock;
+
+use super::effect::{Effect, effect};
+use super::kinds::Plant;
+use super::mutant::Party;
+use super::planted::{Fault, Planted};
+use super::seen::{Eyes, Outcome};
+use crate::compare::overall;
+use crate::proof::{EngineProof, Engines, Entrant, Ledger, Options, Sides, TRUE_SIDES};
+use crate::scenario::Scenario;
+use analytic::{AssurSolver, NewtonSolver, TightAssurSolver, TightNewtonSolver};
+use linkage::engine::{Engine, Kept};
+use linkage::error::Result;
+use linkage::solver::Solver;
+use linkage::trajectory::Trajectory;
+
+/// What stands around an engine.
+type Around<'a> = &'a dyn Fn(Box<dyn Engine>) -> Box<dyn Engine>;
+
+/// A scenario's proof without a fault, and what can be used again.
+pub(super) struct Stage<'a> {
+    pub(super) scenario: Scenario,
+    /// The scenario with the whole mechanism, where only part of it is wanted.
+    whole: &'a Scenario,
+    options: &'a Options,
+    /// The analytic sides without a fault.
+    sides: Sides,
+    /// Exact answers of side 1.
+    right: Trajectory,
+    /// The engine's runs without a fault.
+    runs: OnceLock<Kept>,
+    /// Verdict of the proof without a fault, and the engine.
+    pub(super) verdict: &'static str,
+    pub(super) engine: &'static str,
+}
+
+impl<'a> Stage<'a> {
+    /// Proves the scenario without a fault.
+    ///
+    /// # Errors
+    /// Those of the proof.
+    pub(super) fn new(scenario: &'a Scenario, options: &'a Options) -> Result<Self> {
+        let (whole, scenario) = (scenario, Scenario { case: scenario.case.scene()?.case, ..scenario.clone() });
+        let sides = Sides::of([&scenario, whole], TRUE_SIDES, options.reference, &mut Ledger::default())?;
+        let right = AssurSolver.solve(&scenario.case)?;
+        let runs = OnceLock::new();
+        let mut stage = Stage { scenario, whole, options, sides, right, runs, verdict: "", engine: "" };
+        let proof = stage.engine(&stage.sides, &|own| stage.kept(own), true)?;
+        let verdict = stage.sides.verdict();
+        (stage.verdict, stage.engine) = (overall([&verdict, &proof.verdict]).word(), proof.info.name);
+        Ok(stage)
+    }
+
+    /// The engine's proof against these sides.
+    fn engine(&self, sides: &Sides, around: Around, own_forces: bool) -> Result<EngineProof> {
+        let how = Engines { case: &self.scenario.case, around, own_forces };
+        let engines = self.options.chosen(&self.scenario)?;
+        let mut proofs = sides.engines(&self.scenario, &how, engines, (&mut Ledger::default(), &mut |_| {}))?;
+        Ok(proofs.swap_remove(0))
+    }
+
+    /// The engine whose runs are kept for all proofs of this scenario.
+    fn kept(&self, engine: Box<dyn Engine>) -> Box<dyn Engine> {
+        kept_in(&self.runs, engine)
+    }
+
+    /// What a fault changes in exact answers.
+    pub(super) fn effect(&self, fault: Fault) -> Result<Effect> {
+        effect(&self.scenario.case, &self.right, fault)
+    }
+
+    /// The proof with a fault in one party.
+    pub(super) fn proven(&self, fault: Fault, party: Party) -> Outcome {
+        let outcome = match party {
+            Party::Assur | Party::Newton => self.in_side(fault, party),
+            Party::Engine => self.in_engine(fault),
+            Party::All => self.in_all(fault),
+        };
+        outcome.unwrap_or_else(|error| Outcome::Refused(error.message().into()))
+    }
+
+    fn in_side(&self, fault: Fault, party: Party) -> Result<Outcome> {
+        let wrong = planted_sides(fault);
+        let mut entrants = TRUE_SIDES;
+        let index = usize::from(party == Party::Newton);
+        entrants[index] = Entrant { solver: &wrong[index][0], tight: &wrong[index][1] };
+        let sides = self.sides([&self.scenario, self.whole], entrants)?;
+        let eyes = Eyes::default().sides(&sides, false);
+        if eyes.is_decided() {
+            return Ok(eyes.outcome());
+        }
+        self.judged(&sides, &|own| self.kept(own))
+    }
+
+    fn in_engine(&self, fault: Fault) -> Result<Outcome> {
+        let runs = OnceLock::new();
+        let around = |own: Box<dyn Engine>| -> Box<dyn Engine> {
+            match fault.kind.plant {
+                Plant::Case(_) => kept_in(&runs, Box::new(Planted { fault, inner: own })),
+                // Its runs are right; what it says of them is wrong.
+                Plant::Answer(_) => Box::new(Planted { fault, inner: self.kept(own) }),
+            }
+        };
+        self.judged(&self.sides, &around)
+    }
+
+    /// The engine against these sides. Its own forces are asked where its motion and their forces agree: no verdict on
+    /// them takes a disagreement back.
+    fn judged(&self, sides: &Sides, around: Around) -> Result<Outcome> {
+        let mut last = Outcome::Escaped;
+        for own_forces in [false, true] {
+            let proof = self.engine(sides, around, own_forces)?;
+            if let Some(error) = &proof.failure {
+                return Ok(Outcome::Refused(error.message().into()));
+            }
+            last = Eyes::default().sides(sides, false).engine(&proof, sides.trajectory()).outcome();
+            if last.is_found() {
+                break;
+            }
+        }
+        Ok(last)
+    }
+
+    fn sides(&self, scenarios: [&Scenario; 2], entrants: [Entrant; 2]) -> Result<Sides> {
+        Sides::of(scenarios, entrants, self.options.reference, &mut Ledger::default())
+    }
+
+    /// The fault in what all parties share: no party can contradict another, and what comes from outside is asked.
+    fn in_all(&self, fault: Fault) -> Result<Outcome> {
+        let sides = match fault.kind.plant {
+            Plant::Case(change) => {
+                let Some(case) = change(&self.scenario.case, fault.size) else {
+                    return Ok(Outcome::Refused("the case cannot be put together".into()));
+                };
+                let wrong = Scenario { case, ..self.scenario.clone() };
+                self.sides([&wrong, &wrong], TRUE_SIDES)?
+            }
+            Plant::Answer(_) => {
+                let wrong = planted_sides(fault);
+                let entrants = [0, 1].map(|side: usize| Entrant { solver: &wrong[side][0], tight: &wrong[side][1] });
+                self.sides([&self.scenario, self.whole], entrants)?
+            }
+        };
+        Ok(Eyes::default().sides(&sides, true).outcome())
+    }
+}
+
+/// The engine with the runs that are kept; they are those of the first engine that comes.
+fn kept_in(runs: &OnceLock<Kept>, engine: Box<dyn Engine>) -> Box<dyn Engine> {
+    runs.get_or_init(|| Kept::new(engine.as_ref())).with(engine.settings())
+}
+
+/// Side 1 and side 2 with a fault, each as it is and with a tighter tolerance.
+fn planted_sides(fault: Fault) -> [[Planted<dyn Solver>; 2]; 2] {
+    let planted = |inner: Box<dyn Solver>| Planted { fault, inner };
+    [
+        [planted(Box::new(AssurSolver)), planted(Box::new(TightAssurSolver))],
+        [planted(Box::new(NewtonSolver)), planted(Box::new(TightNewtonSolver))],
+    ]
+}

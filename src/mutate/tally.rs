@@ -1,0 +1,95 @@
+//! Outcomes counted.
+
+use super::mutant::{Mutated, Party};
+use super::seen::Outcome;
+
+/// Numbers of faults by outcome.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Share {
+    /// Faults that a channel or check disagrees with.
+    pub detected: usize,
+    /// Faults with which a party has no answer.
+    pub refused: usize,
+    /// Faults after which nothing is proven either way.
+    pub inconclusive: usize,
+    /// Faults after which everything agrees.
+    pub escaped: usize,
+    /// Faults that change no exact answer.
+    pub equivalent: usize,
+}
+
+impl Share {
+    /// Counts one more.
+    pub fn add(&mut self, outcome: &Outcome) {
+        match outcome {
+            Outcome::Detected { .. } => self.detected += 1,
+            Outcome::Refused(_) => self.refused += 1,
+            Outcome::Inconclusive(_) => self.inconclusive += 1,
+            Outcome::Escaped => self.escaped += 1,
+            Outcome::Equivalent(_) => self.equivalent += 1,
+        }
+    }
+
+    /// Faults that change something.
+    #[must_use]
+    pub fn real(&self) -> usize {
+        self.found() + self.inconclusive + self.escaped
+    }
+
+    /// Faults that were found.
+    #[must_use]
+    pub fn found(&self) -> usize {
+        self.detected + self.refused
+    }
+}
+
+/// Counts over scenarios.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Tally {
+    /// Faults in one party.
+    pub planted: Share,
+    /// Faults in the trunk.
+    pub trunk: Share,
+    /// Kinds that were planted in the trunk and change something there, and those that something outside finds in a
+    /// scenario at least.
+    pub trunk_kinds: Vec<&'static str>,
+    /// Those of them that are found.
+    pub trunk_found: Vec<&'static str>,
+    /// Kinds planted anywhere.
+    pub kinds: Vec<&'static str>,
+}
+
+impl Tally {
+    /// Whether a fault in one party was not found.
+    #[must_use]
+    pub fn has_escapes(&self) -> bool {
+        self.planted.found() < self.planted.real()
+    }
+}
+
+/// Counts all outcomes.
+#[must_use]
+pub fn tally(all: &[Mutated]) -> Tally {
+    let mut tally = Tally::default();
+    let put = |names: &mut Vec<&'static str>, name| {
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    };
+    for mutant in all.iter().flat_map(|one| &one.mutants) {
+        put(&mut tally.kinds, mutant.kind.name);
+        match mutant.party {
+            Party::Assur | Party::Newton | Party::Engine => tally.planted.add(&mutant.outcome),
+            Party::All => {
+                tally.trunk.add(&mutant.outcome);
+                if !matches!(mutant.outcome, Outcome::Equivalent(_)) {
+                    put(&mut tally.trunk_kinds, mutant.kind.name);
+                }
+                if mutant.outcome.is_found() {
+                    put(&mut tally.trunk_found, mutant.kind.name);
+                }
+            }
+        }
+    }
+    tally
+}

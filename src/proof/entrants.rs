@@ -1,0 +1,173 @@
+//! Who takes part in a proof, and the two halves of a proof: the analytic sides, and the engines against one of them.
+
+use super::checks::{self, Beyond};
+use super::engines::{self, EngineProof};
+use super::known::Known;
+use super::ledger::Ledger;
+use super::observe::{Observed, Watch, observe};
+use super::options::{Chosen, Reference};
+use super::{methods, oracle, sensitivity};
+use crate::compare::{Check, Verdict, overall};
+use crate::scenario::Scenario;
+use analytic::{AssurSolver, NewtonSolver, TightAssurSolver, TightNewtonSolver};
+use linkage::case::Case;
+use linkage::engine::Engine;
+use linkage::error::Result;
+use linkage::solver::Solver;
+use linkage::trajectory::Trajectory;
+
+/// Share of the progress that the analytic sides are given.
+const SIDES: f64 = 0.1;
+
+/// An analytic side: its solver, and the same with a tighter tolerance where it integrates.
+#[derive(Clone, Copy)]
+pub(crate) struct Entrant<'a> {
+    /// The side. It has the name of one of [`analytic::all`].
+    pub(crate) solver: &'a dyn Solver,
+    /// The side with a tighter tolerance.
+    pub(crate) tight: &'a dyn Solver,
+}
+
+/// Side 1 and side 2 as they are.
+pub(crate) const TRUE_SIDES: [Entrant<'static>; 2] = [
+    Entrant { solver: &AssurSolver, tight: &TightAssurSolver },
+    Entrant { solver: &NewtonSolver, tight: &TightNewtonSolver },
+];
+
+/// How engines take part.
+pub(crate) struct Engines<'a> {
+    /// What they solve, on the scenario's instants.
+    pub(crate) case: &'a Case,
+    /// Puts something around each of them.
+    pub(crate) around: &'a dyn Fn(Box<dyn Engine>) -> Box<dyn Engine>,
+    /// Whether the forces that they exert are judged besides.
+    pub(crate) own_forces: bool,
+}
+
+impl<'a> Engines<'a> {
+    /// Engines as they are, on a case.
+    pub(crate) fn on(case: &'a Case) -> Self {
+        Engines { case, around: &|engine| engine, own_forces: true }
+    }
+}
+
+/// The two analytic sides of a proof, observed and checked.
+pub(crate) struct Sides {
+    /// The reference first.
+    order: [usize; 2],
+    /// Side 1 and side 2 with their names.
+    pub(super) observed: [(&'static str, Observed); 2],
+    pub(super) known: Known,
+    /// How strongly a motion under forces depends on them, by channel of the reference.
+    pub(super) sensitivity: Vec<f64>,
+    /// Checks on both, published numbers among them.
+    pub(crate) checks: Vec<Check>,
+}
+
+impl Sides {
+    /// Both sides on the scene of a scenario, the side called `reference` being the reference. The first scenario has
+    /// the scene as its case, the second the whole.
+    ///
+    /// # Errors
+    /// Those of the sides.
+    pub(crate) fn of(
+        [scenario, whole]: [&Scenario; 2],
+        entrants: [Entrant; 2],
+        reference: Reference,
+        ledger: &mut Ledger,
+    ) -> Result<Self> {
+        let case = &scenario.case;
+        let mut observed = |solver: &dyn Solver| -> Result<_> {
+            let why = if solver.name() == reference.name() { "the reference" } else { "checks the reference" };
+            let run = || observe(case, solver, Watch::Side, &mut |_| {});
+            Ok((solver.name(), ledger.done(solver.name(), why, run)?))
+        };
+        let [first, second] = entrants;
+        let sides = [observed(first.solver)?, observed(second.solver)?];
+        let order = if sides[0].0 == reference.name() { [0, 1] } else { [1, 0] };
+        let main = entrants[order[0]].solver;
+        let [own, beside] = order.map(|side| &sides[side].1.trajectory);
+        let tight = order.map(|side| entrants[side].tight);
+        let tighter = || -> Result<_> {
+            let sensitivity = sensitivity::of(case, main, own)?;
+            let known = Known::beside(case, [(tight[0], own), (tight[1], beside)], &sensitivity)?;
+            Ok((sensitivity, known))
+        };
+        let (sensitivity, mut known) = match case.is_free() {
+            true => ledger.done("tighter integration", "shows the error that both sides share", tighter)?,
+            false => {
+                ledger.skipped("integration", "the motion is prescribed");
+                tighter()?
+            }
+        };
+        match checks::sides_differ(&sides, &known) {
+            true => ledger.done("condition of every pose", "the sides differ by more than usual", || {
+                known.measure(case, first.solver)
+            })?,
+            false => ledger.skipped("condition of every pose", "the sides differ by usual rounding"),
+        }
+        let mut checks = checks::of_sides(case, &sides, &known);
+        match methods::apply(case) {
+            true => checks.extend(
+                ledger.done("published methods", "others than ours for its triad", || methods::checks(case, main))?,
+            ),
+            false => ledger.skipped("published methods", "there is no triad of class III"),
+        }
+        match scenario.oracles.is_empty() {
+            true => ledger.skipped("published numbers", "there are none of wanted channels"),
+            false => {
+                let numbers = || oracle::checks(scenario, whole, entrants.map(|entrant| entrant.solver));
+                checks.extend(ledger.done("published numbers", "solved at their own crank angles", numbers)?);
+            }
+        }
+        Ok(Sides { order, observed: sides, known, sensitivity, checks })
+    }
+
+    /// What was observed of the reference.
+    pub(super) fn own(&self) -> &Observed {
+        &self.observed[self.order[0]].1
+    }
+
+    /// The reference's trajectory.
+    pub(crate) fn trajectory(&self) -> &Trajectory {
+        &self.own().trajectory
+    }
+
+    /// The verdict on all checks.
+    pub(crate) fn verdict(&self) -> Verdict {
+        overall(self.checks.iter().map(|check| &check.verdict))
+    }
+
+    /// Every channel in which the two sides differ by more than is allowed.
+    pub(crate) fn beyond(&self) -> Vec<Beyond> {
+        checks::beyond(&self.observed, &self.known)
+    }
+
+    /// Proofs of the engines against the reference.
+    ///
+    /// # Errors
+    /// Those of a case that does not fit the instants, and of an only engine that cannot start.
+    pub(crate) fn engines(
+        &self,
+        scenario: &Scenario,
+        how: &Engines,
+        engines: Vec<Chosen>,
+        (ledger, progress): (&mut Ledger, &mut dyn FnMut(f64)),
+    ) -> Result<Vec<EngineProof>> {
+        let case = how.case.on(scenario.case.grid.clone())?;
+        let count = engines.len() as f64;
+        let mut proofs = Vec::with_capacity(engines.len());
+        for (index, chosen) in engines.into_iter().enumerate() {
+            let chosen = chosen.with_engine(how.around, how.own_forces);
+            let mut part = |part: f64| progress(SIDES + (1.0 - SIDES) * (index as f64 + part) / count);
+            let told = (&mut *ledger, &mut part as &mut dyn FnMut(f64));
+            let mut proof = engines::prove(scenario, &case, &chosen, self.own(), &self.known, told)?;
+            engines::tell_sensitivity(&mut proof, self.trajectory(), &self.sensitivity);
+            proofs.push(proof);
+        }
+        if let [EngineProof { failure: Some(error), trajectory: None, .. }] = proofs.as_slice() {
+            return Err(error.clone());
+        }
+        Ok(proofs)
+    }
+}

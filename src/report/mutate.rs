@@ -1,0 +1,316 @@
+//! Planted faults: which were found, by what, and which escape.
+
+use std::fmt::Write;
+
+use serde_json::{Value, json};
+
+use super::cells::table;
+use super::pretty::pretty;
+use crate::mutate::{Kind, Mutant, Mutated, Outcome, Party, Share, Sight, Tally, all, tally};
+use linkage::math::KeepNan;
+
+/// The result as text, the verdict first.
+pub(crate) fn text(found: &[Mutated]) -> String {
+    let tally = tally(found);
+    let mut text = String::new();
+    let _ = writeln!(text, "{}\n", headline(&tally));
+    let _ = writeln!(text, "{}\n", scenarios(found));
+    let _ = writeln!(text, "{}\n", kinds(found));
+    let _ = writeln!(text, "{LEGEND}\n");
+    for (title, lines) in [("Not found in one party:", not_found(found)), ("Open in the trunk:", open(&tally))] {
+        if !lines.is_empty() {
+            let _ = writeln!(text, "{title}");
+            lines.iter().for_each(|line| {
+                let _ = writeln!(text, "  {line}");
+            });
+            let _ = writeln!(text);
+        }
+    }
+    text
+}
+
+const LEGEND: &str = "\
+least margin: difference over its bound of what sees the fault most clearly, where it is least clear.
+found down to: sizes above this are found in every scenario, to a factor of two; relative, angles in rad.";
+
+/// One sentence with the figures.
+fn headline(tally: &Tally) -> String {
+    let Tally { planted, trunk_kinds, trunk_found, kinds, .. } = tally;
+    let word = match (planted.escaped, planted.inconclusive) {
+        (0, 0) => "ALL FOUND",
+        (0, _) => "NONE ESCAPES",
+        (_, _) => "SOME ESCAPE",
+    };
+    let mut line = format!(
+        "{word}  {} kinds; {} of {} faults in one party found ({}), {} inconclusive, {} escaped; {} change nothing",
+        kinds.len(),
+        planted.found(),
+        planted.real(),
+        percent(planted.found(), planted.real()),
+        planted.inconclusive,
+        planted.escaped,
+        planted.equivalent,
+    );
+    if !trunk_kinds.is_empty() {
+        let _ = write!(
+            line,
+            "; in the trunk {} of {} kinds are found from outside ({})",
+            trunk_found.len(),
+            trunk_kinds.len(),
+            percent(trunk_found.len(), trunk_kinds.len())
+        );
+    }
+    line
+}
+
+fn percent(part: usize, whole: usize) -> String {
+    if whole == 0 { "-".into() } else { format!("{:.1} %", 100.0 * part as f64 / whole as f64) }
+}
+
+fn scenarios(found: &[Mutated]) -> String {
+    let header = ["scenario", "without", "faults", "found", "open", "escaped", "no change", "trunk", "found outside"];
+    let mut table = table(header, &[2, 3, 4, 5, 6, 7, 8]);
+    for one in found {
+        let Tally { planted, trunk, .. } = tally(std::slice::from_ref(one));
+        table.add_row([
+            one.scenario.clone(),
+            one.verdict.to_string(),
+            planted.real().to_string(),
+            planted.found().to_string(),
+            planted.inconclusive.to_string(),
+            planted.escaped.to_string(),
+            planted.equivalent.to_string(),
+            trunk.real().to_string(),
+            trunk.found().to_string(),
+        ]);
+    }
+    table.to_string()
+}
+
+/// What came of one kind in all scenarios.
+struct OfKind {
+    sides: Share,
+    engine: Share,
+    trunk: Share,
+    margin: f64,
+    /// Sizes found in every scenario: sides and engine.
+    size: [Option<f64>; 2],
+}
+
+fn of_kind(found: &[Mutated], kind: &Kind) -> Option<OfKind> {
+    let own: Vec<&Mutant> =
+        found.iter().flat_map(|one| &one.mutants).filter(|mutant| mutant.kind.name == kind.name).collect();
+    if own.is_empty() {
+        return None;
+    }
+    let mut all = OfKind {
+        sides: Share::default(),
+        engine: Share::default(),
+        trunk: Share::default(),
+        margin: f64::INFINITY,
+        size: [None; 2],
+    };
+    for mutant in own {
+        let (share, size) = match mutant.party {
+            Party::Assur | Party::Newton => (&mut all.sides, Some(&mut all.size[0])),
+            Party::Engine => (&mut all.engine, Some(&mut all.size[1])),
+            Party::All => (&mut all.trunk, None),
+        };
+        share.add(&mutant.outcome);
+        if let (Some(size), Some(smallest)) = (size, mutant.smallest) {
+            *size = Some(size.map_or(smallest, |most| most.larger(smallest)));
+        }
+        if mutant.party != Party::All {
+            all.margin = all.margin.smaller(mutant.outcome.margin().unwrap_or(f64::INFINITY));
+        }
+    }
+    Some(all)
+}
+
+fn cells(kind: &Kind, own: &OfKind) -> [String; 8] {
+    let of = |share: &Share| match share.real() {
+        0 => "-".into(),
+        real => format!("{} of {real}", share.found()),
+    };
+    let size = |size: Option<f64>| size.map_or("-".into(), |size| format!("{size:.1e}"));
+    let margin = if own.margin.is_finite() { format!("{:.1e}", own.margin) } else { "-".into() };
+    [
+        kind.name.into(),
+        kind.family.name().into(),
+        of(&own.sides),
+        of(&own.engine),
+        margin,
+        size(own.size[0]),
+        size(own.size[1]),
+        of(&own.trunk),
+    ]
+}
+
+const KIND_HEADER: [&str; 8] = [
+    "kind",
+    "family",
+    "in a side",
+    "in the engine",
+    "least margin",
+    "side, found down to",
+    "engine, found down to",
+    "in the trunk",
+];
+
+fn kinds(found: &[Mutated]) -> String {
+    let mut table = table(KIND_HEADER, &[2, 3, 4, 5, 6, 7]);
+    for kind in all() {
+        if let Some(own) = of_kind(found, kind) {
+            table.add_row(cells(kind, &own));
+        }
+    }
+    table.to_string()
+}
+
+/// Faults in one party that are not found, with the reason.
+fn not_found(found: &[Mutated]) -> Vec<String> {
+    let mut lines = Vec::new();
+    for one in found {
+        for mutant in &one.mutants {
+            let why = match &mutant.outcome {
+                Outcome::Inconclusive(reason) => format!("inconclusive: {reason}"),
+                Outcome::Escaped => "every comparison agrees".into(),
+                Outcome::Detected { .. } | Outcome::Refused(_) | Outcome::Equivalent(_) => continue,
+            };
+            if mutant.party != Party::All {
+                let change = mutant.effect.map_or(String::new(), |change| format!(" (changes {change:.1e})"));
+                let (scenario, kind, party) = (&one.scenario, mutant.kind.name, mutant.party.name());
+                lines.push(format!("{scenario}: {kind} in {party}{change}: {why}"));
+            }
+        }
+    }
+    lines
+}
+
+/// Kinds in the trunk that nothing from outside finds in any scenario.
+fn open(tally: &Tally) -> Vec<String> {
+    let open = all().filter(|kind| tally.trunk_kinds.contains(&kind.name) && !tally.trunk_found.contains(&kind.name));
+    open.map(|kind| format!("{}: {}", kind.name, kind.says)).collect()
+}
+
+/// All kinds as text.
+pub(crate) fn list() -> String {
+    let mut table = table(["kind", "family", "where", "size", "what is wrong"], &[3]);
+    for kind in all() {
+        table.add_row(described(kind));
+    }
+    format!("{table}\n")
+}
+
+fn described(kind: &Kind) -> [String; 5] {
+    [
+        kind.name.into(),
+        kind.family.name().into(),
+        place(kind).into(),
+        kind.size.map_or(String::new(), |size| size.to_string()),
+        kind.says.into(),
+    ]
+}
+
+fn place(kind: &Kind) -> &'static str {
+    match kind.plant {
+        crate::mutate::Plant::Case(_) => "case",
+        crate::mutate::Plant::Answer(_) => "answer",
+    }
+}
+
+/// All kinds as a table in Markdown.
+#[must_use]
+pub fn kinds_markdown() -> String {
+    let mut text = String::from("| kind | family | where | size | what is wrong |\n|---|---|---|---|---|\n");
+    for kind in all() {
+        let _ = writeln!(text, "| {} |", described(kind).join(" | "));
+    }
+    text
+}
+
+/// What came of all kinds as a table in Markdown, with the figures above it and what was not found below.
+pub(crate) fn markdown(found: &[Mutated]) -> String {
+    let tally = tally(found);
+    let mut text = format!("{}.\n\n| {} |\n|{}\n", headline(&tally), KIND_HEADER.join(" | "), "---|".repeat(8));
+    for (kind, own) in all().filter_map(|kind| Some((kind, of_kind(found, kind)?))) {
+        let _ = writeln!(text, "| {} |", cells(kind, &own).join(" | "));
+    }
+    for (title, lines) in [("Not found in one party:", not_found(found)), ("Open in the trunk:", open(&tally))] {
+        let _ = writeln!(text, "\n{title}\n");
+        lines.iter().for_each(|line| {
+            let _ = writeln!(text, "- {line}");
+        });
+    }
+    text
+}
+
+/// The result as JSON, schema 1.
+pub(crate) fn json(found: &[Mutated], failures: &[(String, String)]) -> String {
+    let tally = tally(found);
+    let kinds: Vec<Value> = all()
+        .filter(|kind| tally.kinds.contains(&kind.name))
+        .map(|kind| {
+            json!({
+                "name": kind.name, "family": kind.family.name(), "where": place(kind), "size": kind.size, "says": kind.says,
+            })
+        })
+        .collect();
+    let scenarios: Vec<Value> = found
+        .iter()
+        .map(|one| {
+            json!({
+                "scenario": one.scenario, "verdict_without": one.verdict, "engine": one.engine,
+                "faults": one.mutants.iter().map(mutant).collect::<Vec<_>>(), "without_part": one.without,
+            })
+        })
+        .collect();
+    let value = json!({
+        "schema": 1,
+        "figures": {
+            "kinds": tally.kinds.len(), "planted": share(&tally.planted), "trunk": share(&tally.trunk),
+            "trunk_kinds": tally.trunk_kinds.len(), "trunk_kinds_found": tally.trunk_found.len(),
+            "trunk_kinds_open": tally.trunk_kinds.iter().filter(|name| !tally.trunk_found.contains(name)).collect::<Vec<_>>(),
+        },
+        "kinds": kinds,
+        "scenarios": scenarios,
+        "failures": failures.iter().map(|(file, error)| json!({"file": file, "error": error})).collect::<Vec<_>>(),
+    });
+    pretty(&value)
+}
+
+fn share(share: &Share) -> Value {
+    let Share { detected, refused, inconclusive, escaped, equivalent } = *share;
+    json!({
+        "real": share.real(), "found": share.found(), "detected": detected, "refused": refused,
+        "inconclusive": inconclusive, "escaped": escaped, "equivalent": equivalent,
+    })
+}
+
+fn mutant(mutant: &Mutant) -> Value {
+    let mut value = json!({
+        "kind": mutant.kind.name, "party": mutant.party.name(), "outcome": mutant.outcome.word(),
+        "change": mutant.effect, "smallest": mutant.smallest,
+    });
+    let map = value.as_object_mut().expect("this is an object");
+    match &mutant.outcome {
+        Outcome::Detected { first, clearest, channels, checks } => {
+            map.insert("first".into(), sight(first));
+            map.insert("clearest".into(), sight(clearest));
+            map.insert("channels".into(), json!(channels));
+            map.insert("checks".into(), json!(checks));
+        }
+        Outcome::Refused(reason) | Outcome::Inconclusive(reason) => {
+            map.insert("reason".into(), json!(reason));
+        }
+        Outcome::Escaped | Outcome::Equivalent(_) => {}
+    }
+    value
+}
+
+fn sight(sight: &Sight) -> Value {
+    json!({
+        "what": sight.what, "margin": sight.margin,
+        "time_s": sight.since.map(|(time, _)| time), "crank_deg": sight.since.map(|(_, crank)| crank.to_degrees()),
+    })
+}

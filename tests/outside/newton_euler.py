@@ -1,0 +1,409 @@
+"""Numbers for [[oracle]] tables from a program of its own: mpmath, 40 digits, no code of this project.
+
+    python3 tests/outside/newton_euler.py BINARY scenarios/NAME.toml CRANK_DEG [CRANK_DEG ...]
+
+It reads the scenario file by itself (tomllib), with units of its own. It closes all joints by Newton's method, follows
+the motion from the start in small steps, differentiates the closed poses by differences in 40 digits, and solves the
+equations of Newton and Euler of all links at once. The binary (`linkproof solve`) only gives a first guess of the pose
+at the start; assembly modes are checked against docs/scenario.md. Free motions have their nominal speed.
+"""
+
+import csv
+import io
+import math
+import subprocess
+import sys
+import tomllib
+
+from mpmath import mp, mpf
+
+mp.dps = 40
+UNITS = {
+    "m": 1, "mm": mpf(1) / 1000, "rad": 1, "deg": mp.pi / 180, "rad_s": 1, "rpm": mp.pi / 30, "s": 1, "ms": mpf(1) / 1000,
+    "kg": 1, "g": mpf(1) / 1000, "kg_m2": 1, "m_s2": 1, "N": 1, "kN": 1000, "N_m": 1, "N_mm": 1000, "N_s_m": 1, "N_m_rad": 1, "N_m_s": 1,
+}
+
+
+def quantity(table, stem, default=None):
+    """A number with its unit: the key is the stem and the unit."""
+    for key, value in table.items():
+        if key.startswith(stem + "_") and key[len(stem) + 1:] in UNITS:
+            return mpf(str(value)) * UNITS[key[len(stem) + 1:]]
+    return default
+
+
+def place(table, known):
+    if "from" in table:
+        x, y = known[table["from"]]
+        length, angle = quantity(table, "length"), quantity(table, "angle")
+        return x + length * mp.cos(angle), y + length * mp.sin(angle)
+    return quantity(table, "x"), quantity(table, "y")
+
+
+class Mechanism:
+    def __init__(self, text):
+        self.file = file = tomllib.loads(text)
+        self.links, self.points, self.body = ["ground"] + list(file["links"]), {}, {}
+        for name in self.links:
+            own = file["ground"] if name == "ground" else file["links"][name]
+            points = {}
+            for point, at in own.get("points", {}).items():
+                points[point] = place(at, points)
+            self.points[name] = points
+            centre = place(own["mass_centre"], points) if "mass_centre" in own else (mpf(0), mpf(0))
+            self.body[name] = (quantity(own, "mass", mpf(0)), centre, quantity(own, "inertia", mpf(0)))
+        self.joints = file["joints"]
+        drives = file["drive"]
+        self.drives = drives if isinstance(drives, list) else [drives]
+        self.start = quantity(file["start"], "crank")
+        gravity = file.get("gravity", {})
+        self.gravity = (quantity(gravity, "x", mpf(0)), quantity(gravity, "y", mpf(0)))
+        self.loads = file.get("loads", [])
+        self.turns = {}
+        self.twists = {}
+
+    def driven(self, drive):
+        joint = next(joint for joint in self.joints if joint["name"] == drive["joint"])
+        return next(link for link in joint["links"] if link != "ground")
+
+    def law(self, index, t):
+        """Angle of a drive in the world."""
+        drive = self.drives[index]
+        start = self.start if index == 0 else quantity(drive, "start")
+        zero = quantity(drive, "zero", mpf(0))
+        law = drive.get("law", "constant")
+        if law == "constant":
+            return zero + start + quantity(drive, "speed") * t
+        assert law == "cycloidal", law
+        share = t / quantity(drive, "time")
+        return zero + start + (quantity(drive, "to") - start) * (share - mp.sin(2 * mp.pi * share) / (2 * mp.pi))
+
+    def time_of(self, crank):
+        if self.drives[0].get("law", "constant") == "constant":
+            return (crank - self.start) / quantity(self.drives[0], "speed")
+        zero = quantity(self.drives[0], "zero", mpf(0))
+        end = quantity(self.drives[0], "time")
+        return mp.findroot(lambda t: self.law(0, t) - zero - crank, (mpf(0), end), solver="anderson", tol=1e-70)
+
+    def sides(self, joint):
+        names = joint.get("points", [joint.get("point", joint["name"])] * 2)
+        return [(link, self.points[link][name]) for link, name in zip(joint["links"], names)]
+
+    def at(self, q, link, local):
+        if link == "ground":
+            return local
+        k = 3 * (self.links.index(link) - 1)
+        c, s = mp.cos(q[k + 2]), mp.sin(q[k + 2])
+        return q[k] + c * local[0] - s * local[1], q[k + 1] + s * local[0] + c * local[1]
+
+    def angle(self, q, link):
+        return mpf(0) if link == "ground" else q[3 * (self.links.index(link) - 1) + 2]
+
+    def rows(self, q, t):
+        """What is not closed."""
+        rows = []
+        for joint in self.joints:
+            (first, a), (second, b) = self.sides(joint)
+            a, b = self.at(q, first, a), self.at(q, second, b)
+            if joint["type"] == "revolute":
+                rows += [b[0] - a[0], b[1] - a[1]]
+                continue
+            along = self.angle(q, first) + quantity(joint, "axis")
+            turn = self.angle(q, second) + quantity(joint, "second_axis", mpf(0)) - along
+            turns = self.turns.setdefault(joint["name"], mp.nint(turn / (2 * mp.pi)))
+            rows += [mp.cos(along) * (b[1] - a[1]) - mp.sin(along) * (b[0] - a[0]), turn - 2 * mp.pi * turns]
+        for index, drive in enumerate(self.drives):
+            rows.append(self.angle(q, self.driven(drive)) - self.law(index, t))
+        return rows
+
+    def closed(self, q, t):
+        n = len(q)
+        for _ in range(60):
+            r = self.rows(q, t)
+            h = mpf(10) ** (-mp.dps // 2)
+            jacobian = mp.matrix(n, n)
+            for j in range(n):
+                moved = list(q)
+                moved[j] += h
+                for i, value in enumerate(self.rows(moved, t)):
+                    jacobian[i, j] = (value - r[i]) / h
+            step = mp.lu_solve(jacobian, mp.matrix([-value for value in r]))
+            q = [old + step[i] for i, old in enumerate(q)]
+            if max(abs(value) for value in step) < mpf(10) ** (3 - mp.dps):
+                return q
+        raise ValueError("Newton's method does not converge")
+
+
+def first_guess(binary, path, mechanism):
+    """Pose at t = 0 as the project has it, in double precision."""
+    crank = mp.nstr(mechanism.start * 180 / mp.pi, 17)
+    free = any(drive.get("motion") == "free" for drive in mechanism.drives)
+    timed = free or mechanism.drives[0].get("law", "constant") != "constant"
+    grid = ["--times", "0"] if timed else ["--crank-deg", crank]
+    out = subprocess.run([binary, "solve", path, "--with", "assur", *grid], check=True, capture_output=True, text=True).stdout
+    row = next(csv.DictReader(io.StringIO("".join(line + "\n" for line in out.splitlines() if not line.startswith("#")))))
+    q = []
+    for link in mechanism.links[1:]:
+        angle, (cx, cy) = mpf(row[f"link.{link}.angle_rad"]), mechanism.body[link][1]
+        c, s = mp.cos(angle), mp.sin(angle)
+        q += [mpf(row[f"link.{link}.x_m"]) - c * cx + s * cy, mpf(row[f"link.{link}.y_m"]) - s * cx - c * cy, angle]
+    return q
+
+
+def check_modes(m, q):
+    """The assembly modes of docs/scenario.md, of dyads."""
+    for group in m.file["start"].get("groups", []):
+        mode, own = group.get("mode"), group["links"]
+        if mode is None or len(own) != 2:
+            continue
+        inner = next(joint for joint in m.joints if set(joint["links"]) == set(own))
+        outer = [next(j for j in m.joints if link in j["links"] and j is not inner and set(j["links"]) - {link} != set(own) - {link}) for link in own]
+        def spot(joint, link):
+            return m.at(q, link, next(local for name, local in m.sides(joint) if name == link))
+        a, b = (spot(joint, link) for joint, link in zip(outer, own))
+        slides = [joint for joint in [inner, *outer] if joint["type"] == "prismatic"]
+        if not slides:
+            c = spot(inner, own[0])
+            side = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+            assert (side > 0) == (mode == "left"), group
+            continue
+        joint = slides[0]
+        along = m.angle(q, joint["links"][0]) + quantity(joint, "axis")
+        if joint is inner:
+            ends = dict(zip(own, (a, b)))
+            a, b = (ends[link] for link in joint["links"])
+        else:
+            pin = outer[0] if outer[1] is joint else outer[1]
+            link = own[0] if pin is outer[0] else own[1]
+            a, b = spot(pin, link), spot(inner, own[0])
+        ahead = mp.cos(along) * (b[0] - a[0]) + mp.sin(along) * (b[1] - a[1])
+        assert (ahead > 0) == (mode == "ahead"), group
+
+
+def spline(points, period, x):
+    """Periodic cubic spline."""
+    n = len(points)
+    xs, ys = [p[0] for p in points], [p[1] for p in points]
+    h = [(xs[(i + 1) % n] - xs[i]) % period if n > 1 else period for i in range(n)]
+    a, r = mp.matrix(n, n), mp.matrix(n, 1)
+    for i in range(n):
+        before, after = h[i - 1], h[i]
+        a[i, (i - 1) % n] += before
+        a[i, i] += 2 * (before + after)
+        a[i, (i + 1) % n] += after
+        r[i] = 6 * ((ys[(i + 1) % n] - ys[i]) / after - (ys[i] - ys[i - 1]) / before)
+    second = mp.lu_solve(a, r)
+    for i in range(n):
+        s = (x - xs[i]) % period
+        if s < h[i]:
+            u, v = h[i] - s, s
+            m0, m1, y0, y1 = second[i], second[(i + 1) % n], ys[i], ys[(i + 1) % n]
+            return (m0 * u**3 + m1 * v**3) / (6 * h[i]) + (y0 / h[i] - m0 * h[i] / 6) * u + (y1 / h[i] - m1 * h[i] / 6) * v
+
+
+def course(load, stem, crank):
+    if "table" not in load:
+        return quantity(load, stem)
+    period = 2 * mp.pi * load.get("turns", 1)
+    points = [(quantity(row, "crank"), quantity(row, stem)) for row in load["table"]]
+    if load.get("interpolation", "linear") == "smooth":
+        return spline(points, period, crank)
+    n = len(points)
+    for i, (x, y) in enumerate(points):
+        width = (points[(i + 1) % n][0] - x) % period or period
+        s = (crank - x) % period
+        if s < width:
+            return y + (points[(i + 1) % n][1] - y) * s / width
+
+
+def actions(m, q, v, twists, crank):
+    """Forces of all loads: link, force, place, moment."""
+    def spot(link, point):
+        at = m.at(q, link, m.points[link][point])
+        if link == "ground":
+            return at, (mpf(0), mpf(0))
+        k = 3 * (m.links.index(link) - 1)
+        return at, (v[k] - v[k + 2] * (at[1] - q[k + 1]), v[k + 1] + v[k + 2] * (at[0] - q[k]))
+    def omega(link):
+        return mpf(0) if link == "ground" else v[3 * (m.links.index(link) - 1) + 2]
+    zero = (mpf(0), mpf(0))
+    for number, load in enumerate(m.loads):
+        kind = load["type"]
+        if kind == "resistance":
+            yield load["link"], zero, zero, -quantity(load, "moment") * mp.sign(omega(load["link"]))
+        elif kind == "moment":
+            turning = omega(load["link"])
+            acts = {"always": True, "counter-clockwise": turning > 0, "clockwise": turning < 0}[load.get("acts", "always")]
+            yield load["link"], zero, zero, course(load, "moment", crank) if acts else mpf(0)
+        elif kind == "force":
+            x, y = course(load, "x", crank), course(load, "y", crank)
+            if load.get("frame", "world") == "link":
+                c, s = mp.cos(m.angle(q, load["link"])), mp.sin(m.angle(q, load["link"]))
+                x, y = c * x - s * y, s * x + c * y
+            yield load["link"], (x, y), spot(load["link"], load["point"])[0], mpf(0)
+        elif kind == "resisting_force":
+            at, velocity = spot(load["link"], load["point"])
+            speed = mp.hypot(*velocity)
+            yield load["link"], tuple(-quantity(load, "force") * own / speed for own in velocity), at, mpf(0)
+        elif kind in ("spring", "damper"):
+            (a, va), (b, vb) = (spot(*end) for end in zip(load["links"], load["points"]))
+            d = (b[0] - a[0], b[1] - a[1])
+            length = mp.hypot(*d)
+            rate = ((vb[0] - va[0]) * d[0] + (vb[1] - va[1]) * d[1]) / length
+            size = quantity(load, "stiffness") * (length - quantity(load, "free_length")) if kind == "spring" else quantity(load, "damping") * rate
+            pull = (size * d[0] / length, size * d[1] / length)
+            yield load["links"][0], pull, a, mpf(0)
+            yield load["links"][1], (-pull[0], -pull[1]), b, mpf(0)
+        else:
+            first, second = load["links"]
+            if kind == "torsion_spring":
+                twist = m.angle(q, second) - m.angle(q, first) + twists[number]
+                moment = quantity(load, "stiffness") * (twist - quantity(load, "free_angle"))
+            else:
+                moment = quantity(load, "damping") * (omega(second) - omega(first))
+            yield first, zero, zero, moment
+            yield second, zero, zero, -moment
+
+
+def forces(m, q, v, a, loads):
+    """Newton and Euler: forces of the first link on the second, moments in sliders, moments of drives."""
+    moving, n = m.links[1:], 3 * len(m.joints) + len(m.drives)
+    rows, right = [], []
+    def centre(link):
+        return m.at(q, link, m.body[link][1])
+    for link in moving:
+        mass, _, inertia = m.body[link]
+        k = 3 * (m.links.index(link) - 1)
+        s = centre(link)
+        r = (s[0] - q[k], s[1] - q[k + 1])
+        alpha, square = a[k + 2], v[k + 2] ** 2
+        acceleration = (a[k] - alpha * r[1] - square * r[0], a[k + 1] + alpha * r[0] - square * r[1])
+        own = [[mpf(0)] * n for _ in range(3)]
+        for j, joint in enumerate(m.joints):
+            if link not in joint["links"]:
+                continue
+            sign = 1 if joint["links"][1] == link else -1
+            second, local = m.sides(joint)[1]
+            p = m.at(q, second, local)
+            own[0][3 * j] += sign
+            own[1][3 * j + 1] += sign
+            own[2][3 * j] -= sign * (p[1] - s[1])
+            own[2][3 * j + 1] += sign * (p[0] - s[0])
+            own[2][3 * j + 2] += sign
+        for d, drive in enumerate(m.drives):
+            if m.driven(drive) == link:
+                own[2][3 * len(m.joints) + d] += 1
+        known = [mass * (acceleration[0] - m.gravity[0]), mass * (acceleration[1] - m.gravity[1]), inertia * alpha]
+        for target, force, at, moment in loads:
+            if target == link:
+                known[0] -= force[0]
+                known[1] -= force[1]
+                known[2] -= moment + (at[0] - s[0]) * force[1] - (at[1] - s[1]) * force[0]
+        rows += own
+        right += known
+    for j, joint in enumerate(m.joints):
+        own = [mpf(0)] * n
+        if joint["type"] == "revolute":
+            own[3 * j + 2] = mpf(1)
+        else:
+            along = m.angle(q, joint["links"][0]) + quantity(joint, "axis")
+            own[3 * j], own[3 * j + 1] = mp.cos(along), mp.sin(along)
+        rows.append(own)
+        right.append(mpf(0))
+    return mp.lu_solve(mp.matrix(rows), mp.matrix(right))
+
+
+def main():
+    binary, path, *cranks = sys.argv[1:]
+    text = open(path).read()
+    m = Mechanism(text)
+    start = m.closed(first_guess(binary, path, m), mpf(0))
+    check_modes(m, start)
+    twists = {}
+    for number, load in enumerate(m.loads):
+        if load["type"] == "torsion_spring":
+            begun = m.angle(start, load["links"][1]) - m.angle(start, load["links"][0])
+            twists[number] = -2 * mp.pi * mp.ceil((begun - mp.pi) / (2 * mp.pi))
+    # "[want]" leaves out what is not asked for.
+    want = m.file.get("channels", {}).get("want", ["positions", "velocities", "accelerations", "reactions", "balancing_moment"])
+    print_start(m, start)
+    for crank in cranks:
+        t = m.time_of(mpf(crank) * mp.pi / 180)
+        mp.dps = 15
+        steps = max(1, int(abs(m.law(0, t) - m.law(0, mpf(0))) / mpf("0.03")) + 1)
+        q = list(start)
+        before = list(start)
+        for k in range(1, steps + 1):
+            guess = [2 * b - a for a, b in zip(before, q)]
+            before, q = q, m.closed(guess, t * k / steps)
+        mp.dps = 40
+        h = mpf(10) ** -7 / abs(quantity(m.drives[0], "speed", mpf(10)))
+        near = {k: m.closed(q, t + k * h) for k in (-2, -1, 0, 1, 2)}
+        q = near[0]
+        v = [(near[-2][i] - 8 * near[-1][i] + 8 * near[1][i] - near[2][i]) / (12 * h) for i in range(len(q))]
+        a = [(-near[-2][i] + 16 * near[-1][i] - 30 * q[i] + 16 * near[1][i] - near[2][i]) / (12 * h * h) for i in range(len(q))]
+        loads = list(actions(m, q, v, twists, mpf(crank) * mp.pi / 180))
+        f = forces(m, q, v, a, loads)
+        print_oracle(m, crank, q, v, a, f, want)
+
+
+def print_start(m, q):
+    """The distance of the crank's end from a pivot of the ground at t = 0, which the start angle decides."""
+    link = m.driven(m.drives[0])
+    pivot = next(m.sides(joint) for joint in m.joints if joint["name"] == m.drives[0]["joint"])
+    own = dict(pivot)[link]
+    end = next((name for name, at in m.points[link].items() if at != own and name not in m.points["ground"]), None)
+    fixed = dict(pivot)["ground"]
+    other = next((name for name, at in reversed(m.points["ground"].items()) if at != fixed), None)
+    if end is None or other is None:
+        return
+    a, b = m.at(q, link, m.points[link][end]), m.points["ground"][other]
+    distance = mp.nstr(mp.nint(mp.hypot(a[0] - b[0], a[1] - b[1]) * 10**9) / mpf(10) ** 9, 20)
+    print('\n[[oracle]]\nname = "start"\nbasis = "recomputed"')
+    print('source = "tests/outside/newton_euler.py: a reader of its own"')
+    print(f'figures = [{{ figure = "distance_m", points = ["{end}", "{other}"], value = {distance}, digits = 9 }}]')
+
+
+def print_oracle(m, crank, q, v, a, f, want):
+    values = []
+    def add(stage, channel, quantity_, value):
+        if stage in want:
+            values.append((channel, quantity_, value))
+    for link in m.links[1:]:
+        k = 3 * (m.links.index(link) - 1)
+        s = m.at(q, link, m.body[link][1])
+        r = (s[0] - q[k], s[1] - q[k + 1])
+        add("positions", f"link.{link}.angle_deg", "angle", q[k + 2] * 180 / mp.pi)
+        add("velocities", f"link.{link}.omega_rad_s", "omega", v[k + 2])
+        add("accelerations", f"link.{link}.alpha_rad_s2", "alpha", a[k + 2])
+        add("positions", f"link.{link}.x_m", "place", s[0])
+        add("positions", f"link.{link}.y_m", "place", s[1])
+        add("velocities", f"link.{link}.vx_m_s", "velocity", v[k] - v[k + 2] * r[1])
+        add("velocities", f"link.{link}.vy_m_s", "velocity", v[k + 1] + v[k + 2] * r[0])
+        add("accelerations", f"link.{link}.ax_m_s2", "acceleration", a[k] - a[k + 2] * r[1] - v[k + 2] ** 2 * r[0])
+        add("accelerations", f"link.{link}.ay_m_s2", "acceleration", a[k + 1] + a[k + 2] * r[0] - v[k + 2] ** 2 * r[1])
+    for j, joint in enumerate(m.joints):
+        add("reactions", f"joint.{joint['name']}.fx_N", "force", f[3 * j])
+        add("reactions", f"joint.{joint['name']}.fy_N", "force", f[3 * j + 1])
+        if joint["type"] == "prismatic":
+            add("reactions", f"joint.{joint['name']}.moment_N_m", "moment", f[3 * j + 2])
+    for d, drive in enumerate(m.drives):
+        if drive.get("motion") == "free" and "motor" not in m.file:
+            continue
+        name = "drive.torque_N_m" if d == 0 else f"drive.{drive['joint']}.torque_N_m"
+        add("balancing_moment", name, "moment", f[3 * len(m.joints) + d])
+    largest = {}
+    for _, kind, value in values:
+        largest[kind] = max(largest.get(kind, mpf(0)), abs(value))
+    print(f'\n[[oracle]]\nname = "Newton and Euler at {crank} deg"\nbasis = "recomputed"')
+    print('source = "tests/outside/newton_euler.py: a reader, a closure and equations of its own, 40 digits"')
+    print(f"crank_deg = {crank}\nvalues = [")
+    for channel, kind, value in values:
+        whole = int(mp.ceil(mp.log10(largest[kind]))) if largest[kind] > mpf(10) ** -20 else 0
+        digits = max(0, min(12, 9 - whole))
+        text = mp.nstr(mp.nint(value * mpf(10) ** digits) / mpf(10) ** digits, 20, min_fixed=-30, max_fixed=30)
+        print(f'    {{ channel = "{channel}", value = {text}, digits = {digits} }},')
+    print("]")
+
+
+main()

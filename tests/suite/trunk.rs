@@ -1,0 +1,110 @@
+//! Faults in what all parties share, and numbers from outside that see them where no `[[oracle]]` of a scenario can:
+//! those are for crank angles, and a free motion has them for its nominal motion only.
+
+use std::path::Path;
+
+use crate::common::assert_within;
+use linkproof::mutate::{Plant, named};
+use linkproof::{Case, Scenario, solve};
+
+/// A disc on a motor behind a reducer, from a speed of its own.
+const FLYWHEEL: &str = r#"
+format = 1
+name = "flywheel"
+title = "Disc run up by a linear motor through a reducer"
+
+[ground.points]
+O = { x_mm = 0, y_mm = 0 }
+
+[links.disc]
+mass_kg = 4
+mass_centre = { x_mm = 0, y_mm = 0 }
+inertia_kg_m2 = 0.05
+[links.disc.points]
+O = { x_mm = 0, y_mm = 0 }
+P = { x_mm = 100, y_mm = 0 }
+
+[[joints]]
+name = "O"
+type = "revolute"
+links = ["ground", "disc"]
+
+[drive]
+joint = "O"
+motion = "free"
+speed_rad_s = 20
+initial_speed_rad_s = 3
+
+[motor]
+law = "linear"
+torque_at_rest_N_m = 1.5
+slope_N_m_s = -0.01
+ratio = 6
+efficiency = 0.8
+rotor_inertia_kg_m2 = 0.002
+
+[start]
+crank_deg = 10
+
+[grid]
+from_s = 0
+to_s = 0.5
+step_s = 0.05
+"#;
+
+/// Largest difference of angle (rad) and speed (rad/s) from the closed form, over their largest values.
+/// With J = J1 + i^2 Jr: J omega' = eta i (a + b i omega), so that omega tends to -a / (b i) with the time constant
+/// J / (-eta b i^2).
+fn off(case: &Case, times: &[f64]) -> f64 {
+    let [inertia, rotor, ratio, efficiency, at_rest, slope, first] = [0.05, 0.002, 6.0, 0.8, 1.5, -0.01, 3.0];
+    let last = -at_rest / (slope * ratio);
+    let constant = (inertia + ratio * ratio * rotor) / (-efficiency * slope * ratio * ratio);
+    let solved = solve(case).unwrap();
+    let [angles, speeds] = ["link.disc.angle_rad", "link.disc.omega_rad_s"].map(|name| solved.named(name).unwrap());
+    let mut worst = 0.0f64;
+    for (row, t) in times.iter().enumerate() {
+        let left = (-t / constant).exp();
+        let speed = last + (first - last) * left;
+        let angle = 10f64.to_radians() + last * t + (first - last) * constant * (1.0 - left);
+        for own in [(speeds[row] - speed).abs() / last, (angles[row] - angle).abs()] {
+            if !(own <= worst) {
+                worst = own;
+            }
+        }
+    }
+    worst
+}
+
+#[test]
+fn a_run_up_in_closed_form_sees_what_numbers_at_crank_angles_cannot() {
+    let scenario = Scenario::parse(FLYWHEEL, Path::new("flywheel.toml")).unwrap_or_else(|error| panic!("{error}"));
+    let (case, times) = (&scenario.case, &scenario.case.grid.times);
+    assert_within!(off(case, times), 1e-9, "run-up of a disc against its closed form");
+    let kinds = [
+        "initial-speed",
+        "initial-speed-missing",
+        "initial-speed-reversed",
+        "free-held",
+        "late",
+        "clock",
+        "start-angle",
+        "inertia-crank",
+        "motor",
+        "motor-missing",
+        "motor-reversed",
+        "motor-without-ratio",
+        "motor-ratio-twice",
+        "motor-ratio",
+        "motor-lossless",
+        "rotor-missing",
+        "rotor-ratio",
+    ];
+    for name in kinds {
+        let kind = named(name).unwrap_or_else(|| panic!("{name}"));
+        let Plant::Case(change) = kind.plant else { panic!("{name} is no fault in a case") };
+        let wrong = change(case, kind.size.unwrap_or(1.0)).unwrap_or_else(|| panic!("{name} cannot be planted"));
+        // A run that fails is seen too; none of these does.
+        let found = off(&wrong, times);
+        assert!(!(found <= 1e-5), "{name} changes the run-up by {found:e} only");
+    }
+}
