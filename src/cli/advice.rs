@@ -1,6 +1,6 @@
 //! Advice in the words of the command line: it names the options and commands.
 
-use linkage::error::Advice;
+use linkage::error::{Advice, rounded_up};
 
 /// Advice as text for a user of the command line.
 pub(super) fn told(advice: &Advice) -> String {
@@ -13,6 +13,7 @@ pub(super) fn told(advice: &Advice) -> String {
         Advice::MoreSweeps { to: Some(to) } => format!("raise the number of sweeps, such as --sweeps {to}"),
         Advice::FreeSettings => "leave out the engine's settings, and the run finds its own".into(),
         Advice::MoreWork { to } => format!("allow more work, such as --budget {to:e}"),
+        Advice::MoreMemory { to } => format!("allow more memory, such as --memory {:.1}", rounded_up(*to / 1e9)),
         Advice::OtherEngine => format!("{advice}: `linkproof list --solvers` names them"),
         Advice::OtherRoute { routes } => {
             let options: Vec<String> = routes.iter().map(|route| format!("--route {route}")).collect();
@@ -32,7 +33,7 @@ pub(super) fn told(advice: &Advice) -> String {
             "ask for a larger error, other channels (--channel) or further engines (--engine all)".into()
         }
         Advice::AllResults => "all of them with --json".into(),
-        Advice::Text(_) | Advice::DoublePrecision | Advice::ShortenGrid => advice.to_string(),
+        Advice::Text(_) | Advice::DoublePrecision | Advice::FewerInstants | Advice::ShortenGrid => advice.to_string(),
     }
 }
 
@@ -57,6 +58,7 @@ mod tests {
             (Advice::TighterAccuracy { to: 1e-9 }, "choose a tighter accuracy, such as --accuracy 1e-9"),
             (Advice::LooserAccuracy { to: 1e-9 }, "choose a looser accuracy, such as --accuracy 1e-9"),
             (Advice::MoreSweeps { to: Some(64) }, "raise the number of sweeps, such as --sweeps 64"),
+            (Advice::MoreMemory { to: 5.23e9 }, "allow more memory, such as --memory 5.3"),
             (Advice::OtherEngine, "take another engine: `linkproof list --solvers` names them"),
             (Advice::OtherReference { solver: "newton" }, "take side \"newton\": --reference newton"),
             (Advice::AllResults, "all of them with --json"),

@@ -94,7 +94,7 @@ fn driven(args: &Args, scenario: &Scenario) -> Result<()> {
     let told_there = targets.iter().any(|to| to.as_deref() == Some(Path::new("-")));
     if let Some(to) = &args.run_up {
         let motion = run_up(args, &model)?;
-        output::write(&table_csv::run_up(&motion)?, to)?;
+        output::stream(to, |out| table_csv::run_up(&motion, out))?;
         if told_there && targets[1..].iter().all(|to| to.is_none()) {
             return Ok(());
         }

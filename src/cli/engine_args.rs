@@ -2,9 +2,11 @@
 
 use clap::builder::PossibleValuesParser;
 
+use super::output;
 use crate::engines::EngineName;
-use crate::proof::{Options, Reference};
+use crate::proof::{Options, Reference, memory};
 use crate::scenario::Scenario;
+use linkage::case::Case;
 use linkage::engine::{Engine, Route};
 use linkage::error::Result;
 
@@ -26,6 +28,40 @@ pub(super) struct EngineArgs {
     /// Work allowed for finding the settings that are not given, in steps without sweeps [default: 2e7, of `tune` 5e6]
     #[arg(long, value_name = "STEPS", value_parser = work)]
     budget: Option<f64>,
+    #[command(flatten)]
+    pub(super) memory: MemoryArgs,
+}
+
+/// Memory that a run may take.
+#[derive(Clone, Copy, Debug, clap::Args)]
+#[group(skip)]
+pub(super) struct MemoryArgs {
+    /// Memory allowed in GB; a run that is estimated to need more does not begin
+    #[arg(long, value_name = "GB", default_value = "4", value_parser = memory)]
+    memory: f64,
+}
+
+/// Memory (bytes) from which a run tells what it needs before it begins.
+const TOLD: f64 = 5e8;
+
+impl MemoryArgs {
+    /// Memory allowed (bytes).
+    pub(super) fn bytes(self) -> f64 {
+        self.memory * 1e9
+    }
+
+    /// Tells what a run needs, if that is much and allowed.
+    pub(super) fn tell(self, case: &Case, needed: f64) {
+        if needed >= TOLD && needed <= self.bytes() {
+            output::note(&memory::told(case, needed));
+        }
+    }
+}
+
+/// Reads an amount of memory.
+fn memory(text: &str) -> std::result::Result<f64, String> {
+    let gigabytes: f64 = text.parse().map_err(|error| format!("{error}"))?;
+    if gigabytes > 0.0 { Ok(gigabytes) } else { Err("the memory must be greater than 0".into()) }
 }
 
 /// The settings of an engine. What is not given is the scenario's, else found by the proof or the engine's own.
@@ -66,6 +102,7 @@ impl EngineArgs {
         }
         self.settings.set(&mut options);
         options.budget = self.budget;
+        options.memory = Some(self.memory.bytes());
         options
     }
 }

@@ -20,10 +20,15 @@ pub(super) fn target(text: &str) -> std::result::Result<PathBuf, String> {
 
 /// Writes text to a file, or to standard output for `-`.
 pub(super) fn write(text: &str, to: &Path) -> Result<()> {
+    stream(to, |out| out.write_all(text.as_bytes()))
+}
+
+/// Lets `fill` write piece by piece to a file, or to standard output for `-`.
+pub(super) fn stream(to: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
     if to == Path::new("-") {
-        return print(text);
+        return printed(fill);
     }
-    files::replace(to, |mut file| file.write_all(text.as_bytes())).map_err(|error: io::Error| {
+    files::replace(to, |mut file| fill(&mut file)).map_err(|error: io::Error| {
         Error::new(ErrorKind::Io, format!("{} cannot be written: {error}", to.display()))
             .help("check that the directory exists, may be written to and has room")
     })
@@ -31,8 +36,12 @@ pub(super) fn write(text: &str, to: &Path) -> Result<()> {
 
 /// Writes text to standard output. A reader that has closed the pipe (`| head`) is not an error.
 pub(super) fn print(text: &str) -> Result<()> {
+    printed(|out| out.write_all(text.as_bytes()))
+}
+
+fn printed(fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
     let mut out = io::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+    match fill(&mut out).and_then(|()| out.flush()) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
             Err(Error::new(ErrorKind::Io, format!("standard output cannot be written: {error}")))
         }
@@ -49,6 +58,12 @@ pub(super) fn exit(result: Result<()>) -> u8 {
             super::exit_code::BAD_INPUT
         }
     }
+}
+
+/// Shows a line on standard error.
+pub(super) fn note(text: &str) {
+    // If standard error is closed, nothing can be done.
+    let _ = writeln!(io::stderr(), "note: {text}");
 }
 
 /// Shows an error on standard error: the line of the file concerned, what was found there, and the way out.

@@ -13,7 +13,7 @@ use super::load::{StartArgs, only, reference_names};
 use super::progress::Bar;
 use super::{advice, exit_code, output};
 use crate::compare::Verdict;
-use crate::proof::{EngineProof, Entry, Proof, prove_with};
+use crate::proof::{EngineProof, Entry, Proof, memory, prove_with};
 use crate::record::{self as recorder, Recording, Side};
 use crate::report::{explain, json, recorded, residuals, text};
 use crate::scenario::Scenario;
@@ -127,6 +127,8 @@ fn dial(text: &str) -> std::result::Result<f64, String> {
 fn prove_file(args: &Args, file: &Path, quiet: bool) -> Result<(Scenario, Proof)> {
     let scenario = only(args.start.load(file, &args.grid)?, &args.only)?;
     let options = args.engine.options(&args.reference);
+    let engines = options.engines.len().max(1);
+    args.engine.memory.tell(&scenario.case, memory::of_proof(&scenario.case, engines));
     let mut bar = Bar::new(&scenario.name);
     let proof = prove_with(&scenario, &options, &mut |part| bar.at(part))?;
     drop(bar);

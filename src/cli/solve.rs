@@ -4,11 +4,12 @@ use std::path::PathBuf;
 
 use clap::builder::PossibleValuesParser;
 
-use super::engine_args::{SettingArgs, engine_names};
+use super::engine_args::{MemoryArgs, SettingArgs, engine_names};
 use super::grid::GridArgs;
 use super::load::{StartArgs, only, reference_names};
 use super::output;
 use super::progress::Bar;
+use crate::proof::memory;
 use crate::report::table_csv;
 use analytic::range::explained;
 use linkage::error::{Error, ErrorKind, Result};
@@ -41,6 +42,8 @@ pub(super) struct Args {
     start: StartArgs,
     #[command(flatten)]
     settings: SettingArgs,
+    #[command(flatten)]
+    memory: MemoryArgs,
     /// Ask for these channels only, as in `run`: what they do not depend on is not computed. May be given several times
     #[arg(long, value_name = "WORD")]
     only: Vec<String>,
@@ -56,17 +59,25 @@ fn solver_names() -> Vec<&'static str> {
 pub(super) fn solve(args: &Args) -> Result<()> {
     let scenario = only(args.start.load(&args.file, &args.grid)?, &args.only)?;
     let case = &scenario.case.scene()?.case;
+    let engine = match analytic::named(&args.with) {
+        Some(_) => None,
+        None => Some(args.settings.engine(&args.with, &scenario)?),
+    };
+    let runs = engine.as_ref().map_or(1, |engine| engine.settings().extrapolated + 1);
+    let needed = memory::of_solution(case, runs);
+    memory::check(case, needed, Some(args.memory.bytes()))?;
+    args.memory.tell(case, needed);
     let mut bar = Bar::new(&scenario.name);
     let mut progress = |part| bar.at(part);
-    let trajectory = match analytic::named(&args.with) {
-        Some(solver) => match args.settings.given() {
+    let trajectory = match (analytic::named(&args.with), engine) {
+        (Some(solver), _) => match args.settings.given() {
             Some(option) => return Err(no_engine(&args.with, option)),
             None => solver.solve_with(case, &mut progress).map_err(|error| explained(case, error))?,
         },
-        None => args.settings.engine(&args.with, &scenario)?.solve_with(case, &mut progress)?,
+        (None, engine) => engine.expect("no analytic solver is an engine").solve_with(case, &mut progress)?,
     };
     drop(bar);
-    output::write(&table_csv::solution(&trajectory)?, &args.csv)
+    output::stream(&args.csv, |out| table_csv::solution(&trajectory, out))
 }
 
 /// The error for an engine's setting given to an analytic solver: it shows a misunderstanding, so it is not ignored.

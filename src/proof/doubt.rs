@@ -12,6 +12,7 @@ use linkage::engine::{Route, Settings};
 use linkage::math::Vec2;
 use linkage::trajectory::Stage;
 
+use super::observe::Senses;
 use super::runs::Runs;
 
 /// Number of steps around a jump in which an engine's values are doubtful.
@@ -41,7 +42,7 @@ pub(super) struct Doubt {
 
 impl Doubt {
     /// `senses` are what loads sense in the reference, by row; `settings` are those of the run that is judged.
-    pub(super) fn of(case: &Case, senses: &[Vec<Vec2>], runs: &Runs, settings: Settings) -> Self {
+    pub(super) fn of(case: &Case, senses: &Senses, runs: &Runs, settings: Settings) -> Self {
         let Settings { resolution, route, extrapolated, .. } = settings;
         let times = &case.grid.times;
         let reach = STEPS * 2.0 * resolution;
@@ -59,7 +60,7 @@ impl Doubt {
                 // In the very instant no step helps.
                 doubt.by_step[row] = !drive_turns(case, t, 0.0);
             }
-            let against = |run: &[Vec<Vec2>]| senses[row].iter().zip(&run[row]).any(|(a, b)| against(*a, *b));
+            let against = |run: &Senses| senses.of(row).iter().zip(run.of(row)).any(|(a, b)| against(*a, *b));
             if runs.resolutions.iter().any(|run| against(&run.senses)) {
                 doubt.forces[row] = true;
             }
@@ -118,13 +119,13 @@ fn drive_turns(case: &Case, t: f64, reach: f64) -> bool {
 }
 
 /// Times at which something that a load senses reverses, by straight lines between the instants.
-fn reversals(times: &[f64], senses: &[Vec<Vec2>]) -> Vec<f64> {
+fn reversals(times: &[f64], senses: &Senses) -> Vec<f64> {
     let mut rows: Vec<usize> = (0..times.len()).collect();
     rows.sort_by(|&a, &b| times[a].total_cmp(&times[b]));
     let mut found = Vec::new();
     for pair in rows.windows(2) {
         let [from, to] = [pair[0], pair[1]];
-        for (a, b) in senses[from].iter().zip(&senses[to]).filter(|(a, b)| against(**a, **b)) {
+        for (a, b) in senses.of(from).iter().zip(senses.of(to)).filter(|(a, b)| against(**a, **b)) {
             let (before, after) = (a.norm(), b.norm());
             found.push(times[from] + (times[to] - times[from]) * (before / (before + after)));
         }

@@ -1,6 +1,7 @@
 //! One engine against the reference: at the settings asked for, or at those that it finds.
 
 use std::fmt::Write;
+use std::sync::Arc;
 
 use super::judge::{ChannelProof, EngineInfo, Judge, Judged, describe};
 use super::known::Known;
@@ -102,7 +103,6 @@ pub(super) fn prove(
         }
     };
     let Judged { info, channels, checks, verdict, run, too_coarse: _, kept } = judged;
-    let errors = difference(&reference.trajectory, &run.trajectory)?;
     let mut proof = EngineProof {
         info,
         search,
@@ -110,8 +110,8 @@ pub(super) fn prove(
         checks,
         own_forces: None,
         verdict,
-        trajectory: Some(run.trajectory.clone()),
-        errors: Some(errors),
+        trajectory: None,
+        errors: None,
         kept,
         failure: None,
     };
@@ -130,6 +130,9 @@ pub(super) fn prove(
         let (end, budget) = (search.end, search.budget);
         proof.verdicts_mut().for_each(|verdict| end.tell(verdict, budget));
     }
+    // Its runs are dropped before others are made.
+    drop(bank);
+    let trajectory = Arc::unwrap_or_clone(run).trajectory;
     let sweeps = proof.info.settings.sweeps;
     let part = format!("{}, own forces", engine.name());
     match OwnForces::are_asked(&judge, chosen) {
@@ -142,6 +145,8 @@ pub(super) fn prove(
     if let Some(verdict) = proof.own_forces.as_ref().and_then(OwnForces::adds) {
         proof.verdict = overall([&proof.verdict, verdict]);
     }
+    proof.errors = Some(difference(&reference.trajectory, &trajectory)?);
+    proof.trajectory = Some(trajectory);
     Ok(proof)
 }
 

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::checks;
 use super::doubt::Doubt;
 use super::known::Known;
-use super::observe::Observed;
+use super::observe::{Observed, Senses};
 use super::runs::Runs;
 use crate::compare::{
     Check, Convergence, Ladder, Residual, Verdict, largest_difference, overall, residuals_on, scales,
@@ -16,7 +16,7 @@ use crate::tolerance::{Basis, Parts};
 use linkage::case::{Case, Grid};
 use linkage::engine::{Engine, Settings};
 use linkage::error::{Advice, Result};
-use linkage::math::{KeepNan, Vec2};
+use linkage::math::KeepNan;
 use linkage::solver::Provision;
 use linkage::trajectory::{CHANNELS, Channel, ChannelKind, Stage, Subject, Trajectory};
 
@@ -68,6 +68,9 @@ const BEGINNING: f64 = 5.0;
 /// Share of the widest conclusive bound that rounding may take before the beginning is left out.
 const MOST_ROUNDING: f64 = 0.1;
 
+/// Values of one run that are copied for a comparison at a time.
+const COPIED: usize = 1_000_000;
+
 /// Share of the widest conclusive bound from which a difference between sweeps counts.
 const COUNTS: f64 = 0.01;
 
@@ -97,7 +100,7 @@ pub(super) struct Judge<'a> {
     /// Scales of its channels.
     scales: Vec<f64>,
     /// What loads sense in it, instant by instant.
-    senses: &'a [Vec<Vec2>],
+    senses: &'a Senses,
     /// How well it is known.
     known: &'a Known,
     /// Settings asked for; the search begins with them.
@@ -176,7 +179,7 @@ impl Stand<'_> {
 impl<'a> Judge<'a> {
     pub(super) fn new(scenario: &'a Scenario, reference: &'a Observed, known: &'a Known, asked: Settings) -> Self {
         let scales = scales(&reference.trajectory);
-        let (reference, senses) = (&reference.trajectory, reference.senses.as_slice());
+        let (reference, senses) = (&reference.trajectory, &reference.senses);
         Judge { scenario, reference, scales, senses, known, asked, asks: Asks::All }
     }
 
@@ -248,18 +251,22 @@ impl<'a> Judge<'a> {
             let case = late.filter(|_| stage >= Stage::Accelerations).unwrap_or(&self.scenario.case);
             let keep = self.kept(doubt, stage, case);
             let left_out = keep.iter().filter(|&&kept| !kept).count();
-            let thin = |trajectory: &Trajectory| trajectory.part(&keep, &is_own);
-            let ladder = runs.ladder();
-            let resolutions = ladder.resolutions.map(thin);
-            let others = ladder.other_sweeps.map(|run| thin(run));
-            let [double, single, half] = &resolutions;
-            let ladder = Ladder { resolutions: [double, single, half], other_sweeps: others.map(|run| run) };
-            let reference = &thin(self.reference);
-            let scales: Vec<f64> = indices.iter().map(|&index| self.scales[index]).collect();
-            let mut stand =
-                Stand { engine, finest: finest.as_ref(), case, ladder, reference, left_out, noise: Vec::new() };
-            for (index, residual) in indices.into_iter().zip(residuals_on(&scales, reference, single)?) {
-                all.push((index, self.channel(&mut stand, residual, index)));
+            // The copies of many instants are made and dropped by few channels at a time.
+            for indices in indices.chunks((COPIED / keep.len().max(1)).max(1)) {
+                let is_asked = |channel: &Channel| indices.iter().any(|&index| channels[index] == *channel);
+                let thin = |trajectory: &Trajectory| trajectory.part(&keep, &is_asked);
+                let ladder = runs.ladder();
+                let resolutions = ladder.resolutions.map(thin);
+                let others = ladder.other_sweeps.map(|run| thin(run));
+                let [double, single, half] = &resolutions;
+                let ladder = Ladder { resolutions: [double, single, half], other_sweeps: others.map(|run| run) };
+                let reference = &thin(self.reference);
+                let scales: Vec<f64> = indices.iter().map(|&index| self.scales[index]).collect();
+                let mut stand =
+                    Stand { engine, finest: finest.as_ref(), case, ladder, reference, left_out, noise: Vec::new() };
+                for (&index, residual) in indices.iter().zip(residuals_on(&scales, reference, single)?) {
+                    all.push((index, self.channel(&mut stand, residual, index)));
+                }
             }
         }
         all.sort_by_key(|(index, _)| *index);

@@ -11,6 +11,7 @@ mod examined;
 mod judge;
 mod known;
 mod ledger;
+pub mod memory;
 mod methods;
 mod need;
 mod observe;
@@ -118,7 +119,7 @@ impl Proof {
 ///
 /// # Errors
 /// If an analytic side cannot solve the case, with the crank angle. If a solver is not known. If the only engine cannot
-/// start. An engine that fails later, or that fails beside others, is part of the proof, with its trajectory up to the
+/// start. If the run would need more memory than is allowed. An engine that fails later, or that fails beside others, is part of the proof, with its trajectory up to the
 /// failure.
 pub fn prove(scenario: &Scenario, options: &Options) -> Result<Proof> {
     prove_with(scenario, options, &mut |_| {})
@@ -167,6 +168,7 @@ fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: 
     let case = &scenario.case;
     let main = options.reference.solver();
     let engines = options.chosen(scenario)?;
+    memory::check(case, memory::of_proof(case, engines.len()), options.memory)?;
     let mut ledger = Ledger::default();
     let sides = Sides::of([scenario, whole], TRUE_SIDES, options.reference, &mut ledger)?;
     let engine_case = match &whole.case.only {

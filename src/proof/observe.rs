@@ -28,7 +28,7 @@ pub(super) struct Observed {
     pub(super) opening: Vec<f64>,
     /// What the loads that depend on a sense of motion sense at every instant: the angular velocity of a link (rad/s,
     /// as x) or the velocity of a point (m/s), load by load.
-    pub(super) senses: Vec<Vec<Vec2>>,
+    pub(super) senses: Senses,
     /// Largest distance of a joint from the origin (m).
     pub(super) reach: f64,
     /// Balancing moment from the balance of powers (N m) at every instant; empty if no balancing moment is wanted. For
@@ -45,6 +45,24 @@ pub(super) struct Observed {
     pub(super) moment: f64,
     /// Largest condition number by which a side passes a change point; 1 if it passes none.
     pub(super) passing: f64,
+}
+
+/// Several values at every instant, in one list.
+#[derive(Clone, Debug)]
+pub(super) struct Senses {
+    each: usize,
+    values: Vec<Vec2>,
+}
+
+impl Senses {
+    fn new(each: usize, rows: usize) -> Self {
+        Senses { each, values: vec![Vec2::zeros(); each * rows] }
+    }
+
+    /// The values of one row of the grid.
+    pub(super) fn of(&self, row: usize) -> &[Vec2] {
+        &self.values[row * self.each..][..self.each]
+    }
 }
 
 impl Observed {
@@ -98,7 +116,8 @@ pub(super) fn observe(
     let mut torque = power.clone();
     let (arm, size, steady) = (case.drive_arm(), case.mechanism.size(), case.is_steady());
     let mut opening = if watch == Watch::Senses { Vec::new() } else { vec![0.0; case.grid.len()] };
-    let mut senses = vec![Vec::new(); case.grid.len()];
+    let with_sense = case.loads.iter().filter(|load| load.sensed_link().is_some() || load.sensed_point().is_some());
+    let mut senses = Senses::new(with_sense.count(), case.grid.len());
     let (mut reach, mut moment): (f64, f64) = (0.0, 0.0);
     let mut unbalance = Unbalance::default();
     let mut passing: f64 = 1.0;
@@ -111,7 +130,7 @@ pub(super) fn observe(
             };
             load.sensed_link().map(of_link).or_else(|| load.sensed_point().map(of_point))
         });
-        senses[row] = sensed.collect();
+        senses.values[row * senses.each..].iter_mut().zip(sensed).for_each(|(own, sensed)| *own = sensed);
         if let Some(opening) = opening.get_mut(row) {
             let [own, far] = state.opening(case, size);
             (*opening, reach) = (own, reach.larger(far));

@@ -82,6 +82,8 @@ pub struct Options {
     pub extrapolated: Option<usize>,
     /// Work allowed for finding settings that are not given, in steps without sweeps; the default is enough for most.
     pub budget: Option<f64>,
+    /// Memory allowed (bytes); by default 4e9. A run that is estimated to need more does not begin.
+    pub memory: Option<f64>,
 }
 
 /// An engine with its settings, and those that the proof may change.
@@ -180,6 +182,13 @@ impl Options {
     #[must_use]
     pub fn budget(mut self, steps: f64) -> Self {
         self.budget = Some(steps);
+        self
+    }
+
+    /// Sets the memory allowed (bytes).
+    #[must_use]
+    pub fn memory(mut self, bytes: f64) -> Self {
+        self.memory = Some(bytes);
         self
     }
 

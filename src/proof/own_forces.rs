@@ -4,6 +4,8 @@
 //! extrapolated, usually are. With a given step no run is finer than those that estimate the error of that step:
 //! coarser ones are extrapolated.
 
+use std::sync::Arc;
+
 use super::judge::{ChannelProof, EngineInfo, Judge, Judged, describe};
 use super::observe::Watch;
 use super::options::Chosen;
@@ -32,7 +34,7 @@ pub struct OwnForces {
     pub channels: Vec<ChannelProof>,
     /// Verdict on them together.
     pub verdict: Verdict,
-    /// The engine's trajectory by this route; `None` if it failed.
+    /// The engine's trajectory by this route, forces only; `None` if it failed.
     pub trajectory: Option<Trajectory>,
     /// Why there is no comparison.
     pub failure: Option<Error>,
@@ -55,6 +57,10 @@ impl OwnForces {
         progress: &mut dyn FnMut(f64),
     ) -> Option<OwnForces> {
         let free = chosen.own_forces?;
+        // Nothing else of these runs is looked at.
+        let mut forces = case.channels();
+        forces.retain(|channel| channel.kind.stage >= Stage::Reactions);
+        let case = &case.wanting_only(&forces);
         let mut found: Option<OwnForces> = None;
         for &route in chosen.engine.own_routes(case) {
             let own = by_route(judge, case, chosen, (free, route, sweeps.min(ENOUGH)), progress);
@@ -133,6 +139,7 @@ fn by_route(
         Settling::new(&judge, &mut bank, engine.as_ref(), free, SHARE * chosen.budget).conclusive(finest, sweeps);
     match search.run(progress) {
         Ok((Judged { info, mut channels, mut verdict, run, .. }, search)) => {
+            drop(bank);
             let (end, budget) = (search.end, chosen.budget);
             let all = channels.iter_mut().map(|channel| &mut channel.verdict).chain([&mut verdict]);
             all.for_each(|verdict| end.tell(verdict, budget));
@@ -141,7 +148,7 @@ fn by_route(
                 search: Some(search),
                 channels,
                 verdict,
-                trajectory: Some(run.trajectory.clone()),
+                trajectory: Some(Arc::unwrap_or_clone(run).trajectory),
                 failure: None,
             }
         }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::observe::{Observed, Stopped, Watch, observe};
 use crate::compare::{Ladder, OtherSweeps};
 use linkage::case::Case;
-use linkage::engine::{Engine, Kept, Settings};
+use linkage::engine::{Engine, Kept, Settings, plain_runs};
 use linkage::error::Advice;
 use linkage::math::KeepNan;
 
@@ -46,7 +46,10 @@ pub(super) fn other_sweeps(case: &Case, engine: &dyn Engine, sweeps: usize, shar
 /// Number of sweeps of a run over that of the one that it is compared with, where the sweeps are given.
 pub(super) const FEWER: usize = 2;
 
-/// All runs of one engine on one case. Each is made and observed once.
+/// Values of one trajectory up to which all of a search are held.
+pub(super) const FEW: usize = 1_000_000;
+
+/// All runs of one engine on one case. Each is made and observed once, those of many instants as often as needed.
 pub(super) struct Bank<'a> {
     pub(super) case: &'a Case,
     kept: Kept,
@@ -94,6 +97,28 @@ impl<'a> Bank<'a> {
         self.seen.retain(|(settings, _)| sweeps.contains(&settings.sweeps));
     }
 
+    /// Drops the runs that `settings` do not need, where they are large.
+    pub(super) fn keep_needed(&mut self, settings: &[Settings]) {
+        if self.is_large() {
+            let needed: Vec<Settings> = settings.iter().copied().flat_map(plain_runs).collect();
+            self.kept.retain(|own| needed.contains(own));
+            self.keep_few(settings);
+        }
+    }
+
+    /// Whether the case has so many instants that its trajectories are a matter of memory.
+    fn is_large(&self) -> bool {
+        self.case.grid.len() * self.case.channels().len() > FEW
+    }
+
+    /// Drops the observations that `settings` do not need, where they are so large that it is better to make them once
+    /// more from the runs that are kept.
+    fn keep_few(&mut self, settings: &[Settings]) {
+        if self.is_large() {
+            self.seen.retain(|(own, _)| settings.contains(own));
+        }
+    }
+
     /// The run at `settings`, observed.
     fn observed(&mut self, settings: Settings) -> Result<Arc<Observed>, Stopped> {
         if let Some((_, seen)) = self.seen.iter().find(|(own, _)| *own == settings) {
@@ -113,6 +138,7 @@ impl<'a> Bank<'a> {
         progress: &mut dyn FnMut(f64),
     ) -> Result<Runs, Stopped> {
         let rungs = rungs(settings, others);
+        self.keep_few(&rungs);
         self.prepare(&rungs, progress);
         // The single step comes first: if it fails, its message is the useful one.
         let single = self.observed(settings)?;

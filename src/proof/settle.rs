@@ -7,7 +7,7 @@
 //! Everything is decided by the engine's own runs and by counted work, so that the same input gives the same settings.
 
 use linkage::engine::{Engine, Settings};
-use linkage::error::{Advice, ErrorKind};
+use linkage::error::{Advice, Error, ErrorKind};
 use linkage::math::KeepNan;
 
 use super::judge::{Judge, Judged};
@@ -76,6 +76,8 @@ const AIM: f64 = 0.01;
 const MOST_TIMES: usize = 4;
 /// Coarsest step that is tried against rounding, in units of the first one.
 const COARSEST: f64 = 16.0;
+/// Work of the first runs that is done whatever is allowed: without them nothing can be told.
+const FIRST: f64 = 2e5;
 /// Failed runs after which more sweeps are tried instead of a smaller step.
 const FAILURES: usize = 6;
 /// Rounds of a search that is not long.
@@ -192,7 +194,7 @@ impl<'a, 'b> Settling<'a, 'b> {
     /// Runs the engine until it is decided, or until nothing is left to try.
     ///
     /// # Errors
-    /// The failure of the last run, if no run can be judged.
+    /// The failure of the last run, if no run can be judged; an error if the first runs are more work than is allowed.
     pub(super) fn run(mut self, progress: &mut dyn FnMut(f64)) -> Result<(Judged, Search), Stopped> {
         let mut best: Option<Trial> = None;
         let mut failure = None;
@@ -200,6 +202,13 @@ impl<'a, 'b> Settling<'a, 'b> {
         let mut stall = Stall::default();
         // What disagrees in the last round, and what did so in two rounds running.
         let (mut against, mut borne_out): (Vec<String>, Vec<String>) = (Vec::new(), Vec::new());
+        let first = self.bank.missing(&self.rungs());
+        if first > self.budget.larger(FIRST) {
+            let message =
+                format!("the first runs of the engine take {first:.1e} steps, {:.1e} are allowed", self.budget);
+            let error = Error::new(ErrorKind::Unsupported, message).help("shorten the grid");
+            return Err(error.or_help(Advice::MoreWork { to: 10.0 * first }).into());
+        }
         let end = loop {
             let left = 0.5f64.powi(round);
             let mut part = |part: f64| progress(1.0 - left + 0.5 * left * part);
@@ -336,8 +345,7 @@ impl<'a, 'b> Settling<'a, 'b> {
             self.factor = factor;
         }
         let previous = std::mem::replace(&mut self.now, next);
-        let wanted: Vec<Settings> = self.candidates().into_iter().flat_map(|settings| rungs(settings, &[])).collect();
-        if self.bank.effort + self.bank.missing(&wanted) > self.budget {
+        if self.bank.effort + self.bank.missing(&self.rungs()) > self.budget {
             self.now = previous;
             return Some(End::Budget);
         }
@@ -359,13 +367,19 @@ impl<'a, 'b> Settling<'a, 'b> {
         times.rev().map(at).filter(is_open).collect()
     }
 
+    /// Settings of the runs of this round.
+    fn rungs(&self) -> Vec<Settings> {
+        self.candidates().into_iter().flat_map(|settings| rungs(settings, &[])).collect()
+    }
+
     /// Makes the runs of a round and judges their combinations. The best one is returned. A search that `is_long` asks
     /// what the sweeps leave, whatever the step.
     fn round(&mut self, is_long: bool, progress: &mut dyn FnMut(f64)) -> Result<Trial, Stopped> {
         let mut best: Option<Trial> = None;
         let mut failure = None;
         let candidates = self.candidates();
-        let all: Vec<Settings> = candidates.iter().flat_map(|&settings| rungs(settings, &[])).collect();
+        let all = self.rungs();
+        self.bank.keep_needed(&all);
         self.bank.prepare(&all, &mut |part| progress(0.7 * part));
         for settings in candidates {
             let trial = match self.trial(settings, &[], &mut |_| {}) {

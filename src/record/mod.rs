@@ -59,3 +59,11 @@ pub fn write(recording: &Recording, path: &Path) -> Result<()> {
 pub fn read(path: &Path) -> Result<Vec<(String, Trajectory)>> {
     read::read(path)
 }
+
+/// The same from the bytes of a recording; messages call it `path`.
+///
+/// # Errors
+/// Those of [`read()`], except that the file cannot be read.
+pub fn read_bytes(bytes: &[u8], path: &Path) -> Result<Vec<(String, Trajectory)>> {
+    read::of_bytes(bytes, path)
+}

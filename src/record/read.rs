@@ -35,13 +35,17 @@ pub(super) fn read(path: &Path) -> Result<Vec<(String, Trajectory)>> {
         Error::new(ErrorKind::Io, format!("the recording {} cannot be read: {error}", path.display()))
             .help("check the path")
     })?;
+    of_bytes(&bytes, path)
+}
+
+pub(super) fn of_bytes(bytes: &[u8], path: &Path) -> Result<Vec<(String, Trajectory)>> {
     let damaged = |error: &dyn Display| {
         Error::new(ErrorKind::Io, format!("the recording {} is cut off or damaged: {error}", path.display()))
             .help("record it again, or save what is left of it with `pymcap-cli recover`")
     };
     let mut topics: HashMap<u16, Topic> = HashMap::new();
     let mut sides: BTreeMap<String, Found> = BTreeMap::new();
-    for message in MessageStream::new(&bytes).map_err(|error| damaged(&error))? {
+    for message in MessageStream::new(bytes).map_err(|error| damaged(&error))? {
         let message = message.map_err(|error| damaged(&error))?;
         let id = message.channel.id;
         if let std::collections::hash_map::Entry::Vacant(entry) = topics.entry(id) {

@@ -4,6 +4,26 @@ use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
 use super::tell::Tell;
 use linkage::error::Error;
+use linkage::mechanism::is_unseen;
+
+/// Longest part of a message that is shown (letters).
+const LONGEST: usize = 2000;
+
+/// A text with every letter that is not seen written out, so that no name from a file forges a line or commands a
+/// terminal, and of bounded length. Help may have several lines, such as a section to add.
+fn visible(text: &str, has_lines: bool) -> String {
+    let mut shown = String::new();
+    for letter in text.chars().take(LONGEST) {
+        match is_unseen(letter) && !(has_lines && letter == '\n') {
+            true => shown.extend(letter.escape_default()),
+            false => shown.push(letter),
+        }
+    }
+    if text.chars().nth(LONGEST).is_some() {
+        shown.push_str(" ...");
+    }
+    shown
+}
 
 /// An error as text, without a newline at its end; advice is worded by `tell`.
 pub(crate) fn text(error: &Error, tell: Tell) -> String {
@@ -11,13 +31,14 @@ pub(crate) fn text(error: &Error, tell: Tell) -> String {
         Some(key) => format!("`{key}`: {}", error.message()),
         None => error.message().to_string(),
     };
-    let help = error.way_out_by(tell);
+    let title = visible(&title, false);
+    let help = error.way_out_by(tell).map(|help| visible(&help, true));
     let Some(place) = error.place() else {
         // The renderer would draw a margin for lines that do not exist.
         let help = help.map(|help| format!("\n  = help: {help}")).unwrap_or_default();
         return format!("error: {title}{help}");
     };
-    let path = place.file.display().to_string();
+    let path = visible(&place.file.display().to_string(), false);
     let annotation = AnnotationKind::Primary.span(place.span.clone());
     let snippet = Snippet::source(place.text.as_str()).path(path.as_str()).annotation(annotation);
     let mut group = Group::with_title(Level::ERROR.primary_title(title.as_str())).element(snippet);

@@ -1,42 +1,59 @@
 //! Solutions as CSV, one row per instant, with 17 significant digits, so that every double is read back exactly.
 
+use std::io::{Error, Result, Write};
+
 use analytic::reduced::RunUp;
-use linkage::error::{Error, ErrorKind, Result};
 use linkage::trajectory::Trajectory;
 
-/// Time, crank angle, then all channels of a solution.
+/// Writes time, crank angle, then all channels of a solution.
 ///
 /// # Errors
-/// [`ErrorKind::Io`] if the table cannot be written.
-pub(crate) fn solution(trajectory: &Trajectory) -> Result<String> {
+/// Those of `to`.
+pub(crate) fn solution(trajectory: &Trajectory, to: &mut dyn Write) -> Result<()> {
     let columns: Vec<&[f64]> =
         [trajectory.times(), trajectory.cranks()].into_iter().chain(trajectory.iter().map(|(_, v)| v)).collect();
     let rows = (0..trajectory.times().len()).map(|row| columns.iter().map(|column| column[row]).collect());
-    table(&["t_s", "crank_rad"], trajectory, rows)
+    table(&["t_s", "crank_rad"], trajectory, rows, to)
 }
 
-/// The crank and the motor's moment in a run-up, then all wanted channels.
+/// Writes the crank and the motor's moment in a run-up, then all wanted channels.
 ///
 /// # Errors
-/// [`ErrorKind::Io`] if the table cannot be written.
-pub(crate) fn run_up(run_up: &RunUp) -> Result<String> {
+/// Those of `to`.
+pub(crate) fn run_up(run_up: &RunUp, to: &mut dyn Write) -> Result<()> {
     let own = ["t_s", "crank_rad", "crank_omega_rad_s", "crank_alpha_rad_s2", "motor_on_crank_N_m", "shaft_N_m"];
     let rows = run_up.motion.iter().enumerate().map(|(row, at)| {
         let own = [at.t, at.crank, at.omega, at.alpha, at.motor, at.shaft];
         own.into_iter().chain(run_up.trajectory.iter().map(|(_, values)| values[row])).collect()
     });
-    table(&own, &run_up.trajectory, rows)
+    table(&own, &run_up.trajectory, rows, to)
 }
 
-/// A table with columns of its `own` and those of a trajectory.
-fn table(own: &[&str], trajectory: &Trajectory, rows: impl Iterator<Item = Vec<f64>>) -> Result<String> {
-    let failed = |error: csv::Error| Error::new(ErrorKind::Io, format!("the table cannot be written: {error}"));
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    let names = trajectory.channels().iter().map(ToString::to_string);
-    writer.write_record(own.iter().map(ToString::to_string).chain(names)).map_err(failed)?;
-    for row in rows {
-        writer.write_record(row.iter().map(|value| format!("{value:.16e}"))).map_err(failed)?;
+/// The error below one of the CSV writer, with its kind.
+#[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the CSV writer")]
+fn io_error(error: csv::Error) -> Error {
+    if !error.is_io_error() {
+        return Error::other(error);
     }
-    let bytes = writer.into_inner().map_err(|error| failed(error.into_error().into()))?;
-    Ok(String::from_utf8(bytes).expect("names and numbers are text"))
+    match error.into_kind() {
+        csv::ErrorKind::Io(error) => error,
+        other => Error::other(format!("{other:?}")),
+    }
+}
+
+/// A table with columns of its `own` and those of a trajectory. It is written row by row: as text it needs three times
+/// the memory of its numbers.
+fn table(
+    own: &[&str],
+    trajectory: &Trajectory,
+    rows: impl Iterator<Item = Vec<f64>>,
+    to: &mut dyn Write,
+) -> Result<()> {
+    let mut writer = csv::Writer::from_writer(to);
+    let names = trajectory.channels().iter().map(ToString::to_string);
+    writer.write_record(own.iter().map(ToString::to_string).chain(names)).map_err(io_error)?;
+    for row in rows {
+        writer.write_record(row.iter().map(|value| format!("{value:.16e}"))).map_err(io_error)?;
+    }
+    writer.flush()
 }

@@ -6,6 +6,7 @@ use super::check_format;
 use super::reader::{Sign, Table};
 use super::source::Source;
 use super::unit::{ANGULAR_SPEED, POWER};
+use crate::files;
 use linkage::error::{Error, ErrorKind, Result};
 use workshop::motor::CatalogueMotor;
 
@@ -14,7 +15,7 @@ use workshop::motor::CatalogueMotor;
 /// # Errors
 /// [`ErrorKind::Io`] if the file cannot be read, [`ErrorKind::Input`] for anything wrong in it, with the place.
 pub fn load(path: &Path) -> Result<Vec<CatalogueMotor>> {
-    let text = std::fs::read_to_string(path).map_err(|error| {
+    let text = files::read_text(path).map_err(|error| {
         Error::new(ErrorKind::Io, format!("the catalogue {} cannot be read: {error}", path.display()))
             .help("give the path of a catalogue of motors, such as catalogues/motors.toml")
     })?;

@@ -1,12 +1,12 @@
 //! `[clearance]`: outlines of links, the housing, and what is wanted of their distances.
 
-use super::links::{NAME_HELP, place, sound_name};
+use super::links::{NAME_HELP, place};
 use super::reader::{Sign, Table};
 use super::unit::LENGTH;
 use super::words::suggestion;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::{KeepNan, Vec2};
-use linkage::mechanism::{GROUND, Link, Mechanism, Point};
+use linkage::mechanism::{GROUND, Link, Mechanism, Point, is_sound_name};
 use workshop::clearance::question::pairs;
 use workshop::clearance::{Body, Flaw, MOST_CORNERS, Outline, Question};
 
@@ -144,7 +144,7 @@ fn of_link(mut table: Table, default_radius: Option<f64>, link: &Link) -> Result
 /// A part of the housing.
 fn wall(mut table: Table, mechanism: &Mechanism, before: &[Body]) -> Result<Body> {
     let name = table.string("name")?;
-    if !sound_name(&name) {
+    if !is_sound_name(&name) {
         let message = format!("\"{name}\" cannot be the name of a part of the housing");
         return Err(table.wrong(ErrorKind::Input, "name", message).help(NAME_HELP));
     }

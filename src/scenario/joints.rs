@@ -2,13 +2,13 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::links::{NAME_HELP, sound_name};
+use super::links::NAME_HELP;
 use super::reader::{Sign, Table};
 use super::unit::ANGLE;
 use super::words::suggestion;
 use linkage::error::{ErrorKind, Result};
 use linkage::math::{Vec2, unit};
-use linkage::mechanism::{Joint, JointKind, Link, Side};
+use linkage::mechanism::{Joint, JointKind, Link, Side, is_sound_name};
 
 /// All joints, in the order of the file.
 pub fn read(tables: Vec<Table>, links: &[Link]) -> Result<Vec<Joint>> {
@@ -22,7 +22,7 @@ pub fn read(tables: Vec<Table>, links: &[Link]) -> Result<Vec<Joint>> {
 
 fn joint(mut table: Table, links: &[Link], before: &[Joint]) -> Result<Joint> {
     let name = table.string("name")?;
-    if !sound_name(&name) {
+    if !is_sound_name(&name) {
         let message = format!("\"{name}\" cannot be the name of a joint");
         return Err(table.wrong(ErrorKind::Input, "name", message).help(NAME_HELP));
     }

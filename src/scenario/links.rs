@@ -5,7 +5,7 @@ use super::unit::{ANGLE, INERTIA, LENGTH, MASS};
 use super::words::suggestion;
 use linkage::error::{ErrorKind, Result};
 use linkage::math::{Vec2, unit};
-use linkage::mechanism::{Link, Point};
+use linkage::mechanism::{Link, Point, is_sound_name};
 
 /// The ground and all links, in the order of the file.
 pub fn read(mut ground: Table, mut links: Table) -> Result<Vec<Link>> {
@@ -88,17 +88,11 @@ pub fn place(mut table: Table, known: &[Point]) -> Result<Vec2> {
 }
 
 fn check_name(table: &Table, what: &str) -> Result<()> {
-    if sound_name(table.name()) {
+    if is_sound_name(table.name()) {
         return Ok(());
     }
     Err(table.fault(format!("\"{}\" cannot be the name of a {what}", table.name())).help(NAME_HELP))
 }
 
 /// Help for names that are not allowed.
-pub const NAME_HELP: &str = "names consist of letters, digits, `_`, `-` and `'`";
-
-/// Whether the name is allowed for a link, point or joint. Dots, blanks and commas would break the names of channels
-/// and the headers of tables.
-pub fn sound_name(name: &str) -> bool {
-    !name.is_empty() && name.chars().all(|letter| letter.is_alphanumeric() || "_-'".contains(letter))
-}
+pub const NAME_HELP: &str = "names consist of letters, digits, `_`, `-` and `'`, 100 of them at most";

@@ -8,6 +8,7 @@ mod correction;
 pub mod edit;
 mod figure;
 pub mod grid;
+mod hostile;
 mod joints;
 mod links;
 mod loads;
@@ -38,10 +39,11 @@ use std::path::{Path, PathBuf};
 
 use self::reader::{Sign, Table};
 use self::source::Source;
+use crate::files;
 use linkage::case::{Case, CaseParts, Grid, Wanted};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::mechanism::assembly::{Choice, group_of};
-use linkage::mechanism::{Mechanism, StartGroup, Structure};
+use linkage::mechanism::{LONGEST_NAME, Mechanism, StartGroup, Structure};
 use workshop::clearance::Question;
 
 /// Version of the file format that this crate reads.
@@ -203,7 +205,7 @@ impl Scenario {
 }
 
 fn text_of(path: &Path) -> Result<String> {
-    std::fs::read_to_string(path).map_err(|error| {
+    files::read_text(path).map_err(|error| {
         Error::new(ErrorKind::Io, format!("the scenario {} cannot be read: {error}", path.display()))
             .help("give the path of a scenario file, such as scenarios/crank_rocker.toml")
     })
@@ -326,10 +328,18 @@ fn check_format(root: &mut Table) -> Result<()> {
 
 /// Whether a name can be used in file names.
 fn is_name(name: &str) -> bool {
-    !name.is_empty() && name.bytes().all(|byte| matches!(byte, b'a'..=b'z' | b'0'..=b'9' | b'_'))
+    let is_reserved = match name.as_bytes() {
+        b"con" | b"prn" | b"aux" | b"nul" => true,
+        [b'c', b'o', b'm', digit] | [b'l', b'p', b't', digit] => digit.is_ascii_digit(),
+        _ => false,
+    };
+    !is_reserved
+        && (1..=LONGEST_NAME).contains(&name.len())
+        && name.bytes().all(|byte| matches!(byte, b'a'..=b'z' | b'0'..=b'9' | b'_'))
 }
 
-const NAME_HELP: &str = "it names files: use lower-case letters, digits and `_`";
+const NAME_HELP: &str =
+    "it names files: use at most 100 lower-case letters, digits and `_`, and no name of a device such as `con`";
 
 fn name(root: &mut Table) -> Result<String> {
     let name = root.string("name")?;

@@ -7,6 +7,7 @@ use std::path::Path;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::hostile;
 use linkage::error::{Error, ErrorKind, Place, Result};
 
 /// Text of a file and the path that messages use for it.
@@ -25,12 +26,14 @@ impl<'a> Source<'a> {
 
     /// The spanned tree of the file.
     pub fn tree(&self) -> Result<Spanned<DeTable<'a>>> {
-        DeTable::parse(self.text).map_err(|error| {
+        let tree = DeTable::parse(self.text).map_err(|error| {
             let message = error.message().trim().replace('\n', ", ");
             Error::new(ErrorKind::Input, format!("the file is not valid TOML: {message}"))
                 .at(self.place(error.span().unwrap_or(0..0)))
                 .help("a key is written `name = value`, a section `[name]`, text stands in \"quotes\"")
-        })
+        })?;
+        hostile::check(&|span| self.place(span), tree.get_ref())?;
+        Ok(tree)
     }
 
     /// `error` with the place of its key, if it has a key and no place yet.

@@ -10,7 +10,9 @@ use super::series::{ExpectedCell, Known, OraclePoint, OracleSeries};
 use super::source::Source;
 use super::unit::ANGLE;
 use super::words::suggestion;
+use crate::files;
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::mechanism::is_unseen;
 
 /// Crank angles (rad) that differ by less than this belong to the same row.
 const SAME_CRANK: f64 = 1e-9;
@@ -19,7 +21,7 @@ const SAME_CRANK: f64 = 1e-9;
 pub fn read(oracle: &mut Table, known: &Known) -> Result<(String, Vec<OracleSeries>)> {
     let file = oracle.string("file")?;
     let path: PathBuf = oracle.source().path.parent().unwrap_or(Path::new("")).join(&file);
-    let text = std::fs::read_to_string(&path).map_err(|error| {
+    let text = files::read_named(&path).map_err(|error| {
         oracle
             .wrong(ErrorKind::Io, "file", format!("the table {} cannot be read: {error}", path.display()))
             .help("the path is relative to the scenario's directory")
@@ -187,6 +189,10 @@ impl<'a> Rows<'a> {
             )
         };
         let header = reader.headers().map_err(|error| wrong(&error))?.clone();
+        if header.iter().any(|column| column.contains(is_unseen)) {
+            let error = Error::new(ErrorKind::Input, "the header holds a letter that is not seen");
+            return Err(error.at(source.place(0..0)).help("take out line breaks and control characters"));
+        }
         let records: Vec<_> = reader.records().collect::<std::result::Result<_, _>>().map_err(|error| wrong(&error))?;
         if records.is_empty() {
             let error = Error::new(ErrorKind::Input, "the table has no rows").at(source.place(0..0));

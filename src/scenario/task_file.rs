@@ -9,6 +9,7 @@ use super::source::Source;
 use super::unit::{ANGLE, Family, LENGTH, MASS_PER_LENGTH};
 use super::words::suggestion;
 use super::{Scenario, check_format, name};
+use crate::files;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::{Vec2, unit};
 use linkage::mechanism::{GROUND, Mechanism};
@@ -33,7 +34,7 @@ impl TaskFile {
     /// [`ErrorKind::Io`] if a file cannot be read, [`ErrorKind::Input`] for anything wrong in it, and those of
     /// [`Scenario::load`] and [`Task::check`].
     pub fn load(path: &Path) -> Result<Self> {
-        let text = std::fs::read_to_string(path).map_err(|error| {
+        let text = files::read_text(path).map_err(|error| {
             Error::new(ErrorKind::Io, format!("the synthesis file {} cannot be read: {error}", path.display()))
                 .help("give the path of a synthesis file, such as scenarios/ov7_drives/sinker_task.toml")
         })?;

@@ -2,14 +2,21 @@
 
 use strsim::osa_distance;
 
+/// Longest word that may be misspelt (letters): the comparison takes the product of both lengths.
+const LONGEST: usize = 100;
+
 /// The candidate nearest to `word`, if one is near enough.
 #[must_use]
 pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     // In names of one or two letters, another letter makes another name, not a misspelling.
     let length = word.chars().count();
+    if length > LONGEST {
+        return None;
+    }
     let allowed = if length < 3 { 0 } else { ((length + 1) / 3).min(3) };
     candidates
         .into_iter()
+        .filter(|candidate| candidate.len() <= 4 * LONGEST)
         .map(|candidate| (osa_distance(word, candidate), candidate))
         .filter(|&(distance, _)| distance <= allowed)
         .min_by_key(|&(distance, _)| distance)

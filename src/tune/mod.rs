@@ -14,7 +14,7 @@ mod ways;
 
 pub use candidate::{Candidate, Price};
 
-use crate::proof::Options;
+use crate::proof::{Options, memory};
 use crate::scenario::Scenario;
 use analytic::AssurSolver;
 use analytic::range::explained;
@@ -80,6 +80,7 @@ pub fn tune(
     let wanted = wanted_channels(scenario, wish)?;
     let stages: Vec<Stage> = wanted.iter().map(|channel| channel.kind.stage).collect();
     let case = scenario.case.wanting(Wanted::of(&stages));
+    memory::check(&case, memory::of_proof(&case, 1), options.memory)?;
     let reference = AssurSolver.solve(&case).map_err(|error| explained(&case, error))?;
     let engines = options.set_engines(scenario)?;
     let budget = options.budget.unwrap_or(BUDGET);

@@ -66,7 +66,7 @@ const ROOMS: &[(&str, &str)] = &[
     ("linkproof::proof", "compare diagnosis engines scenario tolerance"),
     ("linkproof::record", "files"),
     ("linkproof::report", "bench compare diagnosis mutate proof record scenario stress tune"),
-    ("linkproof::scenario", ""),
+    ("linkproof::scenario", "files"),
     ("linkproof::specimens", "scenario"),
     ("linkproof::stress", "compare engines proof scenario specimens"),
     ("linkproof::tolerance", ""),

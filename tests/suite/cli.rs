@@ -16,4 +16,4 @@ mod solve;
 mod starts;
 mod stress;
 mod synthesize;
-mod tools;
+pub mod tools;

@@ -34,6 +34,7 @@ mod random_proofs;
 mod range;
 mod rapier;
 mod record;
+mod robustness;
 mod scenario_docs;
 mod scenes;
 mod setting_off;

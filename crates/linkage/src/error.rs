@@ -3,7 +3,7 @@
 
 mod advice;
 
-pub use advice::Advice;
+pub use advice::{Advice, rounded_up};
 
 use std::fmt;
 use std::ops::Range;

@@ -1,7 +1,9 @@
 //! Mechanisms for the integration tests, written as scenario text, so that tests enter where a user does.
 
 pub mod chain;
+pub mod damage;
 pub mod dial;
+pub mod entries;
 pub mod four_link;
 pub mod higher;
 pub mod loads;

@@ -9,5 +9,6 @@ mod pose_solver;
 pub(crate) mod transfer;
 mod turns;
 mod watch;
+mod whole_turns;
 
 pub use pose_solver::PoseSolver;

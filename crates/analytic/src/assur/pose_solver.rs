@@ -22,12 +22,12 @@ const MEET: &str = "there the links of the group do not hold it, or two of its b
 /// Goes from crank angle to crank angle on one branch and solves the pose there, without allocation.
 #[derive(Debug)]
 pub struct PoseSolver<'a> {
-    case: &'a Case,
+    pub(super) case: &'a Case,
     pub(super) plan: Plan,
     statics: Kinetostatics,
     pub(super) state: State,
     /// Turns of the links, if the caller or a load needs their angles.
-    turns: Option<Turns>,
+    pub(super) turns: Option<Turns>,
     /// Angles, angular velocities or accelerations of all driving links, as each stage needs them.
     pub(super) inputs: Vec<f64>,
     /// Angular velocities and accelerations of all driving links, where all motions are found in one pass.
@@ -42,7 +42,7 @@ pub struct PoseSolver<'a> {
     step: f64,
     pub(super) watch: Watch,
     /// Change points, where the drive says that they are passed.
-    passing: Option<Passing>,
+    pub(super) passing: Option<Passing>,
 }
 
 impl<'a> PoseSolver<'a> {
@@ -205,6 +205,12 @@ impl<'a> PoseSolver<'a> {
     /// The same where one step is not enough.
     #[cold]
     fn go_far_to(&mut self, target: f64) -> Result<()> {
+        self.skip_turns(target)?;
+        self.follow_to(target)
+    }
+
+    /// Follows the branch to a crank angle in small steps.
+    pub(super) fn follow_to(&mut self, target: f64) -> Result<()> {
         let from = self.crank;
         let parts = ((target - from).abs() / self.step).ceil();
         for part in 1..parts as usize {

@@ -47,6 +47,11 @@ impl Turns {
         }
     }
 
+    /// Adds whole turns to every link.
+    pub(super) fn add(&mut self, turns: &[f64]) {
+        self.whole.iter_mut().zip(turns).for_each(|(whole, turns)| *whole += turns);
+    }
+
     /// Angles of all links at the last pose (rad), turns kept.
     pub(super) fn angles(&self) -> impl Iterator<Item = f64> {
         let angle = |(whole, now): (&f64, &Vec2)| principal(*now) + TAU * whole;

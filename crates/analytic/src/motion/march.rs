@@ -30,7 +30,11 @@ pub(crate) const NARROWER: f64 = 0.8;
 /// Largest number of consecutive pieces that take no time. With more, the motion does not get away from a kink.
 pub(crate) const MOST_EMPTY: usize = 8;
 /// Largest number of steps of one piece. A hundred turns of a mechanism take some ten thousand.
-const MOST_STEPS: usize = 10_000_000;
+const MOST_STEPS: usize = 3_000_000;
+/// Steps after which it is looked at whether the rest of the way can be gone within the largest number.
+/// Where a motor is much too strong for what it moves, the method's steps are as short as its own decay, not as the
+/// motion asks.
+const PREDICTED: usize = 50_000;
 /// Steps below this share of the way are short, and so many of them in a row end the march.
 /// They would never get past a singular pose, near which accelerations are rounding or errors.
 const SHORTEST: f64 = 1e-9;
@@ -98,9 +102,16 @@ pub(crate) fn march<const N: usize, F: Flow<N>>(
     let mut method: Method<N> = ExplicitRungeKutta::dop853().rtol(accuracy).atol(accuracy).max_steps(MOST_STEPS).h0(h0);
     let begun = method.init(flow, place.x, last, &place.y);
     checked(flow, begun, place.x)?;
-    let (mut refused, mut short) = (None, 0);
+    let (mut refused, mut short, mut steps) = (None, 0, 0);
     let mut tally = Tally::default();
     loop {
+        steps += 1;
+        let way = place.x - begun_at;
+        // Written so that NaN is refused.
+        if steps % PREDICTED == 0 && !((last - begun_at) / way * steps as f64 <= MOST_STEPS as f64) {
+            let why = format!("of {steps} steps it is only {:.1e} on, of {:.1e}", way, last - begun_at);
+            return Err(lost(place.x, &why));
+        }
         let (from, wished) = (method.t(), method.h());
         let cut = wished * STRETCH >= target - from;
         if cut {

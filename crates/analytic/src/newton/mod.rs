@@ -7,5 +7,6 @@ mod passing;
 mod solver;
 mod steps;
 mod system;
+mod whole_turns;
 
 pub use solver::{NewtonAt, NewtonSolver, TightNewtonSolver};

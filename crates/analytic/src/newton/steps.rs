@@ -1,10 +1,10 @@
 //! Follows the branch: Newton's method from a prediction, in small turns of the crank, then velocities, accelerations
 //! and multipliers.
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 use super::system::System;
-use linkage::case::Case;
+use linkage::case::{Case, Grid};
 use linkage::drive::{Drive, Wrench};
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::{KeepNan, Motion};
@@ -42,25 +42,36 @@ impl System<'_> {
 
     /// Follows the branch to time `t`, in small turns of the crank.
     pub(super) fn go_to(&mut self, t: f64) -> Result<()> {
-        let turned = |drive: &Drive| match drive.constant_speed() {
-            Some(_) => (drive.at(t).angle - drive.at(self.time).angle).abs(),
-            // The motion may go there and back in between.
-            None => drive.top_speed().abs() * (t - self.time).abs(),
-        };
-        let turn = self.case.drives.iter().map(turned).fold(0.0, f64::larger);
-        let parts = (turn / TRACKING_STEP).ceil().larger(1.0);
-        let from = self.time;
-        for part in 1..parts as usize {
-            self.step_to(from + (t - from) * (part as f64 / parts), HALVINGS)?;
-        }
-        // The last part ends at t itself, not at a rounded neighbour.
-        self.step_to(t, HALVINGS)?;
+        self.skip_turns(t)?;
+        self.follow_to(t)?;
         self.check_singular()?;
         if self.stage >= Stage::Reactions {
             self.find_loads(Case::loads_on);
             self.multipliers();
         }
         Ok(())
+    }
+
+    /// Follows the branch to time `t`, positions to accelerations.
+    pub(super) fn follow_to(&mut self, t: f64) -> Result<()> {
+        let turned = |drive: &Drive| match drive.constant_speed() {
+            Some(_) => (drive.at(t).angle - drive.at(self.time).angle).abs(),
+            // The motion may go there and back in between.
+            None => drive.top_speed().abs() * (t - self.time).abs(),
+        };
+        let turn = self.case.drives.iter().map(turned).fold(0.0, f64::larger);
+        // A law whose top speed is reached for a moment only has no such bound by itself.
+        if !(turn <= 2.0 * Grid::MOST_TURNS * TAU) {
+            let turns = turn / TAU;
+            return Err(self.lost(&format!("up to {turns:.1e} turns on the way to {t} s are too many to be followed")));
+        }
+        let parts = (turn / TRACKING_STEP).ceil().larger(1.0);
+        let from = self.time;
+        for part in 1..parts as usize {
+            self.step_to(from + (t - from) * (part as f64 / parts), HALVINGS)?;
+        }
+        // The last part ends at t itself, not at a rounded neighbour.
+        self.step_to(t, HALVINGS)
     }
 
     /// One step from a prediction. Where the branch cannot be followed over it, two steps of half the size.

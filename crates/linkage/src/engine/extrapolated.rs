@@ -125,23 +125,20 @@ impl Solver for Extrapolated {
         let (finest, coarser) = self.runs.split_last().expect("there is the run at the step itself");
         // Every run costs twice the one before.
         let whole = 2f64.powi(self.runs.len() as i32) - 1.0;
-        let mut states: Vec<Vec<Option<State>>> = Vec::with_capacity(coarser.len());
+        let mut kept = Vec::with_capacity(coarser.len());
         for (index, run) in coarser.iter().enumerate() {
             let cost = 2f64.powi(index as i32);
-            let mut kept = vec![None; case.grid.len()];
-            let mut keep = |row: usize, state: &State| {
-                kept[row] = Some(state.clone());
-                Ok(())
-            };
-            run.sweep(case, &mut keep, &mut |part| progress((cost - 1.0 + cost * part) / whole))?;
-            states.push(kept);
+            kept.push(run.rows(case, &mut |part| progress((cost - 1.0 + cost * part) / whole))?);
         }
         let weights = Weights::of(self.coarsest(), case, self.runs.len());
         let mut combined = State::at_rest(case);
         let mut statics = self.coarsest().statics(case);
+        let mut states = vec![State::at_rest(case); kept.len()];
         let mut combine = |row: usize, state: &State| {
-            let coarser = states.iter().map(|run| run[row].as_ref().expect("all runs visit the same rows"));
-            let all: Vec<&State> = coarser.chain([state]).collect();
+            for (run, state) in kept.iter().zip(&mut states) {
+                assert!(run.get(row, state), "all runs visit the same rows");
+            }
+            let all: Vec<&State> = states.iter().chain([state]).collect();
             weights.combine(case, &all, &mut combined);
             if let Some(statics) = &mut statics {
                 statics(case, &mut combined, case.grid.times[row])?;

@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, mpsc};
 
-use super::{Engine, Extrapolated, Route, Settings, Statics};
+use super::{Engine, Extrapolated, Route, Rows, Settings, Statics};
 use crate::case::Case;
 use crate::error::{Error, Result};
 use crate::solver::{Progress, Provision, Solver, State, Visit};
@@ -30,8 +30,8 @@ struct Runs {
 #[derive(Clone)]
 struct Run {
     settings: Settings,
-    /// States by row of the grid; `None` for rows that a failed run did not reach.
-    states: Arc<Vec<Option<State>>>,
+    /// Its states; a failed run has those that it reached.
+    rows: Arc<Rows>,
     failed: Option<Error>,
 }
 
@@ -115,20 +115,23 @@ impl Kept {
 
     /// Makes a plain run and keeps it.
     fn run(&self, case: &Case, settings: Settings, progress: Progress) -> Run {
-        let mut states = vec![None; case.grid.len()];
-        let mut keep = |row: usize, state: &State| {
-            states[row] = Some(state.clone());
-            Ok(())
-        };
-        let failed = self.inner.with(settings).sweep(case, &mut keep, progress).err();
-        let run = Run { settings, states: Arc::new(states), failed };
+        let engine = self.inner.with(settings);
+        let (rows, outcome) = Rows::of_run(case, |visit| engine.sweep(case, visit, progress));
+        let run = Run { settings, rows: Arc::new(rows), failed: outcome.err() };
         self.store.lock().runs.push(run.clone());
         run
+    }
+
+    /// The plain run at these settings, made if it is missing.
+    fn found(&self, case: &Case, progress: Progress) -> Run {
+        let settings = self.inner.settings();
+        self.store.find(settings, case).unwrap_or_else(|| self.run(case, settings, progress))
     }
 }
 
 /// Settings of the plain runs that an engine with `settings` is made of.
-fn plain_runs(settings: Settings) -> Vec<Settings> {
+#[must_use]
+pub fn plain_runs(settings: Settings) -> Vec<Settings> {
     let at = |time| settings.resolution * 0.5f64.powi(time);
     (0..=settings.extrapolated as i32)
         .map(|time| Settings { resolution: at(time), extrapolated: 0, ..settings })
@@ -145,13 +148,12 @@ impl Solver for Kept {
     }
 
     fn sweep(&self, case: &Case, visit: Visit, progress: Progress) -> Result<()> {
-        let settings = self.inner.settings();
-        let run = match self.store.find(settings, case) {
-            Some(run) => run,
-            None => self.run(case, settings, progress),
-        };
+        let run = self.found(case, progress);
+        let mut state = State::at_rest(case);
         for row in case.grid.ascending() {
-            run.states[row].as_ref().map_or(Ok(()), |state| visit(row, state))?;
+            if run.rows.get(row, &mut state) {
+                visit(row, &state)?;
+            }
         }
         progress(1.0);
         run.failed.map_or(Ok(()), Err)
@@ -194,6 +196,12 @@ impl Engine for Kept {
 
     fn statics(&self, case: &Case) -> Option<Statics> {
         self.inner.statics(case)
+    }
+
+    fn rows(&self, case: &Case, progress: Progress) -> Result<Arc<Rows>> {
+        let run = self.found(case, progress);
+        progress(1.0);
+        run.failed.map_or(Ok(run.rows), Err)
     }
 
     fn overrun(&self) -> f64 {

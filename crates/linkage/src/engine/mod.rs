@@ -3,15 +3,19 @@
 pub mod bodies;
 mod extrapolated;
 mod kept;
+mod rows;
 mod settings;
 
 pub use extrapolated::Extrapolated;
-pub use kept::Kept;
+pub use kept::{Kept, plain_runs};
+pub use rows::Rows;
 pub use settings::{Route, Settings};
+
+use std::sync::Arc;
 
 use crate::case::Case;
 use crate::error::Result;
-use crate::solver::{Solver, State};
+use crate::solver::{Progress, Solver, State};
 use crate::trajectory::ChannelKind;
 
 /// Writes the forces that belong to the motion of a state at a time (s) into that state.
@@ -58,6 +62,15 @@ pub trait Engine: Solver {
     fn statics(&self, case: &Case) -> Option<Statics> {
         let _ = case;
         None
+    }
+
+    /// The states of a whole run. An engine that keeps its runs hands out the one that it has.
+    ///
+    /// # Errors
+    /// Those of [`Solver::sweep`].
+    fn rows(&self, case: &Case, progress: Progress) -> Result<Arc<Rows>> {
+        let (rows, outcome) = Rows::of_run(case, |visit| self.sweep(case, visit, progress));
+        outcome.map(|()| Arc::new(rows))
     }
 
     /// Steps that a run of a prescribed motion takes beyond either end of its grid.

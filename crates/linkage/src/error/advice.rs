@@ -41,6 +41,13 @@ pub enum Advice {
         /// Work to allow, in steps without sweeps.
         to: f64,
     },
+    /// Fewer instants, or fewer channels.
+    FewerInstants,
+    /// More memory for a run.
+    MoreMemory {
+        /// Memory to allow (bytes).
+        to: f64,
+    },
     /// An engine in double precision.
     DoublePrecision,
     /// Another engine.
@@ -105,6 +112,8 @@ impl Advice {
             | Advice::LooserAccuracy { .. }
             | Advice::FreeSettings
             | Advice::MoreWork { .. }
+            | Advice::FewerInstants
+            | Advice::MoreMemory { .. }
             | Advice::DoublePrecision
             | Advice::OtherEngine
             | Advice::OtherRoute { .. }
@@ -130,6 +139,12 @@ impl Advice {
 /// A number to try, rounded to two digits.
 fn rounded(number: f64) -> f64 {
     format!("{number:.1e}").parse().unwrap_or(number)
+}
+
+/// A number to allow, rounded up to a tenth.
+#[must_use]
+pub fn rounded_up(number: f64) -> f64 {
+    (number * 10.0).ceil() / 10.0
 }
 
 impl From<&str> for Advice {
@@ -158,6 +173,8 @@ impl fmt::Display for Advice {
             Advice::MoreSweeps { to: Some(to) } => write!(f, "raise the number of sweeps, such as to {to}"),
             Advice::FreeSettings => f.write_str("leave out the engine's settings, so that the proof finds them"),
             Advice::MoreWork { to } => write!(f, "allow more work, such as {to:e} steps"),
+            Advice::FewerInstants => f.write_str("take fewer instants, or fewer channels (`want` in `[channels]`)"),
+            Advice::MoreMemory { to } => write!(f, "allow more memory, such as {:.1} GB", rounded_up(*to / 1e9)),
             Advice::DoublePrecision => f.write_str("take an engine in double precision"),
             Advice::OtherEngine => f.write_str("take another engine"),
             Advice::OtherRoute { routes } => {

@@ -1,6 +1,7 @@
 //! The mechanism: links, joints, structure, and start pose. No time, no files, no solvers.
 
 pub mod assembly;
+mod name;
 mod outline;
 mod placing;
 pub mod pose;
@@ -8,6 +9,7 @@ pub mod spanning_tree;
 pub mod structure;
 
 pub use assembly::{AssemblyMode, StartGroup, first_pose};
+pub use name::{LONGEST_NAME, is_sound_name, is_unseen};
 pub use outline::ring;
 pub use placing::Handle;
 pub use pose::{LinkPose, Pose};
@@ -348,6 +350,13 @@ impl Mechanism {
     }
 
     fn check_names(&self) -> Result<()> {
+        let points = self.links.iter().flat_map(|link| &link.points).map(|point| &point.name);
+        let names = self.links.iter().map(|link| &link.name).chain(self.joints.iter().map(|joint| &joint.name));
+        if let Some(name) = names.chain(points).find(|name| !is_sound_name(name)) {
+            let message = format!("\"{}\" cannot be a name", name.chars().take(LONGEST_NAME).collect::<String>());
+            return Err(Error::new(ErrorKind::Input, message)
+                .help("names consist of letters, digits, `_`, `-` and `'`, 100 of them at most"));
+        }
         let mut taken = BTreeSet::new();
         for link in &self.links {
             if !taken.insert(&link.name) {

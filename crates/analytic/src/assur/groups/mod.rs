@@ -153,6 +153,15 @@ pub struct OutOfReach {
 }
 
 impl Plan {
+    /// Takes the last pose for that of a driving angle farther on by `way` (rad), some whole turns.
+    pub(in crate::assur) fn skip(&mut self, way: f64) {
+        for step in &mut self.steps {
+            if let Step::Chain(chain) = step {
+                chain.skip(way);
+            }
+        }
+    }
+
     /// Prepares a mechanism of this structure in these assembly modes (one per group).
     #[must_use]
     pub fn of(mechanism: &Mechanism, structure: &Structure, modes: &[AssemblyMode]) -> Self {

@@ -25,6 +25,8 @@ const NEXT: f64 = 1.3;
 const SAME: f64 = 1e-6;
 /// Windows that are kept, the nearest ones. After many turns the others are found again.
 const MOST_WINDOWS: usize = 8;
+/// Number of intervals without a change point that are remembered: a motion of many small steps finds as many.
+const MOST_CLEAR: usize = 256;
 
 /// The change points of a mechanism with one driving link, as far as they have been met.
 #[derive(Debug)]
@@ -88,6 +90,8 @@ impl Passing {
                 break;
             }
             // The next change point may be nearer than a step.
+            let old = (self.looked.len() + 1).saturating_sub(MOST_CLEAR);
+            self.looked.drain(..old);
             self.looked.push(from);
             self.last = place;
             self.look(from, plan, motions)?;
@@ -141,6 +145,9 @@ impl Passing {
         let found: Vec<(usize, f64)> = plan.clearances(&self.motions).enumerate().filter_map(near).collect();
         let groups = plan.steps().len();
         self.last = (angle, (0..groups).map(|group| plan.determinant(group)).collect());
+        // What is forgotten is only searched once more.
+        let old = self.clear.len().saturating_sub(MOST_CLEAR);
+        self.clear.drain(..old);
         for (group, ahead) in found {
             let known = self.windows.iter().any(|window| {
                 let from = window.at - angle;

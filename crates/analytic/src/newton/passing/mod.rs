@@ -30,6 +30,8 @@ const NEXT: f64 = 1.3;
 const SAME: f64 = 1e-6;
 /// Windows that are kept, the nearest ones.
 const MOST_WINDOWS: usize = 8;
+/// Number of intervals without a change point that are remembered: a motion of many small steps finds as many.
+const MOST_CLEAR: usize = 256;
 
 /// The way of a mechanism with one driving link, and its change points as far as they have been met.
 #[derive(Clone, Debug)]
@@ -126,6 +128,9 @@ impl Passing {
         if turned == 0.0 {
             return Ok(());
         }
+        // What is forgotten is only searched once more.
+        let old = self.clear.len().saturating_sub(MOST_CLEAR);
+        self.clear.drain(..old);
         for block in 0..self.spot.shares.len() {
             let share = self.spot.shares[block];
             let ahead = -share * turned / (share - before.shares[block]);

@@ -180,6 +180,13 @@ impl Chain {
         self.is_sliding
     }
 
+    /// Takes the last pose for that of a first driving angle farther on by `way` (rad), some whole turns.
+    pub(super) fn skip(&mut self, way: f64) {
+        self.at[0] += way;
+        // Whole turns are rounded: the next step is not the same as the last.
+        self.memory.start_anew();
+    }
+
     /// Positions at these driving angles (rad), from those of the last pose.
     /// Returns `false`, with the links' directions unchanged, if the branch cannot be followed there.
     pub(super) fn positions(&mut self, angles: &[f64], motions: &mut [Motion]) -> bool {

@@ -1,0 +1,47 @@
+//! Whole turns of the crank on the way to a distant crank angle.
+//!
+//! With one drive a pose is a function of the crank angle and the branch. Where one whole turn, followed in small
+//! steps, brings every link back to where it was, the next turns are the same: they are counted, not followed.
+
+use std::f64::consts::TAU;
+
+use super::PoseSolver;
+use linkage::error::Result;
+
+/// Turns of the crank from which it is worth to look.
+const WORTH: f64 = 3.0;
+/// Largest difference of poses that are the same: of places in sizes of the mechanism, of directions in rad. Branches
+/// as close as that are refused as singular.
+const SAME: f64 = 1e-9;
+
+impl PoseSolver<'_> {
+    /// Follows one whole turn towards the crank angle `target` and skips those that are the same. What is left is at
+    /// most a few turns; all of them where a turn leads to another pose, or where other drives or change points make
+    /// turns differ.
+    pub(super) fn skip_turns(&mut self, target: f64) -> Result<()> {
+        let turns = ((target - self.crank).abs() / TAU).floor() - 1.0;
+        let repeats = self.case.drives.further().is_empty() && self.passing.is_none();
+        // Written so that NaN skips nothing.
+        if !(repeats && turns >= WORTH) {
+            return Ok(());
+        }
+        let turn = TAU.copysign(target - self.crank);
+        let (begun, size) = (self.state.motions.clone(), self.case.mechanism.size());
+        let angles = |solver: &Self| solver.turns.as_ref().map(|turns| turns.angles().collect::<Vec<f64>>());
+        let before = angles(self);
+        self.follow_to(self.crank + turn)?;
+        let is_same = self.state.motions.iter().zip(&begun).all(|(own, before)| {
+            (own.origin - before.origin).norm() <= SAME * size && (own.direction - before.direction).norm() <= SAME
+        });
+        if !is_same {
+            return Ok(());
+        }
+        if let (Some(before), Some(after), Some(counted)) = (before, angles(self), &mut self.turns) {
+            let gone = before.iter().zip(&after).map(|(before, after)| turns * ((after - before) / TAU).round());
+            counted.add(&gone.collect::<Vec<f64>>());
+        }
+        self.plan.skip(turns * turn);
+        self.crank += turns * turn;
+        Ok(())
+    }
+}

@@ -1,0 +1,220 @@
+//! The states of a whole run, flat in one block of memory: only the numbers that somebody may ask for.
+//!
+//! A [`State`] has five lists of its own, with room for every stage. A run of many instants would spend more memory on
+//! them than on its numbers.
+
+use std::collections::BTreeMap;
+
+use crate::case::Case;
+use crate::error::Result;
+use crate::math::Vec2;
+use crate::solver::State;
+use crate::trajectory::Stage;
+
+/// States by row of the grid.
+#[derive(Debug)]
+pub struct Rows {
+    layout: Layout,
+    values: Vec<f64>,
+    /// Whether the run has come to a row.
+    reached: Vec<bool>,
+    /// [`State::passing`] where it is not `None`; few rows.
+    passing: BTreeMap<usize, f64>,
+}
+
+/// Which numbers of a state are kept.
+#[derive(Clone, Debug)]
+struct Layout {
+    links: usize,
+    velocities: bool,
+    accelerations: bool,
+    /// Joints whose forces are kept.
+    joints: usize,
+    /// Joints among them that carry a moment.
+    sliding: Vec<usize>,
+    drives: usize,
+}
+
+impl Layout {
+    /// What the wanted channels of a case are made of. Forces follow from the whole motion, and a load may sense a
+    /// velocity that nobody has asked for.
+    fn of(case: &Case) -> Self {
+        let deepest = case.wanted.deepest();
+        let with_forces = deepest >= Stage::Reactions;
+        let has_sense = case.loads.iter().any(|load| load.sensed_link().is_some() || load.sensed_point().is_some());
+        let joints = case.mechanism.joints();
+        let slides = |&index: &usize| joints[index].slides();
+        Layout {
+            links: case.mechanism.links().len() - 1,
+            velocities: has_sense || deepest >= Stage::Velocities,
+            accelerations: deepest >= Stage::Accelerations,
+            joints: if with_forces { joints.len() } else { 0 },
+            sliding: if with_forces { (0..joints.len()).filter(slides).collect() } else { Vec::new() },
+            drives: if with_forces { case.drives.len() } else { 0 },
+        }
+    }
+
+    /// Numbers of one state.
+    fn width(&self) -> usize {
+        let rates = usize::from(self.velocities) + usize::from(self.accelerations);
+        self.links * (5 + 3 * rates) + 2 * self.joints + self.sliding.len() + self.drives
+    }
+}
+
+impl Rows {
+    /// Room for all rows of a case, none of which is reached.
+    #[must_use]
+    pub fn new(case: &Case) -> Self {
+        let layout = Layout::of(case);
+        let rows = case.grid.len();
+        let values = vec![0.0; rows * layout.width()];
+        Rows { layout, values, reached: vec![false; rows], passing: BTreeMap::new() }
+    }
+
+    /// Memory of one row of a case (bytes).
+    #[must_use]
+    pub fn bytes_of_row(case: &Case) -> usize {
+        Layout::of(case).width() * size_of::<f64>() + size_of::<bool>()
+    }
+
+    /// Whether the run has come to a row.
+    #[must_use]
+    pub fn has(&self, row: usize) -> bool {
+        self.reached[row]
+    }
+
+    /// Keeps the state of a row.
+    pub fn put(&mut self, row: usize, state: &State) {
+        let Layout { velocities, accelerations, joints, sliding, drives, .. } = &self.layout;
+        let width = self.layout.width();
+        let mut left = self.values[row * width..][..width].iter_mut();
+        let mut put = |value: f64| *left.next().expect("as many numbers as the layout has") = value;
+        let mut put_pair = |pair: Vec2| [pair.x, pair.y].into_iter().for_each(&mut put);
+        for motion in &state.motions[1..] {
+            put_pair(motion.origin);
+            put_pair(motion.direction);
+            if *velocities {
+                put_pair(motion.velocity);
+            }
+            if *accelerations {
+                put_pair(motion.acceleration);
+            }
+        }
+        state.forces[..*joints].iter().for_each(|&force| put_pair(force));
+        for (motion, &angle) in state.motions.iter().zip(&state.angles).skip(1) {
+            put(angle);
+            if *velocities {
+                put(motion.omega);
+            }
+            if *accelerations {
+                put(motion.alpha);
+            }
+        }
+        sliding.iter().for_each(|&joint| put(state.moments[joint]));
+        state.torques[..*drives].iter().for_each(|&torque| put(torque));
+        self.reached[row] = true;
+        self.passing.extend(state.passing.map(|condition| (row, condition)));
+    }
+
+    /// Writes what was kept of a row into `state`, a state of the same case. Returns whether the run has come to that
+    /// row; else the state stays as it is.
+    pub fn get(&self, row: usize, state: &mut State) -> bool {
+        if !self.reached[row] {
+            return false;
+        }
+        let Layout { velocities, accelerations, joints, sliding, drives, .. } = &self.layout;
+        let width = self.layout.width();
+        let mut left = self.values[row * width..][..width].iter().copied();
+        let mut get = || left.next().expect("as many numbers as the layout has");
+        let mut get_pair = || Vec2::new(get(), get());
+        for motion in &mut state.motions[1..] {
+            motion.origin = get_pair();
+            motion.direction = get_pair();
+            if *velocities {
+                motion.velocity = get_pair();
+            }
+            if *accelerations {
+                motion.acceleration = get_pair();
+            }
+        }
+        state.forces[..*joints].iter_mut().for_each(|force| *force = get_pair());
+        for (motion, angle) in state.motions.iter_mut().zip(&mut state.angles).skip(1) {
+            *angle = get();
+            if *velocities {
+                motion.omega = get();
+            }
+            if *accelerations {
+                motion.alpha = get();
+            }
+        }
+        sliding.iter().for_each(|&joint| state.moments[joint] = get());
+        state.torques[..*drives].iter_mut().for_each(|torque| *torque = get());
+        state.passing = self.passing.get(&row).copied();
+        true
+    }
+
+    /// Collects the states that `sweep` visits. What was visited before a failure is kept beside it.
+    pub(super) fn of_run(
+        case: &Case,
+        sweep: impl FnOnce(&mut dyn FnMut(usize, &State) -> Result<()>) -> Result<()>,
+    ) -> (Self, Result<()>) {
+        let mut rows = Rows::new(case);
+        let mut keep = |row: usize, state: &State| {
+            rows.put(row, state);
+            Ok(())
+        };
+        let outcome = sweep(&mut keep);
+        (rows, outcome)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::Wanted;
+    use crate::fixtures;
+
+    /// A state of numbers that are all different.
+    fn numbered(case: &Case) -> State {
+        let mut state = State::at_rest(case);
+        let mut next = 0.0;
+        let mut number = || {
+            next += 1.0;
+            next
+        };
+        for (motion, angle) in state.motions.iter_mut().zip(&mut state.angles).skip(1) {
+            let mut pair = || Vec2::new(number(), number());
+            (motion.origin, motion.direction, motion.velocity, motion.acceleration) = (pair(), pair(), pair(), pair());
+            (motion.omega, motion.alpha, *angle) = (number(), number(), number());
+        }
+        state.forces.iter_mut().for_each(|force| *force = Vec2::new(number(), number()));
+        state.torques.iter_mut().for_each(|torque| *torque = number());
+        state
+    }
+
+    #[test]
+    fn a_state_comes_back_bit_for_bit_and_only_where_it_was_kept() {
+        let case = fixtures::turning(fixtures::four_bar());
+        let state = numbered(&case);
+        let mut rows = Rows::new(&case);
+        rows.put(1, &state);
+        let mut back = State::at_rest(&case);
+        assert!(!rows.get(0, &mut back) && rows.get(1, &mut back));
+        assert_eq!(format!("{back:?}"), format!("{state:?}"));
+    }
+
+    #[test]
+    fn positions_alone_need_a_third_of_the_room() {
+        let case = fixtures::turning(fixtures::four_bar());
+        let positions = case.with(|parts| parts.wanted = Wanted::of(&[Stage::Positions])).unwrap();
+        assert!(3 * Rows::bytes_of_row(&positions) <= Rows::bytes_of_row(&case) + 4);
+        let state = numbered(&positions);
+        let (rows, _) = Rows::of_run(&positions, |visit| visit(0, &state));
+        let mut back = State::at_rest(&positions);
+        assert!(rows.get(0, &mut back));
+        for (own, other) in back.motions.iter().zip(&state.motions).skip(1) {
+            assert_eq!((own.origin, own.direction, own.omega), (other.origin, other.direction, 0.0));
+        }
+        assert_eq!(back.angles, state.angles);
+    }
+}

@@ -1,0 +1,68 @@
+//! Memory that a run needs, estimated before it begins.
+//!
+//! A run holds whole trajectories: 8 bytes for every value. Which runs an engine needs is not known beforehand; the
+//! estimate takes what most searches need. Measured peaks lie between half of it and twice.
+
+use linkage::case::Case;
+use linkage::engine::Rows;
+use linkage::error::{Advice, Error, ErrorKind, Result};
+
+/// Memory allowed by default (bytes).
+pub(crate) const MOST: f64 = 4e9;
+/// Memory that a run has besides its instants (bytes).
+const ELSE: f64 = 2e7;
+/// Trajectories of a proof at its peak: two sides, the three runs that are judged, one with other sweeps, the
+/// best one so far, one being made.
+const TRAJECTORIES: f64 = 8.0;
+/// Kept runs of an engine at the peak: steps that are halved a few times, and other sweeps for some of them.
+const RUNS: f64 = 12.0;
+/// Values of an instant besides its channels: time, crank angle, order, openings, powers.
+const BESIDE: usize = 6;
+
+/// Estimated memory (bytes) of a proof of a case by engines, one after the other.
+#[must_use]
+pub fn of_proof(case: &Case, engines: usize) -> f64 {
+    // Of every engine its trajectory is left.
+    let trajectories = TRAJECTORIES + engines.saturating_sub(1) as f64;
+    let row = trajectories * trajectory(case) + RUNS * Rows::bytes_of_row(case) as f64;
+    ELSE + case.grid.len() as f64 * row
+}
+
+/// Estimated memory (bytes) of one solution of a case by a solver that combines `runs` runs.
+#[must_use]
+pub fn of_solution(case: &Case, runs: usize) -> f64 {
+    let row = trajectory(case) + runs.saturating_sub(1) as f64 * Rows::bytes_of_row(case) as f64;
+    ELSE + case.grid.len() as f64 * row
+}
+
+/// Memory of one instant of a trajectory (bytes).
+fn trajectory(case: &Case) -> f64 {
+    ((case.channels().len() + BESIDE) * size_of::<f64>()) as f64
+}
+
+/// Checks that `needed` (bytes) is allowed: `most`, or the default.
+///
+/// # Errors
+/// [`ErrorKind::Unsupported`] with the size of the run and the ways out.
+pub(crate) fn check(case: &Case, needed: f64, most: Option<f64>) -> Result<()> {
+    let most = most.unwrap_or(MOST);
+    if needed <= most {
+        return Ok(());
+    }
+    let message = format!("{}; {} are allowed", told(case, needed), gigabytes(most));
+    Err(Error::new(ErrorKind::Unsupported, message)
+        .key("grid")
+        .help(Advice::FewerInstants)
+        .or_help(Advice::MoreMemory { to: needed }))
+}
+
+/// What a run needs, in words.
+#[must_use]
+pub(crate) fn told(case: &Case, needed: f64) -> String {
+    let (instants, channels) = (case.grid.len(), case.channels().len());
+    format!("{instants} instants of {channels} channels need about {} of memory", gigabytes(needed))
+}
+
+fn gigabytes(bytes: f64) -> String {
+    format!("{:.1} GB", bytes / 1e9)
+}

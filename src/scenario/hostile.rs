@@ -1,0 +1,67 @@
+//! What no text of a file may hold: letters that a reader does not see, and texts of any length.
+//!
+//! Titles, sources and names go into reports, tables, drawings and recordings. A line break there would forge a line of
+//! a report, an escape character would command a terminal, and a change of direction would show another name than the
+//! one that is meant.
+
+use std::ops::Range;
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use linkage::error::{Error, ErrorKind, Place, Result};
+use linkage::mechanism::{LONGEST_NAME, is_unseen};
+
+/// Longest text (characters).
+const LONGEST_TEXT: usize = 10_000;
+
+/// Gives the place of a range of bytes in the file.
+type Places<'a> = &'a dyn Fn(Range<usize>) -> Place;
+
+/// Checks all keys and texts of a file.
+///
+/// # Errors
+/// [`ErrorKind::Input`] with the place and the key of the first that is refused.
+pub fn check(source: Places, tree: &DeTable) -> Result<()> {
+    table(source, tree, "")
+}
+
+fn table(source: Places, table: &DeTable, path: &str) -> Result<()> {
+    for (key, value) in table {
+        let place = || source(key.span());
+        let name: &str = key.get_ref();
+        let refused = |message: String, help: &str| {
+            let error = Error::new(ErrorKind::Input, message).at(place()).help(help);
+            Err(if path.is_empty() { error } else { error.key(path) })
+        };
+        if name.contains(is_unseen) {
+            return refused("a key holds a letter that is not seen".into(), UNSEEN_HELP);
+        }
+        if name.chars().count() > LONGEST_NAME {
+            return refused(format!("a key has more than {LONGEST_NAME} letters"), "give it a shorter name");
+        }
+        let path = if path.is_empty() { name.to_string() } else { format!("{path}.{name}") };
+        any(source, value, &path)?;
+    }
+    Ok(())
+}
+
+const UNSEEN_HELP: &str = "take out line breaks, control characters and changes of the writing direction";
+
+#[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the TOML parser")]
+fn any(source: Places, value: &Spanned<DeValue>, path: &str) -> Result<()> {
+    let refused = |message: String, help: &str| {
+        Err(Error::new(ErrorKind::Input, message).key(path).at(source(value.span())).help(help))
+    };
+    match value.get_ref() {
+        DeValue::String(text) if text.contains(is_unseen) => {
+            refused("the text holds a letter that is not seen".into(), UNSEEN_HELP)
+        }
+        DeValue::String(text) if text.chars().count() > LONGEST_TEXT => {
+            refused(format!("the text has more than {LONGEST_TEXT} letters"), "shorten it")
+        }
+        DeValue::Table(own) => table(source, own, path),
+        DeValue::Array(array) => array.iter().try_for_each(|element| any(source, element, path)),
+        _ => Ok(()),
+    }
+}

@@ -1,0 +1,221 @@
+//! What must hold of any input, however bad: one body for the property tests and for the fuzz targets in `fuzz/`.
+//!
+//! Each body panics where something does not hold. That it ends, and within what memory, is watched from outside.
+
+use std::io::Cursor;
+use std::path::Path;
+
+use arbitrary::{Result, Unstructured};
+use linkage::math::{Vec2, unit};
+use linkage::mechanism::{GROUND, Joint, JointKind, Link, Mechanism, Point, Side, Structure, is_unseen};
+use linkage::trajectory::CHANNELS;
+use linkage::{Error, ErrorKind};
+use linkproof::{record, scenario::Scenario};
+
+/// The text of a scenario file: it loads, or the error has what a user needs.
+pub fn scenario(text: &str) -> Option<Scenario> {
+    let path = Path::new("no_such_directory/scenario.toml");
+    match Scenario::parse(text, path) {
+        Ok(scenario) => {
+            let case = &scenario.case;
+            assert!(case.grid.times.iter().chain(&case.grid.cranks).all(|value| value.is_finite()));
+            assert!(case.start.0.iter().all(|pose| pose.angle.is_finite() && pose.origin.norm().is_finite()));
+            assert_eq!(case.channels().len(), case.channels().iter().collect::<Vec<_>>().len());
+            Some(scenario)
+        }
+        Err(error) => {
+            explains(&error, text);
+            None
+        }
+    }
+}
+
+/// An error of a scenario file names kind, place and key, and has a message of its own.
+pub fn explains(error: &Error, text: &str) {
+    let shown = format!("{error}");
+    assert!(!error.message().trim().is_empty(), "an error without a message");
+    assert_ne!(error.kind(), ErrorKind::Numeric, "loading solves nothing: {shown}");
+    let place = error.place().unwrap_or_else(|| panic!("no place: {shown}"));
+    if place.file.extension().is_some_and(|own| own == "toml") {
+        assert!(place.line() <= text.split('\n').count().max(1), "line {} does not exist: {shown}", place.line());
+        let is_whole = error.message().starts_with("the file is not valid TOML")
+            || error.message().starts_with("the file holds no scenario")
+            || error.message().starts_with("a key ");
+        assert!(error.scenario_key().is_some_and(|key| !key.is_empty()) || is_whole, "no key: {shown}");
+    }
+}
+
+/// Any links and joints: their structure is refused, or its driving links and groups are what they say.
+pub fn structure(bytes: &[u8]) -> Result<()> {
+    let mut from = Unstructured::new(bytes);
+    let Ok((mechanism, drives)) = mechanism(&mut from)? else { return Ok(()) };
+    let structure = match Structure::of(&mechanism, &drives) {
+        Ok(structure) => structure,
+        Err(error) => {
+            assert!(!error.message().is_empty());
+            return Ok(());
+        }
+    };
+    // In this order every part hangs on what is known before it, and every joint is used once.
+    let (mut known, mut used) = (vec![GROUND], Vec::new());
+    for &(link, joint) in &structure.drivers {
+        assert!(!known.contains(&link), "link {link} is solved twice");
+        assert!(mechanism.joints()[joint].on(link).is_some());
+        known.push(link);
+        used.push(joint);
+    }
+    for group in &structure.groups {
+        assert_eq!(3 * group.links.len(), 2 * (group.inner.len() + group.outer.len()), "{group:?} is no Assur group");
+        for &link in &group.links {
+            assert!(!known.contains(&link), "link {link} is solved twice");
+        }
+        for &joint in &group.outer {
+            let ends = [mechanism.joints()[joint].first.link, mechanism.joints()[joint].second.link];
+            assert_eq!(ends.iter().filter(|end| known.contains(end)).count(), 1, "outer joint {joint} of {group:?}");
+        }
+        for &joint in &group.inner {
+            let ends = [mechanism.joints()[joint].first.link, mechanism.joints()[joint].second.link];
+            assert!(ends.iter().all(|end| group.links.contains(end)), "inner joint {joint} of {group:?}");
+        }
+        known.extend(&group.links);
+        used.extend(group.inner.iter().chain(&group.outer));
+    }
+    known.sort_unstable();
+    used.sort_unstable();
+    assert_eq!(known, (0..mechanism.links().len()).collect::<Vec<_>>());
+    assert_eq!(used, (0..mechanism.joints().len()).collect::<Vec<_>>());
+    // Names and classes of what was found are written in every report.
+    assert!(!structure.formula(&mechanism).contains(is_unseen));
+    assert_eq!(structure.upstream(&mechanism).len(), mechanism.links().len());
+    Ok(())
+}
+
+type Drawn = (Mechanism, Vec<usize>);
+
+/// Up to 64 links with joints between any two of them, and up to four drives.
+fn mechanism(from: &mut Unstructured) -> Result<std::result::Result<Drawn, Error>> {
+    let moving = from.int_in_range(1..=63usize)?;
+    let drives = from.int_in_range(1..=4usize)?;
+    // Half of the drawings have the number of joints that the mobility asks for.
+    let fitting = (3 * moving).saturating_sub(drives) / 2;
+    let joints = if from.arbitrary()? { fitting } else { from.int_in_range(0..=100usize)? };
+    let links = (0..=moving)
+        .map(|index| {
+            let place = |from: &mut Unstructured| Ok(Vec2::new(f64::from(from.arbitrary::<i8>()?), 1.0));
+            let points = ["P", "Q"].map(|name| format!("{name}{index}"));
+            let points = points.into_iter().map(|name| Ok(Point { name, local: place(from)? }));
+            let (points, mass_centre) = (points.collect::<Result<_>>()?, Vec2::zeros());
+            Ok(Link { name: format!("L{index}"), points, mass: 1.0, mass_centre, inertia: 1.0 })
+        })
+        .collect::<Result<Vec<Link>>>()?;
+    let joints = (0..joints)
+        .map(|index| {
+            let side = |from: &mut Unstructured, link: usize| {
+                Ok(Side { link, local: links[link].points[usize::from(from.arbitrary::<bool>()?)].local })
+            };
+            // Near links are joined more often than distant ones: otherwise hardly a drawing decomposes.
+            let first = from.int_in_range(0..=moving)?;
+            let second = match from.arbitrary()? {
+                true => (first + from.int_in_range(0..=3usize)?) % (moving + 1),
+                false => from.int_in_range(0..=moving)?,
+            };
+            let kind = match from.ratio(1, 4)? {
+                true => JointKind::Prismatic { axes: [0.0, 1.0].map(unit) },
+                false => JointKind::Revolute,
+            };
+            Ok(Joint { name: format!("J{index}"), kind, first: side(from, first)?, second: side(from, second)? })
+        })
+        .collect::<Result<Vec<Joint>>>()?;
+    let drives = (0..drives).map(|_| from.choose_index(joints.len().max(1))).collect::<Result<Vec<usize>>>()?;
+    Ok(match joints.is_empty() {
+        true => Err(Error::new(ErrorKind::Input, "no joint")),
+        false => Mechanism::new(links, joints).map(|mechanism| (mechanism, drives)),
+    })
+}
+
+/// The bytes of a recording: they are refused, or every side is a trajectory. An even first byte says that the rest is
+/// the file itself; an odd one that it draws topics and messages of a file that is whole.
+pub fn recording(bytes: &[u8]) -> Result<()> {
+    let Some((first, rest)) = bytes.split_first() else { return Ok(()) };
+    let file = match first % 2 {
+        0 => rest.to_vec(),
+        _ => drawn_file(&mut Unstructured::new(rest))?,
+    };
+    match record::read_bytes(&file, Path::new("drawn.mcap")) {
+        Ok(sides) => {
+            assert!(!sides.is_empty());
+            for (_, side) in sides {
+                let rows = side.times().len();
+                assert!(rows > 0 && side.cranks().len() == rows);
+                assert!(side.iter().all(|(_, column)| column.len() == rows && column.iter().all(|v| v.is_finite())));
+            }
+        }
+        Err(error) => {
+            let message = format!("{error}");
+            assert!(message.contains("drawn.mcap") || error.kind() == ErrorKind::Numeric, "no path: {message}");
+        }
+    }
+    Ok(())
+}
+
+/// A file with topics, descriptors and messages of any kind, most of them nearly right.
+fn drawn_file(from: &mut Unstructured) -> Result<Vec<u8>> {
+    let options = mcap::WriteOptions::new().compression(None).chunk_size(None);
+    let mut file = options.create(Cursor::new(Vec::new())).expect("memory can be written");
+    for _ in 0..from.int_in_range(0..=4)? {
+        let side = ["reference", "engine", "error", ""][from.choose_index(4)?];
+        let subject = ["grid", "link/crank", "joint/A", "drive", "frame", "//", "grid/grid"][from.choose_index(7)?];
+        let names: Vec<String> = match (subject, from.ratio(1, 8)?) {
+            (_, true) => vec![from.arbitrary()?, "t_s".into()],
+            ("grid", _) => ["t_s", "crank_rad", "row"].map(String::from).to_vec(),
+            _ => {
+                (0..3).map(|_| Ok(CHANNELS[from.choose_index(CHANNELS.len())?].suffix.into())).collect::<Result<_>>()?
+            }
+        };
+        let descriptor = if from.ratio(1, 8)? { from.arbitrary()? } else { descriptor(&names, from)? };
+        let schema = file.add_schema("linkproof.Any", "protobuf", &descriptor);
+        let topic = format!("/{side}/{subject}");
+        let Ok(topic) = schema.and_then(|id| file.add_channel(id, &topic, "protobuf", &Default::default())) else {
+            continue;
+        };
+        for sequence in 0..from.int_in_range(0..=4u32)? {
+            let mut data = Vec::new();
+            for tag in 1..=names.len() as u64 {
+                let value: f64 = if from.ratio(1, 16)? { from.arbitrary()? } else { f64::from(sequence) };
+                data.push((tag << 3 | 1) as u8);
+                data.extend(value.to_le_bytes());
+            }
+            if from.ratio(1, 8)? {
+                data.extend(from.arbitrary::<[u8; 4]>()?);
+            }
+            let sequence = if from.ratio(1, 16)? { from.arbitrary()? } else { sequence };
+            let header = mcap::records::MessageHeader { channel_id: topic, sequence, log_time: 0, publish_time: 0 };
+            file.write_to_known_channel(&header, &data).expect("memory can be written");
+        }
+    }
+    file.finish().expect("memory can be written");
+    Ok(file.into_inner().into_inner())
+}
+
+/// A descriptor of one message with double fields of these names; their numbers are those of the list, or any.
+fn descriptor(names: &[String], from: &mut Unstructured) -> Result<Vec<u8>> {
+    use prost::Message;
+    use prost_types::{DescriptorProto, FieldDescriptorProto, FileDescriptorProto, FileDescriptorSet};
+    let field = |(index, name): (usize, &String)| {
+        let number = if from.ratio(1, 16)? { from.arbitrary()? } else { index as i32 + 1 };
+        Ok(FieldDescriptorProto {
+            name: Some(name.clone()),
+            number: Some(number),
+            r#type: Some(1),
+            ..FieldDescriptorProto::default()
+        })
+    };
+    let field = names.iter().enumerate().map(field).collect::<Result<_>>()?;
+    let message = DescriptorProto { name: Some("Any".into()), field, ..DescriptorProto::default() };
+    let file = FileDescriptorProto {
+        package: Some("linkproof".into()),
+        message_type: vec![message],
+        ..FileDescriptorProto::default()
+    };
+    Ok(FileDescriptorSet { file: vec![file] }.encode_to_vec())
+}

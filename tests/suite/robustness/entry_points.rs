@@ -1,0 +1,57 @@
+//! The bodies of the fuzz targets on inputs that are drawn here, so that neither drifts.
+
+use proptest::prelude::*;
+
+use crate::common::{damage::damaged, entries};
+
+fn config(cases: u32) -> ProptestConfig {
+    let more = if std::env::var_os("LINKPROOF_NIGHTLY").is_some() { 50 } else { 1 };
+    ProptestConfig { cases: cases * more, failure_persistence: None, ..ProptestConfig::default() }
+}
+
+proptest! {
+    #![proptest_config(config(300))]
+
+    #[test]
+    fn any_text_is_a_scenario_or_an_error_with_its_place(text in "\\PC{0,60}|([a-z_.\\[\\]\"= 0-9\n]){0,200}") {
+        entries::scenario(&text);
+    }
+
+    #[test]
+    fn any_structure_is_refused_or_decomposes(bytes in prop::collection::vec(any::<u8>(), 0..1500)) {
+        let _ = entries::structure(&bytes);
+    }
+
+    #[test]
+    fn any_bytes_are_a_recording_or_an_error(bytes in prop::collection::vec(any::<u8>(), 0..600)) {
+        let _ = entries::recording(&bytes);
+    }
+}
+
+#[test]
+fn damaged_texts_are_scenarios_or_errors_with_their_places() {
+    for index in 0..200 {
+        let damaged = damaged(7, index);
+        entries::scenario(&damaged.text);
+    }
+}
+
+/// What fuzzing has found, by target: `fuzz/finds/TARGET/NAME`. docs/stories.md tells them.
+#[test]
+fn what_fuzzing_has_found_stays_mended() {
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz/finds");
+    let mut count = 0;
+    for target in ["scenario", "structure", "recording"] {
+        let Ok(finds) = std::fs::read_dir(root.join(target)) else { continue };
+        for find in finds {
+            let bytes = std::fs::read(find.unwrap().path()).unwrap();
+            match target {
+                "scenario" => drop(entries::scenario(&String::from_utf8_lossy(&bytes))),
+                "structure" => drop(entries::structure(&bytes)),
+                _ => drop(entries::recording(&bytes)),
+            }
+            count += 1;
+        }
+    }
+    println!("{count} finds");
+}

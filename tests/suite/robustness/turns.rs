@@ -1,0 +1,95 @@
+//! Instants many turns away: the same numbers as near by, and without following every turn.
+
+use std::f64::consts::TAU;
+
+use linkage::case::{Case, Grid};
+use linkage::trajectory::{Trajectory, Unit};
+
+use crate::common::{assert_within, shipped};
+
+/// Angles of a trajectory count the turns; everything else repeats.
+fn assert_repeats(near: &Trajectory, far: &Trajectory, turns: f64, what: &str) {
+    for ((channel, near), (_, far)) in near.iter().zip(far.iter()) {
+        let scale = near.iter().fold(1e-3, |most: f64, value| if value.abs() > most { value.abs() } else { most });
+        for (near, far) in near.iter().zip(far) {
+            let gone = match channel.kind.unit {
+                // Whole turns of the link for every turn of the crank, in a far instant as in the first turns.
+                Unit::Radian => ((far - near) / TAU).round() * TAU,
+                _ => 0.0,
+            };
+            if channel.kind.unit == Unit::Radian {
+                assert_within!((gone / TAU).abs() % turns.abs(), 0.0, "{what}: {channel} turns {}", gone / TAU);
+            }
+            // The crank angle itself has lost digits: 1e5 turns leave 1e-10 rad.
+            assert_within!((far - near - gone).abs() / scale, 1e-7, "{what}: {channel} {near} {far}");
+        }
+    }
+}
+
+fn at(case: &Case, turns: f64) -> Case {
+    let cranks = [0.3, 2.0, 5.5].map(|angle| angle + turns * TAU).to_vec();
+    case.on(Grid::of_cranks(case.crank(), cranks)).unwrap()
+}
+
+#[test]
+fn a_hundred_thousand_turns_away_all_is_as_near_by() {
+    for (name, mode) in
+        [("crank_rocker.toml", 1), ("ov7_base.toml", 1), ("fourth_class.toml", 1), ("quick_return.toml", 1)]
+    {
+        let case = shipped(name).case;
+        for solver in analytic::all() {
+            let Ok(near) = solver.solve(&at(&case, 0.0)) else { continue };
+            for turns in [7.0, -7.0, 1e4, -9e4] {
+                let far = solver.solve(&at(&case, turns * f64::from(mode))).unwrap();
+                assert_repeats(&near, &far, turns, &format!("{name}, {}, {turns} turns", solver.name()));
+            }
+        }
+    }
+}
+
+/// A branch that is another one after a turn is followed turn by turn: a parallelogram's change points are refused, a
+/// lawful motion has no whole turns, and two drives do not repeat together.
+#[test]
+fn several_drives_are_followed_all_the_way() {
+    let case = shipped("five_bar.toml").case;
+    let times: Vec<f64> = vec![0.0, 40.0 * TAU / case.crank().top_speed().abs()];
+    let far = case.on(Grid::of_times(case.crank(), times.clone())).unwrap();
+    // The same way in small pieces.
+    let pieces: Vec<f64> = (0..=4000).map(|k| times[1] * f64::from(k) / 4000.0).collect();
+    let close = case.on(Grid::of_times(case.crank(), pieces)).unwrap();
+    for solver in analytic::all() {
+        let (far, close) = (solver.solve(&far), solver.solve(&close));
+        match (far, close) {
+            (Ok(far), Ok(close)) => {
+                for ((channel, far), (_, close)) in far.iter().zip(close.iter()) {
+                    let (one, other) = (far[1], close[4000]);
+                    assert_within!((one - other).abs(), 1e-9 * (1.0 + one.abs()), "{channel}");
+                }
+            }
+            (far, close) => assert_eq!(far.is_ok(), close.is_ok()),
+        }
+    }
+}
+
+/// Symptom: a law that is steep for a moment made side 2 follow 1e18 turns.
+#[test]
+fn a_law_that_is_steep_for_a_moment_ends() {
+    let text = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/scenarios/crank_rocker.toml")).unwrap();
+    let text = text.split("[[oracle]]").next().unwrap().replacen("[motor]", "[unused]", 1);
+    let start = text.find("[unused]").unwrap();
+    let end = start + text[start..].find("\n[gravity]").unwrap();
+    let text = format!("{}{}", &text[..start], &text[end..]);
+    let point = |time: &str, angle: u8| format!("{{ time_s = {time}, angle_deg = {angle} }}");
+    let points = [point("0", 0), point("1e-9", 10), point("1e9", 20)].join(", ");
+    let law = &format!("law = \"table\"\npoints = [{points}]");
+    let grid = "[grid]\ntimes_s = [0, 1e-9, 1e9]\n";
+    let cut = text.find("[grid]").unwrap();
+    let text = format!("{}{grid}", text[..cut].replacen("speed_rpm = 130", law, 1));
+    let scenario = linkproof::scenario::Scenario::parse(&text, std::path::Path::new("steep.toml"));
+    let scenario = scenario.unwrap_or_else(|error| panic!("{error}: {text}"));
+    for solver in analytic::all() {
+        if let Err(error) = solver.solve(&scenario.case) {
+            assert!(error.message().contains("turns on the way"), "{error}");
+        }
+    }
+}
