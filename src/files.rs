@@ -39,6 +39,17 @@ pub(crate) fn replace<E: From<io::Error>>(path: &Path, fill: impl FnOnce(&File) 
     Ok(())
 }
 
+/// The text of a file; `None` if there is no such file.
+///
+/// # Errors
+/// Those of the file system.
+pub(crate) fn text(path: &Path) -> io::Result<Option<String>> {
+    match fs::read_to_string(path) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+        other => other.map(Some),
+    }
+}
+
 /// A new temporary file that is locked as long as it is open.
 fn create(directory: &Path) -> io::Result<NamedTempFile> {
     loop {

@@ -67,6 +67,10 @@ pub mod report;
 #[doc(hidden)]
 pub mod scenario;
 #[doc(hidden)]
+pub mod specimens;
+#[doc(hidden)]
+pub mod stress;
+#[doc(hidden)]
 pub mod tolerance;
 #[doc(hidden)]
 pub mod tune;

@@ -237,7 +237,8 @@ def solve(request, case, way):
 
 def torque(case, model, motion, drive, sensor):
     if sensor is not None:
-        return model.read(sensor)[:, 0]
+        # The force of the constraint is that on its first marker.
+        return -model.read(sensor)[:, 0]
     if not drive["motion"]["motor"]:
         return np.zeros(len(case.times))
     # What the shaft passes on: less what accelerates rotor and reducer.

@@ -4,8 +4,9 @@
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Effort(pub Vec<(String, u64)>);
 
-/// Counts of which each is one solution of the whole mechanism at one state, the first that there is.
-const SOLUTIONS: [&[&str]; 3] = [&["steps", "probes"], &["evaluations"], &["poses"]];
+/// Counts of which each is one solution of the whole mechanism at one state, the first that there is. A step of a method
+/// of several stages has as many evaluations.
+const SOLUTIONS: [&[&str]; 3] = [&["evaluations"], &["steps", "probes"], &["poses"]];
 /// Counts of the inner work of such a solution, the first that there is.
 const INNER: [&[&str]; 4] = [&["sweeps"], &["factorisations"], &["iterations"], &["groups"]];
 
@@ -20,7 +21,7 @@ impl Effort {
         wanted.iter().map(|names| names.iter().filter_map(|name| self.of(name)).sum::<u64>()).find(|&sum| sum > 0)
     }
 
-    /// Solutions of the whole mechanism: steps and probes of an engine, else evaluations of the equation of motion, else
+    /// Solutions of the whole mechanism: evaluations of the equation of motion, else steps and probes of an engine, else
     /// poses.
     #[must_use]
     pub fn solutions(&self) -> Option<u64> {
@@ -43,6 +44,8 @@ mod tests {
         let effort = |counts: &[(&str, u64)]| Effort(counts.iter().map(|&(name, n)| (name.to_string(), n)).collect());
         let engine = effort(&[("poses", 3), ("steps", 10), ("probes", 2), ("sweeps", 40)]);
         assert_eq!((engine.solutions(), engine.inner()), (Some(12), Some(40)));
+        let stages = effort(&[("steps", 10), ("evaluations", 41)]);
+        assert_eq!((stages.solutions(), stages.inner()), (Some(41), None));
         let side = effort(&[("poses", 3), ("factorisations", 0), ("iterations", 5)]);
         assert_eq!((side.solutions(), side.inner()), (Some(3), Some(5)));
         assert_eq!((effort(&[]).solutions(), effort(&[]).inner()), (None, None));

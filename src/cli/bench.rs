@@ -14,7 +14,7 @@ use crate::bench::{Axis, Bench, Clock, Options, Peer, bench};
 use crate::engines::{EngineName, usual_step};
 use crate::outside::{Command, Exports, machine, processor_time};
 use crate::report::{bench as report, bench_page, bench_plot, case_json};
-use crate::scenario::Scenario;
+use crate::scenario::{Scenario, files_in};
 use analytic::AssurSolver;
 use analytic::range::explained;
 use linkage::error::{Error, ErrorKind, Result};
@@ -24,7 +24,9 @@ const EXAMPLES: &str = "\
 Examples:
   linkproof bench scenarios/crank_rocker.toml --out bench --quick        a coarse picture, in seconds
   linkproof bench scenarios/five_bar.toml --out bench --quick --only positions --engine rapier
-  linkproof bench scenarios/*.toml --out docs/bench --page docs/bench.md --peer mujoco='python3 examples/peers/mujoco_peer.py'
+
+All scenarios, beside another program, with a page:
+  linkproof bench scenarios/*.toml --out bench --page bench.md --peer mujoco='python3 examples/peers/mujoco_peer.py'
 
 Writes NAME.time.svg, NAME.solutions.svg, NAME.inner.svg and NAME.csv of every scenario, and bench.json, to the directory.
 Times are ratios to that of side 1 in the same command; they may differ from run to run, errors and counts do not.
@@ -121,9 +123,8 @@ pub(super) fn run(args: &Args) -> Result<()> {
     output::write(&report::json(&benches, &machine), &args.out.join("bench.json"))?;
     match &args.page {
         Some(page) => {
-            let command: Vec<String> = std::env::args().skip(1).map(|word| quoted(&word)).collect();
-            let command = format!("linkproof {}", command.join(" "));
-            output::write(&bench_page::page(&benches, &machine, &command, &seen_from(page, &args.out)), page)
+            let text = bench_page::page(&benches, &machine, &command(args), &seen_from(page, &args.out));
+            output::write(&text, page)
         }
         None => Ok(()),
     }
@@ -174,6 +175,24 @@ fn put(args: &Args, found: &Bench, machine: &report::Machine) -> Result<()> {
         }
     }
     Ok(())
+}
+
+/// The command, as it can be given again: all scenarios of a directory by one word.
+fn command(args: &Args) -> String {
+    let files: Vec<String> = args.files.iter().map(|file| file.to_string_lossy().into_owned()).collect();
+    let directory = args.files[0].parent().unwrap_or(Path::new("."));
+    let mut sorted = args.files.clone();
+    sorted.sort();
+    let whole = sorted.len() > 1 && files_in(directory).is_ok_and(|all| all == sorted);
+    let mut words = vec!["linkproof".to_string()];
+    for word in std::env::args().skip(1) {
+        match files.iter().position(|file| *file == word) {
+            Some(0) if whole => words.push(format!("{}/*.toml", directory.display())),
+            Some(_) if whole => {}
+            Some(_) | None => words.push(quoted(&word)),
+        }
+    }
+    words.join(" ")
 }
 
 /// A word of a command line as a shell takes it.

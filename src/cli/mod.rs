@@ -22,6 +22,7 @@ mod plan;
 mod progress;
 mod run;
 mod solve;
+mod stress;
 mod synthesize;
 mod tune;
 
@@ -57,6 +58,8 @@ enum Command {
     Solve(solve::Args),
     /// Find the cheapest settings of an engine that meet a wanted error, by measurement
     Tune(tune::Args),
+    /// Turn one dial at a time until numbers are lost: where every solver and engine holds to, with maps of stability
+    Stress(stress::Args),
     /// Plant faults in one party of a proof, or in what all share, and say which are found
     Mutate(mutate::Args),
     /// Measure run time against error of every solver, engine and setting, and of other programs: diagrams and numbers
@@ -91,6 +94,7 @@ pub fn main() -> ExitCode {
         Command::Run(args) => run::run(&args),
         Command::Solve(args) => output::exit(solve::solve(&args)),
         Command::Tune(args) => output::exit(tune::run(&args)),
+        Command::Stress(args) => stress::run(&args),
         Command::Mutate(args) => mutate::run(&args),
         Command::Bench(args) => output::exit(bench::run(&args)),
         Command::Inspect(args) => output::exit(inspect::inspect(&args)),

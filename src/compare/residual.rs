@@ -98,12 +98,20 @@ pub fn magnitudes(trajectory: &Trajectory) -> Vec<f64> {
 /// `feeds` it, given first.
 pub(crate) fn magnitudes_by(trajectory: &Trajectory, sets: &[usize], feeds: &dyn Fn(usize, usize) -> bool) -> Vec<f64> {
     let largest = largest_sizes(trajectory);
-    let sizes_of = |set: usize| {
-        let fed = sets.iter().map(|&from| feeds(from, set));
-        let own = trajectory.channels().iter().zip(&largest).zip(fed).filter(|(_, is_fed)| *is_fed);
-        Sizes::of(trajectory, own.map(|((channel, size), _)| (channel, *size)))
+    let count = 1 + sets.iter().copied().max().unwrap_or(0);
+    let mut members: Vec<Vec<usize>> = vec![Vec::new(); count];
+    for (channel, &set) in sets.iter().enumerate() {
+        members[set].push(channel);
+    }
+    let of_set = |own: &Vec<usize>| {
+        Sizes::of(trajectory, own.iter().map(|&channel| (&trajectory.channels()[channel], largest[channel])))
     };
-    let all: Vec<Sizes> = (0..=sets.iter().copied().max().unwrap_or(0)).map(sizes_of).collect();
+    let own: Vec<Sizes> = members.iter().map(of_set).collect();
+    let sizes_of = |set: usize| {
+        let fed = own.iter().enumerate().filter(|&(from, _)| feeds(from, set));
+        fed.fold(Sizes::of(trajectory, std::iter::empty()), |all, (_, own)| all.with(own))
+    };
+    let all: Vec<Sizes> = (0..count).map(sizes_of).collect();
     trajectory.channels().iter().zip(sets).map(|(channel, &set)| all[set].natural(channel, 1.0)).collect()
 }
 
@@ -149,6 +157,16 @@ impl Sizes {
         sizes
     }
 
+    /// The sizes among the channels of both.
+    fn with(mut self, other: &Sizes) -> Self {
+        for (quantity, size) in &other.of_quantity {
+            let own = self.of_quantity.entry(quantity).or_insert(0.0);
+            *own = own.larger(*size);
+        }
+        (self.length, self.force) = (self.length.larger(other.length), self.force.larger(other.force));
+        self
+    }
+
     fn natural(&self, channel: &Channel, turn: f64) -> f64 {
         let Sizes { length, force, speed, .. } = *self;
         let derived = match channel.kind.unit {
@@ -177,8 +195,8 @@ pub fn difference(reference: &Trajectory, other: &Trajectory) -> Result<Trajecto
             .help("compare only trajectories that were solved for the same times"));
     }
     let (mut channels, mut columns) = (Vec::new(), Vec::new());
-    for (channel, ours) in reference.iter() {
-        let Some(theirs) = other.column(channel) else { continue };
+    for (index, (channel, ours)) in reference.iter().enumerate() {
+        let Some(theirs) = other.column_near(channel, index) else { continue };
         channels.push(channel.clone());
         columns.push(differences(ours, theirs, channel.kind.periodic));
     }

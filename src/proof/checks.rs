@@ -82,7 +82,7 @@ fn worst_instants<'a>(sides: &'a [(&'static str, Observed); 2], known: &Known) -
     let [reference, other] = [0, 1].map(|side| &sides[side].1.trajectory);
     let errors = difference(reference, other).expect("both sides stand on one grid");
     let of = |(index, channel): (usize, &'a Channel)| {
-        let values = errors.column(channel).expect("both sides have all channels");
+        let values = errors.column_near(channel, index).expect("both sides have all channels");
         let at = |(row, &value): (usize, &f64)| Worst {
             channel,
             row,

@@ -15,7 +15,7 @@ use linkage::math::statistics::share;
 use linkage::math::{KeepNan, Motion};
 use linkage::mechanism::{LinkPose, Pose};
 use linkage::solver::{Solver, State};
-use linkage::trajectory::{Channel, Stage, Trajectory};
+use linkage::trajectory::{Channel, Stage, Trajectory, Unit};
 
 /// Wanted: relative error of an analytic side in well conditioned poses. Each derivative, and each linear solve for
 /// forces, multiplies the rounding of its input by the condition of the pose, here at most some tens.
@@ -61,6 +61,10 @@ pub(super) struct Known {
     /// Condition number of the pose at every instant, so far in a motion under forces, for every set of groups; empty
     /// as long as nobody needs it.
     conditions: Vec<Vec<f64>>,
+    /// Size of the crank angle at every instant of a prescribed motion (rad): it is a double, and both sides get it.
+    turned: Vec<f64>,
+    /// Whether a channel is an angle. The numbers of angles have their turns in them already.
+    is_angle: Vec<bool>,
 }
 
 impl Known {
@@ -98,7 +102,12 @@ impl Known {
         let integration = [integration(reference)?, integration(other)?];
         let dependence = Dependence::of(case, reference.1.channels());
         let magnitudes = magnitudes_by(reference.1, &dependence.of, &|from, to| dependence.feeds(from, to));
-        Ok(Known { magnitudes, integration, dependence, conditions: Vec::new() })
+        let turned = match case.is_free() {
+            true => Vec::new(),
+            false => case.grid.cranks.iter().map(|crank| crank.abs()).collect(),
+        };
+        let is_angle = reference.1.channels().iter().map(|channel| channel.kind.unit == Unit::Radian).collect();
+        Ok(Known { magnitudes, integration, dependence, conditions: Vec::new(), turned, is_angle })
     }
 
     /// Measures the condition of every pose, for a trajectory whose errors exceed those of well conditioned poses.
@@ -141,7 +150,10 @@ impl Known {
     /// Relative rounding allowed in a channel of a stage at an instant.
     fn rounding(&self, stage: Stage, channel: usize, row: usize) -> f64 {
         let condition = self.conditions.get(row).map_or(1.0, |sets| sets[self.dependence.of[channel]]);
-        usual(stage).larger(of_condition(stage, condition))
+        // The crank angle is rounded before either side begins: what it leaves is felt like any error of a position.
+        let turned = self.turned.get(row).filter(|_| !self.is_angle[channel]);
+        let turned = turned.map_or(0.0, |turned| f64::EPSILON * turned * condition.powi(power(stage)));
+        usual(stage).larger(of_condition(stage, condition)) + turned
     }
 
     /// Relative difference allowed between the sides in a channel of a stage at an instant.
@@ -157,7 +169,7 @@ impl Known {
 
     /// Largest error allowed to the reference in a channel over the run, in the channel's unit.
     pub(super) fn error(&self, stage: Stage, channel: usize) -> f64 {
-        let rows = 0..self.conditions.len().max(1);
+        let rows = 0..self.conditions.len().max(self.turned.len()).max(1);
         let rounding = rows.map(|row| self.rounding(stage, channel, row)).fold(0.0, f64::larger);
         rounding * self.magnitudes[channel] + self.integration[0][channel]
     }

@@ -1,5 +1,6 @@
 //! The proof: a scenario solved by both analytic sides and by engines, compared, checked, and judged.
 
+pub mod beside;
 mod checks;
 mod dependence;
 mod dial;

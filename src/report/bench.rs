@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use super::cells::table;
 use super::pretty::pretty;
-use crate::bench::{Axis, Bench, Outcome, Party, Point, front};
+use crate::bench::{Axis, Bench, Errors, Outcome, Party, Point, front};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::trajectory::Stage;
 
@@ -19,6 +19,15 @@ const DECADES: [f64; 4] = [1e-3, 1e-6, 1e-9, 1e-12];
 /// Time of a point over that of side 1.
 pub(crate) fn ratio(bench: &Bench, point: &Point) -> Option<f64> {
     Some(point.seconds()? / bench.unit)
+}
+
+/// An error in words; one that the reference does not resolve says so.
+pub(crate) fn error(errors: Errors, floor: f64) -> String {
+    match (errors.is_limited, errors.max > floor) {
+        (false, _) => format!("{:.1e}", errors.max),
+        (true, true) => format!("{:.1e}, limited", errors.max),
+        (true, false) => "at the floor".into(),
+    }
 }
 
 /// A ratio with three digits.
@@ -65,9 +74,8 @@ pub(crate) fn text(bench: &Bench) -> String {
         for index in sides.iter().copied().chain(others) {
             let point = &bench.points[index];
             let Some(errors) = point.error(stage) else { continue };
-            let mark = if errors.is_limited { " (floor)" } else { "" };
             rows.add_row([
-                format!("{:.1e}{mark}", errors.max),
+                error(errors, floor),
                 ratio(bench, point).map_or_else(String::new, short),
                 Axis::Solutions.of(point).map_or_else(String::new, |count| count.to_string()),
                 point.program.clone(),

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::bench::{Machine, fastest, ratio, short};
+use super::bench::{Machine, error, fastest, ratio, short};
 use super::bench_plot::reasons;
 use crate::bench::{Axis, Bench, CLEAR, Party, Point, front};
 use linkage::trajectory::Stage;
@@ -93,8 +93,7 @@ fn told(bench: &Bench, stage: Stage, of: &dyn Fn(&Point) -> bool) -> String {
     let told = front(&bench.points, stage, Axis::Time, floor, of).into_iter().filter_map(|index| {
         let point = &bench.points[index];
         let errors = point.error(stage)?;
-        let mark = if errors.is_limited { ", floor" } else { "" };
-        Some(format!("{} ({:.0e} at {}{mark})", named(point), errors.max, short(ratio(bench, point)?)))
+        Some(format!("{} ({}; time {})", named(point), error(errors, floor), short(ratio(bench, point)?)))
     });
     told.collect::<Vec<_>>().join("; ")
 }

@@ -34,9 +34,9 @@ const OTHERS: [RGBColor; 5] = [
 const GREY: RGBColor = RGBColor(110, 110, 110);
 const PALE: RGBColor = RGBColor(236, 236, 236);
 const ROSE: RGBColor = RGBColor(252, 240, 240);
-/// Rows of the legend that tell failures, and their length (characters).
-const REASONS: usize = 8;
-const WIDTH: usize = 74;
+/// Characters in a line of the legend, and the height of a small one (pixels).
+const WIDTH: usize = 72;
+const LINE: i32 = 14;
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 type Drawn = Result<(), String>;
@@ -80,7 +80,7 @@ fn told(error: impl std::fmt::Display) -> String {
 fn words(axis: Axis) -> [&'static str; 2] {
     match axis {
         Axis::Time => ["time", "time over that of side 1 (assur)"],
-        Axis::Solutions => ["solutions of the mechanism", "steps and probes, evaluations or poses"],
+        Axis::Solutions => ["solutions of the mechanism", "evaluations, or steps and probes, or poses"],
         Axis::Inner => ["inner work", "sweeps, factorisations, iterations or groups"],
     }
 }
@@ -214,6 +214,21 @@ fn cut(text: &str, most: usize) -> String {
     }
 }
 
+/// The words of a text in lines of at most `most` characters, where no word is longer.
+fn wrapped(text: &str, most: usize) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if line.chars().count() + word.chars().count() < most => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            Some(_) | None => lines.push(word.to_string()),
+        }
+    }
+    lines
+}
+
 /// Programs with their colours, what marks mean, and the reasons of failures.
 fn legend(area: &Area, bench: &Bench) -> Drawn {
     let mut y = 22;
@@ -230,11 +245,12 @@ fn legend(area: &Area, bench: &Bench) -> Drawn {
         let failed = own().filter(|point| point.run().is_none()).count();
         let version = bench.versions.iter().find(|(name, _)| *name == program).map(|(_, version)| version.as_str());
         let version = version.filter(|version| !version.is_empty()).map_or_else(String::new, |own| format!(" ({own})"));
-        let told = match failed {
-            0 => format!("{program}{version}, {} settings", own().count()),
-            _ => format!("{program}{version}, {} settings, {failed} failed", own().count()),
+        let settings = match own().count() {
+            1 => "1 setting".to_string(),
+            count => format!("{count} settings"),
         };
-        write(&told, 64, y, 14)?;
+        let failed = if failed > 0 { format!(", {failed} failed") } else { String::new() };
+        write(&format!("{program}{version}, {settings}{failed}"), 64, y, 14)?;
         y += 20;
     }
     y += 6;
@@ -245,18 +261,26 @@ fn legend(area: &Area, bench: &Bench) -> Drawn {
         format!("Hollow: less than {CLEAR} times above it (dashes), limited by the reference."),
         "Cross in the band above: failed. Errors: largest over instants and channels.".to_string(),
     ] {
-        write(&cut(&text, WIDTH + 6), 18, y, 12)?;
-        y += 16;
+        for line in wrapped(&text, WIDTH) {
+            write(&line, 18, y, 12)?;
+            y += 16;
+        }
     }
     y += 8;
-    let reasons = reasons(bench);
-    let more = reasons.len().saturating_sub(REASONS);
-    for (text, times) in reasons.into_iter().take(REASONS) {
-        write(&format!("x {times}: {}", cut(&text, WIDTH)), 18, y, 11)?;
-        y += 15;
+    let (reasons, mut shown) = (reasons(bench), 0);
+    for (text, times) in &reasons {
+        let lines = wrapped(&format!("x {times}: {}", cut(text, 2 * WIDTH)), WIDTH);
+        if y + LINE * (lines.len() as i32 + 1) > PANEL.1 as i32 {
+            break;
+        }
+        for line in lines {
+            write(&line, 18, y, 11)?;
+            y += LINE;
+        }
+        shown += 1;
     }
-    if more > 0 {
-        write(&format!("x and {more} more reasons: see the table"), 18, y, 11)?;
+    if shown < reasons.len() {
+        write(&format!("x and {} more reasons: see the table", reasons.len() - shown), 18, y, 11)?;
     }
     Ok(())
 }

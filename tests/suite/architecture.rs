@@ -14,6 +14,7 @@ use graph::Graph;
 const CRATES: &[(&str, &str, &str, &str)] = &[
     ("linkage", "crates/linkage", "", "nalgebra petgraph"),
     ("analytic", "crates/analytic", "linkage", "differential-equations num-integer pulp wide"),
+    ("precise", "crates/precise", "linkage", "qd"),
     ("rapier_twin", "crates/rapier-twin", "linkage", "parry2d parry2d-f64 rapier2d rapier2d-f64"),
     ("linkproof_simbody", "crates/simbody", "", ""),
     ("simbody_twin", "crates/simbody-twin", "linkage simbody", ""),
@@ -21,8 +22,8 @@ const CRATES: &[(&str, &str, &str, &str)] = &[
     (
         "linkproof",
         "",
-        "analytic linkage rapier-twin simbody-twin workshop",
-        "annotate-snippets clap comfy-table csv foxglove indicatif mcap plotters prost prost-types serde serde_json strsim tempfile toml toml_edit",
+        "analytic linkage precise rapier-twin simbody-twin workshop",
+        "annotate-snippets chacha20 clap comfy-table csv foxglove indicatif mcap plotters prost prost-types serde serde_json strsim tempfile toml toml_edit",
     ),
 ];
 
@@ -55,7 +56,7 @@ const ROOMS: &[(&str, &str)] = &[
     ("workshop::synthesis", "task"),
     ("workshop::task", ""),
     ("linkproof::bench", "compare engines scenario"),
-    ("linkproof::cli", "bench compare engines files mutate outside proof record report scenario tune"),
+    ("linkproof::cli", "bench compare engines files mutate outside proof record report scenario stress tune"),
     ("linkproof::compare", "tolerance"),
     ("linkproof::diagnosis", "compare"),
     ("linkproof::engines", ""),
@@ -64,8 +65,10 @@ const ROOMS: &[(&str, &str)] = &[
     ("linkproof::outside", "bench"),
     ("linkproof::proof", "compare diagnosis engines scenario tolerance"),
     ("linkproof::record", "files"),
-    ("linkproof::report", "bench compare diagnosis mutate proof record scenario tune"),
+    ("linkproof::report", "bench compare diagnosis mutate proof record scenario stress tune"),
     ("linkproof::scenario", ""),
+    ("linkproof::specimens", "scenario"),
+    ("linkproof::stress", "compare engines proof scenario specimens"),
     ("linkproof::tolerance", ""),
     ("linkproof::tune", "compare proof scenario"),
 ];
@@ -91,6 +94,9 @@ const NEVER: &[(&str, &str)] = &[
     // Engines come from one list only.
     ("linkproof::proof", "rapier_twin simbody_twin workshop"),
     ("linkproof::tune", "rapier_twin simbody_twin workshop"),
+    ("linkproof::stress", "rapier_twin simbody_twin workshop"),
+    // Drawings of mechanisms are the same whatever solves them.
+    ("linkproof::specimens", "analytic rapier_twin simbody_twin workshop linkage::solver"),
     ("linkproof::mutate", "rapier_twin simbody_twin workshop"),
     ("linkproof::bench", "rapier_twin simbody_twin workshop"),
     // It knows other programs, and none of ours.
@@ -133,7 +139,7 @@ const HOMES: &[(&str, &str)] = &[
     ("fs", "linkproof::cli linkproof::files linkproof::outside linkproof::record linkproof::scenario"),
     ("File", "linkproof::files linkproof::outside linkproof::record"),
     ("OpenOptions", ""),
-    ("read_to_string", "linkproof::outside linkproof::scenario"),
+    ("read_to_string", "linkproof::files linkproof::outside linkproof::scenario"),
     ("read_dir", "linkproof::files linkproof::scenario"),
     ("tempfile", "linkproof::files linkproof::outside"),
     ("read", "linkproof::outside linkproof::record linkproof::scenario"),
@@ -144,7 +150,8 @@ const HOMES: &[(&str, &str)] = &[
     ("pulp", "analytic::assur"),
     ("cobyla", "workshop::synthesis"),
     ("rand", "workshop::synthesis"),
-    ("chacha20", "workshop::synthesis"),
+    ("chacha20", "linkproof::specimens workshop::synthesis"),
+    ("qd", "precise::long"),
     ("rayon", "workshop::synthesis"),
     ("parry2d_f64", "rapier_twin::double workshop::clearance"),
     ("svg", "workshop::diagram"),

@@ -191,7 +191,7 @@ fn shipped_mechanisms_against_brute_force() {
 
 #[test]
 fn random_mechanisms_against_brute_force() {
-    let count = if std::env::var_os("LINKPROOF_NIGHTLY").is_some() { 600 } else { 30 };
+    let count = if std::env::var_os("LINKPROOF_NIGHTLY").is_some() { 150 } else { 30 };
     let (mut seen, mut used) = (Seen::default(), 0);
     for index in 0..count {
         let own = specimen(29, index, &mut BTreeMap::new());

@@ -14,5 +14,6 @@ mod range;
 mod run;
 mod solve;
 mod starts;
+mod stress;
 mod synthesize;
 mod tools;

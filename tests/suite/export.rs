@@ -1,5 +1,6 @@
 //! Models for other programs, read back: the file contains the mechanism, its start pose and its speeds.
 
+mod forces;
 mod model;
 
 use crate::common::assert_within;

@@ -46,6 +46,7 @@ mod sliders_closed_form;
 mod specimens;
 mod start;
 mod stories;
+mod stress;
 mod synthesis;
 mod triad_methods;
 mod trunk;

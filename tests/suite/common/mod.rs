@@ -6,9 +6,7 @@ pub mod four_link;
 pub mod higher;
 pub mod loads;
 pub mod random;
-pub mod sketch;
 pub mod sliders;
-pub mod spec;
 pub mod specimens;
 
 pub(crate) use dial::assert_within;
@@ -16,6 +14,7 @@ use linkage::case::{Case, Grid};
 use linkage::math::Vec2;
 use linkage::solver::{Solver, State};
 use linkproof::scenario::Scenario;
+pub use linkproof::specimens::{sketch, spec};
 
 /// A scenario of the repository.
 pub fn shipped(name: &str) -> Scenario {

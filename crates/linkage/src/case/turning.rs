@@ -52,7 +52,8 @@ fn bridges(parts: &CaseParts) -> Vec<Bridge> {
     let (links, joints) = (parts.mechanism.links(), parts.mechanism.joints());
     let mut found = Vec::new();
     for link in 0..links.len() {
-        let on: Vec<&Joint> = joints.iter().filter(|joint| !joint.keeps_angle() && joint.on(link).is_some()).collect();
+        let on = parts.mechanism.joints_on(link).iter().map(|&index| &joints[index]);
+        let on: Vec<&Joint> = on.filter(|joint| !joint.keeps_angle()).collect();
         for (index, first) in on.iter().enumerate() {
             for second in &on[index + 1..] {
                 let mut ends = [first, second].map(|joint| joint.other(link));

@@ -239,6 +239,10 @@ impl Joint {
 pub struct Mechanism {
     links: Vec<Link>,
     joints: Vec<Joint>,
+    /// Joints on every link, in order.
+    on: Vec<Vec<usize>>,
+    /// Asked for in every pose; computed once, because a link of many points has many more distances.
+    size: f64,
 }
 
 impl Mechanism {
@@ -249,7 +253,15 @@ impl Mechanism {
     /// itself, negative or non-finite masses and inertias, inertia without mass, a point name on two links that no
     /// joint holds together.
     pub fn new(links: Vec<Link>, joints: Vec<Joint>) -> Result<Self> {
-        let mechanism = Mechanism { links, joints };
+        let size = links.iter().map(Link::extent).fold(0.0, f64::larger);
+        let mut on = vec![Vec::new(); links.len()];
+        for (index, joint) in joints.iter().enumerate() {
+            for side in [joint.first, joint.second] {
+                // A joint of a link with itself is refused below.
+                on[side.link].push(index);
+            }
+        }
+        let mechanism = Mechanism { links, joints, on, size: if size > 0.0 { size } else { 1.0 } };
         mechanism.check_names()?;
         for link in &mechanism.links {
             check_masses(link).map_err(|error| error.key(format!("links.{}", link.name)))?;
@@ -268,6 +280,12 @@ impl Mechanism {
     #[must_use]
     pub fn joints(&self) -> &[Joint] {
         &self.joints
+    }
+
+    /// Joints on a link, as indices in ascending order.
+    #[must_use]
+    pub fn joints_on(&self, link: usize) -> &[usize] {
+        &self.on[link]
     }
 
     /// Index of the link called `name`.
@@ -309,8 +327,7 @@ impl Mechanism {
     /// It is positive: 1 m where no link has an extent, and no length matters.
     #[must_use]
     pub fn size(&self) -> f64 {
-        let size = self.links.iter().map(Link::extent).fold(0.0, f64::larger);
-        if size > 0.0 { size } else { 1.0 }
+        self.size
     }
 
     /// Whether a link can turn. It cannot if joints that keep the angle connect it with the ground.
@@ -401,6 +418,10 @@ impl Mechanism {
             for joint in self.joints.iter().filter(|joint| joint.is_pin() && joint.on(link).is_some()) {
                 let other = joint.other(link).link;
                 if !reached.contains(&other) && at(joint.first) && at(joint.second) {
+                    // On a link of many joints the others would take long.
+                    if other == b {
+                        return true;
+                    }
                     reached.push(other);
                 }
             }

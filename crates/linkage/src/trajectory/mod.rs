@@ -77,6 +77,12 @@ impl Trajectory {
         Some(&self.columns[index])
     }
 
+    /// As [`Trajectory::column`], looked for at the place `index` first, where trajectories of one case have it.
+    #[must_use]
+    pub fn column_near(&self, channel: &Channel, index: usize) -> Option<&[f64]> {
+        if self.channels.get(index) == Some(channel) { Some(&self.columns[index]) } else { self.column(channel) }
+    }
+
     /// Values of the channel with the name `name`, such as `joint.A.fx_N`, over the grid, in its SI unit.
     #[must_use]
     pub fn named(&self, name: &str) -> Option<&[f64]> {

@@ -24,6 +24,7 @@ pub(super) const fn columns(n: usize) -> usize {
 
 impl<S: Simd, const N: usize> Factors<S, N> {
     #[inline(always)]
+    #[expect(clippy::needless_range_loop, reason = "rows and columns are named as in the formula")]
     pub(super) fn of(mut rows: [[Lanes<S>; N]; N], one: Lanes<S>) -> Self {
         let (mut determinant, mut inverse, mut exchanges) = (one, [one; N], [[one.exceeds(one); N]; N]);
         for k in 0..N {

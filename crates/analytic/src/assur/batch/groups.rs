@@ -72,6 +72,7 @@ pub(super) struct Dyad {
 
 /// An Assur group.
 #[derive(Clone, Debug)]
+#[expect(clippy::large_enum_variant, reason = "groups are few, and each is read in every pose")]
 pub(super) enum Part {
     Dyad(Dyad),
     Chain(Chain),

@@ -79,9 +79,8 @@ pub(super) struct Body {
 
 impl Body {
     pub(super) fn of(case: &Case, link: usize, settled: &[bool]) -> Self {
-        let joints = case.mechanism.joints().iter().enumerate();
-        let on_link = joints.filter(|(index, joint)| settled[*index] && joint.on(link).is_some());
-        let hanging = on_link.map(|(index, _)| Action::of(case, index, link)).collect();
+        let on_link = case.mechanism.joints_on(link).iter().filter(|&&index| settled[index]);
+        let hanging = on_link.map(|&index| Action::of(case, index, link)).collect();
         let body = &case.mechanism.links()[link];
         Body { link, mass: body.mass, inertia: body.inertia, centre: body.mass_centre, hanging }
     }

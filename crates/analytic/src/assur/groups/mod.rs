@@ -41,6 +41,7 @@ struct Driver {
 
 /// An Assur group, prepared for solving.
 #[derive(Clone, Debug)]
+#[expect(clippy::large_enum_variant, reason = "groups are few, and each is read in every pose")]
 pub enum Step {
     /// RRR dyad.
     Rrr(Rrr),

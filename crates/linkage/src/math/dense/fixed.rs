@@ -18,6 +18,7 @@ fn first_mut<T, const N: usize>(of: &mut [T]) -> &mut [T; N] {
 
 /// One step of the elimination, with column and row `K`. Returns whether the matrix can be regular.
 #[inline(always)]
+#[expect(clippy::needless_range_loop, reason = "rows and columns are named as in the formula")]
 fn eliminate<const N: usize, const K: usize>(
     rows: &mut [[f64; N]; N],
     order: &mut [usize; N],

@@ -203,7 +203,11 @@ fn unsupported_drive(mechanism: &Mechanism, joint: usize) -> Error {
 fn group(mechanism: &Mechanism, links: Vec<usize>, known: &[bool]) -> Group {
     let inside = |link: usize| links.contains(&link);
     let (mut inner, mut outer) = (Vec::new(), Vec::new());
-    for (index, joint) in mechanism.joints().iter().enumerate() {
+    let mut own: Vec<usize> = links.iter().flat_map(|&link| mechanism.joints_on(link)).copied().collect();
+    own.sort_unstable();
+    own.dedup();
+    for index in own {
+        let joint = &mechanism.joints()[index];
         let (a, b) = (joint.first.link, joint.second.link);
         if inside(a) && inside(b) {
             inner.push(index);

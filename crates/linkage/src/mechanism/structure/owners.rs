@@ -11,13 +11,15 @@ use crate::mechanism::{GROUND, Mechanism};
 /// An equivalent condition is tested: with three more copies of any one equation, all equations still find owners among
 /// all links, three per link (Lee and Streinu, "Pebble game algorithms and sparse graphs", 2008).
 pub(super) fn check_sparse(mechanism: &Mechanism, drives: &[usize]) -> Result<()> {
-    let mut base = Owners::unassigned(mechanism, drives, OWNED);
-    base.assign_all(mechanism)?;
+    let mut owners = Owners::unassigned(mechanism, drives, OWNED);
+    owners.assign_all(mechanism)?;
+    let count = owners.equations.len();
     for (index, joint) in mechanism.joints().iter().enumerate() {
-        let mut owners = base.clone();
         let ends = [joint.first.link, joint.second.link];
         owners.add((0..3).map(|_| Equation { joint: index, of_drive: false, ends }));
-        owners.assign_all(mechanism)?;
+        owners.assign_from(count, mechanism)?;
+        // What the copies have pushed to other links stays there: the equations without the copies have owners again.
+        owners.keep(count);
     }
     Ok(())
 }
@@ -34,7 +36,6 @@ struct Equation {
 const OWNED: usize = 3;
 
 /// The owner of each equation.
-#[derive(Clone)]
 pub(super) struct Owners {
     equations: Vec<Equation>,
     owner: Vec<Option<usize>>,
@@ -70,13 +71,30 @@ impl Owners {
     }
 
     fn assign_all(&mut self, mechanism: &Mechanism) -> Result<()> {
-        for equation in 0..self.equations.len() {
-            let mut visited = vec![false; mechanism.links().len()];
-            if self.owner[equation].is_none() && !self.assign(equation, &mut visited) {
+        self.assign_from(0, mechanism)
+    }
+
+    /// Finds owners for the equations from `first` on, none of which has one.
+    fn assign_from(&mut self, first: usize, mechanism: &Mechanism) -> Result<()> {
+        let mut visited = vec![false; mechanism.links().len()];
+        for equation in first..self.equations.len() {
+            visited.fill(false);
+            if !self.assign(equation, &mut visited) {
                 return Err(over_constrained(mechanism, &visited));
             }
         }
         Ok(())
+    }
+
+    /// Drops the equations from `count` on.
+    fn keep(&mut self, count: usize) {
+        for equation in count..self.equations.len() {
+            if let Some(link) = self.owner[equation] {
+                self.owned[link].retain(|&own| own != equation);
+            }
+        }
+        self.equations.truncate(count);
+        self.owner.truncate(count);
     }
 
     /// Finds an owner for one equation; moves other equations if necessary (Kuhn's augmenting paths).

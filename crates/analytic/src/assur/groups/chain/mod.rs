@@ -273,8 +273,8 @@ impl Chain {
     /// Vectors of the tree for the links' directions. Every guided link is turned with its parent.
     fn draw(&mut self, motions: &mut [Motion]) {
         let Contours { nodes, arrows, .. } = &self.contours;
-        for node in nodes.iter().filter(|_| self.is_sliding) {
-            if let Some(guided) = node.guided {
+        if self.is_sliding {
+            for (node, guided) in nodes.iter().filter_map(|node| node.guided.map(|guided| (node, guided))) {
                 motions[node.link].direction = rotated(motions[node.parent.link].direction, guided.turn);
             }
         }

@@ -20,8 +20,10 @@ impl Chain {
             for (end, sign) in closing.ends {
                 rate -= ends[end].velocity * sign;
             }
-            for led in closing.ways.iter().filter(|stretch| self.is_sliding && stretch.spin.is_none()) {
-                rate -= turned(vectors[led.arrow] * led.sign) * motions[led.carrier].omega;
+            if self.is_sliding {
+                for led in closing.ways.iter().filter(|stretch| stretch.spin.is_none()) {
+                    rate -= turned(vectors[led.arrow] * led.sign) * motions[led.carrier].omega;
+                }
             }
             (rates[0], rates[1]) = (rate.x, rate.y);
         }
@@ -114,6 +116,7 @@ impl Chain {
     /// The nodes whose rotation is led by links outside the group, parents first.
     /// Their angle is not an unknown of the group, so their rotation is known before the group is solved.
     fn led(&self) -> impl Iterator<Item = &Node> {
-        self.contours.nodes.iter().filter(|node| self.is_sliding && node.spin.is_none())
+        let nodes: &[Node] = if self.is_sliding { &self.contours.nodes } else { &[] };
+        nodes.iter().filter(|node| node.spin.is_none())
     }
 }

@@ -3,8 +3,8 @@
 use std::fmt::Write;
 use std::path::Path;
 
+use crate::scenario::Scenario;
 use linkage::math::{Vec2, rotated, unit};
-use linkproof::scenario::Scenario;
 
 /// A link with its own points.
 #[derive(Clone, Debug)]

@@ -1,20 +1,20 @@
 //! Mechanisms drawn at random in their start pose. Links have any place and direction, and a joint is put at the
 //! present place of its two links. So every drawing can be assembled, and its start pose is known without any formula.
 
+use chacha20::ChaCha20Rng;
+use chacha20::rand_core::{Rng, SeedableRng};
 use linkage::math::{KeepNan, Vec2, rotated, unit};
 use linkage::mechanism::LinkPose;
-use proptest::prelude::Rng;
-use proptest::test_runner::{RngAlgorithm, TestRng};
 
 use super::spec::{Body, Guide, Other, Pin, Spec};
 
 /// Source of random numbers.
-pub struct Random(TestRng);
+pub struct Random(ChaCha20Rng);
 
 impl Random {
     /// The numbers that follow from `seed`.
     pub fn from_seed(seed: u8) -> Self {
-        Random(TestRng::from_seed(RngAlgorithm::ChaCha, &[seed; 32]))
+        Random(ChaCha20Rng::from_seed([seed; 32]))
     }
 
     /// The numbers of one of many samples that follow from one seed.
@@ -23,7 +23,7 @@ impl Random {
         bytes[..8].copy_from_slice(&seed.to_le_bytes());
         bytes[8..16].copy_from_slice(&index.to_le_bytes());
         bytes[31] = 1;
-        Random(TestRng::from_seed(RngAlgorithm::ChaCha, &bytes))
+        Random(ChaCha20Rng::from_seed(bytes))
     }
 
     /// A positive number whose logarithm is uniform.
@@ -41,10 +41,12 @@ impl Random {
         self.number(0.0, count as f64) as usize
     }
 
+    /// A toss of a coin.
     pub fn yes(&mut self) -> bool {
         self.number(0.0, 1.0) < 0.5
     }
 
+    /// An angle (rad), not quite a turn wide.
     pub fn angle(&mut self) -> f64 {
         self.number(-3.1, 3.1)
     }
@@ -129,6 +131,7 @@ impl<'a> Sketch<'a> {
         index
     }
 
+    /// Name of a link.
     pub fn name(&self, link: usize) -> String {
         if link == 0 { "ground".into() } else { self.spec.links[link - 1].name.clone() }
     }

@@ -1,0 +1,76 @@
+//! Reactions of higher groups on pins, for several poses at once.
+
+use pulp::Simd;
+
+use super::Chain;
+use crate::assur::batch::elimination::Factors;
+use crate::assur::batch::lanes::{Lanes, Plane, Window};
+use crate::assur::groups::Hangs;
+use linkage::math::Vec2;
+
+impl Chain {
+    /// Reactions in all joints.
+    #[inline(always)]
+    pub(in crate::assur::batch) fn hold<S: Simd>(
+        &self,
+        gravity: Vec2,
+        tile: &mut Window<S>,
+        work: &mut Window<S>,
+        first: usize,
+    ) {
+        match self.nodes.len() {
+            4 => self.hold_by::<S, 4>(gravity, tile, work, first),
+            _ => self.hold_by::<S, 6>(gravity, tile, work, first),
+        }
+    }
+
+    #[inline(always)]
+    fn hold_by<S: Simd, const N: usize>(
+        &self,
+        gravity: Vec2,
+        tile: &mut Window<S>,
+        work: &mut Window<S>,
+        first: usize,
+    ) {
+        let (zero, none) = (Lanes::splat(tile.simd, 0.0), Plane::splat(tile.simd, Vec2::zeros()));
+        let (mut forces, mut moments) = ([none; N], [zero; N]);
+        for (index, node) in self.nodes.iter().enumerate() {
+            (forces[index], moments[index]) = node.body.resultant(gravity, tile);
+        }
+        self.gather(&mut forces);
+        // Moments of the forces that hang on the arrows, about the poles of the links that carry them.
+        for (index, node) in self.nodes.iter().enumerate().rev() {
+            if let Hangs::Arrow(arrow) = node.hangs {
+                let parent = self.arrows[arrow].node;
+                moments[parent] = moments[parent] + work.vector(self.arrow(first, arrow)).cross(forces[index]);
+            }
+        }
+        let factors = Factors::<S, N>::kept(work, self.first_factor(first));
+        let multipliers = factors.solve_transposed(moments.map(|moment| -moment));
+        let mut cut = [none; N];
+        for (index, closing) in self.closings.iter().enumerate() {
+            let force = Plane { x: multipliers[2 * index], y: multipliers[2 * index + 1] };
+            tile.put_vector(closing.force, force);
+            for (node, sign) in closing.nodes.into_iter().zip([-1.0, 1.0]) {
+                if let Some(node) = node {
+                    cut[node] = cut[node] + force * sign;
+                }
+            }
+        }
+        self.gather(&mut cut);
+        for (index, node) in self.nodes.iter().enumerate() {
+            tile.put_vector(node.reaction.force, (forces[index] + cut[index]) * -node.reaction.sign);
+        }
+    }
+
+    /// Sums forces from the outermost link inwards: a pin passes on a force only.
+    #[inline(always)]
+    fn gather<S: Simd>(&self, forces: &mut [Plane<S>]) {
+        for (index, node) in self.nodes.iter().enumerate().rev() {
+            if let Hangs::Arrow(arrow) = node.hangs {
+                let parent = self.arrows[arrow].node;
+                forces[parent] = forces[parent] + forces[index];
+            }
+        }
+    }
+}

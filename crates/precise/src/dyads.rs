@@ -1,0 +1,144 @@
+//! Dyads of three revolute pairs in closed form, one after the other; forces backwards.
+//!
+//! The inner joint is where two circles meet, on the side on which the start pose has it. Rates are the projections of
+//! the joints' velocities on the two links. Forces follow from moments about the inner joint.
+
+use linkage::case::Case;
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::mechanism::{Group, GroupKind, Side};
+use linkage::trajectory::Trajectory;
+
+use super::Long;
+use super::frame::{Frame, Snapshot};
+use super::readings::trajectory;
+use super::task::{Task, at_start, stuck};
+use super::vector::Vector;
+
+/// A dyad: for each of its two links the outer joint and the inner one.
+struct Dyad {
+    links: [usize; 2],
+    outer: [usize; 2],
+    inner: usize,
+    /// The outer joints' places on the links before.
+    bases: [Side; 2],
+    /// The outer joints' places on the dyad's own links, and the inner joint's.
+    locals: [[linkage::math::Vec2; 2]; 2],
+    /// Whether the inner joint is to the left of the way from the first outer joint to the second.
+    is_left: bool,
+}
+
+/// As [`solve`](super::solve), for a mechanism of such dyads.
+///
+/// # Errors
+/// Those of [`solve`](super::solve); also [`ErrorKind::Unsupported`] for other groups.
+pub fn solve(case: &Case) -> Result<Trajectory> {
+    let task = Task::of(case)?;
+    let start = at_start(case);
+    let dyads: Vec<Dyad> =
+        case.structure.groups.iter().map(|group| dyad(case, &start, group)).collect::<Result<_>>()?;
+    let mut instants = Vec::with_capacity(case.grid.len());
+    for (row, &time) in case.grid.times.iter().enumerate() {
+        let mut instant = Snapshot::at_rest(case);
+        instant.crank = task.angle(time);
+        instant.frames[task.link] = task.crank(case, instant.crank);
+        for dyad in &dyads {
+            dyad.place(&mut instant.frames).ok_or_else(|| stuck(case, row, "a dyad cannot be assembled"))?;
+        }
+        forces(case, &task, &dyads, &mut instant);
+        instants.push(instant);
+    }
+    trajectory(case, &instants)
+}
+
+fn dyad(case: &Case, start: &[Frame], group: &Group) -> Result<Dyad> {
+    let (GroupKind::Rrr, [one, two], &[inner]) = (group.kind, group.links.as_slice(), group.inner.as_slice()) else {
+        let message = "no closed form in full precision: a group is no dyad of revolute pairs";
+        return Err(Error::new(ErrorKind::Unsupported, message).of_group(group.names(&case.mechanism)));
+    };
+    let links = [*one, *two];
+    let joints = case.mechanism.joints();
+    let outer = links.map(|link| group.outer_on(&case.mechanism, link).expect("each link of a dyad has one"));
+    let bases = [0, 1].map(|k| joints[outer[k]].other(links[k]));
+    let local = |joint: usize, link: usize| joints[joint].on(link).expect("the joint is on the link");
+    let locals = [0, 1].map(|k| [local(outer[k], links[k]), local(inner, links[k])]);
+    let [a, b] = bases.map(|side| start[side.link].point(side.local));
+    let c = start[links[0]].point(locals[0][1]);
+    Ok(Dyad { links, outer, inner, bases, locals, is_left: (b - a).cross(c - a) > Long::ZERO })
+}
+
+impl Dyad {
+    /// Places both links; `None` if the circles do not meet.
+    fn place(&self, frames: &mut [Frame]) -> Option<()> {
+        let [a, b] = self.bases.map(|side| frames[side.link].point(side.local));
+        let rods = self.locals.map(|[outer, inner]| Vector::of(inner) - Vector::of(outer));
+        let (base, half) = (b - a, Long::of(0.5));
+        let square = base.dot(base);
+        // Along the base, and across it: as shares of the base.
+        let along = (square + rods[0].dot(rods[0]) - rods[1].dot(rods[1])) * half / square;
+        let across = rods[0].dot(rods[0]) / square - along * along;
+        if !(across > Long::ZERO) {
+            return None;
+        }
+        let across = if self.is_left { across.sqrt() } else { -across.sqrt() };
+        let inner = a + base * along + base.turned() * across;
+        let arms = [inner - a, inner - b];
+        let velocities = self.bases.map(|side| frames[side.link].point_velocity(side.local));
+        let width = arms[0].cross(arms[1]);
+        let projected = |gap: Vector| [1, 0].map(|k: usize| gap.dot(arms[k]) / width);
+        let omegas = projected(velocities[1] - velocities[0]);
+        let carried = [0, 1].map(|k| {
+            let side = self.bases[k];
+            frames[side.link].point_acceleration(side.local) - arms[k] * (omegas[k] * omegas[k])
+        });
+        let alphas = projected(carried[1] - carried[0]);
+        for k in 0..2 {
+            // Direction of the frame: that of the rod, less its direction in the frame.
+            let direction = arms[k].rotated_back(rods[k]);
+            let direction = direction * (Long::ONE / direction.norm());
+            let to_origin = -Vector::of(self.locals[k][0]).rotated(direction);
+            let accelerated = frames[self.bases[k].link].point_acceleration(self.bases[k].local);
+            frames[self.links[k]] = Frame {
+                origin: [a, b][k] + to_origin,
+                direction,
+                omega: omegas[k],
+                alpha: alphas[k],
+                velocity: velocities[k] + to_origin.turned() * omegas[k],
+                acceleration: accelerated + to_origin.turned() * alphas[k] - to_origin * (omegas[k] * omegas[k]),
+            };
+        }
+        Some(())
+    }
+}
+
+/// Reactions and torque by the equilibrium of every dyad, the last first.
+fn forces(case: &Case, task: &Task, dyads: &[Dyad], instant: &mut Snapshot) {
+    // Force and moment about the world's origin on every link: weight, inertia, and what later groups exert.
+    let links = 0..case.mechanism.links().len();
+    let mut acting: Vec<(Vector, Long)> = links.map(|link| instant.inertia(case, link)).collect();
+    let joints = case.mechanism.joints();
+    // What a link feels in a joint, as the force of the first link on the second.
+    let told =
+        |joint: usize, link: usize, force: Vector| if joints[joint].second.link == link { force } else { -force };
+    for dyad in dyads.iter().rev() {
+        let [a, b] = dyad.bases.map(|side| instant.frames[side.link].point(side.local));
+        let c = instant.frames[dyad.links[0]].point(dyad.locals[0][1]);
+        let [one, two] = dyad.links.map(|link| acting[link]);
+        let about = |place: Vector, (force, moment): (Vector, Long)| moment - place.cross(force);
+        // The second outer joint's force: moments of the second link about the inner joint, of both about the first.
+        let (whole, part) = (-(about(a, one) + about(a, two)), -about(c, two));
+        let (p, q) = (b - a, b - c);
+        let second = (q * whole - p * part) * (Long::ONE / p.cross(q));
+        let first = -(one.0 + two.0 + second);
+        let inner = -(one.0 + first);
+        for (k, force) in [first, second].into_iter().enumerate() {
+            instant.forces[dyad.outer[k]] = told(dyad.outer[k], dyad.links[k], force);
+            let base = &mut acting[dyad.bases[k].link];
+            *base = (base.0 - force, base.1 - [a, b][k].cross(force));
+        }
+        instant.forces[dyad.inner] = told(dyad.inner, dyad.links[0], inner);
+    }
+    let (force, moment) = acting[task.link];
+    let place = instant.frames[task.link].point(joints[task.joint].on(task.link).unwrap_or_default());
+    instant.forces[task.joint] = told(task.joint, task.link, -force);
+    instant.torque = place.cross(force) - moment;
+}

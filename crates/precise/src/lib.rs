@@ -1,0 +1,47 @@
+//! Planar mechanisms in double-double arithmetic (some 31 digits): the reference that double precision is judged by.
+//!
+//! [`solve`] takes dyads of revolute pairs in closed form ([`dyads`]) and every other mechanism by all its equations at
+//! once ([`whole`]). Neither shares an equation or code with the analytic sides; only the case is common.
+//! The crank's angle is taken from the instant's time as it stands, in full precision: start + speed t.
+
+pub mod dyads;
+mod frame;
+mod long;
+mod readings;
+mod task;
+mod vector;
+pub mod whole;
+
+pub use long::Long;
+
+use linkage::case::Case;
+use linkage::error::Result;
+use linkage::mechanism::GroupKind;
+use linkage::trajectory::Trajectory;
+
+/// How the numbers were found, in words.
+#[must_use]
+pub fn method(case: &Case) -> &'static str {
+    match are_all_rrr(case) {
+        true => "closed form in double-double",
+        false => "all equations in double-double",
+    }
+}
+
+/// All channels of a case on its grid, rounded to doubles at the end.
+///
+/// # Errors
+/// [`Unsupported`](linkage::ErrorKind::Unsupported) for a case with several drives, another law than a constant speed,
+/// loads, or instants before t = 0.
+/// [`Geometry`](linkage::ErrorKind::Geometry) where the mechanism cannot be assembled or is singular, with the crank
+/// angle.
+pub fn solve(case: &Case) -> Result<Trajectory> {
+    match are_all_rrr(case) {
+        true => dyads::solve(case),
+        false => whole::solve(case),
+    }
+}
+
+fn are_all_rrr(case: &Case) -> bool {
+    case.structure.groups.iter().all(|group| group.kind == GroupKind::Rrr)
+}

@@ -1,0 +1,85 @@
+//! What this reference takes, and the crank's motion.
+
+use linkage::case::Case;
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::mechanism::GROUND;
+
+use super::Long;
+use super::frame::Frame;
+use super::vector::Vector;
+
+/// The drive of a case that can be taken.
+pub(crate) struct Task {
+    /// Joint and link of the drive.
+    pub(crate) joint: usize,
+    pub(crate) link: usize,
+    zero: f64,
+    start: f64,
+    /// Speed (rad/s).
+    pub(crate) speed: f64,
+}
+
+impl Task {
+    /// The drive.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Unsupported`] with what cannot be taken.
+    pub(crate) fn of(case: &Case) -> Result<Task> {
+        let refused = |what: &str| Err(Error::new(ErrorKind::Unsupported, format!("no precise numbers: {what}")));
+        let drive = case.crank();
+        let Some(speed) = drive.constant_speed().filter(|_| !case.is_free()) else {
+            return refused("only a crank at constant speed is taken");
+        };
+        if case.drives.len() > 1 {
+            return refused("there are several drives");
+        }
+        if drive.passes() {
+            return refused("change points may be passed");
+        }
+        if !case.loads.is_empty() {
+            return refused("there are loads");
+        }
+        if case.grid.times.iter().any(|&t| t < 0.0) {
+            return refused("an instant lies before t = 0");
+        }
+        Ok(Task { joint: drive.joint, link: drive.link, zero: drive.zero, start: drive.start, speed })
+    }
+
+    /// World angle of the crank at a time (s), in full precision.
+    pub(crate) fn angle(&self, time: f64) -> Long {
+        Long::of(self.zero) + Long::of(self.start) + Long::of(self.speed) * Long::of(time)
+    }
+
+    /// Frame of the crank, hinged to the ground, at a world angle.
+    pub(crate) fn crank(&self, case: &Case, angle: Long) -> Frame {
+        let joint = &case.mechanism.joints()[self.joint];
+        let ground = [joint.first, joint.second].into_iter().find(|side| side.link == GROUND);
+        let place = Vector::of(ground.map_or(joint.other(self.link).local, |side| side.local));
+        let direction = Vector::unit(angle);
+        let arm = Vector::of(joint.on(self.link).unwrap_or_default()).rotated(direction);
+        let omega = Long::of(self.speed);
+        Frame {
+            origin: place - arm,
+            direction,
+            omega,
+            alpha: Long::ZERO,
+            velocity: -arm.turned() * omega,
+            acceleration: arm * (omega * omega),
+        }
+    }
+}
+
+/// An error at an instant of the grid.
+pub(crate) fn stuck(case: &Case, row: usize, what: &str) -> Error {
+    Error::new(ErrorKind::Geometry, format!("no precise numbers: {what}")).at_crank(case.grid.cranks[row])
+}
+
+/// Frames of the start pose.
+pub(crate) fn at_start(case: &Case) -> Vec<Frame> {
+    let frame = |pose: &linkage::mechanism::LinkPose| Frame {
+        origin: Vector::of(pose.origin),
+        direction: Vector::unit(Long::of(pose.angle)),
+        ..Frame::REST
+    };
+    case.start.0.iter().map(frame).collect()
+}

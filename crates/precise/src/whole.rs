@@ -1,0 +1,312 @@
+//! Any mechanism of revolute and prismatic pairs: all constraint equations at once, and all equations of equilibrium.
+//!
+//! Unknown are the frames of all moving links. The start pose is followed in steps of at most one degree of the crank;
+//! at the wanted instants Newton's method goes on until nothing changes. Dense elimination: for some tens of links.
+
+use linkage::case::Case;
+use linkage::error::Result;
+use linkage::mechanism::{GROUND, Joint, JointKind};
+use linkage::trajectory::Trajectory;
+
+use super::Long;
+use super::frame::{Frame, Snapshot};
+use super::readings::trajectory;
+use super::task::{Task, at_start, stuck};
+use super::vector::Vector;
+
+/// Crank angle of a step of the way (rad).
+const STEP: f64 = std::f64::consts::PI / 180.0;
+/// Most iterations at one pose. The method squares its error.
+const MOST: usize = 30;
+/// Change of a pose, over the mechanism's size, that is rounding.
+const SETTLED: f64 = 1e-28;
+/// The same where no further iteration brings less.
+const ROUNDING: f64 = 1e-20;
+/// The same on the way.
+const NEAR: f64 = 1e-10;
+
+/// As [`solve`](super::solve), for any mechanism of some tens of links.
+///
+/// # Errors
+/// Those of [`solve`](super::solve).
+pub fn solve(case: &Case) -> Result<Trajectory> {
+    let task = Task::of(case)?;
+    let whole = Whole { case, task, size: case.mechanism.size() };
+    let mut instants: Vec<Option<Snapshot>> = vec![None; case.grid.len()];
+    let (mut frames, mut time) = (at_start(case), 0.0);
+    for row in case.grid.ascending() {
+        let to = case.grid.times[row];
+        let steps = ((to - time) * whole.task.speed.abs() / STEP).ceil().max_one();
+        for step in 1..=steps {
+            let at = if step == steps { to } else { time + (to - time) * step as f64 / steps as f64 };
+            let settled = if step == steps { SETTLED } else { NEAR };
+            let gone = whole.task.angle(at);
+            whole.close(&mut frames, gone, settled).ok_or_else(|| stuck(case, row, "the pose is singular"))?;
+        }
+        time = to;
+        let instant = whole.instant(&frames).ok_or_else(|| stuck(case, row, "the pose is singular"))?;
+        instants[row] = Some(Snapshot { crank: whole.task.angle(to), ..instant });
+    }
+    let instants: Vec<Snapshot> = instants.into_iter().map(|instant| instant.expect("every row is visited")).collect();
+    trajectory(case, &instants)
+}
+
+/// A number of steps, at least one.
+trait Steps {
+    fn max_one(self) -> usize;
+}
+
+impl Steps for f64 {
+    fn max_one(self) -> usize {
+        (self as usize).max(1)
+    }
+}
+
+struct Whole<'a> {
+    case: &'a Case,
+    task: Task,
+    size: f64,
+}
+
+/// Rows of a linear system: coefficients and right-hand side.
+struct System {
+    rows: Vec<Vec<Long>>,
+    right: Vec<Long>,
+}
+
+impl System {
+    fn of(unknowns: usize) -> System {
+        System { rows: vec![vec![Long::ZERO; unknowns]; unknowns], right: vec![Long::ZERO; unknowns] }
+    }
+
+    /// Gaussian elimination with the largest pivot of each column; `None` if it is singular.
+    fn solved(mut self) -> Option<Vec<Long>> {
+        let count = self.right.len();
+        for k in 0..count {
+            let size = |row: &usize| self.rows[*row][k].abs().rounded();
+            let pivot = (k..count).max_by(|a, b| size(a).total_cmp(&size(b)))?;
+            self.rows.swap(k, pivot);
+            self.right.swap(k, pivot);
+            let lead = self.rows[k][k];
+            if !(lead.abs() > Long::ZERO) {
+                return None;
+            }
+            let (above, below) = self.rows.split_at_mut(k + 1);
+            let (own, right) = (&above[k], self.right[k]);
+            for (row, value) in below.iter_mut().zip(&mut self.right[k + 1..]) {
+                if row[k] == Long::ZERO {
+                    continue;
+                }
+                let factor = row[k] / lead;
+                for (entry, own) in row[k..].iter_mut().zip(&own[k..]).filter(|(_, own)| **own != Long::ZERO) {
+                    *entry = *entry - factor * *own;
+                }
+                *value = *value - factor * right;
+            }
+        }
+        let mut found = vec![Long::ZERO; count];
+        for k in (0..count).rev() {
+            let sum = (k + 1..count).fold(self.right[k], |sum, j| sum - self.rows[k][j] * found[j]);
+            found[k] = sum / self.rows[k][k];
+        }
+        Some(found)
+    }
+}
+
+/// Column of a link's unknowns: origin x and y, angle.
+fn column(link: usize) -> usize {
+    3 * (link - 1)
+}
+
+impl Whole<'_> {
+    fn unknowns(&self) -> usize {
+        3 * (self.case.mechanism.links().len() - 1)
+    }
+
+    /// Writes the change of `normal . (point of the link)` to a row, times `sign`.
+    fn put(&self, row: &mut [Long], link: usize, arm: Vector, normal: Vector, sign: Long) {
+        if link == GROUND {
+            return;
+        }
+        let at = column(link);
+        for (entry, value) in row[at..at + 3].iter_mut().zip([normal.x, normal.y, normal.dot(arm.turned())]) {
+            *entry = *entry + value * sign;
+        }
+    }
+
+    fn put_turn(&self, row: &mut [Long], link: usize, value: Long) {
+        if link != GROUND {
+            row[column(link) + 2] = row[column(link) + 2] + value;
+        }
+    }
+
+    /// Coefficients of all equations in a pose: two rows a joint, one of the drive. With them the gaps of the pose, or
+    /// the parts of the second derivatives that go with the squares of the speeds, on the other side.
+    fn system(&self, frames: &[Frame], what: What) -> System {
+        let mut system = System::of(self.unknowns());
+        for (index, joint) in self.case.mechanism.joints().iter().enumerate() {
+            let sides = [joint.first, joint.second].map(|side| (&frames[side.link], side));
+            let arms = sides.map(|(frame, side)| frame.arm(side.local));
+            let gap = sides[1].0.origin + arms[1] - sides[0].0.origin - arms[0];
+            let [first, second] = [joint.first.link, joint.second.link];
+            let (one, two) = (Long::ONE, Long::of(2.0));
+            let squares =
+                arms[0] * (sides[0].0.omega * sides[0].0.omega) - arms[1] * (sides[1].0.omega * sides[1].0.omega);
+            let rows = [2 * index, 2 * index + 1];
+            match joint.kind {
+                JointKind::Revolute => {
+                    for (k, normal) in [Vector::X, Vector::X.turned()].into_iter().enumerate() {
+                        let row = &mut system.rows[rows[k]];
+                        self.put(row, second, arms[1], normal, one);
+                        self.put(row, first, arms[0], normal, -one);
+                        system.right[rows[k]] = match what {
+                            What::Gaps(_) => -normal.dot(gap),
+                            What::Rates => Long::ZERO,
+                            What::Squares => -normal.dot(squares),
+                        };
+                    }
+                }
+                JointKind::Prismatic { axes } => {
+                    let axes = [0, 1].map(|k| sides[k].0.arm(axes[k]));
+                    let normal = axes[0].turned();
+                    let row = &mut system.rows[rows[0]];
+                    self.put(row, second, arms[1], normal, one);
+                    self.put(row, first, arms[0], normal, -one);
+                    // The normal turns with the first link.
+                    self.put_turn(row, first, -axes[0].dot(gap));
+                    let omega = sides[0].0.omega;
+                    let speed = |k: usize| sides[k].0.velocity + arms[k].turned() * sides[k].0.omega;
+                    system.right[rows[0]] = match what {
+                        What::Gaps(_) => -normal.dot(gap),
+                        What::Rates => Long::ZERO,
+                        What::Squares => {
+                            let turning =
+                                two * omega * axes[0].dot(speed(1) - speed(0)) + omega * omega * normal.dot(gap);
+                            turning - normal.dot(squares)
+                        }
+                    };
+                    self.put_turn(&mut system.rows[rows[1]], second, one);
+                    self.put_turn(&mut system.rows[rows[1]], first, -one);
+                    system.right[rows[1]] = match what {
+                        What::Gaps(_) => -axes[0].cross(axes[1]) / axes[0].dot(axes[1]),
+                        What::Rates | What::Squares => Long::ZERO,
+                    };
+                }
+            }
+        }
+        let last = self.unknowns() - 1;
+        self.put_turn(&mut system.rows[last], self.task.link, Long::ONE);
+        system.right[last] = match what {
+            What::Gaps(angle) => {
+                let own = frames[self.task.link].direction;
+                let to = Vector::unit(angle);
+                own.cross(to) / own.dot(to)
+            }
+            What::Rates => Long::of(self.task.speed),
+            What::Squares => Long::ZERO,
+        };
+        system
+    }
+
+    /// Newton's method for the pose at a world angle of the crank.
+    fn close(&self, frames: &mut [Frame], angle: Long, settled: f64) -> Option<()> {
+        let mut before = f64::INFINITY;
+        for _ in 0..MOST {
+            let change = self.system(frames, What::Gaps(angle)).solved()?;
+            let mut largest: f64 = 0.0;
+            for (frame, own) in frames[1..].iter_mut().zip(change.as_chunks::<3>().0) {
+                let [x, y, turn] = *own;
+                frame.origin = frame.origin + Vector { x, y };
+                frame.direction = frame.direction + frame.direction.turned() * turn;
+                frame.direction = frame.direction * (Long::ONE / frame.direction.norm());
+                for size in [x.abs().rounded() / self.size, y.abs().rounded() / self.size, turn.abs().rounded()] {
+                    largest = if size > largest || size.is_nan() { size } else { largest };
+                }
+            }
+            if !largest.is_finite() {
+                return None;
+            }
+            // In badly conditioned poses rounding is more, and shows as a change that does not shrink.
+            if largest <= settled || (largest <= ROUNDING && largest > 0.5 * before) {
+                return Some(());
+            }
+            before = largest;
+        }
+        None
+    }
+
+    /// Rates and forces in a closed pose.
+    fn instant(&self, frames: &[Frame]) -> Option<Snapshot> {
+        let mut instant = Snapshot::at_rest(self.case);
+        instant.frames = frames.to_vec();
+        let rates = self.system(frames, What::Rates).solved()?;
+        for (frame, own) in instant.frames[1..].iter_mut().zip(rates.as_chunks::<3>().0) {
+            (frame.velocity, frame.omega) = (Vector { x: own[0], y: own[1] }, own[2]);
+        }
+        let rates = self.system(&instant.frames, What::Squares).solved()?;
+        for (frame, own) in instant.frames[1..].iter_mut().zip(rates.as_chunks::<3>().0) {
+            (frame.acceleration, frame.alpha) = (Vector { x: own[0], y: own[1] }, own[2]);
+        }
+        self.forces(&mut instant)?;
+        Some(instant)
+    }
+
+    /// Force and moment about the world's origin of a joint's two unknowns on its second link.
+    fn reactions(joint: &Joint, frames: &[Frame]) -> [(Vector, Long, Long); 2] {
+        let place = frames[joint.second.link].point(joint.second.local);
+        let along = |force: Vector| (force, place.cross(force), Long::ZERO);
+        match joint.axis_on(joint.first.link) {
+            None => [along(Vector::X), along(Vector::X.turned())],
+            Some(axis) => {
+                let normal = frames[joint.first.link].arm(axis).turned();
+                [along(normal), (Vector::ZERO, Long::ONE, Long::ONE)]
+            }
+        }
+    }
+
+    /// Equilibrium of all links: two forces and a moment about the world's origin each.
+    fn forces(&self, instant: &mut Snapshot) -> Option<()> {
+        let mut system = System::of(self.unknowns());
+        let joints = self.case.mechanism.joints();
+        for (index, joint) in joints.iter().enumerate() {
+            for (k, (force, moment, _)) in Whole::reactions(joint, &instant.frames).into_iter().enumerate() {
+                for (link, sign) in [(joint.second.link, Long::ONE), (joint.first.link, -Long::ONE)] {
+                    if link != GROUND {
+                        for (row, value) in [force.x, force.y, moment].into_iter().enumerate() {
+                            system.rows[column(link) + row][2 * index + k] = value * sign;
+                        }
+                    }
+                }
+            }
+        }
+        let last = self.unknowns() - 1;
+        system.rows[column(self.task.link) + 2][last] = Long::ONE;
+        for link in 1..self.case.mechanism.links().len() {
+            let (force, moment) = instant.inertia(self.case, link);
+            for (row, value) in [force.x, force.y, moment].into_iter().enumerate() {
+                system.right[column(link) + row] = -value;
+            }
+        }
+        let found = system.solved()?;
+        for (index, joint) in joints.iter().enumerate() {
+            for (k, (force, _, moment)) in Whole::reactions(joint, &instant.frames).into_iter().enumerate() {
+                let value = found[2 * index + k];
+                instant.forces[index] = instant.forces[index] + force * value;
+                instant.moments[index] = instant.moments[index] + moment * value;
+            }
+        }
+        instant.torque = found[last];
+        Some(())
+    }
+}
+
+/// The other side of the equations.
+#[derive(Clone, Copy)]
+enum What {
+    /// Gaps of a pose, for Newton's method, at a world angle of the crank.
+    Gaps(Long),
+    /// Speeds.
+    Rates,
+    /// Squares of the speeds, for accelerations.
+    Squares,
+}

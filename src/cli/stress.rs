@@ -1,0 +1,148 @@
+//! `linkproof stress`.
+
+use std::path::{Path, PathBuf};
+
+use clap::builder::PossibleValuesParser;
+
+use super::progress::Bar;
+use super::{exit_code, output};
+use crate::files;
+use crate::report::stress as report;
+use crate::stress::{FAMILIES, Family, Job, Outcome, jobs, run_all};
+use linkage::error::{Error, ErrorKind, Result};
+
+const EXAMPLES: &str = "\
+Examples:
+  linkproof stress speed change_point --quick --out stress    a few points of two families
+  linkproof stress speed --out stress                         all points; those that stand in stress/ are not run again
+  linkproof stress step --quick --out stress --jobs 1         one point at a time, with the same bytes
+  linkproof stress length_ratio --quick --out stress --page stress/page.md   a page with tables and maps besides
+
+Without a family all of them are run: half a minute with --quick, some minutes without; begun again, a run goes on where it was.
+Every family turns one dial. In the directory there is one JSON, one CSV and one SVG map for each. A point that stands in the
+JSON is run again only if the program's version or the point's inputs have changed; to have all made anew, remove the file.
+Exit codes: 0 no silent wrong number and no panic, 1 one of them, 2 bad input or usage.";
+
+/// Seed of random mechanisms by default.
+const SEED: u64 = 1;
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Args {
+    /// Families; all if none is given
+    #[arg(value_name = "FAMILY", value_parser = PossibleValuesParser::new(FAMILIES.iter().map(|family| family.name)))]
+    families: Vec<String>,
+    /// Directory that results are written to, and taken from if they are there already
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// A few points of every family
+    #[arg(long)]
+    quick: bool,
+    /// Seed of the random mechanisms
+    #[arg(long, value_name = "N", default_value_t = SEED)]
+    seed: u64,
+    /// Points that are run side by side [default: as many as there are cores]
+    #[arg(long, value_name = "N", value_parser = at_least_one)]
+    jobs: Option<usize>,
+    /// Write a page in Markdown, with the maps beside it in a directory of its name
+    #[arg(long, value_name = "FILE", value_parser = output::target)]
+    page: Option<PathBuf>,
+}
+
+fn at_least_one(text: &str) -> std::result::Result<usize, String> {
+    match text.parse() {
+        Ok(0) => Err("at least one point must be run at a time".into()),
+        other => other.map_err(|error| format!("{error}")),
+    }
+}
+
+/// Runs what is open, writes everything, and returns the exit code.
+pub(super) fn run(args: &Args) -> u8 {
+    match stress(args) {
+        Ok(code) => code,
+        Err(error) => output::exit(Err(error)),
+    }
+}
+
+fn stress(args: &Args) -> Result<u8> {
+    let chosen = |family: &&Family| args.families.is_empty() || args.families.iter().any(|name| name == family.name);
+    let families: Vec<&'static Family> = FAMILIES.iter().filter(chosen).collect();
+    std::fs::create_dir_all(&args.out).map_err(|error| {
+        Error::new(ErrorKind::Io, format!("{} cannot be made: {error}", args.out.display()))
+            .key("--out")
+            .help("name a directory, or a place where one can be made")
+    })?;
+    let mut all: Vec<Job> = Vec::new();
+    for &family in &families {
+        let kept = files::text(&json_of(&args.out, family)).map_err(|error| {
+            let place = json_of(&args.out, family);
+            Error::new(ErrorKind::Io, format!("{} cannot be read: {error}", place.display()))
+                .key("--out")
+                .help("name another directory, or remove what is in the way")
+        })?;
+        all.extend(jobs(family, args.quick, args.seed, &kept.map_or_else(Vec::new, |text| report::outcomes(&text))));
+    }
+    // What cannot be written is found before minutes are spent.
+    for &family in &families {
+        write_json(args, family, &all)?;
+    }
+    let (total, open) = (all.len(), all.iter().filter(|job| job.outcome.is_none()).count());
+    let bar = std::sync::Mutex::new(Bar::new("stress"));
+    let done = |jobs: &[Job], index: usize, finished: usize| -> Result<()> {
+        let began = total - open;
+        bar.lock().expect("nothing panics in between").at((finished - began) as f64 / open.max(1) as f64);
+        write_json(args, jobs[index].family, jobs)
+    };
+    let threads = args.jobs.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from));
+    let all = run_all(all, args.seed, threads, done)?;
+    drop(bar);
+    let found: Vec<(&Family, Vec<&Outcome>)> =
+        families.iter().map(|&family| (family, of(family, &all).collect())).collect();
+    for (family, outcomes) in &found {
+        let place = |extension: &str| args.out.join(format!("{}.{extension}", family.name));
+        output::write(&report::rows(family, outcomes.iter().copied())?, &place("csv"))?;
+        output::write(&report::map(family, outcomes)?, &place("svg"))?;
+    }
+    if let Some(to) = &args.page {
+        write_page(args, to, &found)?;
+    }
+    let text = report::text(&found);
+    output::write(&text, &args.out.join("report.txt"))?;
+    output::print(&format!(
+        "{text}Seed {}. {open} of {total} points were run, the others were in {} already.\n",
+        args.seed,
+        args.out.display()
+    ))?;
+    let tally = report::Tally::of(found.iter().flat_map(|(_, all)| all.iter().copied()));
+    Ok(if tally.silent == 0 && tally.panics == 0 { exit_code::AGREE } else { exit_code::DISAGREE })
+}
+
+fn json_of(out: &Path, family: &Family) -> PathBuf {
+    out.join(format!("{}.json", family.name))
+}
+
+fn of<'a>(family: &'static Family, jobs: &'a [Job]) -> impl Iterator<Item = &'a Outcome> {
+    jobs.iter().filter(move |job| job.family.name == family.name).filter_map(|job| job.outcome.as_ref())
+}
+
+/// Writes what is finished of a family.
+fn write_json(args: &Args, family: &'static Family, jobs: &[Job]) -> Result<()> {
+    output::write(&report::json(family, args.seed, of(family, jobs)), &json_of(&args.out, family))
+}
+
+/// The page, and the maps in a directory of its name.
+fn write_page(args: &Args, to: &Path, found: &[(&Family, Vec<&Outcome>)]) -> Result<()> {
+    let stem = to.file_stem().and_then(|stem| stem.to_str()).unwrap_or("stress");
+    let maps = to.with_file_name(stem);
+    std::fs::create_dir_all(&maps).map_err(|error| {
+        Error::new(ErrorKind::Io, format!("{} cannot be made: {error}", maps.display()))
+            .key("--page")
+            .help("name a file in a directory that may be written to")
+    })?;
+    for (family, outcomes) in found {
+        output::write(&report::map(family, outcomes)?, &maps.join(format!("{}.svg", family.name)))?;
+    }
+    let quick = if args.quick { " --quick" } else { "" };
+    let command = format!("linkproof stress{quick} --out DIR --page {}", to.display());
+    output::write(&report::page(found, &command, stem), to)
+}

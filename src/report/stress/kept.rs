@@ -1,0 +1,151 @@
+//! What a family has come to, as JSON, schema 1, and back. Numbers have four digits; those that are not finite are
+//! `null` and are read back as infinite.
+
+use serde::{Deserialize, Serialize};
+
+use crate::stress::{Family, Group, Outcome, Party, Reached};
+
+const SCHEMA: u32 = 1;
+
+#[derive(Serialize, Deserialize)]
+struct Document {
+    schema: u32,
+    family: String,
+    dial: String,
+    title: String,
+    seed: u64,
+    points: Vec<Point>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct Point {
+    dial: f64,
+    sample: u64,
+    key: String,
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    refused: String,
+    parties: Vec<Row>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct Row {
+    name: String,
+    verdict: String,
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    why: String,
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    against: String,
+    groups: Vec<Cell>,
+    closure: Option<f64>,
+    balance: Option<f64>,
+    step_s: Option<f64>,
+    sweeps: Option<usize>,
+    extrapolated: Option<usize>,
+    steps: Option<f64>,
+    runs: Option<usize>,
+    work: Option<f64>,
+    #[serde(default)]
+    done: Vec<(String, u64)>,
+    silent: usize,
+}
+
+#[derive(Serialize, Deserialize)]
+struct Cell {
+    group: String,
+    error: Option<f64>,
+    bound: Option<f64>,
+    channel: String,
+    used: Option<f64>,
+}
+
+/// The results of a family, in the order given.
+pub(crate) fn json<'a>(family: &Family, seed: u64, outcomes: impl Iterator<Item = &'a Outcome>) -> String {
+    let point = |own: &Outcome| Point {
+        dial: own.dial,
+        sample: own.sample,
+        key: own.key.clone(),
+        refused: own.refused.clone(),
+        parties: own.parties.iter().map(row).collect(),
+    };
+    let document = Document {
+        schema: SCHEMA,
+        family: family.name.into(),
+        dial: family.dial.into(),
+        title: family.title.into(),
+        seed,
+        points: outcomes.map(point).collect(),
+    };
+    serde_json::to_string_pretty(&document).expect("texts and numbers can be written") + "\n"
+}
+
+/// The results that a text holds. A text of another schema, or none of ours, holds none: everything is made anew.
+pub(crate) fn outcomes(text: &str) -> Vec<Outcome> {
+    let Ok(document) = serde_json::from_str::<Document>(text) else { return Vec::new() };
+    if document.schema != SCHEMA {
+        return Vec::new();
+    }
+    let point = |own: Point| Outcome {
+        dial: own.dial,
+        sample: own.sample,
+        key: own.key,
+        refused: own.refused,
+        parties: own.parties.into_iter().filter_map(party).collect(),
+    };
+    document.points.into_iter().map(point).collect()
+}
+
+fn finite(value: f64) -> Option<f64> {
+    value.is_finite().then_some(value)
+}
+
+fn row(own: &Party) -> Row {
+    let cell = |own: &Reached| Cell {
+        group: own.group.name().into(),
+        error: finite(own.error),
+        bound: finite(own.bound),
+        channel: own.channel.clone(),
+        used: finite(own.used),
+    };
+    Row {
+        name: own.name.clone(),
+        verdict: own.verdict.clone(),
+        why: own.why.clone(),
+        against: own.against.clone(),
+        groups: own.reached.iter().map(cell).collect(),
+        closure: own.closure.and_then(finite),
+        balance: own.balance.and_then(finite),
+        step_s: own.step,
+        sweeps: own.sweeps,
+        extrapolated: own.extrapolated,
+        steps: own.steps,
+        runs: own.runs,
+        work: own.work,
+        done: own.done.clone(),
+        silent: own.silent,
+    }
+}
+
+fn party(own: Row) -> Option<Party> {
+    let number = |value: Option<f64>| value.unwrap_or(f64::INFINITY);
+    let cell = |own: Cell| -> Option<Reached> {
+        let (error, bound, used) = (number(own.error), number(own.bound), number(own.used));
+        Some(Reached { group: Group::named(&own.group)?, error, bound, channel: own.channel, used })
+    };
+    Some(Party {
+        name: own.name,
+        against: own.against,
+        reached: own.groups.into_iter().map(cell).collect::<Option<_>>()?,
+        closure: own.closure,
+        balance: own.balance,
+        verdict: own.verdict,
+        why: own.why,
+        step: own.step_s,
+        sweeps: own.sweeps,
+        extrapolated: own.extrapolated,
+        steps: own.steps,
+        runs: own.runs,
+        work: own.work,
+        done: own.done,
+        silent: own.silent,
+    })
+}

@@ -1,0 +1,13 @@
+//! Numerical stability: what is kept of every family, tables, a text with the verdict first, a map.
+
+mod kept;
+mod map;
+mod page;
+mod summary;
+mod table;
+
+pub(crate) use kept::{json, outcomes};
+pub(crate) use map::map;
+pub(crate) use page::page;
+pub(crate) use summary::{Tally, text};
+pub(crate) use table::rows;

@@ -1,0 +1,189 @@
+//! Stability as text, verdict first: where every solver and engine holds to, and what does not.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+use linkage::math::KeepNan;
+
+use super::super::cells::table;
+use crate::stress::{Family, Group, Outcome};
+
+/// Counts over all points.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Tally {
+    /// Points with results.
+    pub(crate) points: usize,
+    /// Points that are no case, with their reason.
+    pub(crate) refused: usize,
+    /// Points at which something panicked.
+    pub(crate) panics: usize,
+    /// Results of solvers and engines by verdict: agree, inconclusive, disagree, fails.
+    pub(crate) verdicts: [usize; 4],
+    /// Channels beyond their bound that no verdict tells of.
+    pub(crate) silent: usize,
+}
+
+/// Verdicts in the order of [`Tally::verdicts`].
+const WORDS: [&str; 4] = ["agree", "inconclusive", "disagree", "fails"];
+
+fn rank(word: &str) -> usize {
+    // An expected finding is agreement.
+    WORDS.iter().position(|own| *own == word).unwrap_or(0)
+}
+
+impl Tally {
+    /// Counts some points.
+    pub(crate) fn of<'a>(outcomes: impl Iterator<Item = &'a Outcome>) -> Self {
+        let mut tally = Tally::default();
+        for own in outcomes {
+            tally.points += 1;
+            tally.panics += usize::from(own.refused == "panic");
+            tally.refused += usize::from(!own.refused.is_empty());
+            for party in &own.parties {
+                tally.verdicts[rank(&party.verdict)] += 1;
+                tally.silent += party.silent;
+            }
+        }
+        tally
+    }
+
+    /// The verdict in a sentence.
+    pub(crate) fn verdict(&self) -> String {
+        let [agree, open, against, fails] = self.verdicts;
+        let silent = match self.silent {
+            0 => "no silent wrong number".to_string(),
+            count => format!("{count} SILENT WRONG NUMBERS"),
+        };
+        let panics = match self.panics {
+            0 => "no panic".to_string(),
+            count => format!("{count} PANICS"),
+        };
+        format!(
+            "{} points: {silent}, {panics}; of {} results {agree} agree, {open} are inconclusive, {against} disagree, \
+             {fails} fail with a reason; {} points are no mechanism, with a reason",
+            self.points,
+            self.verdicts.iter().sum::<usize>(),
+            self.refused
+        )
+    }
+}
+
+/// The results of families, as text. `hint` says how a single one is looked at.
+pub(crate) fn text(families: &[(&Family, Vec<&Outcome>)]) -> String {
+    let mut text = String::new();
+    let tally = Tally::of(families.iter().flat_map(|(_, all)| all.iter().copied()));
+    let _ = writeln!(text, "{}.\n", tally.verdict());
+    for (family, outcomes) in families {
+        let _ = writeln!(text, "{}: {}\ndial: {}\n{}", family.name, family.title, family.dial, body(outcomes));
+    }
+    text
+}
+
+/// One family: a table of its parties, and the reasons of what does not agree.
+pub(super) fn body(outcomes: &[&Outcome]) -> String {
+    let header = ["", "agrees at", "not", "largest error: positions", "rates", "forces", "over bound", "widest bound"];
+    let mut found = table(header, &[6, 7]);
+    let mut reasons = String::new();
+    for name in names(outcomes) {
+        let [agrees, others, positions, rates, forces, used, widest] = cells(outcomes, name);
+        found.add_row([name.to_string(), agrees, others, positions, rates, forces, used, widest]);
+        for (word, at, why) in told(outcomes, name) {
+            let _ = writeln!(reasons, "  {name} {word} at {at}: {why}");
+        }
+    }
+    for (at, why) in refused(outcomes) {
+        let _ = writeln!(reasons, "  no mechanism at {at}: {why}");
+    }
+    format!("{found}\n{reasons}")
+}
+
+/// Names of all parties, in the order in which they come.
+pub(super) fn names<'a>(outcomes: &[&'a Outcome]) -> Vec<&'a str> {
+    let mut names: Vec<&str> = Vec::new();
+    for party in outcomes.iter().flat_map(|own| &own.parties) {
+        if !names.contains(&party.name.as_str()) {
+            names.push(&party.name);
+        }
+    }
+    names
+}
+
+/// Where a party agrees, where not, its largest errors where it agrees, and there the largest share of a bound and the
+/// widest bound of a worst channel.
+pub(super) fn cells(outcomes: &[&Outcome], name: &str) -> [String; 7] {
+    let mut by_dial: Vec<(f64, usize)> = Vec::new();
+    let mut largest: BTreeMap<Group, f64> = BTreeMap::new();
+    let (mut used, mut widest): (f64, f64) = (0.0, 0.0);
+    for own in outcomes {
+        let Some(party) = own.parties.iter().find(|party| party.name == name) else { continue };
+        let rank = rank(&party.verdict);
+        match by_dial.last_mut().filter(|(dial, _)| *dial == own.dial) {
+            Some((_, worst)) => *worst = rank.max(*worst),
+            None => by_dial.push((own.dial, rank)),
+        }
+        if rank == 0 {
+            for own in &party.reached {
+                let most = largest.entry(own.group).or_insert(0.0);
+                *most = most.larger(own.error);
+                used = used.larger(own.used);
+                widest = widest.larger(own.bound);
+            }
+        }
+    }
+    let stretches = |wanted: usize| stretches(&by_dial, wanted);
+    let others: Vec<String> = (1..WORDS.len())
+        .filter_map(|rank| {
+            let at = stretches(rank);
+            (!at.is_empty()).then(|| format!("{} {at}", WORDS[rank]))
+        })
+        .collect();
+    let error = |group: Group| largest.get(&group).map_or_else(String::new, |error| format!("{error:.1e}"));
+    let [positions, rates, forces] = Group::ALL.map(error);
+    let [used, widest] = [used, widest].map(|value| match largest.is_empty() {
+        true => String::new(),
+        false => format!("{value:.1e}"),
+    });
+    [stretches(0), others.join("; "), positions, rates, forces, used, widest]
+}
+
+/// Neighbouring values of the dial with one verdict, as `1 .. 100`.
+fn stretches(by_dial: &[(f64, usize)], wanted: usize) -> String {
+    let mut found: Vec<[f64; 2]> = Vec::new();
+    let mut last = false;
+    for &(dial, rank) in by_dial {
+        let is = rank == wanted;
+        match found.last_mut().filter(|_| is && last) {
+            Some(own) => own[1] = dial,
+            None if is => found.push([dial; 2]),
+            None => {}
+        }
+        last = is;
+    }
+    let one =
+        |[from, to]: &[f64; 2]| if from == to { dial(*from) } else { format!("{} .. {}", dial(*from), dial(*to)) };
+    found.iter().map(one).collect::<Vec<_>>().join(", ")
+}
+
+/// A value of the dial.
+pub(super) fn dial(value: f64) -> String {
+    if (0.01..1e5).contains(&value) { format!("{value}") } else { format!("{value:e}") }
+}
+
+/// Where a party does not agree, with the reason at the first of these points, by verdict.
+fn told(outcomes: &[&Outcome], name: &str) -> Vec<(&'static str, String, String)> {
+    let mut found: Vec<(&'static str, String, String)> = Vec::new();
+    for own in outcomes {
+        let Some(party) = own.parties.iter().find(|party| party.name == name) else { continue };
+        let word = WORDS[rank(&party.verdict)];
+        if word != WORDS[0] && !found.iter().any(|(known, ..)| *known == word) {
+            found.push((word, dial(own.dial), party.why.clone()));
+        }
+    }
+    found
+}
+
+/// The points that are no case, by reason.
+fn refused<'a>(outcomes: &[&'a Outcome]) -> Vec<(String, &'a str)> {
+    let own = outcomes.iter().filter(|own| !own.refused.is_empty());
+    own.map(|own| (dial(own.dial), own.refused.as_str())).collect()
+}

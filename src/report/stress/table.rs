@@ -1,0 +1,82 @@
+//! A family as CSV: one row for every group of channels of every party at every point.
+
+use crate::stress::{Family, Outcome};
+use linkage::error::{Error, ErrorKind, Result};
+
+const HEADER: [&str; 21] = [
+    "family",
+    "dial",
+    "sample",
+    "party",
+    "verdict",
+    "group",
+    "error",
+    "bound",
+    "channel",
+    "used",
+    "closure",
+    "balance",
+    "step_s",
+    "sweeps",
+    "extrapolated",
+    "steps",
+    "work",
+    "done",
+    "silent",
+    "against",
+    "why",
+];
+
+/// The table. Errors and bounds are shares of the channel's scale; empty cells are numbers that do not exist.
+///
+/// # Errors
+/// [`ErrorKind::Io`] if the table cannot be written.
+pub(crate) fn rows<'a>(family: &Family, outcomes: impl Iterator<Item = &'a Outcome>) -> Result<String> {
+    let failed = |error: csv::Error| Error::new(ErrorKind::Io, format!("the table cannot be written: {error}"));
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    writer.write_record(HEADER).map_err(failed)?;
+    let some = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:e}"));
+    let count = |value: Option<usize>| value.map_or_else(String::new, |value| value.to_string());
+    for own in outcomes {
+        let head = [family.name.to_string(), format!("{:e}", own.dial), own.sample.to_string()];
+        if !own.refused.is_empty() {
+            let mut row: Vec<String> = head.clone().into();
+            row.extend(["", "refused"].map(String::from));
+            row.resize(HEADER.len() - 1, String::new());
+            row.push(own.refused.clone());
+            writer.write_record(&row).map_err(failed)?;
+        }
+        for party in &own.parties {
+            let tail = [
+                some(party.closure),
+                some(party.balance),
+                some(party.step),
+                count(party.sweeps),
+                count(party.extrapolated),
+                some(party.steps),
+                some(party.work),
+                party.done.iter().map(|(what, times)| format!("{times} {what}")).collect::<Vec<_>>().join(", "),
+                party.silent.to_string(),
+                party.against.clone(),
+                party.why.clone(),
+            ];
+            let mut cells: Vec<[String; 5]> = party
+                .reached
+                .iter()
+                .map(|own| {
+                    let [error, bound, used] = [own.error, own.bound, own.used].map(|value| format!("{value:e}"));
+                    [own.group.name().into(), error, bound, own.channel.clone(), used]
+                })
+                .collect();
+            if cells.is_empty() {
+                cells.push(std::array::from_fn(|_| String::new()));
+            }
+            for cell in cells {
+                let own = [party.name.clone(), party.verdict.clone()];
+                writer.write_record(head.iter().chain(&own).chain(&cell).chain(&tail)).map_err(failed)?;
+            }
+        }
+    }
+    let bytes = writer.into_inner().map_err(|error| failed(error.into_error().into()))?;
+    Ok(String::from_utf8(bytes).expect("names and numbers are text"))
+}

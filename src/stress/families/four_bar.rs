@@ -1,0 +1,118 @@
+//! Four-bars: ratios of masses and lengths, transmission angles, speeds, sizes.
+
+use linkage::case::{Case, CaseBuilder};
+use linkage::error::Result;
+use linkage::mechanism::AssemblyMode;
+
+use crate::stress::{Family, Setup};
+
+/// Instants of a turn.
+const INSTANTS: usize = 36;
+/// Mass of a rod (kg) over its length (m).
+const DENSITY: f64 = 10.0;
+/// Lengths of a crank-rocker (m): base, crank, coupler, rocker. Its transmission angle stays above 44 deg.
+pub(super) const LENGTHS: [f64; 4] = [0.4, 0.1, 0.35, 0.25];
+/// Speed (rad/s).
+pub(super) const SPEED_OF_ALL: f64 = 10.0;
+
+/// Masses of crank, coupler and rocker (kg): slender rods.
+pub(super) fn rods([_, crank, coupler, rocker]: [f64; 4]) -> [f64; 3] {
+    [crank, coupler, rocker].map(|length| DENSITY * length)
+}
+
+/// A four-bar O-A-B-C under gravity. Mass centres lie off the lines between the joints.
+pub(super) fn builder([base, crank, coupler, rocker]: [f64; 4], masses: [f64; 3], speed: f64) -> CaseBuilder {
+    let inertia = |mass: f64, length: f64| mass * length * length / 12.0;
+    let centre = |length: f64| [0.45 * length, 0.1 * length];
+    let [m1, m2, m3] = masses;
+    Case::builder()
+        .ground(&[("O", [0.0, 0.0]), ("C", [base, 0.0])])
+        .link("crank", &[("O", [0.0, 0.0]), ("A", [crank, 0.0])])
+        .link("coupler", &[("A", [0.0, 0.0]), ("B", [coupler, 0.0])])
+        .link("rocker", &[("C", [0.0, 0.0]), ("B", [rocker, 0.0])])
+        .mass("crank", m1, centre(crank), inertia(m1, crank))
+        .mass("coupler", m2, centre(coupler), inertia(m2, coupler))
+        .mass("rocker", m3, centre(rocker), inertia(m3, rocker))
+        .pin("O", "ground", "crank")
+        .pin("A", "crank", "coupler")
+        .pin("B", "coupler", "rocker")
+        .pin("C", "ground", "rocker")
+        .gravity([0.0, -9.81])
+        .crank("O", speed)
+        .start(0.3)
+        .mode(&["coupler", "rocker"], AssemblyMode::Left)
+        .instants(INSTANTS)
+}
+
+fn usual(lengths: [f64; 4], masses: [f64; 3], speed: f64) -> Result<Setup> {
+    Ok(Setup::usual(builder(lengths, masses, speed).build()?))
+}
+
+/// Masses of neighbours.
+pub(super) const MASS_RATIO: Family = Family {
+    name: "mass_ratio",
+    dial: "mass of the rocker over that of the coupler",
+    title: "a crank-rocker whose rocker is up to 1e8 times as heavy as its coupler",
+    points: &[1.0, 10.0, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8],
+    quick: &[1.0, 1e4, 1e8],
+    samples: 1,
+    setup: |ratio, _, _| usual(LENGTHS, [1.0, 1.0, ratio], SPEED_OF_ALL),
+};
+
+/// Lengths of neighbours.
+pub(super) const LENGTH_RATIO: Family = Family {
+    name: "length_ratio",
+    dial: "length of the coupler over that of the crank",
+    title: "a crank-rocker whose crank is up to 1e4 times as short as its coupler",
+    points: &[3.5, 10.0, 30.0, 1e2, 3e2, 1e3, 3e3, 1e4],
+    quick: &[3.5, 1e2, 1e4],
+    samples: 1,
+    setup: |ratio, _, _| {
+        let lengths = [LENGTHS[0], LENGTHS[2] / ratio, LENGTHS[2], LENGTHS[3]];
+        usual(lengths, rods(lengths), SPEED_OF_ALL)
+    },
+};
+
+/// Nearness of a dead point.
+pub(super) const TRANSMISSION: Family = Family {
+    name: "transmission_angle",
+    dial: "least transmission angle of the turn (deg)",
+    title: "a crank-rocker that comes as near to a dead point as 0.01 deg of its transmission angle",
+    points: &[0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 30.0],
+    quick: &[0.01, 1.0, 30.0],
+    samples: 1,
+    setup: |degrees, _, _| {
+        // Coupler and rocker are equal: with the crank on the base, they are the legs of a triangle over what is left.
+        let (crank, rod) = (0.1, 0.3);
+        let lengths = [crank + 2.0 * rod * (0.5 * degrees.to_radians()).sin(), crank, rod, rod];
+        // The turn begins at the least transmission angle, so that an instant lies there.
+        let case = builder(lengths, rods(lengths), SPEED_OF_ALL).start(0.0).build()?;
+        Ok(Setup::usual(case))
+    },
+};
+
+/// Speeds.
+pub(super) const SPEED: Family = Family {
+    name: "speed",
+    dial: "speed of the crank (rad/s)",
+    title: "a crank-rocker under gravity, from a turn in 17 hours to 95 000 rpm",
+    points: &[1e-4, 1e-3, 1e-2, 0.1, 1.0, 10.0, 1e2, 1e3, 1e4],
+    quick: &[1e-4, 1.0, 1e4],
+    samples: 1,
+    setup: |speed, _, _| usual(LENGTHS, rods(LENGTHS), speed),
+};
+
+/// Sizes.
+pub(super) const SIZE: Family = Family {
+    name: "size",
+    dial: "length of the base (m)",
+    title: "a crank-rocker of one density, from 1 um to 1 km",
+    points: &[1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 1.0, 10.0, 1e2, 1e3],
+    quick: &[1e-6, 1e-2, 1e3],
+    samples: 1,
+    setup: |size, _, _| {
+        let factor = size / LENGTHS[0];
+        let masses = rods(LENGTHS).map(|mass| mass * factor.powi(3));
+        usual(LENGTHS.map(|length| length * factor), masses, SPEED_OF_ALL)
+    },
+};

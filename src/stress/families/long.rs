@@ -1,0 +1,51 @@
+//! Long runs: steps of an engine, turns of the analytic sides.
+
+use std::f64::consts::TAU;
+
+use linkage::case::Case;
+use linkage::error::Result;
+
+use super::four_bar::{LENGTHS, SPEED_OF_ALL, builder, rods};
+use crate::stress::{Engines, Family, Setup};
+
+/// Instants of the last turn.
+const INSTANTS: usize = 12;
+/// Step (deg of the crank) and sweeps of the engines.
+const STEP_OF_ALL: f64 = 1.0;
+const SWEEPS_OF_ALL: usize = 16;
+
+/// A crank-rocker whose wanted instants divide its last turn before `turns` (or all of them, if that is less).
+fn last_turn(turns: f64) -> Result<Case> {
+    let span = if turns < 1.0 { turns } else { 1.0 };
+    // The last instant is a part before the end: rounding leads no grid beyond what is allowed.
+    let at = |part: usize| TAU / SPEED_OF_ALL * (turns - span * (1.0 - part as f64 / (INSTANTS + 1) as f64));
+    let times: Vec<f64> = (0..=INSTANTS).map(at).collect();
+    // Crank angles are measured from 0, so that the last one is `turns` turns, no more.
+    builder(LENGTHS, rods(LENGTHS), SPEED_OF_ALL).start(0.0).times(&times).build()
+}
+
+/// Steps of a run.
+pub(super) const STEPS: Family = Family {
+    name: "steps",
+    dial: "steps of one degree until the last instant",
+    title: "a crank-rocker over as many as 1e6 steps at 16 sweeps, held against its last turn",
+    points: &[1e2, 1e3, 1e4, 1e5, 1e6],
+    quick: &[1e2, 1e4],
+    samples: 1,
+    setup: |steps, _, _| {
+        let step = STEP_OF_ALL.to_radians() / SPEED_OF_ALL;
+        let case = last_turn(steps * STEP_OF_ALL / 360.0)?;
+        Ok(Setup { engines: Engines::Given { step, sweeps: SWEEPS_OF_ALL }, ..Setup::usual(case) })
+    },
+};
+
+/// Turns.
+pub(super) const TURNS: Family = Family {
+    name: "turns",
+    dial: "turns of the crank until the last instant",
+    title: "a crank-rocker after as many as 1e5 turns, by the analytic sides",
+    points: &[1.0, 10.0, 1e2, 1e3, 1e4, 1e5],
+    quick: &[1.0, 1e2],
+    samples: 1,
+    setup: |turns, _, _| Ok(Setup { engines: Engines::None, ..Setup::usual(last_turn(turns)?) }),
+};

@@ -1,0 +1,33 @@
+//! The table of families. One more family is one more entry, and a function that makes its case.
+
+mod chain;
+mod four_bar;
+mod long;
+mod random;
+mod settings;
+mod singular;
+
+use super::Family;
+
+/// All families.
+pub static FAMILIES: &[Family] = &[
+    four_bar::MASS_RATIO,
+    four_bar::LENGTH_RATIO,
+    four_bar::TRANSMISSION,
+    four_bar::SPEED,
+    four_bar::SIZE,
+    settings::STEP,
+    settings::SWEEPS,
+    long::STEPS,
+    long::TURNS,
+    chain::CHAIN,
+    singular::CHANGE_POINT,
+    singular::REDUNDANT,
+    random::RANDOM,
+];
+
+/// The family called `name`.
+#[must_use]
+pub fn named(name: &str) -> Option<&'static Family> {
+    FAMILIES.iter().find(|family| family.name == name)
+}

@@ -1,0 +1,43 @@
+//! Random mechanisms of dyads of all five kinds.
+
+use linkage::error::{Error, ErrorKind, Result};
+
+use crate::specimens::dyads::{SORTS, chain, sample};
+use crate::specimens::sketch::Random;
+use crate::stress::{Family, Setup};
+
+/// Drawings until one keeps away from dead points.
+const MOST_DRAWN: usize = 100_000;
+/// Step of the grid (rad) and number of steps.
+const STEP: f64 = 0.05;
+const STEPS: usize = 12;
+
+/// Random mechanisms.
+pub(super) const RANDOM: Family = Family {
+    name: "random",
+    dial: "links, the ground among them",
+    title: "random mechanisms of dyads with revolute and prismatic pairs, at least 10 deg from dead points",
+    points: &[4.0, 6.0, 8.0, 10.0, 12.0, 14.0],
+    quick: &[4.0, 8.0],
+    samples: 4,
+    setup: |links, number, seed| drawn((links as usize - 2) / 2, number, seed),
+};
+
+/// The mechanism of `dyads` dyads with this number of a seed.
+fn drawn(dyads: usize, number: u64, seed: u64) -> Result<Setup> {
+    let mut random = Random::of_sample(seed, 1000 * dyads as u64 + number);
+    for _ in 0..MOST_DRAWN {
+        let (mut spec, _) = chain(&mut random, &SORTS, dyads);
+        // Moments that jump where a link reverses have a family of tests of their own; numbers in double-double have
+        // none.
+        spec.loads.clear();
+        spec.dt = None;
+        // From the start on, with the crank.
+        spec.grid = (spec.start, STEP.copysign(spec.speed), STEPS);
+        if let Some(found) = sample(spec) {
+            return Ok(Setup::usual(found.scenario.case));
+        }
+    }
+    let message = format!("none of {MOST_DRAWN} drawings of {dyads} dyads keeps away from dead points");
+    Err(Error::new(ErrorKind::Geometry, message))
+}

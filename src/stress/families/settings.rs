@@ -1,0 +1,43 @@
+//! Settings of engines: steps to blow-up, sweeps.
+
+use super::chain::chain;
+use super::four_bar::{LENGTHS, SPEED_OF_ALL, builder, rods};
+use crate::stress::{Engines, Family, Setup};
+
+/// Sweeps where the step is the dial.
+const SWEEPS_OF_ALL: usize = 64;
+/// Step where the sweeps are the dial (deg of the crank).
+const STEP_OF_ALL: f64 = 0.5;
+
+fn step_of(degrees: f64) -> f64 {
+    degrees.to_radians() / SPEED_OF_ALL
+}
+
+/// Steps.
+pub(super) const STEP: Family = Family {
+    name: "step",
+    dial: "step of the engine (deg of the crank)",
+    title: "a crank-rocker at a given step and 64 sweeps, until an engine blows up",
+    points: &[0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 45.0, 90.0],
+    quick: &[0.2, 2.0, 90.0],
+    samples: 1,
+    setup: |degrees, _, _| {
+        let case = builder(LENGTHS, rods(LENGTHS), SPEED_OF_ALL).build()?;
+        let engines = Engines::Given { step: step_of(degrees), sweeps: SWEEPS_OF_ALL };
+        Ok(Setup { engines, ..Setup::usual(case) })
+    },
+};
+
+/// Sweeps of the iteration.
+pub(super) const SWEEPS: Family = Family {
+    name: "sweeps",
+    dial: "sweeps of the iteration in a step",
+    title: "a chain of three four-bars at a step of half a degree, with few to many sweeps",
+    points: &[1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0, 256.0, 512.0, 1024.0, 2048.0, 4096.0],
+    quick: &[1.0, 16.0, 256.0],
+    samples: 1,
+    setup: |sweeps, _, _| {
+        let engines = Engines::Given { step: step_of(STEP_OF_ALL), sweeps: sweeps as usize };
+        Ok(Setup { engines, ..Setup::usual(chain(3, SPEED_OF_ALL)?) })
+    },
+};

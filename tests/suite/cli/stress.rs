@@ -1,0 +1,74 @@
+//! `linkproof stress`.
+
+use std::collections::BTreeMap;
+use std::fs;
+
+use serde_json::Value;
+
+use super::tools::Place;
+
+/// All files of a directory with their bytes.
+fn files(place: &Place, directory: &str) -> BTreeMap<String, Vec<u8>> {
+    let entries = fs::read_dir(place.path(directory)).unwrap().map(Result::unwrap);
+    entries.map(|entry| (entry.file_name().into_string().unwrap(), fs::read(entry.path()).unwrap())).collect()
+}
+
+/// What the last line says was run.
+fn run_of(told: &str) -> &str {
+    told.lines().last().unwrap()
+}
+
+#[test]
+fn a_run_is_the_same_from_any_number_of_threads_and_goes_on_where_it_was() {
+    let place = Place::new();
+    let told = place.ok("stress length_ratio redundant --quick --out one --jobs 1");
+    assert!(run_of(&told).contains("5 of 5 points were run"), "{told}");
+    assert!(told.starts_with("5 points: no silent wrong number, no panic"), "{told}");
+    place.ok("stress length_ratio redundant --quick --out two --jobs 2");
+    let whole = files(&place, "one");
+    assert_eq!(whole.keys().filter(|name| name.starts_with("length_ratio.")).count(), 3, "{:?}", whole.keys());
+    assert!(whole == files(&place, "two"), "other bytes from two threads");
+
+    // Nothing is run again.
+    let told = place.ok("stress length_ratio redundant --quick --out one");
+    assert!(run_of(&told).contains("0 of 5 points were run"), "{told}");
+    assert!(whole == files(&place, "one"), "other bytes from what was kept");
+
+    // What is lost, stale or not ours is made anew.
+    let path = place.path("one/length_ratio.json");
+    let mut kept: Value = serde_json::from_slice(&fs::read(&path).unwrap()).unwrap();
+    kept["points"].as_array_mut().unwrap().remove(1);
+    kept["points"][0]["key"] = "another case".into();
+    fs::write(&path, kept.to_string()).unwrap();
+    fs::write(place.path("one/redundant.json"), "{").unwrap();
+    let told = place.ok("stress length_ratio redundant --quick --out one");
+    assert!(run_of(&told).contains("4 of 5 points were run"), "{told}");
+    assert!(whole == files(&place, "one"), "other bytes after a run that was broken off");
+}
+
+#[test]
+fn a_directory_that_cannot_be_is_told_before_anything_is_run() {
+    let place = Place::new();
+    fs::write(place.path("file"), "").unwrap();
+    place.refused("stress speed --quick --out file", &["file", "cannot be made"]);
+    place.refused("stress speed --quick --out file/below", &["cannot be made"]);
+    // A directory in the place of a result.
+    fs::create_dir_all(place.path("out/speed.json")).unwrap();
+    place.refused("stress speed --quick --out out", &["speed.json"]);
+    place.refused("stress sped --quick --out out", &["sped", "speed"]);
+    place.refused("stress speed --quick --out out --jobs 0", &["at least one"]);
+}
+
+/// The engines fail where the mechanism does not let them through; that is a result with a reason, and no error.
+#[test]
+fn failures_are_results_with_reasons() {
+    let place = Place::new();
+    let told = place.ok("stress step --quick --out out --page out/page.md");
+    assert!(told.contains("fails at 90"), "{told}");
+    let table = fs::read_to_string(place.path("out/step.csv")).unwrap();
+    let failed: Vec<&str> = table.lines().filter(|line| line.contains(",fails,")).collect();
+    assert!(!failed.is_empty() && failed.iter().all(|line| line.contains("loop has opened")), "{table}");
+    let map = fs::read_to_string(place.path("out/page/step.svg")).unwrap();
+    assert!(roxmltree::Document::parse(&map).unwrap().root_element().has_tag_name("svg"));
+    assert!(fs::read_to_string(place.path("out/page.md")).unwrap().contains("](page/step.svg)"));
+}

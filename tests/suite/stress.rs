@@ -1,0 +1,128 @@
+//! Numerical stability: the reference in double-double against closed forms, the sides against it, and what stress has
+//! found.
+
+mod precise;
+
+use linkage::case::Wanted;
+use linkage::math::KeepNan;
+use linkage::mechanism::AssemblyMode;
+use linkage::trajectory::{Stage, Unit};
+use linkage::work::Count;
+use linkproof::Case;
+use linkproof::compare::Verdict;
+use linkproof::proof::beside::sides;
+use linkproof::stress::{FAMILIES, named, run};
+
+use crate::common::assert_within;
+
+#[test]
+fn families_have_their_own_names_and_their_quick_points() {
+    for (index, family) in FAMILIES.iter().enumerate() {
+        assert!(FAMILIES[index + 1..].iter().all(|other| other.name != family.name), "{}", family.name);
+        assert!(family.points.windows(2).all(|pair| pair[0] < pair[1]), "{}", family.name);
+        assert!(
+            !family.quick.is_empty() && family.quick.iter().all(|dial| family.points.contains(dial)),
+            "{}",
+            family.name
+        );
+    }
+}
+
+/// After 1e4 turns the crank angle has lost five digits as a double, before either side begins. Both sides then agreed
+/// on numbers that were 3.6 times as wrong as their bound allowed: nobody was told.
+#[test]
+fn the_rounding_of_a_large_crank_angle_is_in_the_bound() {
+    let turns = named("turns").unwrap();
+    let case = (turns.setup)(1e4, 0, 0).unwrap().case;
+    let case = case.wanting(Wanted::of(&[Stage::Positions, Stage::Velocities]));
+    let truth = ::precise::solve(&case).unwrap();
+    let found = sides(&case, Some(&truth)).unwrap();
+    assert!(matches!(found.verdict, Verdict::Agree { .. }), "{:?}", found.verdict);
+    assert_eq!(found.silent, 0);
+    for side in &found.sides {
+        let worst = side.deviations.iter().map(|own| own.used).fold(0.0, f64::larger);
+        println!("{}: {worst:.2e} of its bound", side.name);
+        assert_within!(worst, 1.0, "{}", side.name);
+        // The bound is no blank cheque. Of angles it is a share of the angle with its turns, as it was before.
+        for own in side.deviations.iter().filter(|own| own.channel.kind.unit != Unit::Radian) {
+            assert_within!(own.bound, 1e-9, "{} {}", side.name, own.channel);
+        }
+    }
+}
+
+/// A long chain is solved and judged in a time that grows little faster than its length; here it is only solved, and
+/// held against double-double. No report names a chain of 150.
+#[test]
+fn a_long_chain_keeps_its_digits() {
+    let case = (named("chain").unwrap().setup)(150.0, 0, 0).unwrap().case;
+    let truth = ::precise::solve(&case).unwrap();
+    let found = sides(&case, Some(&truth)).unwrap();
+    assert!(matches!(found.verdict, Verdict::Agree { .. }), "{:?}", found.verdict);
+    assert_eq!(found.silent, 0);
+    for own in found.sides.iter().flat_map(|side| &side.deviations) {
+        assert_within!(own.used, 1.0, "{}", own.channel);
+    }
+}
+
+/// Side 1 does for a chain what it does for each of its four-bars: work counted, not timed. Side 2 iterates on blocks and
+/// needs no more of them per four-bar in a long chain.
+#[test]
+fn the_work_of_a_chain_is_that_of_its_four_bars() {
+    let work = |count: f64| {
+        let case = (named("chain").unwrap().setup)(count, 0, 0).unwrap().case;
+        sides(&case.wanting(Wanted::of(&[Stage::Positions])), None).unwrap().sides.map(|side| side.work)
+    };
+    let (short, long) = (work(20.0), work(200.0));
+    for what in [Count::Poses, Count::Iterations] {
+        assert!(long[0].of(what) <= short[0].of(what), "side 1, {}", what.name());
+    }
+    assert!(short[0].of(Count::Groups) > 0 && long[0].of(Count::Groups) <= 10 * short[0].of(Count::Groups));
+    let [few, many] = [short, long].map(|work| work[1].of(Count::Iterations));
+    println!("side 2: {few} and {many} iterations");
+    assert!(few > 0 && many <= 12 * few, "side 2: {few} and {many}");
+}
+
+/// A case that solvers refuse has its reason in the result, and the sides hold where a dead point is a hundredth of a
+/// degree away.
+#[test]
+fn points_are_results_whatever_comes_of_them() {
+    let redundant = run(named("redundant").unwrap(), 2.0, 0, 1);
+    assert!(redundant.refused.contains("mobility"), "{redundant:?}");
+    let near = run(named("transmission_angle").unwrap(), 0.01, 0, 1);
+    for party in &near.parties {
+        assert_eq!(party.silent, 0, "{party:?}");
+        assert!(party.verdict == "agree" || !party.why.is_empty(), "{party:?}");
+        if ["assur", "newton"].contains(&party.name.as_str()) {
+            assert_eq!((party.verdict.as_str(), party.reached.len()), ("agree", 3), "{party:?}");
+            assert_within!(party.reached[0].error, 1e-9, "{party:?}");
+        }
+    }
+    assert!(near.parties.iter().any(|party| party.verdict == "fails"));
+}
+
+/// A truth that is wrong in one length by a millionth is contradicted by both sides, while they agree with each other:
+/// this is what a silent wrong number looks like.
+#[test]
+fn a_wrong_number_that_both_sides_share_is_counted() {
+    let four_bar = |coupler: f64| {
+        Case::builder()
+            .ground(&[("O", [0.0, 0.0]), ("C", [0.4, 0.0])])
+            .link("crank", &[("O", [0.0, 0.0]), ("A", [0.1, 0.0])])
+            .link("coupler", &[("A", [0.0, 0.0]), ("B", [coupler, 0.0])])
+            .link("rocker", &[("C", [0.0, 0.0]), ("B", [0.25, 0.0])])
+            .mass("coupler", 2.0, [0.175, 0.0], 0.02)
+            .pin("O", "ground", "crank")
+            .pin("A", "crank", "coupler")
+            .pin("B", "coupler", "rocker")
+            .pin("C", "ground", "rocker")
+            .crank("O", 10.0)
+            .mode(&["coupler", "rocker"], AssemblyMode::Left)
+            .instants(12)
+            .build()
+            .unwrap()
+    };
+    let truth = ::precise::solve(&four_bar(0.35 * (1.0 + 1e-6))).unwrap();
+    let found = sides(&four_bar(0.35), Some(&truth)).unwrap();
+    assert!(matches!(found.verdict, Verdict::Agree { .. }));
+    assert!(found.silent > 20, "{}", found.silent);
+}
