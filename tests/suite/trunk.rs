@@ -89,7 +89,7 @@ fn a_run_up_in_closed_form_sees_what_numbers_at_crank_angles_cannot() {
         "clock",
         "start-angle",
         "inertia-crank",
-        "motor",
+        "motor-size",
         "motor-missing",
         "motor-reversed",
         "motor-without-ratio",

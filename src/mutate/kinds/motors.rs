@@ -8,7 +8,7 @@ use linkage::drive::{Motor, ShaftInertia};
 const OF: Family = Family::Motor;
 
 pub(super) const KINDS: &[Kind] = &[
-    Kind::case(OF, "motor", "the motor is stronger by a share", |case, size| {
+    Kind::case(OF, "motor-size", "the motor is stronger by a share", |case, size| {
         of(case, |motor| motor.law = motor.law.scaled(1.0 + size))
     })
     .sized(1e-2),
