@@ -303,6 +303,6 @@ pub(crate) fn reasons(bench: &Bench) -> Vec<(String, usize)> {
             None => found.push((reason, 1)),
         }
     }
-    found.sort_by_key(|own| std::cmp::Reverse(own.1));
+    found.sort_by_key(|(_, times)| std::cmp::Reverse(*times));
     found
 }

@@ -101,8 +101,11 @@ fn sides_keep_their_accuracy() {
     }
 }
 
+/// Changes an answer.
+type Change = Box<dyn Fn(&mut Answer)>;
+
 /// A peer whose answer is that of side 2, changed by a function.
-struct Planted(Trajectory, Box<dyn Fn(&mut Answer)>);
+struct Planted(Trajectory, Change);
 
 impl Peer for Planted {
     fn name(&self) -> &str {
@@ -127,17 +130,17 @@ impl Peer for Planted {
 fn answers_that_are_none_are_failures_with_a_reason() {
     let scenario = few("crank_rocker.toml");
     let exact = NewtonSolver.solve(&scenario.case).unwrap();
-    let with = |change: Box<dyn Fn(&mut Answer)>| {
+    let with = |change: Change| {
         let found = measured(&scenario, &[&Planted(exact.clone(), change)]);
         found.points.into_iter().find(|point| point.party == Party::Peer).unwrap()
     };
     let good = with(Box::new(|_| {}));
     assert!(Stage::ALL.iter().all(|&stage| good.error(stage).unwrap().max < 1e-9 && good.failure(stage).is_none()));
     assert_eq!((good.seconds(), good.run().unwrap().effort.solutions()), (Some(0.25), Some(7)));
-    let of = |name: &'static str, change: fn(&mut Vec<f64>)| -> Box<dyn Fn(&mut Answer)> {
+    let of = |name: &'static str, change: fn(&mut Vec<f64>)| -> Change {
         Box::new(move |answer| change(&mut answer.columns.iter_mut().find(|(own, _)| own == name).unwrap().1))
     };
-    let whole: [(Box<dyn Fn(&mut Answer)>, &str); 6] = [
+    let whole: [(Change, &str); 6] = [
         (Box::new(|answer| answer.columns.clear()), "no column t_s"),
         (Box::new(|answer| answer.columns.truncate(1)), "none of the wanted channels"),
         (of("t_s", |times| times[3] += 1e-3), "row 4 of the answer"),

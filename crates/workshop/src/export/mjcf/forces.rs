@@ -74,7 +74,7 @@ pub(super) fn forces(model: &Model) -> Result<Forces> {
             let target = match target {
                 Target::Sum(sum) if sum.is_empty() => return,
                 Target::Sum(sum) if sum.len() == 1 && sum[0].1 == 1.0 => Target::Hinge(sum[0].0),
-                hinge_or_place @ (Target::Hinge(_) | Target::Sum(_) | Target::Place(..)) => hinge_or_place,
+                other @ (Target::Hinge(_) | Target::Sum(_) | Target::Place(..)) => other,
             };
             found.actuators.push(Actuator { name: name.clone(), target, bias, range: None });
         };
