@@ -2,6 +2,7 @@
 
 #[cfg(feature = "batch")]
 pub mod batch;
+mod clear;
 mod forces;
 pub mod groups;
 mod passing;

@@ -6,6 +6,7 @@
 //! Between two of them, every link's angle is the polynomial of degree five with their angles and their first and
 //! second transfer functions. It is off by the sixth power of the distance.
 
+use super::chains::OF_START;
 use super::groups::Groups;
 use super::lanes::{Eight, TILE};
 use crate::PoseSolver;
@@ -15,9 +16,6 @@ use linkage::error::Result;
 use linkage::math::{Vec2, cross};
 use linkage::trajectory::Stage;
 
-/// Numbers of a start: direction of the link at the anchor, share of the way to the next one, and five coefficients of
-/// the turn from there (rad).
-pub(super) const OF_START: usize = 8;
 /// Numbers that an interval keeps of a link: those of a start, but for the share of the way.
 const KEPT: usize = OF_START - 1;
 /// Distance of two anchors (rad): a step of [`PoseSolver`], less what rounding may add.

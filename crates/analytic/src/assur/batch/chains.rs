@@ -6,12 +6,14 @@
 mod forces;
 mod motion;
 
-use super::anchors::OF_START;
+use super::bodies::{Action, Body, Reader};
 use super::elimination;
-use super::groups::{Action, Body, Reader};
 use crate::assur::groups::{self, Hangs};
 use linkage::math::Vec2;
 
+/// Numbers of a start: direction of the link at the anchor, share of the way to the next one, and five coefficients of
+/// the turn from there (rad).
+pub(super) const OF_START: usize = 8;
 /// A link with the joint to its parent, which is its pole.
 #[derive(Clone, Debug)]
 struct Node {

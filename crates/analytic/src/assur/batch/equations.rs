@@ -6,7 +6,8 @@
 
 use pulp::Simd;
 
-use super::groups::{Arm, Body, Driver, Dyad, Groups, Part};
+use super::bodies::Body;
+use super::groups::{Arm, Driver, Dyad, Groups, Part};
 use super::lanes::{Lanes, Plane, Window};
 use super::poses::{ACCELERATION, ALPHA, DIRECTION, OMEGA, ORIGIN, VELOCITY};
 use linkage::math::Vec2;

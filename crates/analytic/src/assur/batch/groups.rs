@@ -1,41 +1,16 @@
 //! The constants of a case of driving links, RRR dyads and higher groups on pins, derived once.
 
+use super::bodies::{Action, Body, Reader};
 use super::chains::Chain;
 use super::poses::Layout;
 use crate::assur::groups::{Plan, Step};
 use linkage::case::Case;
 use linkage::drive::Load;
 use linkage::math::Vec2;
-use linkage::mechanism::{AssemblyMode, GROUND, Group, GroupKind, Side};
+use linkage::mechanism::{AssemblyMode, GROUND, Group, GroupKind};
 
 /// Columns of a dyad in the working memory: two each for its spans r1 and r2, and 1 / (r1 x r2).
 const OF_DYAD: usize = 5;
-
-/// A joint as it acts on one of its links: `sign` times its reaction, at `arm` from the link's pole, in the link's
-/// frame.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Action {
-    /// Column of the reaction.
-    pub(super) force: usize,
-    pub(super) arm: Vec2,
-    pub(super) sign: f64,
-}
-
-/// A link with the actions on it. Moments are about its pole, which is one of its joints.
-#[derive(Clone, Debug)]
-pub(super) struct Body {
-    /// First column of the link.
-    pub(super) link: usize,
-    pub(super) mass: f64,
-    pub(super) mass_centre: Vec2,
-    /// From the pole to the mass centre, in the link's frame.
-    pub(super) centre: Vec2,
-    pub(super) inertia: f64,
-    /// Joints at which later groups are attached to it.
-    pub(super) hanging: Vec<Action>,
-    /// Loads that act against its rotation.
-    pub(super) loads: Vec<Load>,
-}
 
 /// A driving link, which turns about a joint with the ground: its pole.
 #[derive(Clone, Debug)]
@@ -138,54 +113,7 @@ impl Groups {
     }
 }
 
-/// Reads the constants from a case.
-pub(super) struct Reader<'a> {
-    pub(super) case: &'a Case,
-    pub(super) layout: Layout,
-    /// Joints whose reactions are known when the group is solved.
-    settled: &'a [bool],
-}
-
 impl Reader<'_> {
-    fn place(&self, joint: usize, link: usize) -> Vec2 {
-        self.case.mechanism.joints()[joint].on(link).expect("the joint is on the link")
-    }
-
-    fn base(&self, joint: usize, link: usize) -> (Option<usize>, Vec2) {
-        let Side { link, local } = self.case.mechanism.joints()[joint].other(link);
-        (self.layout.link(link), local)
-    }
-
-    pub(super) fn action(&self, joint: usize, link: usize, pole: Vec2) -> Action {
-        let is_second = self.case.mechanism.joints()[joint].second.link == link;
-        Action {
-            force: self.layout.force(joint),
-            arm: self.place(joint, link) - pole,
-            sign: if is_second { 1.0 } else { -1.0 },
-        }
-    }
-
-    pub(super) fn body(&self, link: usize, pole: Vec2) -> Body {
-        let joints = self.case.mechanism.joints();
-        let hanging = (0..joints.len()).filter(|&joint| self.settled[joint] && joints[joint].on(link).is_some());
-        let body = &self.case.mechanism.links()[link];
-        Body {
-            link: self.layout.link(link).expect("the link moves"),
-            mass: body.mass,
-            mass_centre: body.mass_centre,
-            centre: body.mass_centre - pole,
-            inertia: body.inertia,
-            hanging: hanging.map(|joint| self.action(joint, link, pole)).collect(),
-            loads: self
-                .case
-                .loads
-                .iter()
-                .filter(|load| load.sensed_link() == Some(link) && self.case.can_turn(link))
-                .cloned()
-                .collect(),
-        }
-    }
-
     fn driver(&self, link: usize, joint: usize) -> Driver {
         let pivot = self.place(joint, link);
         Driver {

@@ -5,6 +5,7 @@
 //! Any other case is solved pose by pose.
 
 mod anchors;
+mod bodies;
 mod chains;
 mod elimination;
 mod equations;

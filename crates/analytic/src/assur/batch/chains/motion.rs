@@ -5,8 +5,7 @@
 
 use pulp::Simd;
 
-use super::Chain;
-use crate::assur::batch::anchors::OF_START;
+use super::{Chain, OF_START};
 use crate::assur::batch::elimination::Factors;
 use crate::assur::batch::equations::swung;
 use crate::assur::batch::lanes::{Lanes, Plane, Window};

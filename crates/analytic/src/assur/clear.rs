@@ -1,0 +1,95 @@
+//! Steps of [`PoseSolver`] that would pass over a change point are refused.
+
+use super::PoseSolver;
+use super::watch::CLEAR;
+use crate::assur::groups::{Clearance, Misfit, OutOfReach, SINGULAR};
+use linkage::math::KeepNan;
+
+impl PoseSolver<'_> {
+    /// Finds the clearances of a crank angle whose positions are known. Returns whether a group may have passed a change
+    /// point.
+    fn find_clearances(&mut self, crank: f64, sense: f64) -> bool {
+        let from = std::mem::replace(&mut self.crank, crank);
+        self.drive(1.0);
+        self.crank = from;
+        let motions = &mut self.watch.motions;
+        motions.clone_from(&self.state.motions);
+        self.plan.velocities(&self.inputs, motions);
+        let motions = std::mem::take(&mut self.watch.motions);
+        let may_pass = self.watch.see(&self.plan, &motions, 1.0, sense);
+        self.watch.motions = motions;
+        may_pass
+    }
+
+    /// Refuses a step that passes over a change point: there a clearance falls to zero and rises again.
+    #[inline]
+    pub(super) fn keep_clear(&mut self, target: f64) -> Result<(), OutOfReach> {
+        let step = target - self.crank;
+        if !self.watch.is_far(step.abs(), &self.plan, &self.state.motions) {
+            let may_pass = match self.has_motions {
+                true => self.watch.see(&self.plan, &self.state.motions, self.omega, step),
+                false => self.find_clearances(target, step),
+            };
+            if may_pass {
+                self.keep_clear_closely(target)?;
+            }
+        }
+        self.watch.groups.iter_mut().for_each(|seen| seen.last = seen.now);
+        Ok(())
+    }
+
+    /// The same for groups that may have passed one.
+    #[cold]
+    fn keep_clear_closely(&mut self, target: f64) -> Result<(), OutOfReach> {
+        let sense = target - self.crank;
+        self.has_motions = false;
+        for group in 0..self.watch.groups.len() {
+            let seen = self.watch.groups[group];
+            if seen.may_pass(sense) {
+                self.search(group, target, [seen.last, seen.now])?;
+                // The search has left another pose and its clearances.
+                self.turn(target);
+                self.plan.positions(&self.inputs, &mut self.state.motions)?;
+                self.find_clearances(target, sense);
+            }
+        }
+        Ok(())
+    }
+
+    /// Searches the smallest clearance of a group between the present crank angle and `target`, by bisection of its
+    /// slope. It is refused where it is zero to rounding.
+    #[cold]
+    fn search(&mut self, group: usize, target: f64, ends: [Clearance; 2]) -> Result<(), OutOfReach> {
+        let ([mut low, mut high], [mut before, mut after]) = ([self.crank, target], ends);
+        let sense = target - self.crank;
+        if before.rate.is_nan() {
+            self.turn(low);
+            self.plan.positions(&self.inputs, &mut self.state.motions)?;
+            self.find_clearances(low, sense);
+            before = self.watch.groups[group].now;
+            if before.rate * sense >= 0.0 {
+                return Ok(());
+            }
+        }
+        while (high - low).abs() > 8.0 * f64::EPSILON * high.abs().larger(1.0) {
+            let reach = before.rate.abs().larger(after.rate.abs()) * (high - low).abs();
+            if before.sine.smaller(after.sine) > CLEAR * reach {
+                return Ok(());
+            }
+            let middle = 0.5 * (low + high);
+            self.turn(middle);
+            match self.plan.positions(&self.inputs, &mut self.state.motions) {
+                Ok(()) => {}
+                Err(OutOfReach { why: Misfit::Lost, .. }) => return Ok(()),
+                Err(_) => return Err(OutOfReach { group, why: Misfit::Passed { crank: middle } }),
+            }
+            self.find_clearances(middle, sense);
+            let now = self.watch.groups[group].now;
+            if now.sine < 10.0 * SINGULAR {
+                return Err(OutOfReach { group, why: Misfit::Passed { crank: middle } });
+            }
+            if now.rate * sense < 0.0 { (low, before) = (middle, now) } else { (high, after) = (middle, now) }
+        }
+        Ok(())
+    }
+}
