@@ -22,7 +22,7 @@ use workshop::export::{first_state, mjcf};
 
 const EXAMPLES: &str = "\
 Examples:
-  linkproof bench scenarios/crank_rocker.toml --out bench --quick        a coarse picture, in seconds
+  linkproof bench scenarios/crank_rocker.toml --out bench --quick     in seconds
   linkproof bench scenarios/five_bar.toml --out bench --quick --only positions --engine rapier
 
 All scenarios, beside another program, with a page:

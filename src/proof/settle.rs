@@ -203,7 +203,8 @@ impl<'a, 'b> Settling<'a, 'b> {
         // What disagrees in the last round, and what did so in two rounds running.
         let (mut against, mut borne_out): (Vec<String>, Vec<String>) = (Vec::new(), Vec::new());
         let first = self.bank.missing(&self.rungs());
-        if first > self.budget.larger(FIRST) {
+        // A step that is given is refused by the engine itself where it is too fine.
+        if self.free.step && first > self.budget.larger(FIRST) {
             let message =
                 format!("the first runs of the engine take {first:.1e} steps, {:.1e} are allowed", self.budget);
             let error = Error::new(ErrorKind::Unsupported, message).help("shorten the grid");

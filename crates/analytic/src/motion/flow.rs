@@ -4,6 +4,7 @@ use std::cell::{Cell, RefCell};
 
 use differential_equations::ode::ODE;
 
+use super::knots::Knots;
 use super::march::{Flow, Place};
 use super::side::{self, Held, Inputs};
 use linkage::case::Case;
@@ -20,6 +21,8 @@ use linkage::work::{Count, Tally};
 const FARTHEST: f64 = std::f64::consts::PI;
 /// Bounds of the motor's piece, which come after those of the loads: too fast, too slow.
 const OF_MOTOR: usize = 2;
+/// Bounds at the knots of the loads' tables, which come last: behind and ahead.
+const OF_KNOTS: usize = 2;
 /// The first of these bounds.
 const TOO_FAST: usize = 0;
 /// Share of the largest speed so far below which a link or a point is at rest, where a piece ends.
@@ -62,6 +65,9 @@ pub(super) struct Pieces<'a, const N: usize> {
     /// Time at which the present piece began (s).
     entered: Cell<f64>,
     branch: Cell<Option<Branch>>,
+    knots: Knots,
+    /// Crank angles (rad) between which the loads' tables are smooth on the present piece.
+    smooth: Cell<[f64; 2]>,
     origin: Cell<[f64; N]>,
 }
 
@@ -137,6 +143,8 @@ impl<'a, const N: usize> Pieces<'a, N> {
             fastest: RefCell::new(vec![0.0; loads]),
             entered: Cell::new(0.0),
             branch: Cell::new(None),
+            knots: Knots::of(case),
+            smooth: Cell::new([f64::NEG_INFINITY, f64::INFINITY]),
             origin: Cell::new(start(case)),
         }
     }
@@ -184,6 +192,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
         let work = &mut *self.work.borrow_mut();
         let stood = match bound.map(|bound| (bound, bound.checked_sub(self.case.loads.len()))) {
             None => return self.begin(work, place),
+            Some((_, Some(end))) if end >= OF_MOTOR => Vec::new(),
             Some((_, Some(end))) => {
                 // Exactly on the bound; otherwise the same piece would be chosen again.
                 let speeds = self.branch.get().map_or([0.0; 2], |branch| branch.speeds);
@@ -219,6 +228,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
     /// Accelerations at a place where loads in `stood` have links at rest.
     fn go_on(&self, work: &mut Work, place: &Place<N>, stood: &[Sensed]) -> Result<()> {
         self.origin.set(place.y);
+        self.smooth.set(self.knots.around(self.crank(place.x, &place.y)));
         match stood.is_empty() {
             true => self.accelerate(work, place.x, &place.y),
             false => self.set_off(work, place, stood),
@@ -388,6 +398,12 @@ impl<'a, const N: usize> Pieces<'a, N> {
             .help("give the motor more torque or the mechanism more speed, or let the grid end before")
     }
 
+    /// The crank angle (rad, as the scenario states it).
+    fn crank(&self, t: f64, y: &[f64; N]) -> f64 {
+        let crank = self.case.crank();
+        if crank.is_free() { y[0] - crank.zero } else { crank.at(t).angle }
+    }
+
     /// The crank's speed in the motor's sense. Wherever there is a branch, the crank is the first free driving link.
     fn crank_speed(&self, y: &[f64; N]) -> f64 {
         self.case.crank().sense() * y[N / 2]
@@ -431,12 +447,16 @@ impl<const N: usize> ODE<f64, [f64; N]> for Pieces<'_, N> {
 
 impl<const N: usize> Flow<N> for Pieces<'_, N> {
     fn bounds(&self) -> usize {
-        self.case.loads.len() + OF_MOTOR
+        self.case.loads.len() + OF_MOTOR + OF_KNOTS
     }
 
     fn margin(&self, bound: usize, t: f64, y: &[f64; N]) -> f64 {
         let Some(load) = self.case.loads.get(bound) else {
-            return self.branch_margin(bound - self.case.loads.len(), y);
+            return match bound - self.case.loads.len() {
+                end if end < OF_MOTOR => self.branch_margin(end, y),
+                OF_MOTOR => self.crank(t, y) - self.smooth.get()[0],
+                _ => self.smooth.get()[1] - self.crank(t, y),
+            };
         };
         let senses = sensed(self.case, load);
         if senses == Senses::Nothing {

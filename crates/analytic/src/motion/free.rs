@@ -7,7 +7,7 @@
 //! motion, and pieces end exactly where the sense changes.
 
 use super::flow::{self, Pieces};
-use super::march::{MOST_EMPTY, Place, Step, Stop, march};
+use super::march::{MOST_EMPTY, Pace, Place, Step, Stop, march};
 use super::side::Side;
 use linkage::case::Case;
 use linkage::error::{Error, ErrorKind, Result};
@@ -92,7 +92,7 @@ fn run<const N: usize>(
     if targets[0] == 0.0 {
         reach(&pieces, 0.0, &place.y)?;
     }
-    let mut empty = 0;
+    let (mut empty, mut pace) = (0, Pace::default());
     while place.x < last {
         let from = place.x;
         let mut at_step = |pieces: &Pieces<N>, &[_, (t, y)]: &Step<N>| reach(pieces, t, &y);
@@ -101,6 +101,7 @@ fn run<const N: usize>(
         let turned = place.y[0] - drive.zero;
         let stop = stop.map_err(|error| located(error, place.x, turned))?;
         let Stop::Bound(bound) = stop else { break };
+        pace.piece(place.x, last)?;
         empty = if place.x > from { 0 } else { empty + 1 };
         if empty > MOST_EMPTY {
             let message = format!("the motion does not get away from t = {from:.9} s, where a sense of motion changes");

@@ -234,6 +234,33 @@ fn checked<const N: usize, F: Flow<N>, T, E: std::fmt::Debug>(
     answer.map(|_| ()).map_err(|why| fault.unwrap_or_else(|| lost(x, &format!("{why:?}"))))
 }
 
+/// Largest number of pieces of one motion. A hundred turns of a mechanism under tables of loads take some thousand.
+const MOST_PIECES: usize = 3_000_000;
+/// Pieces after which it is looked at whether the rest of the way can be gone within the largest number.
+const JUDGED: usize = 5_000;
+
+/// Counts the pieces of a motion. A motion that runs away meets ever more of them.
+#[derive(Debug, Default)]
+pub(crate) struct Pace(usize);
+
+impl Pace {
+    /// Counts a piece that ends at `x` of the way from 0 to `last`.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Numeric`] where the motion would take too many of them.
+    pub(crate) fn piece(&mut self, x: f64, last: f64) -> Result<()> {
+        self.0 += 1;
+        // Written so that NaN is refused.
+        if self.0.is_multiple_of(JUDGED) && !(last / x * self.0 as f64 <= MOST_PIECES as f64) {
+            let message = format!("of {last} s the motion has gone {x:.9} s in {} pieces", self.0);
+            return Err(Error::new(ErrorKind::Numeric, message).at_time(x).help(
+                "it runs away, or a load turns about all the time: check loads and motor, or end the grid before",
+            ));
+        }
+        Ok(())
+    }
+}
+
 fn lost(x: f64, why: &str) -> Error {
     Error::new(ErrorKind::Numeric, format!("the equation of motion cannot be integrated beyond {x:.9}: {why}")).help(
         "where masses nearly vanish at a crank angle it is stiff: give the crank or the rotor a moment of inertia",

@@ -2,5 +2,6 @@
 
 pub(crate) mod flow;
 pub(crate) mod free;
+mod knots;
 pub(crate) mod march;
 pub(crate) mod side;

@@ -3,7 +3,7 @@
 use super::flow::{Forces, InTime};
 use super::model::{Model, Piece};
 use crate::PoseSolver;
-use crate::motion::march::{MOST_EMPTY, Place, Step, Stop, march};
+use crate::motion::march::{MOST_EMPTY, Pace, Place, Step, Stop, march};
 use linkage::case::{Case, Grid};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
@@ -84,7 +84,7 @@ impl<'m, 'a> Runner<'m, 'a> {
 
     fn run(&mut self, times: &[f64], accuracy: f64, found: &mut Vec<CrankState>) -> Result<End> {
         let Some(&last) = times.last() else { return Ok(End::Reached) };
-        let mut empty = 0;
+        let (mut empty, mut pace) = (0, Pace::default());
         if let Some(end) = self.enter()? {
             self.held(times, found, end);
             return Ok(end);
@@ -110,6 +110,7 @@ impl<'m, 'a> Runner<'m, 'a> {
                     .help("a load that turns about just there holds and lets go in turn: start it a little aside"));
             }
             if let Stop::Bound(bound) = stop {
+                pace.piece(self.place.x, last)?;
                 self.arrive(bound);
                 if let Some(end) = self.enter()? {
                     self.held(times, found, end);

@@ -12,6 +12,7 @@ mod rpr;
 mod rrp;
 mod rrr;
 
+#[cfg(feature = "batch")]
 pub(in crate::assur) use chain::{Arrow, Hangs};
 pub use chain::{Chain, Closing, Node};
 pub use misfit::{Clearance, Misfit, SINGULAR};

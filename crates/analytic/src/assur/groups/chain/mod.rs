@@ -16,7 +16,9 @@ mod contour;
 mod predict;
 mod rates;
 
-pub(in crate::assur) use contour::{Arrow, Contours, Hangs};
+pub(in crate::assur) use contour::Contours;
+#[cfg(feature = "batch")]
+pub(in crate::assur) use contour::{Arrow, Hangs};
 pub use contour::{Closing, Node};
 
 use self::predict::Memory;
@@ -157,6 +159,7 @@ impl Chain {
     }
 
     /// The tree and its contours.
+    #[cfg(feature = "batch")]
     pub(in crate::assur) fn contours(&self) -> &Contours {
         &self.contours
     }

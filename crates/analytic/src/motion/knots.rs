@@ -1,0 +1,56 @@
+//! The knots of the loads' tables, where a motion under forces ends a piece.
+//!
+//! A step over a knot meets a jump of some derivative, and is of a lower order there.
+
+use std::f64::consts::TAU;
+
+use linkage::case::Case;
+use linkage::math::KeepNan;
+
+/// How far beyond a knot a piece ends (rad). A motion that turns round on a knot then gets away from it.
+/// What the jump does over this way is far below rounding.
+const BEYOND: f64 = 1e-9;
+
+/// Crank angles (rad, as the scenario states them) at which the loads' tables have knots.
+#[derive(Debug)]
+pub(super) struct Knots(Vec<(Vec<f64>, f64)>);
+
+impl Knots {
+    /// The knots of all loads of a case.
+    pub(super) fn of(case: &Case) -> Self {
+        let courses = case.loads.iter().flat_map(|load| load.courses());
+        let tables = courses.filter_map(|course| course.knots());
+        Knots(tables.map(|(knots, turns)| (knots.to_vec(), TAU * f64::from(turns))).collect())
+    }
+
+    /// Crank angles between which all tables are smooth around a crank angle, each end a little beyond its knot.
+    pub(super) fn around(&self, crank: f64) -> [f64; 2] {
+        let mut ends = [f64::NEG_INFINITY, f64::INFINITY];
+        for (knots, period) in &self.0 {
+            for knot in knots {
+                // The last such angle that is not beyond the crank's, and the next.
+                let last = knot + period * ((crank - knot) / period).floor();
+                ends = [ends[0].larger(last), ends[1].smaller(last + period)];
+            }
+        }
+        [ends[0] - BEYOND, ends[1] + BEYOND]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn knots_repeat_with_the_period() {
+        let knots = Knots(vec![(vec![0.0, 1.0], TAU), (vec![0.5], 2.0 * TAU)]);
+        let near = |[a, b]: [f64; 2], [c, d]: [f64; 2]| {
+            assert!((a - c).abs() < 2.0 * BEYOND && (b - d).abs() < 2.0 * BEYOND, "{a} {b}");
+        };
+        near(knots.around(0.2), [0.0, 0.5]);
+        near(knots.around(0.7), [0.5, 1.0]);
+        near(knots.around(-0.1), [1.0 - TAU, 0.0]);
+        near(knots.around(TAU + 0.2), [TAU, TAU + 1.0]);
+        assert_eq!(Knots(Vec::new()).around(3.0), [f64::NEG_INFINITY, f64::INFINITY]);
+    }
+}
