@@ -12,6 +12,9 @@ use crate::error::Result;
 use crate::mechanism::{AssemblyMode, GROUND, Group, Joint, Link, Mechanism, Pose, Side, Structure};
 use crate::trajectory::{Channel, Stage, Subject};
 
+/// Letters that a point keeps of its name if it needs a number besides.
+const SHORT: usize = 80;
+
 /// The part of a case that its wanted channels depend on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
@@ -232,7 +235,7 @@ impl<'a> Needs<'a> {
     }
 
     /// The links that stay. A point that only a link left out has held together with its like on another link keeps its
-    /// name on the one that depends on fewer groups.
+    /// name on the one that depends on fewer groups. The other gets a number.
     fn links(&self) -> Vec<Link> {
         let whole = &self.case.mechanism;
         let stays = |index: &usize| self.moves[*index];
@@ -268,7 +271,8 @@ impl<'a> Needs<'a> {
                     reached.extend(new);
                 }
                 if !reached.contains(index) {
-                    point.name = format!("{} of {}", point.name, link.name);
+                    let short: String = point.name.chars().take(SHORT).collect();
+                    point.name = format!("{short}'{index}");
                 }
             }
         }

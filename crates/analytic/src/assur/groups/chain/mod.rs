@@ -16,14 +16,14 @@ mod contour;
 mod predict;
 mod rates;
 
-pub(in crate::assur) use contour::Contours;
 #[cfg(feature = "batch")]
-pub(in crate::assur) use contour::{Arrow, Hangs};
+pub(in crate::assur) use contour::Arrow;
 pub use contour::{Closing, Node};
+pub(in crate::assur) use contour::{Contours, Hangs};
 
 use self::predict::Memory;
 use linkage::math::dense::Lu;
-use linkage::math::{Motion, Vec2, rotated, turned};
+use linkage::math::{KeepNan, Motion, Vec2, rotated, turned};
 use linkage::mechanism::{GROUND, Group, Mechanism, Side};
 use linkage::work::{Count, Tally};
 
@@ -48,6 +48,11 @@ const MAX_CORRECTION: f64 = 0.01;
 const LEAST_LEFT: f64 = 0.25;
 /// Steps of the driving angles (rad) below which a jump to another branch is no longer possible.
 const SMALLEST_STEP: f64 = 1e-6;
+/// Share of the determinant in the largest so far below which a pose is singular.
+/// At a change point the determinant is linear in the driving angles, and branches less than [`SMALLEST_STEP`] from it
+/// are nearer to each other than Newton's method can tell: it may go over to the one that keeps the sign.
+/// At a dead point the determinant falls with the square root of the way, and its sign tells.
+const SINGULAR: f64 = 1e-6;
 
 /// `direction` turned by a small angle (rad), to the seventh order of the angle, and of unit length to rounding.
 #[inline]
@@ -103,6 +108,8 @@ pub struct Chain {
     /// Length by which slides are divided, so that all unknowns are of one order of magnitude (m).
     size: f64,
     is_sliding: bool,
+    /// Largest determinant at a pose so far, without sign.
+    largest: f64,
     memory: Memory,
     tally: Box<Tally>,
 }
@@ -139,6 +146,7 @@ impl Chain {
             kept_slides: vec![0.0; n],
             speeds: vec![0.0; n],
             size: mechanism.size(),
+            largest: 0.0,
             memory: Memory::of(n, drives),
             tally: Box::default(),
         }
@@ -219,10 +227,11 @@ impl Chain {
         } else {
             MAX_TURN
         };
-        let followed = self.follow(allowed, motions) && self.memory.is_within(MAX_TURN);
+        let followed = self.follow(allowed, motions) && self.memory.is_within(MAX_TURN) && !self.is_singular();
         if followed {
             self.memory.remember(&self.step);
             self.at.iter_mut().zip(angles).for_each(|(at, angle)| *at = *angle);
+            self.largest = self.largest.larger(self.determinant.abs());
             self.learn();
         } else {
             self.memory.forget();
@@ -254,6 +263,12 @@ impl Chain {
         self.slopes.fill(0.0);
         self.square = self.determinant.powi(2);
         true
+    }
+
+    /// Whether the pose is singular.
+    fn is_singular(&self) -> bool {
+        // Written so that NaN is.
+        !(self.determinant.abs() >= SINGULAR * self.largest)
     }
 
     /// Determinant of the Jacobian at the last pose. Along a branch it goes through zero at a change point.
