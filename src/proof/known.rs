@@ -39,8 +39,8 @@ fn power(stage: Stage) -> i32 {
 /// Rounding of a position in a pose of condition number 1, in units in the last place.
 const ULPS: f64 = 16.0;
 
-/// Error of the integration over the difference to the tighter run: the tighter run has an error too. Where a load's
-/// table has a knot, both runs step over a jump of its third derivative, and 3.2 times the difference was measured.
+/// Error of the integration over the difference to the tighter run: the tighter run has an error too. Where steps
+/// went over knots of a load's table, 3.2 times the difference was measured; steps end there now.
 const SAFETY: f64 = 4.0;
 
 /// Relative rounding in a stage at a pose of this condition number.

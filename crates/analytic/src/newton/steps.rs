@@ -86,6 +86,8 @@ impl System<'_> {
         self.set_time(t);
         self.predicted.copy_from_slice(&self.q);
         let followed = self.correct().and_then(|()| self.check_branch(dt)).and_then(|()| {
+            // Where branches cross, velocities and accelerations are rounding, and jump or not by luck.
+            self.check_singular()?;
             self.differentiate();
             self.check_velocities(dt)
         });
