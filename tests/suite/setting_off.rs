@@ -79,3 +79,15 @@ fn regress_a_weight_that_turns_the_motor_back_meets_its_losses() {
         }
     }
 }
+
+/// Symptom: the sides differed by the whole motion, which none of them explained.
+/// Cause: from rest, either sense of rotation is a motion if a load drives the crank in one sense and the motor in the
+/// other. Side 1 took one, side 2 the other.
+#[test]
+fn regress_a_start_that_is_no_single_motion_is_refused() {
+    let text = shipped("crank_rocker_runup.toml").text.replace("speed_rpm = 130", "speed_rpm = -130");
+    let load = "[[loads]]\ntype = \"moment\"\nlink = \"crank\"\nacts = \"counter-clockwise\"\nmoment_N_m = 500\n\n";
+    let case = case_of(&text.replacen("[[loads]]", &format!("{load}[[loads]]"), 1));
+    let error = AssurSolver.solve(&case).unwrap_err();
+    assert!(error.message().contains("from rest in either sense") && error.way_out().is_some(), "{error}");
+}

@@ -166,12 +166,39 @@ impl<'m, 'a> Runner<'m, 'a> {
             if omega == 0.0 && !(way * alpha > 0.0) {
                 continue;
             }
+            if omega == 0.0 && way > 0.0 && self.starts_back(crank) {
+                let message = format!(
+                    "at t = {t:.6} s, crank angle {:.4} deg, the crank may start from rest in either sense: a load that \
+                     acts in one sense only drives it",
+                    (crank + self.gone).to_degrees()
+                );
+                return Err(Error::new(ErrorKind::Unsupported, message)
+                    .at_time(t)
+                    .at_crank(crank + self.gone)
+                    .help("give the crank a speed at t = 0, or let the load act in both senses"));
+            }
             if omega != 0.0 {
                 forces.branch.set(forces.model.branch(omega, alpha));
             }
             return Ok(None);
         }
         Ok(Some(End::Held(t, crank + self.gone)))
+    }
+
+    /// Whether the crank could start clockwise from rest. Piece, sense and branch stay as they are.
+    fn starts_back(&self, crank: f64) -> bool {
+        let forces = &self.flow.0;
+        let before = (forces.piece.get(), forces.way.get(), forces.branch.get());
+        let back = forces.model.piece_at(crank, -1.0).is_some_and(|piece| {
+            forces.piece.set(piece);
+            forces.way.set(-1.0);
+            forces.branch.set(forces.model.branch(0.0, -1.0));
+            forces.acceleration(crank, 0.0) < 0.0
+        });
+        forces.piece.set(before.0);
+        forces.way.set(before.1);
+        forces.branch.set(before.2);
+        back
     }
 
     /// Adds the instant at which a motion is held, if it is wanted.
