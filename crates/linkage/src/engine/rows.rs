@@ -171,8 +171,14 @@ impl Rows {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::Wanted;
+    use crate::case::{Grid, Wanted};
     use crate::fixtures;
+
+    /// A four-bar at two instants.
+    fn instants() -> Case {
+        let case = fixtures::turning(fixtures::four_bar());
+        case.on(Grid::of_times(case.crank(), vec![0.0, 0.1])).unwrap()
+    }
 
     /// A state of numbers that are all different.
     fn numbered(case: &Case) -> State {
@@ -194,7 +200,7 @@ mod tests {
 
     #[test]
     fn a_state_comes_back_bit_for_bit_and_only_where_it_was_kept() {
-        let case = fixtures::turning(fixtures::four_bar());
+        let case = instants();
         let state = numbered(&case);
         let mut rows = Rows::new(&case);
         rows.put(1, &state);
@@ -204,10 +210,10 @@ mod tests {
     }
 
     #[test]
-    fn positions_alone_need_a_third_of_the_room() {
-        let case = fixtures::turning(fixtures::four_bar());
+    fn positions_alone_need_two_fifths_of_the_room() {
+        let case = instants();
         let positions = case.with(|parts| parts.wanted = Wanted::of(&[Stage::Positions])).unwrap();
-        assert!(3 * Rows::bytes_of_row(&positions) <= Rows::bytes_of_row(&case) + 4);
+        assert!(5 * Rows::bytes_of_row(&positions) <= 2 * Rows::bytes_of_row(&case));
         let state = numbered(&positions);
         let (rows, _) = Rows::of_run(&positions, |visit| visit(0, &state));
         let mut back = State::at_rest(&positions);

@@ -240,8 +240,10 @@ mod tests {
             }
             compare::<4>(&values)?;
             compare::<6>(&values)?;
+            // Any order passes over NaN beside a zero factor; a known one always refuses it.
             values[7] = f64::NAN;
-            compare::<4>(&values)?;
+            let (mut own, mut pivots, mut inverse) = (values[..16].to_vec(), [0; 4], [0.0; 4]);
+            prop_assert!(fixed::factor::<4>(&mut own, &mut pivots, &mut inverse).is_none());
         }
     }
 

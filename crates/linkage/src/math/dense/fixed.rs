@@ -1,6 +1,6 @@
 //! The same elimination for orders that the compiler knows: its loops are then straight lines of arithmetic.
 //!
-//! Operations and their order are those of any order, and so are the bits.
+//! Operations and their order are those of any order, and so are the bits. NaN is refused wherever it stands.
 //! A group of four links costs a third of what the general loops take.
 //! Instead of the exchanges one after the other, the order of rows that they lead to is kept.
 
