@@ -108,7 +108,8 @@ fn free_motion(case: &Case, accuracy: f64, visit: Visit, progress: Progress) -> 
         // Beyond a change point, by momentum.
         return free::sweep(case, &mut TransferSide::new(case, share)?, accuracy, visit, progress);
     }
-    let (motion, end) = reduced::motion(&model, case.crank().initial_speed(), &times, accuracy)?;
+    let (motion, end) =
+        run_up::followed(&model, case.crank().initial_speed(), &times, accuracy, case.wanted.deepest())?;
     if motion.len() < times.len() {
         return Err(ended(end));
     }

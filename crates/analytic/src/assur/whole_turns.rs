@@ -7,6 +7,7 @@ use std::f64::consts::TAU;
 
 use super::PoseSolver;
 use linkage::error::Result;
+use linkage::math::Motion;
 
 /// Turns of the crank from which it is worth to look.
 const WORTH: f64 = 3.0;
@@ -26,14 +27,11 @@ impl PoseSolver<'_> {
             return Ok(());
         }
         let turn = TAU.copysign(target - self.crank);
-        let (begun, size) = (self.state.motions.clone(), self.case.mechanism.size());
+        let begun = self.state.motions.clone();
         let angles = |solver: &Self| solver.turns.as_ref().map(|turns| turns.angles().collect::<Vec<f64>>());
         let before = angles(self);
         self.follow_to(self.crank + turn)?;
-        let is_same = self.state.motions.iter().zip(&begun).all(|(own, before)| {
-            (own.origin - before.origin).norm() <= SAME * size && (own.direction - before.direction).norm() <= SAME
-        });
-        if !is_same {
+        if !self.is_at(&begun) {
             return Ok(());
         }
         if let (Some(before), Some(after), Some(counted)) = (before, angles(self), &mut self.turns) {
@@ -43,5 +41,13 @@ impl PoseSolver<'_> {
         self.plan.skip(turns * turn);
         self.crank += turns * turn;
         Ok(())
+    }
+
+    /// Whether every link is where it was in these motions.
+    pub(crate) fn is_at(&self, begun: &[Motion]) -> bool {
+        let size = self.case.mechanism.size();
+        self.state.motions.iter().zip(begun).all(|(own, before)| {
+            (own.origin - before.origin).norm() <= SAME * size && (own.direction - before.direction).norm() <= SAME
+        })
     }
 }

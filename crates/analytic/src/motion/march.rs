@@ -1,4 +1,5 @@
 //! Steps of DOP853 that end exactly where a piece of the equation of motion ends.
+//! Wanted instants lie inside the steps: they cost no step of their own.
 //!
 //! An eighth-order step over a kink is of first order only.
 //! So the equations are written piece by piece, and each piece continues smoothly beyond its ends.
@@ -11,6 +12,7 @@ use differential_equations::ode::{ODE, OrdinaryNumericalMethod};
 use differential_equations::status::Status;
 use linkage::math::KeepNan;
 
+use super::inside::{Course, Remembering, Targets, parts, rate};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::root;
 use linkage::work::{Count, Tally};
@@ -18,9 +20,14 @@ use linkage::work::{Count, Tally};
 /// DOP853 on a state of `N` numbers.
 pub(crate) type Method<const N: usize> = ExplicitRungeKutta<Ordinary, DormandPrince, f64, [f64; N], 8, 12, 16>;
 
-/// Relative and absolute error allowed in each step, by the step's own estimate.
-/// The estimate is cautious: the run-up of `crank_rocker` is then exact to 2e-14 rad.
+/// Relative and absolute error allowed in each step, with the states inside it.
+/// The run-up of `crank_rocker` is then exact to 5e-12 rad, and to 1e-14 at its end.
 pub const ACCURACY: f64 = 1e-11;
+/// Share of it that a step's own estimate may have, which is about its end. Inside a step the order is lower by one, and
+/// errors are some hundred times larger: those of `crank_rocker_runup` are 40 to 400 times an estimate.
+const ESTIMATED: f64 = 0.01;
+/// Places in a step, as shares of it, at which it is looked at whether a bound was passed.
+const LOOKED_AT: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 /// Share of [`ACCURACY`] that the tighter runs allow, which show the error of the others. With still less, rounding
 /// takes over.
 pub(crate) const TIGHTER: f64 = 0.01;
@@ -42,8 +49,8 @@ const MOST_SHORT: usize = 400;
 /// Factor by which a step may be longer than planned to reach a target at once, so that no tiny step is left.
 const STRETCH: f64 = 1.001;
 /// Bisections of a step for a first estimate of the place where a bound is passed.
-const BISECTIONS: usize = 30;
-/// Largest number of repetitions of a shortened step. Secants from an estimate of order 4 take three.
+const BISECTIONS: usize = 40;
+/// Largest number of repetitions of a shortened step. Secants from the course inside the step take one or two.
 const CORRECTIONS: usize = 6;
 
 /// An equation of motion on one piece.
@@ -84,8 +91,8 @@ pub(crate) struct Place<const N: usize> {
 /// One step: its beginning and its end.
 pub(crate) type Step<const N: usize> = [(f64, [f64; N]); 2];
 
-/// Continues from `place` over all `targets`, which ascend and lie ahead, to the last of them or to the first bound.
-/// Every target ends a step, so that the state there is as exact as the method. `visit` receives every step.
+/// Continues from `place` over all `targets`, which ascend, to the last of them or to the first bound.
+/// `visit` receives every step, divided at the targets inside it.
 pub(crate) fn march<const N: usize, F: Flow<N>>(
     flow: &F,
     place: &mut Place<N>,
@@ -95,13 +102,18 @@ pub(crate) fn march<const N: usize, F: Flow<N>>(
 ) -> Result<Stop> {
     let Some(&last) = targets.last() else { return Ok(Stop::End) };
     let begun_at = place.x;
-    let mut targets = targets.iter().copied().skip_while(|&target| target <= begun_at);
-    let Some(mut target) = targets.next() else { return Ok(Stop::End) };
+    let mut targets = Targets::beyond(targets, begun_at);
+    if targets.is_empty() {
+        return Ok(Stop::End);
+    }
     flow.begin(place.x, &place.y);
     let h0 = if place.h > 0.0 { place.h.smaller(last - place.x) } else { 0.0 };
-    let mut method: Method<N> = ExplicitRungeKutta::dop853().rtol(accuracy).atol(accuracy).max_steps(MOST_STEPS).h0(h0);
-    let begun = method.init(flow, place.x, last, &place.y);
+    let allowed = ESTIMATED * accuracy;
+    let mut method: Method<N> = ExplicitRungeKutta::dop853().rtol(allowed).atol(allowed).max_steps(MOST_STEPS).h0(h0);
+    let known = Remembering::new(flow);
+    let begun = method.init(&known, place.x, last, &place.y);
     checked(flow, begun, place.x)?;
+    let mut begins = known.rate(place.x, &place.y);
     let (mut refused, mut short, mut steps) = (None, 0, 0);
     let mut tally = Tally::default();
     loop {
@@ -113,11 +125,11 @@ pub(crate) fn march<const N: usize, F: Flow<N>>(
             return Err(lost(place.x, &why));
         }
         let (from, wished) = (method.t(), method.h());
-        let cut = wished * STRETCH >= target - from;
+        let cut = wished * STRETCH >= last - from;
         if cut {
-            method.set_h(target - from);
+            method.set_h(last - from);
         }
-        let taken = method.step(flow);
+        let taken = method.step(&known);
         // An error in a trial step only shortens the step; but steps that stay short do not get past it.
         let fault = flow.fault();
         if let Err(why) = taken {
@@ -132,85 +144,123 @@ pub(crate) fn march<const N: usize, F: Flow<N>>(
         if matches!(method.status(), Status::RejectedStep) {
             continue;
         }
-        if (0..flow.bounds()).any(|bound| flow.margin(bound, method.t(), method.y()) < 0.0) {
-            return end_on_bound(flow, place, &mut method, visit);
+        let before = (place.x, place.y);
+        let ends = known.rate(method.t(), method.y());
+        let mut course = Course { ends: [before, (method.t(), *method.y())], rates: [begins, ends] };
+        if let Some(beyond) = beyond(flow, &mut method)? {
+            return end_on_bound(flow, place, &course, &mut method, beyond, &mut targets, visit);
         }
         // A step that had to be short says nothing about the length of the next.
         place.h = if cut { wished.larger(method.h()) } else { method.h() };
         method.set_h(place.h);
-        let before = (place.x, place.y);
-        (place.x, place.y) = (if cut { target } else { method.t() }, *method.y());
+        (place.x, place.y) = (if cut { last } else { method.t() }, *method.y());
+        course.ends[1].0 = place.x;
+        begins = ends;
         tally.one(Count::Intervals);
-        visit(flow, &[before, (place.x, place.y)])?;
-        flow.begin(place.x, &place.y);
+        parts(flow, &course, &mut method, &mut targets, visit)?;
         if cut {
-            match targets.next() {
-                Some(next) => target = next,
-                None => return Ok(Stop::End),
-            }
+            return Ok(Stop::End);
         }
+        flow.begin(place.x, &place.y);
     }
 }
 
-/// Repeats the last step of a method so that it ends on the first bound that it passed.
+/// The first of some places in the last step that lies beyond a bound, with the state there.
+/// A bound that is passed and passed again within the step is seen inside it.
+fn beyond<const N: usize, F: Flow<N>>(flow: &F, method: &mut Method<N>) -> Result<Option<(f64, [f64; N])>> {
+    let (from, to) = (method.t_prev(), method.t());
+    for share in LOOKED_AT {
+        let x = from + share * (to - from);
+        let y = if share == 1.0 { *method.y() } else { roughly(method, x)? };
+        let x = if share == 1.0 { to } else { x };
+        if (0..flow.bounds()).any(|bound| flow.margin(bound, x, &y) < 0.0) {
+            return Ok(Some((x, y)));
+        }
+    }
+    Ok(None)
+}
+
+/// The state at a place in the last step, by the library's interpolation. It is of order 4 only.
+fn roughly<const N: usize>(method: &mut Method<N>, x: f64) -> Result<[f64; N]> {
+    method.interpolate(x).map_err(|why| lost(x, &format!("{why:?}")))
+}
+
+/// Repeats the last step of a method so that it ends on the first bound that it passed before the place `beyond`.
 fn end_on_bound<const N: usize, F: Flow<N>>(
     flow: &F,
     place: &mut Place<N>,
+    course: &Course<N>,
     method: &mut Method<N>,
+    beyond: (f64, [f64; N]),
+    targets: &mut Targets,
     visit: &mut dyn FnMut(&F, &Step<N>) -> Result<()>,
 ) -> Result<Stop> {
-    let mut first = (f64::INFINITY, 0);
+    let (mut at, mut passed) = (f64::INFINITY, (0, f64::NAN));
     for bound in 0..flow.bounds() {
-        if flow.margin(bound, method.t(), method.y()) < 0.0 {
-            let at = crossing(flow, method, bound)?;
-            if at < first.0 {
-                first = (at, bound);
+        let margin = flow.margin(bound, beyond.0, &beyond.1);
+        if margin < 0.0 {
+            let found = crossing(flow, course, method, beyond.0, bound)?;
+            if found < at {
+                (at, passed) = (found, (bound, margin));
             }
         }
     }
-    let (at, bound) = first;
     let before = (place.x, place.y);
     // A bound that had nearly been reached before needs no separate step.
     if at - place.x > 8.0 * f64::EPSILON * at.abs() {
-        (place.x, place.y) = shortened(flow, before, at - place.x, method, bound)?;
-        visit(flow, &[before, (place.x, place.y)])?;
+        let known = (beyond.0 - place.x, passed.1);
+        let mut found = shortened(flow, before, at - place.x, known, passed.0)?;
+        (place.x, place.y) = (found.t(), *found.y());
+        let end = rate(flow, place.x, &place.y);
+        let course = Course { ends: [before, (place.x, place.y)], rates: [course.rates[0], end] };
+        parts(flow, &course, &mut found, targets, visit)?;
     }
-    Ok(Stop::Bound(bound))
+    Ok(Stop::Bound(passed.0))
 }
 
-/// Approximate place in its last step at which a method passes a bound.
-/// The library's interpolation is of order 4 only: good enough for a first estimate.
-fn crossing<const N: usize, F: Flow<N>>(flow: &F, method: &mut Method<N>, bound: usize) -> Result<f64> {
-    let [low, _] = root::halved([method.t_prev(), method.t()], BISECTIONS, |middle| -> Result<bool> {
-        let state = method.interpolate(middle).map_err(|why| lost(middle, &format!("{why:?}")))?;
+/// Place in its last step, before the place `beyond`, at which a method passes a bound: as exact as its course.
+fn crossing<const N: usize, F: Flow<N>>(
+    flow: &F,
+    course: &Course<N>,
+    method: &mut Method<N>,
+    beyond: f64,
+    bound: usize,
+) -> Result<f64> {
+    let [low, _] = root::halved([method.t_prev(), beyond], BISECTIONS, |middle| -> Result<bool> {
+        let state = course.at(method, middle)?;
         Ok(!(flow.margin(bound, middle, &state) < 0.0))
     })?;
     Ok(low)
 }
 
-/// The end of a step of about the length `h` that ends on the bound, by secants between steps of that length.
+/// A step of about the length `h` that ends on the bound, by secants between steps of that length. A longer step and
+/// the margin at its end are `known`.
 fn shortened<const N: usize, F: Flow<N>>(
     flow: &F,
     (x, y): (f64, [f64; N]),
     h: f64,
-    method: &Method<N>,
+    known: (f64, f64),
     bound: usize,
-) -> Result<(f64, [f64; N])> {
-    let known = (method.t() - x, flow.margin(bound, method.t(), method.y()));
-    let mut best = ((x, y), f64::INFINITY);
-    root::secants(known, h, CORRECTIONS, |h| -> Result<f64> {
-        let end = (x + h, one_step(flow, x, &y, h)?);
-        let margin = flow.margin(bound, end.0, &end.1);
-        if margin.abs() <= best.1 {
-            best = (end, margin.abs());
+) -> Result<Method<N>> {
+    let mut best: Option<(Method<N>, f64)> = None;
+    root::secants(known, h, CORRECTIONS, f64::EPSILON * (x + h).abs(), |h| -> Result<f64> {
+        let taken = a_step(flow, x, &y, h)?;
+        let margin = flow.margin(bound, taken.t(), taken.y());
+        if best.as_ref().is_none_or(|(_, least)| margin.abs() <= *least) {
+            best = Some((taken, margin.abs()));
         }
         Ok(margin)
     })?;
-    Ok(best.0)
+    best.map(|(taken, _)| taken).ok_or_else(|| lost(x, "no step reaches its bound"))
 }
 
-/// State after one step of a given length, whatever its error estimate, because it is part of an accepted step.
+/// State after one step of a given length.
 pub(crate) fn one_step<const N: usize, F: Flow<N>>(flow: &F, x: f64, y: &[f64; N], h: f64) -> Result<[f64; N]> {
+    Ok(*a_step(flow, x, y, h)?.y())
+}
+
+/// The method after one step of a given length, whatever its error estimate, because it is part of an accepted step.
+pub(super) fn a_step<const N: usize, F: Flow<N>>(flow: &F, x: f64, y: &[f64; N], h: f64) -> Result<Method<N>> {
     flow.begin(x, y);
     let mut method: Method<N> = ExplicitRungeKutta::dop853().rtol(1e6).atol(1e6).h0(h);
     // The interval is longer than the step; otherwise rounding would make it too short.
@@ -221,7 +271,7 @@ pub(crate) fn one_step<const N: usize, F: Flow<N>>(flow: &F, x: f64, y: &[f64; N
     if matches!(method.status(), Status::RejectedStep) {
         return Err(lost(x, "a step onto a kink was refused"));
     }
-    Ok(*method.y())
+    Ok(method)
 }
 
 /// Reports the flow's own error before the library's. An error in a trial step that was repeated does not count.
@@ -261,7 +311,7 @@ impl Pace {
     }
 }
 
-fn lost(x: f64, why: &str) -> Error {
+pub(super) fn lost(x: f64, why: &str) -> Error {
     Error::new(ErrorKind::Numeric, format!("the equation of motion cannot be integrated beyond {x:.9}: {why}")).help(
         "where masses nearly vanish at a crank angle it is stiff: give the crank or the rotor a moment of inertia",
     )

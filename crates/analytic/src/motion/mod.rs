@@ -2,6 +2,7 @@
 
 pub(crate) mod flow;
 pub(crate) mod free;
+mod inside;
 mod knots;
 pub(crate) mod march;
 pub(crate) mod side;

@@ -5,6 +5,7 @@ use std::f64::consts::{PI, TAU};
 
 use num_integer::Integer;
 
+use super::turn::FullTurn;
 use crate::PoseSolver;
 use crate::range::{Extent, Kind, Range};
 use linkage::case::{Case, Grid, Wanted};
@@ -60,6 +61,38 @@ const MOST_TURNS: u32 = 1000;
 /// Newton steps that improve a crank angle known to 1e-9 rad to rounding.
 const POLISHING: usize = 3;
 
+/// How far a crank turns, and the crank angles (rad) at which links with sensed loads reverse.
+struct Reach {
+    turns: Option<u32>,
+    limits: Option<[f64; 2]>,
+    meets: bool,
+    reversals: Vec<f64>,
+}
+
+impl Reach {
+    fn by_range(case: &Case, sensed: &[usize]) -> Result<Self> {
+        let range = Range::of(case)?;
+        let (turns, limits, meets) = match range.extent {
+            Extent::FullTurn(turns) => (Some(turns.unsigned_abs()), None, false),
+            Extent::Limited(ends) => {
+                (None, Some(ends.map(|end| end.crank)), ends.iter().any(|end| end.kind == Kind::ChangePoint))
+            }
+        };
+        let mut poses = PoseSolver::new(case)?;
+        let mut reversals = Vec::new();
+        for link in range.links.iter().filter(|link| sensed.contains(&link.link)) {
+            for extreme in &link.extremes {
+                // A flat extreme keeps its first estimate.
+                reversals.push(root::polished(extreme.crank, POLISHING, 1e-6, |crank| -> Result<(f64, f64)> {
+                    let motion = &poses.solve(crank, 1.0, 0.0, Stage::Accelerations)?.motions[link.link];
+                    Ok((motion.omega, motion.alpha))
+                })?);
+            }
+        }
+        Ok(Reach { turns, limits, meets, reversals })
+    }
+}
+
 /// Kinks of the reduced quantities of a case.
 ///
 /// # Errors
@@ -75,31 +108,21 @@ pub fn kinks(case: &Case) -> Result<Kinks> {
             Error::new(ErrorKind::Unsupported, message).help("give it as a table of forces over the crank angle")
         );
     }
-    let range = Range::of(case)?;
-    let (turns, limits, meets) = match range.extent {
-        Extent::FullTurn(turns) => (Some(turns.unsigned_abs()), None, false),
-        Extent::Limited(ends) => {
-            (None, Some(ends.map(|end| end.crank)), ends.iter().any(|end| end.kind == Kind::ChangePoint))
-        }
-    };
+    let is_sensed =
+        |link: &usize| case.can_turn(*link) && case.loads.iter().any(|load| load.sensed_link() == Some(*link));
+    let sensed: Vec<usize> = (1..case.mechanism.links().len()).filter(is_sensed).collect();
     let start = case.crank().start;
     let within = |crank: f64, period: f64| {
         let inside = (crank - start).rem_euclid(period);
         // A rounding error before the start is allowed.
         start + if period - inside < 1e-12 { 0.0 } else { inside }
     };
-    let mut poses = PoseSolver::new(case)?;
-    let mut cranks = Vec::new();
-    let sensed = |link: usize| case.can_turn(link) && case.loads.iter().any(|load| load.sensed_link() == Some(link));
-    for link in range.links.iter().filter(|link| sensed(link.link)) {
-        for extreme in &link.extremes {
-            // A flat extreme keeps its first estimate.
-            let crank = root::polished(extreme.crank, POLISHING, 1e-6, |crank| -> Result<(f64, f64)> {
-                let motion = &poses.solve(crank, 1.0, 0.0, Stage::Accelerations)?.motions[link.link];
-                Ok((motion.omega, motion.alpha))
-            })?;
-            cranks.push(turns.map_or(crank, |turns| within(crank, TAU * f64::from(turns))));
-        }
+    let Reach { turns, limits, meets, reversals: mut cranks } = match FullTurn::of(case, &sensed) {
+        Some(full) => Reach { turns: Some(full.turns), limits: None, meets: false, reversals: full.reversals },
+        None => Reach::by_range(case, &sensed)?,
+    };
+    if let Some(turns) = turns {
+        cranks.iter_mut().for_each(|crank| *crank = within(*crank, TAU * f64::from(turns)));
     }
     let tables = || case.loads.iter().flat_map(Load::courses).filter_map(Course::knots);
     let mut all = turns;

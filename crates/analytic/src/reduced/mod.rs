@@ -8,6 +8,7 @@ pub(crate) mod flow;
 pub mod means;
 pub(crate) mod model;
 pub mod run_up;
+mod turn;
 
 pub use crate::motion::march::ACCURACY;
 pub use model::{Model, Reduced};

@@ -60,7 +60,18 @@ pub fn motion(model: &Model, omega: f64, times: &[f64], accuracy: f64) -> Result
         );
         return Err(error.help("give finite times in ascending order, from 0 s on"));
     }
-    let mut runner = Runner::begin(model, omega)?;
+    followed(model, omega, times, accuracy, Stage::BalancingMoment)
+}
+
+/// The same up to a stage. Before that of the accelerations they are not found: acceleration and moments are zero.
+pub(crate) fn followed(
+    model: &Model,
+    omega: f64,
+    times: &[f64],
+    accuracy: f64,
+    deepest: Stage,
+) -> Result<(Vec<CrankState>, End)> {
+    let mut runner = Runner::begin(model, omega, deepest >= Stage::Accelerations)?;
     let mut found = Vec::with_capacity(times.len());
     let end = runner.run(times, accuracy, &mut found)?;
     Ok((found, end))
@@ -72,14 +83,16 @@ struct Runner<'m, 'a> {
     place: Place<2>,
     /// Completed periods, as an angle of the crank (rad).
     gone: f64,
+    /// Whether accelerations are wanted at the instants.
+    is_accelerated: bool,
 }
 
 impl<'m, 'a> Runner<'m, 'a> {
-    fn begin(model: &'m Model<'a>, omega: f64) -> Result<Self> {
+    fn begin(model: &'m Model<'a>, omega: f64, is_accelerated: bool) -> Result<Self> {
         let crank = model.case.crank().start;
         let somewhere = Piece::unbounded();
         let flow = InTime(Forces::of(model, somewhere, 1f64.copysign(omega))?);
-        Ok(Runner { flow, place: Place { x: 0.0, y: [crank, omega], h: 0.0 }, gone: 0.0 })
+        Ok(Runner { flow, place: Place { x: 0.0, y: [crank, omega], h: 0.0 }, gone: 0.0, is_accelerated })
     }
 
     fn run(&mut self, times: &[f64], accuracy: f64, found: &mut Vec<CrankState>) -> Result<End> {
@@ -90,14 +103,14 @@ impl<'m, 'a> Runner<'m, 'a> {
             return Ok(end);
         }
         if times[0] == 0.0 {
-            found.push(instant(&self.flow, 0.0, self.place.y, self.gone));
+            found.push(instant(&self.flow, 0.0, self.place.y, self.gone, self.is_accelerated));
         }
         while self.place.x < last {
             let from = self.place.x;
-            let gone = self.gone;
+            let (gone, is_accelerated) = (self.gone, self.is_accelerated);
             let mut visit = |flow: &InTime, &[_, (x, y)]: &Step<2>| {
                 if times.get(found.len()) == Some(&x) {
-                    found.push(instant(flow, x, y, gone));
+                    found.push(instant(flow, x, y, gone, is_accelerated));
                 }
                 Ok(())
             };
@@ -214,7 +227,10 @@ impl<'m, 'a> Runner<'m, 'a> {
 }
 
 /// The crank at a state, with `gone` (rad) of completed periods added.
-fn instant(flow: &InTime, t: f64, [crank, omega]: [f64; 2], gone: f64) -> CrankState {
+fn instant(flow: &InTime, t: f64, [crank, omega]: [f64; 2], gone: f64, is_accelerated: bool) -> CrankState {
+    if !is_accelerated {
+        return CrankState { t, crank: crank + gone, within: crank, omega, alpha: 0.0, motor: 0.0, shaft: 0.0 };
+    }
     let alpha = flow.0.acceleration(crank, omega);
     let motor = flow.0.motor_moment(omega);
     CrankState { t, crank: crank + gone, within: crank, omega, alpha, motor, shaft: motor - flow.0.model.added * alpha }

@@ -1,0 +1,154 @@
+//! A crank that turns fully, and where links reverse on the way.
+//!
+//! The poses of a whole turn are enough to know that: the pose solver itself refuses dead points and change points.
+//! What limits a crank, and where, is a matter of the [range of motion](crate::range), which costs many times as much.
+
+use std::f64::consts::TAU;
+
+use crate::PoseSolver;
+use linkage::case::Case;
+use linkage::error::Result;
+use linkage::math::root;
+use linkage::trajectory::Stage;
+
+/// Poses of one turn of the crank, three degrees apart. Two reversals between two of them are still seen, by the
+/// slopes.
+const POSES: u32 = 120;
+/// Turns after which the search for the first pose ends, as in the range of motion.
+const MOST_TURNS: u32 = 12;
+/// Angular velocity of a link for a crank with 1 rad/s below which it is rounding and not motion.
+const STILL: f64 = 1e-11;
+/// Largest step of Newton's method that is the last one (rad). The method is quadratic.
+const SETTLED: f64 = 1e-9;
+/// Largest number of halvings of the way between two poses where a link slows down and speeds up again.
+const HALVINGS: u32 = 20;
+
+/// A crank that turns fully.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct FullTurn {
+    /// Turns of the crank after which the mechanism is back at its first pose.
+    pub(super) turns: u32,
+    /// Crank angles (rad) at which one of the wanted links reverses, from the start on over these turns.
+    pub(super) reversals: Vec<f64>,
+}
+
+/// Angular velocity of a link at a crank angle, for a crank with 1 rad/s, and its derivative with respect to that
+/// angle.
+#[derive(Clone, Copy, Debug)]
+struct Rate {
+    crank: f64,
+    omega: f64,
+    slope: f64,
+}
+
+impl FullTurn {
+    /// Turns the crank of a case from its start on until the mechanism is back at its first pose.
+    /// `None` if it does not come there, or not without doubt.
+    pub(super) fn of(case: &Case, links: &[usize]) -> Option<Self> {
+        if case.crank().through {
+            return None;
+        }
+        Self::turned(case, links).ok().flatten()
+    }
+
+    fn turned(case: &Case, links: &[usize]) -> Result<Option<Self>> {
+        let (mut poses, start) = (PoseSolver::new(case)?, case.crank().start);
+        let deepest = if links.is_empty() { Stage::Positions } else { Stage::Accelerations };
+        let mut rates: Vec<Vec<Rate>> = vec![Vec::new(); links.len()];
+        let mut begun = Vec::new();
+        for pose in 0..=MOST_TURNS * POSES {
+            let crank = start + TAU * (f64::from(pose) / f64::from(POSES));
+            let state = poses.solve(crank, 1.0, 0.0, deepest)?;
+            for (all, &link) in rates.iter_mut().zip(links) {
+                all.push(Rate { crank, omega: state.motions[link].omega, slope: state.motions[link].alpha });
+            }
+            if pose == 0 {
+                begun.clone_from(&state.motions);
+            } else if pose % POSES == 0 && poses.is_at(&begun) {
+                let turns = pose / POSES;
+                let mut reversals = Vec::new();
+                for (all, &link) in rates.iter().zip(links) {
+                    reversals_of(&mut poses, link, all, TAU * f64::from(turns), &mut reversals)?;
+                }
+                return Ok(Some(FullTurn { turns, reversals }));
+            }
+        }
+        Ok(None)
+    }
+}
+
+/// Adds the crank angles at which a link reverses, between poses of a whole period.
+fn reversals_of(
+    poses: &mut PoseSolver,
+    link: usize,
+    rates: &[Rate],
+    period: f64,
+    reversals: &mut Vec<f64>,
+) -> Result<()> {
+    let moving = || rates.iter().filter(|rate| rate.omega.abs() > STILL);
+    // Where the link is still at the start, that is between the last pose of a period and the first of the next.
+    let is_still = rates.first().is_some_and(|rate| !(rate.omega.abs() > STILL));
+    let next = moving().next().filter(|_| is_still).map(|first| Rate { crank: first.crank + period, ..*first });
+    let all: Vec<Rate> = moving().copied().chain(next).collect();
+    for pair in all.windows(2) {
+        between(poses, link, [pair[0], pair[1]], HALVINGS, reversals)?;
+    }
+    Ok(())
+}
+
+/// The same between two poses at which the link turns.
+fn between(
+    poses: &mut PoseSolver,
+    link: usize,
+    [a, b]: [Rate; 2],
+    halvings: u32,
+    reversals: &mut Vec<f64>,
+) -> Result<()> {
+    let mut rate = |crank: f64| -> Result<Rate> {
+        let motion = &poses.solve(crank, 1.0, 0.0, Stage::Accelerations)?.motions[link];
+        Ok(Rate { crank, omega: motion.omega, slope: motion.alpha })
+    };
+    if a.omega * b.omega < 0.0 {
+        let first = a.crank + (b.crank - a.crank) * (a.omega / (a.omega - b.omega));
+        let found = root::newton([a.crank, b.crank], b.omega > 0.0, first, SETTLED, |crank| {
+            rate(crank).map(|rate| (rate.omega, rate.slope))
+        })?;
+        reversals.extend(found);
+        return Ok(());
+    }
+    // The tangents at both ends meet beyond zero only where the link may have reversed twice.
+    let at = (b.omega - a.omega + a.slope * a.crank - b.slope * b.crank) / (a.slope - b.slope);
+    let is_dip = a.omega * a.slope < 0.0 && b.omega * b.slope > 0.0;
+    if halvings > 0 && is_dip && (a.omega + a.slope * (at - a.crank)) * a.omega <= 0.0 {
+        let middle = rate(f64::midpoint(a.crank, b.crank))?;
+        between(poses, link, [a, middle], halvings - 1, reversals)?;
+        between(poses, link, [middle, b], halvings - 1, reversals)?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::range::{Extent, Range};
+    use linkage::fixtures::{four_bar, turning};
+
+    #[test]
+    fn reversals_are_those_of_the_range_of_motion() {
+        let case = turning(four_bar());
+        let links: Vec<usize> = (1..case.mechanism.links().len()).collect();
+        let found = FullTurn::of(&case, &links).unwrap();
+        let range = Range::of(&case).unwrap();
+        assert_eq!(range.extent, Extent::FullTurn(found.turns as i32));
+        let mut expected: Vec<f64> = range.links.iter().flat_map(|link| &link.extremes).map(|at| at.crank).collect();
+        let mut cranks: Vec<f64> = found.reversals.iter().map(|crank| crank.rem_euclid(TAU)).collect();
+        expected.iter_mut().for_each(|crank| *crank = crank.rem_euclid(TAU));
+        expected.sort_by(f64::total_cmp);
+        cranks.sort_by(f64::total_cmp);
+        assert_eq!(cranks.len(), expected.len());
+        assert!(!cranks.is_empty());
+        for (a, b) in cranks.iter().zip(&expected) {
+            assert!((a - b).abs() < 1e-8, "{a} {b}");
+        }
+    }
+}
