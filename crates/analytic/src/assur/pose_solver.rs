@@ -39,6 +39,8 @@ pub struct PoseSolver<'a> {
     alpha: f64,
     pub(super) has_motions: bool,
     pub(super) crank: f64,
+    /// World direction of the crank at its angle zero (rad).
+    zero: f64,
     step: f64,
     pub(super) watch: Watch,
     /// Change points, where the drive says that they are passed.
@@ -69,6 +71,7 @@ impl<'a> PoseSolver<'a> {
             alpha: 0.0,
             has_motions: false,
             crank: case.crank().start,
+            zero: case.crank().world_angle(0.0),
             step,
             watch,
             passing: (case.crank().through && case.drives.further().is_empty()).then(|| Passing::new(1.0)),
@@ -220,15 +223,11 @@ impl<'a> PoseSolver<'a> {
     }
 
     /// Writes the world angles of all driving links at a crank angle to the inputs.
-    #[inline]
+    #[inline(always)]
     pub(super) fn turn(&mut self, crank: f64) {
-        let (first, further) = self.inputs.split_first_mut().expect("there is a drive");
-        *first = self.case.crank().world_angle(crank);
-        if !further.is_empty() {
-            let t = self.case.crank().time_of(crank);
-            for (angle, drive) in further.iter_mut().zip(self.case.drives.further()) {
-                *angle = drive.world_angle(drive.at(t).angle);
-            }
+        self.inputs[0] = self.zero + crank;
+        if self.inputs.len() > 1 {
+            turn_further(self.case, crank, &mut self.inputs[1..]);
         }
     }
 
@@ -349,12 +348,25 @@ impl<'a> PoseSolver<'a> {
 }
 
 /// The rates of all driving links at a crank angle, by their speed ratios, for the crank's `rate`.
-#[inline]
+#[inline(always)]
 fn drive(case: &Case, crank: f64, rate: f64, rates: &mut [f64]) {
-    let (first, further) = rates.split_first_mut().expect("there is a drive");
-    *first = rate;
-    if !further.is_empty() {
-        let ratios = case.drives.ratios(case.crank().time_of(crank));
-        further.iter_mut().zip(ratios.skip(1)).for_each(|(own, ratio)| *own = rate * ratio);
+    rates[0] = rate;
+    if rates.len() > 1 {
+        drive_further(case, crank, rate, &mut rates[1..]);
+    }
+}
+
+#[inline(never)]
+fn drive_further(case: &Case, crank: f64, rate: f64, rates: &mut [f64]) {
+    let ratios = case.drives.ratios(case.crank().time_of(crank));
+    rates.iter_mut().zip(ratios.skip(1)).for_each(|(own, ratio)| *own = rate * ratio);
+}
+
+/// The world angles of the driving links beside the crank.
+#[inline(never)]
+fn turn_further(case: &Case, crank: f64, angles: &mut [f64]) {
+    let t = case.crank().time_of(crank);
+    for (angle, drive) in angles.iter_mut().zip(case.drives.further()) {
+        *angle = drive.world_angle(drive.at(t).angle);
     }
 }

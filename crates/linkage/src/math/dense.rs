@@ -25,6 +25,7 @@ impl Lu {
     }
 
     /// Sets all coefficients to zero, ready for the next matrix.
+    #[inline]
     pub fn clear(&mut self) {
         self.a.fill(0.0);
     }

@@ -72,7 +72,10 @@ impl Kinetostatics {
     /// The pose must be the last one that `plan` has solved. Loads may use the state's angles.
     pub(super) fn solve(&mut self, case: &Case, plan: &Plan, state: &mut State) {
         if let Some(resistances) = &self.resistances {
-            self.loads.fill(Wrench::ZERO);
+            // Whatever else there is stays zero.
+            for (link, _) in resistances {
+                self.loads[*link] = Wrench::ZERO;
+            }
             for (link, load) in resistances {
                 self.loads[*link].moment += load.moment_in(case.spin(&state.motions, *link), 0.0);
             }

@@ -238,11 +238,9 @@ impl Plan {
             (motion.alpha, motion.acceleration) = (alpha, place[2] + arm * (omega * omega) - turned(arm) * alpha);
         }
         for (group, step) in self.steps.iter_mut().enumerate() {
-            // Most groups are of this kind. What it keeps from stage to stage then stays in registers.
+            // Most groups are of this kind.
             if let Step::Rrr(dyad) = step {
-                dyad.positions(motions).map_err(|why| OutOfReach { group, why })?;
-                dyad.velocities(motions);
-                dyad.accelerations(motions);
+                dyad.motions(motions).map_err(|why| OutOfReach { group, why })?;
             } else {
                 step.positions(angles, motions).map_err(|why| OutOfReach { group, why })?;
                 step.velocities(motions);

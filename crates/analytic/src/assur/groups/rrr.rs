@@ -8,8 +8,8 @@
 //! chapter on the kinematics of class II groups.
 
 use super::misfit::{Clearance, Misfit, SINGULAR};
-use linkage::math::{Motion, Vec2, cross, turned};
-use linkage::mechanism::{AssemblyMode, Group, Mechanism, Side};
+use linkage::math::{Motion, Vec2, cross, rotated, turned};
+use linkage::mechanism::{AssemblyMode, GROUND, Group, Mechanism, Side};
 
 /// One of the two links of a dyad.
 #[derive(Clone, Copy, Debug)]
@@ -30,6 +30,8 @@ pub struct Rrr {
     squared: [f64; 2],
     /// 1 / (l1 l2) (1/m^2).
     inverse_lengths: f64,
+    /// d^4 h^2 / d^2 at and below which the pose is singular: the square of [`SINGULAR`] l1 l2 (m^4).
+    least: f64,
     side: f64,
     /// World vectors from the origins of the known links to the outer joints (m).
     bases: [Vec2; 2],
@@ -60,6 +62,7 @@ impl Rrr {
             arms,
             squared,
             inverse_lengths: 1.0 / (squared[0] * squared[1]).sqrt(),
+            least: SINGULAR * SINGULAR * squared[0] * squared[1],
             side: if mode == AssemblyMode::Right { -1.0 } else { 1.0 },
             bases: [Vec2::zeros(); 2],
             outers: [Vec2::zeros(); 2],
@@ -84,29 +87,53 @@ impl Rrr {
         self.inner
     }
 
-    #[inline]
-    pub(super) fn positions(&mut self, motions: &mut [Motion]) -> Result<(), Misfit> {
-        self.bases = self.arms.map(|arm| motions[arm.base.link].arm(arm.base.local));
-        let [p1, p2] = [0, 1].map(|k| motions[self.arms[k].base.link].origin + self.bases[k]);
+    /// The outer joint on the known link of an arm: the vector to it from the link's origin, its place, velocity and
+    /// acceleration. Of joints on the ground nothing is computed.
+    #[inline(always)]
+    fn base(arm: &Arm, motions: &[Motion]) -> [Vec2; 4] {
+        let local = arm.base.local;
+        if arm.base.link == GROUND {
+            return [local, local, Vec2::zeros(), Vec2::zeros()];
+        }
+        let motion = &motions[arm.base.link];
+        let vector = motion.arm(local);
+        [vector, motion.origin + vector, motion.velocity_beyond(vector), motion.acceleration_beyond(vector)]
+    }
+
+    /// The vectors r1 and r2 between outer joints at these places, and the product D.
+    #[inline(always)]
+    fn close(&self, [p1, p2]: [Vec2; 2]) -> Result<([Vec2; 2], f64), Misfit> {
         let d = p2 - p1;
         let d_squared = d.norm_squared();
         let along = 0.5 * (self.squared[0] - self.squared[1] + d_squared) / d_squared;
         let across_squared = self.squared[0] / d_squared - along * along;
         // Written this way round so that NaN (outer joints on one point) is refused too.
         if !(across_squared >= 0.0) {
-            let [l1, l2] = self.squared.map(f64::sqrt);
-            return Err(Misfit::Span { distance: d_squared.sqrt(), reach: [(l1 - l2).abs(), l1 + l2] });
+            return Err(self.too_far(d_squared));
         }
         // The sine of the transmission angle: cross(r1, r2) / (l1 l2).
-        if across_squared * d_squared * d_squared <= SINGULAR * SINGULAR * self.squared[0] * self.squared[1] {
+        if across_squared * d_squared * d_squared <= self.least {
             return Err(Misfit::Singular);
         }
         let across = self.side * across_squared.sqrt();
         let r1 = d * along + turned(d) * across;
-        self.product = d_squared * across;
-        self.spans = [r1, r1 - d];
-        self.inner = p1 + r1;
-        for (k, (pivot, r)) in [p1, p2].into_iter().zip(self.spans).enumerate() {
+        Ok(([r1, r1 - d], d_squared * across))
+    }
+
+    #[cold]
+    fn too_far(&self, d_squared: f64) -> Misfit {
+        let [l1, l2] = self.squared.map(f64::sqrt);
+        Misfit::Span { distance: d_squared.sqrt(), reach: [(l1 - l2).abs(), l1 + l2] }
+    }
+
+    #[inline]
+    pub(super) fn positions(&mut self, motions: &mut [Motion]) -> Result<(), Misfit> {
+        let [base1, base2] = [0, 1].map(|k| Self::base(&self.arms[k], motions));
+        self.bases = [base1[0], base2[0]];
+        let pivots = [base1[1], base2[1]];
+        (self.spans, self.product) = self.close(pivots)?;
+        self.inner = pivots[0] + self.spans[0];
+        for (k, (pivot, r)) in pivots.into_iter().zip(self.spans).enumerate() {
             let Arm { link, outer, inverse_span, .. } = self.arms[k];
             let motion = &mut motions[link];
             // Quotient of the world and the body vector as complex numbers: the direction of the frame.
@@ -114,6 +141,40 @@ impl Rrr {
             self.outers[k] = motion.arm(outer);
             motion.origin = pivot - self.outers[k];
         }
+        Ok(())
+    }
+
+    /// Positions, velocities and accelerations in one go: what they share stays in registers, and every motion is
+    /// written once. The arithmetic is that of the three, and so are the bits.
+    #[inline(always)]
+    pub(super) fn motions(&mut self, motions: &mut [Motion]) -> Result<(), Misfit> {
+        let [[bases0, p1, v1, a1], [bases1, p2, v2, a2]] = [0, 1].map(|k| Self::base(&self.arms[k], motions));
+        let ([r1, r2], product) = self.close([p1, p2])?;
+        let inverse = 1.0 / product;
+        let quotient = (v2 - v1) * inverse;
+        let [w1, w2] = [quotient.dot(&r2), quotient.dot(&r1)];
+        let [square1, square2] = [w1 * w1, w2 * w2];
+        let quotient = ((a2 - r2 * square2) - (a1 - r1 * square1)) * inverse;
+        let [e1, e2] = [quotient.dot(&r2), quotient.dot(&r1)];
+        let place = |arm: &Arm, r: Vec2, p: Vec2, [v, a]: [Vec2; 2], [omega, square, alpha]: [f64; 3]| {
+            let direction = Vec2::new(arm.inverse_span.dot(&r), cross(arm.inverse_span, r));
+            let outer = rotated(direction, arm.outer);
+            let motion = Motion {
+                origin: p - outer,
+                direction,
+                velocity: v - turned(outer) * omega,
+                omega,
+                acceleration: a - turned(outer) * alpha + outer * square,
+                alpha,
+            };
+            (outer, motion)
+        };
+        let (outer1, motion1) = place(&self.arms[0], r1, p1, [v1, a1], [w1, square1, e1]);
+        let (outer2, motion2) = place(&self.arms[1], r2, p2, [v2, a2], [w2, square2, e2]);
+        motions[self.arms[0].link] = motion1;
+        motions[self.arms[1].link] = motion2;
+        (self.bases, self.outers, self.spans) = ([bases0, bases1], [outer1, outer2], [r1, r2]);
+        (self.inner, self.product, self.inverse) = (p1 + r1, product, inverse);
         Ok(())
     }
 
