@@ -1,6 +1,9 @@
 //! Pose after pose by Assur groups: the fast part of side 1.
 
+use std::slice;
+
 use super::forces::Kinetostatics;
+use super::gauges::Gauges;
 use super::passing::{self, Passing};
 use super::turns::{CLOSED_FORM_STEP, FOLLOWED_STEP, Turns};
 use super::watch::Watch;
@@ -42,6 +45,7 @@ pub struct PoseSolver<'a> {
     /// World direction of the crank at its angle zero (rad).
     zero: f64,
     step: f64,
+    pub(super) gauges: Gauges,
     pub(super) watch: Watch,
     /// Change points, where the drive says that they are passed.
     pub(super) passing: Option<Passing>,
@@ -57,7 +61,8 @@ impl<'a> PoseSolver<'a> {
         let step = if plan.is_closed_form() { CLOSED_FORM_STEP } else { FOLLOWED_STEP };
         let (statics, state) = (Kinetostatics::of(case, &plan), State::at_start(case));
         let inputs = vec![0.0; case.drives.len()];
-        let watch = Watch::of(&plan);
+        let gauges = Gauges::of(case, &plan, &state.motions);
+        let watch = Watch::of(&plan, &gauges);
         let mut solver = PoseSolver {
             case,
             plan,
@@ -73,6 +78,7 @@ impl<'a> PoseSolver<'a> {
             crank: case.crank().start,
             zero: case.crank().world_angle(0.0),
             step,
+            gauges,
             watch,
             passing: (case.crank().through && case.drives.further().is_empty()).then(|| Passing::new(1.0)),
         };
@@ -258,12 +264,20 @@ impl<'a> PoseSolver<'a> {
         } else {
             self.has_motions = self.in_one_pass;
             if self.in_one_pass {
-                let [omegas, alphas] = &mut self.rates;
-                drive(self.case, target, self.omega, omegas);
-                drive(self.case, target, self.alpha, alphas);
-                self.plan.motions(&self.inputs, [omegas, alphas], &mut self.state.motions)?;
+                if self.inputs.len() > 1 {
+                    let [omegas, alphas] = &mut self.rates;
+                    drive(self.case, target, self.omega, omegas);
+                    drive(self.case, target, self.alpha, alphas);
+                    self.plan.motions(&self.inputs, [omegas, alphas], &mut self.state.motions)?;
+                } else {
+                    let rates = [&self.omega, &self.alpha].map(slice::from_ref);
+                    self.plan.motions(&self.inputs, rates, &mut self.state.motions)?;
+                }
             } else {
                 self.plan.positions(&self.inputs, &mut self.state.motions)?;
+            }
+            if !self.gauges.pass((target - self.crank).abs(), &self.plan) {
+                self.gauges.pass_closely([self.crank, target], self.case, &self.plan, &self.state.motions)?;
             }
             if self.watch.is_needed() {
                 self.keep_clear(target)?;

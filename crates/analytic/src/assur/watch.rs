@@ -1,9 +1,13 @@
-//! What is watched so that no step of `PoseSolver` passes over a change point.
+//! What is watched of dyads that have no proof by [`super::gauges`], because they hang on higher groups, on sliders of
+//! two guides or on driving links whose speed ratio changes.
 //!
 //! A closed form keeps the sign of a dyad's sine, and there the branch that it takes has a corner: the dyad's
 //! clearance falls to zero and rises again.
+//! This is an estimate: how fast the carrying links turn between two poses is taken from the poses. It misses a
+//! clearance that falls to zero, rises and turns again within one step, which is 2 degrees behind a higher group.
 
-use crate::assur::groups::{Clearance, Plan, Step};
+use super::gauges::Gauges;
+use crate::assur::groups::{Clearance, Plan};
 use linkage::math::{KeepNan, Motion};
 
 /// Clearance of a dyad below which a change point may lie within a step.
@@ -23,6 +27,8 @@ pub(super) struct Seen {
     pub(super) now: Clearance,
     /// Change of the clearance over the last step, without sign.
     fall: f64,
+    /// Whether it is watched here.
+    is_watched: bool,
 }
 
 impl Seen {
@@ -47,12 +53,14 @@ pub(super) struct Watch {
 }
 
 impl Watch {
-    pub(super) fn of(plan: &Plan) -> Self {
-        let groups = vec![Seen { last: NONE, now: NONE, fall: f64::NAN }; plan.steps().len()];
-        Watch { is_needed: plan.steps().iter().any(Step::has_clearance), motions: Vec::new(), groups, step: 0.0 }
+    pub(super) fn of(plan: &Plan, gauges: &Gauges) -> Self {
+        let is_watched = |group: usize| plan.steps()[group].has_clearance() && !gauges.has(group);
+        let seen = |group| Seen { last: NONE, now: NONE, fall: f64::NAN, is_watched: is_watched(group) };
+        let groups: Vec<Seen> = (0..plan.steps().len()).map(seen).collect();
+        Watch { is_needed: groups.iter().any(|seen| seen.is_watched), motions: Vec::new(), groups, step: 0.0 }
     }
 
-    /// Whether a group has a clearance at all.
+    /// Whether a group is watched at all.
     #[inline]
     pub(super) fn is_needed(&self) -> bool {
         self.is_needed
@@ -64,7 +72,7 @@ impl Watch {
     pub(super) fn see(&mut self, plan: &Plan, motions: &[Motion], omega: f64, sense: f64) -> bool {
         let per_unit = 1.0 / omega;
         let mut may_pass = false;
-        for (group, seen) in plan.steps().iter().zip(&mut self.groups) {
+        for (group, seen) in plan.steps().iter().zip(&mut self.groups).filter(|(_, seen)| seen.is_watched) {
             if let Some(found) = group.clearance(motions) {
                 seen.now = Clearance { rate: found.rate * per_unit, ..found };
                 may_pass |= seen.may_pass(sense);
@@ -79,7 +87,7 @@ impl Watch {
     #[inline]
     pub(super) fn is_far(&mut self, step: f64, plan: &Plan, motions: &[Motion]) -> bool {
         let (steps, mut is_far) = (CLEAR * step / self.step, true);
-        for (group, seen) in plan.steps().iter().zip(&mut self.groups) {
+        for (group, seen) in plan.steps().iter().zip(&mut self.groups).filter(|(_, seen)| seen.is_watched) {
             if let Some(sine) = group.sine(motions) {
                 let both = seen.last.sine + sine;
                 is_far &= both > FAST * step && both > steps * seen.fall;

@@ -24,6 +24,8 @@ pub(super) struct Action {
     sign: f64,
     /// Whether the joint carries a moment too.
     slides: bool,
+    /// Whether its place is the origin of the frame.
+    at_origin: bool,
 }
 
 impl Action {
@@ -35,13 +37,15 @@ impl Action {
             JointKind::Revolute => Side { link, local },
             JointKind::Prismatic { .. } => found.second,
         };
-        Action { joint, side, sign: if found.second.link == link { 1.0 } else { -1.0 }, slides: found.slides() }
+        let sign = if found.second.link == link { 1.0 } else { -1.0 };
+        Action { joint, side, sign, slides: found.slides(), at_origin: side.local == Vec2::zeros() }
     }
 
     /// World place at which the joint acts.
     #[inline]
     pub(super) fn place(&self, motions: &[Motion]) -> Vec2 {
-        motions[self.side.link].point(self.side.local)
+        let motion = &motions[self.side.link];
+        if self.at_origin { motion.origin } else { motion.point(self.side.local) }
     }
 
     /// Stores the joint's reaction from the force on the link.

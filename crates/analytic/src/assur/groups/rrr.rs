@@ -1,12 +1,13 @@
 //! Dyad with three revolute pairs (class II, order 2): closed form of position, velocity and acceleration.
 //!
 //! With the outer joints P1, P2, the inner joint P3, r1 = P3 - P1, r2 = P3 - P2 and D = r1 x r2:
-//! r1 = d f + (z x d) h with d = P2 - P1, f = (l1^2 - l2^2 + d^2) / 2 d^2, h = +-sqrt(l1^2 / d^2 - f^2);
+//! r1 = d f + (z x d) h with d = P2 - P1, f = (l1^2 - l2^2 + d^2) / 2 d^2, D = d^2 h = +-sqrt(l1^2 d^2 - f^2 d^4);
 //! omega1 = (v2 - v1) . r2 / D, omega2 = (v2 - v1) . r1 / D from v1 + omega1 x r1 = v2 + omega2 x r2.
 //! The same equations hold for the accelerations minus their centripetal parts.
 //! They follow from the vector contour of the group, for example Artobolevsky, "Theory of mechanisms and machines",
 //! chapter on the kinematics of class II groups.
 
+use super::bounds::{Bound, Bounds, Limit, least_product, of_square};
 use super::misfit::{Clearance, Misfit, SINGULAR};
 use linkage::math::{Motion, Vec2, cross, rotated, turned};
 use linkage::mechanism::{AssemblyMode, GROUND, Group, Mechanism, Side};
@@ -19,6 +20,8 @@ struct Arm {
     base: Side,
     /// The outer joint in the link's own frame.
     outer: Vec2,
+    /// Whether that is the frame's origin, so that no vector turns with it.
+    at_origin: bool,
     /// Vector from outer to inner joint in the link's own frame, divided by the square of its length (1/m).
     inverse_span: Vec2,
 }
@@ -30,7 +33,7 @@ pub struct Rrr {
     squared: [f64; 2],
     /// 1 / (l1 l2) (1/m^2).
     inverse_lengths: f64,
-    /// d^4 h^2 / d^2 at and below which the pose is singular: the square of [`SINGULAR`] l1 l2 (m^4).
+    /// D^2 at and below which the pose is singular: the square of [`SINGULAR`] l1 l2 (m^4).
     least: f64,
     side: f64,
     /// World vectors from the origins of the known links to the outer joints (m).
@@ -40,6 +43,8 @@ pub struct Rrr {
     /// World vectors from the outer joints to the inner one, r1 and r2 (m), and the place of the inner one (m).
     spans: [Vec2; 2],
     inner: Vec2,
+    /// d^2 (m^2).
+    gauge: f64,
     /// D = d^2 h (m^2), and 1 / D.
     product: f64,
     inverse: f64,
@@ -56,6 +61,7 @@ impl Rrr {
             link: group.links[k],
             base: mechanism.joints()[group.outer[k]].other(group.links[k]),
             outer: on(group.outer[k], group.links[k]),
+            at_origin: on(group.outer[k], group.links[k]) == Vec2::zeros(),
             inverse_span: spans[k] / squared[k],
         });
         Rrr {
@@ -68,6 +74,7 @@ impl Rrr {
             outers: [Vec2::zeros(); 2],
             spans: [Vec2::zeros(); 2],
             inner: Vec2::zeros(),
+            gauge: f64::NAN,
             product: f64::NAN,
             inverse: f64::NAN,
         }
@@ -100,24 +107,25 @@ impl Rrr {
         [vector, motion.origin + vector, motion.velocity_beyond(vector), motion.acceleration_beyond(vector)]
     }
 
-    /// The vectors r1 and r2 between outer joints at these places, and the product D.
+    /// The vectors r1 and r2 between outer joints at these places, the product D and d^2.
     #[inline(always)]
-    fn close(&self, [p1, p2]: [Vec2; 2]) -> Result<([Vec2; 2], f64), Misfit> {
+    fn close(&self, [p1, p2]: [Vec2; 2]) -> Result<([Vec2; 2], [f64; 2]), Misfit> {
         let d = p2 - p1;
         let d_squared = d.norm_squared();
-        let along = 0.5 * (self.squared[0] - self.squared[1] + d_squared) / d_squared;
-        let across_squared = self.squared[0] / d_squared - along * along;
-        // Written this way round so that NaN (outer joints on one point) is refused too.
-        if !(across_squared >= 0.0) {
+        // f d^2 and D^2. The only quotient by d^2 is not waited for by the root.
+        let along = 0.5 * (self.squared[0] - self.squared[1] + d_squared);
+        let square = self.squared[0] * d_squared - along * along;
+        // Written this way round so that NaN is refused too.
+        if !(square >= 0.0) {
             return Err(self.too_far(d_squared));
         }
-        // The sine of the transmission angle: cross(r1, r2) / (l1 l2).
-        if across_squared * d_squared * d_squared <= self.least {
+        // The sine of the transmission angle: D / (l1 l2).
+        if square <= self.least {
             return Err(Misfit::Singular);
         }
-        let across = self.side * across_squared.sqrt();
-        let r1 = d * along + turned(d) * across;
-        Ok(([r1, r1 - d], d_squared * across))
+        let product = self.side * square.sqrt();
+        let r1 = (d * along + turned(d) * product) * (1.0 / d_squared);
+        Ok(([r1, r1 - d], [product, d_squared]))
     }
 
     #[cold]
@@ -131,7 +139,7 @@ impl Rrr {
         let [base1, base2] = [0, 1].map(|k| Self::base(&self.arms[k], motions));
         self.bases = [base1[0], base2[0]];
         let pivots = [base1[1], base2[1]];
-        (self.spans, self.product) = self.close(pivots)?;
+        (self.spans, [self.product, self.gauge]) = self.close(pivots)?;
         self.inner = pivots[0] + self.spans[0];
         for (k, (pivot, r)) in pivots.into_iter().zip(self.spans).enumerate() {
             let Arm { link, outer, inverse_span, .. } = self.arms[k];
@@ -149,7 +157,7 @@ impl Rrr {
     #[inline(always)]
     pub(super) fn motions(&mut self, motions: &mut [Motion]) -> Result<(), Misfit> {
         let [[bases0, p1, v1, a1], [bases1, p2, v2, a2]] = [0, 1].map(|k| Self::base(&self.arms[k], motions));
-        let ([r1, r2], product) = self.close([p1, p2])?;
+        let ([r1, r2], [product, gauge]) = self.close([p1, p2])?;
         let inverse = 1.0 / product;
         let quotient = (v2 - v1) * inverse;
         let [w1, w2] = [quotient.dot(&r2), quotient.dot(&r1)];
@@ -158,6 +166,10 @@ impl Rrr {
         let [e1, e2] = [quotient.dot(&r2), quotient.dot(&r1)];
         let place = |arm: &Arm, r: Vec2, p: Vec2, [v, a]: [Vec2; 2], [omega, square, alpha]: [f64; 3]| {
             let direction = Vec2::new(arm.inverse_span.dot(&r), cross(arm.inverse_span, r));
+            if arm.at_origin {
+                let motion = Motion { origin: p, direction, velocity: v, omega, acceleration: a, alpha };
+                return (Vec2::zeros(), motion);
+            }
             let outer = rotated(direction, arm.outer);
             let motion = Motion {
                 origin: p - outer,
@@ -174,13 +186,54 @@ impl Rrr {
         motions[self.arms[0].link] = motion1;
         motions[self.arms[1].link] = motion2;
         (self.bases, self.outers, self.spans) = ([bases0, bases1], [outer1, outer2], [r1, r2]);
-        (self.inner, self.product, self.inverse) = (p1 + r1, product, inverse);
+        (self.inner, self.gauge, self.product, self.inverse) = (p1 + r1, gauge, product, inverse);
         Ok(())
     }
 
     /// The dyad in its other configuration.
     pub(super) fn flipped(self) -> Self {
         Self { side: -self.side, ..self }
+    }
+
+    /// Its gauge at the last pose: the square of the distance of the outer joints (m^2).
+    #[inline]
+    pub(super) fn gauge(&self) -> f64 {
+        self.gauge
+    }
+
+    /// Speeds and accelerations of the outer joints; `None` if those of a link that carries it are not known.
+    fn outer_rates(&self, links: &Bounds) -> Option<[[f64; 2]; 2]> {
+        let [first, second] = self.arms.map(|arm| links[arm.base.link].map(|link| link.at(arm.base.local)));
+        Some([first?, second?])
+    }
+
+    fn range(&self) -> [f64; 2] {
+        let [l1, l2] = self.squared.map(f64::sqrt);
+        [(l1 - l2).powi(2), (l1 + l2).powi(2)]
+    }
+
+    /// Its limit over a step of the crank.
+    pub(super) fn limit(&self, links: &Bounds, step: f64) -> Option<Limit> {
+        let [[v1, a1], [v2, a2]] = self.outer_rates(links)?;
+        let range = self.range();
+        // Assembled at both ends, so never farther than this.
+        let most = range[1].sqrt() + (v1 + v2) * step;
+        Some(Limit { range, second: of_square([v1 + v2, a1 + a2], most), way: f64::INFINITY })
+    }
+
+    /// Bounds of its links while its gauge stays in a band.
+    /// From omega1 = (v2 - v1) . r2 / D and |D| = l1 l2 s, where 4 l1^2 l2^2 s^2 = (g - low) (high - g).
+    pub(super) fn bound(&self, band: [f64; 2], links: &mut Bounds) {
+        let rates = self.outer_rates(links);
+        let sine = 0.5 * least_product(self.range(), band).sqrt() * self.inverse_lengths;
+        let lengths = self.squared.map(f64::sqrt);
+        let Some([[v1, a1], [v2, a2]]) = rates else { return };
+        let turns = lengths.map(|length| (v1 + v2) / (length * sine));
+        let centripetal = lengths[0] * turns[0] * turns[0] + lengths[1] * turns[1] * turns[1];
+        for (k, [speed, second]) in [[v1, a1], [v2, a2]].into_iter().enumerate() {
+            let (turn, spin) = (turns[k], (a1 + a2 + centripetal) / (lengths[k] * sine));
+            links[self.arms[k].link] = Some(Bound { about: self.arms[k].outer, speed, second, turn, spin });
+        }
     }
 
     /// Its two links.

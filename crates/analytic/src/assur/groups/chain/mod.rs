@@ -413,9 +413,15 @@ impl Chain {
                 place += axis * self.slides[index];
             }
             let motion = &mut motions[node.link];
-            let arm = motion.arm(node.own);
-            motion.origin = place - arm;
-            (joints[index].arm, joints[index].place) = (arm, place);
+            if node.at_origin {
+                // The arm is zero, and stays so.
+                motion.origin = place;
+            } else {
+                let arm = motion.arm(node.own);
+                motion.origin = place - arm;
+                joints[index].arm = arm;
+            }
+            joints[index].place = place;
         }
         self.determinant = self.jacobian.determinant();
         // The product of many small pivots may vanish. Its sign does not.

@@ -58,7 +58,7 @@ impl Chain {
             joints[index].velocity = velocity;
             let motion = &mut motions[node.link];
             motion.omega = omega;
-            motion.velocity = velocity - turned(joints[index].arm) * omega;
+            motion.velocity = if node.at_origin { velocity } else { velocity - turned(joints[index].arm) * omega };
         }
     }
 
@@ -128,10 +128,13 @@ impl Chain {
                 }
             };
             joints[index].acceleration = acceleration;
-            let arm = joints[index].arm;
             let motion = &mut motions[node.link];
             motion.alpha = alpha;
-            motion.acceleration = acceleration - turned(arm) * alpha + arm * (motion.omega * motion.omega);
+            motion.acceleration = acceleration;
+            if !node.at_origin {
+                let arm = joints[index].arm;
+                motion.acceleration = acceleration - turned(arm) * alpha + arm * (motion.omega * motion.omega);
+            }
         }
     }
 
