@@ -243,8 +243,14 @@ impl<'a> PoseSolver<'a> {
         drive(self.case, self.crank, rate, &mut self.inputs);
     }
 
+    /// The same for callers that are not in a hurry.
+    #[inline(never)]
+    fn place_once(&mut self, target: f64) -> std::result::Result<(), OutOfReach> {
+        self.place(target)
+    }
+
     /// One step, not divided.
-    #[inline]
+    #[inline(always)]
     fn place(&mut self, target: f64) -> std::result::Result<(), OutOfReach> {
         self.turn(target);
         if let Some(passing) = &mut self.passing {
@@ -264,23 +270,22 @@ impl<'a> PoseSolver<'a> {
         } else {
             self.has_motions = self.in_one_pass;
             if self.in_one_pass {
+                let mut rates = [slice::from_ref(&self.omega), slice::from_ref(&self.alpha)];
                 if self.inputs.len() > 1 {
                     let [omegas, alphas] = &mut self.rates;
                     drive(self.case, target, self.omega, omegas);
                     drive(self.case, target, self.alpha, alphas);
-                    self.plan.motions(&self.inputs, [omegas, alphas], &mut self.state.motions)?;
-                } else {
-                    let rates = [&self.omega, &self.alpha].map(slice::from_ref);
-                    self.plan.motions(&self.inputs, rates, &mut self.state.motions)?;
+                    rates = [omegas, alphas];
                 }
+                self.plan.motions(&self.inputs, rates, &mut self.state.motions)?;
             } else {
                 self.plan.positions(&self.inputs, &mut self.state.motions)?;
             }
             if !self.gauges.pass((target - self.crank).abs(), &self.plan) {
-                self.gauges.pass_closely([self.crank, target], self.case, &self.plan, &self.state.motions)?;
+                self.pass_closely(target)?;
             }
             if self.watch.is_needed() {
-                self.keep_clear(target)?;
+                self.keep_clear(target).inspect_err(|_| self.gauges.take_back())?;
             }
         }
         self.crank = target;
@@ -292,7 +297,7 @@ impl<'a> PoseSolver<'a> {
 
     /// One step. Where a group cannot be followed over it, two steps of half the size.
     fn step_to(&mut self, target: f64, halvings: u32) -> Result<()> {
-        match self.place(target) {
+        match self.place_once(target) {
             Ok(()) => Ok(()),
             Err(OutOfReach { why: Misfit::Lost, .. }) if halvings > 0 => {
                 self.step_to((self.crank + target) / 2.0, halvings - 1)?;

@@ -1,5 +1,4 @@
-//! What is watched of dyads that have no proof by [`super::gauges`], because they hang on higher groups, on sliders of
-//! two guides or on driving links whose speed ratio changes.
+//! What is watched of dyads that have no proof by [`super::gauges`].
 //!
 //! A closed form keeps the sign of a dyad's sine, and there the branch that it takes has a corner: the dyad's
 //! clearance falls to zero and rises again.
@@ -54,10 +53,28 @@ pub(super) struct Watch {
 
 impl Watch {
     pub(super) fn of(plan: &Plan, gauges: &Gauges) -> Self {
-        let is_watched = |group: usize| plan.steps()[group].has_clearance() && !gauges.has(group);
-        let seen = |group| Seen { last: NONE, now: NONE, fall: f64::NAN, is_watched: is_watched(group) };
-        let groups: Vec<Seen> = (0..plan.steps().len()).map(seen).collect();
-        Watch { is_needed: groups.iter().any(|seen| seen.is_watched), motions: Vec::new(), groups, step: 0.0 }
+        let seen = Seen { last: NONE, now: NONE, fall: f64::NAN, is_watched: false };
+        let groups = vec![seen; plan.steps().len()];
+        let mut watch = Watch { is_needed: false, motions: Vec::new(), groups, step: 0.0 };
+        watch.leave_to(gauges, plan);
+        watch
+    }
+
+    /// Watches the groups that gauges prove nothing of.
+    pub(super) fn leave_to(&mut self, gauges: &Gauges, plan: &Plan) {
+        for (group, seen) in self.groups.iter_mut().enumerate() {
+            seen.is_watched = plan.steps()[group].has_clearance() && !gauges.proves(group);
+            if !seen.is_watched {
+                (seen.last, seen.fall) = (NONE, f64::NAN);
+            }
+        }
+        self.is_needed = self.groups.iter().any(|seen| seen.is_watched);
+    }
+
+    /// Whether the clearance of a watched group is not known at the last pose.
+    #[inline]
+    pub(super) fn begins(&self) -> bool {
+        self.groups.iter().any(|seen| seen.is_watched && seen.last.sine.is_nan())
     }
 
     /// Whether a group is watched at all.

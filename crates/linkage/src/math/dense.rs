@@ -36,6 +36,12 @@ impl Lu {
         self.a[row * self.n + column] += value;
     }
 
+    /// The coefficients of two rows, `row` and the next.
+    #[inline]
+    pub fn pair_mut(&mut self, row: usize) -> (&mut [f64], &mut [f64]) {
+        self.a[row * self.n..][..2 * self.n].split_at_mut(self.n)
+    }
+
     /// Factors the matrix in place. Returns false if it is singular to working precision (or not finite).
     #[must_use]
     pub fn factor(&mut self) -> bool {

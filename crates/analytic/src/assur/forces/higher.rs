@@ -86,7 +86,9 @@ impl Higher {
             *multiplier = axis.map_or(*moment, |axis| axis.dot(force) * chain.size());
         }
         chain.multipliers(&mut self.multipliers);
-        self.cut.fill((Vec2::zeros(), 0.0));
+        for cut in &mut self.cut {
+            *cut = (Vec2::zeros(), 0.0);
+        }
         for (closing, force) in chain.closings().iter().zip(self.multipliers.chunks_exact(2)) {
             let force = Vec2::new(force[0], force[1]);
             reactions.forces[closing.joint] = force;

@@ -132,6 +132,10 @@ impl Step {
     /// The gauge at the last pose: see [`bounds`]. NaN for groups that have none.
     #[inline]
     pub(in crate::assur) fn gauge(&self) -> f64 {
+        // Most groups are of this kind.
+        if let Step::Rrr(dyad) = self {
+            return dyad.gauge();
+        }
         match self {
             Step::Rrr(dyad) => dyad.gauge(),
             Step::Rrp(dyad) => dyad.gauge(),
@@ -259,7 +263,7 @@ impl Plan {
     ///
     /// # Errors
     /// Those of [`Plan::positions`].
-    #[inline]
+    #[inline(always)]
     pub(crate) fn motions(
         &mut self,
         angles: &[f64],
@@ -271,6 +275,10 @@ impl Plan {
         self.tally.one(Count::Accelerations);
         for (((driver, &angle), &omega), &alpha) in self.drivers.iter().zip(angles).zip(omegas).zip(alphas) {
             let direction = unit(angle);
+            if driver.base == GROUND && driver.at_origin {
+                motions[driver.link] = Motion { origin: driver.place, direction, omega, alpha, ..Motion::REST };
+                continue;
+            }
             let mut place = [driver.place, Vec2::zeros(), Vec2::zeros()];
             if driver.base != GROUND {
                 let (base, arm) = (&motions[driver.base], motions[driver.base].arm(driver.place));

@@ -7,8 +7,8 @@
 //! A second derivative gives alpha = (n . d'' - 2 s' omega + omega^2 h) / s.
 //! Artobolevsky, "Theory of mechanisms and machines", kinematics of class II groups of the third kind.
 
-use super::guide::turn_between;
 use super::bounds::{Bound, Bounds, Limit, of_square};
+use super::guide::turn_between;
 use super::misfit::{Clearance, Misfit, SINGULAR};
 use super::pin::Pin;
 use linkage::math::{Motion, Vec2, cross, rotated, turned};

@@ -7,9 +7,9 @@
 //! With the Coriolis part 2 omega_E s' n: alpha = (n . (a_E - a_P + omega^2 r) + 2 omega_E s') / (e . r).
 //! Artobolevsky, "Theory of mechanisms and machines", kinematics of class II groups of the second kind.
 
+use super::bounds::{Bound, Bounds, Limit, least_product};
 use super::guide::{Guide, turn_between};
 use super::half::of_dyad;
-use super::bounds::{Bound, Bounds, Limit, least_product};
 use super::misfit::{Clearance, Misfit, SINGULAR};
 use super::pin::Pin;
 use linkage::math::{Motion, Vec2, turned};

@@ -1,7 +1,7 @@
 //! Dyad with three revolute pairs (class II, order 2): closed form of position, velocity and acceleration.
 //!
 //! With the outer joints P1, P2, the inner joint P3, r1 = P3 - P1, r2 = P3 - P2 and D = r1 x r2:
-//! r1 = d f + (z x d) h with d = P2 - P1, f = (l1^2 - l2^2 + d^2) / 2 d^2, D = d^2 h = +-sqrt(l1^2 d^2 - f^2 d^4);
+//! r1 = d f + (z x d) h with d = P2 - P1, f = (l1^2 - l2^2 + d^2) / 2 d^2, 4 D^2 = 4 d^4 h^2 = ((l1 + l2)^2 - d^2) (d^2 - (l1 - l2)^2);
 //! omega1 = (v2 - v1) . r2 / D, omega2 = (v2 - v1) . r1 / D from v1 + omega1 x r1 = v2 + omega2 x r2.
 //! The same equations hold for the accelerations minus their centripetal parts.
 //! They follow from the vector contour of the group, for example Artobolevsky, "Theory of mechanisms and machines",
@@ -9,7 +9,7 @@
 
 use super::bounds::{Bound, Bounds, Limit, least_product, of_square};
 use super::misfit::{Clearance, Misfit, SINGULAR};
-use linkage::math::{Motion, Vec2, cross, rotated, turned};
+use linkage::math::{Motion, Vec2, cross, turned};
 use linkage::mechanism::{AssemblyMode, GROUND, Group, Mechanism, Side};
 
 /// One of the two links of a dyad.
@@ -31,11 +31,14 @@ struct Arm {
 pub struct Rrr {
     arms: [Arm; 2],
     squared: [f64; 2],
+    /// (l1 - l2)^2 and (l1 + l2)^2, between which d^2 is (m^2).
+    range: [f64; 2],
     /// 1 / (l1 l2) (1/m^2).
     inverse_lengths: f64,
-    /// D^2 at and below which the pose is singular: the square of [`SINGULAR`] l1 l2 (m^4).
+    /// 4 D^2 at and below which the pose is singular: the square of 2 [`SINGULAR`] l1 l2 (m^4).
     least: f64,
-    side: f64,
+    /// A half with the sign of D on the branch.
+    half: f64,
     /// World vectors from the origins of the known links to the outer joints (m).
     bases: [Vec2; 2],
     /// World vectors from the origins of the dyad's own links to the outer joints (m).
@@ -57,6 +60,7 @@ impl Rrr {
         let on = |joint: usize, link: usize| mechanism.joints()[joint].on(link).expect("the joint is on the link");
         let spans = [0, 1].map(|k| on(group.inner[0], group.links[k]) - on(group.outer[k], group.links[k]));
         let squared = spans.map(|span| span.norm_squared());
+        let lengths = squared.map(f64::sqrt);
         let arms = [0, 1].map(|k| Arm {
             link: group.links[k],
             base: mechanism.joints()[group.outer[k]].other(group.links[k]),
@@ -67,9 +71,10 @@ impl Rrr {
         Rrr {
             arms,
             squared,
+            range: [(lengths[0] - lengths[1]).powi(2), (lengths[0] + lengths[1]).powi(2)],
             inverse_lengths: 1.0 / (squared[0] * squared[1]).sqrt(),
-            least: SINGULAR * SINGULAR * squared[0] * squared[1],
-            side: if mode == AssemblyMode::Right { -1.0 } else { 1.0 },
+            least: 4.0 * SINGULAR * SINGULAR * squared[0] * squared[1],
+            half: if mode == AssemblyMode::Right { -0.5 } else { 0.5 },
             bases: [Vec2::zeros(); 2],
             outers: [Vec2::zeros(); 2],
             spans: [Vec2::zeros(); 2],
@@ -112,9 +117,10 @@ impl Rrr {
     fn close(&self, [p1, p2]: [Vec2; 2]) -> Result<([Vec2; 2], [f64; 2]), Misfit> {
         let d = p2 - p1;
         let d_squared = d.norm_squared();
-        // f d^2 and D^2. The only quotient by d^2 is not waited for by the root.
+        // f d^2, and 4 D^2 by Heron's formula, which loses no digits near a singular pose. The quotient by d^2 is not
+        // waited for by the root.
         let along = 0.5 * (self.squared[0] - self.squared[1] + d_squared);
-        let square = self.squared[0] * d_squared - along * along;
+        let square = (self.range[1] - d_squared) * (d_squared - self.range[0]);
         // Written this way round so that NaN is refused too.
         if !(square >= 0.0) {
             return Err(self.too_far(d_squared));
@@ -123,7 +129,7 @@ impl Rrr {
         if square <= self.least {
             return Err(Misfit::Singular);
         }
-        let product = self.side * square.sqrt();
+        let product = self.half * square.sqrt();
         let r1 = (d * along + turned(d) * product) * (1.0 / d_squared);
         Ok(([r1, r1 - d], [product, d_squared]))
     }
@@ -164,35 +170,32 @@ impl Rrr {
         let [square1, square2] = [w1 * w1, w2 * w2];
         let quotient = ((a2 - r2 * square2) - (a1 - r1 * square1)) * inverse;
         let [e1, e2] = [quotient.dot(&r2), quotient.dot(&r1)];
-        let place = |arm: &Arm, r: Vec2, p: Vec2, [v, a]: [Vec2; 2], [omega, square, alpha]: [f64; 3]| {
-            let direction = Vec2::new(arm.inverse_span.dot(&r), cross(arm.inverse_span, r));
+        let mut place = |k: usize, r: Vec2, p: Vec2, [v, a]: [Vec2; 2], [omega, square, alpha]: [f64; 3]| {
+            let arm = &self.arms[k];
+            let motion = &mut motions[arm.link];
+            (motion.omega, motion.alpha) = (omega, alpha);
+            motion.direction = Vec2::new(arm.inverse_span.dot(&r), cross(arm.inverse_span, r));
             if arm.at_origin {
-                let motion = Motion { origin: p, direction, velocity: v, omega, acceleration: a, alpha };
-                return (Vec2::zeros(), motion);
+                // The vector from the origin to the joint is zero, and stays so.
+                (motion.origin, motion.velocity, motion.acceleration) = (p, v, a);
+                return;
             }
-            let outer = rotated(direction, arm.outer);
-            let motion = Motion {
-                origin: p - outer,
-                direction,
-                velocity: v - turned(outer) * omega,
-                omega,
-                acceleration: a - turned(outer) * alpha + outer * square,
-                alpha,
-            };
-            (outer, motion)
+            let outer = motion.arm(arm.outer);
+            motion.origin = p - outer;
+            motion.velocity = v - turned(outer) * omega;
+            motion.acceleration = a - turned(outer) * alpha + outer * square;
+            self.outers[k] = outer;
         };
-        let (outer1, motion1) = place(&self.arms[0], r1, p1, [v1, a1], [w1, square1, e1]);
-        let (outer2, motion2) = place(&self.arms[1], r2, p2, [v2, a2], [w2, square2, e2]);
-        motions[self.arms[0].link] = motion1;
-        motions[self.arms[1].link] = motion2;
-        (self.bases, self.outers, self.spans) = ([bases0, bases1], [outer1, outer2], [r1, r2]);
+        place(0, r1, p1, [v1, a1], [w1, square1, e1]);
+        place(1, r2, p2, [v2, a2], [w2, square2, e2]);
+        (self.bases, self.spans) = ([bases0, bases1], [r1, r2]);
         (self.inner, self.gauge, self.product, self.inverse) = (p1 + r1, gauge, product, inverse);
         Ok(())
     }
 
     /// The dyad in its other configuration.
     pub(super) fn flipped(self) -> Self {
-        Self { side: -self.side, ..self }
+        Self { half: -self.half, ..self }
     }
 
     /// Its gauge at the last pose: the square of the distance of the outer joints (m^2).
@@ -207,15 +210,10 @@ impl Rrr {
         Some([first?, second?])
     }
 
-    fn range(&self) -> [f64; 2] {
-        let [l1, l2] = self.squared.map(f64::sqrt);
-        [(l1 - l2).powi(2), (l1 + l2).powi(2)]
-    }
-
     /// Its limit over a step of the crank.
     pub(super) fn limit(&self, links: &Bounds, step: f64) -> Option<Limit> {
         let [[v1, a1], [v2, a2]] = self.outer_rates(links)?;
-        let range = self.range();
+        let range = self.range;
         // Assembled at both ends, so never farther than this.
         let most = range[1].sqrt() + (v1 + v2) * step;
         Some(Limit { range, second: of_square([v1 + v2, a1 + a2], most), way: f64::INFINITY })
@@ -225,7 +223,7 @@ impl Rrr {
     /// From omega1 = (v2 - v1) . r2 / D and |D| = l1 l2 s, where 4 l1^2 l2^2 s^2 = (g - low) (high - g).
     pub(super) fn bound(&self, band: [f64; 2], links: &mut Bounds) {
         let rates = self.outer_rates(links);
-        let sine = 0.5 * least_product(self.range(), band).sqrt() * self.inverse_lengths;
+        let sine = 0.5 * least_product(self.range, band).sqrt() * self.inverse_lengths;
         let lengths = self.squared.map(f64::sqrt);
         let Some([[v1, a1], [v2, a2]]) = rates else { return };
         let turns = lengths.map(|length| (v1 + v2) / (length * sine));

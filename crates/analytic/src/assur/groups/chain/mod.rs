@@ -215,8 +215,12 @@ impl Chain {
         if self.slides[0].is_nan() {
             self.read_slides(motions);
         }
-        for ((step, angle), at) in self.step.iter_mut().zip(angles).zip(&self.at) {
+        if let ([step], [angle], [at]) = (&mut self.step[..], angles, &self.at[..]) {
             *step = angle - at;
+        } else {
+            for ((step, angle), at) in self.step.iter_mut().zip(angles).zip(&self.at) {
+                *step = angle - at;
+            }
         }
         if self.is_bold() {
             self.memory.forget();
@@ -239,10 +243,11 @@ impl Chain {
         } else {
             MAX_TURN
         };
-        let followed = self.follow::<SLIDING>(allowed, motions) && self.memory.is_within(MAX_TURN) && !self.is_singular();
+        let followed =
+            self.follow::<SLIDING>(allowed, motions) && self.memory.is_within(MAX_TURN) && !self.is_singular();
         if followed {
             self.memory.remember(&self.step);
-            self.at.iter_mut().zip(angles).for_each(|(at, angle)| *at = *angle);
+            copy(angles, &mut self.at);
             self.largest = self.largest.larger(self.determinant.abs());
             self.learn();
         } else {
@@ -331,6 +336,7 @@ impl Chain {
         let Contours { nodes, closings, .. } = &self.contours;
         for (index, closing) in closings.iter().enumerate() {
             let row = 2 * index;
+            let (above, below) = self.jacobian.pair_mut(row);
             let mut gap = Vec2::zeros();
             for (root, sign) in closing.ends {
                 gap += self.world.roots[root].place * sign;
@@ -339,13 +345,13 @@ impl Chain {
                 let vector = self.world.arrows[stretch.arrow] * stretch.sign;
                 gap += vector;
                 if let Some(column) = stretch.spin {
-                    self.jacobian.add(row, column, -vector.y);
-                    self.jacobian.add(row + 1, column, vector.x);
+                    above[column] -= vector.y;
+                    below[column] += vector.x;
                 }
                 if SLIDING && let Some(node) = stretch.slide {
                     let axis = nodes[node].slide_axis(motions) * (stretch.sign * self.size);
-                    self.jacobian.add(row, node, axis.x);
-                    self.jacobian.add(row + 1, node, axis.y);
+                    above[node] += axis.x;
+                    below[node] += axis.y;
                 }
             }
             self.unknown[row] = gap.x;
@@ -436,6 +442,14 @@ impl Chain {
     /// Stores the squared determinant of this pose, and how it has changed in this step.
     fn learn(&mut self) {
         let square = self.determinant.powi(2);
+        if let ([step], [slope]) = (&self.step[..], &mut self.slopes[..]) {
+            // The same for one driving link.
+            if *step * *step > 0.0 && self.square.is_finite() {
+                *slope += (square - self.square - *slope * step) / (step * step) * step;
+            }
+            self.square = square;
+            return;
+        }
         let length = self.step.iter().map(|step| step * step).sum::<f64>();
         if length > 0.0 && self.square.is_finite() {
             let rest = (square - self.square - self.foreseen()) / length;
@@ -445,7 +459,11 @@ impl Chain {
     }
 
     /// Change of the squared determinant over this step, as extrapolated from the last ones.
+    #[inline(always)]
     fn foreseen(&self) -> f64 {
+        if let ([step], [slope]) = (&self.step[..], &self.slopes[..]) {
+            return slope * step;
+        }
         self.slopes.iter().zip(&self.step).map(|(slope, step)| slope * step).sum()
     }
 
@@ -466,6 +484,15 @@ impl Chain {
     pub fn multipliers(&self, generalised: &mut [f64]) {
         generalised.iter_mut().for_each(|q| *q = -*q);
         self.jacobian.solve_transposed(generalised);
+    }
+}
+
+/// Copies numbers of driving links. Most often there is one.
+#[inline(always)]
+fn copy(from: &[f64], to: &mut [f64]) {
+    match (from, &mut *to) {
+        ([one], [own]) => *own = *one,
+        (from, to) => to.copy_from_slice(from),
     }
 }
 
