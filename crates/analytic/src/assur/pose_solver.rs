@@ -243,14 +243,8 @@ impl<'a> PoseSolver<'a> {
         drive(self.case, self.crank, rate, &mut self.inputs);
     }
 
-    /// The same for callers that are not in a hurry.
-    #[inline(never)]
-    fn place_once(&mut self, target: f64) -> std::result::Result<(), OutOfReach> {
-        self.place(target)
-    }
-
     /// One step, not divided.
-    #[inline(always)]
+    #[inline]
     fn place(&mut self, target: f64) -> std::result::Result<(), OutOfReach> {
         self.turn(target);
         if let Some(passing) = &mut self.passing {
@@ -297,7 +291,7 @@ impl<'a> PoseSolver<'a> {
 
     /// One step. Where a group cannot be followed over it, two steps of half the size.
     fn step_to(&mut self, target: f64, halvings: u32) -> Result<()> {
-        match self.place_once(target) {
+        match self.place(target) {
             Ok(()) => Ok(()),
             Err(OutOfReach { why: Misfit::Lost, .. }) if halvings > 0 => {
                 self.step_to((self.crank + target) / 2.0, halvings - 1)?;
