@@ -9,11 +9,17 @@ use super::gauges::Gauges;
 use crate::assur::groups::{Clearance, Plan};
 use linkage::math::{KeepNan, Motion};
 
-/// Clearance of a dyad below which a change point may lie within a step.
+/// Clearance of a dyad below which a change point may lie within a step. From 0.8 to 0 and back its links turn by 106
+/// deg against each other, which at [`FAST`] takes 7 deg of the crank: more than a step behind a higher group, less
+/// than one of 15 deg of dyads alone.
 const NARROW: f64 = 0.8;
-/// A clearance that is this many times the change over the rest of the way cannot fall to zero on it.
+/// A clearance that is this many times the change over the rest of the way is taken not to fall to zero on it.
+/// Near a change point the sine is linear in the crank angle, and its change over the next step is that over the last:
+/// 1 would do there. At a dead point it changes with the root of the way, at most (1 + root 2) times as fast. The rest
+/// is reserve, and no proof.
 pub(super) const CLEAR: f64 = 4.0;
 /// Angle by which the links of a dyad turn against each other while the crank turns by one unit, and hardly ever more.
+/// An assumption: it holds as long as no carrying link is 16 times as fast as the crank.
 const FAST: f64 = 16.0;
 
 /// The clearance of a group that has none.

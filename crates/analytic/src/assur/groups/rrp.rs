@@ -84,7 +84,6 @@ impl Rrp {
 
     /// Speeds and accelerations of the outer pin, and of the inner joint's place on the guide's link at slide zero, Q;
     /// the guide's link; and the largest distance of the two places while the crank turns by `way` from here.
-    #[expect(clippy::type_complexity, reason = "they are read at once")]
     fn outer_rates(&self, links: &Bounds, motions: &[Motion], way: f64) -> Option<([f64; 2], [f64; 2], Bound, f64)> {
         let (pin, link) = (self.rod.rates(links)?, links[self.guide.base.link]?);
         let (base, at_zero) = (&motions[self.guide.base.link], self.guide.at_zero(self.inner, motions));

@@ -21,7 +21,7 @@ pub(in crate::assur) use contour::Arrow;
 pub use contour::{Closing, Node};
 pub(in crate::assur) use contour::{Contours, Hangs};
 
-use self::predict::Memory;
+use self::predict::{Memory, copy};
 use linkage::math::dense::Lu;
 use linkage::math::{KeepNan, Motion, Vec2, rotated, turned};
 use linkage::mechanism::{GROUND, Group, Mechanism, Side};
@@ -484,15 +484,6 @@ impl Chain {
     pub fn multipliers(&self, generalised: &mut [f64]) {
         generalised.iter_mut().for_each(|q| *q = -*q);
         self.jacobian.solve_transposed(generalised);
-    }
-}
-
-/// Copies numbers of driving links. Most often there is one.
-#[inline(always)]
-fn copy(from: &[f64], to: &mut [f64]) {
-    match (from, &mut *to) {
-        ([one], [own]) => *own = *one,
-        (from, to) => to.copy_from_slice(from),
     }
 }
 

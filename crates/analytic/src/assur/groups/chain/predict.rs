@@ -1,9 +1,16 @@
 //! What a group remembers of its last steps, and where it expects its unknowns after the next one.
 
-use super::copy;
-
 /// Number of steps that a prediction uses.
 const MEMORY: usize = 5;
+
+/// Copies numbers of driving links. Most often there is one.
+#[inline(always)]
+pub(super) fn copy(from: &[f64], to: &mut [f64]) {
+    match (from, &mut *to) {
+        ([one], [own]) => *own = *one,
+        (from, to) => to.copy_from_slice(from),
+    }
+}
 
 /// Changes of the unknowns from pose to pose.
 #[derive(Clone, Debug)]
