@@ -11,6 +11,7 @@ mod architecture;
 mod bad_scenarios;
 mod batch;
 mod bench;
+mod change_points;
 mod clearance;
 mod cli;
 mod common;

@@ -251,6 +251,7 @@ impl Case {
 
     /// Angular velocity of a link (rad/s) as far as it tells a sense of rotation.
     /// It is zero for a link that cannot turn, and where it is rounding beside the fastest link's.
+    #[inline]
     #[must_use]
     pub fn spin(&self, motions: &[Motion], link: usize) -> f64 {
         let omega = motions[link].omega;

@@ -6,6 +6,14 @@ use crate::assur::groups::{Clearance, Misfit, OutOfReach, SINGULAR};
 use linkage::math::KeepNan;
 
 impl PoseSolver<'_> {
+    /// The step to the pose that has just been found, where the kept bounds do not prove that it passes no change point.
+    #[cold]
+    pub(super) fn pass_closely(&mut self, target: f64) -> Result<(), OutOfReach> {
+        self.gauges.pass_closely([self.crank, target], self.case, &self.plan, &self.state.motions)?;
+        self.watch.leave_to(&self.gauges, &self.plan);
+        Ok(())
+    }
+
     /// Finds the clearances of a crank angle whose positions are known. Returns whether a group may have passed a change
     /// point.
     fn find_clearances(&mut self, crank: f64, sense: f64) -> bool {
@@ -25,6 +33,9 @@ impl PoseSolver<'_> {
     #[inline]
     pub(super) fn keep_clear(&mut self, target: f64) -> Result<(), OutOfReach> {
         let step = target - self.crank;
+        if self.watch.begins() && step != 0.0 {
+            self.begin(target)?;
+        }
         if !self.watch.is_far(step.abs(), &self.plan, &self.state.motions) {
             let may_pass = match self.has_motions {
                 true => self.watch.see(&self.plan, &self.state.motions, self.omega, step),
@@ -36,6 +47,19 @@ impl PoseSolver<'_> {
         }
         self.watch.groups.iter_mut().for_each(|seen| seen.last = seen.now);
         Ok(())
+    }
+
+    /// Finds the clearances before a step on which a group is watched anew.
+    #[cold]
+    fn begin(&mut self, target: f64) -> Result<(), OutOfReach> {
+        let (from, step) = (self.crank, target - self.crank);
+        self.has_motions = false;
+        self.turn(from);
+        self.plan.positions(&self.inputs, &mut self.state.motions)?;
+        self.find_clearances(from, step);
+        self.watch.groups.iter_mut().for_each(|seen| seen.last = seen.now);
+        self.turn(target);
+        self.plan.positions(&self.inputs, &mut self.state.motions)
     }
 
     /// The same for groups that may have passed one.

@@ -4,6 +4,7 @@
 pub mod batch;
 mod clear;
 mod forces;
+mod gauges;
 pub mod groups;
 mod passing;
 mod pose_solver;

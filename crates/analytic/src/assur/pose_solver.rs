@@ -1,6 +1,9 @@
 //! Pose after pose by Assur groups: the fast part of side 1.
 
+use std::slice;
+
 use super::forces::Kinetostatics;
+use super::gauges::Gauges;
 use super::passing::{self, Passing};
 use super::turns::{CLOSED_FORM_STEP, FOLLOWED_STEP, Turns};
 use super::watch::Watch;
@@ -39,7 +42,10 @@ pub struct PoseSolver<'a> {
     alpha: f64,
     pub(super) has_motions: bool,
     pub(super) crank: f64,
+    /// World direction of the crank at its angle zero (rad).
+    zero: f64,
     step: f64,
+    pub(super) gauges: Gauges,
     pub(super) watch: Watch,
     /// Change points, where the drive says that they are passed.
     pub(super) passing: Option<Passing>,
@@ -55,7 +61,8 @@ impl<'a> PoseSolver<'a> {
         let step = if plan.is_closed_form() { CLOSED_FORM_STEP } else { FOLLOWED_STEP };
         let (statics, state) = (Kinetostatics::of(case, &plan), State::at_start(case));
         let inputs = vec![0.0; case.drives.len()];
-        let watch = Watch::of(&plan);
+        let gauges = Gauges::of(case, &plan, &state.motions);
+        let watch = Watch::of(&plan, &gauges);
         let mut solver = PoseSolver {
             case,
             plan,
@@ -69,7 +76,9 @@ impl<'a> PoseSolver<'a> {
             alpha: 0.0,
             has_motions: false,
             crank: case.crank().start,
+            zero: case.crank().world_angle(0.0),
             step,
+            gauges,
             watch,
             passing: (case.crank().through && case.drives.further().is_empty()).then(|| Passing::new(1.0)),
         };
@@ -220,15 +229,11 @@ impl<'a> PoseSolver<'a> {
     }
 
     /// Writes the world angles of all driving links at a crank angle to the inputs.
-    #[inline]
+    #[inline(always)]
     pub(super) fn turn(&mut self, crank: f64) {
-        let (first, further) = self.inputs.split_first_mut().expect("there is a drive");
-        *first = self.case.crank().world_angle(crank);
-        if !further.is_empty() {
-            let t = self.case.crank().time_of(crank);
-            for (angle, drive) in further.iter_mut().zip(self.case.drives.further()) {
-                *angle = drive.world_angle(drive.at(t).angle);
-            }
+        self.inputs[0] = self.zero + crank;
+        if self.inputs.len() > 1 {
+            turn_further(self.case, crank, &mut self.inputs[1..]);
         }
     }
 
@@ -259,15 +264,22 @@ impl<'a> PoseSolver<'a> {
         } else {
             self.has_motions = self.in_one_pass;
             if self.in_one_pass {
-                let [omegas, alphas] = &mut self.rates;
-                drive(self.case, target, self.omega, omegas);
-                drive(self.case, target, self.alpha, alphas);
-                self.plan.motions(&self.inputs, [omegas, alphas], &mut self.state.motions)?;
+                let mut rates = [slice::from_ref(&self.omega), slice::from_ref(&self.alpha)];
+                if self.inputs.len() > 1 {
+                    let [omegas, alphas] = &mut self.rates;
+                    drive(self.case, target, self.omega, omegas);
+                    drive(self.case, target, self.alpha, alphas);
+                    rates = [omegas, alphas];
+                }
+                self.plan.motions(&self.inputs, rates, &mut self.state.motions)?;
             } else {
                 self.plan.positions(&self.inputs, &mut self.state.motions)?;
             }
+            if !self.gauges.pass((target - self.crank).abs(), &self.plan) {
+                self.pass_closely(target)?;
+            }
             if self.watch.is_needed() {
-                self.keep_clear(target)?;
+                self.keep_clear(target).inspect_err(|_| self.gauges.take_back())?;
             }
         }
         self.crank = target;
@@ -349,12 +361,25 @@ impl<'a> PoseSolver<'a> {
 }
 
 /// The rates of all driving links at a crank angle, by their speed ratios, for the crank's `rate`.
-#[inline]
+#[inline(always)]
 fn drive(case: &Case, crank: f64, rate: f64, rates: &mut [f64]) {
-    let (first, further) = rates.split_first_mut().expect("there is a drive");
-    *first = rate;
-    if !further.is_empty() {
-        let ratios = case.drives.ratios(case.crank().time_of(crank));
-        further.iter_mut().zip(ratios.skip(1)).for_each(|(own, ratio)| *own = rate * ratio);
+    rates[0] = rate;
+    if rates.len() > 1 {
+        drive_further(case, crank, rate, &mut rates[1..]);
+    }
+}
+
+#[inline(never)]
+fn drive_further(case: &Case, crank: f64, rate: f64, rates: &mut [f64]) {
+    let ratios = case.drives.ratios(case.crank().time_of(crank));
+    rates.iter_mut().zip(ratios.skip(1)).for_each(|(own, ratio)| *own = rate * ratio);
+}
+
+/// The world angles of the driving links beside the crank.
+#[inline(never)]
+fn turn_further(case: &Case, crank: f64, angles: &mut [f64]) {
+    let t = case.crank().time_of(crank);
+    for (angle, drive) in angles.iter_mut().zip(case.drives.further()) {
+        *angle = drive.world_angle(drive.at(t).angle);
     }
 }

@@ -1,16 +1,25 @@
-//! What is watched so that no step of `PoseSolver` passes over a change point.
+//! What is watched of dyads that have no proof by [`super::gauges`].
 //!
 //! A closed form keeps the sign of a dyad's sine, and there the branch that it takes has a corner: the dyad's
 //! clearance falls to zero and rises again.
+//! This is an estimate: how fast the carrying links turn between two poses is taken from the poses. It misses a
+//! clearance that falls to zero, rises and turns again within one step, which is 2 degrees behind a higher group.
 
-use crate::assur::groups::{Clearance, Plan, Step};
+use super::gauges::Gauges;
+use crate::assur::groups::{Clearance, Plan};
 use linkage::math::{KeepNan, Motion};
 
-/// Clearance of a dyad below which a change point may lie within a step.
+/// Clearance of a dyad below which a change point may lie within a step. From 0.8 to 0 and back its links turn by 106
+/// deg against each other, which at [`FAST`] takes 7 deg of the crank: more than a step behind a higher group, less
+/// than one of 15 deg of dyads alone.
 const NARROW: f64 = 0.8;
-/// A clearance that is this many times the change over the rest of the way cannot fall to zero on it.
+/// A clearance that is this many times the change over the rest of the way is taken not to fall to zero on it.
+/// Near a change point the sine is linear in the crank angle, and its change over the next step is that over the last:
+/// 1 would do there. At a dead point it changes with the root of the way, at most (1 + root 2) times as fast. The rest
+/// is reserve, and no proof.
 pub(super) const CLEAR: f64 = 4.0;
 /// Angle by which the links of a dyad turn against each other while the crank turns by one unit, and hardly ever more.
+/// An assumption: it holds as long as no carrying link is 16 times as fast as the crank.
 const FAST: f64 = 16.0;
 
 /// The clearance of a group that has none.
@@ -23,6 +32,8 @@ pub(super) struct Seen {
     pub(super) now: Clearance,
     /// Change of the clearance over the last step, without sign.
     fall: f64,
+    /// Whether it is watched here.
+    is_watched: bool,
 }
 
 impl Seen {
@@ -47,12 +58,32 @@ pub(super) struct Watch {
 }
 
 impl Watch {
-    pub(super) fn of(plan: &Plan) -> Self {
-        let groups = vec![Seen { last: NONE, now: NONE, fall: f64::NAN }; plan.steps().len()];
-        Watch { is_needed: plan.steps().iter().any(Step::has_clearance), motions: Vec::new(), groups, step: 0.0 }
+    pub(super) fn of(plan: &Plan, gauges: &Gauges) -> Self {
+        let seen = Seen { last: NONE, now: NONE, fall: f64::NAN, is_watched: false };
+        let groups = vec![seen; plan.steps().len()];
+        let mut watch = Watch { is_needed: false, motions: Vec::new(), groups, step: 0.0 };
+        watch.leave_to(gauges, plan);
+        watch
     }
 
-    /// Whether a group has a clearance at all.
+    /// Watches the groups that gauges prove nothing of.
+    pub(super) fn leave_to(&mut self, gauges: &Gauges, plan: &Plan) {
+        for (group, seen) in self.groups.iter_mut().enumerate() {
+            seen.is_watched = plan.steps()[group].has_clearance() && !gauges.proves(group);
+            if !seen.is_watched {
+                (seen.last, seen.fall) = (NONE, f64::NAN);
+            }
+        }
+        self.is_needed = self.groups.iter().any(|seen| seen.is_watched);
+    }
+
+    /// Whether the clearance of a watched group is not known at the last pose.
+    #[inline]
+    pub(super) fn begins(&self) -> bool {
+        self.groups.iter().any(|seen| seen.is_watched && seen.last.sine.is_nan())
+    }
+
+    /// Whether a group is watched at all.
     #[inline]
     pub(super) fn is_needed(&self) -> bool {
         self.is_needed
@@ -64,7 +95,7 @@ impl Watch {
     pub(super) fn see(&mut self, plan: &Plan, motions: &[Motion], omega: f64, sense: f64) -> bool {
         let per_unit = 1.0 / omega;
         let mut may_pass = false;
-        for (group, seen) in plan.steps().iter().zip(&mut self.groups) {
+        for (group, seen) in plan.steps().iter().zip(&mut self.groups).filter(|(_, seen)| seen.is_watched) {
             if let Some(found) = group.clearance(motions) {
                 seen.now = Clearance { rate: found.rate * per_unit, ..found };
                 may_pass |= seen.may_pass(sense);
@@ -79,7 +110,7 @@ impl Watch {
     #[inline]
     pub(super) fn is_far(&mut self, step: f64, plan: &Plan, motions: &[Motion]) -> bool {
         let (steps, mut is_far) = (CLEAR * step / self.step, true);
-        for (group, seen) in plan.steps().iter().zip(&mut self.groups) {
+        for (group, seen) in plan.steps().iter().zip(&mut self.groups).filter(|(_, seen)| seen.is_watched) {
             if let Some(sine) = group.sine(motions) {
                 let both = seen.last.sine + sine;
                 is_far &= both > FAST * step && both > steps * seen.fall;

@@ -25,6 +25,7 @@ impl Lu {
     }
 
     /// Sets all coefficients to zero, ready for the next matrix.
+    #[inline]
     pub fn clear(&mut self) {
         self.a.fill(0.0);
     }
@@ -33,6 +34,12 @@ impl Lu {
     #[inline]
     pub fn add(&mut self, row: usize, column: usize, value: f64) {
         self.a[row * self.n + column] += value;
+    }
+
+    /// The coefficients of two rows, `row` and the next.
+    #[inline]
+    pub fn pair_mut(&mut self, row: usize) -> (&mut [f64], &mut [f64]) {
+        self.a[row * self.n..][..2 * self.n].split_at_mut(self.n)
     }
 
     /// Factors the matrix in place. Returns false if it is singular to working precision (or not finite).

@@ -1,7 +1,7 @@
 //! A link, the loads on it, and the action of a joint on it.
 
 use linkage::case::Case;
-use linkage::drive::Wrench;
+use linkage::drive::{Load, Wrench};
 use linkage::math::{Motion, Vec2, cross};
 use linkage::mechanism::{JointKind, Side};
 
@@ -22,6 +22,10 @@ pub(super) struct Action {
     pub(super) joint: usize,
     side: Side,
     sign: f64,
+    /// Whether the joint carries a moment too.
+    slides: bool,
+    /// Whether its place is the origin of the frame.
+    at_origin: bool,
 }
 
 impl Action {
@@ -33,13 +37,15 @@ impl Action {
             JointKind::Revolute => Side { link, local },
             JointKind::Prismatic { .. } => found.second,
         };
-        Action { joint, side, sign: if found.second.link == link { 1.0 } else { -1.0 } }
+        let sign = if found.second.link == link { 1.0 } else { -1.0 };
+        Action { joint, side, sign, slides: found.slides(), at_origin: side.local == Vec2::zeros() }
     }
 
     /// World place at which the joint acts.
     #[inline]
     pub(super) fn place(&self, motions: &[Motion]) -> Vec2 {
-        motions[self.side.link].point(self.side.local)
+        let motion = &motions[self.side.link];
+        if self.at_origin { motion.origin } else { motion.point(self.side.local) }
     }
 
     /// Stores the joint's reaction from the force on the link.
@@ -74,15 +80,25 @@ pub(super) struct Body {
     mass: f64,
     inertia: f64,
     centre: Vec2,
+    /// Whether loads may act on it.
+    is_loaded: bool,
     hanging: Vec<Action>,
 }
 
 impl Body {
     pub(super) fn of(case: &Case, link: usize, settled: &[bool]) -> Self {
+        let is_loaded = |load: &Load| load.resistance().is_none_or(|(loaded, _)| loaded == link);
         let on_link = case.mechanism.joints_on(link).iter().filter(|&&index| settled[index]);
         let hanging = on_link.map(|&index| Action::of(case, index, link)).collect();
         let body = &case.mechanism.links()[link];
-        Body { link, mass: body.mass, inertia: body.inertia, centre: body.mass_centre, hanging }
+        Body {
+            link,
+            mass: body.mass,
+            inertia: body.inertia,
+            centre: body.mass_centre,
+            is_loaded: case.loads.iter().any(is_loaded),
+            hanging,
+        }
     }
 
     /// Resultant of all known forces on the link and their moment about the world point `pole`.
@@ -92,7 +108,8 @@ impl Body {
         let centre = motion.arm(self.centre);
         let mut force = (case.gravity - motion.acceleration_beyond(centre)) * self.mass;
         let mut moment = -self.inertia * motion.alpha;
-        if let Some(load) = reactions.loads.get(self.link) {
+        if self.is_loaded {
+            let load = &reactions.loads[self.link];
             force += load.force;
             moment += load.moment;
         }
@@ -100,7 +117,11 @@ impl Body {
         for action in &self.hanging {
             let hung = reactions.forces[action.joint] * action.sign;
             force += hung;
-            moment += cross(action.place(motions) - pole, hung) + reactions.moments[action.joint] * action.sign;
+            let mut about = cross(action.place(motions) - pole, hung);
+            if action.slides {
+                about += reactions.moments[action.joint] * action.sign;
+            }
+            moment += about;
         }
         (force, moment)
     }

@@ -23,13 +23,29 @@ pub(super) struct Higher {
     /// The same for the forces in the closing joints.
     cut: Vec<(Vec2, f64)>,
     multipliers: Vec<f64>,
+    /// From the outermost node inwards: what a node passes on to its parent.
+    inwards: Vec<Inwards>,
+}
+
+/// A node and its parent. A link on a pin passes on a force only. A link on a guide turns with its parent and passes on
+/// its moment too.
+#[derive(Clone, Copy, Debug)]
+struct Inwards {
+    child: usize,
+    parent: usize,
+    is_guided: bool,
 }
 
 impl Higher {
     pub(super) fn of(case: &Case, step: usize, chain: &Chain, settled: &[bool]) -> Self {
         let nodes = chain.nodes();
+        let inwards = nodes.iter().enumerate().rev().filter_map(|(child, node)| {
+            let is_guided = node.is_guided();
+            node.parent_node.map(|parent| Inwards { child, parent, is_guided })
+        });
         Higher {
             step,
+            inwards: inwards.collect(),
             bodies: nodes.iter().map(|node| Body::of(case, node.link, settled)).collect(),
             hung: nodes.iter().map(|node| Action::of(case, node.joint, node.link)).collect(),
             carried: vec![(Vec2::zeros(), 0.0); nodes.len()],
@@ -40,16 +56,39 @@ impl Higher {
 
     pub(super) fn solve(&mut self, case: &Case, plan: &Plan, motions: &[Motion], reactions: &mut Reactions) {
         let Step::Chain(chain) = &plan.steps()[self.step] else { unreachable!("the step is a chain") };
+        match chain.is_sliding() {
+            true => self.solve_as::<true>(case, chain, motions, reactions),
+            false => self.solve_as::<false>(case, chain, motions, reactions),
+        }
+    }
+
+    /// The same for a group with guides, or for one without.
+    fn solve_as<const SLIDING: bool>(
+        &mut self,
+        case: &Case,
+        chain: &Chain,
+        motions: &[Motion],
+        reactions: &mut Reactions,
+    ) {
         let nodes = chain.nodes();
         for (index, (carried, body)) in self.carried.iter_mut().zip(&self.bodies).enumerate() {
             *carried = body.resultant(case, motions, reactions, chain.pole(index));
         }
-        gather(&mut self.carried, chain);
+        for link in &self.inwards {
+            let (force, moment) = self.carried[link.child];
+            let (total, about) = &mut self.carried[link.parent];
+            *total += force;
+            let arm = chain.pole(link.child) - chain.pole(link.parent);
+            *about += if SLIDING && link.is_guided { cross(arm, force) + moment } else { cross(arm, force) };
+        }
         for ((multiplier, node), (force, moment)) in self.multipliers.iter_mut().zip(nodes).zip(&self.carried) {
-            *multiplier = node.axis(motions).map_or(*moment, |axis| axis.dot(force) * chain.size());
+            let axis = if SLIDING { node.axis(motions) } else { None };
+            *multiplier = axis.map_or(*moment, |axis| axis.dot(force) * chain.size());
         }
         chain.multipliers(&mut self.multipliers);
-        self.cut.fill((Vec2::zeros(), 0.0));
+        for cut in &mut self.cut {
+            *cut = (Vec2::zeros(), 0.0);
+        }
         for (closing, force) in chain.closings().iter().zip(self.multipliers.chunks_exact(2)) {
             let force = Vec2::new(force[0], force[1]);
             reactions.forces[closing.joint] = force;
@@ -58,31 +97,27 @@ impl Higher {
                 let (total, moment) = &mut self.cut[node];
                 *total += force * sign;
                 // Only guides ask for moments.
-                if chain.is_sliding() {
+                if SLIDING {
                     *moment += cross(closing.place(motions) - chain.pole(node), force) * sign;
                 }
             }
         }
-        gather(&mut self.cut, chain);
+        for link in &self.inwards {
+            let (force, moment) = self.cut[link.child];
+            let (total, about) = &mut self.cut[link.parent];
+            *total += force;
+            if SLIDING {
+                let arm = chain.pole(link.child) - chain.pole(link.parent);
+                *about += cross(arm, force) + if link.is_guided { moment } else { 0.0 };
+            }
+        }
         for (index, (action, (carried, cut))) in self.hung.iter().zip(self.carried.iter().zip(&self.cut)).enumerate() {
             let force = carried.0 + cut.0;
-            if nodes[index].is_guided() {
+            if SLIDING && nodes[index].is_guided() {
                 action.put_guided(-force, carried.1 + cut.1, chain.pole(index), motions, reactions);
             } else {
                 action.put(-force, reactions);
             }
         }
-    }
-}
-
-/// Sums force and moment from the outermost link inwards.
-/// A link on a pin passes on a force only. A link on a guide turns with its parent and passes on its moment too.
-fn gather(carried: &mut [(Vec2, f64)], chain: &Chain) {
-    for (index, node) in chain.nodes().iter().enumerate().rev() {
-        let Some(parent) = node.parent_node else { continue };
-        let (force, moment) = carried[index];
-        let arm = chain.pole(index) - chain.pole(parent);
-        carried[parent].0 += force;
-        carried[parent].1 += cross(arm, force) + if node.is_guided() { moment } else { 0.0 };
     }
 }

@@ -13,6 +13,7 @@ use body::{Action, Body, Reactions};
 use higher::Higher;
 use linkage::case::Case;
 use linkage::drive::{Drive, Load, Wrench};
+use linkage::math::Vec2;
 use linkage::solver::State;
 use linkage::work::{Count, Tally};
 use rrr::Pinned;
@@ -34,7 +35,7 @@ pub(super) struct Kinetostatics {
     drivers: Vec<(Body, Action, usize)>,
     /// Loads on every link; empty if there are none.
     loads: Vec<Wrench>,
-    /// The loads with their links, if all are moments of resistance. They need no place of a link.
+    /// One load for every loaded link, if all are moments of resistance. They need no place of a link.
     resistances: Option<Vec<(usize, Load)>>,
     tally: Tally,
 }
@@ -61,8 +62,7 @@ impl Kinetostatics {
             settled[drive.joint] = true;
         }
         let loads = if case.loads.is_empty() { 0 } else { case.mechanism.links().len() };
-        let resistance = |load: &Load| load.resistance().map(|(link, _)| (link, load.clone()));
-        let resistances = case.loads.iter().map(resistance).collect();
+        let resistances = case.loads.iter().map(Load::resistance).collect::<Option<Vec<_>>>().map(merged);
         Kinetostatics { parts, drivers, loads: vec![Wrench::ZERO; loads], resistances, tally: Tally::default() }
     }
 
@@ -72,9 +72,10 @@ impl Kinetostatics {
     /// The pose must be the last one that `plan` has solved. Loads may use the state's angles.
     pub(super) fn solve(&mut self, case: &Case, plan: &Plan, state: &mut State) {
         if let Some(resistances) = &self.resistances {
-            self.loads.fill(Wrench::ZERO);
+            // What acts on other links stays zero.
             for (link, load) in resistances {
-                self.loads[*link].moment += load.moment_in(case.spin(&state.motions, *link), 0.0);
+                let moment = load.moment_in(case.spin(&state.motions, *link), 0.0);
+                self.loads[*link] = Wrench { force: Vec2::zeros(), moment };
             }
         } else {
             case.loads_on(&state.motions, &state.angles, &mut self.loads);
@@ -110,4 +111,16 @@ impl Kinetostatics {
             torques[*index] = -moment;
         }
     }
+}
+
+/// Moments of resistance on the same link in one.
+fn merged(resistances: Vec<(usize, f64)>) -> Vec<(usize, Load)> {
+    let mut all: Vec<(usize, f64)> = Vec::new();
+    for (link, moment) in resistances {
+        match all.iter_mut().find(|(known, _)| *known == link) {
+            Some((_, sum)) => *sum += moment,
+            None => all.push((link, moment)),
+        }
+    }
+    all.into_iter().map(|(link, moment)| (link, Load::Resistance { link, moment })).collect()
 }

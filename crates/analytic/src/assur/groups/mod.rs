@@ -1,6 +1,7 @@
 //! Kinematics group by group: the driving link, then every Assur group, one file per kind.
 //! Dyads are solved in closed form, higher groups by Newton's method on their contours.
 
+mod bounds;
 mod chain;
 mod guide;
 mod half;
@@ -12,6 +13,7 @@ mod rpr;
 mod rrp;
 mod rrr;
 
+pub(in crate::assur) use bounds::{Bound, Bounds, Limit};
 #[cfg(feature = "batch")]
 pub(in crate::assur) use chain::{Arrow, Hangs};
 pub use chain::{Chain, Closing, Node};
@@ -38,6 +40,8 @@ struct Driver {
     /// The joint in the link's own frame, and in that of its base.
     pivot: Vec2,
     place: Vec2,
+    /// Whether the joint is the origin of the link's own frame, so that no vector turns with it.
+    at_origin: bool,
 }
 
 /// An Assur group, prepared for solving.
@@ -125,6 +129,51 @@ impl Step {
         }
     }
 
+    /// The gauge at the last pose: see [`bounds`]. NaN for groups that have none.
+    #[inline]
+    pub(in crate::assur) fn gauge(&self) -> f64 {
+        // Most groups are of this kind.
+        if let Step::Rrr(dyad) = self {
+            return dyad.gauge();
+        }
+        match self {
+            Step::Rrr(dyad) => dyad.gauge(),
+            Step::Rrp(dyad) => dyad.gauge(),
+            Step::Rpr(dyad) => dyad.gauge(),
+            Step::Prp(dyad) => dyad.gauge(),
+            Step::Rpp(_) | Step::Chain(_) => f64::NAN,
+        }
+    }
+
+    /// The limit of the gauge over a step of the crank that begins or ends at the pose `motions`, while the gauge is at
+    /// most `farthest`. `None` for groups without a gauge, and where the links that carry the group are not known.
+    pub(in crate::assur) fn limit(
+        &self,
+        links: &Bounds,
+        motions: &[Motion],
+        farthest: f64,
+        step: f64,
+    ) -> Option<Limit> {
+        match self {
+            Step::Rrr(dyad) => dyad.limit(links, step),
+            Step::Rrp(dyad) => dyad.limit(links, motions, step),
+            Step::Rpr(dyad) => dyad.limit(links, farthest, step),
+            Step::Prp(dyad) => dyad.limit(links),
+            Step::Rpp(_) | Step::Chain(_) => None,
+        }
+    }
+
+    /// Writes the bounds of the group's own links while its gauge stays in a band, where there are any.
+    pub(in crate::assur) fn bound(&self, band: [f64; 2], step: f64, motions: &[Motion], links: &mut Bounds) {
+        match self {
+            Step::Rrr(dyad) => dyad.bound(band, links),
+            Step::Rrp(dyad) => dyad.bound(band, step, motions, links),
+            Step::Rpr(dyad) => dyad.bound(band, links),
+            // How far their sliders are is not limited.
+            Step::Prp(_) | Step::Rpp(_) | Step::Chain(_) => {}
+        }
+    }
+
     /// A dyad of two configurations in its other one, and its links. `None` for the other groups.
     fn other(&self) -> Option<(Step, [usize; 2])> {
         match self {
@@ -170,7 +219,7 @@ impl Plan {
             let joint = &mechanism.joints()[joint];
             let pivot = joint.on(link).expect("the driven joint is on its link");
             let base = joint.other(link);
-            Driver { link, base: base.link, pivot, place: base.local }
+            Driver { link, base: base.link, pivot, place: base.local, at_origin: pivot == Vec2::zeros() }
         });
         let steps = structure.groups.iter().zip(modes).map(|(group, &mode)| match group.kind {
             GroupKind::Rrr => Step::Rrr(Rrr::of(mechanism, group, mode)),
@@ -214,7 +263,8 @@ impl Plan {
     ///
     /// # Errors
     /// Those of [`Plan::positions`].
-    #[inline]
+    // A function of its own is faster: inlined into its caller, dyads cost a fifth more time with fewer instructions.
+    #[inline(never)]
     pub(crate) fn motions(
         &mut self,
         angles: &[f64],
@@ -226,23 +276,28 @@ impl Plan {
         self.tally.one(Count::Accelerations);
         for (((driver, &angle), &omega), &alpha) in self.drivers.iter().zip(angles).zip(omegas).zip(alphas) {
             let direction = unit(angle);
-            let arm = rotated(direction, driver.pivot);
+            if driver.base == GROUND && driver.at_origin {
+                motions[driver.link] = Motion { origin: driver.place, direction, omega, alpha, ..Motion::REST };
+                continue;
+            }
             let mut place = [driver.place, Vec2::zeros(), Vec2::zeros()];
             if driver.base != GROUND {
                 let (base, arm) = (&motions[driver.base], motions[driver.base].arm(driver.place));
                 place = [base.origin + arm, base.velocity_beyond(arm), base.acceleration_beyond(arm)];
             }
-            let motion = &mut motions[driver.link];
-            (motion.direction, motion.origin) = (direction, place[0] - arm);
-            (motion.omega, motion.velocity) = (omega, place[1] - turned(arm) * omega);
-            (motion.alpha, motion.acceleration) = (alpha, place[2] + arm * (omega * omega) - turned(arm) * alpha);
+            if !driver.at_origin {
+                let arm = rotated(direction, driver.pivot);
+                place[0] -= arm;
+                place[1] -= turned(arm) * omega;
+                place[2] = place[2] + arm * (omega * omega) - turned(arm) * alpha;
+            }
+            let [origin, velocity, acceleration] = place;
+            motions[driver.link] = Motion { origin, direction, velocity, omega, acceleration, alpha };
         }
         for (group, step) in self.steps.iter_mut().enumerate() {
-            // Most groups are of this kind. What it keeps from stage to stage then stays in registers.
+            // Most groups are of this kind.
             if let Step::Rrr(dyad) = step {
-                dyad.positions(motions).map_err(|why| OutOfReach { group, why })?;
-                dyad.velocities(motions);
-                dyad.accelerations(motions);
+                dyad.motions(motions).map_err(|why| OutOfReach { group, why })?;
             } else {
                 step.positions(angles, motions).map_err(|why| OutOfReach { group, why })?;
                 step.velocities(motions);
@@ -293,6 +348,36 @@ impl Plan {
             }
         }
         Ok(())
+    }
+
+    /// Positions of the driving links and of these groups, which need no other ones.
+    ///
+    /// # Errors
+    /// Those of [`Plan::positions`].
+    pub(in crate::assur) fn some_positions(
+        &mut self,
+        groups: impl Iterator<Item = usize>,
+        angles: &[f64],
+        motions: &mut [Motion],
+    ) -> std::result::Result<(), OutOfReach> {
+        self.tally.one(Count::Poses);
+        self.turn_drivers(angles, motions);
+        for group in groups {
+            self.tally.one(Count::Groups);
+            self.steps[group].positions(angles, motions).map_err(|why| OutOfReach { group, why })?;
+        }
+        Ok(())
+    }
+
+    /// Writes the bounds of the driving links, which turn at these constant multiples of the crank's speed, and of the
+    /// ground.
+    pub(in crate::assur) fn bound_drivers(&self, ratios: &[f64], links: &mut Bounds) {
+        links.fill(None);
+        links[GROUND] = Some(Bound::REST);
+        for (driver, ratio) in self.drivers.iter().zip(ratios) {
+            links[driver.link] =
+                links[driver.base].map(|base| Bound::driven(driver.pivot, base.at(driver.place), ratio.abs()));
+        }
     }
 
     #[inline]

@@ -1,5 +1,6 @@
 //! Outer revolute pair of a dyad: a link that turns about a point of a known link.
 
+use super::bounds::Bounds;
 use linkage::math::{Motion, Vec2, turned};
 use linkage::mechanism::{Joint, Side};
 
@@ -16,6 +17,11 @@ pub(super) struct Pin {
 impl Pin {
     pub(super) fn of(joint: &Joint, link: usize) -> Self {
         Pin { link, base: joint.other(link), own: joint.on(link).expect("the joint is on the link") }
+    }
+
+    /// Bounds of its speed and acceleration; `None` if those of the known link are not known.
+    pub(super) fn rates(&self, links: &Bounds) -> Option<[f64; 2]> {
+        links[self.base.link].map(|link| link.at(self.base.local))
     }
 
     /// World place of the pin.

@@ -7,6 +7,7 @@
 //! The accelerations have the same form, with their Coriolis parts.
 //! Artobolevsky, "Theory of mechanisms and machines", kinematics of class II groups of the fourth kind.
 
+use super::bounds::{Bounds, Limit};
 use super::guide::Guide;
 use super::misfit::{Misfit, kept_side};
 use linkage::math::{Motion, Vec2, cross, turned};
@@ -20,6 +21,8 @@ pub struct Prp {
     inner: [Vec2; 2],
     /// Sign of the sine of the angle between the axes on the followed branch; 0 before the first pose.
     side: f64,
+    /// That sine at the last pose, with the sign of the branch.
+    gauge: f64,
 }
 
 impl Prp {
@@ -33,7 +36,23 @@ impl Prp {
             guides: [0, 1].map(|k| Guide::of(&joints[group.outer[k]], sliders[k])),
             inner: sliders.map(|link| inner.on(link).expect("the inner joint is on both links")),
             side: 0.0,
+            gauge: f64::NAN,
         }
+    }
+
+    /// Its gauge at the last pose: the sine of the angle between its axes, with the sign of its branch.
+    #[inline]
+    pub(super) fn gauge(&self) -> f64 {
+        self.gauge
+    }
+
+    /// Its limit over a step of the crank. The angle between the axes turns with the guides.
+    pub(super) fn limit(&self, links: &Bounds) -> Option<Limit> {
+        let [first, second] = self.guides.map(|guide| links[guide.base.link]);
+        let (first, second) = (first?, second?);
+        let turn = first.turn + second.turn;
+        let second = first.spin + second.spin + turn * turn;
+        Some(Limit { range: [0.0, f64::INFINITY], second, way: f64::INFINITY })
     }
 
     #[inline]
@@ -48,6 +67,7 @@ impl Prp {
         let [from, other] = [0, 1].map(|k| self.guides[k].at_zero(self.inner[k], motions));
         let sine = cross(b, e);
         self.side = kept_side(self.side, sine)?;
+        self.gauge = sine * self.side;
         let slide = cross(b, other - from) / sine;
         for (guide, inner) in self.guides.iter().zip(self.inner) {
             guide.put(inner, from + e * slide, motions);

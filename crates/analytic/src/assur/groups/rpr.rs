@@ -7,6 +7,7 @@
 //! A second derivative gives alpha = (n . d'' - 2 s' omega + omega^2 h) / s.
 //! Artobolevsky, "Theory of mechanisms and machines", kinematics of class II groups of the third kind.
 
+use super::bounds::{Bound, Bounds, Limit, of_square};
 use super::guide::turn_between;
 use super::misfit::{Clearance, Misfit, SINGULAR};
 use super::pin::Pin;
@@ -24,6 +25,8 @@ pub struct Rpr {
     sense: f64,
     /// Size of the mechanism, with which the distance of the pins along the axis is compared (m).
     size: f64,
+    /// d^2 at the last pose (m^2).
+    gauge: f64,
 }
 
 impl Rpr {
@@ -40,14 +43,15 @@ impl Rpr {
         let axes = sides.map(|side| inner.axis_on(side.link).expect("the inner joint is prismatic"));
         let off = |k: usize| cross(axes[k], sides[k].local - pins[k].own);
         let sense = if mode == AssemblyMode::Behind { -1.0 } else { 1.0 };
-        Rpr { pins, axes, across: off(0) - off(1), sense, size: mechanism.size() }
+        Rpr { pins, axes, across: off(0) - off(1), sense, size: mechanism.size(), gauge: f64::NAN }
     }
 
     #[inline]
-    pub(super) fn positions(&self, motions: &mut [Motion]) -> Result<(), Misfit> {
+    pub(super) fn positions(&mut self, motions: &mut [Motion]) -> Result<(), Misfit> {
         let [p1, p2] = self.pins.map(|pin| pin.place(motions));
         let d = p2 - p1;
         let squared = d.norm_squared();
+        self.gauge = squared;
         let along_squared = squared - self.across * self.across;
         // Coincident pins have no direction: the second condition refuses them.
         if !(along_squared >= 0.0 && squared > 0.0) {
@@ -74,6 +78,34 @@ impl Rpr {
     /// The dyad in its other configuration.
     pub(super) fn flipped(self) -> Self {
         Self { sense: -self.sense, ..self }
+    }
+
+    /// Its gauge at the last pose: the square of the distance of the pins (m^2).
+    #[inline]
+    pub(super) fn gauge(&self) -> f64 {
+        self.gauge
+    }
+
+    /// Its limit over a step of the crank, over which its pins are not farther apart than at its ends and on the way
+    /// from there.
+    pub(super) fn limit(&self, links: &Bounds, farthest: f64, step: f64) -> Option<Limit> {
+        let [[v1, a1], [v2, a2]] = [self.pins[0].rates(links)?, self.pins[1].rates(links)?];
+        let second = of_square([v1 + v2, a1 + a2], farthest.sqrt() + (v1 + v2) * step);
+        Some(Limit { range: [self.across * self.across, f64::INFINITY], second, way: f64::INFINITY })
+    }
+
+    /// Bounds of its links while its gauge stays above the first end of a band.
+    /// From the formulas of omega and alpha.
+    pub(super) fn bound(&self, band: [f64; 2], links: &mut Bounds) {
+        let [Some(first), Some(second)] = self.pins.map(|pin| pin.rates(links)) else { return };
+        let (speed, rate) = (first[0] + second[0], first[1] + second[1]);
+        let along = (band[0] - self.across * self.across).sqrt();
+        let turn = speed / along;
+        let slide = speed + turn * self.across.abs();
+        let spin = (rate + 2.0 * slide * turn + turn * turn * self.across.abs()) / along;
+        for (pin, [speed, second]) in self.pins.iter().zip([first, second]) {
+            links[pin.link] = Some(Bound { about: pin.own, speed, second, turn, spin });
+        }
     }
 
     /// Its two links.

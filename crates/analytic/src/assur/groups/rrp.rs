@@ -7,12 +7,16 @@
 //! With the Coriolis part 2 omega_E s' n: alpha = (n . (a_E - a_P + omega^2 r) + 2 omega_E s') / (e . r).
 //! Artobolevsky, "Theory of mechanisms and machines", kinematics of class II groups of the second kind.
 
+use super::bounds::{Bound, Bounds, Limit, least_product};
 use super::guide::{Guide, turn_between};
 use super::half::of_dyad;
 use super::misfit::{Clearance, Misfit, SINGULAR};
 use super::pin::Pin;
 use linkage::math::{Motion, Vec2, turned};
 use linkage::mechanism::{AssemblyMode, Group, Mechanism};
+
+/// Steps of the crank for which a bound of a moving guide is made.
+const FAR: f64 = 16.0;
 
 /// RRP dyad, prepared for solving.
 #[derive(Clone, Copy, Debug)]
@@ -24,6 +28,8 @@ pub struct Rrp {
     /// The inner joint in the slider's frame.
     inner: Vec2,
     sense: f64,
+    /// h at the last pose (m).
+    gauge: f64,
 }
 
 impl Rrp {
@@ -40,15 +46,17 @@ impl Rrp {
             guide: Guide::of(slider.outer, slider.link),
             inner: on(slider.link),
             sense: if mode == AssemblyMode::Behind { -1.0 } else { 1.0 },
+            gauge: f64::NAN,
         }
     }
 
     #[inline]
-    pub(super) fn positions(&self, motions: &mut [Motion]) -> Result<(), Misfit> {
+    pub(super) fn positions(&mut self, motions: &mut [Motion]) -> Result<(), Misfit> {
         self.guide.aim(motions);
         let axis = self.guide.axis(motions);
         let pin = self.rod.place(motions);
         let across = turned(axis).dot(&(self.guide.at_zero(self.inner, motions) - pin));
+        self.gauge = across;
         let squared = self.span.norm_squared();
         let along_squared = squared - across * across;
         if !(along_squared >= 0.0) {
@@ -66,6 +74,51 @@ impl Rrp {
     /// The dyad in its other configuration.
     pub(super) fn flipped(self) -> Self {
         Self { sense: -self.sense, ..self }
+    }
+
+    /// Its gauge at the last pose: the distance of the outer pin from the line of the inner joint (m).
+    #[inline]
+    pub(super) fn gauge(&self) -> f64 {
+        self.gauge
+    }
+
+    /// Speeds and accelerations of the outer pin, and of the inner joint's place on the guide's link at slide zero, Q;
+    /// the guide's link; and the largest distance of the two places while the crank turns by `way` from here.
+    fn outer_rates(&self, links: &Bounds, motions: &[Motion], way: f64) -> Option<([f64; 2], [f64; 2], Bound, f64)> {
+        let (pin, link) = (self.rod.rates(links)?, links[self.guide.base.link]?);
+        let (base, at_zero) = (&motions[self.guide.base.link], self.guide.at_zero(self.inner, motions));
+        let arm = (at_zero - base.point(link.about)).norm();
+        let zero = link.beyond(arm);
+        Some((pin, zero, link, (at_zero - self.rod.place(motions)).norm() + (pin[0] + zero[0]) * way))
+    }
+
+    /// Its limit over a step of the crank.
+    /// h = n . (Q - P), so that |h''| <= |a| + 2 omega |v| + (alpha + omega^2) |Q - P|, of Q against P.
+    pub(super) fn limit(&self, links: &Bounds, motions: &[Motion], step: f64) -> Option<Limit> {
+        let way = FAR * step;
+        let (pin, zero, link, distance) = self.outer_rates(links, motions, way)?;
+        let length = self.span.norm();
+        let second = pin[1] + zero[1] + 2.0 * link.turn * (pin[0] + zero[0]) + link.centripetal() * distance;
+        let rests = link.turn == 0.0 && link.spin == 0.0;
+        Some(Limit { range: [-length, length], second, way: if rests { f64::INFINITY } else { way } })
+    }
+
+    /// Bounds of its links while its gauge stays in a band, and the crank on its way.
+    /// From the formulas of omega and alpha, with |e . r| >= l s.
+    pub(super) fn bound(&self, band: [f64; 2], step: f64, motions: &[Motion], links: &mut Bounds) {
+        let Some((pin, zero, guide, distance)) = self.outer_rates(links, motions, FAR * step) else { return };
+        let length = self.span.norm();
+        let along = least_product([-length, length], band).sqrt();
+        // The guide's link at the inner joint, which is not farther from the pin than the rod is long.
+        let speed = zero[0] + guide.turn * (distance + length);
+        let second = zero[1] + guide.centripetal() * (distance + length);
+        let turn = (speed + pin[0]) / along;
+        let slide = speed + pin[0] + turn * length;
+        let spin = (second + pin[1] + turn * turn * length + 2.0 * guide.turn * slide) / along;
+        let rod = Bound { about: self.rod.own, speed: pin[0], second: pin[1], turn, spin };
+        let [speed, second] = rod.beyond(length);
+        links[self.rod.link] = Some(rod);
+        links[self.guide.link] = Some(Bound { about: self.inner, speed, second, ..guide });
     }
 
     /// Its two links.

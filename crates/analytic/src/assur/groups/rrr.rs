@@ -1,15 +1,16 @@
 //! Dyad with three revolute pairs (class II, order 2): closed form of position, velocity and acceleration.
 //!
 //! With the outer joints P1, P2, the inner joint P3, r1 = P3 - P1, r2 = P3 - P2 and D = r1 x r2:
-//! r1 = d f + (z x d) h with d = P2 - P1, f = (l1^2 - l2^2 + d^2) / 2 d^2, h = +-sqrt(l1^2 / d^2 - f^2);
+//! r1 = d f + (z x d) h with d = P2 - P1, f = (l1^2 - l2^2 + d^2) / 2 d^2, 4 D^2 = 4 d^4 h^2 = ((l1 + l2)^2 - d^2) (d^2 - (l1 - l2)^2);
 //! omega1 = (v2 - v1) . r2 / D, omega2 = (v2 - v1) . r1 / D from v1 + omega1 x r1 = v2 + omega2 x r2.
 //! The same equations hold for the accelerations minus their centripetal parts.
 //! They follow from the vector contour of the group, for example Artobolevsky, "Theory of mechanisms and machines",
 //! chapter on the kinematics of class II groups.
 
+use super::bounds::{Bound, Bounds, Limit, least_product, of_square};
 use super::misfit::{Clearance, Misfit, SINGULAR};
 use linkage::math::{Motion, Vec2, cross, turned};
-use linkage::mechanism::{AssemblyMode, Group, Mechanism, Side};
+use linkage::mechanism::{AssemblyMode, GROUND, Group, Mechanism, Side};
 
 /// One of the two links of a dyad.
 #[derive(Clone, Copy, Debug)]
@@ -19,6 +20,8 @@ struct Arm {
     base: Side,
     /// The outer joint in the link's own frame.
     outer: Vec2,
+    /// Whether that is the frame's origin, so that no vector turns with it.
+    at_origin: bool,
     /// Vector from outer to inner joint in the link's own frame, divided by the square of its length (1/m).
     inverse_span: Vec2,
 }
@@ -28,9 +31,14 @@ struct Arm {
 pub struct Rrr {
     arms: [Arm; 2],
     squared: [f64; 2],
+    /// (l1 - l2)^2 and (l1 + l2)^2, between which d^2 is (m^2).
+    range: [f64; 2],
     /// 1 / (l1 l2) (1/m^2).
     inverse_lengths: f64,
-    side: f64,
+    /// 4 D^2 at and below which the pose is singular: the square of 2 [`SINGULAR`] l1 l2 (m^4).
+    least: f64,
+    /// A half with the sign of D on the branch.
+    half: f64,
     /// World vectors from the origins of the known links to the outer joints (m).
     bases: [Vec2; 2],
     /// World vectors from the origins of the dyad's own links to the outer joints (m).
@@ -38,6 +46,8 @@ pub struct Rrr {
     /// World vectors from the outer joints to the inner one, r1 and r2 (m), and the place of the inner one (m).
     spans: [Vec2; 2],
     inner: Vec2,
+    /// d^2 (m^2).
+    gauge: f64,
     /// D = d^2 h (m^2), and 1 / D.
     product: f64,
     inverse: f64,
@@ -50,21 +60,26 @@ impl Rrr {
         let on = |joint: usize, link: usize| mechanism.joints()[joint].on(link).expect("the joint is on the link");
         let spans = [0, 1].map(|k| on(group.inner[0], group.links[k]) - on(group.outer[k], group.links[k]));
         let squared = spans.map(|span| span.norm_squared());
+        let lengths = squared.map(f64::sqrt);
         let arms = [0, 1].map(|k| Arm {
             link: group.links[k],
             base: mechanism.joints()[group.outer[k]].other(group.links[k]),
             outer: on(group.outer[k], group.links[k]),
+            at_origin: on(group.outer[k], group.links[k]) == Vec2::zeros(),
             inverse_span: spans[k] / squared[k],
         });
         Rrr {
             arms,
             squared,
+            range: [(lengths[0] - lengths[1]).powi(2), (lengths[0] + lengths[1]).powi(2)],
             inverse_lengths: 1.0 / (squared[0] * squared[1]).sqrt(),
-            side: if mode == AssemblyMode::Right { -1.0 } else { 1.0 },
+            least: 4.0 * SINGULAR * SINGULAR * squared[0] * squared[1],
+            half: if mode == AssemblyMode::Right { -0.5 } else { 0.5 },
             bases: [Vec2::zeros(); 2],
             outers: [Vec2::zeros(); 2],
             spans: [Vec2::zeros(); 2],
             inner: Vec2::zeros(),
+            gauge: f64::NAN,
             product: f64::NAN,
             inverse: f64::NAN,
         }
@@ -84,29 +99,55 @@ impl Rrr {
         self.inner
     }
 
-    #[inline]
-    pub(super) fn positions(&mut self, motions: &mut [Motion]) -> Result<(), Misfit> {
-        self.bases = self.arms.map(|arm| motions[arm.base.link].arm(arm.base.local));
-        let [p1, p2] = [0, 1].map(|k| motions[self.arms[k].base.link].origin + self.bases[k]);
+    /// The outer joint on the known link of an arm: the vector to it from the link's origin, its place, velocity and
+    /// acceleration. Of joints on the ground nothing is computed.
+    #[inline(always)]
+    fn base(arm: &Arm, motions: &[Motion]) -> [Vec2; 4] {
+        let local = arm.base.local;
+        if arm.base.link == GROUND {
+            return [local, local, Vec2::zeros(), Vec2::zeros()];
+        }
+        let motion = &motions[arm.base.link];
+        let vector = motion.arm(local);
+        [vector, motion.origin + vector, motion.velocity_beyond(vector), motion.acceleration_beyond(vector)]
+    }
+
+    /// The vectors r1 and r2 between outer joints at these places, the product D and d^2.
+    #[inline(always)]
+    fn close(&self, [p1, p2]: [Vec2; 2]) -> Result<([Vec2; 2], [f64; 2]), Misfit> {
         let d = p2 - p1;
         let d_squared = d.norm_squared();
-        let along = 0.5 * (self.squared[0] - self.squared[1] + d_squared) / d_squared;
-        let across_squared = self.squared[0] / d_squared - along * along;
-        // Written this way round so that NaN (outer joints on one point) is refused too.
-        if !(across_squared >= 0.0) {
-            let [l1, l2] = self.squared.map(f64::sqrt);
-            return Err(Misfit::Span { distance: d_squared.sqrt(), reach: [(l1 - l2).abs(), l1 + l2] });
+        // f d^2, and 4 D^2 by Heron's formula, which loses no digits near a singular pose. The quotient by d^2 is not
+        // waited for by the root.
+        let along = 0.5 * (self.squared[0] - self.squared[1] + d_squared);
+        let square = (self.range[1] - d_squared) * (d_squared - self.range[0]);
+        // Written this way round so that NaN is refused too.
+        if !(square >= 0.0) {
+            return Err(self.too_far(d_squared));
         }
-        // The sine of the transmission angle: cross(r1, r2) / (l1 l2).
-        if across_squared * d_squared * d_squared <= SINGULAR * SINGULAR * self.squared[0] * self.squared[1] {
+        // The sine of the transmission angle: D / (l1 l2).
+        if square <= self.least {
             return Err(Misfit::Singular);
         }
-        let across = self.side * across_squared.sqrt();
-        let r1 = d * along + turned(d) * across;
-        self.product = d_squared * across;
-        self.spans = [r1, r1 - d];
-        self.inner = p1 + r1;
-        for (k, (pivot, r)) in [p1, p2].into_iter().zip(self.spans).enumerate() {
+        let product = self.half * square.sqrt();
+        let r1 = (d * along + turned(d) * product) * (1.0 / d_squared);
+        Ok(([r1, r1 - d], [product, d_squared]))
+    }
+
+    #[cold]
+    fn too_far(&self, d_squared: f64) -> Misfit {
+        let [l1, l2] = self.squared.map(f64::sqrt);
+        Misfit::Span { distance: d_squared.sqrt(), reach: [(l1 - l2).abs(), l1 + l2] }
+    }
+
+    #[inline]
+    pub(super) fn positions(&mut self, motions: &mut [Motion]) -> Result<(), Misfit> {
+        let [base1, base2] = [0, 1].map(|k| Self::base(&self.arms[k], motions));
+        self.bases = [base1[0], base2[0]];
+        let pivots = [base1[1], base2[1]];
+        (self.spans, [self.product, self.gauge]) = self.close(pivots)?;
+        self.inner = pivots[0] + self.spans[0];
+        for (k, (pivot, r)) in pivots.into_iter().zip(self.spans).enumerate() {
             let Arm { link, outer, inverse_span, .. } = self.arms[k];
             let motion = &mut motions[link];
             // Quotient of the world and the body vector as complex numbers: the direction of the frame.
@@ -117,9 +158,80 @@ impl Rrr {
         Ok(())
     }
 
+    /// Positions, velocities and accelerations in one go: what they share stays in registers, and every motion is
+    /// written once. The arithmetic is that of the three, and so are the bits.
+    #[inline(always)]
+    pub(super) fn motions(&mut self, motions: &mut [Motion]) -> Result<(), Misfit> {
+        let [[bases0, p1, v1, a1], [bases1, p2, v2, a2]] = [0, 1].map(|k| Self::base(&self.arms[k], motions));
+        let ([r1, r2], [product, gauge]) = self.close([p1, p2])?;
+        let inverse = 1.0 / product;
+        let quotient = (v2 - v1) * inverse;
+        let [w1, w2] = [quotient.dot(&r2), quotient.dot(&r1)];
+        let [square1, square2] = [w1 * w1, w2 * w2];
+        let quotient = ((a2 - r2 * square2) - (a1 - r1 * square1)) * inverse;
+        let [e1, e2] = [quotient.dot(&r2), quotient.dot(&r1)];
+        let mut place = |k: usize, r: Vec2, p: Vec2, [v, a]: [Vec2; 2], [omega, square, alpha]: [f64; 3]| {
+            let arm = &self.arms[k];
+            let motion = &mut motions[arm.link];
+            (motion.omega, motion.alpha) = (omega, alpha);
+            motion.direction = Vec2::new(arm.inverse_span.dot(&r), cross(arm.inverse_span, r));
+            if arm.at_origin {
+                // The vector from the origin to the joint is zero, and stays so.
+                (motion.origin, motion.velocity, motion.acceleration) = (p, v, a);
+                return;
+            }
+            let outer = motion.arm(arm.outer);
+            motion.origin = p - outer;
+            motion.velocity = v - turned(outer) * omega;
+            motion.acceleration = a - turned(outer) * alpha + outer * square;
+            self.outers[k] = outer;
+        };
+        place(0, r1, p1, [v1, a1], [w1, square1, e1]);
+        place(1, r2, p2, [v2, a2], [w2, square2, e2]);
+        (self.bases, self.spans) = ([bases0, bases1], [r1, r2]);
+        (self.inner, self.gauge, self.product, self.inverse) = (p1 + r1, gauge, product, inverse);
+        Ok(())
+    }
+
     /// The dyad in its other configuration.
     pub(super) fn flipped(self) -> Self {
-        Self { side: -self.side, ..self }
+        Self { half: -self.half, ..self }
+    }
+
+    /// Its gauge at the last pose: the square of the distance of the outer joints (m^2).
+    #[inline]
+    pub(super) fn gauge(&self) -> f64 {
+        self.gauge
+    }
+
+    /// Speeds and accelerations of the outer joints; `None` if those of a link that carries it are not known.
+    fn outer_rates(&self, links: &Bounds) -> Option<[[f64; 2]; 2]> {
+        let [first, second] = self.arms.map(|arm| links[arm.base.link].map(|link| link.at(arm.base.local)));
+        Some([first?, second?])
+    }
+
+    /// Its limit over a step of the crank.
+    pub(super) fn limit(&self, links: &Bounds, step: f64) -> Option<Limit> {
+        let [[v1, a1], [v2, a2]] = self.outer_rates(links)?;
+        let range = self.range;
+        // Assembled at both ends, so never farther than this.
+        let most = range[1].sqrt() + (v1 + v2) * step;
+        Some(Limit { range, second: of_square([v1 + v2, a1 + a2], most), way: f64::INFINITY })
+    }
+
+    /// Bounds of its links while its gauge stays in a band.
+    /// From omega1 = (v2 - v1) . r2 / D and |D| = l1 l2 s, where 4 l1^2 l2^2 s^2 = (g - low) (high - g).
+    pub(super) fn bound(&self, band: [f64; 2], links: &mut Bounds) {
+        let rates = self.outer_rates(links);
+        let sine = 0.5 * least_product(self.range, band).sqrt() * self.inverse_lengths;
+        let lengths = self.squared.map(f64::sqrt);
+        let Some([[v1, a1], [v2, a2]]) = rates else { return };
+        let turns = lengths.map(|length| (v1 + v2) / (length * sine));
+        let centripetal = lengths[0] * turns[0] * turns[0] + lengths[1] * turns[1] * turns[1];
+        for (k, [speed, second]) in [[v1, a1], [v2, a2]].into_iter().enumerate() {
+            let (turn, spin) = (turns[k], (a1 + a2 + centripetal) / (lengths[k] * sine));
+            links[self.arms[k].link] = Some(Bound { about: self.arms[k].outer, speed, second, turn, spin });
+        }
     }
 
     /// Its two links.

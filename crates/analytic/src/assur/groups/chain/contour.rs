@@ -20,8 +20,9 @@ pub struct Node {
     pub link: usize,
     /// The joint to its parent.
     pub joint: usize,
-    /// That joint in the link's own frame.
+    /// That joint in the link's own frame, and whether it is the origin there.
     pub own: Vec2,
+    pub(super) at_origin: bool,
     /// That joint on the parent.
     pub parent: Side,
     /// Position of the parent among the nodes; `None` for a link outside the group.
@@ -62,7 +63,8 @@ impl Node {
             Some(node) => Hangs::Arrow(before.arrow(node, Some(parent.local))),
             None => Hangs::Root(before.root(parent)),
         };
-        Node { link, joint, own, parent, parent_node, spin, hangs, guided }
+        let at_origin = own == Vec2::zeros();
+        Node { link, joint, own, at_origin, parent, parent_node, spin, hangs, guided }
     }
 
     /// Whether the joint to the parent is prismatic.

@@ -21,7 +21,7 @@ pub(in crate::assur) use contour::Arrow;
 pub use contour::{Closing, Node};
 pub(in crate::assur) use contour::{Contours, Hangs};
 
-use self::predict::Memory;
+use self::predict::{Memory, copy};
 use linkage::math::dense::Lu;
 use linkage::math::{KeepNan, Motion, Vec2, rotated, turned};
 use linkage::mechanism::{GROUND, Group, Mechanism, Side};
@@ -78,6 +78,8 @@ struct At {
 #[derive(Clone, Debug)]
 struct World {
     arrows: Vec<Vec2>,
+    /// The same times the square of the angular velocity with which they turn (m/s^2).
+    centripetal: Vec<Vec2>,
     roots: Vec<At>,
     /// The joints of the nodes to their parents.
     joints: Vec<At>,
@@ -126,6 +128,7 @@ impl Chain {
         let root = |side: &Side| At { arm: side.local, place: side.local, ..at };
         let world = World {
             arrows: vec![none; contours.arrows.len()],
+            centripetal: vec![none; contours.arrows.len()],
             roots: contours.roots.iter().map(root).collect(),
             joints: vec![at; n],
         };
@@ -201,11 +204,23 @@ impl Chain {
     /// Positions at these driving angles (rad), from those of the last pose.
     /// Returns `false`, with the links' directions unchanged, if the branch cannot be followed there.
     pub(super) fn positions(&mut self, angles: &[f64], motions: &mut [Motion]) -> bool {
+        match self.is_sliding {
+            true => self.positions_as::<true>(angles, motions),
+            false => self.positions_as::<false>(angles, motions),
+        }
+    }
+
+    /// The same for a group with guides, or for one without.
+    fn positions_as<const SLIDING: bool>(&mut self, angles: &[f64], motions: &mut [Motion]) -> bool {
         if self.slides[0].is_nan() {
             self.read_slides(motions);
         }
-        for ((step, angle), at) in self.step.iter_mut().zip(angles).zip(&self.at) {
+        if let ([step], [angle], [at]) = (&mut self.step[..], angles, &self.at[..]) {
             *step = angle - at;
+        } else {
+            for ((step, angle), at) in self.step.iter_mut().zip(angles).zip(&self.at) {
+                *step = angle - at;
+            }
         }
         if self.is_bold() {
             self.memory.forget();
@@ -214,23 +229,25 @@ impl Chain {
         for (kept, node) in self.kept.iter_mut().zip(&self.contours.nodes) {
             *kept = motions[node.link].direction;
         }
-        if self.is_sliding {
+        if SLIDING {
             self.kept_slides.copy_from_slice(&self.slides);
         }
         self.find_roots(motions);
         // A prediction is a first change of the unknowns.
         let allowed = if self.memory.predict(&self.step) {
             for (index, node) in self.contours.nodes.iter().enumerate() {
-                advance(node, &mut self.slides[index], self.memory.change(index), self.size, motions);
+                let change = self.memory.change(index);
+                advance::<SLIDING>(node, &mut self.slides[index], change, self.size, motions);
             }
             MAX_CORRECTION
         } else {
             MAX_TURN
         };
-        let followed = self.follow(allowed, motions) && self.memory.is_within(MAX_TURN) && !self.is_singular();
+        let followed =
+            self.follow::<SLIDING>(allowed, motions) && self.memory.is_within(MAX_TURN) && !self.is_singular();
         if followed {
             self.memory.remember(&self.step);
-            self.at.iter_mut().zip(angles).for_each(|(at, angle)| *at = *angle);
+            copy(angles, &mut self.at);
             self.largest = self.largest.larger(self.determinant.abs());
             self.learn();
         } else {
@@ -238,7 +255,7 @@ impl Chain {
             for (kept, node) in self.kept.iter().zip(&self.contours.nodes) {
                 motions[node.link].direction = *kept;
             }
-            if self.is_sliding {
+            if SLIDING {
                 self.slides.copy_from_slice(&self.kept_slides);
             }
         }
@@ -255,7 +272,8 @@ impl Chain {
         self.read_slides(like);
         self.branch = 0.0;
         self.find_roots(motions);
-        if !self.follow(MAX_CORRECTION, motions) {
+        // Seldom asked for: guides are looked for in any case.
+        if !self.follow::<true>(MAX_CORRECTION, motions) {
             return false;
         }
         self.at.copy_from_slice(angles);
@@ -296,9 +314,9 @@ impl Chain {
     }
 
     /// Vectors of the tree for the links' directions. Every guided link is turned with its parent.
-    fn draw(&mut self, motions: &mut [Motion]) {
+    fn draw<const SLIDING: bool>(&mut self, motions: &mut [Motion]) {
         let Contours { nodes, arrows, .. } = &self.contours;
-        if self.is_sliding {
+        if SLIDING {
             for (node, guided) in nodes.iter().filter_map(|node| node.guided.map(|guided| (node, guided))) {
                 motions[node.link].direction = rotated(motions[node.parent.link].direction, guided.turn);
             }
@@ -312,12 +330,13 @@ impl Chain {
     }
 
     /// Writes the gaps to `unknown` and their derivatives to the Jacobian.
-    fn assemble(&mut self, motions: &mut [Motion]) {
-        self.draw(motions);
+    fn assemble<const SLIDING: bool>(&mut self, motions: &mut [Motion]) {
+        self.draw::<SLIDING>(motions);
         self.jacobian.clear();
         let Contours { nodes, closings, .. } = &self.contours;
         for (index, closing) in closings.iter().enumerate() {
             let row = 2 * index;
+            let (above, below) = self.jacobian.pair_mut(row);
             let mut gap = Vec2::zeros();
             for (root, sign) in closing.ends {
                 gap += self.world.roots[root].place * sign;
@@ -326,13 +345,13 @@ impl Chain {
                 let vector = self.world.arrows[stretch.arrow] * stretch.sign;
                 gap += vector;
                 if let Some(column) = stretch.spin {
-                    self.jacobian.add(row, column, -vector.y);
-                    self.jacobian.add(row + 1, column, vector.x);
+                    above[column] -= vector.y;
+                    below[column] += vector.x;
                 }
-                if let Some(node) = stretch.slide {
+                if SLIDING && let Some(node) = stretch.slide {
                     let axis = nodes[node].slide_axis(motions) * (stretch.sign * self.size);
-                    self.jacobian.add(row, node, axis.x);
-                    self.jacobian.add(row + 1, node, axis.y);
+                    above[node] += axis.x;
+                    below[node] += axis.y;
                 }
             }
             self.unknown[row] = gap.x;
@@ -341,9 +360,9 @@ impl Chain {
     }
 
     /// Newton's method to rounding. Leaves the factored Jacobian of the pose in which it ends.
-    fn follow(&mut self, allowed: f64, motions: &mut [Motion]) -> bool {
+    fn follow<const SLIDING: bool>(&mut self, allowed: f64, motions: &mut [Motion]) -> bool {
         for _ in 0..MAX_ITERATIONS {
-            self.assemble(motions);
+            self.assemble::<SLIDING>(motions);
             self.tally.one(Count::Iterations);
             self.tally.one(Count::Factorisations);
             if !self.jacobian.factor() {
@@ -359,50 +378,56 @@ impl Chain {
             // Quadratic convergence: the remaining error is of the order of the square.
             let is_last = within(&self.unknown, LAST_CHANGE);
             for (index, (node, &change)) in self.contours.nodes.iter().zip(&self.unknown).enumerate() {
-                if is_last && !node.is_guided() {
+                if is_last && !(SLIDING && node.is_guided()) {
                     // The square of this turn is less than rounding.
                     let direction = &mut motions[node.link].direction;
                     *direction -= turned(*direction) * change;
                 } else {
-                    advance(node, &mut self.slides[index], -change, self.size, motions);
+                    advance::<SLIDING>(node, &mut self.slides[index], -change, self.size, motions);
                 }
             }
             if is_last {
                 if !within(&self.unknown, SAME_POSE) {
-                    self.assemble(motions);
+                    self.assemble::<SLIDING>(motions);
                     self.tally.one(Count::Factorisations);
                     if !self.jacobian.factor() {
                         return false;
                     }
-                } else if self.is_sliding {
-                    self.draw(motions);
+                } else if SLIDING {
+                    self.draw::<SLIDING>(motions);
                 } else {
                     // The arrows turn as little as their links.
                     for (vector, arrow) in self.world.arrows.iter_mut().zip(&self.contours.arrows) {
                         *vector -= turned(*vector) * self.unknown[arrow.node];
                     }
                 }
-                return self.hang(motions);
+                return self.hang::<SLIDING>(motions);
             }
         }
         false
     }
 
     /// Origins of all links from their directions. Returns `false` if the pose lies beyond a singular one.
-    fn hang(&mut self, motions: &mut [Motion]) -> bool {
-        let World { arrows, roots, joints } = &mut self.world;
+    fn hang<const SLIDING: bool>(&mut self, motions: &mut [Motion]) -> bool {
+        let World { arrows, roots, joints, .. } = &mut self.world;
         for (index, node) in self.contours.nodes.iter().enumerate() {
             let mut place = match node.hangs {
                 Hangs::Root(root) => roots[root].place,
                 Hangs::Arrow(arrow) => joints[self.contours.arrows[arrow].node].place + arrows[arrow],
             };
-            if let Some(axis) = node.axis(motions) {
+            if SLIDING && let Some(axis) = node.axis(motions) {
                 place += axis * self.slides[index];
             }
             let motion = &mut motions[node.link];
-            let arm = motion.arm(node.own);
-            motion.origin = place - arm;
-            (joints[index].arm, joints[index].place) = (arm, place);
+            if node.at_origin {
+                // The arm is zero, and stays so.
+                motion.origin = place;
+            } else {
+                let arm = motion.arm(node.own);
+                motion.origin = place - arm;
+                joints[index].arm = arm;
+            }
+            joints[index].place = place;
         }
         self.determinant = self.jacobian.determinant();
         // The product of many small pivots may vanish. Its sign does not.
@@ -417,6 +442,14 @@ impl Chain {
     /// Stores the squared determinant of this pose, and how it has changed in this step.
     fn learn(&mut self) {
         let square = self.determinant.powi(2);
+        if let ([step], [slope]) = (&self.step[..], &mut self.slopes[..]) {
+            // The same for one driving link.
+            if *step * *step > 0.0 && self.square.is_finite() {
+                *slope += (square - self.square - *slope * step) / (step * step) * step;
+            }
+            self.square = square;
+            return;
+        }
         let length = self.step.iter().map(|step| step * step).sum::<f64>();
         if length > 0.0 && self.square.is_finite() {
             let rest = (square - self.square - self.foreseen()) / length;
@@ -426,7 +459,11 @@ impl Chain {
     }
 
     /// Change of the squared determinant over this step, as extrapolated from the last ones.
+    #[inline(always)]
     fn foreseen(&self) -> f64 {
+        if let ([step], [slope]) = (&self.step[..], &self.slopes[..]) {
+            return slope * step;
+        }
         self.slopes.iter().zip(&self.step).map(|(slope, step)| slope * step).sum()
     }
 
@@ -452,8 +489,8 @@ impl Chain {
 
 /// Changes one unknown: turns the node's link by an angle (rad), or slides it by a share of `size`.
 #[inline]
-fn advance(node: &Node, slide: &mut f64, change: f64, size: f64, motions: &mut [Motion]) {
-    if node.is_guided() {
+fn advance<const SLIDING: bool>(node: &Node, slide: &mut f64, change: f64, size: f64, motions: &mut [Motion]) {
+    if SLIDING && node.is_guided() {
         *slide += change * size;
     } else {
         let direction = &mut motions[node.link].direction;

@@ -2,22 +2,23 @@
 
 /// Number of steps that a prediction uses.
 const MEMORY: usize = 5;
-/// Weights of the last steps, the newest first, for one to five known steps: binomial coefficients with
-/// alternating signs.
-const EXTRAPOLATION: [[f64; MEMORY]; MEMORY] = [
-    [1.0, 0.0, 0.0, 0.0, 0.0],
-    [2.0, -1.0, 0.0, 0.0, 0.0],
-    [3.0, -3.0, 1.0, 0.0, 0.0],
-    [4.0, -6.0, 4.0, -1.0, 0.0],
-    [5.0, -10.0, 10.0, -5.0, 1.0],
-];
+
+/// Copies numbers of driving links. Most often there is one.
+#[inline(always)]
+pub(super) fn copy(from: &[f64], to: &mut [f64]) {
+    match (from, &mut *to) {
+        ([one], [own]) => *own = *one,
+        (from, to) => to.copy_from_slice(from),
+    }
+}
 
 /// Changes of the unknowns from pose to pose.
 #[derive(Clone, Debug)]
 pub(super) struct Memory {
-    /// Changes of the unknowns in the last steps, the newest first; how many of these steps were the same; and that
-    /// step (rad of the driving angles).
-    changes: Vec<[f64; MEMORY]>,
+    /// Changes of the unknowns in the last step, and the backward differences of those in the last steps, from the
+    /// first to the fourth; zero where fewer steps are known. How many of these steps were the same; and that step
+    /// (rad of the driving angles).
+    differences: Vec<[f64; MEMORY]>,
     equal_steps: usize,
     last_step: Vec<f64>,
     /// Changes of the unknowns in the present step, so far, and whether it is the same as the last one.
@@ -28,7 +29,7 @@ pub(super) struct Memory {
 impl Memory {
     pub(super) fn of(unknowns: usize, drives: usize) -> Self {
         Memory {
-            changes: vec![[0.0; MEMORY]; unknowns],
+            differences: vec![[0.0; MEMORY]; unknowns],
             equal_steps: 0,
             last_step: vec![f64::NAN; drives],
             present: vec![0.0; unknowns],
@@ -49,14 +50,14 @@ impl Memory {
 
     /// Begins a step of the driving angles. If it is the same as the last one, the changes of the unknowns are those
     /// extrapolated from the last steps, otherwise none. Returns whether it is.
-    /// The polynomial through the last steps is continued, so that its next difference is zero.
+    /// The polynomial through the last steps is continued: its next difference is zero, so that the sum of all others is
+    /// the next change.
     pub(super) fn predict(&mut self, step: &[f64]) -> bool {
         let same = |(step, last): (&f64, &f64)| (step - last).abs() <= 1e-6 * step.abs();
         self.is_repeated = step.iter().zip(&self.last_step).all(same);
         if self.is_repeated {
-            let weights = &EXTRAPOLATION[self.equal_steps.min(MEMORY) - 1];
-            for (present, changes) in self.present.iter_mut().zip(&self.changes) {
-                *present = changes.iter().zip(weights).map(|(change, weight)| change * weight).sum();
+            for (present, [change, first, second, third, fourth]) in self.present.iter_mut().zip(&self.differences) {
+                *present = change + (first + (second + (third + fourth)));
             }
         } else {
             self.present.fill(0.0);
@@ -85,10 +86,18 @@ impl Memory {
     /// Stores the present step for the next prediction.
     pub(super) fn remember(&mut self, step: &[f64]) {
         self.equal_steps = if self.is_repeated { self.equal_steps + 1 } else { 1 };
-        for (changes, present) in self.changes.iter_mut().zip(&self.present) {
-            let [a, b, c, d, _] = *changes;
-            *changes = [*present, a, b, c, d];
+        // Differences of steps that were not the same, or are not known, count for nothing.
+        let orders = self.equal_steps.min(MEMORY);
+        for (differences, &present) in self.differences.iter_mut().zip(&self.present) {
+            let [a, b, c, d, _] = *differences;
+            let first = present - a;
+            let second = first - b;
+            let third = second - c;
+            *differences = [present, first, second, third, third - d];
+            if orders < MEMORY {
+                differences[orders..].fill(0.0);
+            }
         }
-        self.last_step.iter_mut().zip(step).for_each(|(last, step)| *last = *step);
+        copy(step, &mut self.last_step);
     }
 }

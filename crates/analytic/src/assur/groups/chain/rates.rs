@@ -7,11 +7,20 @@ use linkage::mechanism::GROUND;
 impl Chain {
     /// Velocities of the group's links. Those of the links before it must be known.
     pub(in crate::assur::groups) fn velocities(&mut self, motions: &mut [Motion]) {
-        for node in self.led() {
-            motions[node.link].omega = motions[node.parent.link].omega;
+        match self.is_sliding {
+            true => self.velocities_as::<true>(motions),
+            false => self.velocities_as::<false>(motions),
+        }
+    }
+
+    fn velocities_as<const SLIDING: bool>(&mut self, motions: &mut [Motion]) {
+        if SLIDING {
+            for node in self.led() {
+                motions[node.link].omega = motions[node.parent.link].omega;
+            }
         }
         let Contours { nodes, closings, arrows, roots } = &self.contours;
-        let World { arrows: vectors, roots: ends, joints } = &mut self.world;
+        let World { arrows: vectors, roots: ends, joints, .. } = &mut self.world;
         for (end, side) in ends.iter_mut().zip(roots).filter(|(_, side)| side.link != GROUND) {
             end.velocity = motions[side.link].velocity_beyond(end.arm);
         }
@@ -20,7 +29,7 @@ impl Chain {
             for (end, sign) in closing.ends {
                 rate -= ends[end].velocity * sign;
             }
-            if self.is_sliding {
+            if SLIDING {
                 for led in closing.ways.iter().filter(|stretch| stretch.spin.is_none()) {
                     rate -= turned(vectors[led.arrow] * led.sign) * motions[led.carrier].omega;
                 }
@@ -36,7 +45,8 @@ impl Chain {
                     joints[from.node].velocity + turned(vectors[arrow]) * motions[from.carrier].omega
                 }
             };
-            let omega = match node.axis(motions) {
+            let axis = if SLIDING { node.axis(motions) } else { None };
+            let omega = match axis {
                 None => self.unknown[index],
                 Some(axis) => {
                     let led = motions[node.parent.link].omega;
@@ -48,17 +58,30 @@ impl Chain {
             joints[index].velocity = velocity;
             let motion = &mut motions[node.link];
             motion.omega = omega;
-            motion.velocity = velocity - turned(joints[index].arm) * omega;
+            motion.velocity = if node.at_origin { velocity } else { velocity - turned(joints[index].arm) * omega };
         }
     }
 
     /// Accelerations of the group's links, after their velocities. Those of the links before it must be known.
     pub(in crate::assur::groups) fn accelerations(&mut self, motions: &mut [Motion]) {
-        for node in self.led() {
-            motions[node.link].alpha = motions[node.parent.link].alpha;
+        match self.is_sliding {
+            true => self.accelerations_as::<true>(motions),
+            false => self.accelerations_as::<false>(motions),
+        }
+    }
+
+    fn accelerations_as<const SLIDING: bool>(&mut self, motions: &mut [Motion]) {
+        if SLIDING {
+            for node in self.led() {
+                motions[node.link].alpha = motions[node.parent.link].alpha;
+            }
         }
         let Contours { nodes, closings, arrows, roots } = &self.contours;
-        let World { arrows: vectors, roots: ends, joints } = &mut self.world;
+        let World { arrows: vectors, centripetal, roots: ends, joints } = &mut self.world;
+        for (centripetal, (vector, arrow)) in centripetal.iter_mut().zip(vectors.iter().zip(arrows)) {
+            let omega = motions[arrow.carrier].omega;
+            *centripetal = *vector * (omega * omega);
+        }
         let speeds = &self.speeds;
         // Coriolis acceleration of a sliding node along the normal of its axis.
         let coriolis = |node: usize, motions: &[Motion]| {
@@ -74,12 +97,11 @@ impl Chain {
                 second -= ends[end].acceleration * sign;
             }
             for stretch in &closing.ways {
-                let (vector, carrier) = (vectors[stretch.arrow] * stretch.sign, &motions[stretch.carrier]);
-                second += vector * (carrier.omega * carrier.omega);
-                if stretch.spin.is_none() {
-                    second -= turned(vector) * carrier.alpha;
+                second += centripetal[stretch.arrow] * stretch.sign;
+                if SLIDING && stretch.spin.is_none() {
+                    second -= turned(vectors[stretch.arrow] * stretch.sign) * motions[stretch.carrier].alpha;
                 }
-                if let Some(node) = stretch.slide {
+                if SLIDING && let Some(node) = stretch.slide {
                     second -= coriolis(node, motions) * stretch.sign;
                 }
             }
@@ -90,13 +112,13 @@ impl Chain {
             let mut acceleration = match node.hangs {
                 Hangs::Root(root) => ends[root].acceleration,
                 Hangs::Arrow(arrow) => {
-                    let (from, vector) = (&arrows[arrow], vectors[arrow]);
-                    let carrier = &motions[from.carrier];
-                    joints[from.node].acceleration + turned(vector) * carrier.alpha
-                        - vector * (carrier.omega * carrier.omega)
+                    let from = &arrows[arrow];
+                    joints[from.node].acceleration + turned(vectors[arrow]) * motions[from.carrier].alpha
+                        - centripetal[arrow]
                 }
             };
-            let alpha = match node.axis(motions) {
+            let axis = if SLIDING { node.axis(motions) } else { None };
+            let alpha = match axis {
                 None => self.unknown[index],
                 Some(axis) => {
                     let (parent, slide) = (&motions[node.parent.link], axis * self.slides[index]);
@@ -106,10 +128,13 @@ impl Chain {
                 }
             };
             joints[index].acceleration = acceleration;
-            let arm = joints[index].arm;
             let motion = &mut motions[node.link];
             motion.alpha = alpha;
-            motion.acceleration = acceleration - turned(arm) * alpha + arm * (motion.omega * motion.omega);
+            motion.acceleration = acceleration;
+            if !node.at_origin {
+                let arm = joints[index].arm;
+                motion.acceleration = acceleration - turned(arm) * alpha + arm * (motion.omega * motion.omega);
+            }
         }
     }
 

@@ -1,0 +1,245 @@
+//! Proof that no dyad passes a change point on a step of `PoseSolver`.
+//!
+//! Where two branches of a dyad meet, its [gauge](crate::assur::groups::Step::gauge) is at an end of its range.
+//! Between two poses the gauge differs from the straight line through its values there by M h^2 / 8 at most. If that
+//! band is within the range, the dyad is on one branch all the way.
+//! For a dyad on driving links of constant speed ratio and the ground M is a number. Where the band is too wide the
+//! step is divided, until it is proven or the change point is found.
+//! For a dyad on other dyads M follows from bounds of these, which grow from dyad to dyad and with the inverse of their
+//! sines. It is proven where these suffice, and otherwise left to the estimate of [`super::watch`], as are dyads on
+//! higher groups, on sliders of two guides, and with several driving links of changing speed ratios.
+//!
+//! Bounds are kept for the next steps. They are those of a band that is wider than the step needs, so that they hold
+//! until a gauge leaves it, a step is longer, or the crank has gone far.
+
+use crate::assur::groups::{Bound, Limit, Misfit, OutOfReach, Plan, SINGULAR};
+use linkage::case::Case;
+use linkage::math::{KeepNan, Motion};
+
+/// Share of the way from the end of the range to the band of a step that the kept band leaves out.
+const SPARE: f64 = 0.25;
+/// Steps are kept that are a little longer too: those of a grid are equal to rounding only.
+const LONGER: f64 = 1.0 + 1e-6;
+/// Gauges without an end may grow to this multiple.
+const GROWN: f64 = 4.0;
+/// Number of steps after which a proof that has not been found is looked for again.
+const AGAIN: f64 = 16.0;
+
+/// A group with a gauge.
+#[derive(Clone, Copy, Debug)]
+struct Watched {
+    group: usize,
+    /// Whether it hangs on driving links and the ground only.
+    is_direct: bool,
+    /// Whether a proof is missing on this step.
+    is_open: bool,
+    /// Between these a step of the kept length is proven.
+    low: f64,
+    high: f64,
+    /// The gauge at the last two poses; NaN before the first.
+    before: f64,
+    last: f64,
+}
+
+/// The gauges of all groups for which a proof is possible.
+#[derive(Debug)]
+pub(super) struct Gauges {
+    watched: Vec<Watched>,
+    /// Speeds of the driving links in that of the crank.
+    ratios: Vec<f64>,
+    links: Vec<Option<Bound>>,
+    /// Longest step of the crank (rad) for which the kept bounds are good, and the way for which they still are.
+    reach: f64,
+    left: f64,
+}
+
+/// One end of a step: crank angle, gauges of all watched groups, and the pose. The pose is only read at the far end.
+#[derive(Clone, Debug)]
+struct End {
+    crank: f64,
+    gauges: Vec<f64>,
+    motions: Vec<Motion>,
+}
+
+impl Gauges {
+    pub(super) fn of(case: &Case, plan: &Plan, motions: &[Motion]) -> Self {
+        let speeds: Option<Vec<f64>> = case.drives.iter().map(|drive| drive.constant_speed()).collect();
+        let ratios = match speeds {
+            Some(speeds) => speeds.iter().map(|speed| speed / speeds[0]).collect(),
+            None if case.drives.len() == 1 => vec![1.0],
+            None => Vec::new(),
+        };
+        let links = vec![None; case.mechanism.links().len()];
+        let mut gauges = Gauges { watched: Vec::new(), ratios, links, reach: -1.0, left: 0.0 };
+        if gauges.ratios.is_empty() {
+            return gauges;
+        }
+        let (none, mut driven) = (f64::NAN, gauges.links.clone());
+        plan.bound_drivers(&gauges.ratios, &mut gauges.links);
+        driven.clone_from(&gauges.links);
+        for (group, step) in plan.steps().iter().enumerate() {
+            let has_limit = |links: &[Option<Bound>]| step.limit(links, motions, 1.0, 0.0).is_some();
+            if has_limit(&gauges.links) {
+                let is_direct = has_limit(&driven);
+                let (low, high, before, last) = (none, none, none, none);
+                gauges.watched.push(Watched { group, is_direct, is_open: false, low, high, before, last });
+                step.bound([none, none], 0.0, motions, &mut gauges.links);
+            }
+        }
+        gauges
+    }
+
+    /// Whether a group needs no estimate on this step: it is proven not to pass a change point.
+    pub(super) fn proves(&self, group: usize) -> bool {
+        self.watched.iter().any(|watched| watched.group == group && !watched.is_open)
+    }
+
+    /// Takes the pose that `plan` has just found, a step (rad, without sign) of the crank after the last one. Returns
+    /// whether the kept bounds say about this step what they have said about the last; otherwise
+    /// [`Gauges::pass_closely`] must.
+    #[inline(always)]
+    pub(super) fn pass(&mut self, step: f64, plan: &Plan) -> bool {
+        self.left -= step;
+        let mut passes = step <= self.reach && self.left >= 0.0;
+        for watched in &mut self.watched {
+            let gauge = plan.steps()[watched.group].gauge();
+            passes &= watched.low <= gauge && gauge <= watched.high;
+            (watched.before, watched.last) = (watched.last, gauge);
+        }
+        passes
+    }
+
+    /// Takes the last pose back.
+    #[cold]
+    pub(super) fn take_back(&mut self) {
+        self.watched.iter_mut().for_each(|watched| watched.last = watched.before);
+        self.reach = -1.0;
+    }
+
+    /// The same with bounds of this very step between two crank angles (rad), divided where it must be.
+    ///
+    /// # Errors
+    /// [`Misfit::Passed`] with a change point; the last pose is then that before the step again.
+    #[cold]
+    pub(super) fn pass_closely(
+        &mut self,
+        [from, to]: [f64; 2],
+        case: &Case,
+        plan: &Plan,
+        motions: &[Motion],
+    ) -> Result<(), OutOfReach> {
+        let (step, begins) = ((to - from).abs(), self.watched.iter().any(|watched| watched.before.is_nan()));
+        let ends = [
+            End { crank: from, gauges: self.watched.iter().map(|own| own.before).collect(), motions: Vec::new() },
+            End { crank: to, gauges: self.watched.iter().map(|own| own.last).collect(), motions: motions.to_vec() },
+        ];
+        self.watched.iter_mut().for_each(|watched| watched.is_open = false);
+        if begins {
+            return Ok(());
+        }
+        if self.prove(&ends, plan, step * LONGER, SPARE) {
+            if self.is_open() {
+                // Nothing to spare.
+                self.prove(&ends, plan, step * LONGER, 1.0);
+            }
+            if self.is_open() {
+                self.left = self.left.smaller(AGAIN * step);
+            }
+            return Ok(());
+        }
+        let mut plan = plan.clone();
+        let proven = self.divide(case, &mut plan, ends);
+        self.reach = -1.0;
+        self.watched.iter_mut().for_each(|watched| watched.is_open = !watched.is_direct);
+        if proven.is_err() {
+            self.take_back();
+        }
+        proven
+    }
+
+    fn is_open(&self) -> bool {
+        self.watched.iter().any(|watched| watched.is_open)
+    }
+
+    /// Whether the gauges of all direct groups stay within their ranges between two poses, over steps of this length.
+    /// Keeps the bounds that prove it, of bands that leave out this share of what the step leaves. Other groups for
+    /// which there is no proof are open.
+    fn prove(&mut self, ends: &[End; 2], plan: &Plan, step: f64, share: f64) -> bool {
+        let motions = &ends[1].motions;
+        (self.reach, self.left) = (-1.0, f64::INFINITY);
+        plan.bound_drivers(&self.ratios, &mut self.links);
+        for (index, watched) in self.watched.iter_mut().enumerate() {
+            let group = &plan.steps()[watched.group];
+            let [first, second] = [0, 1].map(|end| ends[end].gauges[index]);
+            let (least, most) = (first.smaller(second), first.larger(second));
+            let limit = group.limit(&self.links, motions, GROWN * most, step);
+            let found = limit.and_then(|limit| band(limit, [least, most], step, share));
+            watched.is_open = found.is_none();
+            let Some((limit, band, bulge)) = found else {
+                if watched.is_direct {
+                    return false;
+                }
+                (watched.low, watched.high) = (f64::NEG_INFINITY, f64::INFINITY);
+                continue;
+            };
+            (watched.low, watched.high) = (band[0] + bulge, band[1] - bulge);
+            self.left = self.left.smaller(limit.way);
+            group.bound(band, step, motions, &mut self.links);
+        }
+        self.reach = step;
+        true
+    }
+
+    /// The same for direct groups alone, over a step that may have to be divided.
+    fn divide(&self, case: &Case, plan: &mut Plan, ends: [End; 2]) -> Result<(), OutOfReach> {
+        let (from, to) = (ends[0].crank, ends[1].crank);
+        let step = (to - from).abs();
+        let mut links = vec![None; self.links.len()];
+        plan.bound_drivers(&self.ratios, &mut links);
+        let direct = || self.watched.iter().enumerate().filter(|(_, watched)| watched.is_direct);
+        let is_open = |&(index, watched): &(usize, &Watched)| {
+            let [first, second] = [0, 1].map(|end| ends[end].gauges[index]);
+            let (least, most) = (first.smaller(second), first.larger(second));
+            let limit = plan.steps()[watched.group].limit(&links, &ends[1].motions, GROWN * most, step);
+            limit.and_then(|limit| band(limit, [least, most], step, 1.0)).is_none()
+        };
+        let Some((_, open)) = direct().find(is_open) else { return Ok(()) };
+        let middle = f64::midpoint(from, to);
+        let passed = |group: usize| OutOfReach { group, why: Misfit::Passed { crank: middle } };
+        if !(step > 8.0 * f64::EPSILON * to.abs().larger(1.0)) {
+            return Err(passed(open.group));
+        }
+        let mut motions = ends[1].motions.clone();
+        let groups = direct().map(|(_, watched)| watched.group);
+        plan.some_positions(groups, &case.drives.world_angles(middle), &mut motions)
+            .map_err(|reach| passed(reach.group))?;
+        let mut gauges = vec![f64::NAN; self.watched.len()];
+        for (index, watched) in direct() {
+            let group = &plan.steps()[watched.group];
+            // NaN of a group without a clearance is not near.
+            if group.sine(&motions).is_some_and(|sine| sine < 10.0 * SINGULAR) {
+                return Err(passed(watched.group));
+            }
+            gauges[index] = group.gauge();
+        }
+        let middle = End { crank: middle, gauges, motions };
+        let [first, last] = ends;
+        self.divide(case, plan, [first, middle.clone()])?;
+        self.divide(case, plan, [middle, last])
+    }
+}
+
+/// The band in which a gauge with these least and largest values at the ends of a step stays, and by how much it may
+/// leave the straight line between them; `None` if that is not within its range.
+fn band(limit: Limit, [least, most]: [f64; 2], step: f64, share: f64) -> Option<(Limit, [f64; 2], f64)> {
+    let bulge = limit.second * step * step / 8.0;
+    let [start, end] = limit.range;
+    let end = if end.is_finite() { end } else { GROWN * most };
+    let (under, over) = (least - bulge - start, end - most - bulge);
+    // Written so that NaN proves nothing.
+    if !(under > 0.0 && over > 0.0) {
+        return None;
+    }
+    let high = if limit.range[1].is_finite() { end - share * over } else { end };
+    Some((limit, [start + share * under, high], bulge))
+}
