@@ -11,6 +11,7 @@ use crate::compare::overall;
 use crate::proof::{EngineProof, Engines, Entrant, Ledger, Options, Sides, TRUE_SIDES};
 use crate::scenario::Scenario;
 use analytic::{AssurSolver, NewtonSolver, TightAssurSolver, TightNewtonSolver};
+use linkage::case::Case;
 use linkage::engine::{Engine, Kept};
 use linkage::error::Result;
 use linkage::solver::Solver;
@@ -127,17 +128,29 @@ impl<'a> Stage<'a> {
         Sides::of(scenarios, entrants, self.options.reference, &mut Ledger::default())
     }
 
+    /// Whether a case differs in its instants only.
+    fn is_late(&self, case: &Case) -> bool {
+        let right = &self.scenario.case;
+        case.grid != right.grid && case.on(right.grid.clone()).is_ok_and(|own| own == *right)
+    }
+
     /// The fault in what all parties share: no party can contradict another, and what comes from outside is asked.
     fn in_all(&self, fault: Fault) -> Result<Outcome> {
-        let sides = match fault.kind.plant {
-            Plant::Case(change) => {
-                let Some(case) = change(&self.scenario.case, fault.size) else {
-                    return Ok(Outcome::Refused("the case cannot be put together".into()));
-                };
+        let case = match fault.kind.plant {
+            Plant::Case(change) => match change(&self.scenario.case, fault.size) {
+                None => return Ok(Outcome::Refused("the case cannot be put together".into())),
+                // Whoever asks names the instants. What is wrong is when the sides take them to be.
+                Some(case) if self.is_late(&case) => None,
+                Some(case) => Some(case),
+            },
+            Plant::Answer(_) => None,
+        };
+        let sides = match case {
+            Some(case) => {
                 let wrong = Scenario { case, ..self.scenario.clone() };
                 self.sides([&wrong, &wrong], TRUE_SIDES)?
             }
-            Plant::Answer(_) => {
+            None => {
                 let wrong = planted_sides(fault);
                 let entrants = [0, 1].map(|side: usize| Entrant { solver: &wrong[side][0], tight: &wrong[side][1] });
                 self.sides([&self.scenario, self.whole], entrants)?

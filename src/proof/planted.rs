@@ -360,7 +360,8 @@ fn errors_of_an_engine_have_the_sign_of_its_fault() {
 #[test]
 fn an_oracle_finds_a_unit_of_its_last_digit() {
     let name = "crank_rocker";
-    let oracle_checks = |text: &str| oracle::checks(&parsed(name, text), &parsed(name, text), analytic::all()).unwrap();
+    let oracle_checks =
+        |text: &str| oracle::checks(&parsed(name, text), &parsed(name, text), analytic::all(), &|_, _| 0.0).unwrap();
     assert!(oracle_checks(&text(name)).iter().all(|check| ["agree", "expected"].contains(&check.verdict.word())));
     let moved = [
         ("value = 50, digits = 9", "value = 50.000000001, digits = 9", "link.rocker.angle_deg"),
