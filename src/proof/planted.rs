@@ -382,3 +382,21 @@ fn an_oracle_finds_a_unit_of_its_last_digit() {
         assert_eq!(missed.len(), 2, "{figure}, on both sides");
     }
 }
+
+/// What an integration leaves widens the bound of a number at a time, by as much, and of no other.
+#[test]
+fn the_error_of_an_integration_adds_to_the_bound_of_numbers_at_times() {
+    let scenario = parsed("pendulum", &text("pendulum"));
+    let nominal = "\n[[oracle]]\nsource = \"nominal\"\ncrank_deg = 60\n\
+                   values = [{ channel = \"link.rod.omega_rad_s\", value = -5, digits = 8 }]\n";
+    let both = parsed("pendulum", &(text("pendulum") + nominal));
+    let bounds = |left: f64| {
+        let found = oracle::checks(&both, &both, analytic::all(), &|_, _| left).unwrap();
+        assert_eq!(found.len(), 2 * (scenario.oracles[0].series.len() + 1));
+        found.into_iter().map(|check| (check.family.contains(" s ("), check.bound)).collect::<Vec<_>>()
+    };
+    for ((is_timed, own), (_, wide)) in bounds(0.0).into_iter().zip(bounds(1e-3)) {
+        let more = if is_timed { 1e-3 } else { 0.0 };
+        assert!((wide - own - more).abs() < 1e-15, "{own:e}, {wide:e}");
+    }
+}

@@ -288,7 +288,9 @@ fn read(root: &mut Table, asked: &Asked, lists: bool) -> Result<Found> {
     }
     let series = oracles.iter().flat_map(|oracle| &oracle.series);
     let cranks: Vec<f64> = series.flat_map(OracleSeries::instants).filter_map(Instant::crank).collect();
-    if let Err(message) = Grid::of_cranks(case.crank(), cranks).check(case.crank()) {
+    // A free crank has them in its nominal motion.
+    let crank = case.crank().nominal();
+    if let Err(message) = Grid::of_cranks(&crank, cranks).check(&crank) {
         let error = Error::new(ErrorKind::Input, format!("published numbers: {message}")).key("oracle");
         return Err(error.help("take the numbers out, or give them at crank angles to which the drive comes"));
     }
