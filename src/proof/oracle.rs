@@ -2,7 +2,7 @@
 
 use crate::compare::{Check, Verdict, magnitudes};
 use crate::scenario::{
-    ExpectedCell, Figure, FigureValue, Instant, Oracle, OracleBasis, OraclePoint, OracleSeries, Scenario,
+    ExpectedCell, Figure, FigureValue, Oracle, OracleBasis, OraclePoint, OracleSeries, Scenario, When,
 };
 use crate::tolerance::{Basis, Origin, Tolerance};
 use analytic::reduced::means::{self as reduced, Means};
@@ -56,7 +56,7 @@ impl<'a> Answers<'a> {
         integration: &'a dyn Fn(usize, &Channel) -> f64,
     ) -> Result<Self> {
         let stages: Vec<Stage> = series.iter().map(|series| series.channel.kind.stage).collect();
-        type At = fn(Instant) -> Option<f64>;
+        type At = fn(When) -> Option<f64>;
         type Of = fn(&Drive, Vec<f64>) -> Grid;
         let solved = |case: &Case, at: At, grid: Of| -> Result<Option<Solved>> {
             let mut instants: Vec<f64> = series.iter().flat_map(|series| series.instants()).filter_map(at).collect();
@@ -75,22 +75,22 @@ impl<'a> Answers<'a> {
             Ok(Some(Solved([of(solvers[0])?, of(solvers[1])?])))
         };
         // Where forces decide the true motion, numbers at crank angles belong to the nominal motion.
-        let nominal = solved(&case.nominal(), Instant::crank, Grid::of_cranks)?;
-        Ok(Answers { solvers, nominal, timed: solved(case, Instant::time, Grid::of_times)?, integration })
+        let nominal = solved(&case.nominal(), When::crank, Grid::of_cranks)?;
+        Ok(Answers { solvers, nominal, timed: solved(case, When::time, Grid::of_times)?, integration })
     }
 
     /// The trajectories with an instant, and its row in them.
-    fn at(&self, instant: Instant) -> (&Solved, usize) {
+    fn at(&self, instant: When) -> (&Solved, usize) {
         let (solved, instants, own) = match (instant, &self.nominal, &self.timed) {
-            (Instant::Crank(crank), Some(solved), _) => (solved, solved.0[0].0.cranks(), crank),
-            (Instant::Time(time), _, Some(solved)) => (solved, solved.0[0].0.times(), time),
-            (Instant::Crank(_), None, _) | (Instant::Time(_), _, None) => unreachable!("solved at every instant"),
+            (When::Crank(crank), Some(solved), _) => (solved, solved.0[0].0.cranks(), crank),
+            (When::Time(time), _, Some(solved)) => (solved, solved.0[0].0.times(), time),
+            (When::Crank(_), None, _) | (When::Time(_), _, None) => unreachable!("solved at every instant"),
         };
         (solved, instants.binary_search_by(|other| other.total_cmp(&own)).expect("solved at this instant"))
     }
 
     /// A side's value at an instant, and how far it is known.
-    fn value(&self, (oracle, series): (&Oracle, &OracleSeries), side: usize, instant: Instant) -> Result<(f64, f64)> {
+    fn value(&self, (oracle, series): (&Oracle, &OracleSeries), side: usize, instant: When) -> Result<(f64, f64)> {
         let (Solved(solved), row) = self.at(instant);
         let [value, other] = [side, 1 - side].map(|side| value(oracle, series, &solved[side].0, row));
         let (value, other) = (value?, other?);
@@ -133,9 +133,9 @@ fn of_one(oracle: &Oracle, series: &OracleSeries, answers: &Answers, side: usize
         let difference = value - point.value;
         let deviation = if series.channel.kind.periodic { wrapped(difference) } else { difference }.abs();
         let bound = match point.at {
-            Instant::Crank(_) => point.bound.larger(known),
+            When::Crank(_) => point.bound.larger(known),
             // The error of an integration is no rounding: it adds to that of the printed number.
-            Instant::Time(_) => point.bound + known,
+            When::Time(_) => point.bound + known,
         };
         let tolerance = tolerance(oracle, origin, bound, point.digits);
         let check = Check::new(family, deviation, tolerance, series.channel.kind.unit.symbol());
@@ -160,10 +160,10 @@ fn of_one(oracle: &Oracle, series: &OracleSeries, answers: &Answers, side: usize
     Ok(checks)
 }
 
-fn shortly(at: Instant) -> String {
+fn shortly(at: When) -> String {
     match at {
-        Instant::Crank(crank) => format!("{:.1} deg", crank.to_degrees()),
-        Instant::Time(_) => at.to_string(),
+        When::Crank(crank) => format!("{:.1} deg", crank.to_degrees()),
+        When::Time(_) => at.to_string(),
     }
 }
 

@@ -1,7 +1,7 @@
 //! Where the numbers of an oracle hold: at a crank angle, or at a time.
 
 use super::reader::{Sign, Table};
-use super::series::Instant;
+use super::series::When;
 use super::unit::{ANGLE, TIME, Unit};
 use linkage::case::{Case, Grid};
 use linkage::error::{ErrorKind, Result};
@@ -12,14 +12,14 @@ const ROUNDING: f64 = 1e-12;
 const HELP: &str = "a number holds at a crank angle (of the nominal motion, where forces decide it) or at a time";
 
 /// The instant of a table under `crank` or `time` with a unit.
-pub fn read(table: &mut Table, case: &Case) -> Result<Instant> {
+pub fn read(table: &mut Table, case: &Case) -> Result<When> {
     let crank = table.optional_quantity("crank", &ANGLE, Sign::Any)?;
     let time = table.optional_quantity("time", &TIME, Sign::Any)?;
     match (crank, time) {
-        (Some(crank), None) => Ok(Instant::Crank(crank)),
+        (Some(crank), None) => Ok(When::Crank(crank)),
         (None, Some(time)) => {
             checked(case, time).map_err(|message| table.wrong(ErrorKind::Input, "time", message).help(TIME_HELP))?;
-            Ok(Instant::Time(time))
+            Ok(When::Time(time))
         }
         (Some(_), Some(_)) => {
             let message = "a crank angle and a time are both given";
@@ -71,11 +71,11 @@ impl Rows {
     ///
     /// # Errors
     /// A message for a time that the motion does not have.
-    pub fn instant(&self, case: &Case, printed: f64) -> std::result::Result<Instant, String> {
+    pub fn instant(&self, case: &Case, printed: f64) -> std::result::Result<When, String> {
         let value = self.unit.to_si(printed);
         match self.is_time {
-            false => Ok(Instant::Crank(value)),
-            true => checked(case, value).map(|()| Instant::Time(value)),
+            false => Ok(When::Crank(value)),
+            true => checked(case, value).map(|()| When::Time(value)),
         }
     }
 }

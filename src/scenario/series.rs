@@ -29,7 +29,7 @@ pub struct OracleSeries {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OraclePoint {
     /// Where the value holds.
-    pub at: Instant,
+    pub at: When,
     /// Value in the channel's SI unit.
     pub value: f64,
     /// Half a unit of the last printed digit, plus the known error of the numbers, in the channel's SI unit.
@@ -40,20 +40,20 @@ pub struct OraclePoint {
 
 /// Where a value holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Instant {
+pub enum When {
     /// At a crank angle (rad, as the scenario measures it). Where forces decide the motion, of the nominal motion.
     Crank(f64),
     /// At a time (s) of the scenario's own motion.
     Time(f64),
 }
 
-impl Instant {
+impl When {
     /// The crank angle (rad) of a value at one.
     #[must_use]
     pub fn crank(self) -> Option<f64> {
         match self {
-            Instant::Crank(crank) => Some(crank),
-            Instant::Time(_) => None,
+            When::Crank(crank) => Some(crank),
+            When::Time(_) => None,
         }
     }
 
@@ -61,17 +61,17 @@ impl Instant {
     #[must_use]
     pub fn time(self) -> Option<f64> {
         match self {
-            Instant::Crank(_) => None,
-            Instant::Time(time) => Some(time),
+            When::Crank(_) => None,
+            When::Time(time) => Some(time),
         }
     }
 }
 
-impl fmt::Display for Instant {
+impl fmt::Display for When {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
-            Instant::Crank(crank) => write!(f, "crank angle {:.3} deg", crank.to_degrees()),
-            Instant::Time(time) => write!(f, "{time} s"),
+            When::Crank(crank) => write!(f, "crank angle {:.3} deg", crank.to_degrees()),
+            When::Time(time) => write!(f, "{time} s"),
         }
     }
 }
@@ -107,7 +107,7 @@ impl OracleSeries {
     }
 
     /// Where all its values hold, those known to be wrong included.
-    pub fn instants(&self) -> impl Iterator<Item = Instant> {
+    pub fn instants(&self) -> impl Iterator<Item = When> {
         let wrong = self.wrong.iter().flat_map(|(_, cells)| cells);
         let cells = self.expected.iter().chain(wrong).map(|cell| cell.point.at);
         self.points.iter().map(|point| point.at).chain(cells)

@@ -7,7 +7,7 @@ use super::correction::{Correction, check_apart, digits, finding};
 use super::instant;
 use super::printed::{Printed, PrintedChannel};
 use super::reader::{Sign, Table};
-use super::series::{ExpectedCell, Instant, Known, OraclePoint, OracleSeries};
+use super::series::{ExpectedCell, Known, OraclePoint, OracleSeries, When};
 use super::source::Source;
 use super::words::suggestion;
 use crate::files;
@@ -31,7 +31,7 @@ pub fn read(oracle: &mut Table, known: &Known, case: &Case) -> Result<(String, V
     let rows = Rows::read(&source).map_err(|error| error.key(oracle.path_of("file")))?;
 
     let from = instant::Rows::read(oracle)?;
-    let instants: Vec<Instant> = rows
+    let instants: Vec<When> = rows
         .column(&from.column)
         .and_then(|column| rows.cells(column).map(|cell| cell.instant(&from, case)).collect::<Result<_>>())
         .map_err(|error| error.key(oracle.path_of(from.key)))?;
@@ -52,7 +52,7 @@ pub fn read(oracle: &mut Table, known: &Known, case: &Case) -> Result<(String, V
     Ok((name, all))
 }
 
-fn series(mut table: Table, rows: &Rows, instants: &[Instant], known: &Known, case: &Case) -> Result<OracleSeries> {
+fn series(mut table: Table, rows: &Rows, instants: &[When], known: &Known, case: &Case) -> Result<OracleSeries> {
     let name = table.name().to_string();
     let column = rows.column(&name).map_err(|error| error.key(table.path()))?;
     let (_, channel) = known.channel(&mut table)?;
@@ -100,23 +100,23 @@ fn series(mut table: Table, rows: &Rows, instants: &[Instant], known: &Known, ca
 /// The cells under `expect`: their rows, and the correct values there.
 fn single_cells(
     table: &mut Table,
-    instants: &[Instant],
+    instants: &[When],
     printed: &[Printed],
     case: &Case,
 ) -> Result<Vec<(usize, Correction)>> {
     let mut cells = Vec::new();
     for mut expect in table.tables("expect")? {
         let at = instant::read(&mut expect, case)?;
-        let is_same = |row: &Instant| match (*row, at) {
-            (Instant::Crank(own), Instant::Crank(asked)) | (Instant::Time(own), Instant::Time(asked)) => {
+        let is_same = |row: &When| match (*row, at) {
+            (When::Crank(own), When::Crank(asked)) | (When::Time(own), When::Time(asked)) => {
                 (own - asked).abs() <= SAME
             }
-            (Instant::Crank(_), Instant::Time(_)) | (Instant::Time(_), Instant::Crank(_)) => false,
+            (When::Crank(_), When::Time(_)) | (When::Time(_), When::Crank(_)) => false,
         };
         let Some(row) = instants.iter().position(is_same) else {
             let (key, what) = match at {
-                Instant::Crank(_) => ("crank", "crank angle"),
-                Instant::Time(_) => ("time", "time"),
+                When::Crank(_) => ("crank", "crank angle"),
+                When::Time(_) => ("time", "time"),
             };
             let error = expect.wrong(ErrorKind::Input, key, format!("the table has no row with this {what}"));
             return Err(error.help(format!("give a {what} that stands in the table")));
@@ -231,7 +231,7 @@ impl<'a> Rows<'a> {
 
 impl Cell<'_> {
     /// Where the row of this cell holds.
-    fn instant(&self, rows: &instant::Rows, case: &Case) -> Result<Instant> {
+    fn instant(&self, rows: &instant::Rows, case: &Case) -> Result<When> {
         rows.instant(case, self.printed()?.value).map_err(|message| {
             let error = Error::new(ErrorKind::Input, message).at(self.source.place(self.span.clone()));
             error.help(instant::TIME_HELP)
