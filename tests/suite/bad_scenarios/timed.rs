@@ -2,14 +2,16 @@
 
 use super::{Bad, GOOD, INPUT, assert_all_refused, assert_refused, parse};
 
-/// The good scenario with a free crank, over a tenth of a second.
-const FREE: [(&str, &str); 2] = [
-    ("speed_rpm = 130\n", "motion = \"free\"\nspeed_rpm = 130\n"),
-    ("from_deg = 0\nto_deg = 360\nstep_deg = 10", "from_ms = 0\nto_ms = 100\nstep_ms = 10"),
-];
-
+/// The good scenario with a free crank, over a tenth of a second; its only numbers are at a time.
 fn free() -> String {
-    FREE.iter().fold(GOOD.to_string(), |text, (from, to)| text.replacen(from, to, 1))
+    let edits = [
+        ("speed_rpm = 130\n", "motion = \"free\"\nspeed_rpm = 130\n"),
+        ("from_deg = 0\nto_deg = 360\nstep_deg = 10", "from_ms = 0\nto_ms = 100\nstep_ms = 10"),
+        ("crank_deg = 90\nvalues", "time_ms = 50\nvalues"),
+    ];
+    let text = edits.iter().fold(GOOD.to_string(), |text, (from, to)| text.replacen(from, to, 1));
+    let [from, to] = ["a table", "a number"].map(|of| text.find(&format!("[[oracle]]\nsource = \"{of}\"")).unwrap());
+    text[..from].to_string() + &text[to..]
 }
 
 #[test]
@@ -38,20 +40,24 @@ fn a_number_holds_at_one_instant() {
     ]);
 }
 
-/// A free motion is solved as far as its grid goes; it does not begin before t = 0.
+/// A free motion is solved as far as its grid goes; it does not begin before t = 0, and its crank is at no angle that
+/// would be known before.
 #[test]
 fn times_lie_within_the_run() {
     let good = free();
-    assert!(parse(&good, super::TABLE).is_ok());
-    let crank = "crank_deg = 90\nvalues";
-    for (time, word) in [("time_s = 0.1001\nvalues", "goes from 0 to 0.1 s"), ("time_ms = -1\nvalues", "-0.001 s")] {
-        let [key, at] = ["oracle[2].", ""].map(|before| format!("{before}{}", time.split(' ').next().unwrap()));
-        let edits = [(crank, time)];
-        let (key, at): (&'static str, &'static str) = (key.leak(), at.leak());
-        assert_refused(&good, &Bad { edits: &edits, kind: INPUT, at, key, words: &[word] });
+    parse(&good, super::TABLE).unwrap_or_else(|error| panic!("{error}"));
+    let own = "time_ms = 50\nvalues";
+    for (at, key, words) in [
+        ("time_s = 0.1001", "oracle[1].time_s", ["goes from 0 to 0.1 s", "within the run"]),
+        ("time_ms = -1", "oracle[1].time_ms", ["-0.001 s", "within the run"]),
+        ("crank_deg = 90", "oracle", ["the motion is free", "at times (`time_s`)"]),
+    ] {
+        let to: &'static str = format!("{at}\nvalues").leak();
+        // Of a crank that is free the message points at all numbers.
+        let at = if key == "oracle" { "[[oracle]]" } else { at };
+        assert_refused(&good, &Bad { edits: &[(own, to)], kind: INPUT, at, key, words: &words });
     }
-    let text = good.replacen(crank, "time_ms = 100\nvalues", 1);
-    assert!(parse(&text, super::TABLE).is_ok(), "the last instant itself");
+    assert!(parse(&good.replacen(own, "time_ms = 100\nvalues", 1), super::TABLE).is_ok(), "the last instant itself");
 }
 
 /// A time that a law does not have is refused in both motions; of a table the message names the row's own place.
@@ -65,9 +71,10 @@ fn times_lie_within_the_law_and_rows_name_their_place() {
     let words = ["\"cycloidal\", goes from 0 to 0.2 s"];
     assert_refused(GOOD, &Bad { edits: &law, kind: INPUT, at: "time_ms", key: "oracle[2].time_ms", words: &words });
 
-    let text = free().replacen("crank = \"crank_deg\"", "time = \"t_ms\"", 1);
+    let table = "file = \"table.csv\"\ntime = \"t_ms\"\n[oracle.columns]\nBx_mm = { channel = \"point.B.x_mm\" }\n";
+    let text = free() + "\n[[oracle]]\nsource = \"a run\"\n" + table;
     let error = parse(&text, "t_ms,Bx_mm\n0,301.12\n\n100.5,298.5\n").unwrap_err();
     let place = error.place().unwrap();
-    assert_eq!((error.kind(), place.line(), error.scenario_key()), (INPUT, 4, Some("oracle[1].time")), "{error}");
+    assert_eq!((error.kind(), place.line(), error.scenario_key()), (INPUT, 4, Some("oracle[3].time")), "{error}");
     assert!(error.message().contains("0.1005 s is not in the run"), "{error}");
 }

@@ -59,7 +59,8 @@ fn run_takes_another_grid() {
 fn grids_of_files_list_their_values() {
     let place = Place::new();
     let text = fs::read_to_string(place.path("scenarios/pendulum.toml")).unwrap();
-    let listed = |list: &str| place.edited("pendulum.toml", "listed.toml", &[(OWN_GRID, list), (from_outside(&text), "")]);
+    let listed =
+        |list: &str| place.edited("pendulum.toml", "listed.toml", &[(OWN_GRID, list), (from_outside(&text), "")]);
     let solved = |list: &str| {
         listed(list);
         place.ok("solve scenarios/listed.toml --with assur")
