@@ -28,8 +28,9 @@ pub(super) struct Stage<'a> {
     options: &'a Options,
     /// The analytic sides without a fault.
     sides: Sides,
-    /// Exact answers of side 1.
+    /// Exact answers of side 1, and the error of its integration, channel by channel.
     right: Trajectory,
+    integration: Vec<f64>,
     /// The engine's runs without a fault.
     runs: OnceLock<Kept>,
     /// Verdict of the proof without a fault, and the engine.
@@ -46,8 +47,9 @@ impl<'a> Stage<'a> {
         let (whole, scenario) = (scenario, Scenario { case: scenario.case.scene()?.case, ..scenario.clone() });
         let sides = Sides::of([&scenario, whole], TRUE_SIDES, options.reference, &mut Ledger::default())?;
         let right = AssurSolver.solve(&scenario.case)?;
+        let integration = sides.integration();
         let runs = OnceLock::new();
-        let mut stage = Stage { scenario, whole, options, sides, right, runs, verdict: "", engine: "" };
+        let mut stage = Stage { scenario, whole, options, sides, right, integration, runs, verdict: "", engine: "" };
         let proof = stage.engine(&stage.sides, &|own| stage.kept(own), true)?;
         let verdict = stage.sides.verdict();
         (stage.verdict, stage.engine) = (overall([&verdict, &proof.verdict]).word(), proof.info.name);
@@ -69,7 +71,7 @@ impl<'a> Stage<'a> {
 
     /// What a fault changes in exact answers.
     pub(super) fn effect(&self, fault: Fault) -> Result<Effect> {
-        effect(&self.scenario.case, &self.right, fault)
+        effect(&self.scenario.case, &self.right, &self.integration, fault)
     }
 
     /// The proof with a fault in one party.

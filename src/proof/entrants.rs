@@ -139,6 +139,11 @@ impl Sides {
         &self.own().trajectory
     }
 
+    /// Error of the reference's integration, channel by channel, in their units; zeros in a prescribed motion.
+    pub(crate) fn integration(&self) -> Vec<f64> {
+        (0..self.trajectory().channels().len()).map(|channel| self.known.integration(0, channel)).collect()
+    }
+
     /// The verdict on all checks.
     pub(crate) fn verdict(&self) -> Verdict {
         overall(self.checks.iter().map(|check| &check.verdict))
