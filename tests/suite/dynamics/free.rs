@@ -136,7 +136,7 @@ fn several_freedoms_keep_their_energy() {
 /// Step of the engines (s).
 const STEP: f64 = 1e-4;
 
-fn twin(name: &str, settings: impl Fn(Settings) -> Settings) -> Box<dyn Engine> {
+pub(super) fn twin(name: &str, settings: impl Fn(Settings) -> Settings) -> Box<dyn Engine> {
     let engine = linkproof::engines::named(name, STEP).unwrap();
     engine.with(settings(engine.settings()))
 }
