@@ -34,8 +34,9 @@ pub(super) enum Effect {
     Unsolved,
 }
 
-/// What a fault changes in the exact answers of side 1, whose right ones are `right`.
-pub(super) fn effect(case: &Case, right: &Trajectory, fault: Fault) -> Result<Effect> {
+/// What a fault changes in the exact answers of side 1, whose right ones are `right`, and known to `integration` where
+/// forces decide the motion (channel by channel, in their units).
+pub(super) fn effect(case: &Case, right: &Trajectory, integration: &[f64], fault: Fault) -> Result<Effect> {
     let is_planted = match fault.kind.plant {
         Plant::Case(change) => change(case, fault.size).is_some(),
         Plant::Answer(change) => {
@@ -54,12 +55,13 @@ pub(super) fn effect(case: &Case, right: &Trajectory, fault: Fault) -> Result<Ef
     let Ok(wrong) = Planted { fault, inner: Box::new(AssurSolver) }.solve(case) else { return Ok(Effect::Unsolved) };
     let sizes = magnitudes(right);
     let (mut largest, mut beyond) = (0.0f64, false);
-    for ((channel, ours), (size, (_, theirs))) in right.iter().zip(sizes.iter().zip(wrong.iter())) {
+    let known = sizes.iter().zip(integration);
+    for ((channel, ours), ((size, error), (_, theirs))) in right.iter().zip(known.zip(wrong.iter())) {
         // Whole turns count here.
         let change = ours.iter().zip(theirs).fold(0.0f64, |most, (a, b)| most.larger((a - b).abs()));
         let relative = share(change, *size);
         largest = largest.larger(relative);
-        beyond |= !(relative <= rounding(channel.kind.stage));
+        beyond |= !(relative <= rounding(channel.kind.stage) + share(*error, *size));
     }
     Ok(if beyond { Effect::Changes(largest) } else { Effect::Equivalent(largest) })
 }

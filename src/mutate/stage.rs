@@ -11,6 +11,7 @@ use crate::compare::overall;
 use crate::proof::{EngineProof, Engines, Entrant, Ledger, Options, Sides, TRUE_SIDES};
 use crate::scenario::Scenario;
 use analytic::{AssurSolver, NewtonSolver, TightAssurSolver, TightNewtonSolver};
+use linkage::case::Case;
 use linkage::engine::{Engine, Kept};
 use linkage::error::Result;
 use linkage::solver::Solver;
@@ -27,8 +28,9 @@ pub(super) struct Stage<'a> {
     options: &'a Options,
     /// The analytic sides without a fault.
     sides: Sides,
-    /// Exact answers of side 1.
+    /// Exact answers of side 1, and the error of its integration, channel by channel.
     right: Trajectory,
+    integration: Vec<f64>,
     /// The engine's runs without a fault.
     runs: OnceLock<Kept>,
     /// Verdict of the proof without a fault, and the engine.
@@ -45,8 +47,9 @@ impl<'a> Stage<'a> {
         let (whole, scenario) = (scenario, Scenario { case: scenario.case.scene()?.case, ..scenario.clone() });
         let sides = Sides::of([&scenario, whole], TRUE_SIDES, options.reference, &mut Ledger::default())?;
         let right = AssurSolver.solve(&scenario.case)?;
+        let integration = sides.integration();
         let runs = OnceLock::new();
-        let mut stage = Stage { scenario, whole, options, sides, right, runs, verdict: "", engine: "" };
+        let mut stage = Stage { scenario, whole, options, sides, right, integration, runs, verdict: "", engine: "" };
         let proof = stage.engine(&stage.sides, &|own| stage.kept(own), true)?;
         let verdict = stage.sides.verdict();
         (stage.verdict, stage.engine) = (overall([&verdict, &proof.verdict]).word(), proof.info.name);
@@ -68,7 +71,7 @@ impl<'a> Stage<'a> {
 
     /// What a fault changes in exact answers.
     pub(super) fn effect(&self, fault: Fault) -> Result<Effect> {
-        effect(&self.scenario.case, &self.right, fault)
+        effect(&self.scenario.case, &self.right, &self.integration, fault)
     }
 
     /// The proof with a fault in one party.
@@ -127,17 +130,29 @@ impl<'a> Stage<'a> {
         Sides::of(scenarios, entrants, self.options.reference, &mut Ledger::default())
     }
 
+    /// Whether a case differs in its instants only.
+    fn is_late(&self, case: &Case) -> bool {
+        let right = &self.scenario.case;
+        case.grid != right.grid && case.on(right.grid.clone()).is_ok_and(|own| own == *right)
+    }
+
     /// The fault in what all parties share: no party can contradict another, and what comes from outside is asked.
     fn in_all(&self, fault: Fault) -> Result<Outcome> {
-        let sides = match fault.kind.plant {
-            Plant::Case(change) => {
-                let Some(case) = change(&self.scenario.case, fault.size) else {
-                    return Ok(Outcome::Refused("the case cannot be put together".into()));
-                };
+        let case = match fault.kind.plant {
+            Plant::Case(change) => match change(&self.scenario.case, fault.size) {
+                None => return Ok(Outcome::Refused("the case cannot be put together".into())),
+                // Whoever asks names the instants. What is wrong is when the sides take them to be.
+                Some(case) if self.is_late(&case) => None,
+                Some(case) => Some(case),
+            },
+            Plant::Answer(_) => None,
+        };
+        let sides = match case {
+            Some(case) => {
                 let wrong = Scenario { case, ..self.scenario.clone() };
                 self.sides([&wrong, &wrong], TRUE_SIDES)?
             }
-            Plant::Answer(_) => {
+            None => {
                 let wrong = planted_sides(fault);
                 let entrants = [0, 1].map(|side: usize| Entrant { solver: &wrong[side][0], tight: &wrong[side][1] });
                 self.sides([&self.scenario, self.whole], entrants)?

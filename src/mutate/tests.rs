@@ -60,6 +60,17 @@ fn a_fault_that_changes_no_exact_answer_is_not_counted() {
     }
 }
 
+/// Symptom: the rods of a parallelogram only translate, and a fault in a rod's moment of inertia, which moved the steps
+/// of the integration, escaped as one that changes something.
+#[test]
+fn regress_what_moves_an_integration_s_steps_only_changes_nothing() {
+    let scenario = scenario("n_four_bar_1");
+    let asked = Asked { kinds: vec!["inertia-about-joint".into()], parties: vec![Party::Assur], ..Asked::default() };
+    let options = Options::default().budget(1e6);
+    let found = mutate(&scenario, &Asked { options, ..asked }, &mut |_| {}).unwrap();
+    assert!(matches!(found.mutants[0].outcome, Outcome::Equivalent(_)), "{:?}", found.mutants[0].outcome);
+}
+
 /// The smallest size is found to a factor of two: it is found, and half of it is not.
 #[test]
 fn the_smallest_size_is_found_and_half_of_it_is_lost() {

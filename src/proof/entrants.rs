@@ -14,7 +14,7 @@ use linkage::case::Case;
 use linkage::engine::Engine;
 use linkage::error::Result;
 use linkage::solver::Solver;
-use linkage::trajectory::Trajectory;
+use linkage::trajectory::{Channel, Trajectory};
 
 /// Share of the progress that the analytic sides are given.
 const SIDES: f64 = 0.1;
@@ -116,8 +116,14 @@ impl Sides {
         match scenario.oracles.is_empty() {
             true => ledger.skipped("published numbers", "there are none of wanted channels"),
             false => {
-                let numbers = || oracle::checks(scenario, whole, entrants.map(|entrant| entrant.solver));
-                checks.extend(ledger.done("published numbers", "solved at their own crank angles", numbers)?);
+                let channels = sides[order[0]].1.trajectory.channels();
+                let integration = |side: usize, channel: &Channel| {
+                    let of = |index| known.integration(if order[0] == side { 0 } else { 1 }, index);
+                    channels.iter().position(|own| own == channel).map_or(0.0, of)
+                };
+                let solvers = entrants.map(|entrant| entrant.solver);
+                let numbers = || oracle::checks(scenario, whole, solvers, &integration);
+                checks.extend(ledger.done("published numbers", "solved at their own instants", numbers)?);
             }
         }
         Ok(Sides { order, observed: sides, known, sensitivity, checks })
@@ -131,6 +137,11 @@ impl Sides {
     /// The reference's trajectory.
     pub(crate) fn trajectory(&self) -> &Trajectory {
         &self.own().trajectory
+    }
+
+    /// Error of the reference's integration, channel by channel, in their units; zeros in a prescribed motion.
+    pub(crate) fn integration(&self) -> Vec<f64> {
+        (0..self.trajectory().channels().len()).map(|channel| self.known.integration(0, channel)).collect()
     }
 
     /// The verdict on all checks.

@@ -147,6 +147,12 @@ impl Known {
         self.magnitudes[channel]
     }
 
+    /// Error of the integration in a channel of the reference (0) or of the other side (1), in its unit; zero in a
+    /// prescribed motion.
+    pub(super) fn integration(&self, side: usize, channel: usize) -> f64 {
+        self.integration[side][channel]
+    }
+
     /// Relative rounding allowed in a channel of a stage at an instant.
     fn rounding(&self, stage: Stage, channel: usize, row: usize) -> f64 {
         let condition = self.conditions.get(row).map_or(1.0, |sets| sets[self.dependence.of[channel]]);

@@ -360,7 +360,8 @@ fn errors_of_an_engine_have_the_sign_of_its_fault() {
 #[test]
 fn an_oracle_finds_a_unit_of_its_last_digit() {
     let name = "crank_rocker";
-    let oracle_checks = |text: &str| oracle::checks(&parsed(name, text), &parsed(name, text), analytic::all()).unwrap();
+    let oracle_checks =
+        |text: &str| oracle::checks(&parsed(name, text), &parsed(name, text), analytic::all(), &|_, _| 0.0).unwrap();
     assert!(oracle_checks(&text(name)).iter().all(|check| ["agree", "expected"].contains(&check.verdict.word())));
     let moved = [
         ("value = 50, digits = 9", "value = 50.000000001, digits = 9", "link.rocker.angle_deg"),
@@ -379,5 +380,22 @@ fn an_oracle_finds_a_unit_of_its_last_digit() {
         let missed: Vec<&Check> =
             found.iter().filter(|check| check.detail == figure && check.verdict.word() == "disagree").collect();
         assert_eq!(missed.len(), 2, "{figure}, on both sides");
+    }
+}
+
+/// What an integration leaves widens the bound of a number at a time, by as much, and of no other.
+#[test]
+fn the_error_of_an_integration_adds_to_the_bound_of_numbers_at_times() {
+    // Numbers at a crank angle, and at a time.
+    let both = parsed("five_bar_on_a_spring", &text("five_bar_on_a_spring"));
+    let bounds = |left: f64| {
+        let found = oracle::checks(&both, &both, analytic::all(), &|_, _| left).unwrap();
+        found.into_iter().map(|check| (check.family.contains(" s ("), check.bound)).collect::<Vec<_>>()
+    };
+    let narrow = bounds(0.0);
+    assert!([true, false].iter().all(|is_timed| narrow.iter().filter(|own| own.0 == *is_timed).count() > 80));
+    for ((is_timed, own), (_, wide)) in narrow.into_iter().zip(bounds(1e-3)) {
+        let more = if is_timed { 1e-3 } else { 0.0 };
+        assert!((wide - own - more).abs() < 1e-15, "{own:e}, {wide:e}");
     }
 }

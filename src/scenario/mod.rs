@@ -9,6 +9,7 @@ pub mod edit;
 mod figure;
 pub mod grid;
 mod hostile;
+mod instant;
 mod joints;
 mod links;
 mod loads;
@@ -32,7 +33,7 @@ mod words;
 pub use asked::{Asked, Undecided};
 pub use figure::{Figure, FigureValue, OracleFigure};
 pub use oracle::{Oracle, OracleBasis};
-pub use series::{ExpectedCell, OraclePoint, OracleSeries};
+pub use series::{ExpectedCell, OraclePoint, OracleSeries, When};
 pub use settings::EngineKeys;
 
 use std::path::{Path, PathBuf};
@@ -286,12 +287,13 @@ fn read(root: &mut Table, asked: &Asked, lists: bool) -> Result<Found> {
         oracles = oracles.into_iter().filter_map(|oracle| oracle.at_another_start(&case)).collect();
     }
     let series = oracles.iter().flat_map(|oracle| &oracle.series);
-    let published =
-        series.flat_map(|series| series.points.iter().chain(series.expected.iter().map(|cell| &cell.point)));
-    let cranks: Vec<f64> = published.map(|point| point.crank).collect();
+    let cranks: Vec<f64> = series.flat_map(OracleSeries::instants).filter_map(When::crank).collect();
     if let Err(message) = Grid::of_cranks(case.crank(), cranks).check(case.crank()) {
         let error = Error::new(ErrorKind::Input, format!("published numbers: {message}")).key("oracle");
-        return Err(error.help("take the numbers out, or give them at crank angles to which the drive comes"));
+        return Err(error.help(match case.crank().is_free() {
+            true => "give the numbers at times (`time_s`)",
+            false => "take the numbers out, or give them at crank angles to which the drive comes",
+        }));
     }
     let source = root.source();
     let (path, text) = (source.path.to_path_buf(), source.text.to_string());

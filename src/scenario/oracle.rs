@@ -3,11 +3,11 @@
 use super::correction::{Correction, number};
 use super::figure::Figure;
 use super::figure::{self, OracleFigure};
+use super::instant;
 use super::printed::{Printed, PrintedChannel};
-use super::reader::{Sign, Table};
+use super::reader::Table;
 use super::series::{ExpectedCell, Known, OraclePoint, OracleSeries};
 use super::table_file;
-use super::unit::ANGLE;
 use super::words::suggestion;
 use linkage::case::Case;
 use linkage::error::{ErrorKind, Result};
@@ -22,7 +22,7 @@ pub struct Oracle {
     pub source: String,
     /// How they are known.
     pub basis: OracleBasis,
-    /// Values of channels at crank angles.
+    /// Values of channels at crank angles or times.
     pub series: Vec<OracleSeries>,
     /// Figures of the mechanism.
     pub figures: Vec<OracleFigure>,
@@ -43,6 +43,8 @@ impl Oracle {
     /// What holds for a case that starts at another crank angle of the same branch; `None` if nothing does.
     pub(super) fn at_another_start(mut self, case: &Case) -> Option<Oracle> {
         self.figures.retain(|figure| !matches!(figure.figure, Figure::Distance(_)));
+        // A motion from another angle is another function of time.
+        self.series.retain(|series| series.instants().all(|at| at.time().is_none()));
         // A further drive or a changing speed ties the crank angle to time, and a torsional spring to turns from the
         // start.
         let winds = |load: &linkage::drive::Load| load.nature().twist.is_some();
@@ -89,10 +91,10 @@ pub(super) fn read(tables: Vec<Table>, case: &Case) -> Result<Vec<Oracle>> {
         match forms {
             [true, false, false] => {
                 (oracle.name, oracle.series) =
-                    table_file::read(&mut table, &Known { channels, wanted, digits: None, slack: 0.0 })?;
+                    table_file::read(&mut table, &Known { channels, wanted, digits: None, slack: 0.0 }, case)?;
             }
             [false, true, false] => {
-                oracle.series = values(&mut table, &Known { channels, wanted, digits: None, slack: 0.0 })?
+                oracle.series = values(&mut table, &Known { channels, wanted, digits: None, slack: 0.0 }, case)?
             }
             [false, false, true] => oracle.figures = figure::read(&mut table, case)?,
             _ => {
@@ -114,14 +116,14 @@ pub(super) fn read(tables: Vec<Table>, case: &Case) -> Result<Vec<Oracle>> {
     Ok(oracles)
 }
 
-/// Numbers at one crank angle, written in the scenario itself.
-fn values(table: &mut Table, known: &Known) -> Result<Vec<OracleSeries>> {
-    let crank = table.quantity("crank", &ANGLE, Sign::Any)?;
+/// Numbers at one instant, written in the scenario itself.
+fn values(table: &mut Table, known: &Known, case: &Case) -> Result<Vec<OracleSeries>> {
+    let at = instant::read(table, case)?;
     let mut series = Vec::new();
     for mut entry in table.tables("values")? {
         let (name, channel) = known.channel(&mut entry)?;
         let si = |number: Printed| OraclePoint {
-            crank,
+            at,
             value: channel.to_si(number.value),
             bound: channel.to_si(number.half_unit()),
             digits: number.digits,

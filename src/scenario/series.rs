@@ -1,5 +1,7 @@
 //! Values of one channel that an oracle has, and which channels it may name.
 
+use std::fmt;
+
 use super::printed::{self, PrintedChannel};
 use super::reader::Table;
 use super::words::suggestion;
@@ -26,14 +28,52 @@ pub struct OracleSeries {
 /// One published value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OraclePoint {
-    /// Crank angle (rad, as the scenario measures it).
-    pub crank: f64,
+    /// Where the value holds.
+    pub at: When,
     /// Value in the channel's SI unit.
     pub value: f64,
     /// Half a unit of the last printed digit, plus the known error of the numbers, in the channel's SI unit.
     pub bound: f64,
     /// Number of printed decimals, in the printed unit.
     pub digits: i32,
+}
+
+/// Where a value holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum When {
+    /// At a crank angle (rad, as the scenario measures it). Where forces decide the motion, of the nominal motion.
+    Crank(f64),
+    /// At a time (s) of the scenario's own motion.
+    Time(f64),
+}
+
+impl When {
+    /// The crank angle (rad) of a value at one.
+    #[must_use]
+    pub fn crank(self) -> Option<f64> {
+        match self {
+            When::Crank(crank) => Some(crank),
+            When::Time(_) => None,
+        }
+    }
+
+    /// The time (s) of a value at one.
+    #[must_use]
+    pub fn time(self) -> Option<f64> {
+        match self {
+            When::Crank(_) => None,
+            When::Time(time) => Some(time),
+        }
+    }
+}
+
+impl fmt::Display for When {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            When::Crank(crank) => write!(f, "crank angle {:.3} deg", crank.to_degrees()),
+            When::Time(time) => write!(f, "{time} s"),
+        }
+    }
 }
 
 /// A printed value that is known to be wrong. It must not be reproduced; the correct value must.
@@ -56,6 +96,22 @@ pub(super) struct Known<'a> {
     pub digits: Option<i32>,
     /// Known error of the published numbers, in the printed unit.
     pub slack: f64,
+}
+
+impl OracleSeries {
+    /// The y component of a series of magnitudes.
+    #[must_use]
+    pub fn y(&self) -> Option<Channel> {
+        let named = || Channel::named(&format!("joint.{}.fy_N", self.channel.of)).expect("joints have this channel");
+        self.magnitude.then(named)
+    }
+
+    /// Where all its values hold, those known to be wrong included.
+    pub fn instants(&self) -> impl Iterator<Item = When> {
+        let wrong = self.wrong.iter().flat_map(|(_, cells)| cells);
+        let cells = self.expected.iter().chain(wrong).map(|cell| cell.point.at);
+        self.points.iter().map(|point| point.at).chain(cells)
+    }
 }
 
 impl Known<'_> {

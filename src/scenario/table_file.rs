@@ -4,21 +4,22 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use super::correction::{Correction, check_apart, digits, finding};
+use super::instant;
 use super::printed::{Printed, PrintedChannel};
 use super::reader::{Sign, Table};
-use super::series::{ExpectedCell, Known, OraclePoint, OracleSeries};
+use super::series::{ExpectedCell, Known, OraclePoint, OracleSeries, When};
 use super::source::Source;
-use super::unit::ANGLE;
 use super::words::suggestion;
 use crate::files;
+use linkage::case::Case;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::mechanism::is_unseen;
 
-/// Crank angles (rad) that differ by less than this belong to the same row.
-const SAME_CRANK: f64 = 1e-9;
+/// Crank angles (rad), or times (s), that differ by less than this belong to the same row.
+const SAME: f64 = 1e-9;
 
 /// Name and series of the table that an oracle with the key `file` describes.
-pub fn read(oracle: &mut Table, known: &Known) -> Result<(String, Vec<OracleSeries>)> {
+pub fn read(oracle: &mut Table, known: &Known, case: &Case) -> Result<(String, Vec<OracleSeries>)> {
     let file = oracle.string("file")?;
     let path: PathBuf = oracle.source().path.parent().unwrap_or(Path::new("")).join(&file);
     let text = files::read_named(&path).map_err(|error| {
@@ -29,17 +30,11 @@ pub fn read(oracle: &mut Table, known: &Known) -> Result<(String, Vec<OracleSeri
     let source = Source { path: &path, text: &text };
     let rows = Rows::read(&source).map_err(|error| error.key(oracle.path_of("file")))?;
 
-    let crank = oracle.string("crank")?;
-    let Some(unit) = ANGLE.units.iter().find(|unit| crank.ends_with(&format!("_{}", unit.suffix))) else {
-        let error = oracle.wrong(ErrorKind::Input, "crank", format!("column \"{crank}\" does not say its unit"));
-        return Err(error.help("the column of crank angles ends in `_deg` or `_rad`"));
-    };
-    let column = rows.column(&crank).map_err(|error| error.key(oracle.path_of("crank")))?;
-    let cranks: Vec<f64> = rows
-        .cells(column)
-        .map(|cell| cell.printed().map(|printed| unit.to_si(printed.value)))
-        .collect::<Result<_>>()
-        .map_err(|error| error.key(oracle.path_of("crank")))?;
+    let from = instant::Rows::read(oracle)?;
+    let instants: Vec<When> = rows
+        .column(&from.column)
+        .and_then(|column| rows.cells(column).map(|cell| cell.instant(&from, case)).collect::<Result<_>>())
+        .map_err(|error| error.key(oracle.path_of(from.key)))?;
 
     let digits = if oracle.has("digits") { Some(digits(oracle)?) } else { None };
     let slack = slack(oracle)?;
@@ -47,7 +42,7 @@ pub fn read(oracle: &mut Table, known: &Known) -> Result<(String, Vec<OracleSeri
     let mut columns = oracle.table("columns")?;
     let mut all = Vec::new();
     for column in columns.all_tables()? {
-        all.push(series(column, &rows, &cranks, known)?);
+        all.push(series(column, &rows, &instants, known, case)?);
     }
     if all.is_empty() {
         let help = "map at least one column: `P2x_mm = { channel = \"point.2.x_mm\" }`";
@@ -57,7 +52,7 @@ pub fn read(oracle: &mut Table, known: &Known) -> Result<(String, Vec<OracleSeri
     Ok((name, all))
 }
 
-fn series(mut table: Table, rows: &Rows, cranks: &[f64], known: &Known) -> Result<OracleSeries> {
+fn series(mut table: Table, rows: &Rows, instants: &[When], known: &Known, case: &Case) -> Result<OracleSeries> {
     let name = table.name().to_string();
     let column = rows.column(&name).map_err(|error| error.key(table.path()))?;
     let (_, channel) = known.channel(&mut table)?;
@@ -68,14 +63,14 @@ fn series(mut table: Table, rows: &Rows, cranks: &[f64], known: &Known) -> Resul
         .collect::<Result<_>>()
         .map_err(|error: Error| error.key(table.path()))?;
     let whole = whole_column(&mut table, &printed)?;
-    let cells = single_cells(&mut table, cranks, &printed)?;
+    let cells = single_cells(&mut table, instants, &printed, case)?;
     if whole.is_some() && !cells.is_empty() {
         let message = "a column that is wrong as a whole has no single cells that are";
         return Err(table.wrong(ErrorKind::Input, "expect", message).help("keep either `expect` or `finding`"));
     }
     table.finish()?;
     let point = |row: usize, number: &Printed, slack: f64| OraclePoint {
-        crank: cranks[row],
+        at: instants[row],
         value: channel.to_si(number.value) - offset,
         bound: channel.to_si(number.half_unit() + slack),
         digits: number.digits,
@@ -86,12 +81,12 @@ fn series(mut table: Table, rows: &Rows, cranks: &[f64], known: &Known) -> Resul
         right: point(row, right, 0.0),
         finding: finding.into(),
     };
-    let (mut points, mut expected) = (Vec::with_capacity(cranks.len()), Vec::new());
+    let (mut points, mut expected) = (Vec::with_capacity(instants.len()), Vec::new());
     let wrong = whole.map(|(finding, right)| {
         let all = right.iter().enumerate().map(|(row, right)| corrected(row, &finding, right)).collect();
         (finding, all)
     });
-    let single = if wrong.is_none() { 0..cranks.len() } else { 0..0 };
+    let single = if wrong.is_none() { 0..instants.len() } else { 0..0 };
     for row in single {
         match cells.iter().find(|(of, _)| *of == row) {
             None => points.push(point(row, &printed[row], known.slack)),
@@ -103,13 +98,28 @@ fn series(mut table: Table, rows: &Rows, cranks: &[f64], known: &Known) -> Resul
 }
 
 /// The cells under `expect`: their rows, and the correct values there.
-fn single_cells(table: &mut Table, cranks: &[f64], printed: &[Printed]) -> Result<Vec<(usize, Correction)>> {
+fn single_cells(
+    table: &mut Table,
+    instants: &[When],
+    printed: &[Printed],
+    case: &Case,
+) -> Result<Vec<(usize, Correction)>> {
     let mut cells = Vec::new();
     for mut expect in table.tables("expect")? {
-        let crank = expect.quantity("crank", &ANGLE, Sign::Any)?;
-        let Some(row) = cranks.iter().position(|row| (row - crank).abs() <= SAME_CRANK) else {
-            let error = expect.wrong(ErrorKind::Input, "crank", "the table has no row with this crank angle");
-            return Err(error.help("give a crank angle that stands in the table"));
+        let at = instant::read(&mut expect, case)?;
+        let is_same = |row: &When| match (*row, at) {
+            (When::Crank(own), When::Crank(asked)) | (When::Time(own), When::Time(asked)) => {
+                (own - asked).abs() <= SAME
+            }
+            (When::Crank(_), When::Time(_)) | (When::Time(_), When::Crank(_)) => false,
+        };
+        let Some(row) = instants.iter().position(is_same) else {
+            let (key, what) = match at {
+                When::Crank(_) => ("crank", "crank angle"),
+                When::Time(_) => ("time", "time"),
+            };
+            let error = expect.wrong(ErrorKind::Input, key, format!("the table has no row with this {what}"));
+            return Err(error.help(format!("give a {what} that stands in the table")));
         };
         let Some(correction) = Correction::read(&mut expect, &printed[row])? else {
             return Err(expect.fault("`finding` is missing").help("say which finding calls the cell wrong"));
@@ -220,6 +230,14 @@ impl<'a> Rows<'a> {
 }
 
 impl Cell<'_> {
+    /// Where the row of this cell holds.
+    fn instant(&self, rows: &instant::Rows, case: &Case) -> Result<When> {
+        rows.instant(case, self.printed()?.value).map_err(|message| {
+            let error = Error::new(ErrorKind::Input, message).at(self.source.place(self.span.clone()));
+            error.help(instant::TIME_HELP)
+        })
+    }
+
     fn printed(&self) -> Result<Printed> {
         Printed::parse(self.text).ok_or_else(|| {
             Error::new(ErrorKind::Input, format!("found \"{}\", but a decimal number is needed", self.text))

@@ -33,7 +33,7 @@ fn val_ov7_base_first_pose() {
         for (axis, found) in [("x", found.x), ("y", found.y)] {
             let column = format!("P{point}{axis}_mm");
             let printed = positions.series.iter().find(|series| series.name == column).unwrap().points[0];
-            assert_eq!(printed.crank, 0.0);
+            assert_eq!(printed.at, When::Crank(0.0));
             assert!((found - printed.value).abs() <= 0.005e-3, "{column}: {found} against {}", printed.value);
         }
     }
@@ -58,8 +58,9 @@ fn ov7_base_is_read_whole() {
     assert!(case.grid.times.iter().all(|&time| time >= 0.0));
     assert_eq!((scenario.dt, &scenario.engine), (None, &EngineKeys::default()));
     let columns: Vec<usize> = scenario.oracles.iter().map(|oracle| oracle.series.len()).collect();
-    assert_eq!(columns, [10, 10, 10, 7, 7, 7]);
-    let rows = scenario.oracles.iter().flat_map(|oracle| &oracle.series).map(|series| series.points.len());
+    // The last two are from a program of its own: a distance at the start, and one pose.
+    assert_eq!(columns, [10, 10, 10, 7, 7, 7, 0, 84]);
+    let rows = scenario.oracles[..6].iter().flat_map(|oracle| &oracle.series).map(|series| series.points.len());
     assert!(rows.into_iter().all(|rows| rows == 13));
     let angles = &scenario.oracles[3].series;
     assert_eq!(angles[6].channel, Channel::named("link.rocker_87.angle_rad").unwrap());
@@ -91,7 +92,9 @@ fn crank_rocker_starts_where_two_circles_meet() {
             "reduced model",
             "steady speed",
             "lengths",
-            "steady speed as printed"
+            "steady speed as printed",
+            "start",
+            "Newton and Euler at 70 deg"
         ]
     );
     assert_eq!(scenario.oracles[2].figures[0].figure, Figure::ReducedInertiaMean);
@@ -113,7 +116,7 @@ fn crank_rocker_starts_where_two_circles_meet() {
 fn val_crank_rocker_extreme_positions_are_in_line() {
     let scenario = load("crank_rocker.toml");
     for (oracle, sign) in scenario.oracles.iter().zip([1.0, -1.0]) {
-        let (crank, angle) = (oracle.series[0].points[0].crank, oracle.series[0].points[0].value);
+        let (crank, angle) = (oracle.series[0].points[0].at.crank().unwrap(), oracle.series[0].points[0].value);
         let a = linkage::math::unit(crank) * 0.025_995_627_740_337;
         let b = Vec2::new(0.15, 0.015) + linkage::math::unit(angle) * 0.25;
         assert!(((b - a).norm() - 0.347_071_931_891_81).abs() < 1e-14);
@@ -182,12 +185,12 @@ fn cells_known_to_be_wrong_keep_their_finding() {
     let oracle = scenario.oracles.last().unwrap();
     assert_eq!((oracle.name.as_str(), oracle.series[0].name.as_str()), ("table.csv", "B"));
     let expected = &oracle.series[0].expected;
-    assert_eq!((expected.len(), expected[0].point.crank, expected[0].point.digits), (1, 0.5, 2));
+    assert_eq!((expected.len(), expected[0].point.at, expected[0].point.digits), (1, When::Crank(0.5), 2));
     assert_eq!(expected[0].finding, "misprint");
-    assert_eq!((expected[0].right.crank, expected[0].right.digits), (0.5, 3));
+    assert_eq!((expected[0].right.at, expected[0].right.digits), (When::Crank(0.5), 3));
     assert!((expected[0].right.value - 4.625f64.to_radians()).abs() < 1e-15);
     let points = &oracle.series[0].points;
-    assert_eq!((points.len(), points[0].digits, points[1].digits, points[1].crank), (2, 1, 0, 1.0));
+    assert_eq!((points.len(), points[0].digits, points[1].digits, points[1].at), (2, 1, 0, When::Crank(1.0)));
     assert!((points[0].value - 10f64.to_radians()).abs() < 1e-15);
     assert_eq!(points[1].bound, 0.5 * (1.0 + 1e-9) * (std::f64::consts::PI / 180.0));
 }

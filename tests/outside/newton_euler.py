@@ -1,11 +1,14 @@
 """Numbers for [[oracle]] tables from a program of its own: mpmath, 40 digits, no code of this project.
 
-    python3 tests/outside/newton_euler.py BINARY scenarios/NAME.toml CRANK_DEG [CRANK_DEG ...]
+    python3 tests/outside/newton_euler.py BINARY scenarios/NAME.toml INSTANT [INSTANT ...]
+
+An instant is a crank angle in degrees (70), or a time in seconds with its unit (0.35s).
 
 It reads the scenario file by itself (tomllib), with units of its own. It closes all joints by Newton's method, follows
 the motion from the start in small steps, differentiates the closed poses by differences in 40 digits, and solves the
 equations of Newton and Euler of all links at once. The binary (`linkproof solve`) only gives a first guess of the pose
-at the start; assembly modes are checked against docs/scenario.md. Free motions have their nominal speed.
+at the start; assembly modes are checked against docs/scenario.md. At a crank angle a free motion has its nominal speed;
+at a time it is integrated by free_motion.py, in double precision, with a step that is halved until nothing printed moves.
 """
 
 import csv
@@ -16,6 +19,8 @@ import sys
 import tomllib
 
 from mpmath import mp, mpf
+
+import free_motion
 
 mp.dps = 40
 UNITS = {
@@ -64,7 +69,10 @@ class Mechanism:
 
     def driven(self, drive):
         joint = next(joint for joint in self.joints if joint["name"] == drive["joint"])
-        return next(link for link in joint["links"] if link != "ground")
+        # From the ground outwards: what an earlier drive moves carries this one.
+        index = next(index for index, own in enumerate(self.drives) if own is drive)
+        carriers = {"ground"} | {self.driven(own) for own in self.drives[:index]}
+        return next(link for link in joint["links"] if link not in carriers)
 
     def law(self, index, t):
         """Angle of a drive in the world."""
@@ -216,7 +224,7 @@ def course(load, stem, crank):
             return y + (points[(i + 1) % n][1] - y) * s / width
 
 
-def actions(m, q, v, twists, crank):
+def actions(m, q, v, twists, crank, sense=lambda number, omega: mp.sign(omega)):
     """Forces of all loads: link, force, place, moment."""
     def spot(link, point):
         at = m.at(q, link, m.points[link][point])
@@ -230,7 +238,7 @@ def actions(m, q, v, twists, crank):
     for number, load in enumerate(m.loads):
         kind = load["type"]
         if kind == "resistance":
-            yield load["link"], zero, zero, -quantity(load, "moment") * mp.sign(omega(load["link"]))
+            yield load["link"], zero, zero, -quantity(load, "moment") * sense(number, omega(load["link"]))
         elif kind == "moment":
             turning = omega(load["link"])
             acts = {"always": True, "counter-clockwise": turning > 0, "clockwise": turning < 0}[load.get("acts", "always")]
@@ -314,7 +322,7 @@ def forces(m, q, v, a, loads):
 
 
 def main():
-    binary, path, *cranks = sys.argv[1:]
+    binary, path, *instants = sys.argv[1:]
     text = open(path).read()
     m = Mechanism(text)
     start = m.closed(first_guess(binary, path, m), mpf(0))
@@ -327,8 +335,13 @@ def main():
     # "[want]" leaves out what is not asked for.
     want = m.file.get("channels", {}).get("want", ["positions", "velocities", "accelerations", "reactions", "balancing_moment"])
     print_start(m, start)
-    for crank in cranks:
-        t = m.time_of(mpf(crank) * mp.pi / 180)
+    for instant in instants:
+        is_time = instant.endswith("s")
+        if is_time and any(drive.get("motion") == "free" for drive in m.drives):
+            print_timed(m, start, twists, instant, want)
+            continue
+        t = mpf(instant[:-1]) if is_time else m.time_of(mpf(instant) * mp.pi / 180)
+        crank = m.law(0, t) - quantity(m.drives[0], "zero", mpf(0))
         mp.dps = 15
         steps = max(1, int(abs(m.law(0, t) - m.law(0, mpf(0))) / mpf("0.03")) + 1)
         q = list(start)
@@ -342,9 +355,39 @@ def main():
         q = near[0]
         v = [(near[-2][i] - 8 * near[-1][i] + 8 * near[1][i] - near[2][i]) / (12 * h) for i in range(len(q))]
         a = [(-near[-2][i] + 16 * near[-1][i] - 30 * q[i] + 16 * near[1][i] - near[2][i]) / (12 * h * h) for i in range(len(q))]
-        loads = list(actions(m, q, v, twists, mpf(crank) * mp.pi / 180))
+        loads = list(actions(m, q, v, twists, crank))
         f = forces(m, q, v, a, loads)
-        print_oracle(m, crank, q, v, a, f, want)
+        where, key = (f"{instant[:-1]} s", f"time_s = {instant[:-1]}") if is_time else (f"{instant} deg", f"crank_deg = {instant}")
+        print_oracle(m, where, key, SOURCE + ", 40 digits", q, v, a, f, want)
+
+
+SOURCE = "tests/outside/newton_euler.py: a reader, a closure and equations of its own"
+
+
+def print_timed(m, start, twists, instant, want):
+    """Numbers at a time. A motion under forces is integrated, and its forces are taken in 40 digits after that."""
+    t = mpf(instant[:-1])
+    source = f"{SOURCE}, integrated by tests/outside/free_motion.py"
+    for rate in (100, 200, 400, 800, 1600):
+        (q, v, a), change, signs = free_motion.at(m, quantity, actions, twists, start, t, rate)
+        print(f"# {rate} steps a second: half the step changes {change:.1e}", file=sys.stderr)
+        if change < 2e-12:
+            break
+    else:
+        raise ValueError("the integration does not converge")
+    q, v, a = ([mpf(float(x)) for x in own] for own in (q, v, a))
+    crank = m.angle(q, m.driven(m.drives[0])) - quantity(m.drives[0], "zero", mpf(0))
+    f = forces(m, q, v, a, list(actions(m, q, v, twists, crank, lambda number, _: signs[number])))
+    # What moves a free link is known: its forces, taken in other coordinates, must come to that.
+    largest = max(abs(value) for value in f)
+    for d, drive in enumerate(m.drives):
+        if drive.get("motion") == "free":
+            k = 3 * (m.links.index(m.driven(drive)) - 1) + 2
+            torque, inertia, _ = free_motion.motor(m, quantity, float(v[k])) if d == 0 else (0.0, 0.0, 0.0)
+            off = abs(f[3 * len(m.joints) + d] - (torque - inertia * a[k])) / largest
+            print(f"# moment of {drive['joint']}: off by {mp.nstr(off, 3)} of the largest force", file=sys.stderr)
+            assert off < 1e-11, off
+    print_oracle(m, f"{instant[:-1]} s", f"time_s = {instant[:-1]}", source, q, v, a, f, want)
 
 
 def print_start(m, q):
@@ -364,7 +407,7 @@ def print_start(m, q):
     print(f'figures = [{{ figure = "distance_m", points = ["{end}", "{other}"], value = {distance}, digits = 9 }}]')
 
 
-def print_oracle(m, crank, q, v, a, f, want):
+def print_oracle(m, where, key, source, q, v, a, f, want):
     values = []
     def add(stage, channel, quantity_, value):
         if stage in want:
@@ -388,16 +431,16 @@ def print_oracle(m, crank, q, v, a, f, want):
         if joint["type"] == "prismatic":
             add("reactions", f"joint.{joint['name']}.moment_N_m", "moment", f[3 * j + 2])
     for d, drive in enumerate(m.drives):
-        if drive.get("motion") == "free" and "motor" not in m.file:
+        if drive.get("motion") == "free" and (d > 0 or "motor" not in m.file):
             continue
         name = "drive.torque_N_m" if d == 0 else f"drive.{drive['joint']}.torque_N_m"
         add("balancing_moment", name, "moment", f[3 * len(m.joints) + d])
     largest = {}
     for _, kind, value in values:
         largest[kind] = max(largest.get(kind, mpf(0)), abs(value))
-    print(f'\n[[oracle]]\nname = "Newton and Euler at {crank} deg"\nbasis = "recomputed"')
-    print('source = "tests/outside/newton_euler.py: a reader, a closure and equations of its own, 40 digits"')
-    print(f"crank_deg = {crank}\nvalues = [")
+    print(f'\n[[oracle]]\nname = "Newton and Euler at {where}"\nbasis = "recomputed"')
+    print(f'source = "{source}"')
+    print(f"{key}\nvalues = [")
     for channel, kind, value in values:
         whole = int(mp.ceil(mp.log10(largest[kind]))) if largest[kind] > mpf(10) ** -20 else 0
         digits = max(0, min(12, 9 - whole))
@@ -406,4 +449,5 @@ def print_oracle(m, crank, q, v, a, f, want):
     print("]")
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -71,6 +71,7 @@ mod laws;
 mod loads;
 mod motors;
 mod sliders;
+mod timed;
 
 #[test]
 fn the_good_scenario_is_good() {

@@ -50,6 +50,7 @@ mod start;
 mod stories;
 mod stress;
 mod synthesis;
+mod timed_numbers;
 mod triad_methods;
 mod trunk;
 mod tune;

@@ -115,7 +115,7 @@ fn val_six_bar_slider_stands_highest_where_the_rocker_is_upright() {
     let topmost = || scenario.oracles.iter().filter(|oracle| oracle.name.starts_with("topmost position"));
     for (oracle, crank) in topmost().zip(&cranks) {
         for series in &oracle.series {
-            assert_within!((series.points[0].crank - crank).abs(), 1e-14 * TAU, "{}", oracle.name);
+            assert_within!((series.points[0].at.crank().unwrap() - crank).abs(), 1e-14 * TAU, "{}", oracle.name);
         }
     }
     assert_eq!(topmost().count(), 2);

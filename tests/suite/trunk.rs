@@ -1,10 +1,10 @@
-//! Faults in what all parties share, and numbers from outside that see them where no `[[oracle]]` of a scenario can:
-//! those are for crank angles, and a free motion has them for its nominal motion only.
+//! Faults in what all parties share, and numbers from outside that see them: a run-up in closed form, and the same
+//! numbers as an `[[oracle]]` at a time.
 
 use std::path::Path;
 
 use crate::common::assert_within;
-use linkproof::mutate::{Plant, named};
+use linkproof::mutate::{Asked, Party, Plant, mutate, named};
 use linkproof::{Case, Scenario, solve};
 
 /// A disc on a motor behind a reducer, from a speed of its own.
@@ -52,20 +52,46 @@ to_s = 0.5
 step_s = 0.05
 "#;
 
-/// Largest difference of angle (rad) and speed (rad/s) from the closed form, over their largest values.
+/// What changes the course of a run-up in time.
+const COURSE: [&str; 17] = [
+    "initial-speed",
+    "initial-speed-missing",
+    "initial-speed-reversed",
+    "free-held",
+    "late",
+    "clock",
+    "start-angle",
+    "inertia-crank",
+    "motor-size",
+    "motor-missing",
+    "motor-reversed",
+    "motor-without-ratio",
+    "motor-ratio-twice",
+    "motor-ratio",
+    "motor-lossless",
+    "rotor-missing",
+    "rotor-ratio",
+];
+
+/// Angle (rad) and speed (rad/s) in closed form.
 /// With J = J1 + i^2 Jr: J omega' = eta i (a + b i omega), so that omega tends to -a / (b i) with the time constant
 /// J / (-eta b i^2).
-fn off(case: &Case, times: &[f64]) -> f64 {
+fn closed(t: f64) -> [f64; 2] {
     let [inertia, rotor, ratio, efficiency, at_rest, slope, first] = [0.05, 0.002, 6.0, 0.8, 1.5, -0.01, 3.0];
     let last = -at_rest / (slope * ratio);
     let constant = (inertia + ratio * ratio * rotor) / (-efficiency * slope * ratio * ratio);
+    let left = (-t / constant).exp();
+    [10f64.to_radians() + last * t + (first - last) * constant * (1.0 - left), last + (first - last) * left]
+}
+
+/// Largest difference of angle (rad) and speed (rad/s) from the closed form, over their largest values.
+fn off(case: &Case, times: &[f64]) -> f64 {
+    let last = 25.0;
     let solved = solve(case).unwrap();
     let [angles, speeds] = ["link.disc.angle_rad", "link.disc.omega_rad_s"].map(|name| solved.named(name).unwrap());
     let mut worst = 0.0f64;
     for (row, t) in times.iter().enumerate() {
-        let left = (-t / constant).exp();
-        let speed = last + (first - last) * left;
-        let angle = 10f64.to_radians() + last * t + (first - last) * constant * (1.0 - left);
+        let [angle, speed] = closed(*t);
         for own in [(speeds[row] - speed).abs() / last, (angles[row] - angle).abs()] {
             if !(own <= worst) {
                 worst = own;
@@ -80,31 +106,33 @@ fn a_run_up_in_closed_form_sees_what_numbers_at_crank_angles_cannot() {
     let scenario = Scenario::parse(FLYWHEEL, Path::new("flywheel.toml")).unwrap_or_else(|error| panic!("{error}"));
     let (case, times) = (&scenario.case, &scenario.case.grid.times);
     assert_within!(off(case, times), 1e-9, "run-up of a disc against its closed form");
-    let kinds = [
-        "initial-speed",
-        "initial-speed-missing",
-        "initial-speed-reversed",
-        "free-held",
-        "late",
-        "clock",
-        "start-angle",
-        "inertia-crank",
-        "motor-size",
-        "motor-missing",
-        "motor-reversed",
-        "motor-without-ratio",
-        "motor-ratio-twice",
-        "motor-ratio",
-        "motor-lossless",
-        "rotor-missing",
-        "rotor-ratio",
-    ];
-    for name in kinds {
+    for name in COURSE {
         let kind = named(name).unwrap_or_else(|| panic!("{name}"));
         let Plant::Case(change) = kind.plant else { panic!("{name} is no fault in a case") };
         let wrong = change(case, kind.size.unwrap_or(1.0)).unwrap_or_else(|| panic!("{name} cannot be planted"));
         // A run that fails is seen too; none of these does.
         let found = off(&wrong, times);
         assert!(!(found <= 1e-5), "{name} changes the run-up by {found:e} only");
+    }
+}
+
+/// The same numbers in the scenario. Without them nothing inside a proof can see what all parties share.
+#[test]
+fn numbers_at_a_time_see_the_course_of_a_run_up() {
+    let [angle, speed] = closed(0.23);
+    let oracle = format!(
+        "\n[[oracle]]\nsource = \"closed form\"\ntime_s = 0.23\nvalues = [\n\
+         {{ channel = \"link.disc.angle_rad\", value = {angle:.7}, digits = 7 }},\n\
+         {{ channel = \"link.disc.omega_rad_s\", value = {speed:.7}, digits = 7 }},\n]\n"
+    );
+    for (text, is_seen) in [(FLYWHEEL.to_string() + &oracle, true), (FLYWHEEL.to_string(), false)] {
+        let scenario = Scenario::parse(&text, Path::new("flywheel.toml")).unwrap_or_else(|error| panic!("{error}"));
+        let kinds = COURSE.map(String::from).to_vec();
+        let asked = Asked { kinds, parties: vec![Party::All], ..Asked::default() };
+        let found = mutate(&scenario, &asked, &mut |_| {}).unwrap();
+        assert_eq!(found.mutants.len(), COURSE.len(), "{:?}", found.without);
+        for mutant in &found.mutants {
+            assert_eq!(mutant.outcome.is_found(), is_seen, "{}: {:?}", mutant.kind.name, mutant.outcome);
+        }
     }
 }

@@ -5,12 +5,13 @@ use super::build::Precision;
 use super::guard::Guard;
 use super::window::Window;
 use linkage::case::Case;
+use linkage::drive::load::sense_of;
 use linkage::drive::{Branch, Load, Wrench};
 use linkage::engine::Settings;
 use linkage::engine::bodies::check_inertias;
 use linkage::error::Result;
 use linkage::math::{KeepNan, Vec2};
-use linkage::mechanism::GROUND;
+use linkage::mechanism::{GROUND, Side};
 use linkage::solver::State;
 
 /// Rotation (rad) of the fastest free link in the tiny step that makes the start velocities consistent.
@@ -31,6 +32,8 @@ pub(super) struct Acting {
     /// The engine's present state, and its angular velocities one step before.
     state: State,
     before: Vec<f64>,
+    /// Velocities of the points against whose motion loads act, one step before; one for each load.
+    swept: Vec<Vec2>,
     /// Speeds that links at rest reach in the trial step, where one was made.
     setting_off: Vec<f64>,
     loads: Vec<Wrench>,
@@ -56,6 +59,7 @@ impl Acting {
         Ok(Acting {
             state: State::at_rest(case),
             before: vec![f64::NAN; links],
+            swept: vec![Vec2::repeat(f64::NAN); case.loads.len()],
             setting_off: vec![0.0; links],
             loads: vec![Wrench::ZERO; links],
             relieved: vec![Wrench::ZERO; links],
@@ -70,6 +74,12 @@ impl Acting {
     pub(super) fn act(&mut self, case: &Case, window: &Window, worlds: &mut [Guard], ends: [f64; 2]) {
         for (before, motion) in self.before.iter_mut().zip(&self.state.motions) {
             *before = if window.newest() > 0 { motion.omega } else { f64::NAN };
+        }
+        let motions = &self.state.motions;
+        for (swept, load) in self.swept.iter_mut().zip(&case.loads) {
+            let velocity = |at: Side| motions[at.link].point_velocity(at.local);
+            let known = load.sensed_point().filter(|_| window.newest() > 0);
+            *swept = known.map_or(Vec2::repeat(f64::NAN), velocity);
         }
         window.newest_motion(case, &mut self.state);
         if window.newest() == 0 {
@@ -92,7 +102,17 @@ impl Acting {
             }
             own
         };
-        case.loads_with(motions, angles, sensed, &mut self.loads);
+        // So may a point, and a force against its motion.
+        let swept = &self.swept;
+        let way = |index: usize, now: Vec2| {
+            let next = 2.0 * now - swept[index];
+            let (own, size) = (sense_of(now), now.norm() + next.norm());
+            match now.dot(&next) < 0.0 {
+                true => (now.norm() / size) * own + (next.norm() / size) * sense_of(next),
+                false => own,
+            }
+        };
+        case.loads_along(motions, angles, sensed, way, &mut self.loads);
         let motor = self.motor(case);
         self.loads[GROUND] = Wrench::ZERO;
         for (guard, added) in worlds.iter_mut().zip(&mut self.added) {

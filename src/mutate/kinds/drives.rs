@@ -58,10 +58,8 @@ pub(super) const KINDS: &[Kind] = &[
         initial(case, |speed| -speed)
     }),
     Kind::case(OF, "free-held", "a free crank turns with its nominal speed all the time", |case, _| {
-        case.crank().is_free().then_some(())?;
-        let law = MotionLaw::ConstantSpeed(case.crank().top_speed());
-        (case.drives.iter().count() == 1).then_some(())?;
-        turned(case, 0, |drive| drive.motion = DriveMotion::Prescribed { law: law.clone(), motor: None })
+        (case.crank().is_free() && case.drives.iter().count() == 1).then_some(())?;
+        turned(case, 0, |drive| *drive = drive.nominal())
     }),
     Kind::case(OF, "second-angle", "the last driving link starts at another angle (rad)", |case, size| {
         let last = case.drives.further().len();

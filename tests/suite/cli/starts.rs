@@ -1,10 +1,12 @@
 //! `--times`, `--crank-deg` and `--start-crank-deg` of `run` and `solve`, grids that list their values, and starts that
 //! the file leaves open or gets wrong.
 
+use std::fs;
+
 use serde_json::{Value, json};
 
 use super::tools::{Place, Table};
-use crate::common::assert_within;
+use crate::common::{assert_within, from_outside};
 
 const AMBIGUOUS: (&str, &str) = ("mode = \"left\"", "near = { point = \"B\", x_mm = 90, y_mm = 10 }");
 
@@ -56,8 +58,11 @@ fn run_takes_another_grid() {
 #[test]
 fn grids_of_files_list_their_values() {
     let place = Place::new();
+    let text = fs::read_to_string(place.path("scenarios/pendulum.toml")).unwrap();
+    let listed =
+        |list: &str| place.edited("pendulum.toml", "listed.toml", &[(OWN_GRID, list), (from_outside(&text), "")]);
     let solved = |list: &str| {
-        place.edited("pendulum.toml", "listed.toml", &[(OWN_GRID, list)]);
+        listed(list);
         place.ok("solve scenarios/listed.toml --with assur")
     };
     let by_option = place.ok("solve scenarios/pendulum.toml --with assur --times 0,0.1,0.3");
@@ -68,7 +73,7 @@ fn grids_of_files_list_their_values() {
     place.edited("ov7_base.toml", "listed.toml", &[(grid, "angles_deg = [0, -30, -77.5]")]);
     let by_option = place.ok("solve scenarios/ov7_base.toml --with newton --crank-deg 0,-30,-77.5");
     assert_eq!(place.ok("solve scenarios/listed.toml --with newton"), by_option);
-    place.edited("pendulum.toml", "listed.toml", &[(OWN_GRID, "angles_deg = [0, 10]")]);
+    listed("angles_deg = [0, 10]");
     place.refused("run scenarios/listed.toml --no-record", &["listed.toml", "grid", "the motion is free", "times_s"]);
     // The file's grid does not block the one that takes its place.
     place.ok("solve scenarios/listed.toml --with assur --times 0,0.1,0.3");

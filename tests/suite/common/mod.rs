@@ -24,6 +24,12 @@ pub fn shipped(name: &str) -> Scenario {
     Scenario::load(&path).unwrap_or_else(|error| panic!("{error}"))
 }
 
+/// The end of a shipped scenario's text: numbers from a program of its own. They hold for the case as it is, so that
+/// another case made of the text has to leave them out.
+pub fn from_outside(text: &str) -> &str {
+    &text[text.find("# Not published").expect("numbers from outside stand last")..]
+}
+
 /// Names of the Rapier engines; those in single precision only in builds with the feature `f32`.
 pub fn rapiers() -> Vec<&'static str> {
     let single = |name: &&str| cfg!(feature = "f32") || !name.ends_with("-f32");

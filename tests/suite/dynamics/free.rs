@@ -136,7 +136,7 @@ fn several_freedoms_keep_their_energy() {
 /// Step of the engines (s).
 const STEP: f64 = 1e-4;
 
-fn twin(name: &str, settings: impl Fn(Settings) -> Settings) -> Box<dyn Engine> {
+pub(super) fn twin(name: &str, settings: impl Fn(Settings) -> Settings) -> Box<dyn Engine> {
     let engine = linkproof::engines::named(name, STEP).unwrap();
     engine.with(settings(engine.settings()))
 }
@@ -198,6 +198,8 @@ fn an_ill_conditioned_run_up_is_inconclusive_with_its_sensitivity() {
     let mut scenario = shipped("crank_rocker_runup.toml");
     let motor = Motor { inertia: Default::default(), ..scenario.case.crank().motor().unwrap().clone() };
     scenario.case = scenario.case.with_motor(Some(motor)).unwrap();
+    // Its numbers are for another motor.
+    scenario.oracles.clear();
     let proof = prove(&scenario, &Options::default().engine(EngineName::Rapier).step(1e-4)).unwrap();
     assert!(matches!(proof.verdict, Verdict::Inconclusive { .. }), "{:?}", proof.verdict);
     let unclear: Vec<_> = proof.engine().channels.iter().filter(|c| c.verdict.word() == "inconclusive").collect();

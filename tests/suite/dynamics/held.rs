@@ -4,12 +4,13 @@ use analytic::range::Range;
 use analytic::{AssurSolver, NewtonSolver};
 use linkage::case::{Case, Grid};
 use linkage::drive::{Acts, Course, DriveMotion, Load};
+use linkage::engine::Settings;
 use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::Side;
 use linkage::trajectory::Trajectory;
 use linkproof::scenario::Scenario;
 
-use super::free::{column, energies, solve, worst};
+use super::free::{column, energies, solve, twin, worst};
 use crate::common::{assert_within, shipped};
 
 fn parsed(text: &str) -> Case {
@@ -126,6 +127,27 @@ fn a_force_against_a_point_of_a_pendulum_is_a_moment() {
             let apart = a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::larger);
             assert_within!(apart, 1e-10, "{name}: {apart:e}");
         }
+    }
+}
+
+/// Symptom: the twin kept the direction of such a force for the whole step in which the point reverses. Where a reversal
+/// lay just behind a step, all its runs were off by the same, and a bound from them was too small. A moment against a
+/// link had both directions by their shares of the step.
+#[test]
+fn regress_a_reversal_within_a_step_counts_by_its_shares_for_points_too() {
+    let case = shipped("pendulum.toml").case;
+    let case = case.on(Grid::of_times(case.crank(), vec![1.0, 2.0, 2.5])).unwrap();
+    let at = point(&case, "rod", "E");
+    let by_force = loaded(&case, &[Load::ResistingForce { at, force: 0.7 }]);
+    let by_moment = loaded(&case, &[Load::Resistance { link: at.link, moment: 0.7 }]);
+    for step in [2e-3, 1.7e-3, 1.3e-3, 1e-3] {
+        let engine = twin("rapier", |settings| Settings { resolution: step, extrapolated: 1, ..settings });
+        let [force, moment] = [&by_force, &by_moment].map(|case| {
+            let [exact, found] = [solve(&AssurSolver, case), solve(engine.as_ref(), case)];
+            worst(&exact, &found, |channel| channel.to_string() == "link.rod.omega_rad_s")
+        });
+        println!("{step}: {force:.1e}, {moment:.1e}");
+        assert_within!(force, 1e-5, "{step}: {force:e}");
     }
 }
 

@@ -1,0 +1,101 @@
+//! Where the numbers of an oracle hold: at a crank angle, or at a time.
+
+use super::reader::{Sign, Table};
+use super::series::When;
+use super::unit::{ANGLE, TIME, Unit};
+use linkage::case::{Case, Grid};
+use linkage::error::{ErrorKind, Result};
+
+/// Share of the last instant by which a time may lie beyond it: the rounding of a number in other units.
+const ROUNDING: f64 = 1e-12;
+
+const HELP: &str = "a number holds at a crank angle (of the nominal motion, where forces decide it) or at a time";
+
+/// The instant of a table under `crank` or `time` with a unit.
+pub fn read(table: &mut Table, case: &Case) -> Result<When> {
+    let crank = table.optional_quantity("crank", &ANGLE, Sign::Any)?;
+    let time = table.optional_quantity("time", &TIME, Sign::Any)?;
+    match (crank, time) {
+        (Some(crank), None) => Ok(When::Crank(crank)),
+        (None, Some(time)) => {
+            checked(case, time).map_err(|message| table.wrong(ErrorKind::Input, "time", message).help(TIME_HELP))?;
+            Ok(When::Time(time))
+        }
+        (Some(_), Some(_)) => {
+            let message = "a crank angle and a time are both given";
+            Err(table.wrong(ErrorKind::Input, "time", message).help(format!("keep one of the two: {HELP}")))
+        }
+        (None, None) => Err(table.fault("`crank_deg`, `crank_rad`, `time_s` or `time_ms` is missing").help(HELP)),
+    }
+}
+
+/// The column of a file that says where its rows hold.
+pub struct Rows {
+    /// Name of the column.
+    pub column: String,
+    /// The key that names it.
+    pub key: &'static str,
+    unit: &'static Unit,
+    is_time: bool,
+}
+
+impl Rows {
+    /// The column under `crank` or `time`, with its unit as ending.
+    pub fn read(table: &mut Table) -> Result<Self> {
+        let (crank, time) = (table.optional_string("crank")?, table.optional_string("time")?);
+        let (key, column, is_time) = match (crank, time) {
+            (Some(column), None) => ("crank", column, false),
+            (None, Some(column)) => ("time", column, true),
+            (Some(_), Some(_)) => {
+                let message = "a column of crank angles and one of times are both named";
+                return Err(table
+                    .wrong(ErrorKind::Input, "time", message)
+                    .help(format!("keep one of the two: {HELP}")));
+            }
+            (None, None) => return Err(table.fault("`crank` or `time` is missing").help(COLUMN_HELP)),
+        };
+        let (units, help) = match is_time {
+            false => (ANGLE.units, "the column of crank angles ends in `_deg` or `_rad`"),
+            true => (TIME.units, "the column of times ends in `_s` or `_ms`"),
+        };
+        match units.iter().find(|unit| column.ends_with(&format!("_{}", unit.suffix))) {
+            Some(unit) => Ok(Rows { column, key, unit, is_time }),
+            None => {
+                let message = format!("column \"{column}\" does not say its unit");
+                Err(table.wrong(ErrorKind::Input, key, message).help(help))
+            }
+        }
+    }
+
+    /// The instant of a row.
+    ///
+    /// # Errors
+    /// A message for a time that the motion does not have.
+    pub fn instant(&self, case: &Case, printed: f64) -> std::result::Result<When, String> {
+        let value = self.unit.to_si(printed);
+        match self.is_time {
+            false => Ok(When::Crank(value)),
+            true => checked(case, value).map(|()| When::Time(value)),
+        }
+    }
+}
+
+const COLUMN_HELP: &str =
+    "name the column of crank angles (`crank = \"crank_deg\"`) or that of times (`time = \"t_s\"`)";
+
+/// The way out for a time that the motion does not have.
+pub const TIME_HELP: &str = "give a time within the run, or let the grid go further";
+
+/// Whether the case's own motion is solved at this time (s): within its run, and where its law is defined.
+fn checked(case: &Case, time: f64) -> std::result::Result<(), String> {
+    Grid::of_times(case.crank(), vec![time]).check(case.crank())?;
+    // A grid that another one replaces is not read.
+    if !case.is_free() || case.grid.is_empty() {
+        return Ok(());
+    }
+    let end = case.grid.ascending().last().map_or(0.0, |&row| case.grid.times[row]);
+    match (0.0..=end * (1.0 + ROUNDING)).contains(&time) {
+        true => Ok(()),
+        false => Err(format!("{time} s is not in the run, which goes from 0 to {end} s")),
+    }
+}

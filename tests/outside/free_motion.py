@@ -1,0 +1,242 @@
+"""Motions under forces for newton_euler.py: double precision, numpy, no code of this project.
+
+The state is the angles of the free driving links and their speeds. The pose is closed by Newton's method, and the
+accelerations come from one linear system in the coordinates of the links' own frames, with a multiplier for every
+joint: other coordinates than those in which newton_euler.py takes the forces afterwards. Modified midpoint steps are
+extrapolated to order 12 (Gragg, Bulirsch, Stoer). Where a link turns back under a resistance, a step ends.
+"""
+
+import numpy as np
+from mpmath import mp, mpf
+
+COUNTS = (2, 4, 6, 8, 10, 12)
+
+
+def motor(m, quantity, speed):
+    """Static torque on the crank, the inertia that turns with it, and the torque of the motor itself."""
+    motor = m.file.get("motor")
+    if motor is None or m.drives[0].get("motion") != "free":
+        return 0.0, 0.0, 0.0
+    q = lambda key, default=None: float(quantity(motor, key, default))
+    ratio, sense = motor["ratio"], np.sign(float(quantity(m.drives[0], "speed")))
+    own, law = ratio * sense * speed, motor["law"]
+    if law == "constant":
+        torque = q("torque")
+    elif law == "linear":
+        torque = q("torque_at_rest") + q("slope") * own
+    else:
+        assert law == "kloss", law
+        full = q("synchronous_speed")
+        slip = 1 - own / full
+        at = motor["breakdown_slip"] if "breakdown_slip" in motor else 1 - q("breakdown_speed") / full
+        torque = 2 * q("breakdown_torque") * slip * at / (slip * slip + at * at)
+    inertia = (q("rotor_inertia", 0) + q("input_inertia", 0)) * ratio**2 + q("output_inertia", 0)
+    inertia += q("intermediate_inertia", 0) * motor.get("intermediate_ratio", 0) ** 2
+    return sense * motor.get("efficiency", 1) * ratio * torque, inertia, torque
+
+
+class Motion:
+    def __init__(self, m, quantity, actions, twists, steps_per_second):
+        self.m, self.quantity, self.actions, self.twists = m, quantity, actions, twists
+        self.rate = steps_per_second
+        self.free = [d for d, drive in enumerate(m.drives) if drive.get("motion") == "free"]
+        self.link = [m.links.index(m.driven(drive)) - 1 for drive in m.drives]
+        self.n = 3 * (len(m.links) - 1)
+        self.body = [(float(mass), float(c[0]), float(c[1]), float(inertia)) for mass, c, inertia in (m.body[l] for l in m.links[1:])]
+        self.joints = []
+        for joint in m.joints:
+            (first, a), (second, b) = m.sides(joint)
+            ends = (m.links.index(first) - 1, complex(*map(float, a)), m.links.index(second) - 1, complex(*map(float, b)))
+            slide = joint["type"] == "prismatic"
+            axes = [float(quantity(joint, key, mpf(0))) for key in ("axis", "second_axis")] if slide else None
+            self.joints.append((ends, axes, float(2 * mp.pi * m.turns.get(joint["name"], 0)) if slide else 0.0))
+        self.sense = {}
+        for number, load in enumerate(m.loads):
+            assert "table" not in load or load.get("interpolation", "linear") == "smooth", "a linear table has knots"
+            assert load["type"] != "resisting_force" and load.get("acts", "always") == "always", load
+            if load["type"] == "resistance":
+                self.sense[number] = 3 * (m.links.index(load["link"]) - 1) + 2
+        self.motor_least = np.inf
+
+    def rows(self, q, v):
+        """Closure, its derivatives by all coordinates, and its second derivative where no link accelerates."""
+        value, jacobian, bias = [], [], []
+        spin = lambda link: (q[3 * link + 2], v[3 * link + 2]) if link >= 0 else (0.0, 0.0)
+        for (i, a, j, b), axes, turns in self.joints:
+            arm, at, speed, turning = {}, {}, {}, {}
+            for end, (link, local) in enumerate(((i, a), (j, b))):
+                angle, omega = spin(link)
+                arm[end] = local * np.exp(1j * angle)
+                at[end] = arm[end] + (complex(*q[3 * link:3 * link + 2]) if link >= 0 else 0)
+                speed[end] = 1j * omega * arm[end] + (complex(*v[3 * link:3 * link + 2]) if link >= 0 else 0)
+                turning[end] = -omega**2 * arm[end]
+            gap, rate, second = at[1] - at[0], speed[1] - speed[0], turning[1] - turning[0]
+            row = np.zeros((2, self.n))
+            if axes is None:
+                for end, link, sign in ((0, i, -1), (1, j, 1)):
+                    if link >= 0:
+                        k, d = 3 * link, 1j * arm[end]
+                        row[0, k], row[1, k + 1], row[0, k + 2], row[1, k + 2] = sign, sign, sign * d.real, sign * d.imag
+                value += [gap.real, gap.imag]
+                bias += [second.real, second.imag]
+            else:
+                (angle, omega), (other, _) = spin(i), spin(j)
+                along = np.exp(1j * (angle + axes[0]))
+                across = 1j * along
+                dot = lambda p, q: (p.conjugate() * q).real
+                for end, link, sign in ((0, i, -1), (1, j, 1)):
+                    if link >= 0:
+                        k = 3 * link
+                        row[0, k], row[0, k + 1] = sign * across.real, sign * across.imag
+                        row[0, k + 2] = sign * dot(across, 1j * arm[end])
+                        row[1, k + 2] = sign
+                if i >= 0:
+                    row[0, 3 * i + 2] -= dot(along, gap)
+                value += [dot(across, gap), other + axes[1] - angle - axes[0] - turns]
+                bias += [dot(across, second) - 2 * omega * dot(along, rate) - omega**2 * dot(across, gap), 0.0]
+            jacobian.append(row)
+        return np.array(value), np.vstack(jacobian), np.array(bias)
+
+    def drives(self, t, y):
+        """Angles, speeds and accelerations (of those that are prescribed) of the driving links."""
+        count, out = len(self.free), []
+        for d, drive in enumerate(self.m.drives):
+            if d in self.free:
+                k = self.free.index(d)
+                out.append((y[k], y[count + k], 0.0))
+            else:
+                assert drive.get("law", "constant") == "constant"
+                out.append((float(self.m.law(d, mpf(0))) + float(self.quantity(drive, "speed")) * t, float(self.quantity(drive, "speed")), 0.0))
+        return out
+
+    def pose(self, t, y, guess):
+        """Coordinates and their rates."""
+        drives, q, zero = self.drives(t, y), np.array(guess), np.zeros(self.n)
+        held = np.zeros((len(drives), self.n))
+        for d, link in enumerate(self.link):
+            held[d, 3 * link + 2] = 1
+        for _ in range(30):
+            value, jacobian, _ = self.rows(q, zero)
+            off = np.array([q[3 * link + 2] - own[0] for link, own in zip(self.link, drives)])
+            full = np.vstack([jacobian, held])
+            step = np.linalg.solve(full, np.concatenate([value, off]))
+            q -= step
+            if np.max(np.abs(step)) < 1e-14 * max(1.0, np.max(np.abs(q))):
+                break
+        else:
+            assert np.max(np.abs(step)) < 1e-12, step
+        v = np.linalg.solve(full, np.concatenate([np.zeros(len(value)), [own[1] for own in drives]]))
+        return q, v
+
+    def solved(self, t, y, guess):
+        """Coordinates, rates and accelerations."""
+        q, v = self.pose(t, y, guess)
+        _, jacobian, bias = self.rows(q, v)
+        mass, force = np.zeros((self.n, self.n)), np.zeros(self.n)
+        for link, (m, cx, cy, inertia) in enumerate(self.body):
+            k, (angle, omega) = 3 * link, (q[3 * link + 2], v[3 * link + 2])
+            r = complex(cx, cy) * np.exp(1j * angle)
+            mass[k:k + 3, k:k + 3] = [[m, 0, -m * r.imag], [0, m, m * r.real], [-m * r.imag, m * r.real, inertia + m * abs(r) ** 2]]
+            g = complex(*map(float, self.m.gravity))
+            force[k:k + 2] += [m * (g + omega**2 * r).real, m * (g + omega**2 * r).imag]
+            force[k + 2] += m * (r.real * g.imag - r.imag * g.real)
+        if self.m.loads:
+            crank = q[3 * self.link[0] + 2] - float(self.quantity(self.m.drives[0], "zero", mpf(0)))
+            of = lambda number, _: self.signs[number]
+            for link, f, at, moment in self.actions(self.m, [mpf(x) for x in q], [mpf(x) for x in v], self.twists, mpf(crank), of):
+                if link != "ground":
+                    k = 3 * (self.m.links.index(link) - 1)
+                    force[k:k + 2] += [float(f[0]), float(f[1])]
+                    if f[0] or f[1]:
+                        force[k + 2] += (float(at[0]) - q[k]) * float(f[1]) - (float(at[1]) - q[k + 1]) * float(f[0])
+                    force[k + 2] += float(moment)
+        k = 3 * self.link[0] + 2
+        torque, inertia, own = motor(self.m, self.quantity, v[k])
+        self.motor_least = min(self.motor_least, own)
+        mass[k, k] += inertia
+        force[k] += torque
+        held = [d for d in range(len(self.link)) if d not in self.free]
+        extra = np.zeros((len(held), self.n))
+        for row, d in enumerate(held):
+            extra[row, 3 * self.link[d] + 2] = 1
+        jacobian, bias = np.vstack([jacobian, extra]), np.concatenate([bias, np.zeros(len(held))])
+        c = len(bias)
+        # Multipliers are forces of the size of the loads: rows of both halves are of one size in SI for these machines.
+        a = np.linalg.solve(np.block([[mass, jacobian.T], [jacobian, np.zeros((c, c))]]), np.concatenate([force, -bias]))
+        return q, v, a[:self.n]
+
+    def slope(self, t, y):
+        count = len(self.free)
+        q, v, a = self.solved(t, y, self.near + (t - self.when) * self.rates)
+        return np.concatenate([y[count:], [a[3 * self.link[d] + 2] for d in self.free]])
+
+    def step(self, t, y, h):
+        table = []
+        first = self.slope(t, y)
+        for row, n in enumerate(COUNTS):
+            s = h / n
+            before, now = y, y + s * first
+            for k in range(1, n):
+                before, now = now, before + 2 * s * self.slope(t + k * s, now)
+            table.append([0.5 * (before + now + s * self.slope(t + h, now))])
+            for j in range(row):
+                factor = (n / COUNTS[row - j - 1]) ** 2
+                table[row].append(table[row][j] + (table[row][j] - table[row - 1][j]) / (factor - 1))
+        return table[-1][-1]
+
+    def at(self, start, end):
+        """Coordinates, rates and accelerations at a time."""
+        y = [float(start[3 * self.link[d] + 2]) for d in self.free]
+        speeds = [float(self.quantity(self.m.drives[d], "initial_speed", mpf(0))) for d in self.free]
+        y = np.array(y + speeds)
+        t, q = 0.0, np.array([float(x) for x in start])
+        _, v = self.pose(t, y, q)
+        self.signs = {}
+        if self.sense:
+            # From rest the motor moves the links in its own sense.
+            ahead = np.array(list(y[:len(self.free)]) + [float(self.quantity(self.m.drives[d], "speed")) for d in self.free])
+            _, first = self.pose(t, ahead, q)
+            self.signs = {number: float(np.sign(first[k])) for number, k in self.sense.items()}
+        steps = max(1, int(np.ceil(end * self.rate)))
+        left = [end / steps] * steps
+        while left:
+            self.when, self.near, self.rates = t, *self.pose(t, y, q)
+            h = left.pop()
+            def turned(h):
+                moved = self.step(t, y, h)
+                _, v = self.pose(t + h, moved, self.near + h * self.rates)
+                return moved, {number: v[k] * self.signs[number] for number, k in self.sense.items()}
+            moved, senses = turned(h)
+            back = [number for number, own in senses.items() if own < 0 and h > 1e-14]
+            if back:
+                number, (low, high) = back[0], (0.0, h)
+                f_low, f_high = None, senses[number]
+                for _ in range(60):
+                    middle = 0.5 * (low + high) if f_low is None else low + (high - low) * f_low / (f_low - f_high)
+                    middle = min(max(middle, low + 0.01 * (high - low)), high - 0.01 * (high - low))
+                    moved, senses = turned(middle)
+                    if senses[number] < 0:
+                        high, f_high = middle, senses[number]
+                    else:
+                        low, f_low = middle, senses[number]
+                    if high - low < 1e-15 + 1e-13 * h:
+                        break
+                moved, senses = turned(high)
+                left.append(h - high)
+                h = high
+                self.signs[number] = -self.signs[number]
+            y, q, t = moved, self.near + h * self.rates, t + h
+        q, _ = self.pose(t, y, q)
+        return self.solved(t, y, q)
+
+
+def at(m, quantity, actions, twists, start, end, rate):
+    """Coordinates, rates and accelerations at a time, how far half the step changes them, and the senses of loads."""
+    results = []
+    for steps in (rate, 2 * rate):
+        motion = Motion(m, quantity, actions, twists, steps)
+        results.append(motion.at(start, float(end)))
+    motor = m.file.get("motor", {})
+    assert motor.get("efficiency", 1) == 1 or motion.motor_least > 0, "losses of a motor that brakes are not stated"
+    change = max(float(np.max(np.abs(a - b)) / np.max(np.abs(b))) for a, b in zip(*results))
+    return results[1], change, motion.signs
