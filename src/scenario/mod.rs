@@ -12,6 +12,7 @@ mod hostile;
 mod joints;
 mod links;
 mod loads;
+mod masses;
 mod motion;
 mod motor;
 pub mod oracle;
@@ -244,6 +245,7 @@ fn read(root: &mut Table, asked: &Asked, lists: bool) -> Result<Found> {
     let groups = start.tables("groups")?;
     start.finish()?;
     let drives = motion::drives(drives, motor, &mechanism, crank)?;
+    masses::check(&mechanism, &drives)?;
     let loads = loads::read(loads, &mechanism)?;
     let gravity = motion::gravity(gravity)?;
     let structure = Structure::of(&mechanism, &drives.joints())?;

@@ -7,8 +7,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use linkage::case::Grid;
-use linkproof::scenario::Scenario;
 use linkproof::parts::ChannelProof;
+use linkproof::scenario::Scenario;
 use linkproof::{Options, Proof, Verdict, prove};
 
 use crate::common::damage::{Damaged, damaged};
