@@ -99,14 +99,22 @@ def moment_of(scenario, model, data, name):
     """Moment on the body that a joint of the tree carries, about the joint's place on it, in world axes."""
     read = data.sensor(f"{name}.moment").data[2]
     carried = model.jnt_bodyid[model.joint(name).id]
-    # Sensors work backwards from motion, forces in loops and gravity: they do not know of moments that resist links farther out.
-    for load in scenario.toml.get("loads", []):
-        body = model.body(load["link"]).id
-        while body not in (0, carried):
-            body = model.body_parentid[body]
-        if body == carried:
-            spin = data.body(load["link"]).cvel[2]
-            read += math.copysign(load["moment_N_m"], spin)
+    # Sensors work backwards from motion, forces in loops and gravity: they do not know of moments on links farther out.
+    for number, load in enumerate(scenario.toml.get("loads", []), start=1):
+        if load["type"] == "resistance":
+            body = model.body(load["link"]).id
+            while body not in (0, carried):
+                body = model.body_parentid[body]
+            if body == carried:
+                spin = data.body(load["link"]).cvel[2]
+                read += math.copysign(load["moment_N_m"], spin)
+        elif load["type"].startswith("torsion_"):
+            # An actuator turns the two bodies of one joint against each other: no other joint of the tree carries it.
+            actuator = model.actuator(f"load.{number}")
+            if actuator.trnid[0] == model.joint(name).id:
+                read -= float(data.actuator(f"load.{number}").force[0])
+        else:
+            sys.exit(f"{scenario.name}: this check does not know a load of type \"{load['type']}\" yet: add it to moment_of")
     return read
 
 
