@@ -48,6 +48,7 @@ pub(super) fn each<E: From<McapError>>(
 }
 
 /// The message that a record is; schemas and channels are kept.
+#[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the MCAP library")]
 fn message<'a>(opcode: u8, data: &'a [u8], known: &mut ChannelAccumulator<'static>) -> McapResult<Option<Message<'a>>> {
     if !matches!(opcode, op::SCHEMA | op::CHANNEL | op::MESSAGE) {
         return Ok(None);
