@@ -91,7 +91,9 @@ pub fn scales(trajectory: &Trajectory) -> Vec<f64> {
 /// coordinates and forces.
 #[must_use]
 pub fn magnitudes(trajectory: &Trajectory) -> Vec<f64> {
-    natural(trajectory, &largest_sizes(trajectory), 1.0)
+    let sizes = largest_sizes(trajectory);
+    let all = Sizes::of(trajectory, trajectory.channels().iter().zip(sizes));
+    trajectory.channels().iter().map(|channel| all.rounded_with(channel)).collect()
 }
 
 /// The same by sets of channels: the numbers of a channel in set `sets[channel]` are those of all channels whose set
@@ -112,7 +114,7 @@ pub(crate) fn magnitudes_by(trajectory: &Trajectory, sets: &[usize], feeds: &dyn
         fed.fold(Sizes::of(trajectory, std::iter::empty()), |all, (_, own)| all.with(own))
     };
     let all: Vec<Sizes> = (0..count).map(sizes_of).collect();
-    trajectory.channels().iter().zip(sets).map(|(channel, &set)| all[set].natural(channel, 1.0)).collect()
+    trajectory.channels().iter().zip(sets).map(|(channel, &set)| all[set].rounded_with(channel)).collect()
 }
 
 fn largest_sizes(trajectory: &Trajectory) -> Vec<f64> {
@@ -165,6 +167,13 @@ impl Sizes {
         }
         (self.length, self.force) = (self.length.larger(other.length), self.force.larger(other.force));
         self
+    }
+
+    /// Size of the numbers that a channel is made of. The force on the frame is the sum of those in its joints, which
+    /// may cancel each other and leave their rounding.
+    fn rounded_with(&self, channel: &Channel) -> f64 {
+        let own = self.natural(channel, 1.0);
+        if channel.kind.unit == Unit::Newton { own.larger(self.force) } else { own }
     }
 
     fn natural(&self, channel: &Channel, turn: f64) -> f64 {
@@ -269,6 +278,15 @@ mod tests {
         // A constant force is measured by itself.
         let b = trajectory(&[("joint.A.fx_N", vec![-500.0, 500.0]), ("joint.A.fy_N", vec![30.0, 30.0])]);
         assert_eq!(scales(&b), [500.0, 3.0]);
+    }
+
+    #[test]
+    fn a_force_on_the_frame_is_rounded_as_the_forces_that_it_sums() {
+        let all = trajectory(&[("joint.A.fx_N", vec![2e9, -1e9]), ("frame.fx_N", vec![3.0, 4.0])]);
+        assert_eq!(magnitudes(&all), [2e9, 2e9]);
+        assert_eq!(magnitudes_by(&all, &[0, 0], &|_, _| true), [2e9, 2e9]);
+        // What an error is measured by, however, is the channel's own range.
+        assert_eq!(scales(&all), [1.5e9, 0.5]);
     }
 
     #[test]

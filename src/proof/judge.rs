@@ -16,9 +16,10 @@ use crate::tolerance::{Basis, Parts};
 use linkage::case::{Case, Grid};
 use linkage::engine::{Engine, Settings};
 use linkage::error::{Advice, Result};
-use linkage::math::KeepNan;
+use linkage::math::statistics::half_range;
+use linkage::math::{KeepNan, largest_size};
 use linkage::solver::Provision;
-use linkage::trajectory::{CHANNELS, Channel, ChannelKind, Stage, Subject, Trajectory};
+use linkage::trajectory::{CHANNELS, Channel, ChannelKind, Stage, Subject, Trajectory, Unit};
 
 /// What is known about an engine that was run.
 #[derive(Clone, Debug, PartialEq)]
@@ -73,6 +74,9 @@ const COPIED: usize = 1_000_000;
 
 /// Share of the widest conclusive bound from which a difference between sweeps counts.
 const COUNTS: f64 = 0.01;
+
+/// Speed that a link would gain in a step, over the range of its speed, from which the step says nothing about it.
+const OUTRUN: f64 = 10.0;
 
 /// What a judgement is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -212,7 +216,29 @@ impl<'a> Judge<'a> {
         let case = late.as_ref().unwrap_or(&self.scenario.case);
         let (too_coarse, kept) = (doubt.too_coarse(), self.kept(&doubt, Stage::Reactions, case));
         let [_, run, _] = runs.resolutions;
-        Ok(Judged { info: describe(engine), channels, checks, verdict, run, too_coarse, kept })
+        let mut judged = Judged { info: describe(engine), channels, checks, verdict, run, too_coarse, kept };
+        if !engine.controls_error() && self.outruns(engine.settings().resolution) {
+            let why = "the motion changes within a fraction of a step, so that no runs at such steps show their error";
+            judged.doubt(why, &Advice::SmallerStep { to: None });
+        }
+        Ok(judged)
+    }
+
+    /// Whether a link of a free motion would gain more speed in a step than it ever has, and many times so: as from a
+    /// motor that is much too strong for what it moves. Runs at several such steps agree on what they all miss.
+    fn outruns(&self, step: f64) -> bool {
+        let reference = self.reference;
+        let times = reference.times();
+        let span = 2.0 * half_range(times);
+        if !self.scenario.case.is_free() || !(span > 0.0) {
+            return false;
+        }
+        let of = |unit: Unit| reference.iter().filter(move |(channel, _)| channel.kind.unit == unit);
+        of(Unit::RadianPerSecondSquared).any(|(gains, values)| {
+            let speeds = of(Unit::RadianPerSecond).find(|(speeds, _)| speeds.of == gains.of);
+            let gained = largest_size(values) * step.smaller(span);
+            speeds.is_some_and(|(_, speeds)| gained > OUTRUN * 2.0 * half_range(speeds))
+        })
     }
 
     /// Largest growth of the differences between runs with more and more sweeps, of any position whose differences

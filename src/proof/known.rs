@@ -48,6 +48,19 @@ pub(super) fn of_condition(stage: Stage, condition: f64) -> f64 {
     ULPS * f64::EPSILON * condition.powi(power(stage))
 }
 
+/// How much farther than any of their joints are from each other the mass centres of links are from them; 1 at least.
+/// Side 2 calculates with the places of mass centres: a joint is as uncertain as the last digit of its distance from
+/// there, and angles by as much over the distance of the joints. The links are those of `groups` and the driving ones.
+fn lever(case: &Case, groups: &[usize]) -> f64 {
+    let own = groups.iter().flat_map(|&group| case.structure.groups[group].links.iter().copied());
+    let (mut size, mut farthest) = (0.0f64, 0.0f64);
+    for link in own.chain(case.drives.iter().map(|drive| drive.link)) {
+        let link = &case.mechanism.links()[link];
+        (size, farthest) = (size.larger(link.size()), farthest.larger(link.extent()));
+    }
+    if size > 0.0 { (farthest / size).larger(1.0) } else { 1.0 }
+}
+
 /// Errors allowed to the analytic sides, channel by channel. Each is judged by the numbers that it is made of: near a
 /// dead point of one group those of the others stay as they are.
 pub(super) struct Known {
@@ -61,6 +74,8 @@ pub(super) struct Known {
     /// Condition number of the pose at every instant, so far in a motion under forces, for every set of groups; empty
     /// as long as nobody needs it.
     conditions: Vec<Vec<f64>>,
+    /// For every set of groups: see [`lever`].
+    levers: Vec<f64>,
     /// Size of the crank angle at every instant of a prescribed motion (rad): it is a double, and both sides get it.
     turned: Vec<f64>,
     /// Whether a channel is an angle. The numbers of angles have their turns in them already.
@@ -107,7 +122,8 @@ impl Known {
             false => case.grid.cranks.iter().map(|crank| crank.abs()).collect(),
         };
         let is_angle = reference.1.channels().iter().map(|channel| channel.kind.unit == Unit::Radian).collect();
-        Ok(Known { magnitudes, integration, dependence, conditions: Vec::new(), turned, is_angle })
+        let levers = dependence.sets.iter().map(|set| lever(case, set)).collect();
+        Ok(Known { magnitudes, integration, dependence, conditions: Vec::new(), levers, turned, is_angle })
     }
 
     /// Measures the condition of every pose, for a trajectory whose errors exceed those of well conditioned poses.
@@ -155,11 +171,12 @@ impl Known {
 
     /// Relative rounding allowed in a channel of a stage at an instant.
     fn rounding(&self, stage: Stage, channel: usize, row: usize) -> f64 {
-        let condition = self.conditions.get(row).map_or(1.0, |sets| sets[self.dependence.of[channel]]);
+        let set = self.dependence.of[channel];
+        let condition = self.conditions.get(row).map_or(1.0, |sets| sets[set]);
         // The crank angle is rounded before either side begins: what it leaves is felt like any error of a position.
         let turned = self.turned.get(row).filter(|_| !self.is_angle[channel]);
         let turned = turned.map_or(0.0, |turned| f64::EPSILON * turned * condition.powi(power(stage)));
-        usual(stage).larger(of_condition(stage, condition)) + turned
+        usual(stage).larger(self.levers[set] * of_condition(stage, condition)) + turned
     }
 
     /// Relative difference allowed between the sides in a channel of a stage at an instant.

@@ -32,7 +32,8 @@ pub(super) struct Observed {
     /// Largest distance of a joint from the origin (m).
     pub(super) reach: f64,
     /// Balancing moment from the balance of powers (N m) at every instant; empty if no balancing moment is wanted. For
-    /// a crank whose speed changes, it is multiplied by the crank's speed over its top speed.
+    /// a crank whose speed changes, it is multiplied by the crank's speed over its top speed; in a motion under forces,
+    /// over the largest speed that a driving link reaches.
     pub(super) power: Vec<f64>,
     /// Balancing moments of the trajectory, reduced to the crank (N m), at every instant; multiplied in the same way.
     pub(super) torque: Vec<f64>,
@@ -118,7 +119,7 @@ pub(super) fn observe(
     let mut opening = if watch == Watch::Senses { Vec::new() } else { vec![0.0; case.grid.len()] };
     let with_sense = case.loads.iter().filter(|load| load.sensed_link().is_some() || load.sensed_point().is_some());
     let mut senses = Senses::new(with_sense.count(), case.grid.len());
-    let (mut reach, mut moment): (f64, f64) = (0.0, 0.0);
+    let (mut reach, mut moment, mut fastest): (f64, f64, f64) = (0.0, 0.0, 0.0);
     let mut unbalance = Unbalance::default();
     let mut passing: f64 = 1.0;
     let mut visit = |row: usize, state: &State| {
@@ -137,14 +138,12 @@ pub(super) fn observe(
         }
         if with_power {
             // A crank at rest has no power. Where the crank's speed changes, powers are compared, divided by the top
-            // speed.
+            // speed below.
             (power[row], torque[row]) = match steady {
                 true => (power::balancing_moment(case, state), reduced_torque(case, state)),
-                false => {
-                    let top = case.crank().top_speed();
-                    (-power::of_known_forces(case, state) / top, power_of_drives(case, state) / top)
-                }
+                false => (-power::of_known_forces(case, state), power_of_drives(case, state)),
             };
+            fastest = case.drives.iter().map(|drive| state.motions[drive.link].omega.abs()).fold(fastest, f64::larger);
             moment = moment.larger(state.largest_moment(arm));
             // In the instant of starting, loads already act against a motion that the state does not show yet.
             let setting_off = case.is_free() && case.drives.iter().all(|drive| state.motions[drive.link].omega == 0.0);
@@ -159,6 +158,11 @@ pub(super) fn observe(
     if let Err(error) = solver.sweep(case, &mut visit, progress) {
         let kept = sampler.so_far(case).map(Box::new);
         return Err(Stopped { error, kept });
+    }
+    if !steady {
+        // A free motion has only its nominal speed in the case, and may be far from it all the time.
+        let top = if case.is_free() { fastest } else { case.crank().top_speed() };
+        power.iter_mut().chain(&mut torque).for_each(|power| *power = share(*power, top));
     }
     Ok(Observed {
         trajectory: sampler.finish(case)?,

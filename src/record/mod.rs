@@ -21,6 +21,7 @@
 
 mod forces;
 mod guides;
+mod messages;
 mod outline;
 mod output;
 mod placed;

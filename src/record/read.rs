@@ -1,9 +1,9 @@
 //! From an MCAP file back to trajectories.
 
-use super::schema;
+use super::{messages, schema};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::trajectory::{Channel, Trajectory};
-use mcap::{Message, MessageStream};
+use mcap::{McapError, Message};
 use std::collections::{BTreeMap, HashMap};
 use std::fmt::Display;
 use std::fs;
@@ -30,6 +30,24 @@ struct Found {
     first: Option<u16>,
 }
 
+/// What is wrong with a file.
+enum Damage {
+    File(McapError),
+    Message(prost::DecodeError),
+}
+
+impl From<McapError> for Damage {
+    fn from(error: McapError) -> Self {
+        Damage::File(error)
+    }
+}
+
+impl From<prost::DecodeError> for Damage {
+    fn from(error: prost::DecodeError) -> Self {
+        Damage::Message(error)
+    }
+}
+
 pub(super) fn read(path: &Path) -> Result<Vec<(String, Trajectory)>> {
     let bytes = fs::read(path).map_err(|error| {
         Error::new(ErrorKind::Io, format!("the recording {} cannot be read: {error}", path.display()))
@@ -45,14 +63,18 @@ pub(super) fn of_bytes(bytes: &[u8], path: &Path) -> Result<Vec<(String, Traject
     };
     let mut topics: HashMap<u16, Topic> = HashMap::new();
     let mut sides: BTreeMap<String, Found> = BTreeMap::new();
-    for message in MessageStream::new(bytes).map_err(|error| damaged(&error))? {
-        let message = message.map_err(|error| damaged(&error))?;
+    let mut take = |message: &Message| -> std::result::Result<(), Damage> {
         let id = message.channel.id;
         if let std::collections::hash_map::Entry::Vacant(entry) = topics.entry(id) {
-            entry.insert(topic(&message).map_err(|error| damaged(&error))?);
+            entry.insert(topic(message)?);
         }
-        collect(&message, &topics[&id], &mut sides).map_err(|error| damaged(&error))?;
-    }
+        collect(message, &topics[&id], &mut sides)?;
+        Ok(())
+    };
+    messages::each(bytes, &mut take).map_err(|error| match error {
+        Damage::File(error) => damaged(&error),
+        Damage::Message(error) => damaged(&error),
+    })?;
     let mut sides: Vec<(String, Found)> = sides.into_iter().collect();
     sides.sort_by_key(|(_, found)| found.first);
     if sides.is_empty() {

@@ -13,6 +13,7 @@ mod instant;
 mod joints;
 mod links;
 mod loads;
+mod masses;
 mod motion;
 mod motor;
 pub mod oracle;
@@ -245,6 +246,7 @@ fn read(root: &mut Table, asked: &Asked, lists: bool) -> Result<Found> {
     let groups = start.tables("groups")?;
     start.finish()?;
     let drives = motion::drives(drives, motor, &mechanism, crank)?;
+    masses::check(&mechanism, &drives)?;
     let loads = loads::read(loads, &mechanism)?;
     let gravity = motion::gravity(gravity)?;
     let structure = Structure::of(&mechanism, &drives.joints())?;

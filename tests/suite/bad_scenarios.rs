@@ -69,6 +69,7 @@ macro_rules! bad {
 mod clearance;
 mod laws;
 mod loads;
+mod masses;
 mod motors;
 mod sliders;
 mod timed;

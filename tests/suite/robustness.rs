@@ -4,4 +4,5 @@ mod bad;
 mod entry_points;
 mod memory;
 mod names;
+mod scales;
 mod turns;

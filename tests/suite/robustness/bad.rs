@@ -7,8 +7,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use linkage::case::Grid;
+use linkproof::parts::ChannelProof;
 use linkproof::scenario::Scenario;
-use linkproof::{Options, prove};
+use linkproof::{Options, Proof, Verdict, prove};
 
 use crate::common::damage::{Damaged, damaged};
 use crate::common::entries;
@@ -23,7 +24,7 @@ const BUDGET: f64 = 2e4;
 const PATIENCE: Duration = Duration::from_secs(300);
 
 /// How a scenario ended, in a few words.
-fn ending(bad: &Damaged) -> String {
+fn ending(index: u64, bad: &Damaged) -> String {
     let scenario = match Scenario::parse(&bad.text, &bad.path) {
         Ok(scenario) => scenario,
         Err(error) => {
@@ -34,12 +35,27 @@ fn ending(bad: &Damaged) -> String {
     // What loads is solved as it stands, but only the first instants and turns of its grid.
     let Some(scenario) = shortened(scenario) else { return "loads, with no instant near its start".into() };
     match prove(&scenario, &Options::default().budget(BUDGET)) {
-        Ok(proof) => format!("proven: {}", proof.verdict.word()),
+        Ok(proof) => {
+            if proof.verdict.word() == "disagree" {
+                println!("number {index} disagrees in {}; {:?}", disagreeing(&proof).join(", "), bad.what);
+            }
+            format!("proven: {}", proof.verdict.word())
+        }
         Err(error) => {
             assert!(!error.message().trim().is_empty());
             format!("not solved: {:?}", error.kind())
         }
     }
+}
+
+/// What disagrees, number beside bound.
+fn disagreeing(proof: &Proof) -> Vec<String> {
+    let checks = proof.all_checks().filter(|check| matches!(check.verdict, Verdict::Disagree { .. }));
+    let channels = proof.engines.iter().flat_map(|engine| &engine.channels);
+    let channels = channels.filter(|channel| matches!(channel.verdict, Verdict::Disagree { .. }));
+    let checks = checks.map(|one| format!("{} {}: {:e} of {:e}", one.family, one.detail, one.value, one.bound));
+    let channel = |one: &ChannelProof| format!("{}: {:e} of {:e}", one.residual.channel, one.residual.max, one.bound);
+    checks.chain(channels.map(channel)).collect()
 }
 
 fn shortened(mut scenario: Scenario) -> Option<Scenario> {
@@ -86,7 +102,7 @@ fn bad_scenarios_end_with_a_message_and_a_place() {
                     }
                     let since = Instant::now();
                     busy.lock().unwrap().insert(index, since);
-                    let ended = catch_unwind(AssertUnwindSafe(|| ending(&bad)));
+                    let ended = catch_unwind(AssertUnwindSafe(|| ending(index, &bad)));
                     busy.lock().unwrap().remove(&index);
                     let mut found = found.lock().unwrap();
                     found.2.push((since.elapsed(), index));

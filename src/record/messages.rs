@@ -1,0 +1,68 @@
+//! The messages of an MCAP file that nobody vouches for.
+//!
+//! The readers of the library trust the lengths that a file says its records have: damaged ones make them ask for more
+//! memory than there is, or index beyond a record. Here a record is at most as long as the file, or [`SMALL`], and no
+//! other sorts of records are looked into than messages need.
+
+use std::borrow::Cow;
+
+use mcap::read::ChannelAccumulator;
+use mcap::records::{Record, op};
+use mcap::sans_io::{LinearReadEvent, LinearReader, LinearReaderOptions};
+use mcap::{McapError, McapResult, Message, parse_record};
+
+/// Length that a record may have in any file: a compressed one may be longer than its file.
+const SMALL: usize = 1 << 20;
+
+/// Calls `visit` with every message, in the order of the file.
+///
+/// # Errors
+/// Those of the file, and of `visit`.
+pub(super) fn each<E: From<McapError>>(
+    bytes: &[u8],
+    visit: &mut dyn FnMut(&Message) -> std::result::Result<(), E>,
+) -> std::result::Result<(), E> {
+    let longest = bytes.len().max(SMALL);
+    let options = LinearReaderOptions::default().with_validate_chunk_crcs(true).with_record_length_limit(longest);
+    let mut reader = LinearReader::new_with_options(options);
+    let mut known = ChannelAccumulator::default();
+    let (mut left, mut is_data) = (bytes, true);
+    while let Some(event) = reader.next_event() {
+        match event? {
+            LinearReadEvent::ReadRequest(wished) => {
+                let (next, rest) = left.split_at(wished.min(left.len()));
+                reader.insert(next.len()).copy_from_slice(next);
+                reader.notify_read(next.len());
+                left = rest;
+            }
+            // The summary says once more what was said.
+            LinearReadEvent::Record { opcode: op::DATA_END, .. } => is_data = false,
+            LinearReadEvent::Record { opcode, data } => {
+                if is_data && let Some(message) = message(opcode, data, &mut known)? {
+                    visit(&message)?;
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The message that a record is; schemas and channels are kept.
+#[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the MCAP library")]
+fn message<'a>(opcode: u8, data: &'a [u8], known: &mut ChannelAccumulator<'static>) -> McapResult<Option<Message<'a>>> {
+    if !matches!(opcode, op::SCHEMA | op::CHANNEL | op::MESSAGE) {
+        return Ok(None);
+    }
+    match parse_record(opcode, data)? {
+        Record::Schema { header, data } => known.add_schema(header, Cow::Owned(data.into_owned()))?,
+        Record::Channel(channel) => known.add_channel(channel)?,
+        Record::Message { header, data } => {
+            let channel = known.get(header.channel_id);
+            let channel = channel.ok_or(McapError::UnknownChannel(header.sequence, header.channel_id))?;
+            let (log_time, publish_time) = (header.log_time, header.publish_time);
+            return Ok(Some(Message { channel, sequence: header.sequence, log_time, publish_time, data }));
+        }
+        _ => {}
+    }
+    Ok(None)
+}

@@ -1,0 +1,61 @@
+//! Masses that no longer fit the mechanism that they belong to: a wrong unit, as a rule.
+//!
+//! A double has sixteen digits. What is so far away, or so heavy, leaves too few of them to everything else: no side
+//! and no engine could say more about the rest of the mechanism than the rounding of that one number.
+
+use linkage::drive::{Drive, Drives};
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::KeepNan;
+use linkage::mechanism::{Link, Mechanism};
+
+/// Largest distance of a mass centre from the nearest point of its link, over the largest link.
+const FARTHEST: f64 = 1e3;
+/// Largest moment of inertia of a link, its mass at the mechanism's size included, over those of all others together.
+const HEAVIEST: f64 = 1e12;
+
+/// Checks the places of mass centres, and the masses against each other.
+///
+/// # Errors
+/// [`ErrorKind::Input`] for a mass centre or an inertia that is beyond the rest of the mechanism.
+pub fn check(mechanism: &Mechanism, drives: &Drives) -> Result<()> {
+    let size = mechanism.links().iter().map(Link::size).fold(0.0, f64::larger);
+    if size == 0.0 {
+        return Ok(());
+    }
+    let moving = || mechanism.links()[1..].iter().filter(|link| link.mass > 0.0 || link.inertia > 0.0);
+    for link in moving().filter(|link| link.mass > 0.0) {
+        let far = link.points.iter().map(|point| (point.local - link.mass_centre).norm());
+        let far = far.fold(f64::INFINITY, f64::smaller);
+        if !(far <= FARTHEST * size) {
+            let message = format!(
+                "the mass centre of link \"{}\" is {far:.3e} m away from all its points, {:.1e} times the largest link",
+                link.name,
+                far / size
+            );
+            return Err(Error::new(ErrorKind::Input, message)
+                .key(format!("links.{}.mass_centre", link.name))
+                .of_link(&link.name)
+                .help("check the unit; a link that is so large has a point there"));
+        }
+    }
+    let inertia = |link: &Link| link.inertia + link.mass * size * size;
+    let motors: f64 = drives.iter().map(Drive::moving_inertia).sum();
+    // Added up anew for every link: a difference of sums has no digit left of what matters here.
+    let others = |link: &Link| moving().filter(|other| other.name != link.name).map(inertia).sum::<f64>() + motors;
+    let Some(link) = moving().max_by(|a, b| inertia(a).total_cmp(&inertia(b))) else { return Ok(()) };
+    let (own, others) = (inertia(link), others(link));
+    if others > 0.0 && !(own <= HEAVIEST * others) {
+        let key = if link.inertia > own / 2.0 { "inertia" } else { "mass" };
+        let message = format!(
+            "link \"{}\" has a moment of inertia of {own:.3e} kg m^2, its mass at the length of the largest link \
+             included: {:.1e} times that of everything else",
+            link.name,
+            own / others
+        );
+        return Err(Error::new(ErrorKind::Input, message)
+            .key(format!("links.{}.{key}", link.name))
+            .of_link(&link.name)
+            .help("check the unit; leave out masses that nothing is asked about"));
+    }
+    Ok(())
+}
