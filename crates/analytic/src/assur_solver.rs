@@ -4,7 +4,7 @@ use crate::assur::PoseSolver;
 use crate::assur::transfer::TransferSide;
 use crate::motion::free;
 use crate::motion::march::{NARROWER, TIGHTER};
-use crate::reduced::{self, ACCURACY, End, Model, run_up};
+use crate::reduced::{ACCURACY, End, Model, run_up};
 use linkage::case::Case;
 use linkage::drive::Load;
 use linkage::error::{Error, ErrorKind, Result};

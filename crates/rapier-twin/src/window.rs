@@ -17,12 +17,13 @@ const WIDTH: usize = 3;
 
 /// Steps at the beginning of a free motion whose accelerations are not those of the motion.
 /// Separate bodies (`plain`) close the gaps of the first step in the second.
-/// A multibody does not show this.
-/// But links with an initial speed have no step before the first, only a straight line that leads to it.
+/// Sweeps over the loops of a multibody begin without impulses to start from; every later step continues the one before.
+/// Links with an initial speed have no step before the first, only a straight line that leads to it.
 /// The first step also ignores how the transfer functions change.
 pub(super) fn first_steps(case: &Case, plain: bool) -> i64 {
     let moving = case.drives.iter().any(|drive| drive.initial_speed() != 0.0);
-    if plain || moving { 2 } else { 0 }
+    let has_loops = case.mechanism.joints().len() >= case.mechanism.links().len();
+    if plain || moving || has_loops { 2 } else { 0 }
 }
 
 /// The motion of the last steps, filled as the run proceeds.

@@ -172,7 +172,8 @@ fn the_twin_runs_up_with_order_one_and_extrapolated_exactly() {
         let forces = worst(&reference, &best, force);
         println!("{name} {}: {most:.1e} rad, {forces:.1e} of the range of forces", route.name());
         assert_within!(most, 1e-6, "{name} {}: {most:e} rad, {forces:e}", route.name());
-        assert_within!(forces, 1e-5, "{name} {}: {most:e} rad, {forces:e}", route.name());
+        // Forces at the start are extrapolated from the third step on: without it they err by 1e-6.
+        assert_within!(forces, 2e-5, "{name} {}: {most:e} rad, {forces:e}", route.name());
     }
 }
 

@@ -5,8 +5,9 @@ use std::cell::{Cell, RefCell};
 use differential_equations::ode::ODE;
 
 use super::knots::Knots;
-use super::march::{Flow, Place};
+use super::march::Place;
 use super::side::{self, Held, Inputs};
+use super::step::Flow;
 use linkage::case::Case;
 use linkage::drive::load::sense_of;
 use linkage::drive::{Branch, Load, Senses};

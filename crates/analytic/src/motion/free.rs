@@ -7,8 +7,9 @@
 //! motion, and pieces end exactly where the sense changes.
 
 use super::flow::{self, Pieces};
-use super::march::{MOST_EMPTY, Pace, Place, Step, Stop, march};
+use super::march::{MOST_EMPTY, Pace, Place, Stop, march};
 use super::side::Side;
+use super::step::Step;
 use linkage::case::Case;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::solver::{Progress, State, Visit, check_instants};

@@ -8,7 +8,7 @@
 
 use std::cell::Cell;
 
-use super::march::{Flow, Method, Step, lost};
+use super::step::{Flow, Method, Step, lost, rate};
 use differential_equations::interpolate::Interpolation;
 use differential_equations::ode::ODE;
 use linkage::error::Result;
@@ -48,13 +48,6 @@ impl<F: Flow<N>, const N: usize> ODE<f64, [f64; N]> for Remembering<'_, F, N> {
         self.known.set(known);
         self.next.set((at + 1) % REMEMBERED);
     }
-}
-
-/// The rate of a state.
-pub(super) fn rate<const N: usize, F: Flow<N>>(flow: &F, x: f64, y: &[f64; N]) -> [f64; N] {
-    let mut rate = [0.0; N];
-    flow.diff(x, y, &mut rate);
-    rate
 }
 
 /// The targets that lie ahead.
@@ -133,7 +126,7 @@ impl<const N: usize> Course<N> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::motion::march::a_step;
+    use crate::motion::step::a_step;
     use differential_equations::ode::OrdinaryNumericalMethod;
     use linkage::error::Error;
     use linkage::math::KeepNan;

@@ -7,18 +7,16 @@
 //! Hairer, Norsett, Wanner, "Solving ordinary differential equations I", II.5 (DOP853) and II.6 (discontinuities).
 
 use differential_equations::interpolate::Interpolation;
-use differential_equations::methods::{DormandPrince, ExplicitRungeKutta, Ordinary};
-use differential_equations::ode::{ODE, OrdinaryNumericalMethod};
+use differential_equations::methods::ExplicitRungeKutta;
+use differential_equations::ode::OrdinaryNumericalMethod;
 use differential_equations::status::Status;
 use linkage::math::KeepNan;
 
-use super::inside::{Course, Remembering, Targets, parts, rate};
+use super::inside::{Course, Remembering, Targets, parts};
+use super::step::{Flow, Method, Step, a_step, checked, lost, rate};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::root;
 use linkage::work::{Count, Tally};
-
-/// DOP853 on a state of `N` numbers.
-pub(crate) type Method<const N: usize> = ExplicitRungeKutta<Ordinary, DormandPrince, f64, [f64; N], 8, 12, 16>;
 
 /// Relative and absolute error allowed in each step, with the states inside it.
 /// The run-up of `crank_rocker` is then exact to 5e-12 rad, and to 1e-14 at its end.
@@ -26,6 +24,9 @@ pub const ACCURACY: f64 = 1e-11;
 /// Share of it that a step's own estimate may have, which is about its end. Inside a step the order is lower by one, and
 /// errors are some hundred times larger: those of `crank_rocker_runup` are 40 to 400 times an estimate.
 const ESTIMATED: f64 = 0.01;
+/// Least error that an estimate is asked for: with less, rounding shortens the steps, and many short steps add more of
+/// it than they save.
+const LEAST_ESTIMATED: f64 = 2e-15;
 /// Places in a step, as shares of it, at which it is looked at whether a bound was passed.
 const LOOKED_AT: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 /// Share of [`ACCURACY`] that the tighter runs allow, which show the error of the others. With still less, rounding
@@ -53,21 +54,6 @@ const BISECTIONS: usize = 40;
 /// Largest number of repetitions of a shortened step. Secants from the course inside the step take one or two.
 const CORRECTIONS: usize = 6;
 
-/// An equation of motion on one piece.
-pub(crate) trait Flow<const N: usize>: ODE<f64, [f64; N]> {
-    /// Number of bounds of the piece.
-    fn bounds(&self) -> usize;
-
-    /// Distance of the state from a bound, positive inside and negative beyond it.
-    fn margin(&self, bound: usize, x: f64, y: &[f64; N]) -> f64;
-
-    /// Receives the beginning of every step.
-    fn begin(&self, x: f64, y: &[f64; N]);
-
-    /// The error of an evaluation since the last call, if there was one.
-    fn fault(&self) -> Option<Error>;
-}
-
 /// Why a march ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Stop {
@@ -88,9 +74,6 @@ pub(crate) struct Place<const N: usize> {
     pub(crate) h: f64,
 }
 
-/// One step: its beginning and its end.
-pub(crate) type Step<const N: usize> = [(f64, [f64; N]); 2];
-
 /// Continues from `place` over all `targets`, which ascend, to the last of them or to the first bound.
 /// `visit` receives every step, divided at the targets inside it.
 pub(crate) fn march<const N: usize, F: Flow<N>>(
@@ -108,7 +91,7 @@ pub(crate) fn march<const N: usize, F: Flow<N>>(
     }
     flow.begin(place.x, &place.y);
     let h0 = if place.h > 0.0 { place.h.smaller(last - place.x) } else { 0.0 };
-    let allowed = ESTIMATED * accuracy;
+    let allowed = (ESTIMATED * accuracy).larger(LEAST_ESTIMATED);
     let mut method: Method<N> = ExplicitRungeKutta::dop853().rtol(allowed).atol(allowed).max_steps(MOST_STEPS).h0(h0);
     let known = Remembering::new(flow);
     let begun = method.init(&known, place.x, last, &place.y);
@@ -243,7 +226,7 @@ fn shortened<const N: usize, F: Flow<N>>(
     bound: usize,
 ) -> Result<Method<N>> {
     let mut best: Option<(Method<N>, f64)> = None;
-    root::secants(known, h, CORRECTIONS, f64::EPSILON * (x + h).abs(), |h| -> Result<f64> {
+    root::secants(known, h, CORRECTIONS, |h| -> Result<f64> {
         let taken = a_step(flow, x, &y, h)?;
         let margin = flow.margin(bound, taken.t(), taken.y());
         if best.as_ref().is_none_or(|(_, least)| margin.abs() <= *least) {
@@ -252,36 +235,6 @@ fn shortened<const N: usize, F: Flow<N>>(
         Ok(margin)
     })?;
     best.map(|(taken, _)| taken).ok_or_else(|| lost(x, "no step reaches its bound"))
-}
-
-/// State after one step of a given length.
-pub(crate) fn one_step<const N: usize, F: Flow<N>>(flow: &F, x: f64, y: &[f64; N], h: f64) -> Result<[f64; N]> {
-    Ok(*a_step(flow, x, y, h)?.y())
-}
-
-/// The method after one step of a given length, whatever its error estimate, because it is part of an accepted step.
-pub(super) fn a_step<const N: usize, F: Flow<N>>(flow: &F, x: f64, y: &[f64; N], h: f64) -> Result<Method<N>> {
-    flow.begin(x, y);
-    let mut method: Method<N> = ExplicitRungeKutta::dop853().rtol(1e6).atol(1e6).h0(h);
-    // The interval is longer than the step; otherwise rounding would make it too short.
-    let begun = method.init(flow, x, x + 2.0 * h, y);
-    checked(flow, begun, x)?;
-    let taken = method.step(flow);
-    checked(flow, taken, x)?;
-    if matches!(method.status(), Status::RejectedStep) {
-        return Err(lost(x, "a step onto a kink was refused"));
-    }
-    Ok(method)
-}
-
-/// Reports the flow's own error before the library's. An error in a trial step that was repeated does not count.
-fn checked<const N: usize, F: Flow<N>, T, E: std::fmt::Debug>(
-    flow: &F,
-    answer: std::result::Result<T, E>,
-    x: f64,
-) -> Result<()> {
-    let fault = flow.fault();
-    answer.map(|_| ()).map_err(|why| fault.unwrap_or_else(|| lost(x, &format!("{why:?}"))))
 }
 
 /// Largest number of pieces of one motion. A hundred turns of a mechanism under tables of loads take some thousand.
@@ -309,10 +262,4 @@ impl Pace {
         }
         Ok(())
     }
-}
-
-pub(super) fn lost(x: f64, why: &str) -> Error {
-    Error::new(ErrorKind::Numeric, format!("the equation of motion cannot be integrated beyond {x:.9}: {why}")).help(
-        "where masses nearly vanish at a crank angle it is stiff: give the crank or the rotor a moment of inertia",
-    )
 }

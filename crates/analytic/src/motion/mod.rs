@@ -6,3 +6,4 @@ mod inside;
 mod knots;
 pub(crate) mod march;
 pub(crate) mod side;
+pub(crate) mod step;

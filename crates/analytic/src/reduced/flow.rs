@@ -11,7 +11,7 @@ use differential_equations::ode::ODE;
 
 use super::model::{Model, Piece, Reduced};
 use crate::PoseSolver;
-use crate::motion::march::Flow;
+use crate::motion::step::Flow;
 use linkage::drive::Branch;
 use linkage::error::{Error, Result};
 use linkage::work::{Count, Tally};

@@ -3,7 +3,8 @@
 use super::flow::{Forces, InTime};
 use super::model::{Model, Piece};
 use crate::PoseSolver;
-use crate::motion::march::{MOST_EMPTY, Pace, Place, Step, Stop, march};
+use crate::motion::march::{MOST_EMPTY, Pace, Place, Stop, march};
+use crate::motion::step::Step;
 use linkage::case::{Case, Grid};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;

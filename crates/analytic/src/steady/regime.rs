@@ -4,7 +4,8 @@ use linkage::math::KeepNan;
 use std::f64::consts::TAU;
 
 use crate::AssurSolver;
-use crate::motion::march::{MOST_EMPTY, Place, Step, Stop, march, one_step};
+use crate::motion::march::{MOST_EMPTY, Place, Stop, march};
+use crate::motion::step::{Step, one_step};
 use crate::reduced::flow::{Forces, OverAngle};
 use crate::reduced::means::{self, no_turn};
 use crate::reduced::model::{Model, Piece};
@@ -123,7 +124,7 @@ impl<'m, 'a> Turn<'m, 'a> {
         Ok(Turn { flow, start: model.sense * model.case.crank().start, period })
     }
 
-    /// Energy, time and share at the end of a period that begins with `energy` (J). Targets end steps.
+    /// Energy, time and share at the end of a period that begins with `energy` (J). Targets divide the steps that are visited.
     fn run(
         &self,
         energy: f64,
@@ -194,7 +195,7 @@ impl<'m, 'a> Turn<'m, 'a> {
             Ok(())
         };
         let [_, period, _] = self.run(energy, &targets, accuracy, &mut visit)?;
-        // Targets end steps. Both ends of the period are the same state.
+        // Every target is the end of a visit. Both ends of the period are the same state.
         for &crank in cranks {
             let at = extremes.iter().find(|at| at.crank == crank);
             let ends = [self.start, last].map(|end| (way * crank - end).abs() < 1e-9);

@@ -182,8 +182,8 @@ pub fn polished<E>(
 
 /// A length at which the value is zero, by at most `steps` secants, the first through `known` and a `guess`, both
 /// positive.
-/// Ends where a secant would change the length by no more than `settled`, or four roundings. A change by more than the
-/// length itself is not made.
+/// Ends where a secant would change the length by no more than four roundings. A change by more than the length itself
+/// is not made.
 /// Returns the length with the value nearest to zero: between two values of rounding a secant leads anywhere.
 ///
 /// # Errors
@@ -192,14 +192,13 @@ pub fn secants<E>(
     mut known: Known,
     guess: f64,
     steps: usize,
-    settled: f64,
     mut value: impl FnMut(f64) -> Result<f64, E>,
 ) -> Result<f64, E> {
     let mut last = (guess, value(guess)?);
     let mut best = last;
     for _ in 0..steps {
         let change = last.1 * (last.0 - known.0) / (last.1 - known.1);
-        if !(change.abs() > settled.larger(4.0 * f64::EPSILON * last.0) && change.abs() < last.0) {
+        if !(change.abs() > 4.0 * f64::EPSILON * last.0 && change.abs() < last.0) {
             break;
         }
         known = last;

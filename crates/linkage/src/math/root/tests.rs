@@ -92,22 +92,22 @@ fn long_steps_are_not_taken() {
 #[test]
 fn secants_keep_to_positive_lengths() {
     let mut asked = 0;
-    let found = secants((2.0, 2f64.exp() - 3.0), 1.0, 10, 0.0, |x: f64| {
+    let found = secants((2.0, 2f64.exp() - 3.0), 1.0, 10, |x: f64| {
         asked += 1;
         Ok::<f64, Infallible>(x.exp() - 3.0)
     });
     assert!((sure(found) - 3f64.ln()).abs() < 1e-15 && asked < 9, "{found:?} {asked}");
     // The line through both values meets zero at -1.
-    assert_eq!(sure(secants((2.0, 3.0), 1.0, 6, 0.0, |_| Ok(2.0))), 1.0);
-    assert_eq!(sure(secants((2.0, 3.0), 1.0, 6, 0.0, |_| Ok(f64::NAN))), 1.0);
-    assert_eq!(secants((2.0, 3.0), 1.0, 6, 0.0, |_| Err("fails")), Err("fails"));
+    assert_eq!(sure(secants((2.0, 3.0), 1.0, 6, |_| Ok(2.0))), 1.0);
+    assert_eq!(sure(secants((2.0, 3.0), 1.0, 6, |_| Ok(f64::NAN))), 1.0);
+    assert_eq!(secants((2.0, 3.0), 1.0, 6, |_| Err("fails")), Err("fails"));
 }
 
 /// Within rounding of the zero the values hardly differ, and the line through two of them meets zero anywhere.
 #[test]
 fn secants_end_at_rounding() {
     let mut asked = 0.0;
-    let found = secants((2.0, 2f64.exp() - 3.0), 1.0, 20, 0.0, |x: f64| {
+    let found = secants((2.0, 2f64.exp() - 3.0), 1.0, 20, |x: f64| {
         asked += 1.0;
         let value = x.exp() - 3.0;
         Ok::<f64, Infallible>(if value.abs() < 1e-10 { 1e-13 * (1.0 + 1e-9 * asked) } else { value })
@@ -148,7 +148,7 @@ proptest! {
         prop_assert!(wide[0].0 <= zero && zero <= wide[1].0 && changes(wide[0].1, wide[1].1));
         let of_length = |length: f64| f(low + length).0;
         let known = 1.1 * below;
-        let length = sure(secants((known, of_length(known)), 1.05 * below, 12, 0.0, |length| Ok(of_length(length))));
+        let length = sure(secants((known, of_length(known)), 1.05 * below, 12, |length| Ok(of_length(length))));
         prop_assert!((length - below).abs() <= 16.0 * f64::EPSILON * low.abs().larger(high.abs()), "{length} {below}");
     }
 
