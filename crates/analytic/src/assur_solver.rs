@@ -114,7 +114,7 @@ fn free_motion(case: &Case, accuracy: f64, visit: Visit, progress: Progress) -> 
         return Err(ended(end));
     }
     let mut next = 0;
-    run_up::states(case, &motion, &mut |index, state| {
+    run_up::states(&model, case, &motion, &mut |index, state| {
         while let Some(&row) = rows.get(next).filter(|&&row| case.grid.times[row] == times[index]) {
             visit(row, state)?;
             next += 1;

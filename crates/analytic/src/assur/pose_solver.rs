@@ -99,6 +99,15 @@ impl<'a> PoseSolver<'a> {
         Ok(solver)
     }
 
+    /// The same for a crank that was seen to turn fully: nothing looks for change points again, where closed forms give
+    /// every pose. Higher groups follow their last pose, and are still watched.
+    pub(crate) fn turning_fully(mut self) -> Self {
+        if self.plan.is_closed_form() && self.passing.is_none() {
+            (self.gauges, self.watch) = (Gauges::none(), Watch::none());
+        }
+        self
+    }
+
     /// The state at the crank angle `crank` (rad, as the scenario states it) for the crank's angular velocity
     /// `omega` (rad/s) and acceleration `alpha` (rad/s^2).
     /// Further drives have the speed ratios of that instant.
@@ -306,7 +315,10 @@ impl<'a> PoseSolver<'a> {
     /// start of the case.
     pub fn with_angles(&mut self) -> &State {
         if let Some(turns) = &self.turns {
-            self.state.angles.iter_mut().zip(turns.angles()).for_each(|(angle, found)| *angle = found);
+            // The frame does not turn, and the crank's angle is an input.
+            let crank = self.case.crank().link;
+            let links = self.state.angles.iter_mut().enumerate().skip(1).filter(|(link, _)| *link != crank);
+            links.for_each(|(link, angle)| *angle = turns.angle(link));
         }
         self.turn(self.crank);
         for (drive, &angle) in self.case.drives.iter().zip(&self.inputs) {

@@ -54,8 +54,13 @@ impl Turns {
 
     /// Angles of all links at the last pose (rad), turns kept.
     pub(super) fn angles(&self) -> impl Iterator<Item = f64> {
-        let angle = |(whole, now): (&f64, &Vec2)| principal(*now) + TAU * whole;
-        self.whole.iter().zip(&self.directions).map(angle)
+        (0..self.whole.len()).map(|link| self.angle(link))
+    }
+
+    /// Angle of one link.
+    #[inline]
+    pub(super) fn angle(&self, link: usize) -> f64 {
+        principal(self.directions[link]) + TAU * self.whole[link]
     }
 }
 

@@ -66,6 +66,11 @@ impl Watch {
         watch
     }
 
+    /// Watches nothing.
+    pub(super) fn none() -> Self {
+        Watch { is_needed: false, motions: Vec::new(), groups: Vec::new(), step: 0.0 }
+    }
+
     /// Watches the groups that gauges prove nothing of.
     pub(super) fn leave_to(&mut self, gauges: &Gauges, plan: &Plan) {
         for (group, seen) in self.groups.iter_mut().enumerate() {

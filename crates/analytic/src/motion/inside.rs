@@ -22,30 +22,32 @@ type Evaluation<const N: usize> = (f64, [f64; N], [f64; N]);
 /// An equation of motion that remembers its last evaluations, so that the rates at the ends of a step cost nothing.
 pub(super) struct Remembering<'f, F, const N: usize> {
     flow: &'f F,
-    known: Cell<[Evaluation<N>; REMEMBERED]>,
+    known: [Cell<Evaluation<N>>; REMEMBERED],
     next: Cell<usize>,
 }
 
 impl<'f, F: Flow<N>, const N: usize> Remembering<'f, F, N> {
     pub(super) fn new(flow: &'f F) -> Self {
-        let nothing = (f64::NAN, [f64::NAN; N], [f64::NAN; N]);
-        Remembering { flow, known: Cell::new([nothing; REMEMBERED]), next: Cell::new(0) }
+        Remembering {
+            flow,
+            known: [const { Cell::new((f64::NAN, [f64::NAN; N], [f64::NAN; N])) }; REMEMBERED],
+            next: Cell::new(0),
+        }
     }
 
     /// The rate at a place that was just evaluated.
     pub(super) fn rate(&self, x: f64, y: &[f64; N]) -> [f64; N] {
-        let known = self.known.get();
-        let found = known.iter().find(|(place, state, _)| *place == x && state == y);
-        found.map_or_else(|| rate(self.flow, x, y), |(_, _, rate)| *rate)
+        let mut known = self.known.iter().map(Cell::get);
+        let found = known.find(|(place, state, _)| *place == x && state == y);
+        found.map_or_else(|| rate(self.flow, x, y), |(_, _, rate)| rate)
     }
 }
 
 impl<F: Flow<N>, const N: usize> ODE<f64, [f64; N]> for Remembering<'_, F, N> {
     fn diff(&self, x: f64, y: &[f64; N], rate: &mut [f64; N]) {
         self.flow.diff(x, y, rate);
-        let (mut known, at) = (self.known.get(), self.next.get());
-        known[at] = (x, *y, *rate);
-        self.known.set(known);
+        let at = self.next.get();
+        self.known[at].set((x, *y, *rate));
         self.next.set((at + 1) % REMEMBERED);
     }
 }

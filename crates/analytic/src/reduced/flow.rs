@@ -39,7 +39,7 @@ impl<'m, 'a> Forces<'m, 'a> {
     pub(crate) fn of(model: &'m Model<'a>, piece: Piece, way: f64) -> Result<Self> {
         Ok(Forces {
             model,
-            poses: RefCell::new(PoseSolver::new(model.case)?),
+            poses: RefCell::new(model.guided(PoseSolver::new(model.case)?)),
             fault: RefCell::new(None),
             origin: Cell::new(model.case.crank().start),
             piece: Cell::new(piece),

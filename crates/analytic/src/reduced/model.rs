@@ -116,6 +116,11 @@ impl<'a> Model<'a> {
         Ok(model)
     }
 
+    /// A pose solver of the case that makes use of what the model knows about the crank's way.
+    pub(crate) fn guided<'p>(&self, poses: PoseSolver<'p>) -> PoseSolver<'p> {
+        if self.kinks.period.is_some() { poses.turning_fully() } else { poses }
+    }
+
     /// The same with a flywheel on the crank's shaft (kg m^2).
     /// A negative value takes inertia away; the total must stay positive.
     #[must_use]

@@ -238,8 +238,9 @@ fn instant(flow: &InTime, t: f64, [crank, omega]: [f64; 2], gone: f64, is_accele
 }
 
 /// Kinetostatics of a motion: the state at every instant, up to the stage that the case wants.
-pub(crate) fn states(case: &Case, motion: &[CrankState], visit: Visit) -> Result<()> {
-    let mut poses = PoseSolver::counting_turns(case)?;
+/// The model is that of the motion; the case may have another grid and want less.
+pub(crate) fn states(model: &Model, case: &Case, motion: &[CrankState], visit: Visit) -> Result<()> {
+    let mut poses = model.guided(PoseSolver::counting_turns(case)?);
     let deepest = case.wanted.deepest();
     for (row, instant) in motion.iter().enumerate() {
         poses.solve(instant.crank, instant.omega, instant.alpha, deepest)?;
@@ -283,7 +284,7 @@ impl RunUp {
         let case = model.case.at_top_speed().on(grid)?;
         let mut sampler = Sampler::new(&case);
         let (mut natural, size) = (0.0f64, case.mechanism.size());
-        states(&case, &motion, &mut |row, state| {
+        states(model, &case, &motion, &mut |row, state| {
             natural = state.forces.iter().fold(natural, |most, force| most.larger(force.norm() * size));
             sampler.put(&case, row, state);
             Ok(())

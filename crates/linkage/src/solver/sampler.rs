@@ -209,31 +209,34 @@ impl Row<'_> {
     /// Stores the wanted quantities of a subject. `read` gives their values.
     #[inline(always)]
     fn put<Of: Copy, const N: usize>(&mut self, rows: &[(Of, Stage); N], mask: Mask, read: impl Fn(Of) -> f64) {
+        let mut put = 0;
+        // Written out instead of a loop: every quantity is then a constant, and the compiler removes the match on it.
+        macro_rules! each {
+            ($condition:ident: $($row:literal)*) => {{
+                const { assert!(N <= [$($row),*].len(), "every row of a subject is put") };
+                $(if $row < N && $condition!($row) {
+                    self.values[put] = read(rows[$row].0);
+                    put += 1;
+                })*
+            }};
+        }
         if mask.rows == const { (1 << N) - 1 } {
-            let (own, rest) =
-                std::mem::take(&mut self.values).split_first_chunk_mut::<N>().expect("as many values as channels");
-            // Written out instead of a loop: every quantity is then a constant, and the compiler removes the match on
-            // it.
-            macro_rules! each {
-                ($($row:literal)*) => {{
-                    const { assert!(N <= [$($row),*].len(), "every row of a subject is put") };
-                    $(if $row < N {
-                        own[$row] = read(rows[$row].0);
-                    })*
-                }};
+            assert!(self.values.len() >= N, "as many values as channels");
+            macro_rules! always {
+                ($row:literal) => {
+                    true
+                };
             }
-            each!(0 1 2 3 4 5 6 7 8 9 10 11);
-            self.values = rest;
-            return;
-        }
-        for (row, &(of, _)) in rows.iter().enumerate() {
-            if mask.rows & (1 << row) != 0 {
-                let (own, rest) =
-                    std::mem::take(&mut self.values).split_first_mut().expect("as many values as channels");
-                *own = read(of);
-                self.values = rest;
+            each!(always: 0 1 2 3 4 5 6 7 8 9 10 11);
+        } else {
+            macro_rules! wanted {
+                ($row:literal) => {
+                    mask.rows & (1 << $row) != 0
+                };
             }
+            each!(wanted: 0 1 2 3 4 5 6 7 8 9 10 11);
         }
+        self.values = &mut std::mem::take(&mut self.values)[put..];
     }
 }
 
