@@ -33,7 +33,7 @@ pub(super) struct Observed {
     pub(super) reach: f64,
     /// Balancing moment from the balance of powers (N m) at every instant; empty if no balancing moment is wanted. For
     /// a crank whose speed changes, it is multiplied by the crank's speed over its top speed; in a motion under forces,
-    /// over the largest speed that a driving link reaches.
+    /// over the largest speed that a driving link reaches, if that is larger.
     pub(super) power: Vec<f64>,
     /// Balancing moments of the trajectory, reduced to the crank (N m), at every instant; multiplied in the same way.
     pub(super) torque: Vec<f64>,
@@ -160,8 +160,9 @@ pub(super) fn observe(
         return Err(Stopped { error, kept });
     }
     if !steady {
-        // A free motion has only its nominal speed in the case, and may be far from it all the time.
-        let top = if case.is_free() { fastest } else { case.crank().top_speed() };
+        // A free motion has only its nominal speed in the case, and may be much faster. An engine's may be rounding.
+        let nominal = case.crank().top_speed();
+        let top = if case.is_free() { fastest.larger(nominal.abs()) } else { nominal };
         power.iter_mut().chain(&mut torque).for_each(|power| *power = share(*power, top));
     }
     Ok(Observed {
