@@ -5,33 +5,10 @@ use std::path::Path;
 use linkproof::scenario::{Asked, Scenario, When};
 use linkproof::{Options, prove};
 
-/// A disc on a motor with `M = 4 - 0.1 omega`, from rest: omega = 40 (1 - exp(-0.1 t / 0.05)).
-const DISC: &str = r#"
-format = 1
-name = "disc"
-title = "Disc run up by a linear motor"
+use crate::common::disc::disc;
 
-[ground.points]
-O = { x_mm = 0, y_mm = 0 }
-
-[links.disc]
-mass_kg = 4
-mass_centre = { x_mm = 0, y_mm = 0 }
-inertia_kg_m2 = 0.05
-[links.disc.points]
-O = { x_mm = 0, y_mm = 0 }
-P = { x_mm = 100, y_mm = 0 }
-
-[[joints]]
-name = "O"
-type = "revolute"
-links = ["ground", "disc"]
-
-[drive]
-joint = "O"
-motion = "free"
-speed_rad_s = 20
-
+/// What follows the disc: a motor with `M = 4 - 0.1 omega`, from rest: omega = 40 (1 - exp(-0.1 t / 0.05)).
+const MOTOR: &str = r#"
 [motor]
 law = "linear"
 torque_at_rest_N_m = 4
@@ -56,8 +33,9 @@ fn read(text: &str, path: &Path) -> Scenario {
 }
 
 fn told(t: &str, value: f64) -> String {
+    let disc = disc(MOTOR);
     format!(
-        "{DISC}\n[[oracle]]\nname = \"closed form\"\nbasis = \"derived\"\nsource = \"closed form\"\n{t}\n\
+        "{disc}\n[[oracle]]\nname = \"closed form\"\nbasis = \"derived\"\nsource = \"closed form\"\n{t}\n\
          values = [{{ channel = \"link.disc.omega_rad_s\", value = {value:.8}, digits = 8 }}]\n"
     )
 }
@@ -92,8 +70,9 @@ fn tables_may_go_by_time_and_know_their_wrong_cells() {
     let rows: String = [0.1, 0.25, 0.4].iter().map(|t| format!("{},{:.6}\n", 1e3 * t, speed(*t))).collect();
     std::fs::write(directory.path().join("run.csv"), format!("t_ms,omega\n{rows}450,99.5\n")).unwrap();
     let right = speed(0.45);
+    let disc = disc(MOTOR);
     let text = format!(
-        "{DISC}\n[[oracle]]\nsource = \"closed form\"\nfile = \"run.csv\"\ntime = \"t_ms\"\n[oracle.columns]\n\
+        "{disc}\n[[oracle]]\nsource = \"closed form\"\nfile = \"run.csv\"\ntime = \"t_ms\"\n[oracle.columns]\n\
          omega = {{ channel = \"link.disc.omega_rad_s\", expect = [{{ time_s = 0.45, finding = \"misprint\", \
          right = {{ value = {right:.6}, digits = 6 }} }}] }}\n"
     );

@@ -4,36 +4,12 @@
 use std::path::Path;
 
 use crate::common::assert_within;
+use crate::common::disc::disc;
 use linkproof::mutate::{Asked, Party, Plant, mutate, named};
 use linkproof::{Case, Scenario, solve};
 
-/// A disc on a motor behind a reducer, from a speed of its own.
-const FLYWHEEL: &str = r#"
-format = 1
-name = "flywheel"
-title = "Disc run up by a linear motor through a reducer"
-
-[ground.points]
-O = { x_mm = 0, y_mm = 0 }
-
-[links.disc]
-mass_kg = 4
-mass_centre = { x_mm = 0, y_mm = 0 }
-inertia_kg_m2 = 0.05
-[links.disc.points]
-O = { x_mm = 0, y_mm = 0 }
-P = { x_mm = 100, y_mm = 0 }
-
-[[joints]]
-name = "O"
-type = "revolute"
-links = ["ground", "disc"]
-
-[drive]
-joint = "O"
-motion = "free"
-speed_rad_s = 20
-initial_speed_rad_s = 3
+/// What follows the disc: a motor behind a reducer, from a speed of its own.
+const REDUCER: &str = r#"initial_speed_rad_s = 3
 
 [motor]
 law = "linear"
@@ -103,7 +79,8 @@ fn off(case: &Case, times: &[f64]) -> f64 {
 
 #[test]
 fn a_run_up_in_closed_form_sees_what_numbers_at_crank_angles_cannot() {
-    let scenario = Scenario::parse(FLYWHEEL, Path::new("flywheel.toml")).unwrap_or_else(|error| panic!("{error}"));
+    let scenario =
+        Scenario::parse(&disc(REDUCER), Path::new("flywheel.toml")).unwrap_or_else(|error| panic!("{error}"));
     let (case, times) = (&scenario.case, &scenario.case.grid.times);
     assert_within!(off(case, times), 1e-9, "run-up of a disc against its closed form");
     for name in COURSE {
@@ -125,7 +102,7 @@ fn numbers_at_a_time_see_the_course_of_a_run_up() {
          {{ channel = \"link.disc.angle_rad\", value = {angle:.7}, digits = 7 }},\n\
          {{ channel = \"link.disc.omega_rad_s\", value = {speed:.7}, digits = 7 }},\n]\n"
     );
-    for (text, is_seen) in [(FLYWHEEL.to_string() + &oracle, true), (FLYWHEEL.to_string(), false)] {
+    for (text, is_seen) in [(disc(REDUCER) + &oracle, true), (disc(REDUCER), false)] {
         let scenario = Scenario::parse(&text, Path::new("flywheel.toml")).unwrap_or_else(|error| panic!("{error}"));
         let kinds = COURSE.map(String::from).to_vec();
         let asked = Asked { kinds, parties: vec![Party::All], ..Asked::default() };

@@ -3,6 +3,7 @@
 pub mod chain;
 pub mod damage;
 pub mod dial;
+pub mod disc;
 pub mod entries;
 pub mod four_link;
 pub mod higher;
