@@ -4,7 +4,7 @@ use super::options::CLEAR;
 use super::point::Errors;
 use crate::compare::residuals;
 use analytic::range::explained;
-use analytic::{AssurSolver, NewtonSolver, TightAssurSolver, TightNewtonSolver};
+use analytic::{AssurSolver, NewtonSolver, TIGHT_ASSUR, TIGHT_NEWTON};
 use linkage::case::Case;
 use linkage::error::Result;
 use linkage::math::KeepNan;
@@ -41,7 +41,7 @@ impl Floor {
 pub(super) fn of(case: &Case) -> Result<(Trajectory, Floor)> {
     let solved = |solver: &dyn Solver| solver.solve(case).map_err(|error| explained(case, error));
     if case.is_free() {
-        let (tight, other) = (solved(&TightAssurSolver)?, solved(&TightNewtonSolver)?);
+        let (tight, other) = (solved(&TIGHT_ASSUR)?, solved(&TIGHT_NEWTON)?);
         let (between, left) = (apart(&tight, &other)?, apart(&tight, &solved(&AssurSolver)?)?);
         let errors = std::array::from_fn(|stage| between[stage][0].larger(LEFT * left[stage][0]).larger(f64::EPSILON));
         let basis = "difference of both sides at the tighter integration, or what the tighter integration leaves";

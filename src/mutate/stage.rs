@@ -10,7 +10,7 @@ use super::seen::{Eyes, Outcome};
 use crate::compare::overall;
 use crate::proof::{EngineProof, Engines, Entrant, Ledger, Options, Sides, TRUE_SIDES};
 use crate::scenario::Scenario;
-use analytic::{AssurSolver, NewtonSolver, TightAssurSolver, TightNewtonSolver};
+use analytic::{AssurSolver, NewtonSolver, TIGHT_ASSUR, TIGHT_NEWTON};
 use linkage::case::Case;
 use linkage::engine::{Engine, Kept};
 use linkage::error::Result;
@@ -171,7 +171,7 @@ fn kept_in(runs: &OnceLock<Kept>, engine: Box<dyn Engine>) -> Box<dyn Engine> {
 fn planted_sides(fault: Fault) -> [[Planted<dyn Solver>; 2]; 2] {
     let planted = |inner: Box<dyn Solver>| Planted { fault, inner };
     [
-        [planted(Box::new(AssurSolver)), planted(Box::new(TightAssurSolver))],
-        [planted(Box::new(NewtonSolver)), planted(Box::new(TightNewtonSolver))],
+        [planted(Box::new(AssurSolver)), planted(Box::new(TIGHT_ASSUR))],
+        [planted(Box::new(NewtonSolver)), planted(Box::new(TIGHT_NEWTON))],
     ]
 }

@@ -9,7 +9,7 @@ use super::options::{Chosen, Reference};
 use super::{methods, oracle, sensitivity};
 use crate::compare::{Check, Verdict, overall};
 use crate::scenario::Scenario;
-use analytic::{AssurSolver, NewtonSolver, TightAssurSolver, TightNewtonSolver};
+use analytic::{AssurSolver, NewtonSolver, TIGHT_ASSUR, TIGHT_NEWTON};
 use linkage::case::Case;
 use linkage::engine::Engine;
 use linkage::error::Result;
@@ -29,10 +29,8 @@ pub(crate) struct Entrant<'a> {
 }
 
 /// Side 1 and side 2 as they are.
-pub(crate) const TRUE_SIDES: [Entrant<'static>; 2] = [
-    Entrant { solver: &AssurSolver, tight: &TightAssurSolver },
-    Entrant { solver: &NewtonSolver, tight: &TightNewtonSolver },
-];
+pub(crate) const TRUE_SIDES: [Entrant<'static>; 2] =
+    [Entrant { solver: &AssurSolver, tight: &TIGHT_ASSUR }, Entrant { solver: &NewtonSolver, tight: &TIGHT_NEWTON }];
 
 /// How engines take part.
 pub(crate) struct Engines<'a> {

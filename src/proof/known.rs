@@ -92,7 +92,7 @@ impl Known {
     #[cfg(test)]
     pub(super) fn of(case: &Case, sides: [(&'static str, &Trajectory); 2], sensitivity: &[f64]) -> Result<Self> {
         let tight = |name: &str| -> &dyn Solver {
-            if name == "assur" { &analytic::TightAssurSolver } else { &analytic::TightNewtonSolver }
+            if name == "assur" { &analytic::TIGHT_ASSUR } else { &analytic::TIGHT_NEWTON }
         };
         Known::beside(case, sides.map(|(name, trajectory)| (tight(name), trajectory)), sensitivity)
     }

@@ -40,28 +40,6 @@ impl Solver for AssurSolver {
     }
 }
 
-/// Side 1 with a tighter integration of motions under forces. Its difference from [`AssurSolver`] is the error that the
-/// integration leaves there, which both sides share. A prescribed motion is not integrated.
-#[derive(Clone, Copy, Debug)]
-pub struct TightAssurSolver;
-
-impl Solver for TightAssurSolver {
-    fn name(&self) -> &'static str {
-        AssurSolver.name()
-    }
-
-    fn provides(&self, channel: &Channel) -> Provision {
-        AssurSolver.provides(channel)
-    }
-
-    fn sweep(&self, case: &Case, visit: Visit, progress: Progress) -> Result<()> {
-        match case.is_free() {
-            true => free_motion(case, TIGHTER * ACCURACY, visit, progress),
-            false => AssurSolver.sweep(case, visit, progress),
-        }
-    }
-}
-
 /// Side 1 at another accuracy of the integration of motions under forces, allowed in every step. A prescribed motion is
 /// not integrated.
 #[derive(Clone, Copy, Debug)]
@@ -83,6 +61,10 @@ impl Solver for AssurAt {
         }
     }
 }
+
+/// Side 1 with a tighter integration of motions under forces. Its difference from [`AssurSolver`] is the error that the
+/// integration leaves there, which both sides share. A prescribed motion is not integrated.
+pub const TIGHT_ASSUR: AssurAt = AssurAt(TIGHTER * ACCURACY);
 
 /// Motion under forces. One degree of freedom: its reduced equation of motion, if the crank angle alone gives its
 /// terms.

@@ -13,8 +13,8 @@ pub mod steady;
 pub mod witness;
 
 pub use assur::PoseSolver;
-pub use assur_solver::{AssurAt, AssurSolver, TightAssurSolver};
-pub use newton::{NewtonAt, NewtonSolver, TightNewtonSolver};
+pub use assur_solver::{AssurAt, AssurSolver, TIGHT_ASSUR};
+pub use newton::{NewtonAt, NewtonSolver, TIGHT_NEWTON};
 
 use linkage::solver::Solver;
 

@@ -9,4 +9,4 @@ mod steps;
 mod system;
 mod whole_turns;
 
-pub use solver::{NewtonAt, NewtonSolver, TightNewtonSolver};
+pub use solver::{NewtonAt, NewtonSolver, TIGHT_NEWTON};

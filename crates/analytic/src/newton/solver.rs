@@ -66,28 +66,6 @@ impl Solver for NewtonSolver {
     }
 }
 
-/// Side 2 with a tighter integration of motions under forces: see
-/// [`TightAssurSolver`](crate::TightAssurSolver).
-#[derive(Clone, Copy, Debug)]
-pub struct TightNewtonSolver;
-
-impl Solver for TightNewtonSolver {
-    fn name(&self) -> &'static str {
-        NewtonSolver.name()
-    }
-
-    fn provides(&self, channel: &Channel) -> Provision {
-        NewtonSolver.provides(channel)
-    }
-
-    fn sweep(&self, case: &Case, visit: Visit, progress: Progress) -> Result<()> {
-        match case.is_free() {
-            true => free_motion(case, TIGHTER * ACCURACY, visit, progress),
-            false => NewtonSolver.sweep(case, visit, progress),
-        }
-    }
-}
-
 /// Side 2 at another accuracy of the integration of motions under forces: see [`AssurAt`](crate::AssurAt).
 #[derive(Clone, Copy, Debug)]
 pub struct NewtonAt(pub f64);
@@ -108,6 +86,9 @@ impl Solver for NewtonAt {
         }
     }
 }
+
+/// Side 2 with a tighter integration of motions under forces: see [`TIGHT_ASSUR`](crate::TIGHT_ASSUR).
+pub const TIGHT_NEWTON: NewtonAt = NewtonAt(TIGHTER * ACCURACY);
 
 fn free_motion(case: &Case, accuracy: f64, visit: Visit, progress: Progress) -> Result<()> {
     let mut system = System::new(case);
