@@ -101,7 +101,11 @@ pub fn sides(case: &Case, truth: Option<&Trajectory>) -> Result<Sides> {
         Ok(all)
     };
     let mut deviating = judged(&known)?;
-    if deviating.iter().flatten().any(|own| !(own.used <= 1.0)) {
+    let sides_differ = match [0, 1].map(|side| found[side].1.as_ref().map(|own| &own.trajectory)) {
+        [Ok(first), Ok(second)] => checks::sides_differ([first, second], &known),
+        _ => false,
+    };
+    if sides_differ || deviating.iter().flatten().any(|own| !(own.used <= 1.0)) {
         known.measure(case, solver)?;
         deviating = judged(&known)?;
     }

@@ -10,7 +10,7 @@ use linkage::case::Case;
 use linkage::engine::{Engine, Route};
 use linkage::math::KeepNan;
 use linkage::math::statistics::{ascending, share};
-use linkage::trajectory::{Channel, ChannelKind, Stage};
+use linkage::trajectory::{Channel, ChannelKind, Stage, Trajectory};
 
 /// Wanted of an analytic side: closure of the joints, relative to the mechanism's size or its distance from the origin.
 /// The shipped mechanisms have 5e-16 at most.
@@ -78,8 +78,7 @@ impl Worst<'_> {
 }
 
 /// Every channel of side 1 at its worst instant.
-fn worst_instants<'a>(sides: &'a [(&'static str, Observed); 2], known: &Known) -> Vec<Worst<'a>> {
-    let [reference, other] = [0, 1].map(|side| &sides[side].1.trajectory);
+fn worst_instants<'a>([reference, other]: [&'a Trajectory; 2], known: &Known) -> Vec<Worst<'a>> {
     let errors = difference(reference, other).expect("both sides stand on one grid");
     let of = |(index, channel): (usize, &'a Channel)| {
         let values = errors.column_near(channel, index).expect("both sides have all channels");
@@ -122,17 +121,17 @@ pub(super) fn beyond(sides: &[(&'static str, Observed); 2], known: &Known) -> Ve
         let since = (reference.times()[first], reference.cranks()[first]);
         Some(Beyond { channel: worst.channel.clone(), since, margin: worst.used() })
     };
-    worst_instants(sides, known).into_iter().filter_map(of).collect()
+    worst_instants([reference, other], known).into_iter().filter_map(of).collect()
 }
 
 /// Whether the two sides differ by more than what is allowed.
-pub(super) fn sides_differ(sides: &[(&'static str, Observed); 2], known: &Known) -> bool {
+pub(super) fn sides_differ(sides: [&Trajectory; 2], known: &Known) -> bool {
     worst_instants(sides, known).iter().any(|worst| !(worst.used() <= 1.0))
 }
 
 fn between_sides(sides: &[(&'static str, Observed); 2], known: &Known) -> Vec<Check> {
-    let all = worst_instants(sides, known);
-    let reference = &sides[0].1.trajectory;
+    let [reference, other] = [0, 1].map(|side| &sides[side].1.trajectory);
+    let all = worst_instants([reference, other], known);
     let of_stage = |stage: Stage| {
         let own = all.iter().filter(|worst| worst.channel.kind.stage == stage);
         let worst = own.max_by(|a, b| a.used().total_cmp(&b.used()))?;

@@ -98,7 +98,7 @@ impl Sides {
                 tighter()?
             }
         };
-        match checks::sides_differ(&sides, &known) {
+        match checks::sides_differ([0, 1].map(|side| &sides[side].1.trajectory), &known) {
             true => ledger.done("condition of every pose", "the sides differ by more than usual", || {
                 known.measure(case, first.solver)
             })?,

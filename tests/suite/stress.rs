@@ -50,6 +50,19 @@ fn the_rounding_of_a_large_crank_angle_is_in_the_bound() {
     }
 }
 
+/// Symptom: near a change point both sides were within their bounds of double-double, and disagreed with each other.
+/// Cause: the condition of the poses was not measured where only their difference was larger than usual.
+#[test]
+fn regress_the_condition_of_a_pose_is_in_the_bound_between_the_sides() {
+    for gap in [1e-12, 3e-11, 1e-10, 1e-6] {
+        let case = (named("change_point").unwrap().setup)(gap, 0, 0).unwrap().case;
+        let truth = ::precise::solve(&case).unwrap();
+        let found = sides(&case, Some(&truth)).unwrap();
+        assert!(matches!(found.verdict, Verdict::Agree { .. }), "{gap}: {:?}", found.verdict);
+        assert_eq!(found.silent, 0, "{gap}");
+    }
+}
+
 /// A long chain is solved and judged in a time that grows little faster than its length; here it is only solved, and
 /// held against double-double. No report names a chain of 150.
 #[test]
