@@ -94,9 +94,9 @@ impl Gauges {
         Gauges { watched: Vec::new(), ratios: Vec::new(), links: Vec::new(), reach: f64::INFINITY, left: f64::INFINITY }
     }
 
-    /// Whether a group needs no estimate on this step: it is proven not to pass a change point.
-    pub(super) fn proves(&self, group: usize) -> bool {
-        self.watched.iter().any(|watched| watched.group == group && !watched.is_open)
+    /// The groups that need no estimate on this step: they are proven not to pass a change point.
+    pub(super) fn proven(&self) -> impl Iterator<Item = usize> {
+        self.watched.iter().filter(|watched| !watched.is_open).map(|watched| watched.group)
     }
 
     /// Takes the pose that `plan` has just found, a step (rad, without sign) of the crank after the last one. Returns

@@ -73,8 +73,13 @@ impl Watch {
 
     /// Watches the groups that gauges prove nothing of.
     pub(super) fn leave_to(&mut self, gauges: &Gauges, plan: &Plan) {
-        for (group, seen) in self.groups.iter_mut().enumerate() {
-            seen.is_watched = plan.steps()[group].has_clearance() && !gauges.proves(group);
+        for (seen, step) in self.groups.iter_mut().zip(plan.steps()) {
+            seen.is_watched = step.has_clearance();
+        }
+        for group in gauges.proven() {
+            self.groups[group].is_watched = false;
+        }
+        for seen in &mut self.groups {
             if !seen.is_watched {
                 (seen.last, seen.fall) = (NONE, f64::NAN);
             }
