@@ -9,6 +9,8 @@ use super::seen::Outcome;
 use super::stage::Stage;
 use crate::proof::Options;
 use crate::scenario::Scenario;
+use linkage::drive::load::Acts;
+use linkage::drive::{Course, Load};
 
 fn scenario(name: &str) -> Scenario {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios").join(format!("{name}.toml"));
@@ -97,6 +99,22 @@ fn sliders_on_moving_guides_and_their_moments_are_seen_in_every_party() {
         for mutant in &found.mutants {
             assert!(mutant.outcome.is_found(), "{name}: {} in {}", mutant.kind.name, mutant.party.name());
         }
+    }
+}
+
+/// No shipped crank turns back under a moment for one sense. A rocker does.
+#[test]
+fn a_moment_for_one_sense_that_acts_always_is_seen_in_every_party() {
+    let mut rocking = scenario("crank_rocker");
+    let rocker = rocking.case.mechanism.links().iter().position(|link| link.name == "rocker").unwrap();
+    let load = Load::Moment { link: rocker, moment: Course::Constant(-0.5), acts: Acts::Clockwise };
+    rocking.case = rocking.case.with(|parts| parts.loads.push(load)).unwrap();
+    rocking.oracles.clear();
+    let asked = Asked { kinds: vec!["load-always".into()], ..Asked::default() };
+    let found = mutate(&rocking, &asked, &mut |_| {}).unwrap();
+    assert_eq!((found.verdict, found.mutants.len()), ("agree", 4));
+    for mutant in found.mutants.iter().filter(|mutant| mutant.party != Party::All) {
+        assert!(mutant.outcome.is_found(), "in {}", mutant.party.name());
     }
 }
 
