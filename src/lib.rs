@@ -47,6 +47,8 @@
 #[doc(hidden)]
 pub mod bench;
 #[doc(hidden)]
+pub mod claims;
+#[doc(hidden)]
 pub mod cli;
 #[doc(hidden)]
 pub mod compare;

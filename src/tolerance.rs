@@ -6,6 +6,8 @@ use std::fmt;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Origin {
+    /// Claimed by the formula that is judged.
+    Claimed,
     /// Derived from given data by a formula.
     Derived,
     /// Estimated from an engine's own runs at several resolutions.
@@ -25,6 +27,7 @@ impl Origin {
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
+            Origin::Claimed => "claimed",
             Origin::Derived => "derived",
             Origin::Estimated => "estimated",
             Origin::Measured => "measured",
@@ -65,6 +68,11 @@ pub enum Basis {
         /// Source of the number.
         source: String,
     },
+    /// Rounding of a formula, passed through its operations, and what the mechanism's side knows.
+    Formula {
+        /// Whether the formula claims an error besides.
+        claimed: bool,
+    },
     /// A basis with a note on the check that uses it.
     Noted(Box<Basis>, &'static str),
 }
@@ -81,6 +89,13 @@ impl Basis {
                 Part::Discretisation | Part::Iteration => Origin::Estimated,
             },
             Basis::Digits { origin, .. } => *origin,
+            Basis::Formula { claimed } => {
+                if *claimed {
+                    Origin::Claimed
+                } else {
+                    Origin::Derived
+                }
+            }
             Basis::Noted(basis, _) => basis.origin(),
         }
     }
@@ -157,6 +172,11 @@ impl fmt::Display for Basis {
             }
             Basis::Digits { origin, digits, source } => {
                 write!(f, "{} with {digits} decimals: {source}", origin.word())
+            }
+            Basis::Formula { claimed } => {
+                let error = if *claimed { "the error that the formula claims, its" } else { "the formula's" };
+                let origin = self.origin().word();
+                write!(f, "{origin}: {error} rounding, passed through its operations, and what the side knows")
             }
             Basis::Noted(basis, note) => write!(f, "{basis}; {note}"),
         }

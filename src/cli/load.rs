@@ -24,8 +24,25 @@ pub(super) struct StartArgs {
 impl StartArgs {
     /// Reads a scenario with this start, on the grid given, else on its own.
     pub(super) fn load(&self, file: &Path, grid: &GridArgs) -> Result<Scenario> {
+        self.load_with(file, grid, &[], false)
+    }
+
+    /// The same with parameters that are `set`; with new ones too, if they may be added.
+    pub(super) fn load_with(
+        &self,
+        file: &Path,
+        grid: &GridArgs,
+        set: &[(String, f64)],
+        adds_parameters: bool,
+    ) -> Result<Scenario> {
         let crank = self.start_crank_deg.map(f64::to_radians);
-        let asked = Asked { modes: self.mode.clone(), crank, without_grid: grid.told().is_some() };
+        let asked = Asked {
+            modes: self.mode.clone(),
+            crank,
+            without_grid: grid.told().is_some(),
+            set: set.to_vec(),
+            adds_parameters,
+        };
         grid.on(as_asked(file, &asked)?)
     }
 }

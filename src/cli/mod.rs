@@ -3,6 +3,7 @@
 mod advice;
 mod bearings;
 mod bench;
+mod check;
 mod clearance;
 mod diagram;
 mod drive;
@@ -54,6 +55,8 @@ struct Cli {
 enum Command {
     /// Solve scenarios both ways, compare, check, record, and say whether the two sides agree
     Run(run::Args),
+    /// Judge formulas over the whole motion, by value and by derivative, against both analytic sides
+    Check(check::Args),
     /// Solve a scenario with one solver and write the solution as CSV, one row per instant
     Solve(solve::Args),
     /// Find the cheapest settings of an engine that meet a wanted error, by measurement
@@ -92,6 +95,7 @@ pub fn main() -> ExitCode {
     let cli = Cli::parse();
     let code = match cli.command {
         Command::Run(args) => run::run(&args),
+        Command::Check(args) => check::check(&args),
         Command::Solve(args) => output::exit(solve::solve(&args)),
         Command::Tune(args) => output::exit(tune::run(&args)),
         Command::Stress(args) => stress::run(&args),

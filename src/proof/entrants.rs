@@ -6,9 +6,10 @@ use super::known::Known;
 use super::ledger::Ledger;
 use super::observe::{Observed, Watch, observe};
 use super::options::{Chosen, Reference};
-use super::{methods, oracle, sensitivity};
+use super::{formulas, methods, oracle, sensitivity};
+use crate::claims::{self, Course, Judged};
 use crate::compare::{Check, Verdict, overall};
-use crate::scenario::Scenario;
+use crate::scenario::{Formulas, Scenario};
 use analytic::{AssurSolver, NewtonSolver, TIGHT_ASSUR, TIGHT_NEWTON};
 use linkage::case::Case;
 use linkage::engine::Engine;
@@ -124,7 +125,38 @@ impl Sides {
                 checks.extend(ledger.done("published numbers", "solved at their own instants", numbers)?);
             }
         }
-        Ok(Sides { order, observed: sides, known, sensitivity, checks })
+        let mut own = Sides { order, observed: sides, known, sensitivity, checks };
+        match scenario.formulas.claims().next() {
+            None => ledger.skipped("formulas", "none claims a wanted channel"),
+            Some(_) => {
+                let judged = ledger.done("formulas", "by value and by derivative, on both sides", || {
+                    own.judged(case, &scenario.formulas)
+                })?;
+                own.checks.extend(formulas::checks(&judged));
+            }
+        }
+        Ok(own)
+    }
+
+    /// Formulas against both sides: the side's name, and every claim that it has the channels for.
+    ///
+    /// # Errors
+    /// Those of [`claims::judge`].
+    pub(crate) fn judged(&self, case: &Case, formulas: &Formulas) -> Result<[(&'static str, Vec<Vec<Judged>>); 2]> {
+        let of = |side: usize| -> Result<_> {
+            let (name, observed) = &self.observed[side];
+            let place = usize::from(self.order[0] != side);
+            let trajectory = &observed.trajectory;
+            let channels = self.trajectory().channels();
+            let error = |column: usize, row: usize| {
+                let channel = &trajectory.channels()[column];
+                // Both sides have the same channels in the same order.
+                debug_assert!(channels[column] == *channel);
+                self.known.at(place, channel.kind.stage, column, row)
+            };
+            Ok((*name, claims::judge(formulas, &Course::new(case, trajectory, &error))?))
+        };
+        Ok([of(0)?, of(1)?])
     }
 
     /// What was observed of the reference.

@@ -185,6 +185,11 @@ impl Known {
         self.rounding(stage, channel, row) + share(integration, self.magnitudes[channel])
     }
 
+    /// How far a number of the reference (0) or of the other side (1) is known, in the channel's unit.
+    pub(super) fn at(&self, side: usize, stage: Stage, channel: usize, row: usize) -> f64 {
+        self.rounding(stage, channel, row) * self.magnitudes[channel] + self.integration[side][channel]
+    }
+
     /// Largest difference allowed between the sides in a channel over the run, in the channel's unit.
     pub(super) fn between(&self, stage: Stage, channel: usize) -> f64 {
         self.error(stage, channel) + self.integration[1][channel]

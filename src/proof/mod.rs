@@ -2,12 +2,14 @@
 
 pub mod beside;
 mod checks;
+pub mod claimed;
 mod dependence;
 mod dial;
 mod doubt;
 mod engines;
 mod entrants;
 mod examined;
+mod formulas;
 mod judge;
 mod known;
 mod ledger;

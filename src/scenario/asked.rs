@@ -24,6 +24,10 @@ pub struct Asked {
     /// Whether the caller lays its own grid: the case then has no instants, and that of the file need not be one to
     /// which the drive comes.
     pub without_grid: bool,
+    /// Parameters of formulas by their keys, in place of the file's own.
+    pub set: Vec<(String, f64)>,
+    /// Whether parameters that the file does not have are added; else they are refused.
+    pub adds_parameters: bool,
 }
 
 /// A group for which the file does not decide between the configurations.

@@ -7,6 +7,7 @@ mod clearance;
 mod correction;
 pub mod edit;
 mod figure;
+pub mod formula;
 pub mod grid;
 mod hostile;
 mod instant;
@@ -17,6 +18,7 @@ mod masses;
 mod motion;
 mod motor;
 pub mod oracle;
+mod parameters;
 mod printed;
 mod reader;
 pub mod redraw;
@@ -31,9 +33,12 @@ mod tests;
 pub mod unit;
 mod words;
 
+pub use self::formula::{Claim, Formula, Formulas};
 pub use asked::{Asked, Undecided};
 pub use figure::{Figure, FigureValue, OracleFigure};
 pub use oracle::{Oracle, OracleBasis};
+pub use parameters::Parameter;
+pub use printed::PrintedChannel;
 pub use series::{ExpectedCell, OraclePoint, OracleSeries, When};
 pub use settings::EngineKeys;
 
@@ -86,6 +91,8 @@ pub struct Scenario {
     pub engine_rel: f64,
     /// Published numbers.
     pub oracles: Vec<Oracle>,
+    /// Formulas over parameters, and what they claim.
+    pub formulas: Formulas,
     /// Outlines and what is asked of their distances, if the scenario asks.
     pub clearance: Option<Question>,
     /// The start asked for in the file for each group, in the order of the structure.
@@ -177,6 +184,7 @@ impl Scenario {
             engine: EngineKeys::default(),
             engine_rel: settings::ENGINE_REL,
             oracles: Vec::new(),
+            formulas: Formulas::over(Vec::new()),
             clearance: None,
         })
     }
@@ -196,6 +204,10 @@ impl Scenario {
             oracle.figures.clear();
         }
         self.oracles.retain(|oracle| !oracle.series.is_empty());
+        let is_wanted = |claim: &Claim| claim.channels.iter().all(|(_, own)| wanted.contains(&own.channel));
+        for formula in &mut self.formulas.list {
+            formula.claim = formula.claim.take().filter(|claim| is_wanted(claim));
+        }
         Ok(self)
     }
 
@@ -235,6 +247,7 @@ fn read(root: &mut Table, asked: &Asked, lists: bool) -> Result<Found> {
     let (mut start, grid, channels) = (root.table("start")?, root.table("grid")?, root.optional_table("channels")?);
     let (engine, tolerances) = (root.optional_table("engine")?, root.optional_table("tolerances")?);
     let (oracles, clearance) = (root.tables("oracle")?, root.optional_table("clearance")?);
+    let (parameters, formulas) = (root.optional_table("parameters")?, root.tables("formula")?);
     root.finish()?;
 
     let links = links::read(ground, links)?;
@@ -283,8 +296,10 @@ fn read(root: &mut Table, asked: &Asked, lists: bool) -> Result<Found> {
         Case::new(CaseParts { mechanism, structure, drives, loads, gravity, start, modes, grid, wanted, only: None })?;
     let case = settings::wanted(channels, case)?;
     let mut oracles = oracle::read(oracles, &case)?;
+    let mut formulas = self::formula::read(parameters, formulas, &case, (&asked.set, asked.adds_parameters))?;
     if !placed.is_own_branch {
         oracles.clear();
+        formulas.list.iter_mut().for_each(|formula| formula.claim = None);
     } else if crank != own_crank {
         oracles = oracles.into_iter().filter_map(|oracle| oracle.at_another_start(&case)).collect();
     }
@@ -310,6 +325,7 @@ fn read(root: &mut Table, asked: &Asked, lists: bool) -> Result<Found> {
         engine,
         engine_rel,
         oracles,
+        formulas,
         clearance,
         starts,
         choices,

@@ -114,6 +114,25 @@ impl PrintedChannel {
         Channel::named(name).map(|channel| PrintedChannel { channel, family: None, magnitude: false, unit: None })
     }
 
+    /// A channel in its SI unit.
+    #[must_use]
+    pub fn plain(channel: Channel) -> PrintedChannel {
+        PrintedChannel { channel, family: None, magnitude: false, unit: None }
+    }
+
+    /// A turn in its unit, if it is an angle.
+    #[must_use]
+    pub fn turn(&self) -> Option<f64> {
+        let is_degrees = self.unit.is_some_and(|unit| unit.suffix == "deg");
+        self.channel.kind.periodic.then_some(if is_degrees { 360.0 } else { std::f64::consts::TAU })
+    }
+
+    /// Symbol of its unit.
+    #[must_use]
+    pub fn unit_symbol(&self) -> &'static str {
+        self.unit.map_or(self.channel.kind.unit.symbol(), |unit| unit.suffix)
+    }
+
     /// A printed number in SI.
     #[must_use]
     pub fn to_si(&self, value: f64) -> f64 {

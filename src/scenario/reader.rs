@@ -12,6 +12,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::source::Source;
 use super::words::{choice, nearest};
+use formula::Fault;
 use linkage::error::{Error, ErrorKind, Result};
 
 struct Entry<'a> {
@@ -62,6 +63,11 @@ impl<'a> Table<'a> {
         self.entries.iter().any(|entry| entry.key == key)
     }
 
+    /// The keys, in the order of the file.
+    pub fn keys(&self) -> Vec<String> {
+        self.entries.iter().map(|entry| entry.key.to_string()).collect()
+    }
+
     /// Whether the table is empty.
     pub fn is_empty(&self) -> bool {
         self.entries.is_empty()
@@ -92,6 +98,19 @@ impl<'a> Table<'a> {
         let entry = exact.or_else(|| self.entries.iter().find(with_unit));
         let (key, span) = entry.map_or((key, self.span.clone()), |entry| (entry.key, entry.value.span()));
         Error::new(kind, message).key(self.path_of(key)).at(self.source.place(span))
+    }
+
+    /// An error about a part of the text of `key`.
+    pub fn fault_in(&self, key: &str, fault: &Fault) -> Error {
+        let error = self.wrong(ErrorKind::Input, key, fault.message.clone()).help(fault.help.clone());
+        let Some(entry) = self.entries.iter().find(|entry| entry.key == key) else { return error };
+        let (span, text) = (entry.value.span(), entry.value.get_ref().as_str().unwrap_or_default());
+        // The text stands there as it is, unless it has escapes.
+        let Some(offset) = self.source.text[span.clone()].find(text) else { return error };
+        let start = span.start + offset;
+        // What is missing at the end is shown at the last sign.
+        let (from, to) = (fault.at.start.min(text.len().saturating_sub(1)), fault.at.end);
+        error.at(self.source.place(start + from..start + to.max(from)))
     }
 
     fn wrong_entry(&self, entry: &Entry, message: impl Into<String>) -> Error {

@@ -85,6 +85,34 @@ pub static MASS_PER_LENGTH: Family = Family { noun: "a mass per length", units: 
 /// Powers.
 pub static POWER: Family = Family { noun: "a power", units: &[si("W"), Unit::new("kW", 1e3, 1.0)] };
 
+/// All families.
+pub static ALL: [&Family; 15] = [
+    &LENGTH,
+    &ANGLE,
+    &ANGULAR_SPEED,
+    &TIME,
+    &MASS,
+    &INERTIA,
+    &ACCELERATION,
+    &MOMENT,
+    &MOMENT_PER_SPEED,
+    &FORCE,
+    &STIFFNESS,
+    &DAMPING,
+    &TORSIONAL_STIFFNESS,
+    &MASS_PER_LENGTH,
+    &POWER,
+];
+
+/// The unit that a key ends in, the longest that fits, and the family that it is of first.
+#[must_use]
+pub fn ending(key: &str) -> Option<(&'static Family, &'static Unit)> {
+    let all = ALL.iter().flat_map(|family| family.units.iter().map(move |unit| (*family, unit)));
+    let ends = |unit: &Unit| key.strip_suffix(unit.suffix).is_some_and(|rest| rest.len() > 1 && rest.ends_with('_'));
+    // Of units of the same length the first is kept.
+    all.filter(|(_, unit)| ends(unit)).rev().max_by_key(|(_, unit)| unit.suffix.len())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -107,21 +135,19 @@ mod tests {
 
     #[test]
     fn every_family_starts_with_its_si_unit() {
-        let mechanical = [
-            &MASS,
-            &INERTIA,
-            &POWER,
-            &MASS_PER_LENGTH,
-            &ACCELERATION,
-            &MOMENT,
-            &MOMENT_PER_SPEED,
-            &FORCE,
-            &STIFFNESS,
-            &DAMPING,
-        ];
-        for family in [&LENGTH, &ANGLE, &ANGULAR_SPEED, &TIME, &TORSIONAL_STIFFNESS].into_iter().chain(mechanical) {
+        for family in ALL {
             assert_eq!(family.units[0].to_si(2.5), 2.5, "{}", family.noun);
         }
+    }
+
+    #[test]
+    fn the_longest_unit_that_fits_is_taken() {
+        let suffix = |key| ending(key).map(|(_, unit)| unit.suffix);
+        let keys = ["a_mm", "k_N_mm", "omega_rad_s", "j_kg_m2", "m", "ratio", "_mm", "a_m_s2"];
+        assert_eq!(
+            keys.map(suffix),
+            [Some("mm"), Some("N_mm"), Some("rad_s"), Some("kg_m2"), None, None, None, Some("m_s2")]
+        );
     }
 
     #[test]

@@ -188,6 +188,14 @@ impl Channel {
         if self.of.is_empty() { word.into() } else { format!("{word}.{}", self.of) }
     }
 
+    /// Its rate of change, if that is a channel too: angular velocity of an angle, acceleration of a velocity.
+    #[must_use]
+    pub fn rate(&self) -> Option<Channel> {
+        let reading = self.kind.reading.rate()?;
+        let kind = CHANNELS.iter().find(|kind| kind.reading == reading)?;
+        Some(Channel { of: self.of.clone(), kind })
+    }
+
     /// Channel called `name`, for example `link.crank.angle_rad`, `joint.A.fx_N` or `drive.torque_N_m`.
     #[must_use]
     pub fn named(name: &str) -> Option<Channel> {
@@ -221,6 +229,20 @@ mod tests {
         }
         assert_eq!(Channel::named("link.crank.speed"), None);
         assert_eq!(Channel::named("link.angle_rad"), None);
+    }
+
+    #[test]
+    fn rates_are_channels_of_the_next_stage() {
+        for kind in &CHANNELS {
+            let rate = Channel { of: "A".into(), kind }.rate();
+            assert_eq!(rate.is_some(), kind.stage < Stage::Accelerations, "{}", kind.suffix);
+            let Some(rate) = rate else { continue };
+            assert_eq!(rate.kind.stage as usize, kind.stage as usize + 1);
+            assert_eq!(
+                rate.kind.unit.symbol().trim_end_matches("^2"),
+                kind.unit.symbol().to_string() + { if kind.stage == Stage::Positions { "/s" } else { "" } }
+            );
+        }
     }
 
     #[test]

@@ -38,6 +38,42 @@ impl Reading {
     }
 }
 
+impl Reading {
+    /// Its rate of change, if that is a reading too.
+    #[must_use]
+    pub const fn rate(self) -> Option<Reading> {
+        const fn of_point(of: OfPoint) -> Option<OfPoint> {
+            Some(match of {
+                OfPoint::X => OfPoint::VelocityX,
+                OfPoint::Y => OfPoint::VelocityY,
+                OfPoint::VelocityX => OfPoint::AccelerationX,
+                OfPoint::VelocityY => OfPoint::AccelerationY,
+                OfPoint::AccelerationX | OfPoint::AccelerationY => return None,
+            })
+        }
+        match self {
+            Reading::Link(OfLink::Angle) => Some(Reading::Link(OfLink::Omega)),
+            Reading::Link(OfLink::Omega) => Some(Reading::Link(OfLink::Alpha)),
+            Reading::Link(OfLink::Centre(of)) => match of_point(of) {
+                Some(rate) => Some(Reading::Link(OfLink::Centre(rate))),
+                None => None,
+            },
+            Reading::Point(of) => match of_point(of) {
+                Some(rate) => Some(Reading::Point(rate)),
+                None => None,
+            },
+            Reading::Slider(OfSlider::Slide) => Some(Reading::Slider(OfSlider::Speed)),
+            Reading::Slider(OfSlider::Speed) => Some(Reading::Slider(OfSlider::Acceleration)),
+            Reading::Link(OfLink::Alpha)
+            | Reading::Slider(OfSlider::Acceleration | OfSlider::Moment)
+            | Reading::Joint(_)
+            | Reading::Frame(_)
+            | Reading::Drive(_)
+            | Reading::Motor(_) => None,
+        }
+    }
+}
+
 /// Quantity of a body point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum OfPoint {

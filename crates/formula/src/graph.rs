@@ -1,0 +1,212 @@
+//! Formulas as a graph: what two of them share stands in it once.
+
+use std::collections::HashMap;
+
+use crate::fault::Fault;
+use crate::function::Function;
+use crate::rounded::Rounded;
+use crate::tree::{Operator, Shape, Tree};
+
+/// A node of a [`Graph`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Id(pub(crate) u32);
+
+/// What a node does. Its arguments stand before it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Node {
+    Input(usize),
+    Number(Rounded),
+    Negative(Id),
+    Pair(Operator, Id, Id),
+    Call(Function, Id, Id),
+}
+
+/// A node as a key: numbers by their bits.
+type Key = (u8, u64, u64, u64);
+
+/// Formulas over common inputs.
+#[derive(Clone, Debug)]
+pub struct Graph {
+    pub(crate) nodes: Vec<Node>,
+    known: HashMap<Key, Id>,
+    names: HashMap<String, Id>,
+    pub(crate) derivatives: HashMap<(Id, usize), Id>,
+    inputs: usize,
+}
+
+impl Graph {
+    /// A graph with inputs of these names, as many more `unnamed`, and `pi`.
+    #[must_use]
+    pub fn new(inputs: &[&str], unnamed: usize) -> Self {
+        let mut graph = Graph {
+            nodes: Vec::new(),
+            known: HashMap::new(),
+            names: HashMap::new(),
+            derivatives: HashMap::new(),
+            inputs: inputs.len() + unnamed,
+        };
+        for (index, name) in inputs.iter().enumerate() {
+            let id = graph.put(Node::Input(index));
+            graph.name(name, id);
+        }
+        for index in 0..unnamed {
+            graph.put(Node::Input(inputs.len() + index));
+        }
+        let pi = graph.put(Node::Number(Rounded::nearly(std::f64::consts::PI)));
+        graph.name("pi", pi);
+        graph
+    }
+
+    /// The node of an input.
+    ///
+    /// # Panics
+    /// If there are not as many inputs.
+    #[must_use]
+    pub fn input(&self, index: usize) -> Id {
+        assert!(index < self.inputs, "there are {} inputs", self.inputs);
+        // They were put first.
+        Id(index as u32)
+    }
+
+    /// Gives a node a name, which formulas after it may use.
+    pub fn name(&mut self, name: &str, id: Id) {
+        self.names.insert(name.into(), id);
+    }
+
+    /// A number that does not change, with its error.
+    pub fn constant(&mut self, number: Rounded) -> Id {
+        self.put(Node::Number(number))
+    }
+
+    /// Whether a name is known.
+    #[must_use]
+    pub fn knows(&self, name: &str) -> bool {
+        self.names.contains_key(name)
+    }
+
+    /// The names that formulas may use, in alphabetical order.
+    #[must_use]
+    pub fn names(&self) -> Vec<&str> {
+        let mut names: Vec<&str> = self.names.keys().map(String::as_str).collect();
+        names.sort_unstable();
+        names
+    }
+
+    /// Adds a formula.
+    ///
+    /// # Errors
+    /// A name that is not known, with its place.
+    pub fn add(&mut self, tree: &Tree) -> Result<Id, Fault> {
+        Ok(match &tree.shape {
+            Shape::Number(number) => self.put(Node::Number(Rounded::decimal(*number))),
+            Shape::Name(name) => self.named(name, tree)?,
+            Shape::Negative(part) => {
+                let part = self.add(part)?;
+                self.negative(part)
+            }
+            Shape::Pair(operator, parts) => {
+                let (left, right) = (self.add(&parts[0])?, self.add(&parts[1])?);
+                self.pair(*operator, left, right)
+            }
+            Shape::Call(function, parts) => {
+                let first = self.add(&parts[0])?;
+                let second = parts.get(1).map_or(Ok(first), |part| self.add(part))?;
+                self.call(*function, first, second)
+            }
+        })
+    }
+
+    fn named(&self, name: &str, tree: &Tree) -> Result<Id, Fault> {
+        self.names.get(name).copied().ok_or_else(|| {
+            let names = self.names();
+            Fault::new(format!("there is no `{name}`"), tree.at.clone(), format!("known are {}", names.join(", ")))
+        })
+    }
+
+    pub(crate) fn node(&self, id: Id) -> Node {
+        self.nodes[id.0 as usize]
+    }
+
+    /// Which nodes these need, themselves included.
+    pub(crate) fn needed(&self, nodes: &[Id]) -> Vec<bool> {
+        let mut needed = vec![false; self.nodes.len()];
+        for id in nodes {
+            needed[id.0 as usize] = true;
+        }
+        // Arguments stand before what they are arguments of.
+        for index in (0..self.nodes.len()).rev() {
+            match self.nodes[index] {
+                _ if !needed[index] => {}
+                Node::Input(_) | Node::Number(_) => {}
+                Node::Negative(part) => needed[part.0 as usize] = true,
+                Node::Pair(_, left, right) | Node::Call(_, left, right) => {
+                    needed[left.0 as usize] = true;
+                    needed[right.0 as usize] = true;
+                }
+            }
+        }
+        needed
+    }
+
+    fn put(&mut self, node: Node) -> Id {
+        let key: Key = match node {
+            Node::Input(index) => (0, index as u64, 0, 0),
+            Node::Number(number) => (1, number.value.to_bits(), number.error.to_bits(), 0),
+            Node::Negative(part) => (2, part.0.into(), 0, 0),
+            Node::Pair(operator, left, right) => (3, operator as u64, left.0.into(), right.0.into()),
+            Node::Call(function, first, second) => (4, function as u64, first.0.into(), second.0.into()),
+        };
+        let next = Id(u32::try_from(self.nodes.len()).expect("formulas are bounded in length"));
+        let id = *self.known.entry(key).or_insert(next);
+        if id == next {
+            self.nodes.push(node);
+        }
+        id
+    }
+
+    fn exact(&self, id: Id) -> Option<f64> {
+        match self.node(id) {
+            Node::Number(Rounded { value, error: 0.0 }) => Some(value),
+            Node::Number(_) | Node::Input(_) | Node::Negative(_) | Node::Pair(..) | Node::Call(..) => None,
+        }
+    }
+
+    pub(crate) fn whole(&mut self, value: f64) -> Id {
+        self.put(Node::Number(Rounded::exact(value)))
+    }
+
+    pub(crate) fn negative(&mut self, part: Id) -> Id {
+        match self.node(part) {
+            Node::Number(number) => self.put(Node::Number(number.negative())),
+            Node::Negative(inner) => inner,
+            Node::Input(_) | Node::Pair(..) | Node::Call(..) => self.put(Node::Negative(part)),
+        }
+    }
+
+    /// A pair, without the zeros and ones that derivatives leave.
+    pub(crate) fn pair(&mut self, operator: Operator, left: Id, right: Id) -> Id {
+        let (a, b) = (self.exact(left), self.exact(right));
+        match (operator, a, b) {
+            (Operator::Plus, Some(0.0), _) | (Operator::Times, Some(1.0), _) => right,
+            (Operator::Minus, Some(0.0), _) => self.negative(right),
+            (Operator::Plus | Operator::Minus, _, Some(0.0)) => left,
+            (Operator::Times | Operator::Over | Operator::Power, _, Some(1.0)) => left,
+            (Operator::Times, Some(0.0), _) | (Operator::Times, _, Some(0.0)) => self.whole(0.0),
+            (Operator::Over, Some(0.0), other) if other != Some(0.0) => self.whole(0.0),
+            (Operator::Power, _, Some(0.0)) => self.whole(1.0),
+            (_, Some(a), Some(b)) => {
+                let both = Rounded::pair(operator, Rounded::exact(a), Rounded::exact(b));
+                if both.value.fract() == 0.0 && both.value.abs() < 9e15 {
+                    self.whole(both.value)
+                } else {
+                    self.put(Node::Pair(operator, left, right))
+                }
+            }
+            _ => self.put(Node::Pair(operator, left, right)),
+        }
+    }
+
+    pub(crate) fn call(&mut self, function: Function, first: Id, second: Id) -> Id {
+        self.put(Node::Call(function, first, second))
+    }
+}

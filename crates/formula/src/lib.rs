@@ -1,0 +1,36 @@
+//! Formulas as they are written down: read, differentiated, and evaluated with a bound on their own rounding.
+//!
+//! - [`Tree`]: what somebody wrote, with the place of every part.
+//! - [`Graph`]: many formulas at once; what two of them share stands in it once. Derivatives are taken here.
+//! - [`Program`]: the part of a graph that some of its nodes need, to be run for many inputs.
+//! - [`Rounded`]: a number, and how far it may be from the exact one.
+//!
+//! ```
+//! use formula::{Graph, Program, Rounded, Tree};
+//!
+//! let mut graph = Graph::new(&["phi", "r"], 0);
+//! let place = graph.add(&Tree::read("r*cos(phi)")?)?;
+//! let speed = graph.derivative(place, 0);
+//! let mut program = Program::of(&graph, &[place, speed]);
+//! let values = program.run(&[Rounded::exact(0.0), Rounded::exact(2.0)]);
+//! assert_eq!([values[0].value, values[1].value], [2.0, 0.0]);
+//! # Ok::<(), formula::Fault>(())
+//! ```
+
+mod derivative;
+mod fault;
+mod function;
+mod graph;
+mod program;
+mod read;
+mod rounded;
+#[cfg(test)]
+mod tests;
+mod tree;
+
+pub use fault::Fault;
+pub use function::Function;
+pub use graph::{Graph, Id};
+pub use program::Program;
+pub use rounded::Rounded;
+pub use tree::{Operator, Shape, Tree};

@@ -1,0 +1,164 @@
+//! A formula as it was written.
+
+use std::fmt;
+use std::ops::Range;
+
+use crate::fault::Fault;
+use crate::function::Function;
+use crate::read;
+
+/// An operator between two parts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Operator {
+    /// `+`
+    Plus,
+    /// `-`
+    Minus,
+    /// `*`
+    Times,
+    /// `/`
+    Over,
+    /// `^`
+    Power,
+}
+
+impl Operator {
+    /// Sign in formulas.
+    #[must_use]
+    pub const fn sign(self) -> char {
+        match self {
+            Operator::Plus => '+',
+            Operator::Minus => '-',
+            Operator::Times => '*',
+            Operator::Over => '/',
+            Operator::Power => '^',
+        }
+    }
+
+    /// How closely it binds.
+    pub(crate) const fn rank(self) -> u8 {
+        match self {
+            Operator::Plus | Operator::Minus => 1,
+            Operator::Times | Operator::Over => 2,
+            Operator::Power => 4,
+        }
+    }
+}
+
+/// How closely a minus before a part binds: -x^2 is -(x^2), -x*y is (-x)*y.
+const NEGATION: u8 = 3;
+/// How closely the parts of a number, a name or a call do.
+const WHOLE: u8 = 5;
+
+/// What a part of a formula is.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shape {
+    /// A number.
+    Number(f64),
+    /// A name: an input, or a formula with that name.
+    Name(String),
+    /// The negative of a part.
+    Negative(Box<Tree>),
+    /// Two parts and the operator between them.
+    Pair(Operator, Box<[Tree; 2]>),
+    /// A function with its arguments.
+    Call(Function, Vec<Tree>),
+}
+
+/// A formula, or a part of one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tree {
+    /// What it is.
+    pub shape: Shape,
+    /// Bytes of the text where it stands.
+    pub at: Range<usize>,
+}
+
+impl Tree {
+    /// Reads a formula: numbers, names (they may contain dots), `+ - * / ^`, parentheses and calls of a [`Function`].
+    /// `^` binds to the right, and closer than a minus before it: -x^2 is -(x^2), 2^3^2 is 2^9.
+    ///
+    /// # Errors
+    /// What cannot be read, with its place and the way out.
+    pub fn read(text: &str) -> Result<Tree, Fault> {
+        read::tree(text)
+    }
+
+    /// The parts of the uppermost level.
+    #[must_use]
+    pub fn parts(&self) -> &[Tree] {
+        match &self.shape {
+            Shape::Number(_) | Shape::Name(_) => &[],
+            Shape::Negative(part) => std::slice::from_ref(part),
+            Shape::Pair(_, parts) => &parts[..],
+            Shape::Call(_, parts) => parts,
+        }
+    }
+
+    /// The same, to be changed.
+    pub fn parts_mut(&mut self) -> &mut [Tree] {
+        match &mut self.shape {
+            Shape::Number(_) | Shape::Name(_) => &mut [],
+            Shape::Negative(part) => std::slice::from_mut(part),
+            Shape::Pair(_, parts) => &mut parts[..],
+            Shape::Call(_, parts) => parts,
+        }
+    }
+
+    /// The names in it, each with its place, from left to right.
+    pub fn names(&self) -> Vec<(&str, Range<usize>)> {
+        let own = match &self.shape {
+            Shape::Name(name) => vec![(name.as_str(), self.at.clone())],
+            Shape::Number(_) | Shape::Negative(_) | Shape::Pair(..) | Shape::Call(..) => Vec::new(),
+        };
+        own.into_iter().chain(self.parts().iter().flat_map(Tree::names)).collect()
+    }
+
+    fn rank(&self) -> u8 {
+        match &self.shape {
+            Shape::Number(number) if number.is_sign_negative() => NEGATION,
+            Shape::Number(_) | Shape::Name(_) | Shape::Call(..) => WHOLE,
+            Shape::Negative(_) => NEGATION,
+            Shape::Pair(operator, _) => operator.rank(),
+        }
+    }
+
+    fn write(&self, f: &mut fmt::Formatter<'_>, least: u8) -> fmt::Result {
+        if self.rank() < least { write!(f, "({self})") } else { write!(f, "{self}") }
+    }
+}
+
+/// Written with the parentheses that it needs, and no others.
+impl fmt::Display for Tree {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.shape {
+            Shape::Number(number) => write!(f, "{number}"),
+            Shape::Name(name) => write!(f, "{name}"),
+            Shape::Negative(part) => {
+                write!(f, "-")?;
+                part.write(f, NEGATION)
+            }
+            Shape::Pair(operator, parts) => {
+                let rank = operator.rank();
+                // What follows a minus or a stroke, and what stands before a power, needs parentheses on its own rank.
+                let [left, right] = match operator {
+                    Operator::Plus | Operator::Minus | Operator::Times | Operator::Over => [rank, rank + 1],
+                    Operator::Power => [rank + 1, NEGATION],
+                };
+                parts[0].write(f, left)?;
+                match operator {
+                    Operator::Plus | Operator::Minus => write!(f, " {} ", operator.sign())?,
+                    Operator::Times | Operator::Over | Operator::Power => write!(f, "{}", operator.sign())?,
+                }
+                parts[1].write(f, right)
+            }
+            Shape::Call(function, parts) => {
+                write!(f, "{}(", function.name())?;
+                for (index, part) in parts.iter().enumerate() {
+                    write!(f, "{}{part}", if index > 0 { ", " } else { "" })?;
+                }
+                write!(f, ")")
+            }
+        }
+    }
+}

@@ -1,0 +1,152 @@
+//! What a side found, with how well it knows it.
+
+use crate::scenario::{Claim, PrintedChannel};
+use formula::{Function, Operator, Rounded};
+use linkage::case::Case;
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::trajectory::{Channel, OfJoint, Reading, Trajectory};
+
+/// A side's trajectory, and how far every number of it is known (by column and row, in its SI unit).
+pub struct Course<'a> {
+    trajectory: &'a Trajectory,
+    error: &'a dyn Fn(usize, usize) -> f64,
+    /// Angular velocity and acceleration of the crank, where the side has them.
+    crank: [Option<usize>; 2],
+    /// Angle of a crank that moves under forces, where the side has it: it is known as well as it was integrated.
+    angle: Option<usize>,
+}
+
+/// One column in the unit of a claim.
+pub(super) struct Column<'a> {
+    values: &'a [f64],
+    error: Box<dyn Fn(usize) -> f64 + 'a>,
+    /// Of a vector's magnitude: the other component.
+    across: Option<Box<Column<'a>>>,
+    /// The SI unit over the claim's.
+    factor: f64,
+}
+
+impl Column<'_> {
+    pub(super) fn at(&self, row: usize) -> Rounded {
+        let own = Rounded { value: self.values[row], error: (self.error)(row) };
+        let si = match &self.across {
+            None => own,
+            Some(across) => {
+                let square = |number| Rounded::pair(Operator::Times, number, number);
+                let sum = Rounded::pair(Operator::Plus, square(own), square(across.at(row)));
+                Rounded::call(Function::Sqrt, [sum, sum])
+            }
+        };
+        match self.factor {
+            1.0 => si,
+            factor => Rounded::pair(Operator::Over, si, Rounded::nearly(factor)),
+        }
+    }
+}
+
+/// The channels that judging a claim needs of a case, derivatives included.
+#[must_use]
+pub fn needed(claim: &Claim, case: &Case) -> Vec<Channel> {
+    let crank = &case.mechanism.links()[case.crank().link].name;
+    let mut all: Vec<Channel> = ["angle_rad", "omega_rad_s", "alpha_rad_s2"]
+        .iter()
+        .filter_map(|suffix| Channel::named(&format!("link.{crank}.{suffix}")))
+        .collect();
+    for (_, channel) in &claim.channels {
+        all.extend(across(channel));
+        let mut next = Some(channel.channel.clone());
+        while let Some(channel) = next {
+            next = channel.rate();
+            all.push(channel);
+        }
+    }
+    all
+}
+
+/// The other component of a vector whose magnitude is claimed.
+fn across(channel: &PrintedChannel) -> Option<Channel> {
+    let is_other = |kind: &&'static linkage::trajectory::ChannelKind| kind.reading == Reading::Joint(OfJoint::ForceY);
+    let kind = channel.magnitude.then(|| linkage::trajectory::CHANNELS.iter().find(is_other)).flatten()?;
+    Some(Channel { of: channel.channel.of.clone(), kind })
+}
+
+impl<'a> Course<'a> {
+    /// What a side found on a case; `error` says how far a number is known, by column and row.
+    #[must_use]
+    pub fn new(case: &Case, trajectory: &'a Trajectory, error: &'a dyn Fn(usize, usize) -> f64) -> Self {
+        let crank = &case.mechanism.links()[case.crank().link].name;
+        let of = |suffix: &str| {
+            let channel = Channel::named(&format!("link.{crank}.{suffix}"))?;
+            trajectory.channels().iter().position(|own| *own == channel)
+        };
+        let angle = case.is_free().then(|| of("angle_rad")).flatten();
+        Course { trajectory, error, crank: ["omega_rad_s", "alpha_rad_s2"].map(of), angle }
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.trajectory.times().len()
+    }
+
+    pub(super) fn times(&self) -> &[f64] {
+        self.trajectory.times()
+    }
+
+    pub(super) fn cranks(&self) -> &[f64] {
+        self.trajectory.cranks()
+    }
+
+    /// The inputs of formulas at an instant.
+    pub(super) fn inputs(&self, row: usize) -> [Rounded; 4] {
+        let of = |column: Option<usize>| {
+            let column = column?;
+            let value = self.trajectory.column_near(&self.trajectory.channels()[column], column)?[row];
+            Some(Rounded { value, error: (self.error)(column, row) })
+        };
+        let [omega, alpha] = self.crank.map(|column| of(column).unwrap_or(Rounded::exact(f64::NAN)));
+        let mut phi = Rounded::nearly(self.cranks()[row]);
+        phi.error += self.angle.map_or(0.0, |column| (self.error)(column, row));
+        [phi, Rounded::nearly(self.times()[row]), omega, alpha]
+    }
+
+    /// Number of derivatives of a claim that the side has channels for.
+    ///
+    /// # Errors
+    /// If a channel of the claim itself is missing.
+    pub(super) fn orders(&self, claim: &Claim) -> Result<usize> {
+        self.channels(claim, 0)?;
+        let own = (1..=2).take_while(|&order| self.channels(claim, order).is_ok()).count();
+        Ok(own.min(self.crank.iter().take_while(|column| column.is_some()).count()))
+    }
+
+    /// The columns of a claim's channels, then of their rates, and of the rates of those, up to an order.
+    pub(super) fn channels(&self, claim: &Claim, orders: usize) -> Result<Vec<Column<'_>>> {
+        let mut all = Vec::with_capacity(claim.channels.len() * (orders + 1));
+        let mut present: Vec<(Channel, &PrintedChannel)> =
+            claim.channels.iter().map(|(_, printed)| (printed.channel.clone(), printed)).collect();
+        for order in 0..=orders {
+            for (channel, printed) in &mut present {
+                if order > 0 {
+                    *channel = channel.rate().filter(|_| !printed.magnitude).ok_or_else(|| missing(channel))?;
+                }
+                all.push(self.column(channel, printed)?);
+            }
+        }
+        Ok(all)
+    }
+
+    fn column(&self, channel: &Channel, printed: &PrintedChannel) -> Result<Column<'_>> {
+        let index = self.trajectory.channels().iter().position(|own| own == channel);
+        let index = index.ok_or_else(|| missing(channel))?;
+        let values = self.trajectory.column_near(channel, index).ok_or_else(|| missing(channel))?;
+        let across = match across(printed) {
+            Some(other) => Some(Box::new(self.column(&other, &PrintedChannel::plain(other.clone()))?)),
+            None => None,
+        };
+        let error = self.error;
+        Ok(Column { values, error: Box::new(move |row| error(index, row)), across, factor: printed.to_si(1.0) })
+    }
+}
+
+fn missing(channel: &Channel) -> Error {
+    Error::new(ErrorKind::Input, format!("{channel} was not asked for"))
+}

@@ -1,0 +1,152 @@
+//! A formula's course against that of the mechanism.
+
+use crate::scenario::{Claim, Formula};
+use formula::Rounded;
+use linkage::error::Advice;
+use linkage::math::KeepNan;
+
+/// An instant, and what stands there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct At {
+    /// Time (s).
+    pub time: f64,
+    /// Crank angle (rad, as the scenario states it).
+    pub crank: f64,
+    /// What the formula gives.
+    pub formula: f64,
+    /// What the mechanism does.
+    pub mechanism: f64,
+    /// Formula less mechanism; for angles without whole turns.
+    pub difference: f64,
+    /// How far they may be apart.
+    pub bound: f64,
+}
+
+impl At {
+    /// Difference over bound; infinite for no number.
+    #[must_use]
+    pub fn used(&self) -> f64 {
+        let used = if self.difference == 0.0 { 0.0 } else { self.difference.abs() / self.bound };
+        if used.is_nan() { f64::INFINITY } else { used }
+    }
+}
+
+/// What a formula and its claim come to at an instant: time (s) and crank angle (rad).
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pair {
+    pub(super) place: [f64; 2],
+    pub(super) formula: Rounded,
+    pub(super) mechanism: Rounded,
+}
+
+/// What a judgement comes to.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Outcome {
+    /// The formula is right, at every instant that was judged.
+    Right,
+    /// It is not.
+    Wrong,
+    /// Nothing is proven.
+    Open {
+        /// Why not.
+        reason: String,
+        /// What would decide it.
+        advice: Vec<Advice>,
+    },
+}
+
+/// A formula judged by value, or by a derivative.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Judged {
+    /// Name of the formula.
+    pub name: String,
+    /// What it claims to be.
+    pub claim: String,
+    /// Unit of the numbers of the claim itself; empty for an arithmetic of several channels.
+    pub unit: &'static str,
+    /// Number of derivatives with respect to time (s): 0, 1 or 2.
+    pub order: usize,
+    /// Whether the bound is the error that the formula claims to have.
+    pub claimed: bool,
+    /// Number of instants judged.
+    pub judged: usize,
+    /// Number of instants at which the formula has lost so many digits that nothing can be said.
+    pub lost: usize,
+    /// First instant beyond its bound.
+    pub since: Option<At>,
+    /// The instant that uses most of its bound.
+    pub worst: Option<At>,
+    /// Largest number of the mechanism.
+    pub scale: f64,
+}
+
+/// Share of the scale beyond which a bound says nothing.
+const TELLING: f64 = 1e-6;
+/// Share of instants without a telling bound beyond which nothing is proven.
+const MOST_LOST: f64 = 0.03;
+
+impl Judged {
+    /// Judges the courses of a formula and of its claim, or of a derivative of both. For angles, values a `turn` apart
+    /// mean the same.
+    pub(super) fn of(
+        (formula, claim): (&Formula, &Claim),
+        order: usize,
+        turn: Option<f64>,
+        course: impl Iterator<Item = Pair> + Clone,
+    ) -> Self {
+        let scale = course.clone().map(|pair| pair.mechanism.value.abs()).fold(0.0, f64::larger);
+        let mut own = Judged {
+            name: formula.name.clone(),
+            claim: claim.text.clone(),
+            unit: if order == 0 { claim.unit() } else { "" },
+            order,
+            claimed: formula.error.is_some(),
+            judged: 0,
+            lost: 0,
+            since: None,
+            worst: None,
+            scale,
+        };
+        for Pair { place: [time, crank], formula: found, mechanism } in course {
+            let difference = found.value - mechanism.value;
+            let difference = turn.map_or(difference, |turn| difference - turn * (difference / turn).round());
+            let bound = formula.error.unwrap_or(0.0) + found.error + mechanism.error;
+            let at = At { time, crank, formula: found.value, mechanism: mechanism.value, difference, bound };
+            // What the mechanism itself is known to no better is not the formula's loss.
+            let has_lost = !(found.error <= TELLING * scale) && !(found.error <= mechanism.error);
+            if has_lost && at.used() <= 1.0 {
+                own.lost += 1;
+                continue;
+            }
+            own.judged += 1;
+            if !(at.used() <= 1.0) && own.since.is_none_or(|since| time < since.time) {
+                own.since = Some(at);
+            }
+            if own.worst.is_none_or(|worst| at.used() > worst.used()) {
+                own.worst = Some(at);
+            }
+        }
+        own
+    }
+
+    /// What it comes to.
+    #[must_use]
+    pub fn outcome(&self) -> Outcome {
+        if self.since.is_some() {
+            return Outcome::Wrong;
+        }
+        let open = |reason: String, advice: &str| Outcome::Open { reason, advice: vec![advice.into()] };
+        let all = self.judged + self.lost;
+        match self.worst {
+            None if all == 0 => open(
+                "no instant lies between the crank angles for which the formula is claimed".into(),
+                "let the grid come to them, or claim it for others",
+            ),
+            Some(_) if self.lost as f64 <= MOST_LOST * all as f64 => Outcome::Right,
+            _ => open(
+                format!("rounding leaves the formula less than six digits at {} of {all} instants", self.lost),
+                "write it so that no digits cancel, for example with atan2 in place of acos",
+            ),
+        }
+    }
+}

@@ -1,0 +1,135 @@
+//! `linkproof check`.
+
+use std::path::{Path, PathBuf};
+
+use super::grid::GridArgs;
+use super::load::StartArgs;
+use super::run::graver;
+use super::{advice, exit_code, output};
+use crate::compare::Verdict;
+use crate::proof::claimed;
+use crate::report::check as report;
+use crate::scenario::formula::refused;
+use crate::scenario::{Claim, Scenario};
+use linkage::error::{Error, ErrorKind, Result};
+
+const EXAMPLES: &str = "\
+Examples:
+  linkproof check scenarios/formulas/slider_crank.toml                   every [[formula]] of a file
+  linkproof check scenarios/crank_rocker.toml 'phi*180/pi' --channel link.crank.angle_deg
+  linkproof check scenarios/scotch_yoke.toml 'r*cos(phi)' --set r_mm=50 --channel point.A.x_m
+  linkproof check mine.toml 'atan2(u, v)' --let 'u=a*sin(phi)' --let 'v=d - a*cos(phi)' --set a_mm=30 --set d_mm=80 \\
+      --channel link.guide.angle_rad
+  linkproof check mine.toml 'r*w^2*(cos(phi) + r/l*cos(2*phi))' --set r=0.05 --set l=0.2 --set w_rpm=300 \\
+      --channel point.B.ax_m_s2 --error 0.4 --json -
+
+phi is the crank angle in rad as the scenario states it, t the time in s; pi, sin cos tan asin acos atan atan2(y, x)
+sqrt abs exp ln are known. The value counts in the channel's unit. -x^2 is -(x^2). --set a_mm=30 makes `a` known in
+SI (0.03) and `a_mm` as the plain number. Judged by value, and by first and second derivative where the mechanism has
+channels for them, at every instant of the grid and against both analytic sides: docs/formulas.md.
+
+Exit codes: 0 right, 1 wrong, 2 bad input, 3 nothing proven.";
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Args {
+    /// Scenario files; of one scenario only if a formula is given
+    #[arg(required = true, value_name = "FILE")]
+    file: PathBuf,
+    /// Formula over phi, t, parameters and named formulas [default: every `[[formula]]` of the file]
+    #[arg(value_name = "EXPR", requires = "channel", allow_hyphen_values = true)]
+    expression: Option<String>,
+    /// What the formula claims to be: a channel such as link.rocker.angle_deg, or an arithmetic of channels
+    #[arg(long, value_name = "CHANNEL", requires = "expression", allow_hyphen_values = true)]
+    channel: Option<String>,
+    /// Parameter, with its unit in its name as in a scenario; may be given several times
+    #[arg(long, value_name = "NAME_UNIT=NUMBER", value_parser = setting)]
+    set: Vec<(String, f64)>,
+    /// Step of the derivation: a formula with a name, which those after it and EXPR may use; may be given several times
+    #[arg(long = "let", value_name = "NAME=EXPR", requires = "expression", value_parser = step)]
+    steps: Vec<(String, String)>,
+    /// First crank angle in degrees for which the formula is claimed
+    #[arg(long, value_name = "DEG", requires = "expression", allow_hyphen_values = true)]
+    from_deg: Option<f64>,
+    /// Last crank angle in degrees for which the formula is claimed
+    #[arg(long, value_name = "DEG", requires = "expression", allow_hyphen_values = true)]
+    to_deg: Option<f64>,
+    /// Error that the formula is claimed to have, in the channel's unit: for series and approximations
+    #[arg(long, value_name = "NUMBER", requires = "expression")]
+    error: Option<f64>,
+    #[command(flatten)]
+    grid: GridArgs,
+    #[command(flatten)]
+    start: StartArgs,
+    /// Write the judgement as JSON to a file, or to standard output instead of the text with `-`
+    #[arg(long, value_name = "FILE", value_parser = output::target)]
+    json: Option<PathBuf>,
+}
+
+/// Reads `NAME=NUMBER`.
+fn setting(text: &str) -> std::result::Result<(String, f64), String> {
+    let (name, value) = text.split_once('=').ok_or("expected NAME=NUMBER, such as a_mm=30")?;
+    let number: f64 =
+        value.trim().parse().map_err(|_| format!("\"{value}\" is no number; expected such as a_mm=30"))?;
+    if number.is_finite() { Ok((name.trim().into(), number)) } else { Err("the number is not finite".into()) }
+}
+
+/// Reads `NAME=EXPR`.
+fn step(text: &str) -> std::result::Result<(String, String), String> {
+    let (name, expression) = text.split_once('=').ok_or("expected NAME=EXPR, such as 'u=a*sin(phi)'")?;
+    Ok((name.trim().into(), expression.trim().into()))
+}
+
+/// Judges, reports, and says how it ended.
+pub(super) fn check(args: &Args) -> u8 {
+    let answer = || -> Result<u8> {
+        let scenario = asked(args)?;
+        let found = claimed::judge(&scenario)?;
+        match &args.json {
+            Some(to) => output::write(&report::json(&scenario, &found, advice::told), to)?,
+            None => {}
+        }
+        if args.json.as_deref() != Some(Path::new("-")) {
+            output::print(&report::text(&scenario, &found, advice::told))?;
+        }
+        Ok(match found.verdict {
+            Verdict::Agree { .. } | Verdict::Expected { .. } => exit_code::AGREE,
+            Verdict::Disagree { .. } => exit_code::DISAGREE,
+            Verdict::Inconclusive { .. } => exit_code::INCONCLUSIVE,
+        })
+    };
+    answer().unwrap_or_else(|error| {
+        output::show(&error);
+        graver(exit_code::AGREE, exit_code::BAD_INPUT)
+    })
+}
+
+/// The scenario with the formulas that are asked about.
+fn asked(args: &Args) -> Result<Scenario> {
+    let adds = args.expression.is_some();
+    let mut scenario = args.start.load_with(&args.file, &args.grid, &args.set, adds)?;
+    let (Some(expression), Some(channel)) = (&args.expression, &args.channel) else { return Ok(scenario) };
+    // What the file claims itself is not asked.
+    scenario.formulas.list.iter_mut().for_each(|formula| formula.claim = None);
+    for (name, text) in &args.steps {
+        scenario.formulas.check_name(name).map_err(|error| error.key("--let"))?;
+        scenario.formulas.add(name, text).map_err(|fault| refused("--let", text, &fault))?;
+    }
+    let all = scenario.case.all_channels();
+    let claim = Claim::read(channel, &all).map_err(|fault| refused("--channel", channel, &fault))?;
+    let formula = scenario.formulas.add("formula", expression).map_err(|fault| refused("EXPR", expression, &fault))?;
+    formula.claim = Some(claim);
+    formula.valid = [args.from_deg, args.to_deg].map(|degrees| degrees.map(f64::to_radians));
+    formula.error = args.error;
+    if let [Some(from), Some(to)] = formula.valid
+        && !(from <= to)
+    {
+        let message = format!("--to-deg {} is less than --from-deg {}", to.to_degrees(), from.to_degrees());
+        return Err(Error::new(ErrorKind::Input, message).help("exchange them"));
+    }
+    if args.error.is_some_and(|error| !(error > 0.0) || !error.is_finite()) {
+        let message = "a claimed error must be a positive number";
+        return Err(Error::new(ErrorKind::Input, message).key("--error").help("leave it out if the formula is exact"));
+    }
+    Ok(scenario)
+}

@@ -1,0 +1,45 @@
+//! Formulas alone: both analytic sides and what formulas claim of them, without an engine.
+
+use super::entrants::{Sides, TRUE_SIDES};
+use super::ledger::Ledger;
+use super::options::Reference;
+use crate::claims::{Judged, needed};
+use crate::compare::{Check, Verdict};
+use crate::scenario::Scenario;
+use analytic::range::explained;
+use linkage::error::{Error, ErrorKind, Result};
+
+/// What formulas come to on both sides.
+#[derive(Clone, Debug)]
+pub struct Claimed {
+    /// The sides' names, and what they say of every claim: by value, then by derivative.
+    pub sides: [(&'static str, Vec<Vec<Judged>>); 2],
+    /// All checks: the sides against each other, and the claims.
+    pub checks: Vec<Check>,
+    /// The verdict on all of it.
+    pub verdict: Verdict,
+}
+
+/// Judges the formulas of a scenario. Only what they claim is solved, and what their derivatives need.
+///
+/// # Errors
+/// [`ErrorKind::Input`] if no formula claims anything, and those of the sides, with the crank angle.
+pub fn judge(scenario: &Scenario) -> Result<Claimed> {
+    let mut asked = Vec::new();
+    for (_, claim) in scenario.formulas.claims() {
+        asked.extend(needed(claim, &scenario.case));
+    }
+    if asked.is_empty() {
+        let message = format!("no formula of the scenario {} claims a channel", scenario.name);
+        return Err(Error::new(ErrorKind::Input, message)
+            .key("formula")
+            .help("add `channel` to a [[formula]], or give a formula as an argument; docs/formulas.md has examples"));
+    }
+    let case = scenario.case.wanting_only(&asked).scene()?.case;
+    let scene = Scenario { case, oracles: Vec::new(), ..scenario.clone() };
+    let explain = |error| explained(&scene.case, error);
+    let mut ledger = Ledger::default();
+    let sides = Sides::of([&scene, &scene], TRUE_SIDES, Reference::Assur, &mut ledger).map_err(explain)?;
+    let judged = sides.judged(&scene.case, &scene.formulas)?;
+    Ok(Claimed { sides: judged, verdict: sides.verdict(), checks: sides.checks })
+}

@@ -1,0 +1,248 @@
+//! `[[formula]]`: formulas as they were derived, and the channels that they claim.
+
+use super::parameters::{self, INPUTS, Parameter, fault_of_name};
+use super::printed::PrintedChannel;
+use super::reader::{Sign, Table};
+use super::unit;
+use super::words::{nearest, suggestion};
+use formula::{Fault, Graph, Id, Operator, Rounded, Shape, Tree};
+use linkage::case::Case;
+use linkage::error::{Error, ErrorKind, Place, Result};
+use linkage::math::KeepNan;
+use linkage::trajectory::Channel;
+
+/// The formulas of a scenario over their parameters, the crank angle and time.
+#[derive(Clone, Debug)]
+pub struct Formulas {
+    /// Numbers with names.
+    pub parameters: Vec<Parameter>,
+    /// The formulas, in the order of the file: each may use those before it.
+    pub list: Vec<Formula>,
+    /// All of them, over the crank angle (rad, as the scenario states it), the time (s), and without names the crank's
+    /// angular velocity (rad/s) and angular acceleration (rad/s^2).
+    pub graph: Graph,
+}
+
+/// A formula.
+#[derive(Clone, Debug)]
+pub struct Formula {
+    /// Its name, which formulas after it may use.
+    pub name: String,
+    /// Its text.
+    pub text: String,
+    /// The text as it was read.
+    pub tree: Tree,
+    /// Its node in the graph.
+    pub id: Id,
+    /// What it is said to be; `None` for a step of a derivation.
+    pub claim: Option<Claim>,
+    /// Where it comes from.
+    pub source: Option<String>,
+    /// First and last crank angle at which it is claimed to hold (rad).
+    pub valid: [Option<f64>; 2],
+    /// The error that it is claimed to have, in the unit of the claim; `None` for an exact one.
+    pub error: Option<f64>,
+}
+
+/// A channel, or an arithmetic of channels, in the units of their names.
+#[derive(Clone, Debug)]
+pub struct Claim {
+    /// Its text.
+    pub text: String,
+    /// The text as it was read. Its names are those of the channels.
+    pub tree: Tree,
+    /// The channels with their names in the text.
+    pub channels: Vec<(String, PrintedChannel)>,
+}
+
+impl Formula {
+    /// Whether it is claimed to hold at a crank angle (rad). The ends belong to the range, rounding included.
+    #[must_use]
+    pub fn holds_at(&self, crank: f64) -> bool {
+        let slack = 1e-9 * crank.abs().larger(1.0);
+        let [from, to] = self.valid;
+        from.is_none_or(|from| crank >= from - slack) && to.is_none_or(|to| crank <= to + slack)
+    }
+}
+
+impl Claim {
+    /// Reads a claim; every channel must be one of `all`.
+    ///
+    /// # Errors
+    /// What is wrong, with its place in the text.
+    pub fn read(text: &str, all: &[Channel]) -> std::result::Result<Claim, Fault> {
+        let whole = || Tree { shape: Shape::Name(text.into()), at: 0..text.len() };
+        // A name may have signs in it that mean something in an arithmetic.
+        let is_channel = PrintedChannel::named(text).is_some_and(|found| all.contains(&found.channel));
+        let tree = if is_channel { whole() } else { Tree::read(text)? };
+        let mut channels: Vec<(String, PrintedChannel)> = Vec::new();
+        for (name, at) in tree.names() {
+            if channels.iter().any(|(own, _)| own == name) {
+                continue;
+            }
+            let found = PrintedChannel::named(name).filter(|found| all.contains(&found.channel));
+            let Some(found) = found else {
+                let known: Vec<String> = all.iter().map(Channel::to_string).collect();
+                let near = nearest(name, known.iter().map(String::as_str));
+                let help = match near {
+                    Some(near) => format!("did you mean `{near}`?"),
+                    None => "`linkproof list --channels` lists what there is, such as link.rocker.angle_deg".into(),
+                };
+                return Err(Fault { message: format!("there is no channel {name} here"), at, help });
+            };
+            channels.push((name.into(), found));
+        }
+        if channels.is_empty() {
+            let help = "name a channel, such as link.rocker.angle_deg".to_string();
+            return Err(Fault { message: "the claim names no channel".into(), at: 0..text.len(), help });
+        }
+        Ok(Claim { text: text.into(), tree, channels })
+    }
+
+    /// Unit of its numbers; empty for an arithmetic of several channels.
+    #[must_use]
+    pub fn unit(&self) -> &'static str {
+        match (&self.tree.shape, self.turn()) {
+            (_, Some(360.0)) => "deg",
+            (Shape::Name(_), _) => self.channels[0].1.unit_symbol(),
+            _ => "",
+        }
+    }
+
+    /// A turn in its unit, if it is an angle, or a sum and difference of angles: values a turn apart mean the same.
+    #[must_use]
+    pub fn turn(&self) -> Option<f64> {
+        fn is_sum(tree: &Tree) -> bool {
+            match &tree.shape {
+                Shape::Number(_) | Shape::Name(_) => true,
+                Shape::Negative(part) => is_sum(part),
+                Shape::Pair(Operator::Plus | Operator::Minus, parts) => parts.iter().all(is_sum),
+                Shape::Pair(Operator::Times | Operator::Over | Operator::Power, _) | Shape::Call(..) => false,
+            }
+        }
+        let turns: Vec<Option<f64>> = self.channels.iter().map(|(_, channel)| channel.turn()).collect();
+        let first = turns[0]?;
+        (is_sum(&self.tree) && turns.iter().all(|turn| *turn == Some(first))).then_some(first)
+    }
+}
+
+impl Formulas {
+    /// Formulas over some parameters: none yet.
+    #[must_use]
+    pub fn over(parameters: Vec<Parameter>) -> Self {
+        let mut graph = Graph::new(&INPUTS, 2);
+        for (name, number) in parameters.iter().flat_map(Parameter::names) {
+            let id = graph.constant(number);
+            graph.name(name, id);
+        }
+        Formulas { parameters, list: Vec::new(), graph }
+    }
+
+    /// Adds a formula without a claim.
+    ///
+    /// # Errors
+    /// What is wrong, with its place in the text.
+    pub fn add(&mut self, name: &str, text: &str) -> std::result::Result<&mut Formula, Fault> {
+        let tree = Tree::read(text)?;
+        let id = self.graph.add(&tree).map_err(|fault| self.named_better(&text[fault.at.clone()], fault))?;
+        self.graph.name(name, id);
+        let (name, text) = (name.to_string(), text.to_string());
+        let formula = Formula { name, text, tree, id, claim: None, source: None, valid: [None; 2], error: None };
+        self.list.push(formula);
+        Ok(self.list.last_mut().expect("just added"))
+    }
+
+    /// Whether a formula may have this name.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Input`] if not.
+    pub fn check_name(&self, name: &str) -> Result<()> {
+        if let Some((message, help)) = fault_of_name(name) {
+            return Err(Error::new(ErrorKind::Input, message).help(help));
+        }
+        if self.graph.knows(name) {
+            let message = format!("`{name}` is a parameter or a formula already");
+            return Err(Error::new(ErrorKind::Input, message).help("choose another name"));
+        }
+        Ok(())
+    }
+
+    /// A fault about a name that is not known, with the nearest that is.
+    fn named_better(&self, name: &str, fault: Fault) -> Fault {
+        let units = self.parameters.iter().find(|own| own.short() == Some(name));
+        let help = match units {
+            Some(own) => format!("write `{name}` or `{}`", own.key),
+            None => suggestion(name, self.graph.names(), "`"),
+        };
+        Fault { help, ..fault }
+    }
+
+    /// A node's rate of change with time, in the graph.
+    pub fn rate(&mut self, of: Id) -> Id {
+        let one = self.graph.constant(Rounded::exact(1.0));
+        let [omega, alpha] = [2, 3].map(|input| self.graph.input(input));
+        self.graph.rate(of, &[Some(omega), Some(one), Some(alpha), None])
+    }
+
+    /// Those that claim something.
+    pub fn claims(&self) -> impl Iterator<Item = (&Formula, &Claim)> {
+        self.list.iter().filter_map(|formula| Some((formula, formula.claim.as_ref()?)))
+    }
+}
+
+/// An error of a text that is no key of a file, such as an argument: `what` it is.
+#[must_use]
+pub fn refused(what: &str, text: &str, fault: &Fault) -> Error {
+    let place = Place { file: what.into(), text: text.into(), span: fault.at.clone() };
+    Error::new(ErrorKind::Input, fault.message.clone()).at(place).help(fault.help.clone())
+}
+
+/// All formulas of a scenario.
+pub(super) fn read(
+    parameters: Option<Table>,
+    tables: Vec<Table>,
+    case: &Case,
+    (set, may_add): (&[(String, f64)], bool),
+) -> Result<Formulas> {
+    let mut formulas = Formulas::over(parameters::read(parameters, set, may_add)?);
+    let all = case.all_channels();
+    for mut table in tables {
+        let name = table.string("name")?;
+        formulas.check_name(&name).map_err(|error| {
+            let wrong = table.wrong(ErrorKind::Input, "name", error.message());
+            error.advice().iter().cloned().fold(wrong, Error::or_help)
+        })?;
+        let text = table.string("expression")?;
+        let claimed = table.optional_string("channel")?;
+        let source = table.optional_string("source")?;
+        let valid = [
+            table.optional_quantity("from", &unit::ANGLE, Sign::Any)?,
+            table.optional_quantity("to", &unit::ANGLE, Sign::Any)?,
+        ];
+        if let [Some(from), Some(to)] = valid
+            && from > to
+        {
+            let message = "the last crank angle is less than the first";
+            return Err(table.wrong(ErrorKind::Input, "to", message).help("exchange them"));
+        }
+        let error = table.optional_number("error")?;
+        if error.is_some_and(|error| error <= 0.0) {
+            let message = "a claimed error must be positive";
+            return Err(table.wrong(ErrorKind::Input, "error", message).help("leave it out if the formula is exact"));
+        }
+        if claimed.is_none() {
+            for key in ["from_deg", "to_deg", "from_rad", "to_rad", "error"].into_iter().filter(|key| table.has(key)) {
+                let message = format!("`{key}` belongs to a claim, and this formula claims nothing");
+                return Err(table.wrong(ErrorKind::Input, key, message).help("add `channel`, or take it out"));
+            }
+        }
+        let formula = formulas.add(&name, &text).map_err(|fault| table.fault_in("expression", &fault))?;
+        if let Some(claimed) = claimed {
+            let claim = Claim::read(&claimed, &all).map_err(|fault| table.fault_in("channel", &fault))?;
+            formula.claim = Some(claim);
+        }
+        (formula.source, formula.valid, formula.error) = (source, valid, error);
+        table.finish()?;
+    }
+    Ok(formulas)
+}
