@@ -44,6 +44,9 @@ impl Residual {
     }
 }
 
+/// Share of the largest force below which forces are rounding: the sides know them to a tenth of it.
+const VANISHING: f64 = 1e-9;
+
 /// Scale of every channel: half the range of its values over the run. It is at least a thousandth of the natural size
 /// of its quantity, and of a rate, a force or a moment at least a tenth of its largest value, so that a constant one is
 /// measured by itself. Coordinates have no such value, because their origin is arbitrary.
@@ -178,6 +181,7 @@ impl Sizes {
 
     fn natural(&self, channel: &Channel, turn: f64) -> f64 {
         let Sizes { length, force, speed, .. } = *self;
+        let own = self.of_quantity.get(channel.kind.quantity).copied().unwrap_or(0.0);
         let derived = match channel.kind.unit {
             Unit::Radian => turn,
             Unit::RadianPerSecond => speed * turn,
@@ -185,11 +189,13 @@ impl Sizes {
             Unit::Metre => length,
             Unit::MetrePerSecond => speed * length,
             Unit::MetrePerSecondSquared => speed * speed * length,
-            // The causes of forces are not known here: only the widest range among the forces themselves can be used.
+            // The causes of forces are not known here, only the forces themselves: the shaking force of a balanced
+            // mechanism is the rounding of those in its joints.
+            Unit::Newton if own <= VANISHING * force => force,
             Unit::Newton => 0.0,
             Unit::NewtonMetre => force * length,
         };
-        self.of_quantity.get(channel.kind.quantity).copied().unwrap_or(0.0).larger(derived)
+        own.larger(derived)
     }
 }
 
@@ -287,6 +293,9 @@ mod tests {
         assert_eq!(magnitudes_by(&all, &[0, 0], &|_, _| true), [2e9, 2e9]);
         // What an error is measured by, however, is the channel's own range.
         assert_eq!(scales(&all), [1.5e9, 0.5]);
+        // Unless that is rounding: the shaking force of a balanced mechanism.
+        let balanced = trajectory(&[("joint.A.fx_N", vec![2e9, -1e9]), ("frame.fx_N", vec![0.0, 1e-7])]);
+        assert_eq!(scales(&balanced), [1.5e9, 2e6]);
     }
 
     #[test]
@@ -312,6 +321,31 @@ mod tests {
         ]);
         assert_eq!(scales(&a), [1e-3, 500.0, 2.0, 1.0]);
         assert_eq!(magnitudes(&a), [1.0, 500.0, 2.0, 1000.0]);
+    }
+
+    /// Each quantity that vanishes has the size that follows from the crank: here 6 rad in 4 s, 3 m and 500 N.
+    #[test]
+    fn what_vanishes_has_the_size_that_follows_from_the_crank() {
+        let names =
+            ["link.a.angle_rad", "link.a.omega_rad_s", "link.a.alpha_rad_s2", "point.P.vx_m_s", "point.P.ax_m_s2"];
+        let channel = |name: &str| Channel::named(name).unwrap();
+        let sized = [("point.P.x_m", [-3.0, 3.0]), ("joint.A.fx_N", [-500.0, 500.0])];
+        let channels = names.iter().map(|name| channel(name)).chain(sized.iter().map(|(name, _)| channel(name)));
+        let moment = [channel("drive.torque_N_m")];
+        let columns = vec![vec![0.0; 2]; names.len()].into_iter().chain(sized.map(|(_, values)| values.to_vec()));
+        let all = Trajectory::new(
+            vec![0.0, 4.0],
+            vec![1.0, 7.0],
+            channels.chain(moment).collect(),
+            columns.chain([vec![0.0; 2]]).collect(),
+        )
+        .unwrap();
+        let (turn, speed, length, force) = (3.0, 1.5, 3.0, 500.0);
+        let natural = [turn, speed * turn, speed * speed * turn, speed * length, speed * speed * length];
+        let wanted = natural.iter().map(|size| 1e-3 * size).chain([length, force, 1e-3 * force * length]);
+        for (own, wanted) in scales(&all).iter().zip(wanted) {
+            approx::assert_relative_eq!(*own, wanted, max_relative = 1e-14);
+        }
     }
 
     #[test]

@@ -1,9 +1,10 @@
 //! Formulas alone: both analytic sides and what formulas claim of them, without an engine.
 
 use super::entrants::{Sides, TRUE_SIDES};
+use super::formulas::Judgement;
 use super::ledger::Ledger;
 use super::options::Reference;
-use crate::claims::{Judged, needed};
+use crate::claims::needed;
 use crate::compare::{Check, Verdict};
 use crate::scenario::Scenario;
 use analytic::range::explained;
@@ -12,8 +13,8 @@ use linkage::error::{Error, ErrorKind, Result};
 /// What formulas come to on both sides.
 #[derive(Clone, Debug)]
 pub struct Claimed {
-    /// The sides' names, and what they say of every claim: by value, then by derivative.
-    pub sides: [(&'static str, Vec<Vec<Judged>>); 2],
+    /// What both sides say of every claim.
+    pub judgement: Judgement,
     /// All checks: the sides against each other, and the claims.
     pub checks: Vec<Check>,
     /// The verdict on all of it.
@@ -40,6 +41,11 @@ pub fn judge(scenario: &Scenario) -> Result<Claimed> {
     let explain = |error| explained(&scene.case, error);
     let mut ledger = Ledger::default();
     let sides = Sides::of([&scene, &scene], TRUE_SIDES, Reference::Assur, &mut ledger).map_err(explain)?;
-    let judged = sides.judged(&scene.case, &scene.formulas)?;
-    Ok(Claimed { sides: judged, verdict: sides.verdict(), checks: sides.checks })
+    let verdict = sides.verdict();
+    let judgement = sides.judgement.ok_or_else(|| {
+        Error::new(ErrorKind::Input, "no claimed channel was solved")
+            .key("formula")
+            .help("claim a channel of the scenario")
+    })?;
+    Ok(Claimed { judgement, verdict, checks: sides.checks })
 }

@@ -2,12 +2,13 @@
 
 use super::checks::{self, Beyond};
 use super::engines::{self, EngineProof};
+use super::formulas::{Judgement, wrong};
 use super::known::Known;
 use super::ledger::Ledger;
 use super::observe::{Observed, Watch, observe};
 use super::options::{Chosen, Reference};
 use super::{formulas, methods, oracle, sensitivity};
-use crate::claims::{self, Course, Judged};
+use crate::claims::{self, Course, Judged, Outcome};
 use crate::compare::{Check, Verdict, overall};
 use crate::scenario::{Formulas, Scenario};
 use analytic::{AssurSolver, NewtonSolver, TIGHT_ASSUR, TIGHT_NEWTON};
@@ -61,6 +62,8 @@ pub(crate) struct Sides {
     pub(super) sensitivity: Vec<f64>,
     /// Checks on both, published numbers among them.
     pub(crate) checks: Vec<Check>,
+    /// What formulas come to, if any claims something.
+    pub(super) judgement: Option<Judgement>,
 }
 
 impl Sides {
@@ -125,7 +128,7 @@ impl Sides {
                 checks.extend(ledger.done("published numbers", "solved at their own instants", numbers)?);
             }
         }
-        let mut own = Sides { order, observed: sides, known, sensitivity, checks };
+        let mut own = Sides { order, observed: sides, known, sensitivity, checks, judgement: None };
         match scenario.formulas.claims().next() {
             None => ledger.skipped("formulas", "none claims a wanted channel"),
             Some(_) => {
@@ -133,30 +136,41 @@ impl Sides {
                     own.judged(case, &scenario.formulas)
                 })?;
                 own.checks.extend(formulas::checks(&judged));
+                own.judgement = Some(judged);
             }
         }
         Ok(own)
     }
 
-    /// Formulas against both sides: the side's name, and every claim that it has the channels for.
+    /// Formulas against both sides, every claim that they have the channels for.
     ///
     /// # Errors
     /// Those of [`claims::judge`].
-    pub(crate) fn judged(&self, case: &Case, formulas: &Formulas) -> Result<[(&'static str, Vec<Vec<Judged>>); 2]> {
+    pub(crate) fn judged(&self, case: &Case, formulas: &Formulas) -> Result<Judgement> {
         let of = |side: usize| -> Result<_> {
-            let (name, observed) = &self.observed[side];
-            let place = usize::from(self.order[0] != side);
-            let trajectory = &observed.trajectory;
-            let channels = self.trajectory().channels();
-            let error = |column: usize, row: usize| {
-                let channel = &trajectory.channels()[column];
-                // Both sides have the same channels in the same order.
-                debug_assert!(channels[column] == *channel);
-                self.known.at(place, channel.kind.stage, column, row)
-            };
-            Ok((*name, claims::judge(formulas, &Course::new(case, trajectory, &error))?))
+            Ok((self.observed[side].0, self.on_course(case, side, |course| claims::judge(formulas, course))?))
         };
-        Ok([of(0)?, of(1)?])
+        let sides = [of(0)?, of(1)?];
+        let mut causes = Vec::new();
+        for name in wrong(&sides) {
+            // The side that it contradicts, or both: the first of them.
+            let is_wrong = |judged: &Judged| judged.name == name && judged.outcome() == Outcome::Wrong;
+            let side = usize::from(!sides[0].1.iter().flatten().any(is_wrong));
+            let cause = self.on_course(case, side, |course| claims::cause(formulas, &name, course))?;
+            causes.push((name, cause));
+        }
+        Ok(Judgement { sides, causes })
+    }
+
+    /// What one side found on a case, with how well it knows it.
+    fn on_course<T>(&self, case: &Case, side: usize, then: impl FnOnce(&Course) -> Result<T>) -> Result<T> {
+        let place = usize::from(self.order[0] != side);
+        let trajectory = &self.observed[side].1.trajectory;
+        let error = |column: usize, row: usize| {
+            // Both sides have the same channels in the same order.
+            self.known.at(place, trajectory.channels()[column].kind.stage, column, row)
+        };
+        then(&Course::new(case, trajectory, &error))
     }
 
     /// What was observed of the reference.

@@ -1,25 +1,45 @@
 //! Formulas as checks of a proof.
 
-use crate::claims::{At, Judged, Outcome, WORDS};
+use crate::claims::{At, Cause, Judged, Outcome, WORDS};
 use crate::compare::{Check, Verdict};
 use crate::tolerance::{Basis, Tolerance};
 
-/// A check for every claim, and for every derivative that could be judged, of both sides.
-pub(super) fn checks(sides: &[(&'static str, Vec<Vec<Judged>>); 2]) -> Vec<Check> {
-    let of_side = |(side, all): &(&'static str, Vec<Vec<Judged>>)| -> Vec<Check> {
-        all.iter().flatten().map(|judged| check(side, judged)).collect()
-    };
-    sides.iter().flat_map(of_side).collect()
+/// What formulas come to.
+#[derive(Clone, Debug)]
+pub struct Judgement {
+    /// The sides' names, and what they say of every claim: by value, then by derivative.
+    pub sides: [(&'static str, Vec<Vec<Judged>>); 2],
+    /// The formulas that are wrong by name, each with the cause if it is a simple one.
+    pub causes: Vec<(String, Option<Cause>)>,
 }
 
-fn check(side: &str, judged: &Judged) -> Check {
+/// Names of the formulas that a side contradicts, in the order of the scenario.
+pub(super) fn wrong(sides: &[(&'static str, Vec<Vec<Judged>>); 2]) -> Vec<String> {
+    let is_wrong = |all: &[Judged]| all.iter().any(|judged| judged.outcome() == Outcome::Wrong);
+    let both = sides[0].1.iter().zip(&sides[1].1);
+    both.filter(|(own, other)| is_wrong(own) || is_wrong(other)).map(|(own, _)| own[0].name.clone()).collect()
+}
+
+/// A check for every claim, and for every derivative that could be judged, of both sides.
+pub(super) fn checks(judgement: &Judgement) -> Vec<Check> {
+    let of_side = |(side, all): &(&'static str, Vec<Vec<Judged>>)| -> Vec<Check> {
+        all.iter().flatten().map(|judged| check(side, judged, judgement)).collect()
+    };
+    judgement.sides.iter().flat_map(of_side).collect()
+}
+
+fn check(side: &str, judged: &Judged, judgement: &Judgement) -> Check {
     let (value, bound) = judged.worst.map_or((0.0, 0.0), |worst| (worst.difference.abs(), worst.bound));
     let tolerance = Tolerance { bound, basis: Basis::Formula { claimed: judged.claimed } };
     let mut check = Check::new(format!("formulas ({side})"), value, tolerance, judged.unit).of(name(judged));
     if let Outcome::Open { reason, advice } = judged.outcome() {
         check.verdict = Verdict::Inconclusive { reason, advice };
     }
-    check.located(|| judged.since.map_or_else(String::new, |since| place(&since)))
+    let cause = judgement.causes.iter().find(|(name, _)| *name == judged.name).and_then(|(_, cause)| cause.as_ref());
+    check.located(|| {
+        let place = judged.since.map_or_else(String::new, |since| place(&since));
+        cause.map_or(place.clone(), |cause| format!("{place}; cause: {cause}"))
+    })
 }
 
 /// A formula with its claim, and which derivative.

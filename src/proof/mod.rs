@@ -34,6 +34,7 @@ mod stall;
 
 pub use engines::EngineProof;
 pub(crate) use entrants::{Engines, Entrant, Sides, TRUE_SIDES};
+pub use formulas::Judgement;
 pub use judge::{ChannelProof, EngineInfo};
 pub use ledger::Entry;
 pub(crate) use ledger::Ledger;

@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use super::cells::table;
 use super::pretty::pretty;
 use super::tell::Tell;
-use crate::claims::{At, Judged, Outcome, WORDS};
+use crate::claims::{At, Cause, Judged, Outcome, WORDS};
 use crate::compare::{Check, Verdict};
 use crate::proof::claimed::Claimed;
 use crate::scenario::{Formula, Scenario};
@@ -46,7 +46,7 @@ impl Line<'_> {
 }
 
 fn lines<'a>(scenario: &'a Scenario, claimed: &'a Claimed) -> Vec<Line<'a>> {
-    let [first, second] = &claimed.sides;
+    let [first, second] = &claimed.judgement.sides;
     let mut lines = Vec::new();
     for (own, other) in first.1.iter().zip(&second.1) {
         let formula = scenario.formulas.list.iter().find(|formula| formula.name == own[0].name);
@@ -80,6 +80,19 @@ pub fn text(scenario: &Scenario, claimed: &Claimed, tell: Tell) -> String {
     let _ = writeln!(text, "\n{table}");
     for line in lines.iter().filter(|line| line.rank().0 > 0) {
         let _ = writeln!(text, "\n{}", reason(line, tell));
+        if let (0, Some(cause)) = (line.judged.order, cause(claimed, &line.judged.name)) {
+            match cause {
+                Some(cause) => {
+                    let _ = writeln!(text, "  cause  {cause}.\n         With that, nothing is left over.");
+                }
+                None => {
+                    let _ = writeln!(
+                        text,
+                        "  cause  none that is simple: no single slip, offset, factor or term explains it."
+                    );
+                }
+            }
+        }
     }
     for check in claimed.checks.iter().filter(|check| !is_of_formula(check)) {
         if let Some(reason) = check.verdict.reason(tell) {
@@ -87,6 +100,11 @@ pub fn text(scenario: &Scenario, claimed: &Claimed, tell: Tell) -> String {
         }
     }
     text
+}
+
+/// The cause of a wrong formula, if it is wrong, and if there is a simple one.
+fn cause<'a>(claimed: &'a Claimed, name: &str) -> Option<Option<&'a Cause>> {
+    claimed.judgement.causes.iter().find(|(own, _)| own == name).map(|(_, cause)| cause.as_ref())
 }
 
 fn is_of_formula(check: &Check) -> bool {
@@ -97,7 +115,7 @@ fn sentence(lines: &[Line], claimed: &Claimed) -> String {
     let claims = lines.iter().filter(|line| line.judged.order == 0).count();
     let instants = lines.iter().map(|line| line.judged.judged).max().unwrap_or(0);
     let plural = |count: usize, word: &str| format!("{count} {word}{}", if count == 1 { "" } else { "s" });
-    let [first, second] = [claimed.sides[0].0, claimed.sides[1].0];
+    let [first, second] = [0, 1].map(|side| claimed.judgement.sides[side].0);
     let wrong = lines.iter().filter(|line| line.rank().0 == 2);
     let mut names: Vec<&str> = wrong.map(|line| line.judged.name.as_str()).collect();
     names.dedup();
@@ -154,6 +172,23 @@ fn number(value: f64, unit: &str) -> String {
     format!("{number} {unit}").trim_end().to_string()
 }
 
+fn cause_json(cause: &Cause) -> Value {
+    let words = cause.to_string();
+    match cause {
+        Cause::Slip(slip) => json!({
+            "kind": slip.kind.words(), "in": slip.formula, "written": slip.written, "right": slip.right, "words": words,
+        }),
+        Cause::Offset(offset) => json!({ "kind": "an offset", "offset": offset, "words": words }),
+        Cause::Factor(factor) => json!({ "kind": "a factor", "factor": factor, "words": words }),
+        Cause::Term { coefficient, term } => {
+            json!({ "kind": "a missing term", "coefficient": coefficient, "term": term, "words": words })
+        }
+        Cause::Leaves { after, before } => json!({
+            "kind": "another branch", "after_deg": after.to_degrees(), "before_deg": before.to_degrees(), "words": words,
+        }),
+    }
+}
+
 /// The judgement as JSON, schema 1. Numbers that are not finite are `null`.
 #[must_use]
 pub fn json(scenario: &Scenario, claimed: &Claimed, tell: Tell) -> String {
@@ -176,6 +211,7 @@ pub fn json(scenario: &Scenario, claimed: &Claimed, tell: Tell) -> String {
                     Outcome::Open { .. } => "inconclusive",
                     Outcome::Wrong => "disagree",
                 },
+                "cause": cause(claimed, &judged.name).flatten().map(cause_json),
                 "judged": judged.judged, "lost": judged.lost, "scale": judged.scale,
                 "first": judged.since.as_ref().map(at), "worst": judged.worst.as_ref().map(at),
             })
@@ -191,7 +227,7 @@ pub fn json(scenario: &Scenario, claimed: &Claimed, tell: Tell) -> String {
             })
         })
         .collect();
-    let rows: Vec<Value> = claimed.sides.iter().flat_map(of).collect();
+    let rows: Vec<Value> = claimed.judgement.sides.iter().flat_map(of).collect();
     pretty(&json!({
         "schema": 1, "scenario": scenario.name, "verdict": claimed.verdict.word(), "formulas": rows, "checks": checks,
     }))

@@ -11,6 +11,9 @@ use linkage::error::{Error, ErrorKind, Place, Result};
 use linkage::math::KeepNan;
 use linkage::trajectory::Channel;
 
+/// The crank's angular velocity, as a diagnosis names it.
+pub const OMEGA: &str = "omega_crank";
+
 /// The formulas of a scenario over their parameters, the crank angle and time.
 #[derive(Clone, Debug)]
 pub struct Formulas {
@@ -175,6 +178,22 @@ impl Formulas {
             None => suggestion(name, self.graph.names(), "`"),
         };
         Fault { help, ..fault }
+    }
+
+    /// The same with another tree in one formula; those after it that use it follow. `None` if a name is not known.
+    #[must_use]
+    pub fn with_tree(&self, index: usize, tree: &Tree) -> Option<Formulas> {
+        let mut changed = Formulas::over(self.parameters.clone());
+        if !changed.graph.knows(OMEGA) {
+            changed.graph.name(OMEGA, changed.graph.input(2));
+        }
+        for (own, formula) in self.list.iter().enumerate() {
+            let tree = if own == index { tree } else { &formula.tree };
+            let id = changed.graph.add(tree).ok()?;
+            changed.graph.name(&formula.name, id);
+            changed.list.push(Formula { tree: tree.clone(), id, ..formula.clone() });
+        }
+        Some(changed)
     }
 
     /// A node's rate of change with time, in the graph.

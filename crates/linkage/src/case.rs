@@ -217,11 +217,16 @@ impl Case {
         !self.is_free() && self.drives.iter().all(|drive| drive.constant_speed().is_some())
     }
 
-    /// Lever arm of the balancing moments (m): the extent of the largest driving link.
+    /// Lever arm of the balancing moments (m): the extent of the largest driving link. The force of a slider on a
+    /// driving link acts where the slider is: there it is the size of the mechanism.
     #[must_use]
     pub fn drive_arm(&self) -> f64 {
-        let extents = self.drives.iter().map(|drive| self.mechanism.links()[drive.link].extent());
-        extents.fold(0.0, f64::larger)
+        let links = self.mechanism.links();
+        let arm = |link: usize| {
+            let has_slider = self.mechanism.joints().iter().any(|joint| joint.slides() && joint.on(link).is_some());
+            links[link].extent().larger(if has_slider { self.mechanism.size() } else { 0.0 })
+        };
+        self.drives.iter().map(|drive| arm(drive.link)).fold(0.0, f64::larger)
     }
 
     /// Calls `put` with the action of every load on every link, the ground included.

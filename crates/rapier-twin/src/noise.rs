@@ -85,7 +85,7 @@ pub(super) fn bound(case: &Case, engine: &Rapier, channel: &ChannelKind) -> f64 
 }
 
 /// Lever arm (m) of the forces that make up a moment.
-/// On the driving link they act at its far end, and in a prismatic joint anywhere in the mechanism.
+/// On the driving link they act at its far end, and in a prismatic joint, also on that link, anywhere in the mechanism.
 /// On the frame they are taken about the origin.
 fn lever(case: &Case, reach: f64, subject: Subject) -> f64 {
     match subject {

@@ -1,0 +1,146 @@
+//! Why a formula is wrong.
+
+use std::fmt;
+
+use super::slips::{Slip, mended};
+use super::{Course, Judge, Outcome};
+use crate::scenario::{Claim, Formula, Formulas};
+use linkage::error::Result;
+use linkage::math::KeepNan;
+
+/// The simplest explanation of a wrong formula: with it granted, nothing is left over.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Cause {
+    /// One slip of the pen.
+    Slip(Slip),
+    /// The same amount too much everywhere, in the unit of the claim.
+    Offset(f64),
+    /// Too large by the same factor everywhere.
+    Factor(f64),
+    /// A term is missing: its coefficient, in the unit of the claim, and its text.
+    Term {
+        /// Its coefficient.
+        coefficient: f64,
+        /// Its text.
+        term: &'static str,
+    },
+    /// It is right up to a crank angle (rad) and then another branch.
+    Leaves {
+        /// The last crank angle at which it is right.
+        after: f64,
+        /// The first at which it is not.
+        before: f64,
+    },
+}
+
+impl fmt::Display for Cause {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Cause::Slip(Slip { formula, kind, written, right }) => {
+                write!(f, "{}, in {formula}: `{right}` instead of `{written}`", kind.words())
+            }
+            Cause::Offset(offset) => write!(f, "{offset:e} too much everywhere"),
+            Cause::Factor(factor) => write!(f, "too large by the factor {factor} everywhere"),
+            Cause::Term { coefficient, term } => write!(f, "a missing term, {coefficient:e}*{term}"),
+            Cause::Leaves { after, before } => {
+                let [after, before] = [after, before].map(|crank| crank.to_degrees());
+                write!(
+                    f,
+                    "another branch: it is right up to crank angle {after:.3} deg, and no longer at {before:.3} deg; \
+                     atan2 in place of acos, asin or atan follows it"
+                )
+            }
+        }
+    }
+}
+
+/// Instants at which every slip is tried first.
+const FIRST: usize = 7;
+
+/// The cause of a formula that a course contradicts; `None` if nothing simple explains it.
+///
+/// # Errors
+/// If the course lacks a channel of the claim.
+pub(super) fn find(formulas: &Formulas, formula: &Formula, claim: &Claim, course: &Course) -> Result<Option<Cause>> {
+    let all: Vec<usize> = (0..course.len()).filter(|&row| formula.holds_at(course.cranks()[row])).collect();
+    let step = all.len().div_ceil(FIRST).max(1);
+    // Neither the first instant nor the last alone: much is zero there.
+    let few: Vec<usize> = all.iter().copied().skip(step / 2).step_by(step).collect();
+    let mut best: Option<(f64, Slip)> = None;
+    for tried in mended(formulas, formula) {
+        let Some(changed) = formulas.with_tree(tried.index, &tried.tree) else { continue };
+        let own = changed.list.iter().find(|own| own.name == formula.name).expect("names stay");
+        let mut judge = Judge::of_values(&changed, own, claim);
+        let fits = |rows: &[usize], judge: &mut Judge| -> Result<Option<f64>> {
+            let judged = judge.at(course, rows)?.remove(0);
+            let fits = judged.outcome() == Outcome::Right && judged.lost == 0;
+            Ok(fits.then(|| judged.worst.map_or(0.0, |worst| worst.used())))
+        };
+        if fits(&few, &mut judge)?.is_none() {
+            continue;
+        }
+        let Some(used) = fits(&all, &mut judge)? else { continue };
+        if formula.error.is_none() {
+            return Ok(Some(Cause::Slip(tried.slip)));
+        }
+        // An approximation may come near by chance: the nearest counts.
+        if best.as_ref().is_none_or(|(least, _)| used < *least) {
+            best = Some((used, tried.slip));
+        }
+    }
+    if let Some((_, slip)) = best {
+        return Ok(Some(Cause::Slip(slip)));
+    }
+    Judge::of_values(formulas, formula, claim).left_over(course, &all)
+}
+
+/// Terms that a derivation loses.
+const TERMS: [(&str, fn(f64, f64) -> f64); 6] = [
+    ("cos(phi)", |phi, _| phi.cos()),
+    ("sin(phi)", |phi, _| phi.sin()),
+    ("cos(2*phi)", |phi, _| (2.0 * phi).cos()),
+    ("sin(2*phi)", |phi, _| (2.0 * phi).sin()),
+    ("phi", |phi, _| phi),
+    ("t", |_, t| t),
+];
+
+/// What may be said of a course of formula and mechanism with their bounds, by instants: time, crank, formula,
+/// mechanism, bound.
+pub(super) fn of_numbers(rows: &[[f64; 5]], may_leave: bool) -> Option<Cause> {
+    if rows.len() < 3 || rows.iter().any(|row| !row[2].is_finite()) {
+        return None;
+    }
+    let left = |row: &[f64; 5]| row[2] - row[3];
+    let largest = |column: usize| rows.iter().map(|row| row[column].abs()).fold(0.0, f64::larger);
+    // A coefficient that is taken from the numbers themselves is as well known as they are.
+    let slack = 8.0 * f64::EPSILON * (largest(2) + largest(3));
+    let fits = |explained: &dyn Fn(&[f64; 5]) -> f64| {
+        rows.iter().all(|row| (left(row) - explained(row)).abs() <= 4.0 * row[4] + slack)
+    };
+    let by = |basis: &dyn Fn(&[f64; 5]) -> f64| {
+        let [above, below] = rows.iter().fold([0.0, 0.0], |[above, below], row| {
+            let basis = basis(row);
+            [above + basis * left(row), below + basis * basis]
+        });
+        let coefficient = above / below;
+        (coefficient.is_finite() && fits(&|row| coefficient * basis(row))).then_some(coefficient)
+    };
+    if let Some(offset) = by(&|_| 1.0) {
+        return Some(Cause::Offset(offset));
+    }
+    if let Some(more) = by(&|row| row[3]) {
+        return Some(Cause::Factor(1.0 + more));
+    }
+    for (term, of) in TERMS {
+        if let Some(coefficient) = by(&|row| of(row[1], row[0])) {
+            return Some(Cause::Term { coefficient: -coefficient, term });
+        }
+    }
+    // Right up to somewhere, and wrong from there on.
+    let mut order: Vec<&[f64; 5]> = rows.iter().collect();
+    order.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let is_right = |row: &&[f64; 5]| left(row).abs() <= row[4];
+    let right = order.iter().copied().take_while(is_right).count();
+    (may_leave && right >= 2 && right < order.len())
+        .then(|| Cause::Leaves { after: order[right - 1][1], before: order[right][1] })
+}
