@@ -2,9 +2,11 @@
 
 use std::fmt;
 
+use super::judged::Pair;
 use super::slips::{Slip, mended};
-use super::{Course, Judge, Outcome};
+use super::{Course, Judge, Judged, Outcome};
 use crate::scenario::{Claim, Formula, Formulas};
+use formula::Program;
 use linkage::error::Result;
 use linkage::math::KeepNan;
 
@@ -57,41 +59,48 @@ impl fmt::Display for Cause {
 /// Instants at which every slip is tried first.
 const FIRST: usize = 7;
 
+/// Why the formula called `name` is wrong on a course; `None` if it claims nothing, or nothing simple explains it.
+///
+/// # Errors
+/// If the course lacks a channel of the claim.
+pub fn cause(formulas: &Formulas, name: &str, course: &Course) -> Result<Option<Cause>> {
+    match formulas.claims().find(|(formula, _)| formula.name == name) {
+        Some((formula, claim)) => find(formulas, formula, claim, course),
+        None => Ok(None),
+    }
+}
+
 /// The cause of a formula that a course contradicts; `None` if nothing simple explains it.
 ///
 /// # Errors
 /// If the course lacks a channel of the claim.
-pub(super) fn find(formulas: &Formulas, formula: &Formula, claim: &Claim, course: &Course) -> Result<Option<Cause>> {
-    let all: Vec<usize> = (0..course.len()).filter(|&row| formula.holds_at(course.cranks()[row])).collect();
+fn find(formulas: &Formulas, formula: &Formula, claim: &Claim, course: &Course) -> Result<Option<Cause>> {
+    let Some(index) = formulas.list.iter().position(|own| own.name == formula.name) else { return Ok(None) };
+    let all = course.rows(formula);
+    let mut judge = Judge::of_values(formulas, formula, claim);
+    let pairs = judge.pairs(course, &all)?;
     let step = all.len().div_ceil(FIRST).max(1);
     // Neither the first instant nor the last alone: much is zero there.
-    let few: Vec<usize> = all.iter().copied().skip(step / 2).step_by(step).collect();
-    let mut best: Option<(f64, Slip)> = None;
-    for tried in mended(formulas, formula) {
-        let Some(changed) = formulas.with_tree(tried.index, &tried.tree) else { continue };
-        let own = changed.list.iter().find(|own| own.name == formula.name).expect("names stay");
-        let mut judge = Judge::of_values(&changed, own, claim);
-        let fits = |rows: &[usize], judge: &mut Judge| -> Result<Option<f64>> {
-            let judged = judge.at(course, rows)?.remove(0);
-            let fits = judged.outcome() == Outcome::Right && judged.lost == 0;
-            Ok(fits.then(|| judged.worst.map_or(0.0, |worst| worst.used())))
-        };
-        if fits(&few, &mut judge)?.is_none() {
-            continue;
-        }
-        let Some(used) = fits(&all, &mut judge)? else { continue };
-        if formula.error.is_none() {
+    let few: Vec<usize> = (0..all.len()).skip(step / 2).step_by(step).collect();
+    let (mut changed, every): (Formulas, Vec<usize>) = (formulas.clone(), (0..all.len()).collect());
+    for tried in mended(formulas, index) {
+        let fits = changed.with_tree((tried.index, &tried.tree), index, |graph, id| {
+            let mut program = Program::of(graph, &[id]);
+            let mut fits = |places: &[usize]| {
+                let pairs: Vec<Pair> = places
+                    .iter()
+                    .map(|&place| Pair { formula: program.run(&course.inputs(all[place]))[0], ..pairs[place] })
+                    .collect();
+                let judged = Judged::of((formula, claim), 0, claim.turn(), pairs.iter().copied());
+                judged.outcome() == Outcome::Right && judged.lost == 0
+            };
+            fits(&few) && fits(&every)
+        });
+        if fits == Some(true) {
             return Ok(Some(Cause::Slip(tried.slip)));
         }
-        // An approximation may come near by chance: the nearest counts.
-        if best.as_ref().is_none_or(|(least, _)| used < *least) {
-            best = Some((used, tried.slip));
-        }
     }
-    if let Some((_, slip)) = best {
-        return Ok(Some(Cause::Slip(slip)));
-    }
-    Judge::of_values(formulas, formula, claim).left_over(course, &all)
+    Ok(left_over(formula, claim, &pairs))
 }
 
 /// Terms that a derivation loses.
@@ -104,9 +113,21 @@ const TERMS: [(&str, fn(f64, f64) -> f64); 6] = [
     ("t", |_, t| t),
 ];
 
+/// What the numbers of a wrong formula say where no slip explains them.
+fn left_over(formula: &Formula, claim: &Claim, pairs: &[Pair]) -> Option<Cause> {
+    let of = |pair: &Pair| {
+        let difference = pair.formula.value - pair.mechanism.value;
+        let turns = claim.turn().map_or(0.0, |turn| turn * (difference / turn).round());
+        let bound = pair.formula.error + pair.mechanism.error + formula.error.unwrap_or(0.0);
+        [pair.place[0], pair.place[1], pair.formula.value - turns, pair.mechanism.value, bound]
+    };
+    let rows: Vec<[f64; 5]> = pairs.iter().map(of).collect();
+    of_numbers(&rows, formula.error.is_none())
+}
+
 /// What may be said of a course of formula and mechanism with their bounds, by instants: time, crank, formula,
 /// mechanism, bound.
-pub(super) fn of_numbers(rows: &[[f64; 5]], may_leave: bool) -> Option<Cause> {
+fn of_numbers(rows: &[[f64; 5]], may_leave: bool) -> Option<Cause> {
     if rows.len() < 3 || rows.iter().any(|row| !row[2].is_finite()) {
         return None;
     }

@@ -1,6 +1,6 @@
 //! What a side found, with how well it knows it.
 
-use crate::scenario::{Claim, PrintedChannel};
+use crate::scenario::{Claim, Formula, PrintedChannel};
 use formula::{Function, Operator, Rounded};
 use linkage::case::Case;
 use linkage::error::{Error, ErrorKind, Result};
@@ -93,6 +93,11 @@ impl<'a> Course<'a> {
 
     pub(super) fn cranks(&self) -> &[f64] {
         self.trajectory.cranks()
+    }
+
+    /// The instants at which a formula is claimed to hold.
+    pub(super) fn rows(&self, formula: &Formula) -> Vec<usize> {
+        (0..self.len()).filter(|&row| formula.holds_at(self.cranks()[row])).collect()
     }
 
     /// The inputs of formulas at an instant.

@@ -82,6 +82,8 @@ pub struct Judged {
 
 /// Share of the scale beyond which a bound says nothing.
 const TELLING: f64 = 1e-6;
+/// Error of a formula over that of the mechanism that is no loss: a few products of numbers that the side knows as well.
+const NO_WORSE: f64 = 1e3;
 /// Share of instants without a telling bound beyond which nothing is proven.
 const MOST_LOST: f64 = 0.03;
 
@@ -112,8 +114,8 @@ impl Judged {
             let difference = turn.map_or(difference, |turn| difference - turn * (difference / turn).round());
             let bound = formula.error.unwrap_or(0.0) + found.error + mechanism.error;
             let at = At { time, crank, formula: found.value, mechanism: mechanism.value, difference, bound };
-            // What the mechanism itself is known to no better is not the formula's loss.
-            let has_lost = !(found.error <= TELLING * scale) && !(found.error <= mechanism.error);
+            // What the mechanism itself is hardly known better is not the formula's loss.
+            let has_lost = !(found.error <= TELLING * scale) && !(found.error <= NO_WORSE * mechanism.error);
             if has_lost && at.used() <= 1.0 {
                 own.lost += 1;
                 continue;

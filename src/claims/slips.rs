@@ -3,7 +3,7 @@
 //! Every slip is tried at every place of the formula, and of the steps that it uses; what then holds at every instant
 //! explains it. Nothing is guessed from the shape of the error.
 
-use crate::scenario::{Formula, Formulas};
+use crate::scenario::Formulas;
 use formula::{Function, Operator, Shape, Tree};
 
 /// A slip of the pen.
@@ -30,18 +30,20 @@ pub enum Kind {
     Function,
     /// A square, a root, or their absence.
     Power,
-    /// A factor or divisor that is 2.
-    Factor,
-    /// Degrees for radians, and the like.
-    Unit,
-    /// A reference angle that is a quarter or half a turn off.
-    Reference,
     /// A derivative by the crank angle for one by time.
     PerRadian,
     /// Another of the names.
     Name,
     /// Two names exchanged.
     Exchanged,
+    /// A term too many.
+    Term,
+    /// Degrees for radians, and the like.
+    Unit,
+    /// A reference angle that is a quarter or half a turn off.
+    Reference,
+    /// A factor or divisor that is a small number.
+    Factor,
     /// A product for a quotient.
     Operator,
     /// A factor or a term too many or too few, which is one of the names.
@@ -61,6 +63,7 @@ impl Kind {
             Kind::Unit => "a unit",
             Kind::Reference => "another reference angle",
             Kind::Name => "another quantity",
+            Kind::Term => "a term too many",
             Kind::Exchanged => "two quantities exchanged",
             Kind::Operator => "a product for a quotient",
             Kind::Missing => "a quantity missing or too many",
@@ -80,8 +83,8 @@ pub(super) struct Mended {
 }
 
 /// Every formula with one slip mended, in a formula or in a step that it uses; the simplest slips come first.
-pub(super) fn mended<'a>(formulas: &'a Formulas, formula: &Formula) -> impl Iterator<Item = Mended> + 'a {
-    let names = quantities(formulas);
+pub(super) fn mended(formulas: &Formulas, formula: usize) -> impl Iterator<Item = Mended> {
+    let names = quantities(formulas, formula);
     let known: Vec<&str> = names.iter().map(String::as_str).collect();
     let mut edits = Vec::new();
     for index in used_by(formulas, formula) {
@@ -90,7 +93,8 @@ pub(super) fn mended<'a>(formulas: &'a Formulas, formula: &Formula) -> impl Iter
             edits.extend(of.map(|(kind, right)| (kind, index, place.to_vec(), part, right)));
         });
     }
-    edits.sort_by_key(|(kind, ..)| *kind);
+    // A slip in the formula itself is simpler than one in a step that it uses.
+    edits.sort_by_key(|(kind, index, ..)| (*index != formula, *kind));
     edits.into_iter().take(MOST).map(|(kind, index, place, part, right)| {
         let own = &formulas.list[index];
         let slip = Slip { formula: own.name.clone(), kind, written: part.to_string(), right: right.to_string() };
@@ -100,16 +104,17 @@ pub(super) fn mended<'a>(formulas: &'a Formulas, formula: &Formula) -> impl Iter
     })
 }
 
-/// Names of parameters (in SI), which stand for quantities.
-fn quantities(formulas: &Formulas) -> Vec<String> {
+/// Names of parameters (in SI), and of the steps before a formula: they stand for quantities.
+fn quantities(formulas: &Formulas, formula: usize) -> Vec<String> {
     let short = |own: &crate::scenario::Parameter| own.short().unwrap_or(&own.key).to_string();
-    formulas.parameters.iter().map(short).collect()
+    let steps = formulas.list[..formula].iter().map(|step| step.name.clone());
+    formulas.parameters.iter().map(short).chain(steps).collect()
 }
 
 /// Indices of a formula and of those that it uses, itself first.
-fn used_by(formulas: &Formulas, formula: &Formula) -> Vec<usize> {
+fn used_by(formulas: &Formulas, formula: usize) -> Vec<usize> {
     let index_of = |name: &str| formulas.list.iter().position(|own| own.name == name);
-    let mut found: Vec<usize> = index_of(&formula.name).into_iter().collect();
+    let mut found = vec![formula];
     let mut next = 0;
     while next < found.len() {
         for (name, _) in formulas.list[found[next]].tree.names() {
@@ -197,6 +202,10 @@ fn edits_of(part: &Tree, names: &[&str]) -> Vec<(Kind, Tree)> {
     match &part.shape {
         Shape::Pair(operator, parts) => {
             let [left, right] = [&parts[0], &parts[1]].map(Tree::clone);
+            if matches!(operator, Plus | Minus) {
+                edits.push((Kind::Term, left.clone()));
+                edits.push((Kind::Term, if *operator == Minus { negative(&right) } else { right.clone() }));
+            }
             match operator {
                 Plus => edits.push((Kind::Sign, pair(Minus, left, right))),
                 Minus => {
@@ -236,7 +245,8 @@ fn edits_of(part: &Tree, names: &[&str]) -> Vec<(Kind, Tree)> {
     edits.push((Kind::Sign, negative(part)));
     edits.extend(exchanged(part, names).into_iter().map(|right| (Kind::Exchanged, right)));
     let of = |operator: Operator, right: Tree| pair(operator, part.clone(), right);
-    if !matches!(part.shape, Shape::Number(_)) {
+    let is_constant = matches!(&part.shape, Shape::Number(_)) || part.shape == Shape::Name("pi".into());
+    if !is_constant {
         edits.push((Kind::Power, of(Power, number(2.0))));
         edits.push((Kind::Power, of(Power, number(3.0))));
         edits.push((Kind::Power, whole(Shape::Call(Function::Sqrt, vec![part.clone()]))));
@@ -267,7 +277,8 @@ fn edits_of(part: &Tree, names: &[&str]) -> Vec<(Kind, Tree)> {
         for term in names {
             for term in [name(term), pair(Power, name(term), number(2.0))] {
                 edits.push((Kind::Missing, of(Plus, term.clone())));
-                edits.push((Kind::Missing, of(Minus, term)));
+                edits.push((Kind::Missing, of(Minus, term.clone())));
+                edits.push((Kind::Missing, pair(Minus, term, part.clone())));
             }
         }
         // Hidden names: the crank's angular velocity.

@@ -55,7 +55,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "DEG", requires = "expression", allow_hyphen_values = true)]
     to_deg: Option<f64>,
     /// Error that the formula is claimed to have, in the channel's unit: for series and approximations
-    #[arg(long, value_name = "NUMBER", requires = "expression")]
+    #[arg(long, value_name = "NUMBER", requires = "expression", allow_hyphen_values = true)]
     error: Option<f64>,
     #[command(flatten)]
     grid: GridArgs,
@@ -116,7 +116,7 @@ fn asked(args: &Args) -> Result<Scenario> {
         scenario.formulas.add(name, text).map_err(|fault| refused("--let", text, &fault))?;
     }
     let all = scenario.case.all_channels();
-    let claim = Claim::read(channel, &all).map_err(|fault| refused("--channel", channel, &fault))?;
+    let claim = Claim::parse(channel, &all).map_err(|fault| refused("--channel", channel, &fault))?;
     let formula = scenario.formulas.add("formula", expression).map_err(|fault| refused("EXPR", expression, &fault))?;
     formula.claim = Some(claim);
     formula.valid = [args.from_deg, args.to_deg].map(|degrees| degrees.map(f64::to_radians));

@@ -7,6 +7,7 @@ use super::options::Reference;
 use crate::claims::needed;
 use crate::compare::{Check, Verdict};
 use crate::scenario::Scenario;
+use crate::tolerance::Basis;
 use analytic::range::explained;
 use linkage::error::{Error, ErrorKind, Result};
 
@@ -15,7 +16,7 @@ use linkage::error::{Error, ErrorKind, Result};
 pub struct Claimed {
     /// What both sides say of every claim.
     pub judgement: Judgement,
-    /// All checks: the sides against each other, and the claims.
+    /// The checks of the sides themselves.
     pub checks: Vec<Check>,
     /// The verdict on all of it.
     pub verdict: Verdict,
@@ -47,5 +48,6 @@ pub fn judge(scenario: &Scenario) -> Result<Claimed> {
             .key("formula")
             .help("claim a channel of the scenario")
     })?;
-    Ok(Claimed { judgement, verdict, checks: sides.checks })
+    let is_own = |check: &Check| !matches!(check.basis, Basis::Formula { .. });
+    Ok(Claimed { judgement, verdict, checks: sides.checks.into_iter().filter(is_own).collect() })
 }

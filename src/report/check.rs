@@ -8,7 +8,7 @@ use super::cells::table;
 use super::pretty::pretty;
 use super::tell::Tell;
 use crate::claims::{At, Cause, Judged, Outcome, WORDS};
-use crate::compare::{Check, Verdict};
+use crate::compare::Verdict;
 use crate::proof::claimed::Claimed;
 use crate::scenario::{Formula, Scenario};
 
@@ -94,7 +94,7 @@ pub fn text(scenario: &Scenario, claimed: &Claimed, tell: Tell) -> String {
             }
         }
     }
-    for check in claimed.checks.iter().filter(|check| !is_of_formula(check)) {
+    for check in &claimed.checks {
         if let Some(reason) = check.verdict.reason(tell) {
             let _ = writeln!(text, "\n{}: {reason}", check.name());
         }
@@ -105,10 +105,6 @@ pub fn text(scenario: &Scenario, claimed: &Claimed, tell: Tell) -> String {
 /// The cause of a wrong formula, if it is wrong, and if there is a simple one.
 fn cause<'a>(claimed: &'a Claimed, name: &str) -> Option<Option<&'a Cause>> {
     claimed.judgement.causes.iter().find(|(own, _)| own == name).map(|(_, cause)| cause.as_ref())
-}
-
-fn is_of_formula(check: &Check) -> bool {
-    matches!(check.basis, crate::tolerance::Basis::Formula { .. })
 }
 
 fn sentence(lines: &[Line], claimed: &Claimed) -> String {
@@ -218,7 +214,7 @@ pub fn json(scenario: &Scenario, claimed: &Claimed, tell: Tell) -> String {
         };
         judged.map(row).collect()
     };
-    let checks = claimed.checks.iter().filter(|check| !is_of_formula(check));
+    let checks = claimed.checks.iter();
     let checks: Vec<Value> = checks
         .map(|check| {
             json!({

@@ -73,11 +73,11 @@ impl Claim {
     ///
     /// # Errors
     /// What is wrong, with its place in the text.
-    pub fn read(text: &str, all: &[Channel]) -> std::result::Result<Claim, Fault> {
+    pub fn parse(text: &str, all: &[Channel]) -> std::result::Result<Claim, Fault> {
         let whole = || Tree { shape: Shape::Name(text.into()), at: 0..text.len() };
         // A name may have signs in it that mean something in an arithmetic.
         let is_channel = PrintedChannel::named(text).is_some_and(|found| all.contains(&found.channel));
-        let tree = if is_channel { whole() } else { Tree::read(text)? };
+        let tree = if is_channel { whole() } else { Tree::parse(text)? };
         let mut channels: Vec<(String, PrintedChannel)> = Vec::new();
         for (name, at) in tree.names() {
             if channels.iter().any(|(own, _)| own == name) {
@@ -146,7 +146,7 @@ impl Formulas {
     /// # Errors
     /// What is wrong, with its place in the text.
     pub fn add(&mut self, name: &str, text: &str) -> std::result::Result<&mut Formula, Fault> {
-        let tree = Tree::read(text)?;
+        let tree = Tree::parse(text)?;
         let id = self.graph.add(&tree).map_err(|fault| self.named_better(&text[fault.at.clone()], fault))?;
         self.graph.name(name, id);
         let (name, text) = (name.to_string(), text.to_string());
@@ -180,20 +180,28 @@ impl Formulas {
         Fault { help, ..fault }
     }
 
-    /// The same with another tree in one formula; those after it that use it follow. `None` if a name is not known.
-    #[must_use]
-    pub fn with_tree(&self, index: usize, tree: &Tree) -> Option<Formulas> {
-        let mut changed = Formulas::over(self.parameters.clone());
-        if !changed.graph.knows(OMEGA) {
-            changed.graph.name(OMEGA, changed.graph.input(2));
-        }
-        for (own, formula) in self.list.iter().enumerate() {
-            let tree = if own == index { tree } else { &formula.tree };
-            let id = changed.graph.add(tree).ok()?;
-            changed.graph.name(&formula.name, id);
-            changed.list.push(Formula { tree: tree.clone(), id, ..formula.clone() });
-        }
-        Some(changed)
+    /// What `then` makes of the formula `of` with another tree in the formula `index`: formulas that use it follow.
+    /// Afterwards everything is as before. `None` if a name is not known.
+    pub fn with_tree<T>(
+        &mut self,
+        (index, tree): (usize, &Tree),
+        of: usize,
+        then: impl FnOnce(&Graph, Id) -> T,
+    ) -> Option<T> {
+        let list = &self.list;
+        self.graph.meanwhile(|graph| {
+            if !graph.knows(OMEGA) {
+                graph.name(OMEGA, graph.input(2));
+            }
+            // A name stands for the formula before it, as when the file was read.
+            let mut changed = None;
+            for (own, formula) in list.iter().enumerate().take(of + 1).skip(index) {
+                let id = graph.add(if own == index { tree } else { &formula.tree }).ok()?;
+                graph.name(&formula.name, id);
+                changed = Some(id);
+            }
+            changed.map(|id| then(graph, id))
+        })
     }
 
     /// A node's rate of change with time, in the graph.
@@ -257,7 +265,7 @@ pub(super) fn read(
         }
         let formula = formulas.add(&name, &text).map_err(|fault| table.fault_in("expression", &fault))?;
         if let Some(claimed) = claimed {
-            let claim = Claim::read(&claimed, &all).map_err(|fault| table.fault_in("channel", &fault))?;
+            let claim = Claim::parse(&claimed, &all).map_err(|fault| table.fault_in("channel", &fault))?;
             formula.claim = Some(claim);
         }
         (formula.source, formula.valid, formula.error) = (source, valid, error);

@@ -58,7 +58,7 @@ const ROOMS: &[(&str, &str)] = &[
     ("workshop::task", ""),
     ("linkproof::bench", "compare engines scenario"),
     ("linkproof::claims", "scenario"),
-    ("linkproof::cli", "bench claims compare engines files mutate outside proof record report scenario stress tune"),
+    ("linkproof::cli", "bench compare engines files mutate outside proof record report scenario stress tune"),
     ("linkproof::compare", "tolerance"),
     ("linkproof::diagnosis", "compare"),
     ("linkproof::engines", ""),

@@ -54,7 +54,7 @@ fn regress_what_vanishes_by_symmetry_agrees() {
 }
 
 /// A shipped scenario without some of its lines.
-fn without(path: &str, is_left_out: impl Fn(&str) -> bool) -> Scenario {
+fn bare(path: &str, is_left_out: impl Fn(&str) -> bool) -> Scenario {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
     let text = std::fs::read_to_string(&path).unwrap();
     let text = text.split("[[formula]]").next().unwrap().split("[[oracle]]").next().unwrap();
@@ -66,7 +66,7 @@ fn without(path: &str, is_left_out: impl Fn(&str) -> bool) -> Scenario {
 /// Cause: the driving hub has no extent, so that there was no moment to measure rounding by.
 #[test]
 fn regress_a_driving_link_that_is_one_point_has_the_moments_of_its_slider() {
-    let mut scenario = without("scenarios/formulas/oldham_coupling.toml", |_| false);
+    let mut scenario = bare("scenarios/formulas/oldham_coupling.toml", |_| false);
     scenario.case = scenario.case.with(|parts| parts.loads.clear()).unwrap();
     agrees_by("an Oldham coupling without load", &scenario, &Options::default());
 }
@@ -76,7 +76,7 @@ fn regress_a_driving_link_that_is_one_point_has_the_moments_of_its_slider() {
 #[test]
 fn regress_a_shaking_force_that_vanishes_is_measured_by_the_forces_in_the_joints() {
     let masses = ["mass_kg", "mass_centre", "inertia_kg_m2"];
-    let scenario = without("scenarios/crank_rocker.toml", |line| masses.iter().any(|mass| line.starts_with(mass)));
+    let scenario = bare("scenarios/crank_rocker.toml", |line| masses.iter().any(|mass| line.starts_with(mass)));
     agrees_by("a four-bar without masses", &scenario, &Options::default());
 }
 

@@ -22,6 +22,7 @@ mod engine;
 mod export;
 mod faults;
 mod figures;
+mod formulas;
 mod higher_groups;
 mod invariants;
 mod laws;

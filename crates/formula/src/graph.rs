@@ -1,6 +1,6 @@
 //! Formulas as a graph: what two of them share stands in it once.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 use crate::fault::Fault;
 use crate::function::Function;
@@ -24,13 +24,23 @@ pub(crate) enum Node {
 /// A node as a key: numbers by their bits.
 type Key = (u8, u64, u64, u64);
 
+fn key(node: Node) -> Key {
+    match node {
+        Node::Input(index) => (0, index as u64, 0, 0),
+        Node::Number(number) => (1, number.value.to_bits(), number.error.to_bits(), 0),
+        Node::Negative(part) => (2, part.0.into(), 0, 0),
+        Node::Pair(operator, left, right) => (3, operator as u64, left.0.into(), right.0.into()),
+        Node::Call(function, first, second) => (4, function as u64, first.0.into(), second.0.into()),
+    }
+}
+
 /// Formulas over common inputs.
 #[derive(Clone, Debug)]
 pub struct Graph {
     pub(crate) nodes: Vec<Node>,
-    known: HashMap<Key, Id>,
-    names: HashMap<String, Id>,
-    pub(crate) derivatives: HashMap<(Id, usize), Id>,
+    known: BTreeMap<Key, Id>,
+    names: BTreeMap<String, Id>,
+    pub(crate) derivatives: BTreeMap<(Id, usize), Id>,
     inputs: usize,
 }
 
@@ -40,9 +50,9 @@ impl Graph {
     pub fn new(inputs: &[&str], unnamed: usize) -> Self {
         let mut graph = Graph {
             nodes: Vec::new(),
-            known: HashMap::new(),
-            names: HashMap::new(),
-            derivatives: HashMap::new(),
+            known: BTreeMap::new(),
+            names: BTreeMap::new(),
+            derivatives: BTreeMap::new(),
             inputs: inputs.len() + unnamed,
         };
         for (index, name) in inputs.iter().enumerate() {
@@ -148,16 +158,21 @@ impl Graph {
         needed
     }
 
+    /// Lets `then` add to the graph, and forgets afterwards what was added, names included.
+    pub fn meanwhile<T>(&mut self, then: impl FnOnce(&mut Graph) -> T) -> T {
+        let (nodes, names) = (self.nodes.len(), self.names.clone());
+        let result = then(self);
+        for node in self.nodes.drain(nodes..) {
+            self.known.remove(&key(node));
+        }
+        self.names = names;
+        self.derivatives.retain(|_, id| (id.0 as usize) < nodes);
+        result
+    }
+
     fn put(&mut self, node: Node) -> Id {
-        let key: Key = match node {
-            Node::Input(index) => (0, index as u64, 0, 0),
-            Node::Number(number) => (1, number.value.to_bits(), number.error.to_bits(), 0),
-            Node::Negative(part) => (2, part.0.into(), 0, 0),
-            Node::Pair(operator, left, right) => (3, operator as u64, left.0.into(), right.0.into()),
-            Node::Call(function, first, second) => (4, function as u64, first.0.into(), second.0.into()),
-        };
         let next = Id(u32::try_from(self.nodes.len()).expect("formulas are bounded in length"));
-        let id = *self.known.entry(key).or_insert(next);
+        let id = *self.known.entry(key(node)).or_insert(next);
         if id == next {
             self.nodes.push(node);
         }

@@ -9,7 +9,7 @@
 //! use formula::{Graph, Program, Rounded, Tree};
 //!
 //! let mut graph = Graph::new(&["phi", "r"], 0);
-//! let place = graph.add(&Tree::read("r*cos(phi)")?)?;
+//! let place = graph.add(&Tree::parse("r*cos(phi)")?)?;
 //! let speed = graph.derivative(place, 0);
 //! let mut program = Program::of(&graph, &[place, speed]);
 //! let values = program.run(&[Rounded::exact(0.0), Rounded::exact(2.0)]);
@@ -21,8 +21,8 @@ mod derivative;
 mod fault;
 mod function;
 mod graph;
+mod parse;
 mod program;
-mod read;
 mod rounded;
 #[cfg(test)]
 mod tests;

@@ -7,7 +7,7 @@ use crate::{Function, Graph, Operator, Program, Rounded, Shape, Tree};
 /// The value of a formula in x and y, with its error.
 fn at(text: &str, x: Rounded, y: Rounded) -> Rounded {
     let mut graph = Graph::new(&["x", "y"], 0);
-    let id = graph.add(&Tree::read(text).unwrap_or_else(|fault| panic!("{text}: {fault}"))).unwrap();
+    let id = graph.add(&Tree::parse(text).unwrap_or_else(|fault| panic!("{text}: {fault}"))).unwrap();
     Program::of(&graph, &[id]).run(&[x, y])[0]
 }
 
@@ -70,15 +70,15 @@ fn what_cannot_be_read_is_told_with_its_place_and_the_way_out() {
         ("1e999", 0..5, "1.5e-3"),
     ];
     for (text, place, way_out) in cases {
-        let fault = Tree::read(text).expect_err(text);
+        let fault = Tree::parse(text).expect_err(text);
         assert_eq!(fault.at, place, "{text}: {fault}");
         assert!(fault.help.contains(way_out), "{text}: {} / {}", fault.message, fault.help);
     }
     let deep = ["(", "-", "2^", "sin("].map(|part| part.repeat(5000));
     for text in deep.iter().chain([&"x+".repeat(50_000)]) {
-        assert!(Tree::read(text).is_err());
+        assert!(Tree::parse(text).is_err());
     }
-    let fault = Graph::new(&["phi"], 0).add(&Tree::read("2*(fi + 1)").unwrap()).unwrap_err();
+    let fault = Graph::new(&["phi"], 0).add(&Tree::parse("2*(fi + 1)").unwrap()).unwrap_err();
     assert_eq!((fault.at, fault.help.contains("phi")), (3..5, true));
 }
 
@@ -152,13 +152,13 @@ proptest! {
     #[test]
     fn a_tree_is_read_as_it_is_written(tree in tree()) {
         let text = tree.to_string();
-        prop_assert_eq!(shape_of(&Tree::read(&text).unwrap()), shape_of(&tree), "{}", text);
+        prop_assert_eq!(shape_of(&Tree::parse(&text).unwrap()), shape_of(&tree), "{}", text);
     }
 
     /// Any text is read or refused, with a place inside it.
     #[test]
     fn any_text_has_an_answer(text in "[-+*/^(),.0-9a-z φ²=]{0,60}") {
-        if let Err(fault) = Tree::read(&text) {
+        if let Err(fault) = Tree::parse(&text) {
             prop_assert!(fault.at.start <= fault.at.end && fault.at.end <= text.len(), "{:?}", fault);
             prop_assert!(text.is_char_boundary(fault.at.start) && text.is_char_boundary(fault.at.end));
         }
@@ -221,9 +221,9 @@ fn cancellation_is_told() {
 #[test]
 fn common_parts_are_evaluated_once() {
     let mut graph = Graph::new(&["x"], 0);
-    let one = graph.add(&Tree::read("sin(x)^2 + cos(x)").unwrap()).unwrap();
+    let one = graph.add(&Tree::parse("sin(x)^2 + cos(x)").unwrap()).unwrap();
     let alone = Program::of(&graph, &[one]).len();
-    let other = graph.add(&Tree::read("sin(x)^2 - cos(x)").unwrap()).unwrap();
+    let other = graph.add(&Tree::parse("sin(x)^2 - cos(x)").unwrap()).unwrap();
     assert_eq!(Program::of(&graph, &[one, other]).len(), alone + 1);
 }
 
@@ -231,7 +231,7 @@ fn common_parts_are_evaluated_once() {
 #[test]
 fn rates_go_through_all_inputs() {
     let mut graph = Graph::new(&["phi", "t"], 2);
-    let place = graph.add(&Tree::read("t*sin(phi)").unwrap()).unwrap();
+    let place = graph.add(&Tree::parse("t*sin(phi)").unwrap()).unwrap();
     let (w, a) = (graph.input(2), graph.input(3));
     let one = graph.constant(Rounded::exact(1.0));
     let rates = [Some(w), Some(one), Some(a), None];
@@ -243,4 +243,23 @@ fn rates_go_through_all_inputs() {
     assert_relative_eq!(found[0].value, phi.sin() + t * phi.cos() * w, max_relative = 1e-14);
     let wanted = 2.0 * phi.cos() * w - t * phi.sin() * w * w + t * phi.cos() * a;
     assert_relative_eq!(found[1].value, wanted, max_relative = 1e-14);
+}
+
+#[test]
+fn what_was_added_meanwhile_is_forgotten() {
+    let mut graph = Graph::new(&["x"], 0);
+    let place = graph.add(&Tree::parse("x^2").unwrap()).unwrap();
+    graph.name("place", place);
+    let tried = graph.meanwhile(|graph| {
+        let other = graph.add(&Tree::parse("x^2 + sin(x)").unwrap()).unwrap();
+        graph.name("place", other);
+        graph.derivative(other, 0);
+        Program::of(graph, &[other]).run(&[Rounded::exact(2.0)])[0].value
+    });
+    assert_relative_eq!(tried, 4.0 + 2f64.sin());
+    let again = graph.add(&Tree::parse("place + sin(x)").unwrap()).unwrap();
+    let speed = graph.derivative(again, 0);
+    let found = Program::of(&graph, &[again, speed]).run(&[Rounded::exact(2.0)]).to_vec();
+    assert_relative_eq!(found[0].value, 4.0 + 2f64.sin());
+    assert_relative_eq!(found[1].value, 4.0 + 2f64.cos());
 }

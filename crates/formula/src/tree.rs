@@ -3,9 +3,7 @@
 use std::fmt;
 use std::ops::Range;
 
-use crate::fault::Fault;
 use crate::function::Function;
-use crate::read;
 
 /// An operator between two parts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -75,15 +73,6 @@ pub struct Tree {
 }
 
 impl Tree {
-    /// Reads a formula: numbers, names (they may contain dots), `+ - * / ^`, parentheses and calls of a [`Function`].
-    /// `^` binds to the right, and closer than a minus before it: -x^2 is -(x^2), 2^3^2 is 2^9.
-    ///
-    /// # Errors
-    /// What cannot be read, with its place and the way out.
-    pub fn read(text: &str) -> Result<Tree, Fault> {
-        read::tree(text)
-    }
-
     /// The parts of the uppermost level.
     #[must_use]
     pub fn parts(&self) -> &[Tree] {

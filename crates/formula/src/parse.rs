@@ -40,7 +40,18 @@ fn refused<T>(message: impl Into<String>, at: Range<usize>, help: impl Into<Stri
     Err(ErrMode::Cut(Found(Some(Fault::new(message, at, help)))))
 }
 
-pub fn tree(text: &str) -> Result<Tree, Fault> {
+impl Tree {
+    /// Reads a formula: numbers, names (they may contain dots), `+ - * / ^`, parentheses and calls of a [`Function`].
+    /// `^` binds to the right, and closer than a minus before it: -x^2 is -(x^2), 2^3^2 is 2^9.
+    ///
+    /// # Errors
+    /// What cannot be read, with its place and the way out.
+    pub fn parse(text: &str) -> Result<Tree, Fault> {
+        tree(text)
+    }
+}
+
+fn tree(text: &str) -> Result<Tree, Fault> {
     bounded(text)?;
     let mut input = LocatingSlice::new(text);
     let found = whole(&mut input).map_err(|error| match error {

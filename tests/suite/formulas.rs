@@ -1,0 +1,44 @@
+//! Formulas: the library of textbook results is right, spoiled ones are found and explained, and a user is understood.
+
+mod library;
+mod planted;
+mod wrong_input;
+
+use std::path::{Path, PathBuf};
+
+use linkproof::claims::Outcome;
+use linkproof::proof::claimed::{Claimed, judge};
+use linkproof::scenario::{Formulas, Scenario, files_in};
+
+fn files() -> Vec<PathBuf> {
+    files_in(&Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/formulas")).unwrap()
+}
+
+fn load(path: &Path) -> Scenario {
+    Scenario::load(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+/// The scenario with one formula written otherwise; those after it that use it follow.
+fn rewritten(scenario: &Scenario, name: &str, text: &str) -> Scenario {
+    let mut formulas = Formulas::over(scenario.formulas.parameters.clone());
+    for own in &scenario.formulas.list {
+        let text = if own.name == name { text } else { &own.text };
+        let formula = formulas.add(&own.name, text).unwrap_or_else(|fault| panic!("{text}: {fault}"));
+        // Only the one that is rewritten is asked about.
+        formula.claim = own.claim.clone().filter(|_| own.name == name);
+        (formula.source, formula.valid, formula.error) = (own.source.clone(), own.valid, own.error);
+    }
+    let mut changed = scenario.clone();
+    changed.formulas = formulas;
+    changed
+}
+
+fn judged(scenario: &Scenario) -> Claimed {
+    judge(scenario).unwrap_or_else(|error| panic!("{}: {error}", scenario.name))
+}
+
+/// Whether a side says that a formula is wrong by value.
+fn is_wrong(claimed: &Claimed, name: &str) -> bool {
+    let all = claimed.judgement.sides.iter().flat_map(|(_, all)| all.iter().flatten());
+    all.filter(|judged| judged.name == name && judged.order == 0).any(|judged| judged.outcome() == Outcome::Wrong)
+}

@@ -1,0 +1,120 @@
+use formula::{Function, Operator, Program, Rounded, Shape, Tree};
+use linkproof::claims::Cause;
+use linkproof::scenario::{Formula, Scenario};
+
+use super::{files, is_wrong, judged, load, rewritten};
+use crate::common::sketch::Random;
+
+/// A random slip in a part of a formula, with the words for it; `None` if this part has none of that kind.
+fn spoiled(part: &Tree, names: &[String], random: &mut Random) -> Option<(&'static str, Shape)> {
+    use Operator::{Minus, Plus, Power};
+    let call = |function: Function, parts: &[Tree]| Shape::Call(function, parts.to_vec());
+    let whole = |shape: Shape| Tree { shape, at: 0..0 };
+    let number = |value: f64| whole(Shape::Number(value));
+    Some(match &part.shape {
+        Shape::Pair(Plus, parts) => ("sign", Shape::Pair(Minus, parts.clone())),
+        Shape::Pair(Minus, parts) => ("sign", Shape::Pair(Plus, parts.clone())),
+        Shape::Pair(Power, parts) => ("square", parts[0].shape.clone()),
+        Shape::Negative(inner) => ("sign", inner.shape.clone()),
+        Shape::Call(Function::Sin, parts) if random.index(2) == 0 => ("function", call(Function::Cos, parts)),
+        Shape::Call(Function::Cos, parts) if random.index(2) == 0 => ("function", call(Function::Sin, parts)),
+        Shape::Call(function @ (Function::Sin | Function::Cos | Function::Tan), parts) => {
+            let to_degrees =
+                whole(Shape::Pair(Operator::Over, Box::new([number(180.0), whole(Shape::Name("pi".into()))])));
+            let degrees = Shape::Pair(Operator::Times, Box::new([parts[0].clone(), to_degrees]));
+            ("degrees", call(*function, &[whole(degrees)]))
+        }
+        Shape::Call(Function::Sqrt, _) => ("branch", Shape::Negative(Box::new(part.clone()))),
+        Shape::Name(own) if names.contains(own) => {
+            let other = &names[random.index(names.len())];
+            ("name", Shape::Name(other.clone()))
+        }
+        Shape::Number(_) | Shape::Name(_) | Shape::Pair(..) | Shape::Call(..) => return None,
+    })
+}
+
+fn places(tree: &Tree) -> Vec<Vec<usize>> {
+    let inner = tree
+        .parts()
+        .iter()
+        .enumerate()
+        .flat_map(|(index, part)| places(part).into_iter().map(move |place| [vec![index], place].concat()));
+    [Vec::new()].into_iter().chain(inner).collect()
+}
+
+fn at<'a>(tree: &'a mut Tree, place: &[usize]) -> &'a mut Tree {
+    place.iter().fold(tree, |tree, &index| &mut tree.parts_mut()[index])
+}
+
+/// Largest change of a formula's value over the grid, over its largest value; infinite where it has none any more.
+fn change(right: &Scenario, wrong: &Scenario, name: &str) -> f64 {
+    let grid = &right.case.grid;
+    let values = |scenario: &Scenario| -> Vec<f64> {
+        let formula = scenario.formulas.list.iter().find(|own| own.name == name).unwrap();
+        let mut program = Program::of(&scenario.formulas.graph, &[formula.id]);
+        let rows = (0..grid.len()).filter(|&row| formula.holds_at(grid.cranks[row]));
+        rows.map(|row| program.run(&[grid.cranks[row], grid.times[row], 0.0, 0.0].map(Rounded::exact))[0].value)
+            .collect()
+    };
+    let (right, wrong) = (values(right), values(wrong));
+    let scale = right.iter().fold(0.0f64, |largest, value| largest.max(value.abs()));
+    let differences = right.iter().zip(&wrong).map(|(right, wrong)| (right - wrong).abs());
+    let largest = differences.fold(0.0, |largest, own| if own <= largest { largest } else { own });
+    if largest.is_nan() { f64::INFINITY } else { largest / scale }
+}
+
+/// Plants mistakes in exact formulas of the library. All that change a value are found; how many are called by name?
+fn planted(seed: u64, count: usize) -> (usize, usize) {
+    let scenarios: Vec<Scenario> = files().iter().map(|path| load(path)).filter(|own| !own.case.is_free()).collect();
+    let mut random = Random::of_sample(seed, 0);
+    let (mut all, mut named) = (0, 0);
+    while all < count {
+        let scenario = &scenarios[random.index(scenarios.len())];
+        let exact: Vec<&Formula> =
+            scenario.formulas.claims().map(|(formula, _)| formula).filter(|own| own.error.is_none()).collect();
+        if exact.is_empty() {
+            continue;
+        }
+        let formula = exact[random.index(exact.len())];
+        let names: Vec<String> =
+            scenario.formulas.parameters.iter().map(|own| own.short().unwrap_or(&own.key).to_string()).collect();
+        let mut tree = formula.tree.clone();
+        let places = places(&tree);
+        let place = &places[random.index(places.len())];
+        let part = at(&mut tree, place);
+        let Some((_, shape)) = spoiled(part, &names, &mut random) else { continue };
+        part.shape = shape;
+        let text = tree.to_string();
+        let wrong = rewritten(scenario, &formula.name, &text);
+        // Whole turns of an angle are no change.
+        if !(change(scenario, &wrong, &formula.name) > 1e-9) {
+            continue;
+        }
+        let found = judged(&wrong);
+        let (name, file) = (&formula.name, &scenario.name);
+        assert!(is_wrong(&found, name), "{file}: {name} = {text} for {}", formula.text);
+        all += 1;
+        // Right is a cause that gives the formula back as it was, or one of the same value everywhere.
+        let cause = found.judgement.causes.iter().find(|(own, _)| own == name).and_then(|(_, cause)| cause.as_ref());
+        match cause {
+            Some(Cause::Slip(slip)) if slip.formula == *name => named += 1,
+            other => println!("{file}: {name} = {text} for {}: {other:?}", formula.text),
+        }
+    }
+    (all, named)
+}
+
+#[test]
+fn planted_mistakes_are_found_and_four_of_five_are_named() {
+    let (all, named) = planted(1, 100);
+    assert!(5 * named >= 4 * all, "{named} of {all}");
+}
+
+/// The same for a figure.
+#[test]
+#[ignore = "takes a minute: cargo test --release --test suite planted -- --ignored --nocapture"]
+fn a_thousand_planted_mistakes() {
+    let (all, named) = planted(2, 1000);
+    println!("{named} of {all} named");
+    assert!(5 * named >= 4 * all, "{named} of {all}");
+}
