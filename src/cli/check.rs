@@ -42,9 +42,6 @@ pub(super) struct Args {
     /// What the formula claims to be: a channel such as link.rocker.angle_deg, or an arithmetic of channels
     #[arg(long, value_name = "CHANNEL", requires = "expression", allow_hyphen_values = true)]
     channel: Option<String>,
-    /// Parameter, with its unit in its name as in a scenario; may be given several times
-    #[arg(long, value_name = "NAME_UNIT=NUMBER", value_parser = setting)]
-    set: Vec<(String, f64)>,
     /// Step of the derivation: a formula with a name, which those after it and EXPR may use; may be given several times
     #[arg(long = "let", value_name = "NAME=EXPR", requires = "expression", value_parser = step)]
     steps: Vec<(String, String)>,
@@ -64,14 +61,6 @@ pub(super) struct Args {
     /// Write the judgement as JSON to a file, or to standard output instead of the text with `-`
     #[arg(long, value_name = "FILE", value_parser = output::target)]
     json: Option<PathBuf>,
-}
-
-/// Reads `NAME=NUMBER`.
-fn setting(text: &str) -> std::result::Result<(String, f64), String> {
-    let (name, value) = text.split_once('=').ok_or("expected NAME=NUMBER, such as a_mm=30")?;
-    let number: f64 =
-        value.trim().parse().map_err(|_| format!("\"{value}\" is no number; expected such as a_mm=30"))?;
-    if number.is_finite() { Ok((name.trim().into(), number)) } else { Err("the number is not finite".into()) }
 }
 
 /// Reads `NAME=EXPR`.
@@ -107,7 +96,7 @@ pub(super) fn check(args: &Args) -> u8 {
 /// The scenario with the formulas that are asked about.
 fn asked(args: &Args) -> Result<Scenario> {
     let adds = args.expression.is_some();
-    let mut scenario = args.start.load_with(&args.file, &args.grid, &args.set, adds)?;
+    let mut scenario = args.start.load_and_add(&args.file, &args.grid, adds)?;
     let (Some(expression), Some(channel)) = (&args.expression, &args.channel) else { return Ok(scenario) };
     // What the file claims itself is not asked.
     scenario.formulas.list.iter_mut().for_each(|formula| formula.claim = None);

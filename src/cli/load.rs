@@ -19,28 +19,25 @@ pub(super) struct StartArgs {
     /// numbers stay if the start lies on the file's own branch
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = finite)]
     pub(super) start_crank_deg: Option<f64>,
+    /// Number of a parameter, by its key in `[parameters]`; may be given several times
+    #[arg(long, value_name = "KEY=NUMBER", value_parser = setting)]
+    pub(super) set: Vec<(String, f64)>,
 }
 
 impl StartArgs {
     /// Reads a scenario with this start, on the grid given, else on its own.
     pub(super) fn load(&self, file: &Path, grid: &GridArgs) -> Result<Scenario> {
-        self.load_with(file, grid, &[], false)
+        self.load_and_add(file, grid, false)
     }
 
-    /// The same with parameters that are `set`; with new ones too, if they may be added.
-    pub(super) fn load_with(
-        &self,
-        file: &Path,
-        grid: &GridArgs,
-        set: &[(String, f64)],
-        adds_parameters: bool,
-    ) -> Result<Scenario> {
+    /// The same; parameters that are set and that the file does not have are added, if they may be.
+    pub(super) fn load_and_add(&self, file: &Path, grid: &GridArgs, adds_parameters: bool) -> Result<Scenario> {
         let crank = self.start_crank_deg.map(f64::to_radians);
         let asked = Asked {
             modes: self.mode.clone(),
             crank,
             without_grid: grid.told().is_some(),
-            set: set.to_vec(),
+            set: self.set.clone(),
             adds_parameters,
         };
         grid.on(as_asked(file, &asked)?)
@@ -50,6 +47,14 @@ impl StartArgs {
 /// The scenario with only the channels that `words` ask for; as it is, without words.
 pub(super) fn only(scenario: Scenario, words: &[String]) -> Result<Scenario> {
     if words.is_empty() { Ok(scenario) } else { scenario.only(words).map_err(|error| error.key("--only")) }
+}
+
+/// Reads `KEY=NUMBER`.
+fn setting(text: &str) -> std::result::Result<(String, f64), String> {
+    let (key, value) = text.split_once('=').ok_or("expected KEY=NUMBER, such as a_mm=30")?;
+    let number: f64 =
+        value.trim().parse().map_err(|_| format!("\"{value}\" is no number; expected such as a_mm=30"))?;
+    if number.is_finite() { Ok((key.trim().into(), number)) } else { Err("the number is not finite".into()) }
 }
 
 /// Reads a finite number.

@@ -19,7 +19,7 @@ pub fn load(path: &Path) -> Result<Vec<CatalogueMotor>> {
         Error::new(ErrorKind::Io, format!("the catalogue {} cannot be read: {error}", path.display()))
             .help("give the path of a catalogue of motors, such as catalogues/motors.toml")
     })?;
-    let source = Source { path, text: &text };
+    let source = Source::new(path, &text);
     let tree = source.tree()?;
     read(&mut Table::root(&source, &tree)).map_err(|error| source.located(tree.get_ref(), error))
 }

@@ -1,6 +1,6 @@
 //! `[[formula]]`: formulas as they were derived, and the channels that they claim.
 
-use super::parameters::{self, INPUTS, Parameter, fault_of_name};
+use super::parameters::{INPUTS, Parameter, fault_of_name};
 use super::printed::PrintedChannel;
 use super::reader::{Sign, Table};
 use super::unit;
@@ -225,13 +225,8 @@ pub fn refused(what: &str, text: &str, fault: &Fault) -> Error {
 }
 
 /// All formulas of a scenario.
-pub(super) fn read(
-    parameters: Option<Table>,
-    tables: Vec<Table>,
-    case: &Case,
-    (set, may_add): (&[(String, f64)], bool),
-) -> Result<Formulas> {
-    let mut formulas = Formulas::over(parameters::read(parameters, set, may_add)?);
+pub(super) fn read(parameters: Vec<Parameter>, tables: Vec<Table>, case: &Case) -> Result<Formulas> {
+    let mut formulas = Formulas::over(parameters);
     let all = case.all_channels();
     for mut table in tables {
         let name = table.string("name")?;

@@ -18,6 +18,7 @@ mod masses;
 mod motion;
 mod motor;
 pub mod oracle;
+mod parameter_table;
 mod parameters;
 mod printed;
 mod reader;
@@ -226,8 +227,14 @@ fn text_of(path: &Path) -> Result<String> {
 }
 
 fn parse(text: &str, path: &Path, asked: &Asked, lists: bool) -> Found {
-    let source = Source { path, text };
-    let tree = source.tree()?;
+    let plain = Source::new(path, text);
+    let tree = plain.tree()?;
+    let parameters = parameter_table::read(
+        Table::root(&plain, &tree).optional_table("parameters")?,
+        &asked.set,
+        asked.adds_parameters,
+    )?;
+    let source = Source { parameters, ..Source::new(path, text) };
     read(&mut Table::root(&source, &tree), asked, lists).map_err(|error| source.located(tree.get_ref(), error))?
 }
 
@@ -247,7 +254,9 @@ fn read(root: &mut Table, asked: &Asked, lists: bool) -> Result<Found> {
     let (mut start, grid, channels) = (root.table("start")?, root.table("grid")?, root.optional_table("channels")?);
     let (engine, tolerances) = (root.optional_table("engine")?, root.optional_table("tolerances")?);
     let (oracles, clearance) = (root.tables("oracle")?, root.optional_table("clearance")?);
-    let (parameters, formulas) = (root.optional_table("parameters")?, root.tables("formula")?);
+    let formulas = root.tables("formula")?;
+    // It was read before all others, which may use it.
+    root.optional_table("parameters")?;
     root.finish()?;
 
     let links = links::read(ground, links)?;
@@ -296,7 +305,11 @@ fn read(root: &mut Table, asked: &Asked, lists: bool) -> Result<Found> {
         Case::new(CaseParts { mechanism, structure, drives, loads, gravity, start, modes, grid, wanted, only: None })?;
     let case = settings::wanted(channels, case)?;
     let mut oracles = oracle::read(oracles, &case)?;
-    let mut formulas = self::formula::read(parameters, formulas, &case, (&asked.set, asked.adds_parameters))?;
+    let mut formulas = self::formula::read(root.source().parameters.clone(), formulas, &case)?;
+    if !asked.set.is_empty() {
+        // Published numbers belong to the file's own parameters.
+        oracles.clear();
+    }
     if !placed.is_own_branch {
         oracles.clear();
         formulas.list.iter_mut().for_each(|formula| formula.claim = None);

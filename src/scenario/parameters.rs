@@ -1,10 +1,8 @@
-//! `[parameters]`: numbers with names, for formulas.
+//! Parameters: numbers with names, for other numbers and for formulas.
 
-use super::reader::Table;
 use super::unit::{self, Unit};
 use super::words::suggestion;
-use formula::{Function, Rounded};
-use linkage::error::{Error, ErrorKind, Result};
+use formula::{Fault, Function, Graph, Program, Rounded, Tree};
 
 /// A number with a name.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,7 +15,7 @@ pub struct Parameter {
 }
 
 impl Parameter {
-    fn new(key: &str, given: f64) -> Self {
+    pub(super) fn new(key: &str, given: f64) -> Self {
         Parameter { key: key.into(), given, unit: unit::ending(key).map(|(_, unit)| unit) }
     }
 
@@ -38,6 +36,45 @@ impl Parameter {
     }
 }
 
+/// The number that `text` gives for a key: an arithmetic of numbers and parameters. Short names of parameters count in
+/// the key's unit where they measure the same quantity (`length_mm = "2 * a"`), else in SI.
+///
+/// # Errors
+/// What is wrong with the text, with its place.
+pub(super) fn arithmetic(text: &str, key: &str, parameters: &[Parameter]) -> std::result::Result<f64, Fault> {
+    let tree = Tree::parse(text)?;
+    let mut graph = Graph::new(&[], 0);
+    let wanted = unit::ending(key).map(|(_, unit)| unit);
+    for own in parameters {
+        for (name, number) in own.names() {
+            let is_short = own.short() == Some(name);
+            let of_key = wanted.filter(|wanted| is_short && own.unit.is_some_and(|unit| unit::alike(unit, wanted)));
+            // The number itself, where it is given in the key's unit.
+            let value = match of_key {
+                Some(unit) if Some(unit) == own.unit => own.given,
+                Some(unit) => number.value / unit.to_si(1.0),
+                None => number.value,
+            };
+            let id = graph.constant(Rounded::exact(value));
+            graph.name(name, id);
+        }
+    }
+    let id = graph.add(&tree).map_err(|fault| {
+        let name = &text[fault.at.clone()];
+        let help = match parameters.is_empty() {
+            true => "write a number, or give it a name in a section [parameters]".into(),
+            false => suggestion(name, graph.names(), "`"),
+        };
+        Fault { help, ..fault }
+    })?;
+    let value = Program::of(&graph, &[id]).run(&[])[0].value;
+    if value.is_finite() {
+        return Ok(value);
+    }
+    let help = "check the arguments of sqrt, ln, asin and acos, and what is divided by".to_string();
+    Err(Fault { message: format!("it gives {value}, which is no finite number"), at: 0..text.len(), help })
+}
+
 /// Names that stand for something else in every formula.
 pub const INPUTS: [&str; 2] = ["phi", "t"];
 
@@ -54,49 +91,4 @@ pub(super) fn fault_of_name(name: &str) -> Option<(String, &'static str)> {
         (true, true) => Some((format!("`{name}` has a meaning in every formula already"), "choose another name")),
         (true, false) => None,
     }
-}
-
-/// Reads the section, with the numbers that are `set` instead of the file's own. Keys that the file does not have are
-/// added where the caller allows it.
-pub(super) fn read(table: Option<Table>, set: &[(String, f64)], may_add: bool) -> Result<Vec<Parameter>> {
-    let mut parameters: Vec<Parameter> = Vec::new();
-    if let Some(mut table) = table {
-        for key in table.keys() {
-            let value = table.number(&key)?;
-            let fault = |(message, help): (String, &str)| table.wrong(ErrorKind::Input, &key, message).help(help);
-            let parameter = Parameter::new(&key, value);
-            let faulty = parameter.names().find_map(|(name, _)| fault_of_name(name));
-            if let Some(found) = faulty.or_else(|| twice(&parameters, &parameter)) {
-                return Err(fault(found));
-            }
-            parameters.push(parameter);
-        }
-        table.finish()?;
-    }
-    for (key, value) in set {
-        let wrong = |message: String| Error::new(ErrorKind::Input, message).key("--set");
-        let parameter = Parameter::new(key, *value);
-        if let Some((message, help)) = parameter.names().find_map(|(name, _)| fault_of_name(name)) {
-            return Err(wrong(message).help(help));
-        }
-        if let Some(own) = parameters.iter_mut().find(|own| own.key == *key) {
-            own.given = *value;
-        } else if !may_add {
-            let keys = parameters.iter().map(|own| own.key.as_str());
-            return Err(wrong(format!("the scenario has no parameter `{key}`")).help(suggestion(key, keys, "`")));
-        } else if let Some((message, _)) = twice(&parameters, &parameter) {
-            return Err(wrong(message).help("set the parameter with the unit that the file gives it"));
-        } else {
-            parameters.push(parameter);
-        }
-    }
-    Ok(parameters)
-}
-
-/// A name of a parameter that another has too.
-fn twice(others: &[Parameter], parameter: &Parameter) -> Option<(String, &'static str)> {
-    let is_other = |name: &str| others.iter().find(|other| other.names().any(|(own, _)| own == name));
-    let (name, other) = parameter.names().find_map(|(name, _)| Some((name, is_other(name)?)))?;
-    let message = format!("`{name}` would stand for `{}` and for `{}`", other.key, parameter.key);
-    Some((message, "keep one of the two, or call one otherwise"))
 }

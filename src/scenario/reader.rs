@@ -10,6 +10,7 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::parameters::{Parameter, arithmetic};
 use super::source::Source;
 use super::words::{choice, nearest};
 use formula::Fault;
@@ -102,11 +103,17 @@ impl<'a> Table<'a> {
 
     /// An error about a part of the text of `key`.
     pub fn fault_in(&self, key: &str, fault: &Fault) -> Error {
-        let error = self.wrong(ErrorKind::Input, key, fault.message.clone()).help(fault.help.clone());
-        let Some(entry) = self.entries.iter().find(|entry| entry.key == key) else { return error };
-        let (span, text) = (entry.value.span(), entry.value.get_ref().as_str().unwrap_or_default());
+        match self.entries.iter().find(|entry| entry.key == key) {
+            Some(entry) => self.fault_at(key, entry.value, fault),
+            None => self.wrong(ErrorKind::Input, key, fault.message.clone()).help(fault.help.clone()),
+        }
+    }
+
+    fn fault_at(&self, key: &str, value: &Spanned<DeValue>, fault: &Fault) -> Error {
+        let (span, text) = (value.span(), value.get_ref().as_str().unwrap_or_default());
+        let error = Error::new(ErrorKind::Input, fault.message.clone()).key(self.path_of(key)).help(fault.help.clone());
         // The text stands there as it is, unless it has escapes.
-        let Some(offset) = self.source.text[span.clone()].find(text) else { return error };
+        let Some(offset) = self.source.text[span.clone()].find(text) else { return error.at(self.source.place(span)) };
         let start = span.start + offset;
         // What is missing at the end is shown at the last sign.
         let (from, to) = (fault.at.start.min(text.len().saturating_sub(1)), fault.at.end);
@@ -124,7 +131,6 @@ impl<'a> Table<'a> {
             .at(self.source.place(value.span()));
         match (value.get_ref(), needed) {
             (_, "a finite number") => error.help("write a decimal number; nan and inf stand for no quantity"),
-            (DeValue::String(_), "a number") => error.help("write numbers without quotes and with a decimal point"),
             (DeValue::Integer(_) | DeValue::Float(_), "text") => error.help("put the text in \"quotes\""),
             (DeValue::Table(_), "an array of tables") => error.help(format!("write [[{}]]", self.path_of(key))),
             (DeValue::Array(_), "a table") => error.help(format!("write [{}]", self.path_of(key))),
@@ -204,6 +210,13 @@ impl<'a> Table<'a> {
     pub fn optional_number(&mut self, key: &str) -> Result<Option<f64>> {
         let value = self.take(key);
         value.map(|value| self.finite(key, value)).transpose()
+    }
+
+    /// Finite number, or an arithmetic of these parameters.
+    pub fn number_with(&mut self, key: &str, parameters: &[Parameter]) -> Result<f64> {
+        let value = self.take(key);
+        let value = self.required(key, value)?;
+        self.finite_with(key, value, parameters)
     }
 
     /// Finite number without a unit.
@@ -287,12 +300,19 @@ impl<'a> Table<'a> {
         }
     }
 
-    #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the TOML parser")]
     fn finite(&self, key: &str, value: &Spanned<DeValue>) -> Result<f64> {
+        self.finite_with(key, value, &self.source.parameters)
+    }
+
+    #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the TOML parser")]
+    fn finite_with(&self, key: &str, value: &Spanned<DeValue>, parameters: &[Parameter]) -> Result<f64> {
         let number = match value.get_ref() {
             DeValue::Float(float) => float.as_str().parse().ok(),
             DeValue::Integer(integer) => {
                 i128::from_str_radix(integer.as_str(), integer.radix()).ok().map(|number| number as f64)
+            }
+            DeValue::String(text) => {
+                return arithmetic(text, key, parameters).map_err(|fault| self.fault_at(key, value, &fault));
             }
             _ => None,
         };

@@ -8,6 +8,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::hostile;
+use super::parameters::Parameter;
 use linkage::error::{Error, ErrorKind, Place, Result};
 
 /// Text of a file and the path that messages use for it.
@@ -16,9 +17,16 @@ pub struct Source<'a> {
     pub path: &'a Path,
     /// Whole text.
     pub text: &'a str,
+    /// Parameters that its numbers may use.
+    pub parameters: Vec<Parameter>,
 }
 
 impl<'a> Source<'a> {
+    /// A file without parameters.
+    pub fn new(path: &'a Path, text: &'a str) -> Self {
+        Source { path, text, parameters: Vec::new() }
+    }
+
     /// Place of a byte range.
     pub fn place(&self, span: Range<usize>) -> Place {
         Place { file: self.path.to_path_buf(), text: self.text.to_string(), span }
@@ -92,7 +100,7 @@ mod tests {
 
     #[test]
     fn keys_are_found_in_the_file() {
-        let source = Source { path: Path::new("x.toml"), text: TEXT };
+        let source = Source::new(Path::new("x.toml"), TEXT);
         let tree = source.tree().unwrap();
         let line = |key: &str| source.place(locate(tree.get_ref(), key)).line();
         assert_eq!(line("links.rocker.points.B"), 2);

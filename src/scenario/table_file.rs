@@ -27,7 +27,7 @@ pub fn read(oracle: &mut Table, known: &Known, case: &Case) -> Result<(String, V
             .wrong(ErrorKind::Io, "file", format!("the table {} cannot be read: {error}", path.display()))
             .help("the path is relative to the scenario's directory")
     })?;
-    let source = Source { path: &path, text: &text };
+    let source = Source::new(&path, &text);
     let rows = Rows::read(&source).map_err(|error| error.key(oracle.path_of("file")))?;
 
     let from = instant::Rows::read(oracle)?;

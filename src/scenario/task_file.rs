@@ -38,7 +38,7 @@ impl TaskFile {
             Error::new(ErrorKind::Io, format!("the synthesis file {} cannot be read: {error}", path.display()))
                 .help("give the path of a synthesis file, such as scenarios/ov7_drives/sinker_task.toml")
         })?;
-        let source = Source { path, text: &text };
+        let source = Source::new(path, &text);
         let tree = source.tree()?;
         read(&mut Table::root(&source, &tree)).map_err(|error| source.located(tree.get_ref(), error))
     }

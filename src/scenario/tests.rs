@@ -165,7 +165,7 @@ fn units_change_nothing_but_the_text() {
 #[test]
 fn links_keep_the_order_of_the_file_when_their_points_come_first() {
     let text = "[links.b.points]\n[links.a]\n[links.b]\n[links.c]\n";
-    let source = Source { path: Path::new("x.toml"), text };
+    let source = Source::new(Path::new("x.toml"), text);
     let tree = source.tree().unwrap();
     let links = Table::root(&source, &tree).table("links").unwrap().all_tables().unwrap();
     let names: Vec<&str> = links.iter().map(Table::name).collect();

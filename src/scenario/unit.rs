@@ -113,6 +113,13 @@ pub fn ending(key: &str) -> Option<(&'static Family, &'static Unit)> {
     all.filter(|(_, unit)| ends(unit)).rev().max_by_key(|(_, unit)| unit.suffix.len())
 }
 
+/// Whether two units measure one quantity.
+#[must_use]
+pub fn alike(one: &Unit, other: &Unit) -> bool {
+    let has = |family: &Family, unit: &Unit| family.units.iter().any(|own| own.suffix == unit.suffix);
+    ALL.iter().any(|family| has(family, one) && has(family, other))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

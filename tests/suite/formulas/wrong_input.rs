@@ -89,7 +89,7 @@ fn what_is_wrong_in_a_file_is_shown_there() {
         (format!("[[formula]]\nname = \"x\"\nexpression = \"phi\"\nerror = 0\n{claim}"), ["positive", "exact"]),
         ("[parameters]\nsin = 3".into(), ["has a meaning", "another name"]),
         ("[parameters]\na_mm = 3\na = 4".into(), ["stand for", "keep one"]),
-        ("[parameters]\na_mm = \"3\"".into(), ["number", "quotes"]),
+        ("[parameters]\na_mm = \"x\"".into(), ["no `x`", "number"]),
         ("[parameters]\na_mm = 3\n[[formula]]\nname = \"a\"\nexpression = \"1\"".into(), ["already", "another name"]),
     ] {
         with(&place, &formulas);

@@ -5,6 +5,9 @@ use super::watch::CLEAR;
 use crate::assur::groups::{Clearance, Misfit, OutOfReach, SINGULAR};
 use linkage::math::KeepNan;
 
+/// Halvings of an interval that leave nothing of it but rounding.
+const BISECTIONS: usize = 64;
+
 impl PoseSolver<'_> {
     /// The step to the pose that has just been found, where the kept bounds do not prove that it passes no change point.
     #[cold]
@@ -95,7 +98,10 @@ impl PoseSolver<'_> {
                 return Ok(());
             }
         }
-        while (high - low).abs() > 8.0 * f64::EPSILON * high.abs().larger(1.0) {
+        for _ in 0..BISECTIONS {
+            if (high - low).abs() <= 8.0 * f64::EPSILON * high.abs().larger(1.0) {
+                return Ok(());
+            }
             let reach = before.rate.abs().larger(after.rate.abs()) * (high - low).abs();
             if before.sine.smaller(after.sine) > CLEAR * reach {
                 return Ok(());

@@ -1,0 +1,51 @@
+//! `[parameters]`: parameters as a file gives them.
+
+use super::parameters::{Parameter, fault_of_name};
+use super::reader::Table;
+use super::words::suggestion;
+use linkage::error::{Error, ErrorKind, Result};
+
+/// Reads the section, with the numbers that are `set` instead of the file's own. Keys that the file does not have are
+/// added where the caller allows it.
+pub(super) fn read(table: Option<Table>, set: &[(String, f64)], may_add: bool) -> Result<Vec<Parameter>> {
+    let mut parameters: Vec<Parameter> = Vec::new();
+    if let Some(mut table) = table {
+        for key in table.keys() {
+            let value = table.number_with(&key, &parameters)?;
+            let fault = |(message, help): (String, &str)| table.wrong(ErrorKind::Input, &key, message).help(help);
+            let parameter = Parameter::new(&key, value);
+            let faulty = parameter.names().find_map(|(name, _)| fault_of_name(name));
+            if let Some(found) = faulty.or_else(|| twice(&parameters, &parameter)) {
+                return Err(fault(found));
+            }
+            parameters.push(parameter);
+        }
+        table.finish()?;
+    }
+    for (key, value) in set {
+        let wrong = |message: String| Error::new(ErrorKind::Input, message).key("--set");
+        let parameter = Parameter::new(key, *value);
+        if let Some((message, help)) = parameter.names().find_map(|(name, _)| fault_of_name(name)) {
+            return Err(wrong(message).help(help));
+        }
+        if let Some(own) = parameters.iter_mut().find(|own| own.key == *key) {
+            own.given = *value;
+        } else if !may_add {
+            let keys = parameters.iter().map(|own| own.key.as_str());
+            return Err(wrong(format!("the scenario has no parameter `{key}`")).help(suggestion(key, keys, "`")));
+        } else if let Some((message, _)) = twice(&parameters, &parameter) {
+            return Err(wrong(message).help("set the parameter with the unit that the file gives it"));
+        } else {
+            parameters.push(parameter);
+        }
+    }
+    Ok(parameters)
+}
+
+/// A name of a parameter that another has too.
+fn twice(others: &[Parameter], parameter: &Parameter) -> Option<(String, &'static str)> {
+    let is_other = |name: &str| others.iter().find(|other| other.names().any(|(own, _)| own == name));
+    let (name, other) = parameter.names().find_map(|(name, _)| Some((name, is_other(name)?)))?;
+    let message = format!("`{name}` would stand for `{}` and for `{}`", other.key, parameter.key);
+    Some((message, "keep one of the two, or call one otherwise"))
+}
