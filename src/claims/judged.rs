@@ -116,7 +116,9 @@ impl Judged {
             let at = At { time, crank, formula: found.value, mechanism: mechanism.value, difference, bound };
             // What the mechanism itself is hardly known better is not the formula's loss.
             let has_lost = !(found.error <= TELLING * scale) && !(found.error <= NO_WORSE * mechanism.error);
-            if has_lost && at.used() <= 1.0 {
+            // Where a function ends, as acos at 1, its derivative has no number though the value is right.
+            let is_end = order > 0 && !found.value.is_finite();
+            if is_end || has_lost && at.used() <= 1.0 {
                 own.lost += 1;
                 continue;
             }

@@ -78,20 +78,27 @@ pub fn text(scenario: &Scenario, claimed: &Claimed, tell: Tell) -> String {
         ]);
     }
     let _ = writeln!(text, "\n{table}");
-    for line in lines.iter().filter(|line| line.rank().0 > 0) {
+    let has_wrong_value =
+        |name: &str| lines.iter().any(|line| line.judged.order == 0 && line.judged.name == name && line.rank().0 == 2);
+    // The derivatives of a wrong value say nothing more.
+    let told = |line: &&Line| line.rank().0 > 0 && (line.judged.order == 0 || !has_wrong_value(&line.judged.name));
+    for line in lines.iter().filter(told) {
         let _ = writeln!(text, "\n{}", reason(line, tell));
-        if let (0, Some(cause)) = (line.judged.order, cause(claimed, &line.judged.name)) {
-            match cause {
-                Some(cause) => {
-                    let _ = writeln!(text, "  cause  {cause}.\n         With that, nothing is left over.");
-                }
-                None => {
-                    let _ = writeln!(
-                        text,
-                        "  cause  none that is simple: no single slip, offset, factor or term explains it."
-                    );
-                }
+        if line.judged.order > 0 {
+            continue;
+        }
+        match cause(claimed, &line.judged.name) {
+            Some(Some(found @ Cause::Leaves { .. })) => {
+                let _ = writeln!(text, "  cause  {found}.");
             }
+            Some(Some(found)) => {
+                let _ = writeln!(text, "  cause  {found}.\n         With that, nothing is left over.");
+            }
+            Some(None) => {
+                let _ =
+                    writeln!(text, "  cause  none that is simple: no single slip, offset, factor or term explains it.");
+            }
+            None => {}
         }
     }
     for check in &claimed.checks {

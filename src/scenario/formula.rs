@@ -89,7 +89,7 @@ impl Claim {
                 let near = nearest(name, known.iter().map(String::as_str));
                 let help = match near {
                     Some(near) => format!("did you mean `{near}`?"),
-                    None => "`linkproof list --channels` lists what there is, such as link.rocker.angle_deg".into(),
+                    None => "name one of this scenario, such as link.rocker.angle_deg or point.B.x_mm".into(),
                 };
                 return Err(Fault { message: format!("there is no channel {name} here"), at, help });
             };

@@ -23,7 +23,7 @@ pub(super) fn read(table: Option<Table>, set: &[(String, f64)], may_add: bool) -
         table.finish()?;
     }
     for (key, value) in set {
-        let wrong = |message: String| Error::new(ErrorKind::Input, message).key("--set");
+        let wrong = |message: String| Error::new(ErrorKind::Input, message).key("parameters");
         let parameter = Parameter::new(key, *value);
         if let Some((message, help)) = parameter.names().find_map(|(name, _)| fault_of_name(name)) {
             return Err(wrong(message).help(help));

@@ -75,22 +75,45 @@ impl Rounded {
     pub fn call(function: Function, arguments: [Self; 2]) -> Self {
         let [x, other] = arguments;
         match function {
-            Function::Sin => Rounded::of(x.value.sin(), swing(x, x.value.cos()), WHOLE),
-            Function::Cos => Rounded::of(x.value.cos(), swing(x, x.value.sin()), WHOLE),
-            Function::Tan => {
-                // Between two poles the tangent grows.
-                let pole = x.value.cos().abs() <= x.error.min(1.0);
-                if pole {
-                    Rounded { value: x.value.tan(), error: f64::INFINITY }
-                } else {
-                    growing(f64::tan, x, [f64::NEG_INFINITY, f64::INFINITY])
-                }
+            Function::Sin => {
+                let (sine, cosine) = x.value.sin_cos();
+                Rounded::of(sine, swing(x, cosine), WHOLE)
             }
-            Function::Asin => growing(f64::asin, x, [-1.0, 1.0]),
-            Function::Acos => growing(f64::acos, x, [-1.0, 1.0]),
-            Function::Atan => growing(f64::atan, x, [f64::NEG_INFINITY, f64::INFINITY]),
+            Function::Cos => {
+                let (sine, cosine) = x.value.sin_cos();
+                Rounded::of(cosine, swing(x, sine), WHOLE)
+            }
+            Function::Tan => {
+                let value = x.value.tan();
+                // The slope at the end that is nearer to a pole.
+                let steepest = value.abs() + x.error * (1.0 + value * value) * 2.0;
+                let is_near = !(x.error * (1.0 + value.abs()) < 0.1);
+                let error = if is_near { f64::INFINITY } else { x.error * (1.0 + steepest * steepest) };
+                Rounded::of(value, error, WHOLE)
+            }
+            Function::Asin | Function::Acos => {
+                let of = |value: f64| if function == Function::Asin { value.asin() } else { value.acos() };
+                let end = x.value.abs() + x.error;
+                if end < 1.0 {
+                    // The steepest slope is at the end that is nearer to the end of the domain.
+                    return Rounded::of(of(x.value), x.error / ((1.0 - end) * (1.0 + end)).sqrt(), WHOLE);
+                }
+                growing(of, x, [-1.0, 1.0])
+            }
+            Function::Atan => {
+                let near = (x.value.abs() - x.error).max(0.0);
+                Rounded::of(x.value.atan(), x.error / (1.0 + near * near), WHOLE)
+            }
+            Function::Sqrt if x.value > x.error => {
+                let root = x.value.sqrt();
+                Rounded::of(root, x.error / (root + (x.value - x.error).sqrt()), HALF)
+            }
             Function::Sqrt => growing(f64::sqrt, x, [0.0, f64::INFINITY]),
-            Function::Exp => growing(f64::exp, x, [f64::NEG_INFINITY, f64::INFINITY]),
+            Function::Exp => {
+                let value = x.value.exp();
+                Rounded::of(value, value * x.error.exp_m1(), WHOLE)
+            }
+            Function::Ln if x.value > x.error => Rounded::of(x.value.ln(), x.error / (x.value - x.error), WHOLE),
             Function::Ln => growing(f64::ln, x, [0.0, f64::INFINITY]),
             Function::Abs => Rounded { value: x.value.abs(), error: x.error },
             Function::Sign => {
@@ -132,34 +155,36 @@ fn growing(function: impl Fn(f64) -> f64, x: Rounded, domain: [f64; 2]) -> Round
 }
 
 fn power(a: Rounded, b: Rounded) -> Rounded {
-    let value = match b.value {
-        2.0 => a.value * a.value,
-        whole if whole.fract() == 0.0 && whole.abs() <= 64.0 && b.error == 0.0 => a.value.powi(whole as i32),
-        other => {
-            // A base below zero by less than its error stands for zero.
-            let base = if a.value < 0.0 && a.value + a.error >= 0.0 { 0.0 } else { a.value };
-            base.powf(other)
-        }
-    };
-    // Products of many factors round at every one.
-    let rounding = WHOLE * (1.0 + b.value.abs().min(64.0));
-    let is_whole = b.value.fract() == 0.0 && b.error == 0.0;
+    let is_whole = b.error == 0.0 && b.value.fract() == 0.0 && b.value.abs() <= 64.0;
+    if is_whole {
+        let power = b.value as i32;
+        // Products of many factors round at every one.
+        let rounding = WHOLE * (1.0 + b.value.abs());
+        // The steepest slope is where the base is largest, or for a negative power where it is smallest.
+        let end = if power >= 0 { a.value.abs() + a.error } else { a.value.abs() - a.error };
+        let slope = if power < 0 && !(end > 0.0) { f64::INFINITY } else { b.value.abs() * end.powi(power - 1) };
+        return match power {
+            2 => Rounded::of(a.value * a.value, a.error * (2.0 * a.value.abs() + a.error), HALF),
+            _ if a.error == 0.0 || power == 0 => Rounded::of(a.value.powi(power), 0.0, rounding),
+            _ => Rounded::of(a.value.powi(power), slope * a.error, rounding),
+        };
+    }
+    // A base below zero by less than its error stands for zero.
+    let base = if a.value < 0.0 && a.value + a.error >= 0.0 { 0.0 } else { a.value };
+    let value = base.powf(b.value);
     if a.error == 0.0 && b.error == 0.0 {
-        return Rounded::of(value, 0.0, rounding);
+        return Rounded::of(value, 0.0, 4.0 * WHOLE);
     }
-    let at = |base: f64, exponent: f64| if is_whole { base.powf(exponent) } else { base.max(0.0).powf(exponent) };
-    let ends = [a.value - a.error, a.value + a.error];
-    let exponents = [b.value - b.error, b.value + b.error];
-    let corners = ends.iter().flat_map(|&base| exponents.map(|exponent| (at(base, exponent) - value).abs()));
+    // It grows or falls with the base, and with the exponent: the largest change is at a corner.
     let mut error = 0.0;
-    for corner in corners {
-        if !(corner <= error) {
-            error = corner;
+    for base in [a.value - a.error, a.value + a.error] {
+        for exponent in [b.value - b.error, b.value + b.error] {
+            let corner = (base.max(0.0).powf(exponent) - value).abs();
+            // A NaN stays one.
+            if !(corner <= error) {
+                error = corner;
+            }
         }
     }
-    // An even power has its extreme at zero; a negative one has a pole there.
-    if ends[0] < 0.0 && ends[1] > 0.0 {
-        error = if b.value < 0.0 { f64::INFINITY } else { error.max(value.abs()) };
-    }
-    Rounded::of(value, error, rounding)
+    Rounded::of(value, error, 4.0 * WHOLE)
 }

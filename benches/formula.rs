@@ -1,0 +1,73 @@
+//! What judging formulas costs over solving the poses, by value and with both derivatives, over 3600 poses of a turn.
+//! Ratios only, taken in one run: `cargo bench --bench formula`.
+
+use std::hint::black_box;
+use std::path::Path;
+use std::time::Instant;
+
+use analytic::{AssurSolver, NewtonSolver};
+use linkage::case::Grid;
+use linkage::solver::Solver;
+use linkage::trajectory::Trajectory;
+use linkproof::claims::{Course, judge, needed};
+use linkproof::scenario::{Scenario, files_in};
+
+/// Timings, of which the shortest counts: other activity of the machine only adds time.
+const REPEATS: usize = 15;
+/// Instants of a turn.
+const INSTANTS: usize = 3600;
+
+fn shortest(mut run: impl FnMut()) -> f64 {
+    let time = |run: &mut dyn FnMut()| {
+        let since = Instant::now();
+        run();
+        since.elapsed().as_secs_f64()
+    };
+    (0..REPEATS).map(|_| time(&mut run)).fold(f64::INFINITY, f64::min)
+}
+
+fn main() {
+    println!("time of judging one formula on both sides over that of solving its poses on both; {INSTANTS} instants\n");
+    println!("{:28} {:>8} {:>10} {:>10}", "", "formulas", "mean", "largest");
+    for path in files_in(&Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/formulas")).unwrap() {
+        let scenario = Scenario::load(&path).unwrap_or_else(|error| panic!("{error}"));
+        let crank = scenario.case.crank();
+        if scenario.case.is_free() || crank.constant_speed().is_none() {
+            continue;
+        }
+        let turn = std::f64::consts::TAU * crank.sense();
+        let grid = |first: f64| {
+            Grid::of_cranks(crank, (0..INSTANTS).map(|k| first + turn * k as f64 / INSTANTS as f64).collect())
+        };
+        // Only those that turn fully are followed over a turn.
+        let Ok(whole) = scenario.case.on(grid(crank.start)) else { continue };
+        let mut ratios = Vec::new();
+        for (formula, claim) in scenario.formulas.claims() {
+            let asked = needed(claim, &whole);
+            let Ok(case) = whole.wanting_only(&asked).scene().map(|scene| scene.case) else { continue };
+            let (Ok(first), Ok(second)) = (AssurSolver.solve(&case), NewtonSolver.solve(&case)) else { continue };
+            let solving = shortest(|| {
+                let _ = black_box((AssurSolver.solve(black_box(&case)), NewtonSolver.solve(black_box(&case))));
+            });
+            let mut alone = scenario.formulas.clone();
+            for own in &mut alone.list {
+                own.claim = own.claim.take().filter(|_| own.name == formula.name);
+            }
+            let error = |_: usize, _: usize| 1e-12;
+            let on = |trajectory: &Trajectory| {
+                let _ = black_box(judge(black_box(&alone), &Course::new(&case, trajectory, &error)));
+            };
+            let judging = shortest(|| {
+                on(&first);
+                on(&second);
+            });
+            ratios.push(judging / solving);
+        }
+        if ratios.is_empty() {
+            continue;
+        }
+        let mean = ratios.iter().sum::<f64>() / ratios.len() as f64;
+        let largest = ratios.iter().copied().fold(0.0, f64::max);
+        println!("{:28} {:>8} {:>10.2} {:>10.2}", scenario.name, ratios.len(), mean, largest);
+    }
+}
