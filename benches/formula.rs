@@ -7,6 +7,7 @@ use std::time::Instant;
 
 use analytic::{AssurSolver, NewtonSolver};
 use linkage::case::Grid;
+use linkage::math::KeepNan;
 use linkage::solver::Solver;
 use linkage::trajectory::Trajectory;
 use linkproof::claims::{Course, judge, needed};
@@ -23,7 +24,7 @@ fn shortest(mut run: impl FnMut()) -> f64 {
         run();
         since.elapsed().as_secs_f64()
     };
-    (0..REPEATS).map(|_| time(&mut run)).fold(f64::INFINITY, f64::min)
+    (0..REPEATS).map(|_| time(&mut run)).fold(f64::INFINITY, f64::smaller)
 }
 
 fn main() {
@@ -67,7 +68,7 @@ fn main() {
             continue;
         }
         let mean = ratios.iter().sum::<f64>() / ratios.len() as f64;
-        let largest = ratios.iter().copied().fold(0.0, f64::max);
+        let largest = ratios.iter().copied().fold(0.0, f64::larger);
         println!("{:28} {:>8} {:>10.2} {:>10.2}", scenario.name, ratios.len(), mean, largest);
     }
 }

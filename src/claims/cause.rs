@@ -103,8 +103,11 @@ fn find(formulas: &Formulas, formula: &Formula, claim: &Claim, course: &Course) 
     Ok(left_over(formula, claim, &pairs))
 }
 
+/// A term's text, and its value at a crank angle (rad) and time (s).
+type Term = (&'static str, fn(f64, f64) -> f64);
+
 /// Terms that a derivation loses.
-const TERMS: [(&str, fn(f64, f64) -> f64); 6] = [
+const TERMS: [Term; 6] = [
     ("cos(phi)", |phi, _| phi.cos()),
     ("sin(phi)", |phi, _| phi.sin()),
     ("cos(2*phi)", |phi, _| (2.0 * phi).cos()),

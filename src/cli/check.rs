@@ -74,9 +74,8 @@ pub(super) fn check(args: &Args) -> u8 {
     let answer = || -> Result<u8> {
         let scenario = asked(args)?;
         let found = claimed::judge(&scenario)?;
-        match &args.json {
-            Some(to) => output::write(&report::json(&scenario, &found, advice::told), to)?,
-            None => {}
+        if let Some(to) = &args.json {
+            output::write(&report::json(&scenario, &found, advice::told), to)?;
         }
         if args.json.as_deref() != Some(Path::new("-")) {
             output::print(&report::text(&scenario, &found, advice::told))?;

@@ -253,7 +253,8 @@ pub(super) fn read(parameters: Vec<Parameter>, tables: Vec<Table>, case: &Case) 
             return Err(table.wrong(ErrorKind::Input, "error", message).help("leave it out if the formula is exact"));
         }
         if claimed.is_none() {
-            for key in ["from_deg", "to_deg", "from_rad", "to_rad", "error"].into_iter().filter(|key| table.has(key)) {
+            let of_claim = ["from_deg", "to_deg", "from_rad", "to_rad", "error"];
+            if let Some(key) = of_claim.into_iter().find(|key| table.has(key)) {
                 let message = format!("`{key}` belongs to a claim, and this formula claims nothing");
                 return Err(table.wrong(ErrorKind::Input, key, message).help("add `channel`, or take it out"));
             }

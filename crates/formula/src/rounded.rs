@@ -101,7 +101,7 @@ impl Rounded {
                 growing(of, x, [-1.0, 1.0])
             }
             Function::Atan => {
-                let near = (x.value.abs() - x.error).max(0.0);
+                let near = not_below_zero(x.value.abs() - x.error);
                 Rounded::of(x.value.atan(), x.error / (1.0 + near * near), WHOLE)
             }
             Function::Sqrt if x.value > x.error => {
@@ -136,7 +136,13 @@ impl Rounded {
 
 /// Error of a sine or cosine with this `slope`.
 fn swing(x: Rounded, slope: f64) -> f64 {
-    (slope.abs() * x.error + x.error * x.error / 2.0).min(x.error).min(2.0)
+    let least = |bound: f64, other: f64| if other < bound { other } else { bound };
+    least(least(slope.abs() * x.error + x.error * x.error / 2.0, x.error), 2.0)
+}
+
+/// Zero for a number below it; NaN stays.
+fn not_below_zero(number: f64) -> f64 {
+    if number < 0.0 { 0.0 } else { number }
 }
 
 /// A function that grows, or falls, everywhere from `domain[0]` to `domain[1]`: its largest change is at one end of
@@ -179,7 +185,7 @@ fn power(a: Rounded, b: Rounded) -> Rounded {
     let mut error = 0.0;
     for base in [a.value - a.error, a.value + a.error] {
         for exponent in [b.value - b.error, b.value + b.error] {
-            let corner = (base.max(0.0).powf(exponent) - value).abs();
+            let corner = (not_below_zero(base).powf(exponent) - value).abs();
             // A NaN stays one.
             if !(corner <= error) {
                 error = corner;

@@ -1,4 +1,5 @@
 use formula::{Function, Operator, Program, Rounded, Shape, Tree};
+use linkage::math::KeepNan;
 use linkproof::claims::{Cause, Kind};
 use linkproof::scenario::{Formula, Scenario};
 
@@ -69,7 +70,7 @@ fn change(right: &Scenario, wrong: &Scenario, name: &str) -> f64 {
             .collect()
     };
     let (right, wrong) = (values(right), values(wrong));
-    let scale = right.iter().fold(0.0f64, |largest, value| largest.max(value.abs()));
+    let scale = right.iter().fold(0.0f64, |largest, value| largest.larger(value.abs()));
     let differences = right.iter().zip(&wrong).map(|(right, wrong)| (right - wrong).abs());
     let largest = differences.fold(0.0, |largest, own| if own <= largest { largest } else { own });
     if largest.is_nan() { f64::INFINITY } else { largest / scale }
