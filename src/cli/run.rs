@@ -15,7 +15,8 @@ use super::{advice, exit_code, output};
 use crate::compare::Verdict;
 use crate::proof::{EngineProof, Entry, Proof, memory, prove_with};
 use crate::record::{self as recorder, Recording, Side};
-use crate::report::{explain, json, recorded, residuals, text};
+use crate::report::outcomes::Outcomes;
+use crate::report::{explain, json, junit, markdown, recorded, residuals, text};
 use crate::scenario::Scenario;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::work::Work;
@@ -32,6 +33,8 @@ Examples:
   linkproof run scenarios/crank_rocker.toml --no-record --start-crank-deg 90 --crank-deg 90:450:2   another start and grid
   linkproof run scenarios/crank_rocker_runup.toml --no-record --times 0,0.01,0.05,0.1   only these instants
   linkproof run scenarios/*.toml --no-record --json out.json   no recording, results for a script
+  linkproof run scenarios/*.toml --no-record --junit out.xml --markdown out.md   for reports of tests, and a comment
+  linkproof run mine.toml --set a_mm=30                        another number for a parameter of the file
   linkproof run scenarios/ov7_base.toml --no-record --only point.9.positions --explain   one point, and what that takes
 
 Exit codes: 0 all agree, 1 something disagrees, 2 bad input or usage, 3 nothing proven either way.";
@@ -75,11 +78,19 @@ pub(super) struct Args {
     /// Write the results as JSON to a file, or to standard output instead of the report with `-`
     #[arg(long, value_name = "FILE", value_parser = output::target)]
     json: Option<PathBuf>,
+    /// Write the results as JUnit to a file, for whatever reads reports of tests: a suite for each scenario, a case for
+    /// each channel and check
+    #[arg(long, value_name = "FILE", value_parser = output::target)]
+    junit: Option<PathBuf>,
+    /// Write the results as Markdown to a file, for a comment to a pull request; `-` for standard output after the report
+    #[arg(long, value_name = "FILE", value_parser = output::target)]
+    markdown: Option<PathBuf>,
 }
 
 /// Proves every file. A bad file does not stop the others from being proven.
 pub(super) fn run(args: &Args) -> u8 {
     let mut document = json::Document::told_by(advice::told);
+    let mut outcomes = Outcomes::told_by(advice::told);
     let mut worst = exit_code::AGREE;
     let quiet = args.json.as_deref() == Some(Path::new("-"));
     let mut written = BTreeMap::new();
@@ -87,6 +98,7 @@ pub(super) fn run(args: &Args) -> u8 {
         let mut failed = |error: &Error| {
             output::show(error);
             document.add_failure(&file.display().to_string(), error);
+            outcomes.add_failure(&file.display().to_string(), error);
             worst = exit_code::BAD_INPUT;
         };
         let (scenario, proof) = match prove_file(args, file, quiet) {
@@ -107,13 +119,22 @@ pub(super) fn run(args: &Args) -> u8 {
             output::show(error);
             worst = exit_code::BAD_INPUT;
         }
+        outcomes.add(&proof);
         document.add(&proof, recording.map(|path| path.display().to_string()));
     }
-    if let Some(to) = &args.json
-        && let Err(error) = output::write(&document.text(), to)
-    {
-        output::show(&error);
-        worst = exit_code::BAD_INPUT;
+    type Text<'a> = &'a dyn Fn() -> String;
+    let targets: [(&Option<PathBuf>, Text); 3] = [
+        (&args.json, &|| document.text()),
+        (&args.junit, &|| junit::xml(&outcomes)),
+        (&args.markdown, &|| markdown::text(&outcomes)),
+    ];
+    for (to, text) in targets {
+        if let Some(to) = to
+            && let Err(error) = output::write(&text(), to)
+        {
+            output::show(&error);
+            worst = exit_code::BAD_INPUT;
+        }
     }
     worst
 }
@@ -203,6 +224,10 @@ fn write_recording(scenario: &Scenario, proof: &Proof, args: &Args, path: &Path)
     // The scenario text in the recording does not contain what is asked for on the command line.
     if !args.start.mode.is_empty() {
         metadata.insert("modes".into(), args.start.mode.join(" "));
+    }
+    if !args.start.set.is_empty() {
+        let set: Vec<String> = args.start.set.iter().map(|(key, value)| format!("{key}={value}")).collect();
+        metadata.insert("parameters".into(), set.join(" "));
     }
     metadata.extend(args.start.start_crank_deg.map(|degrees| ("start_crank_deg".into(), degrees.to_string())));
     metadata.extend(args.grid.told().map(|(name, values)| (format!("grid_{name}"), values.to_string())));

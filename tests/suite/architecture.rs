@@ -24,7 +24,7 @@ const CRATES: &[(&str, &str, &str, &str)] = &[
         "linkproof",
         "",
         "analytic formula linkage precise rapier-twin simbody-twin workshop",
-        "annotate-snippets chacha20 clap comfy-table csv foxglove indicatif mcap plotters prost prost-types serde serde_json strsim tempfile toml toml_edit",
+        "annotate-snippets chacha20 clap comfy-table csv foxglove indicatif mcap plotters prost prost-types quick-junit serde serde_json strsim tempfile toml toml_edit",
     ),
 ];
 

@@ -11,6 +11,7 @@ mod modes;
 mod mutate;
 mod plan;
 mod range;
+mod reports;
 mod run;
 mod solve;
 mod starts;

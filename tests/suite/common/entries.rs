@@ -6,6 +6,7 @@ use std::io::Cursor;
 use std::path::Path;
 
 use arbitrary::{Result, Unstructured};
+use formula::{Graph, Program, Rounded, Tree};
 use linkage::math::{Vec2, unit};
 use linkage::mechanism::{GROUND, Joint, JointKind, Link, Mechanism, Point, Side, Structure, is_unseen};
 use linkage::trajectory::CHANNELS;
@@ -42,6 +43,28 @@ pub fn explains(error: &Error, text: &str) {
             || error.message().starts_with("the file holds no scenario")
             || error.message().starts_with("a key ");
         assert!(error.scenario_key().is_some_and(|key| !key.is_empty()) || is_whole, "no key: {shown}");
+    }
+}
+
+/// The text of a formula: it is read as it is written, differentiated twice and evaluated, or refused with its place.
+pub fn formula(text: &str) {
+    let tree = match Tree::parse(text) {
+        Ok(tree) => tree,
+        Err(fault) => {
+            assert!(!fault.message.is_empty() && !fault.help.is_empty());
+            assert!(fault.at.end <= text.len() && text.get(fault.at.clone()).is_some(), "{fault:?}");
+            return;
+        }
+    };
+    let written = tree.to_string();
+    assert_eq!(Tree::parse(&written).expect(&written).to_string(), written);
+    let mut graph = Graph::new(&["phi", "t"], 0);
+    let Ok(place) = graph.add(&tree) else { return };
+    let speed = graph.derivative(place, 0);
+    let acceleration = graph.derivative(speed, 0);
+    let mut program = Program::of(&graph, &[place, speed, acceleration]);
+    for value in program.run(&[Rounded::nearly(0.7), Rounded::nearly(0.1)]) {
+        assert!(!(value.error < 0.0), "{written}: {value:?}");
     }
 }
 

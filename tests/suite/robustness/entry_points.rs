@@ -18,6 +18,13 @@ proptest! {
     }
 
     #[test]
+    fn any_text_is_a_formula_or_a_fault_with_its_place(
+        text in "\\PC{0,60}|(sin|cos|sqrt|atan2|phi|t|pi|[-+*/^(), .0-9]){0,80}",
+    ) {
+        entries::formula(&text);
+    }
+
+    #[test]
     fn any_structure_is_refused_or_decomposes(bytes in prop::collection::vec(any::<u8>(), 0..1500)) {
         let _ = entries::structure(&bytes);
     }
@@ -41,12 +48,13 @@ fn damaged_texts_are_scenarios_or_errors_with_their_places() {
 fn what_fuzzing_has_found_stays_mended() {
     let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz/finds");
     let mut count = 0;
-    for target in ["scenario", "structure", "recording"] {
+    for target in ["scenario", "formula", "structure", "recording"] {
         let Ok(finds) = std::fs::read_dir(root.join(target)) else { continue };
         for find in finds {
             let bytes = std::fs::read(find.unwrap().path()).unwrap();
             match target {
                 "scenario" => drop(entries::scenario(&String::from_utf8_lossy(&bytes))),
+                "formula" => entries::formula(&String::from_utf8_lossy(&bytes)),
                 "structure" => drop(entries::structure(&bytes)),
                 _ => drop(entries::recording(&bytes)),
             }

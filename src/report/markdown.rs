@@ -1,0 +1,76 @@
+//! Outcomes as Markdown: the comment to a pull request. The verdict first, then what stands in its way.
+
+use std::fmt::Write;
+
+use super::outcomes::{Entry, Outcome, Outcomes};
+
+/// Reasons that are written out for one scenario; the others are counted.
+const REASONS: usize = 10;
+
+/// The outcomes as a document.
+#[must_use]
+pub fn text(outcomes: &Outcomes) -> String {
+    let entries = &outcomes.entries;
+    let count = |word: &str| entries.iter().filter(|entry| entry.verdict == word).count();
+    let [agree, disagree, open, error] = ["agree", "disagree", "inconclusive", "error"].map(count);
+    let parts = [(disagree, "disagree"), (error, "cannot be proven"), (open, "prove nothing"), (agree, "agree")];
+    let parts: Vec<String> =
+        parts.into_iter().filter(|(count, _)| *count > 0).map(|(count, word)| format!("{count} {word}")).collect();
+    let plural = if entries.len() == 1 { "" } else { "s" };
+    let mut text = format!("**linkproof**: {} scenario{plural}, {}\n\n", entries.len(), parts.join(", "));
+    text += "| scenario | verdict | agree | expected | disagree | open |\n|---|---|---|---|---|---|\n";
+    for entry in entries {
+        let of = |is: fn(&Outcome) -> bool| entry.cases.iter().filter(|case| is(&case.outcome)).count();
+        let _ = writeln!(
+            text,
+            "| {} | {} | {} | {} | {} | {} |",
+            cell(&entry.name),
+            if entry.verdict == "agree" { "agree".into() } else { format!("**{}**", entry.verdict) },
+            of(|outcome| *outcome == Outcome::Agrees),
+            of(|outcome| matches!(outcome, Outcome::Expected(_))),
+            of(|outcome| matches!(outcome, Outcome::Disagrees(_))),
+            of(|outcome| matches!(outcome, Outcome::Open(_))),
+        );
+    }
+    for entry in entries {
+        reasons(entry, &mut text);
+    }
+    text
+}
+
+/// What is wrong or open in a scenario, what disagrees first.
+fn reasons(entry: &Entry, text: &mut String) {
+    let wrong = entry.cases.iter().filter_map(|case| match &case.outcome {
+        Outcome::Disagrees(reason) => Some((case, reason)),
+        Outcome::Agrees | Outcome::Expected(_) | Outcome::Open(_) => None,
+    });
+    let open = entry.cases.iter().filter_map(|case| match &case.outcome {
+        Outcome::Open(reason) => Some((case, reason)),
+        Outcome::Agrees | Outcome::Expected(_) | Outcome::Disagrees(_) => None,
+    });
+    let all: Vec<_> = wrong.chain(open).collect();
+    if all.is_empty() && entry.error.is_none() {
+        return;
+    }
+    let title = if entry.title.is_empty() { String::new() } else { format!(": {}", line(&entry.title)) };
+    let _ = writeln!(text, "\n### {}{title}\n", line(&entry.name));
+    if let Some(error) = &entry.error {
+        let _ = writeln!(text, "- {}", line(error));
+    }
+    for (case, reason) in all.iter().take(REASONS) {
+        let _ = writeln!(text, "- `{}` ({}): {}", case.name, case.by, line(reason));
+    }
+    if all.len() > REASONS {
+        let _ = writeln!(text, "- ... and {} more", all.len() - REASONS);
+    }
+}
+
+/// Text in one line, without signs that would be taken for markup.
+fn line(text: &str) -> String {
+    let one: Vec<&str> = text.split_whitespace().collect();
+    one.join(" ").replace('<', "&lt;").replace('*', "\\*")
+}
+
+fn cell(text: &str) -> String {
+    line(text).replace('|', "\\|")
+}

@@ -1,0 +1,98 @@
+//! What came of several scenarios, in one list for test reports and comments.
+
+use super::own_forces;
+use super::tell::Tell;
+use crate::compare::Verdict;
+use crate::proof::Proof;
+use linkage::error::{Advice, Error};
+
+/// One channel or check.
+#[derive(Clone, Debug)]
+pub(super) struct Case {
+    /// What judged it: an engine, or the analytic sides.
+    pub(super) by: String,
+    pub(super) name: String,
+    pub(super) outcome: Outcome,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Outcome {
+    Agrees,
+    /// The published number is wrong, as a finding says.
+    Expected(String),
+    Disagrees(String),
+    /// Nothing is proven.
+    Open(String),
+}
+
+/// A scenario with its cases, or with the error that kept it from being proven.
+#[derive(Clone, Debug)]
+pub(super) struct Entry {
+    pub(super) name: String,
+    pub(super) title: String,
+    pub(super) verdict: &'static str,
+    pub(super) cases: Vec<Case>,
+    pub(super) error: Option<String>,
+}
+
+/// The outcomes of a command, scenario by scenario.
+#[derive(Clone, Debug)]
+pub struct Outcomes {
+    pub(super) entries: Vec<Entry>,
+    tell: Tell,
+}
+
+impl Outcomes {
+    /// None yet; `tell` words advice.
+    #[must_use]
+    pub fn told_by(tell: Tell) -> Self {
+        Outcomes { entries: Vec::new(), tell }
+    }
+
+    /// Adds a proof: every channel of every engine, and every check.
+    pub fn add(&mut self, proof: &Proof) {
+        let mut cases = Vec::new();
+        let tell = self.tell;
+        let mut add = |by: &str, name: String, verdict: &Verdict| {
+            let reason = || verdict.reason(|advice: &Advice| tell(advice)).unwrap_or_default();
+            let outcome = match verdict {
+                Verdict::Agree { .. } => Outcome::Agrees,
+                Verdict::Expected { .. } => Outcome::Expected(reason()),
+                Verdict::Disagree { .. } => Outcome::Disagrees(reason()),
+                Verdict::Inconclusive { .. } => Outcome::Open(reason()),
+            };
+            cases.push(Case { by: by.into(), name, outcome });
+        };
+        for check in &proof.checks {
+            add("analytic sides", check.name(), &check.verdict);
+        }
+        for engine in &proof.engines {
+            let by = engine.info.name;
+            for channel in &engine.channels {
+                add(by, channel.residual.channel.to_string(), &channel.verdict);
+            }
+            for channel in engine.own_forces.iter().flat_map(|own| &own.channels) {
+                // Forces of an engine's own that prove nothing take nothing from the verdict.
+                if !matches!(channel.verdict, Verdict::Inconclusive { .. }) {
+                    add(by, own_forces::name(channel), &channel.verdict);
+                }
+            }
+            for check in &engine.checks {
+                add(by, check.name(), &check.verdict);
+            }
+        }
+        let failures = proof.engines.iter().filter_map(|engine| engine.failure.as_ref());
+        let error = failures.map(|error| error.message().to_string()).next();
+        let (name, title) = (proof.scenario.clone(), proof.title.clone());
+        self.entries.push(Entry { name, title, verdict: proof.verdict.word(), cases, error });
+    }
+
+    /// Adds a scenario that could not be proven.
+    pub fn add_failure(&mut self, scenario: &str, error: &Error) {
+        let place = error.place().map_or(String::new(), |place| format!("{}:{}: ", place.file.display(), place.line()));
+        let way_out = error.way_out_by(self.tell).map_or(String::new(), |help| format!("; {help}"));
+        let error = Some(format!("{place}{}{way_out}", error.message()));
+        let name = scenario.to_string();
+        self.entries.push(Entry { name, title: String::new(), verdict: "error", cases: Vec::new(), error });
+    }
+}
