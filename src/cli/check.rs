@@ -15,9 +15,9 @@ use linkage::error::{Error, ErrorKind, Result};
 
 const EXAMPLES: &str = "\
 Examples:
-  linkproof check scenarios/formulas/slider_crank.toml                   every [[formula]] of a file
+  linkproof check scenarios/formulas/slider_crank_centric.toml           every [[formula]] of a file
   linkproof check scenarios/crank_rocker.toml 'phi*180/pi' --channel link.crank.angle_deg
-  linkproof check scenarios/scotch_yoke.toml 'r*cos(phi)' --set r_mm=50 --channel point.A.x_m
+  linkproof check scenarios/scotch_yoke.toml 'r*cos(phi)' --set r_mm=80 --channel point.A.x_m
   linkproof check mine.toml 'atan2(u, v)' --let 'u=a*sin(phi)' --let 'v=d - a*cos(phi)' --set a_mm=30 --set d_mm=80 \\
       --channel link.guide.angle_rad
   linkproof check mine.toml 'r*w^2*(cos(phi) + r/l*cos(2*phi))' --set r=0.05 --set l=0.2 --set w_rpm=300 \\
