@@ -4,9 +4,8 @@ use std::path::{Path, PathBuf};
 
 use super::grid::GridArgs;
 use super::load::StartArgs;
-use super::run::graver;
+use super::run::exit_code_of;
 use super::{advice, exit_code, output};
-use crate::compare::Verdict;
 use crate::proof::claimed;
 use crate::report::check as report;
 use crate::scenario::formula::refused;
@@ -80,15 +79,11 @@ pub(super) fn check(args: &Args) -> u8 {
         if args.json.as_deref() != Some(Path::new("-")) {
             output::print(&report::text(&scenario, &found, advice::told))?;
         }
-        Ok(match found.verdict {
-            Verdict::Agree { .. } | Verdict::Expected { .. } => exit_code::AGREE,
-            Verdict::Disagree { .. } => exit_code::DISAGREE,
-            Verdict::Inconclusive { .. } => exit_code::INCONCLUSIVE,
-        })
+        Ok(exit_code_of(&found.verdict))
     };
     answer().unwrap_or_else(|error| {
         output::show(&error);
-        graver(exit_code::AGREE, exit_code::BAD_INPUT)
+        exit_code::BAD_INPUT
     })
 }
 

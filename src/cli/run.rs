@@ -113,7 +113,7 @@ pub(super) fn run(args: &Args) -> u8 {
             failed(&error);
             None
         });
-        worst = graver(worst, exit_code(&proof.verdict));
+        worst = graver(worst, exit_code_of(&proof.verdict));
         // With several engines, the report states the failure of one. With a single engine, its failure is the outcome.
         if let [EngineProof { failure: Some(error), .. }] = proof.engines.as_slice() {
             output::show(error);
@@ -249,7 +249,8 @@ fn write_recording(scenario: &Scenario, proof: &Proof, args: &Args, path: &Path)
     recorder::write(&recording, path)
 }
 
-fn exit_code(verdict: &Verdict) -> u8 {
+/// The exit code of a verdict.
+pub(super) fn exit_code_of(verdict: &Verdict) -> u8 {
     match verdict {
         Verdict::Agree { .. } | Verdict::Expected { .. } => exit_code::AGREE,
         Verdict::Disagree { .. } => exit_code::DISAGREE,

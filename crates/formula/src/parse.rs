@@ -96,17 +96,24 @@ fn whole(input: &mut Input<'_>) -> Read<Tree> {
         None => Ok(found),
         Some(')') => refused("there is no `(` before this `)`", at..at + 1, "take it out, or open it"),
         Some('=') => refused("a formula has no `=`", at..at + 1, "write the right side only"),
-        Some(',') => refused(
+        Some(other) => no_operator(other, at),
+    }
+}
+
+/// A sign where an operator or the end of a part could stand.
+fn no_operator<T>(sign: char, at: usize) -> Read<T> {
+    match sign {
+        ',' => refused(
             "a comma stands between arguments of atan2 only",
             at..at + 1,
             "write numbers with a decimal point, such as 0.5",
         ),
-        Some(first) if first.is_ascii_alphanumeric() || first == '(' || first == '_' => refused(
+        first if first.is_ascii_alphanumeric() || first == '(' || first == '_' => refused(
             format!("an operator is missing before `{first}`"),
             at..at + first.len_utf8(),
             "write a product with `*`, such as 2*phi",
         ),
-        Some(other) => unknown_sign(other, at),
+        other => unknown_sign(other, at),
     }
 }
 
@@ -231,17 +238,7 @@ fn closed(input: &mut Input<'_>, start: usize) -> Read<()> {
             Ok(())
         }
         None => refused("this `(` is not closed", start..start + 1, "add `)`"),
-        Some(',') => refused(
-            "a comma stands between arguments of atan2 only",
-            at..at + 1,
-            "write numbers with a decimal point, such as 0.5",
-        ),
-        Some(first) if first.is_ascii_alphanumeric() || first == '(' || first == '_' => refused(
-            format!("an operator is missing before `{first}`"),
-            at..at + first.len_utf8(),
-            "write a product with `*`, such as 2*phi",
-        ),
-        Some(other) => unknown_sign(other, at),
+        Some(other) => no_operator(other, at),
     }
 }
 
