@@ -18,18 +18,18 @@ pub struct Judge<'a> {
 }
 
 impl<'a> Judge<'a> {
-    /// Prepares the judgement of a formula by what a `course` has.
+    /// Prepares the judgement of a formula by what a `course` has. Derivatives are added to `formulas`, where those of
+    /// other formulas find what they share.
     ///
     /// # Errors
     /// If the course lacks a channel of the claim.
-    pub fn new(formulas: &Formulas, formula: &'a Formula, claim: &'a Claim, course: &Course) -> Result<Self> {
+    pub fn new(formulas: &mut Formulas, formula: &'a Formula, claim: &'a Claim, course: &Course) -> Result<Self> {
         // Neither an approximation nor a number for one instant says anything about derivatives.
         let is_instant = formula.valid[0].is_some() && formula.valid[0] == formula.valid[1];
         let orders = if formula.error.is_some() || is_instant { 0 } else { course.orders(claim)? };
         if orders == 0 {
             return Ok(Judge::of_values(formulas, formula, claim));
         }
-        let mut formulas = formulas.clone();
         let mut own = vec![formula.id];
         let (mut graph, node) = graph_of(claim);
         let count = claim.channels.len();
@@ -99,6 +99,7 @@ fn graph_of(claim: &Claim) -> (Graph, Id) {
 /// # Errors
 /// None but those of a course that changes between two calls.
 pub fn judge(formulas: &Formulas, course: &Course) -> Result<Vec<Vec<Judged>>> {
+    let mut derived = formulas.clone();
     let known = formulas.claims().filter(|(_, claim)| course.orders(claim).is_ok());
-    known.map(|(formula, claim)| Judge::new(formulas, formula, claim, course)?.by(course)).collect()
+    known.map(|(formula, claim)| Judge::new(&mut derived, formula, claim, course)?.by(course)).collect()
 }
