@@ -73,9 +73,13 @@ pub mod specimens;
 #[doc(hidden)]
 pub mod stress;
 #[doc(hidden)]
+pub mod tables;
+#[doc(hidden)]
 pub mod tolerance;
 #[doc(hidden)]
 pub mod tune;
+#[doc(hidden)]
+pub mod versus;
 
 #[doc(inline)]
 pub use compare::Verdict;

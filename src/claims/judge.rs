@@ -87,7 +87,7 @@ impl<'a> Judge<'a> {
 }
 
 /// A claim over its channels, their rates, and the rates of those.
-fn graph_of(claim: &Claim) -> (Graph, Id) {
+pub(super) fn graph_of(claim: &Claim) -> (Graph, Id) {
     let names: Vec<&str> = claim.channels.iter().map(|(name, _)| name.as_str()).collect();
     let mut graph = Graph::new(&names, 2 * names.len());
     let node = graph.add(&claim.tree).expect("a claim knows its channels");

@@ -8,6 +8,7 @@ mod course;
 mod judge;
 mod judged;
 mod slips;
+mod values;
 
 pub use cause::{Cause, cause};
 pub use course::{Course, needed};

@@ -8,7 +8,7 @@ use linkage::case::{Case, Grid};
 use linkage::error::{Error, ErrorKind, Result};
 
 /// The instants of a command, instead of the scenario's grid.
-#[derive(Clone, Debug, clap::Args)]
+#[derive(Clone, Debug, Default, clap::Args)]
 #[group(skip)]
 pub(super) struct GridArgs {
     /// Crank angles in degrees, measured as in the scenario, instead of its grid: ranges and single values, separated

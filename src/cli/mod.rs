@@ -5,6 +5,7 @@ mod bearings;
 mod bench;
 mod check;
 mod clearance;
+mod compare;
 mod diagram;
 mod drive;
 mod engine_args;
@@ -36,6 +37,7 @@ Examples:
   linkproof list                                        what scenarios there are
   linkproof run scenarios/crank_rocker.toml             prove one, record it to recordings/
   linkproof run scenarios/*.toml --no-record --json -   prove all, as JSON
+  linkproof compare scenarios/crank_rocker.toml mine.csv --rel 1e-3   data of another program
   linkproof solve scenarios/ov7_base.toml --with assur --crank-deg 0:-360:-30
   linkproof tune scenarios/crank_rocker.toml --within 1e-3 --engine rapier --channel positions   the settings it takes
   linkproof mutate scenarios/crank_rocker.toml --no-sizes --kind load   does the proof see faults?
@@ -57,6 +59,8 @@ enum Command {
     Run(run::Args),
     /// Judge formulas over the whole motion, by value and by derivative, against both analytic sides
     Check(check::Args),
+    /// Hold a table, a recording or another scenario against a scenario, or two of them against each other
+    Compare(compare::Args),
     /// Solve a scenario with one solver and write the solution as CSV, one row per instant
     Solve(solve::Args),
     /// Find the cheapest settings of an engine that meet a wanted error, by measurement
@@ -96,6 +100,7 @@ pub fn main() -> ExitCode {
     let code = match cli.command {
         Command::Run(args) => run::run(&args),
         Command::Check(args) => check::check(&args),
+        Command::Compare(args) => compare::compare(&args),
         Command::Solve(args) => output::exit(solve::solve(&args)),
         Command::Tune(args) => output::exit(tune::run(&args)),
         Command::Stress(args) => stress::run(&args),

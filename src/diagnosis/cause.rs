@@ -41,6 +41,19 @@ pub enum Slip {
     PerRadian,
     /// The same amount added at every instant, in the channel's unit.
     Offset(f64),
+    /// The opposite sign, and the same amount added at every instant: counted the other way round, from another axis.
+    Mirrored(f64),
+    /// The values of another channel.
+    Instead(Channel),
+    /// Two channels with the values of each other.
+    Exchanged([Channel; 2]),
+    /// The first less the second of two other channels, and the same amount added at every instant.
+    Between {
+        /// The two.
+        of: [Channel; 2],
+        /// The amount, in the channel's unit.
+        offset: f64,
+    },
     /// Multiplied by the same number at every instant.
     Factor(f64),
     /// Values of another instant.

@@ -4,7 +4,7 @@ use super::alone::{Party, Standing, standing};
 use super::cause::Cause;
 use super::question::Question;
 use super::since::{Since, since};
-use super::{changes, slips};
+use super::{changes, others, slips};
 use linkage::trajectory::Channel;
 
 /// What can be said about a disagreement.
@@ -60,6 +60,7 @@ pub fn diagnose(question: &Question, parties: &[Party]) -> Option<Diagnosis> {
     }
     let (of_case, solved) = changes::found(question);
     let mut found = slips::found(question);
+    found.extend(others::found(question));
     found.extend(of_case);
     // The sort is stable: of equally simple causes the one that was tried first.
     found.sort_by_key(|one| (wrong.len() - one.explained.len(), one.rank));

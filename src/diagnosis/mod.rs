@@ -13,6 +13,7 @@ mod diagnose;
 mod knobs;
 mod late;
 mod numbers;
+mod others;
 mod question;
 mod since;
 mod slips;

@@ -35,11 +35,11 @@ const UNITS: &[(&[Unit], f64, &str)] = &[
 ];
 
 /// A disagreeing channel with its values.
-struct Wrong<'a> {
-    channel: &'a Channel,
-    right: &'a [f64],
-    found: &'a [f64],
-    bound: f64,
+pub(super) struct Wrong<'a> {
+    pub(super) channel: &'a Channel,
+    pub(super) right: &'a [f64],
+    pub(super) found: &'a [f64],
+    pub(super) bound: f64,
     /// Constant speed of the crank (rad/s), if it has one.
     speed: Option<f64>,
 }
@@ -70,7 +70,8 @@ pub(super) fn found(question: &Question) -> Vec<Found> {
     causes
 }
 
-fn wrong<'a>(question: &'a Question) -> Vec<Wrong<'a>> {
+/// The disagreeing channels.
+pub(super) fn wrong<'a>(question: &'a Question) -> Vec<Wrong<'a>> {
     let sizes = magnitudes(question.reference);
     let speed = question.case.crank().constant_speed().filter(|_| question.case.is_steady());
     let of = |judged: &'a Judged| {
@@ -100,7 +101,11 @@ fn fitted(wrong: &[Wrong]) -> Vec<Slip> {
     // Over one or two instants anything is an offset and a factor.
     if gaps.len() >= FEWEST {
         if same_unit {
-            slips.push(Slip::Offset(gaps.iter().sum::<f64>() / gaps.len() as f64));
+            let mean = |gaps: &[f64]| gaps.iter().sum::<f64>() / gaps.len() as f64;
+            slips.push(Slip::Offset(mean(&gaps)));
+            let negative: Vec<f64> = worst.right.iter().map(|value| -value).collect();
+            let mirrored = mean(&differences(&negative, worst.found, worst.channel.kind.periodic));
+            slips.extend((mirrored.abs() > worst.bound).then_some(Slip::Mirrored(mirrored)));
         }
         if squares > 0.0 {
             slips.push(Slip::Factor(products / squares));
@@ -113,11 +118,22 @@ fn fitted(wrong: &[Wrong]) -> Vec<Slip> {
 fn with_digits(slip: &Slip, digits: usize, angle: bool) -> Slip {
     match slip {
         Slip::Factor(factor) => Slip::Factor(significant(*factor, digits)),
-        Slip::Offset(by) if angle => Slip::Offset(significant(by.to_degrees(), digits).to_radians()),
-        Slip::Offset(by) => Slip::Offset(significant(*by, digits)),
+        Slip::Offset(by) => Slip::Offset(shortened(*by, digits, angle)),
+        Slip::Mirrored(by) => Slip::Mirrored(shortened(*by, digits, angle)),
+        Slip::Instead(_) | Slip::Exchanged(_) | Slip::Between { .. } => slip.clone(),
         Slip::Sign | Slip::Turns | Slip::Twice | Slip::Half | Slip::Zero => slip.clone(),
         Slip::Unit { .. } | Slip::PerRadian | Slip::Late { .. } => slip.clone(),
     }
+}
+
+/// A number with so many digits; angles in degrees.
+fn shortened(by: f64, digits: usize, angle: bool) -> f64 {
+    if angle { significant(by.to_degrees(), digits).to_radians() } else { significant(by, digits) }
+}
+
+/// A fitted number with as few digits as still do.
+pub(super) fn settled(by: f64, angle: bool, is_it: &dyn Fn(f64) -> bool) -> f64 {
+    (2..=9).map(|digits| shortened(by, digits, angle)).find(|by| is_it(*by)).unwrap_or(by)
 }
 
 /// Fewest instants from which a number is fitted.
@@ -134,6 +150,7 @@ impl Wrong<'_> {
             Slip::Zero => self.meets(|_| 0.0),
             Slip::Factor(factor) => self.meets(|value| factor * value),
             Slip::Offset(by) => self.meets(|value| value + by),
+            Slip::Mirrored(by) => self.meets(|value| by - value),
             Slip::Unit { factor, told } => {
                 UNITS.iter().any(|(units, _, own)| *own == told && units.contains(&unit))
                     && self.meets(|value| factor * value)
@@ -149,8 +166,8 @@ impl Wrong<'_> {
                 self.channel.kind.periodic
                     && gaps.iter().all(|gap| (gap - TAU * (gap / TAU).round()).abs() <= self.bound)
             }
-            // Needs the solution at other instants: see `late`.
-            Slip::Late { .. } => false,
+            // Need the solution at other instants, or of other channels: see `late` and `others`.
+            Slip::Late { .. } | Slip::Instead(_) | Slip::Exchanged(_) | Slip::Between { .. } => false,
         }
     }
 

@@ -163,7 +163,7 @@ impl Sides {
     }
 
     /// What one side found on a case, with how well it knows it.
-    fn on_course<T>(&self, case: &Case, side: usize, then: impl FnOnce(&Course) -> Result<T>) -> Result<T> {
+    pub(super) fn on_course<T>(&self, case: &Case, side: usize, then: impl FnOnce(&Course) -> Result<T>) -> Result<T> {
         let place = usize::from(self.order[0] != side);
         let trajectory = &self.observed[side].1.trajectory;
         let error = |column: usize, row: usize| {

@@ -30,6 +30,7 @@ mod room;
 mod runs;
 mod sensitivity;
 mod settle;
+pub mod solved;
 mod stall;
 
 pub use engines::EngineProof;

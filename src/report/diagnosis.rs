@@ -106,14 +106,19 @@ fn slip(slip: &Slip, channels: &[Channel]) -> String {
         Slip::Zero => format!("zero instead of {of}"),
         Slip::Unit { factor: _, told } => format!("another unit, {told}, in {of}"),
         Slip::PerRadian => format!("rates per radian of the crank instead of per second in {of}"),
-        Slip::Offset(by) => {
-            let by = if unit == "rad" {
-                format!("{} deg", number(by.to_degrees()))
-            } else {
-                format!("{} {unit}", number(*by))
-            };
-            format!("{by} added at every instant to {of}")
+        Slip::Offset(by) => format!("{} added at every instant to {of}", amount(*by, unit)),
+        Slip::Mirrored(by) => {
+            format!("{of} counted the other way round, from another axis: {} less the right value", amount(*by, unit))
         }
+        Slip::Instead(other) => format!("the values of {other} in place of {of}"),
+        Slip::Exchanged([one, other]) => format!("{one} and {other} exchanged"),
+        Slip::Between { of: [first, second], offset: 0.0 } => {
+            format!("{first} less {second} in place of {of}: counted from another link")
+        }
+        Slip::Between { of: [first, second], offset } => format!(
+            "{first} less {second} and {} more in place of {of}: counted from another link",
+            amount(*offset, unit)
+        ),
         Slip::Factor(factor) => format!("{} times the values of {of}", number(*factor)),
         Slip::Late { by, steps, stage } => {
             let what = stage.map_or("all channels".to_string(), |stage| stage.name().replace('_', " "));
@@ -122,6 +127,14 @@ fn slip(slip: &Slip, channels: &[Channel]) -> String {
             let steps = steps.map_or(String::new(), |steps| format!(", {} steps", number(steps.abs())));
             format!("{what} are {size} s{steps} too {how}")
         }
+    }
+}
+
+/// A fitted amount with its unit; angles in degrees.
+fn amount(by: f64, unit: &str) -> String {
+    match unit {
+        "rad" => format!("{} deg", number(by.to_degrees())),
+        unit => format!("{} {unit}", number(by)),
     }
 }
 

@@ -39,5 +39,6 @@ pub(crate) mod table_csv;
 mod tell;
 pub mod text;
 pub(crate) mod tune;
+pub(crate) mod versus;
 
 pub use tell::Tell;

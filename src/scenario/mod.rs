@@ -14,6 +14,7 @@ mod instant;
 mod joints;
 mod links;
 mod loads;
+pub mod mapping;
 mod masses;
 mod motion;
 mod motor;
@@ -32,14 +33,14 @@ pub mod task_file;
 #[cfg(test)]
 mod tests;
 pub mod unit;
-mod words;
+pub mod words;
 
 pub use self::formula::{Claim, Formula, Formulas};
 pub use asked::{Asked, Undecided};
 pub use figure::{Figure, FigureValue, OracleFigure};
 pub use oracle::{Oracle, OracleBasis};
 pub use parameters::Parameter;
-pub use printed::PrintedChannel;
+pub use printed::{Printed, PrintedChannel};
 pub use series::{ExpectedCell, OraclePoint, OracleSeries, When};
 pub use settings::EngineKeys;
 

@@ -42,6 +42,7 @@ fn refused<T>(message: impl Into<String>, at: Range<usize>, help: impl Into<Stri
 
 impl Tree {
     /// Reads a formula: numbers, names (they may contain dots), `+ - * / ^`, parentheses and calls of a [`Function`].
+    /// A name with other signs in it, such as a column's, stands between backquotes.
     /// `^` binds to the right, and closer than a minus before it: -x^2 is -(x^2), 2^3^2 is 2^9.
     ///
     /// # Errors
@@ -210,6 +211,7 @@ fn operand(input: &mut Input<'_>) -> Read<Tree> {
         Some('(') => parentheses(input, start),
         Some(first) if first.is_ascii_digit() || first == '.' => number(input, start),
         Some(first) if first.is_ascii_alphabetic() || first == '_' => name(input, start),
+        Some('`') => quoted(input, start),
         None => refused("the formula ends where a part is missing", start..start, "add a number, a name or a call"),
         // The minus before a part.
         Some('-' | '+') => none(),
@@ -297,6 +299,18 @@ fn name(input: &mut Input<'_>, start: usize) -> Read<Tree> {
         }
         None => Ok(Tree { shape: Shape::Name(name.into()), at }),
     }
+}
+
+/// A name between backquotes.
+fn quoted(input: &mut Input<'_>, start: usize) -> Read<Tree> {
+    let text: &str = input;
+    let Some(length) = text[1..].find('`').filter(|&length| length > 0) else {
+        return refused("this backquote opens no name", start..start + 1, "close it behind the name: `body 2.x`");
+    };
+    let name = text[1..=length].to_string();
+    let at = start..start + length + 2;
+    take(input, length + 2);
+    Ok(Tree { shape: Shape::Name(name), at })
 }
 
 fn call(input: &mut Input<'_>, function: Function, name: Range<usize>) -> Read<Tree> {

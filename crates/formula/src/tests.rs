@@ -263,3 +263,13 @@ fn what_was_added_meanwhile_is_forgotten() {
     assert_relative_eq!(found[0].value, 4.0 + 2f64.sin());
     assert_relative_eq!(found[1].value, 4.0 + 2f64.cos());
 }
+
+#[test]
+fn a_name_with_other_signs_stands_between_backquotes() {
+    let tree = Tree::parse("2*`body 2.x (m)` - a").unwrap();
+    assert_eq!(tree.names().iter().map(|(name, _)| *name).collect::<Vec<_>>(), ["body 2.x (m)", "a"]);
+    assert_eq!(tree.to_string(), "2*`body 2.x (m)` - a");
+    for open in ["`body", "2*`", "``"] {
+        assert!(Tree::parse(open).unwrap_err().help.starts_with("close it"), "{open}");
+    }
+}

@@ -122,7 +122,12 @@ impl fmt::Display for Tree {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.shape {
             Shape::Number(number) => write!(f, "{number}"),
-            Shape::Name(name) => write!(f, "{name}"),
+            Shape::Name(name)
+                if name.bytes().all(|byte| byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'.')) =>
+            {
+                write!(f, "{name}")
+            }
+            Shape::Name(name) => write!(f, "`{name}`"),
             Shape::Negative(part) => {
                 write!(f, "-")?;
                 part.write(f, NEGATION)

@@ -1,0 +1,176 @@
+//! `linkproof compare`.
+
+use std::path::{Path, PathBuf};
+
+use clap::ValueEnum;
+
+use super::grid::GridArgs;
+use super::load::StartArgs;
+use super::run::exit_code_of;
+use super::{advice, exit_code, output};
+use crate::record;
+use crate::report::versus as report;
+use crate::scenario::mapping::{Allowed, Mapped, Mapping, Size};
+use crate::tables::{Held, Raw};
+use crate::versus::{How, Party, compare as compared};
+use linkage::error::Result;
+
+const EXAMPLES: &str = "\
+Examples:
+  linkproof compare scenarios/crank_rocker.toml mine.csv            a table whose columns are named as channels
+  linkproof compare scenarios/crank_rocker.toml mine.csv --map 't=time_s' --map 'phi3*180/pi=link.rocker.angle_deg'
+  linkproof compare scenarios/crank_rocker.toml mine.csv --map mine.map.toml --rel 1e-3 --abs point.B.x_mm=0.01
+  linkproof compare scenarios/crank_rocker.toml recordings/crank_rocker.mcap --side reference
+  linkproof compare old.mcap new.mcap --rel 1e-9                    two recordings, side by side
+  linkproof compare one.csv other.parquet --interpolate --rel 1e-4  two tables at the instants of the second
+  linkproof compare scenarios/crank_rocker.toml mine.toml --json -  two models of one mechanism
+
+Each of A and B is a scenario (.toml), which is solved by both analytic sides at the instants of the other, a recording
+(.mcap), or a table: text with separated columns, or Parquet. A column named as a channel with its unit needs no
+mapping, nor do t_s, t, time (in s), time_ms, crank_deg and crank_rad. --map reads EXPR=CHANNEL: an arithmetic over
+columns, so that sign, factor, offset and unit are written as they are; a name with other signs stands in backquotes.
+Bounds are what digits, rounding and the analytic sides leave open, plus what --rel and --abs allow. docs/compare.md
+says more.
+
+Exit codes: 0 they agree, 1 they disagree, 2 bad input, 3 nothing proven.";
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Args {
+    /// Scenario, recording or table that B is held against
+    #[arg(value_name = "A")]
+    first: PathBuf,
+    /// Scenario, recording or table
+    #[arg(value_name = "B")]
+    second: PathBuf,
+    /// Columns of B, or of A if B is a scenario or a recording: EXPR=CHANNEL, or a mapping file (.toml); may be given
+    /// several times
+    #[arg(long, value_name = "EXPR=CHANNEL|FILE", allow_hyphen_values = true)]
+    map: Vec<String>,
+    /// Columns of A, if both are tables
+    #[arg(long, value_name = "EXPR=CHANNEL|FILE", allow_hyphen_values = true)]
+    map_a: Vec<String>,
+    /// Write what --map, --rel and --abs say to a mapping file
+    #[arg(long, value_name = "FILE")]
+    write_map: Option<PathBuf>,
+    /// Allow differences of this share of a channel's scale: for all channels, or for one channel, subject or stage
+    #[arg(long, value_name = "[CHANNEL=]SHARE", value_parser = share)]
+    rel: Vec<Allowed>,
+    /// Allow differences of this size, in the unit of the channel
+    #[arg(long, value_name = "CHANNEL=SIZE", value_parser = size)]
+    abs: Vec<Allowed>,
+    /// Compare these channels only: a channel, a subject (point.P) or a stage (positions); may be given several times
+    #[arg(long, value_name = "WORD")]
+    only: Vec<String>,
+    /// Bring rows together by time or by crank angle [default: by time, where both have times]
+    #[arg(long, value_name = "WHAT")]
+    by: Option<By>,
+    /// Interpolate the first of two tables between its rows, with what that may be wrong by in the bound
+    #[arg(long)]
+    interpolate: bool,
+    /// Side of the recordings that is compared, such as reference or engine [default: all]
+    #[arg(long, value_name = "NAME")]
+    side: Option<String>,
+    #[command(flatten)]
+    start: StartArgs,
+    /// Show every channel, not only those that use most of their bounds
+    #[arg(long, short)]
+    verbose: bool,
+    /// Write the comparison as JSON to a file, or to standard output instead of the text with `-`
+    #[arg(long, value_name = "FILE", value_parser = output::target)]
+    json: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum By {
+    Time,
+    Crank,
+}
+
+/// Reads `[CHANNEL=]SHARE`.
+fn share(text: &str) -> std::result::Result<Allowed, String> {
+    let (of, number) = text.rsplit_once('=').map_or((None, text), |(of, number)| (Some(of.trim().to_string()), number));
+    Ok(Allowed { of, size: Size::Relative(amount(number)?) })
+}
+
+/// Reads `CHANNEL=SIZE`.
+fn size(text: &str) -> std::result::Result<Allowed, String> {
+    let (of, number) =
+        text.rsplit_once('=').ok_or("expected CHANNEL=SIZE, such as point.B.x_mm=0.01: sizes have units")?;
+    Ok(Allowed { of: Some(of.trim().to_string()), size: Size::Absolute(amount(number)?) })
+}
+
+fn amount(text: &str) -> std::result::Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(number) if number.is_finite() && number >= 0.0 => Ok(number),
+        _ => Err(format!("\"{text}\" is not zero or more; expected a number such as 1e-3")),
+    }
+}
+
+/// Compares, reports, and says how it ended.
+pub(super) fn compare(args: &Args) -> u8 {
+    let answer = || -> Result<u8> {
+        let mut mapping = mapping(&args.map, "--map")?;
+        mapping.allowed.extend(args.rel.iter().chain(&args.abs).cloned());
+        let first_mapping = mapping_of_first(args, &mapping)?;
+        let second = party(args, &args.second, &mapping)?;
+        let first = party(args, &args.first, &first_mapping)?;
+        if let Some(to) = &args.write_map {
+            output::write(&mapping.text(), to)?;
+        }
+        let how = How {
+            allowed: mapping.allowed,
+            by_crank: args.by.map(|by| matches!(by, By::Crank)),
+            interpolates: args.interpolate,
+            side: args.side.clone(),
+            only: args.only.clone(),
+        };
+        let paths = [args.first.as_path(), args.second.as_path()];
+        let found = compared([first, second], paths, &how)?;
+        if let Some(to) = &args.json {
+            output::write(&report::json(paths, &found, advice::told), to)?;
+        }
+        if args.json.as_deref() != Some(Path::new("-")) {
+            output::print(&report::text(paths, &found, args.verbose, advice::told))?;
+        }
+        Ok(exit_code_of(&found.verdict))
+    };
+    answer().unwrap_or_else(|error| {
+        output::show(&error);
+        exit_code::BAD_INPUT
+    })
+}
+
+/// Whether a path names a table: neither a scenario nor a recording.
+fn is_table(path: &Path) -> bool {
+    !path.extension().is_some_and(|ending| ending == "toml" || ending == "mcap")
+}
+
+/// The mapping for the first party: its own, or that of the command where only the first is a table.
+fn mapping_of_first(args: &Args, mapping: &Mapping) -> Result<Mapping> {
+    match args.map_a.is_empty() && !is_table(&args.second) {
+        true => Ok(mapping.clone()),
+        false => self::mapping(&args.map_a, "--map-a"),
+    }
+}
+
+/// What lines and files of a mapping say.
+fn mapping(lines: &[String], option: &str) -> Result<Mapping> {
+    let mut mapping = Mapping::default();
+    for line in lines {
+        match line.ends_with(".toml") && !line.contains('=') {
+            true => mapping.extend(Mapping::load(Path::new(line))?),
+            false => mapping.push(Mapped::parse(line, option)?),
+        }
+    }
+    Ok(mapping)
+}
+
+fn party(args: &Args, path: &Path, mapping: &Mapping) -> Result<Party> {
+    let ending = path.extension().and_then(|ending| ending.to_str());
+    Ok(match ending {
+        Some("toml") => Party::Scenario(Box::new(args.start.load(path, &GridArgs::default())?)),
+        Some("mcap") => Party::Recording(record::read(path)?),
+        Some(_) | None => Party::Table(Box::new(Held::of_table(&Raw::read(path)?, mapping)?)),
+    })
+}

@@ -1,0 +1,81 @@
+//! Values of other channels: exchanged columns, a neighbour's values, the difference of two angles.
+
+use super::cause::{Cause, Slip};
+use super::question::{Found, Question, Rank};
+use super::slips::{Wrong, settled, wrong};
+use crate::compare::differences;
+use linkage::math::statistics::half_range;
+use linkage::trajectory::{Channel, Unit};
+
+/// How many times its bound a channel must vary before its values are known by their course.
+const TELLING: f64 = 1e3;
+
+/// Every channel with the values of others: of one, or of two that changed places, or the difference of two.
+pub(super) fn found(question: &Question) -> Vec<Found> {
+    let wrong = wrong(question);
+    let mut causes = Vec::new();
+    let mut put = |slip: Slip, rank: Rank, explained: Vec<Channel>| {
+        let cause = Cause::Values { slip, channels: explained.clone() };
+        causes.push(Found { cause, rank, explained });
+    };
+    for (index, one) in wrong.iter().enumerate() {
+        let is_exchanged = |other: &&Wrong| one.has_values_of(other.right) && other.has_values_of(one.right);
+        if let Some(other) = wrong[index + 1..].iter().find(is_exchanged) {
+            let both = [one.channel.clone(), other.channel.clone()];
+            put(Slip::Exchanged(both.clone()), Rank::Slip, both.to_vec());
+            continue;
+        }
+        let others = || question.reference.iter().filter(|(channel, _)| alike(channel, one.channel));
+        let own = vec![one.channel.clone()];
+        if let Some((channel, _)) = others().find(|(_, values)| one.has_values_of(values)) {
+            put(Slip::Instead(channel.clone()), Rank::Change, own);
+            continue;
+        }
+        if one.channel.kind.unit == Unit::Radian || one.channel.kind.unit == Unit::RadianPerSecond {
+            let pairs = question.reference.iter().filter(|(channel, _)| channel.kind == one.channel.kind);
+            let all: Vec<(&Channel, &[f64])> = pairs.collect();
+            if let Some(slip) = between(one, &all) {
+                let is_plain = matches!(slip, Slip::Between { offset: 0.0, .. });
+                put(slip, if is_plain { Rank::Change } else { Rank::Fitted }, own);
+            }
+        }
+    }
+    causes
+}
+
+fn alike(one: &Channel, other: &Channel) -> bool {
+    one != other && one.kind.unit == other.kind.unit && one.kind.stage == other.kind.stage
+}
+
+/// The difference of two links' angles, up to where it is counted from; or of their angular velocities.
+fn between(one: &Wrong, all: &[(&Channel, &[f64])]) -> Option<Slip> {
+    if !one.varies(one.found) {
+        return None;
+    }
+    for (first, minuend) in all {
+        for (second, subtrahend) in all.iter().filter(|(second, _)| second != first) {
+            let difference: Vec<f64> = minuend.iter().zip(*subtrahend).map(|(a, b)| a - b).collect();
+            let gaps = differences(&difference, one.found, one.channel.kind.periodic);
+            let mean = gaps.iter().sum::<f64>() / gaps.len() as f64;
+            let offset = if mean.abs() <= one.bound { 0.0 } else { mean };
+            let is_it = |offset: f64| gaps.iter().all(|gap| (gap - offset).abs() <= one.bound);
+            if is_it(offset) && (offset == 0.0 || one.channel.kind.unit == Unit::Radian) {
+                let offset = if offset == 0.0 { 0.0 } else { settled(offset, true, &is_it) };
+                return Some(Slip::Between { of: [(*first).clone(), (*second).clone()], offset });
+            }
+        }
+    }
+    None
+}
+
+impl Wrong<'_> {
+    /// Whether its values are those, which say something by their course.
+    fn has_values_of(&self, others: &[f64]) -> bool {
+        self.varies(others)
+            && differences(others, self.found, self.channel.kind.periodic).iter().all(|gap| gap.abs() <= self.bound)
+    }
+
+    fn varies(&self, values: &[f64]) -> bool {
+        half_range(values) > TELLING * self.bound
+    }
+}

@@ -1,0 +1,264 @@
+//! What a table says of a mechanism: claims of channels, at instants.
+
+use super::Raw;
+use crate::scenario::mapping::{INSTANTS, Mapped, Mapping};
+use crate::scenario::words::{choice, nearest};
+use crate::scenario::{Claim, PrintedChannel};
+use formula::{Fault, Graph, Program, Rounded, Shape, Tree};
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::KeepNan;
+use linkage::math::statistics::ascending;
+use linkage::trajectory::{Channel, Trajectory};
+
+/// Where the rows of a party hold; one of the two is always there.
+#[derive(Clone, Debug, Default)]
+pub struct Instants {
+    /// Times (s).
+    pub times: Option<Vec<Rounded>>,
+    /// Crank angles (rad, as the scenario states them).
+    pub cranks: Option<Vec<Rounded>>,
+}
+
+/// The instants by which rows are brought together.
+#[derive(Clone, Debug)]
+pub struct At {
+    /// Times (s), or crank angles (rad).
+    pub values: Vec<Rounded>,
+    /// Whether they are crank angles.
+    pub is_crank: bool,
+}
+
+impl At {
+    /// Rows in ascending order of their instants.
+    #[must_use]
+    pub fn ascending(&self) -> Vec<usize> {
+        ascending(&self.values.iter().map(|at| at.value).collect::<Vec<f64>>())
+    }
+
+    /// Exact where steps are equal: such instants were chosen, and only others have lost digits.
+    fn settled(values: Vec<Rounded>) -> Vec<Rounded> {
+        let steps = values.windows(2).map(|pair| pair[1].value - pair[0].value);
+        let first = values.get(1).map_or(0.0, |second| second.value - values[0].value);
+        let size = values.iter().map(|at| at.value.abs()).fold(0.0, f64::larger);
+        let slack = 8.0 * f64::EPSILON * size + 1e-9 * first.abs();
+        match steps.into_iter().all(|step| (step - first).abs() <= slack) {
+            true => values.into_iter().map(|at| Rounded::exact(at.value)).collect(),
+            false => values,
+        }
+    }
+}
+
+/// What a party says of a channel, or of an arithmetic of channels.
+#[derive(Clone, Debug)]
+pub struct Column {
+    /// The channel in its unit.
+    pub claim: Claim,
+    /// Its numbers by rows, in the unit of the claim; NaN where there is none.
+    pub values: Vec<Rounded>,
+    /// The line of the mapping that says so; `None` where the table's own header does.
+    pub mapped: Option<Mapped>,
+}
+
+/// All that a party holds.
+#[derive(Clone, Debug, Default)]
+pub struct Held {
+    /// Where its rows hold.
+    pub at: Instants,
+    /// What it holds there.
+    pub columns: Vec<Column>,
+    /// Whether an analytic side has found it, so that its errors are known.
+    pub is_analytic: bool,
+    /// Columns of a table that say nothing of a channel.
+    pub unused: Vec<String>,
+}
+
+/// Names for the time in seconds that need no mapping besides those of [`INSTANTS`].
+const TIMES: [&str; 3] = ["t_s", "t", "time"];
+
+impl Held {
+    /// What a table says by a mapping. A column that has the name of a channel, unit included, needs none.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Input`] for a column or channel that is not known, with its place, and if nothing says where the
+    /// rows hold or what they mean.
+    pub fn of_table(raw: &Raw, mapping: &Mapping) -> Result<Held> {
+        let mut reader = Reader::of(raw);
+        let mut at = Instants::default();
+        let own: Vec<Mapped> = if mapping.at.is_empty() { instants_of(raw) } else { Vec::new() };
+        for mapped in mapping.at.iter().chain(&own) {
+            let (factor, is_crank) =
+                mapped.instant().ok_or_else(|| mapped.wrong("this is no instant", "map a time"))?;
+            let values: Vec<Rounded> = reader.column(mapped)?.into_iter().map(|own| scaled(own, factor)).collect();
+            if let Some(row) = values.iter().position(|own| !own.value.is_finite()) {
+                let message = format!("row {} of the table holds at no instant", row + 1);
+                return Err(mapped.wrong(&message, "take the row out, or complete it"));
+            }
+            *(if is_crank { &mut at.cranks } else { &mut at.times }) = Some(At::settled(values));
+        }
+        if at.times.is_none() && at.cranks.is_none() {
+            let names = choice(raw.names.iter().map(String::as_str), "`");
+            let message = format!("nothing says where the rows of the table hold; its columns are {names}");
+            let help = "map a column to time_s, time_ms, crank_deg or crank_rad, such as time=time_s";
+            return Err(Error::new(ErrorKind::Input, message).help(help));
+        }
+        let is_mapped = |name: &str| mapping.channels.iter().any(|mapped| mapped.name == name);
+        let channels = raw.names.iter().filter(|name| PrintedChannel::named(name).is_some() && !is_mapped(name));
+        let own: Vec<Mapped> = channels.map(|name| Mapped::same(name, name)).collect();
+        let mut columns = Vec::new();
+        for mapped in &mapping.channels {
+            let claim = claim_of(&mapped.name).map_err(|fault| mapped.wrong(&fault.message, &fault.help))?;
+            columns.push(Column { claim, values: reader.column(mapped)?, mapped: Some(mapped.clone()) });
+        }
+        for mapped in &own {
+            let claim = claim_of(&mapped.name).map_err(|fault| mapped.wrong(&fault.message, &fault.help))?;
+            columns.push(Column { claim, values: reader.column(mapped)?, mapped: None });
+        }
+        if columns.is_empty() {
+            let names = choice(raw.names.iter().map(String::as_str), "`");
+            let message = format!("no column of the table is a channel; they are {names}");
+            let help = "map columns to channels, such as phi3*180/pi=link.rocker.angle_deg";
+            return Err(Error::new(ErrorKind::Input, message).help(help));
+        }
+        let is_used = |name: &&String| reader.used.contains(name);
+        let unused = raw.names.iter().filter(|name| !is_used(name)).cloned().collect();
+        Ok(Held { at, columns, is_analytic: false, unused })
+    }
+
+    /// What a trajectory holds.
+    #[must_use]
+    pub fn of_trajectory(trajectory: &Trajectory, is_analytic: bool) -> Held {
+        let exact = |values: &[f64]| -> Vec<Rounded> { values.iter().map(|&value| Rounded::nearly(value)).collect() };
+        let times = Some(trajectory.times().iter().map(|&time| Rounded::exact(time)).collect());
+        let cranks = Some(trajectory.cranks().iter().map(|&crank| Rounded::exact(crank)).collect());
+        let column = |(channel, values): (&Channel, &[f64])| {
+            let name = channel.to_string();
+            let claim = Claim::parse(&name, std::slice::from_ref(channel)).ok()?;
+            Some(Column { claim, values: exact(values), mapped: None })
+        };
+        let columns = trajectory.iter().filter_map(column).collect();
+        Held { at: Instants { times, cranks }, columns, is_analytic, unused: Vec::new() }
+    }
+
+    /// The instants of its rows: crank angles or times as asked for, else times where it has some.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Input`] if it lacks what is asked for.
+    pub fn at(&self, by_crank: Option<bool>) -> Result<At> {
+        let Instants { times, cranks } = &self.at;
+        let is_crank = by_crank.unwrap_or(times.is_none());
+        let found = if is_crank { cranks } else { times };
+        let [lacks, has] = if is_crank { ["crank angles", "times"] } else { ["times", "crank angles"] };
+        let values = found.clone().ok_or_else(|| {
+            Error::new(ErrorKind::Input, format!("the rows of a table have {has}, and no {lacks}"))
+                .help(format!("compare by {has}, or map a column to {lacks}"))
+        })?;
+        Ok(At { values, is_crank })
+    }
+
+    /// Number of rows.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.at.times.as_ref().or(self.at.cranks.as_ref()).map_or(0, Vec::len)
+    }
+
+    /// Whether there is no row.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Its numbers for a claim, in the claim's unit: under the same text, or the same channel in another unit.
+    #[must_use]
+    pub fn values_of(&self, claim: &Claim) -> Option<Vec<Rounded>> {
+        if let Some(own) = self.columns.iter().find(|own| own.claim.text == claim.text) {
+            return Some(own.values.clone());
+        }
+        let wanted = single(claim)?;
+        let is_same = |own: &PrintedChannel| own.channel == wanted.channel && own.magnitude == wanted.magnitude;
+        let (own, column) =
+            self.columns.iter().find_map(|own| Some((single(&own.claim).filter(|own| is_same(own))?, own)))?;
+        let factor = own.to_si(1.0) / wanted.to_si(1.0);
+        Some(column.values.iter().map(|&value| scaled(value, factor)).collect())
+    }
+}
+
+/// The channel of a claim that is no arithmetic.
+fn single(claim: &Claim) -> Option<&PrintedChannel> {
+    matches!(claim.tree.shape, Shape::Name(_)).then(|| &claim.channels[0].1)
+}
+
+/// The columns that say by their names where the rows hold.
+fn instants_of(raw: &Raw) -> Vec<Mapped> {
+    let seconds = TIMES.into_iter().find(|name| raw.names.iter().any(|own| own == name));
+    let named = INSTANTS.iter().map(|(name, ..)| *name).filter(|name| raw.names.iter().any(|own| own == name));
+    named.map(|name| Mapped::same(name, name)).chain(seconds.map(|name| Mapped::same("time_s", name))).collect()
+}
+
+/// A claim of any channels that there are.
+///
+/// # Errors
+/// What cannot be read, or is no channel.
+fn claim_of(text: &str) -> std::result::Result<Claim, Fault> {
+    let known = |name: &str| PrintedChannel::named(name).map(|own| own.channel);
+    let all: Vec<Channel> = match known(text) {
+        Some(channel) => vec![channel],
+        None => Tree::parse(text)?.names().iter().filter_map(|(name, _)| known(name)).collect(),
+    };
+    Claim::parse(text, &all)
+}
+
+fn scaled(number: Rounded, factor: f64) -> Rounded {
+    match factor {
+        1.0 => number,
+        _ => Rounded::pair(formula::Operator::Times, number, Rounded::nearly(factor)),
+    }
+}
+
+/// Evaluates arithmetics over the columns of a table.
+struct Reader<'a> {
+    raw: &'a Raw,
+    graph: Graph,
+    used: Vec<String>,
+}
+
+impl<'a> Reader<'a> {
+    fn of(raw: &'a Raw) -> Self {
+        let names: Vec<&str> = raw.names.iter().map(String::as_str).collect();
+        Reader { raw, graph: Graph::new(&names, 0), used: Vec::new() }
+    }
+
+    fn column(&mut self, mapped: &Mapped) -> Result<Vec<Rounded>> {
+        let text = mapped.text.as_str();
+        let is_whole = self.raw.names.iter().any(|name| name == text);
+        let tree = match is_whole {
+            true => Ok(Tree { shape: Shape::Name(text.into()), at: 0..text.len() }),
+            false => Tree::parse(text),
+        };
+        let tree = tree.map_err(|fault| mapped.refused(&fault))?;
+        let node = self.graph.add(&tree).map_err(|fault| mapped.refused(&self.named_better(text, fault)))?;
+        self.used.extend(tree.names().iter().map(|(name, _)| (*name).to_string()));
+        let mut program = Program::of(&self.graph, &[node]);
+        let mut inputs = vec![Rounded::exact(0.0); self.raw.columns.len()];
+        let mut row = |row: usize| {
+            for (input, column) in inputs.iter_mut().zip(&self.raw.columns) {
+                *input = column[row];
+            }
+            program.run(&inputs)[0]
+        };
+        Ok((0..self.raw.len()).map(&mut row).collect())
+    }
+
+    /// A fault about a name that is not known, with the columns that are.
+    fn named_better(&self, text: &str, fault: Fault) -> Fault {
+        let name = text[fault.at.clone()].trim_matches('`');
+        let message = format!("the table has no column `{name}`");
+        let help = match nearest(name, self.raw.names.iter().map(String::as_str)) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => {
+                let names = choice(self.raw.names.iter().map(String::as_str), "`");
+                format!("its columns are {names}; backquotes hold a name with blanks or signs")
+            }
+        };
+        Fault { message, help, ..fault }
+    }
+}

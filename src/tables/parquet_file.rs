@@ -1,0 +1,83 @@
+//! Parquet files, as pandas and polars write them.
+
+use std::fmt::Display;
+use std::fs::File;
+use std::io::Read;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+
+use parquet::errors::ParquetError;
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::record::Field;
+
+use super::Raw;
+use formula::Rounded;
+use linkage::error::{Error, ErrorKind, Result};
+
+/// What a Parquet file begins with.
+const MAGIC: &[u8; 4] = b"PAR1";
+/// Largest number of values that is read.
+const MOST: i64 = 1 << 26;
+
+/// Whether a file is one of this format.
+pub(super) fn is_one(path: &Path) -> bool {
+    let mut first = [0; MAGIC.len()];
+    File::open(path).and_then(|mut file| file.read_exact(&mut first)).is_ok() && &first == MAGIC
+}
+
+pub(super) fn read(path: &Path) -> Result<Raw> {
+    let damaged = |error: &dyn Display| {
+        Error::new(ErrorKind::Io, format!("the table {} is cut off or damaged: {error}", path.display()))
+            .help("write it again, as Parquet or as CSV")
+    };
+    // The reader is given whatever a file claims to be.
+    match catch_unwind(AssertUnwindSafe(|| of_file(path))) {
+        Ok(Ok(raw)) => Ok(raw),
+        Ok(Err(error)) => Err(damaged(&error)),
+        Err(_) => Err(damaged(&"its parts contradict each other")),
+    }
+}
+
+/// The columns that hold numbers; others, such as names, are passed over.
+fn of_file(path: &Path) -> std::result::Result<Raw, ParquetError> {
+    let reader = SerializedFileReader::new(File::open(path)?)?;
+    let described = reader.metadata().file_metadata();
+    let names: Vec<String> = described.schema().get_fields().iter().map(|field| field.name().to_string()).collect();
+    let values = described.num_rows().saturating_mul(names.len() as i64);
+    if !(0..=MOST).contains(&values) {
+        return Err(ParquetError::General(format!("it has {values} values, more than {MOST}")));
+    }
+    let mut columns: Vec<Vec<Rounded>> = vec![Vec::new(); names.len()];
+    let mut are_numbers = vec![true; names.len()];
+    for row in reader.get_row_iter(None)? {
+        for (index, (_, field)) in row?.get_column_iter().enumerate() {
+            let number = number(field);
+            are_numbers[index] &= number.is_some();
+            columns[index].push(number.unwrap_or(Rounded::exact(f64::NAN)));
+        }
+    }
+    let mut are_kept = are_numbers.iter();
+    let (names, columns) = names.into_iter().zip(columns).filter(|_| are_kept.next() == Some(&true)).unzip();
+    Ok(Raw { names, columns })
+}
+
+#[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the Parquet reader")]
+fn number(field: &Field) -> Option<Rounded> {
+    let exact = |value: f64| Some(Rounded::exact(value));
+    match *field {
+        Field::Null => exact(f64::NAN),
+        Field::Byte(value) => exact(value.into()),
+        Field::Short(value) => exact(value.into()),
+        Field::Int(value) => exact(value.into()),
+        Field::UByte(value) => exact(value.into()),
+        Field::UShort(value) => exact(value.into()),
+        Field::UInt(value) => exact(value.into()),
+        Field::Long(value) => Some(Rounded::nearly(value as f64)),
+        Field::ULong(value) => Some(Rounded::nearly(value as f64)),
+        Field::Double(value) => Some(Rounded::nearly(value)),
+        Field::Float(value) => {
+            Some(Rounded { value: value.into(), error: f64::from(f32::EPSILON) * f64::from(value.abs()) })
+        }
+        _ => None,
+    }
+}

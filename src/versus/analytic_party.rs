@@ -1,0 +1,110 @@
+//! A scenario beside another party: solved at its instants.
+
+use super::judge::Both;
+use super::{How, Pair, cause};
+use crate::proof::solved::Solved;
+use crate::scenario::{Claim, Scenario};
+use crate::tables::{At, Column, Held};
+use formula::Rounded;
+use linkage::case::Grid;
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::trajectory::Channel;
+
+/// What a scenario says of its own channels, at its own instants.
+pub(super) fn held(scenario: &Scenario) -> Result<Held> {
+    let channel = |channel: &Channel| Claim::parse(&channel.to_string(), std::slice::from_ref(channel)).ok();
+    let claims: Vec<Claim> = scenario.case.channels().iter().filter_map(channel).collect();
+    let solved = Solved::of(scenario, scenario.case.grid.clone(), &claims)?;
+    let columns = columns(&solved, &claims, &|row| row, scenario.case.grid.len())?;
+    Ok(Held { columns, is_analytic: true, ..Held::of_trajectory(solved.trajectory(), true) })
+}
+
+/// What the sides say of claims, `of(row)` being the instant of a row.
+fn columns(solved: &Solved, claims: &[Claim], of: &dyn Fn(usize) -> usize, rows: usize) -> Result<Vec<Column>> {
+    let column = |claim: &Claim| {
+        let values = solved.on_course(|course| course.values(claim))?;
+        let values = (0..rows).map(|row| values[of(row)]).collect();
+        Ok(Column { claim: claim.clone(), values, mapped: None })
+    };
+    claims.iter().map(column).collect()
+}
+
+/// Compares a scenario with a party, which gives the instants; `is_first` if the scenario was named first.
+pub(super) fn beside(scenario: &Scenario, (name, held): (String, Held), is_first: bool, how: &How) -> Result<Pair> {
+    let at = held.at(how.by_crank)?;
+    let (claims, alone) = claims(scenario, &held, how)?;
+    let (grid, rows) = grid(scenario, &at)?;
+    let solved = Solved::of(scenario, grid, &claims)?;
+    let columns = columns(&solved, &claims, &|row| rows[row], at.values.len())?;
+    let own = Held { at: held.at.clone(), columns, is_analytic: true, unused: Vec::new() };
+    let other = if held.is_analytic { as_well_known(held, &own) } else { held };
+    let place = |of: &[f64]| rows.iter().map(|&row| of[row]).collect::<Vec<f64>>();
+    let trajectory = solved.trajectory();
+    let both = Both {
+        parties: if is_first { [&own, &other] } else { [&other, &own] },
+        at: &at,
+        places: [place(trajectory.times()), place(trajectory.cranks())],
+        how,
+    };
+    let channels = both.judged(&claims)?;
+    let causes = cause::explained(scenario, &both, &channels, is_first)?;
+    let (names, alone) = match is_first {
+        true => ([String::new(), name], [Vec::new(), alone]),
+        false => ([name, String::new()], [alone, Vec::new()]),
+    };
+    let checks = solved.checks().to_vec();
+    Ok(Pair { names, channels, checks, instants: at.values.len(), unshared: 0, alone, by_crank: at.is_crank, causes })
+}
+
+/// What a party says of channels that the scenario has, and the names of its other ones.
+fn claims(scenario: &Scenario, held: &Held, how: &How) -> Result<(Vec<Claim>, Vec<String>)> {
+    let all = scenario.case.all_channels();
+    let (mut claims, mut alone) = (Vec::new(), Vec::new());
+    for column in held.columns.iter().filter(|column| how.asks_for(&column.claim)) {
+        match (Claim::parse(&column.claim.text, &all), &column.mapped) {
+            (Ok(claim), _) => claims.push(claim),
+            (Err(fault), Some(mapped)) => return Err(mapped.wrong(&fault.message, &fault.help)),
+            (Err(_), None) => alone.push(column.claim.text.clone()),
+        }
+    }
+    if claims.is_empty() {
+        let message = format!("the scenario {} has no channel of the other party", scenario.name);
+        let error = Error::new(ErrorKind::Input, message);
+        return Err(error.help("compare the same mechanism, or map columns to channels of the scenario"));
+    }
+    Ok((claims, alone))
+}
+
+/// The grid of some instants, every one once, and for every row its place in it.
+fn grid(scenario: &Scenario, at: &At) -> Result<(Grid, Vec<usize>)> {
+    let mut rows = vec![0; at.values.len()];
+    let mut instants: Vec<f64> = Vec::with_capacity(rows.len());
+    for row in at.ascending() {
+        let value = at.values[row].value;
+        if instants.last() != Some(&value) {
+            instants.push(value);
+        }
+        rows[row] = instants.len() - 1;
+    }
+    let crank = scenario.case.crank();
+    let grid = if at.is_crank { Grid::of_cranks(crank, instants) } else { Grid::of_times(crank, instants) };
+    grid.check(crank).map_err(|message| {
+        let help = match at.is_crank && crank.is_free() {
+            true => "give the table a column of times",
+            false => "check the unit of the instants, and where they begin",
+        };
+        Error::new(ErrorKind::Input, format!("the instants of the other party: {message}")).help(help)
+    })?;
+    Ok((grid, rows))
+}
+
+/// What an analytic side has recorded is as well known as what it finds now.
+fn as_well_known(held: Held, own: &Held) -> Held {
+    let column = |column: Column| {
+        let Some(found) = own.values_of(&column.claim) else { return column };
+        let more = |(value, found): (Rounded, Rounded)| Rounded { error: value.error + found.error, ..value };
+        let values = column.values.iter().copied().zip(found).map(more).collect();
+        Column { values, ..column }
+    };
+    Held { columns: held.columns.into_iter().map(column).collect(), ..held }
+}

@@ -1,0 +1,167 @@
+//! Why a table is off, where that is simple.
+
+use super::judge::{Both, Compared, Instant};
+use crate::diagnosis::{Diagnosis, Judged, Party, Question, diagnose};
+use crate::scenario::Scenario;
+use analytic::AssurSolver;
+use formula::Shape;
+use linkage::case::Grid;
+use linkage::error::Result;
+use linkage::math::KeepNan;
+use linkage::solver::Solver;
+use linkage::trajectory::{Channel, Trajectory};
+
+/// A cause, and what stays over when it is granted.
+#[derive(Clone, Debug)]
+pub struct Explained {
+    /// The channels that were examined, by their texts.
+    pub of: Vec<String>,
+    /// What was found.
+    pub diagnosis: Diagnosis,
+    /// Share of the largest difference that may stay over when the cause is granted; zero for what the bounds allow.
+    pub left: f64,
+}
+
+/// Shares of the largest difference that a cause may leave over: nothing but the bounds, then little, as the error of a
+/// simulation that is wrong besides.
+const LEFT: [f64; 3] = [0.0, 0.01, 0.05];
+
+/// Share of a channel's scale from which on a difference is a mistake, and not the error of a method.
+pub const GROSS: f64 = 0.02;
+
+/// Examines the channels of the party beside a scenario that disagree: all together, then those that are grossly off,
+/// together and one by one. What is off by little and without a common cause is the error of a method.
+pub(super) fn explained(
+    scenario: &Scenario,
+    both: &Both,
+    channels: &[Compared],
+    is_first: bool,
+) -> Result<Vec<Explained>> {
+    let is_wrong = |own: &&Compared| own.since.is_some() && matches!(own.claim.tree.shape, Shape::Name(_));
+    let wrong: Vec<&Compared> = channels.iter().filter(is_wrong).collect();
+    let Some(stage) = Stage::of(scenario, both, channels, is_first)? else { return Ok(Vec::new()) };
+    if let Some(all) = stage.examined(&wrong, &LEFT[..1]).filter(|all| all.of.len() == wrong.len()) {
+        return Ok(vec![all]);
+    }
+    let mut found = Vec::new();
+    let mut open: Vec<&Compared> = wrong.into_iter().filter(|own| own.is_gross()).collect();
+    while !open.is_empty() {
+        // All of them at once, unless that explains none.
+        let mut next = stage.examined(&open, &LEFT);
+        if next.is_none() && open.len() > 1 {
+            next = open.iter().find_map(|one| stage.examined(&[*one], &LEFT));
+        }
+        let Some(explained) = next else {
+            found.extend(stage.unexplained(&open));
+            break;
+        };
+        open.retain(|own| !explained.of.contains(&own.claim.text));
+        found.push(explained);
+    }
+    Ok(found)
+}
+
+impl Compared {
+    /// Whether it is off by so much that no method's error explains it.
+    #[must_use]
+    pub fn is_gross(&self) -> bool {
+        self.since.is_some() && self.largest.is_some_and(|at: Instant| at.difference.abs() > GROSS * self.scale)
+    }
+}
+
+/// What the channels are examined on: the rows at which all of them have numbers.
+struct Stage {
+    case: linkage::case::Case,
+    right: Trajectory,
+    found: Trajectory,
+    /// By channel of `found`: text of its claim, and the bound on it in SI.
+    bounds: Vec<(String, f64)>,
+}
+
+impl Stage {
+    fn of(scenario: &Scenario, both: &Both, channels: &[Compared], is_first: bool) -> Result<Option<Stage>> {
+        let other = both.parties[usize::from(is_first)];
+        let plain = channels.iter().filter(|own| matches!(own.claim.tree.shape, Shape::Name(_)) && own.judged > 0);
+        let plain: Vec<(&Compared, Vec<formula::Rounded>)> = plain
+            .filter(|own| !own.claim.channels[0].1.magnitude)
+            .filter_map(|own| Some((own, other.values_of(&own.claim)?)))
+            .collect();
+        let has_all = |row: &usize| plain.iter().all(|(_, values)| values[*row].value.is_finite());
+        let mut rows: Vec<usize> = both.at.ascending().into_iter().filter(has_all).collect();
+        rows.dedup_by(|a, b| both.places[0][*a] == both.places[0][*b]);
+        if rows.len() < 4 || plain.is_empty() {
+            return Ok(None);
+        }
+        let times: Vec<f64> = rows.iter().map(|&row| both.places[0][row]).collect();
+        let cranks: Vec<f64> = rows.iter().map(|&row| both.places[1][row]).collect();
+        let (mut names, mut columns, mut bounds) = (Vec::new(), Vec::new(), Vec::new());
+        for (own, values) in &plain {
+            let printed = &own.claim.channels[0].1;
+            if names.contains(&printed.channel) {
+                continue;
+            }
+            names.push(printed.channel.clone());
+            columns.push(rows.iter().map(|&row| printed.to_si(values[row].value)).collect());
+            bounds.push((own.claim.text.clone(), printed.to_si(own.worst.map_or(0.0, |worst| worst.bound))));
+        }
+        let all: Vec<Channel> = scenario.case.all_channels();
+        let case = scenario.case.on(Grid { times: times.clone(), cranks: cranks.clone() })?.wanting_only(&all);
+        // What is compared was solved at these instants; channels beside it may not be.
+        let Ok(right) = AssurSolver.solve(&case) else { return Ok(None) };
+        let found = Trajectory::new(times, cranks, names, columns)?;
+        Ok(Some(Stage { case, right, found, bounds }))
+    }
+
+    /// A cause that explains some of the channels.
+    fn examined(&self, of: &[&Compared], shares: &[f64]) -> Option<Explained> {
+        shares.iter().find_map(|&left| {
+            let diagnosis = self.diagnosis(of, left)?;
+            diagnosis.cause.as_ref()?;
+            let is_left = |text: &str| diagnosis.left_over.iter().any(|channel| self.text(channel) == Some(text));
+            let explained: Vec<String> =
+                of.iter().map(|own| own.claim.text.clone()).filter(|text| !is_left(text)).collect();
+            (!explained.is_empty()).then_some(Explained { of: explained, diagnosis, left })
+        })
+    }
+
+    /// What can be said where no cause is simple: since when.
+    fn unexplained(&self, of: &[&Compared]) -> Option<Explained> {
+        let diagnosis = self.diagnosis(of, 0.0)?;
+        Some(Explained { of: of.iter().map(|own| own.claim.text.clone()).collect(), diagnosis, left: 0.0 })
+    }
+
+    fn text(&self, channel: &Channel) -> Option<&str> {
+        let place = self.found.channels().iter().position(|own| own == channel)?;
+        Some(&self.bounds[place].0)
+    }
+
+    /// The diagnosis of some channels; what a cause may leave over widens their bounds.
+    fn diagnosis(&self, of: &[&Compared], left: f64) -> Option<Diagnosis> {
+        let judged: Vec<Judged> = self
+            .found
+            .channels()
+            .iter()
+            .zip(&self.bounds)
+            .filter_map(|(channel, (text, bound))| {
+                let own = of.iter().find(|own| own.claim.text == *text)?;
+                let largest = own.largest.map_or(0.0, |at| own.claim.channels[0].1.to_si(at.difference.abs()));
+                Some(Judged { channel: channel.clone(), bound: bound.larger(left * largest), disagrees: true })
+            })
+            .collect();
+        let parties =
+            [("the analytic sides", &self.right), ("the other party", &self.found)].map(|(name, trajectory)| {
+                let bounds = judged.iter().map(|judged| (judged.channel.clone(), judged.bound)).collect();
+                Party { name, trajectory, bounds }
+            });
+        let question = Question {
+            suspect: parties[1].name,
+            reference: &self.right,
+            suspicious: &self.found,
+            judged: &judged,
+            case: &self.case,
+            solver: &AssurSolver,
+            step: None,
+        };
+        diagnose(&question, &parties)
+    }
+}
