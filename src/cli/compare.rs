@@ -11,7 +11,7 @@ use super::{advice, exit_code, output};
 use crate::record;
 use crate::report::versus as report;
 use crate::scenario::mapping::{Allowed, Mapped, Mapping, Size};
-use crate::tables::{Held, Raw};
+use crate::tables::{self, Held};
 use crate::versus::{How, Party, compare as compared};
 use linkage::error::Result;
 
@@ -170,7 +170,7 @@ fn party(args: &Args, path: &Path, mapping: &Mapping) -> Result<Party> {
     let ending = path.extension().and_then(|ending| ending.to_str());
     Ok(match ending {
         Some("toml") => Party::Scenario(Box::new(args.start.load(path, &GridArgs::default())?)),
-        Some("mcap") => Party::Recording(record::read(path)?),
-        Some(_) | None => Party::Table(Box::new(Held::of_table(&Raw::read(path)?, mapping)?)),
+        Some("mcap") => Party::Recording(record::load(path)?),
+        Some(_) | None => Party::Table(Box::new(Held::of_table(&tables::load(path)?, mapping)?)),
     })
 }

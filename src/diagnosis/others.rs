@@ -33,7 +33,8 @@ pub(super) fn found(question: &Question) -> Vec<Found> {
         }
         if one.channel.kind.unit == Unit::Radian || one.channel.kind.unit == Unit::RadianPerSecond {
             let pairs = question.reference.iter().filter(|(channel, _)| channel.kind == one.channel.kind);
-            let all: Vec<(&Channel, &[f64])> = pairs.collect();
+            // A link that does not turn is no other link to count from.
+            let all: Vec<(&Channel, &[f64])> = pairs.filter(|(_, values)| one.varies(values)).collect();
             if let Some(slip) = between(one, &all) {
                 let is_plain = matches!(slip, Slip::Between { offset: 0.0, .. });
                 put(slip, if is_plain { Rank::Change } else { Rank::Fitted }, own);

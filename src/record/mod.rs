@@ -57,7 +57,7 @@ pub fn write(recording: &Recording, path: &Path) -> Result<()> {
 /// [`ErrorKind::Io`](linkage::ErrorKind::Io) with the path if the file cannot be read, is cut off or damaged;
 /// [`ErrorKind::Input`](linkage::ErrorKind::Input) if it holds no side, or if a topic lacks samples;
 /// [`ErrorKind::Numeric`](linkage::ErrorKind::Numeric) if a value is not finite.
-pub fn read(path: &Path) -> Result<Vec<(String, Trajectory)>> {
+pub fn load(path: &Path) -> Result<Vec<(String, Trajectory)>> {
     read::read(path)
 }
 

@@ -10,7 +10,8 @@ use super::diagnosis;
 use super::pretty::pretty;
 use super::tell::Tell;
 use crate::compare::Verdict;
-use crate::versus::{Compared, Comparison, Explained, Instant, Pair};
+use crate::versus::{Compared, Comparison, Explained, Pair, Row};
+use linkage::math::KeepNan;
 
 /// Channels of agreeing pairs that a short report shows.
 const SHOWN: usize = 3;
@@ -96,7 +97,7 @@ fn sentence(paths: [&Path; 2], pair: &Pair) -> String {
 fn rank(own: &Compared) -> f64 {
     let used = own.worst.map_or(0.0, |at| at.used());
     match own.verdict {
-        Verdict::Agree { .. } | Verdict::Expected { .. } => used.min(1.0),
+        Verdict::Agree { .. } | Verdict::Expected { .. } => used.smaller(1.0),
         Verdict::Inconclusive { .. } => 2.0,
         // The gravest first: beyond its bound by most, measured by its own scale.
         Verdict::Disagree { .. } => 3.0 + own.largest.map_or(0.0, |at| at.difference.abs() / own.scale),
@@ -111,7 +112,7 @@ fn word(verdict: &Verdict) -> &'static str {
     }
 }
 
-fn when(at: &Instant, by_crank: bool) -> String {
+fn when(at: &Row, by_crank: bool) -> String {
     match by_crank {
         true => format!("{:.2} deg", at.crank.to_degrees()),
         false => format!("{:.6} s", at.time),
@@ -174,7 +175,7 @@ fn cause(explained: &Explained) -> String {
 /// The comparison as JSON, schema 1.
 #[must_use]
 pub fn json(paths: [&Path; 2], comparison: &Comparison, tell: Tell) -> String {
-    let instant = |at: &Instant| {
+    let instant = |at: &Row| {
         let crank = if at.crank.is_nan() { Value::Null } else { at.crank.to_degrees().into() };
         let time = if at.time.is_nan() { Value::Null } else { at.time.into() };
         json!({

@@ -3,8 +3,8 @@
 
 use std::path::Path;
 
-use super::Raw;
 use super::digits::{Cell, numbers};
+use super::raw::Raw;
 use crate::files;
 use linkage::error::{Error, ErrorKind, Place, Result};
 

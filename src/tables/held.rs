@@ -1,6 +1,6 @@
 //! What a table says of a mechanism: claims of channels, at instants.
 
-use super::Raw;
+use super::raw::Raw;
 use crate::scenario::mapping::{INSTANTS, Mapped, Mapping};
 use crate::scenario::words::{choice, nearest};
 use crate::scenario::{Claim, PrintedChannel};

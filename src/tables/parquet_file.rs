@@ -10,7 +10,7 @@ use parquet::errors::ParquetError;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 
-use super::Raw;
+use super::raw::Raw;
 use formula::Rounded;
 use linkage::error::{Error, ErrorKind, Result};
 

@@ -1,7 +1,9 @@
 //! Two tables side by side: rows of the same instants, or the first interpolated at those of the second.
 
+use super::allowed::How;
+use super::interpolate::Course;
 use super::judge::Both;
-use super::{How, Pair, Side};
+use super::pair::{Pair, Side};
 use crate::scenario::Claim;
 use crate::tables::{At, Column, Held, Instants};
 use formula::Rounded;
@@ -32,7 +34,7 @@ pub(super) fn beside(one: &Side, other: &Side, how: &How) -> Result<Pair> {
         let message = format!("the two have no channel in common: {} against {}", some(&alone[0]), some(&alone[1]));
         return Err(Error::new(ErrorKind::Input, message).help("map the columns of both to the same channels"));
     }
-    let places: Vec<Place> = place(&from, &to, how.interpolates);
+    let places = places(&from, &to, how.interpolates);
     let unshared = places.iter().filter(|place| matches!(place, Place::Nowhere)).count();
     if unshared == to.values.len() {
         let what = if from.is_crank { "crank angle" } else { "time" };
@@ -41,8 +43,7 @@ pub(super) fn beside(one: &Side, other: &Side, how: &How) -> Result<Pair> {
             .help("allow interpolation, or give both the same instants; check the units of both"));
     }
     let column = |claim: &Claim| {
-        let values = unwound(&one.1.values_of(claim)?, &from, claim.turn());
-        let values = places.iter().map(|place| place.of(&values, &from)).collect();
+        let values = at_places(&one.1.values_of(claim)?, &from, &places, claim.turn());
         Some(Column { claim: claim.clone(), values, mapped: None })
     };
     let columns = claims.iter().filter_map(column).collect();
@@ -67,13 +68,13 @@ pub(super) fn beside(one: &Side, other: &Side, how: &How) -> Result<Pair> {
 enum Place {
     /// At a row.
     At(usize),
-    /// Between rows: four of them around it, and the instant.
-    Between([usize; 4], f64),
+    /// Between two rows, in order to be interpolated.
+    Between(f64),
     /// Between two rows, and nothing is interpolated; or beyond all of them.
     Nowhere,
 }
 
-fn place(from: &At, to: &At, interpolates: bool) -> Vec<Place> {
+fn places(from: &At, to: &At, interpolates: bool) -> Vec<Place> {
     let order = from.ascending();
     let at = |index: usize| from.values[order[index]].value;
     let of = |wanted: &Rounded| {
@@ -91,57 +92,23 @@ fn place(from: &At, to: &At, interpolates: bool) -> Vec<Place> {
             return Place::At(order[index]);
         }
         match near {
-            [Some(before), Some(_)] if interpolates && order.len() >= 4 => {
-                let first = before.saturating_sub(1).min(order.len() - 4);
-                Place::Between([0, 1, 2, 3].map(|index| order[first + index]), wanted.value)
-            }
+            [Some(_), Some(_)] if interpolates => Place::Between(wanted.value),
             _ => Place::Nowhere,
         }
     };
     to.values.iter().map(of).collect()
 }
 
-impl Place {
-    /// The value there: the cubic through the four rows. Its error is what it differs by from the two parabolas through
-    /// three of them; the cubic itself is better.
-    fn of(&self, values: &[Rounded], from: &At) -> Rounded {
-        match self {
-            Place::At(row) => values[*row],
-            Place::Nowhere => Rounded::exact(f64::NAN),
-            Place::Between(rows, wanted) => {
-                let at = rows.map(|row| from.values[row].value);
-                let through = |first: usize, count: usize| -> [f64; 2] {
-                    let own = first..first + count;
-                    let weight = |index: usize| -> f64 {
-                        let others = own.clone().filter(|&other| other != index);
-                        others.map(|other| (wanted - at[other]) / (at[index] - at[other])).product()
-                    };
-                    own.clone().fold([0.0, 0.0], |[sum, error], index| {
-                        let (weight, value) = (weight(index), values[rows[index]]);
-                        [sum + weight * value.value, error + weight.abs() * value.error]
-                    })
-                };
-                let [value, error] = through(0, 4);
-                let apart = [0, 1].map(|first| (through(first, 3)[0] - value).abs());
-                Rounded { value, error: error + apart[0].larger(apart[1]) }
-            }
-        }
-    }
-}
-
-/// Angles without jumps by a turn from row to row, so that they may be interpolated.
-fn unwound(values: &[Rounded], at: &At, turn: Option<f64>) -> Vec<Rounded> {
-    let Some(turn) = turn else { return values.to_vec() };
-    let mut unwound = values.to_vec();
-    let mut last: Option<f64> = None;
-    for row in at.ascending() {
-        if let Some(last) = last.filter(|_| unwound[row].value.is_finite()) {
-            let gap = unwound[row].value - last;
-            unwound[row].value -= turn * (gap / turn).round();
-        }
-        if unwound[row].value.is_finite() {
-            last = Some(unwound[row].value);
-        }
-    }
-    unwound
+/// The numbers of a claim at some places among the rows that hold at `from`.
+fn at_places(values: &[Rounded], from: &At, places: &[Place], turn: Option<f64>) -> Vec<Rounded> {
+    let order = from.ascending();
+    let at: Vec<f64> = order.iter().map(|&row| from.values[row].value).collect();
+    let sorted: Vec<Rounded> = order.iter().map(|&row| values[row]).collect();
+    let course = Course::new(&at, &sorted, turn);
+    let of = |place: &Place| match place {
+        Place::At(row) => values[*row],
+        Place::Between(wanted) => course.value(*wanted),
+        Place::Nowhere => Rounded::exact(f64::NAN),
+    };
+    places.iter().map(of).collect()
 }

@@ -1,6 +1,5 @@
 //! What a comparison is asked, and what is allowed besides what is known.
 
-use super::Pair;
 use crate::scenario::mapping::{Allowed, Size};
 use crate::scenario::{Claim, PrintedChannel};
 use linkage::error::{Error, ErrorKind, Result};
@@ -49,14 +48,12 @@ impl How {
     ///
     /// # Errors
     /// [`ErrorKind::Input`] with the word.
-    pub(super) fn check_used(&self, pairs: &[Pair]) -> Result<()> {
-        let words = self.allowed.iter().filter_map(|allowed| allowed.of.as_ref());
-        let is_used = |word: &str| pairs.iter().flat_map(|pair| &pair.channels).any(|own| is_called(&own.claim, word));
-        match words.into_iter().find(|word| !is_used(word)) {
+    pub(super) fn check_used<'a>(&self, compared: impl Iterator<Item = &'a Claim> + Clone) -> Result<()> {
+        let mut words = self.allowed.iter().filter_map(|allowed| allowed.of.as_ref());
+        match words.find(|word| !compared.clone().any(|claim| is_called(claim, word))) {
             None => Ok(()),
             Some(word) => {
-                let all: Vec<&str> =
-                    pairs.iter().flat_map(|pair| &pair.channels).map(|own| own.claim.text.as_str()).take(5).collect();
+                let all: Vec<&str> = compared.map(|claim| claim.text.as_str()).take(5).collect();
                 let message = format!("no channel that is compared is called {word}");
                 let help = format!("name one of them ({}, ...), a subject or a stage", all.join(", "));
                 Err(Error::new(ErrorKind::Input, message).help(help))

@@ -1,7 +1,9 @@
 //! A scenario beside another party: solved at its instants.
 
+use super::allowed::How;
+use super::cause;
 use super::judge::Both;
-use super::{How, Pair, cause};
+use super::pair::{Pair, Side};
 use crate::proof::solved::Solved;
 use crate::scenario::{Claim, Scenario};
 use crate::tables::{At, Column, Held};
@@ -30,7 +32,7 @@ fn columns(solved: &Solved, claims: &[Claim], of: &dyn Fn(usize) -> usize, rows:
 }
 
 /// Compares a scenario with a party, which gives the instants; `is_first` if the scenario was named first.
-pub(super) fn beside(scenario: &Scenario, (name, held): (String, Held), is_first: bool, how: &How) -> Result<Pair> {
+pub(super) fn beside(scenario: &Scenario, (name, held): Side, is_first: bool, how: &How) -> Result<Pair> {
     let at = held.at(how.by_crank)?;
     let (claims, alone) = claims(scenario, &held, how)?;
     let (grid, rows) = grid(scenario, &at)?;

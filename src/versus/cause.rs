@@ -1,6 +1,6 @@
 //! Why a table is off, where that is simple.
 
-use super::judge::{Both, Compared, Instant};
+use super::judge::{Both, Compared, Row};
 use crate::diagnosis::{Diagnosis, Judged, Party, Question, diagnose};
 use crate::scenario::Scenario;
 use analytic::AssurSolver;
@@ -65,7 +65,7 @@ impl Compared {
     /// Whether it is off by so much that no method's error explains it.
     #[must_use]
     pub fn is_gross(&self) -> bool {
-        self.since.is_some() && self.largest.is_some_and(|at: Instant| at.difference.abs() > GROSS * self.scale)
+        self.since.is_some() && self.largest.is_some_and(|at: Row| at.difference.abs() > GROSS * self.scale)
     }
 }
 

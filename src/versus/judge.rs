@@ -1,6 +1,6 @@
 //! Channel by channel: differences, bounds, verdicts.
 
-use super::How;
+use super::allowed::How;
 use crate::compare::{Verdict, scales};
 use crate::scenario::Claim;
 use crate::tables::{At, Held};
@@ -10,10 +10,10 @@ use linkage::math::statistics::half_range;
 use linkage::math::{KeepNan, largest_size};
 use linkage::trajectory::Trajectory;
 
-/// One instant of a channel.
+/// One row of a channel.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Instant {
-    /// Row of the party that gives the instants.
+pub struct Row {
+    /// Its number in the party that gives the instants.
     pub row: usize,
     /// Time (s); NaN where none is known.
     pub time: f64,
@@ -41,18 +41,18 @@ pub struct Compared {
     /// Root of the mean square of the differences.
     pub rms: f64,
     /// The largest difference.
-    pub largest: Option<Instant>,
+    pub largest: Option<Row>,
     /// The instant that uses most of its bound.
-    pub worst: Option<Instant>,
+    pub worst: Option<Row>,
     /// The first instant beyond its bound.
-    pub since: Option<Instant>,
+    pub since: Option<Row>,
     /// Whether the bound is what is known of both parties, and nothing is allowed besides.
     pub is_derived: bool,
     /// Agreement within the bounds of all instants.
     pub verdict: Verdict,
 }
 
-impl Instant {
+impl Row {
     /// Share of the bound that is used.
     #[must_use]
     pub fn used(&self) -> f64 {
@@ -142,7 +142,7 @@ impl Both<'_> {
             widest = widest.larger(known);
             let bound = known + allowed.unwrap_or(0.0);
             let [time, crank] = [0, 1].map(|of: usize| self.places[of][row]);
-            let at = Instant { row, time, crank, values: [one.value, other.value], difference, bound };
+            let at = Row { row, time, crank, values: [one.value, other.value], difference, bound };
             own.judged += 1;
             squares += difference * difference;
             if own.largest.is_none_or(|largest| difference.abs() > largest.difference.abs()) {
@@ -151,7 +151,7 @@ impl Both<'_> {
             if own.worst.is_none_or(|worst| at.used() > worst.used()) {
                 own.worst = Some(at);
             }
-            let is_earlier = |since: Instant| if time.is_nan() { crank < since.crank } else { time < since.time };
+            let is_earlier = |since: Row| if time.is_nan() { crank < since.crank } else { time < since.time };
             if !(at.used() <= 1.0) && own.since.is_none_or(is_earlier) {
                 own.since = Some(at);
             }
@@ -210,8 +210,8 @@ impl Both<'_> {
 }
 
 /// Where, and what stands there.
-fn place(at: &Instant) -> String {
-    let Instant { time, crank, values: [one, other], .. } = at;
+fn place(at: &Row) -> String {
+    let Row { time, crank, values: [one, other], .. } = at;
     let when = match (time.is_nan(), crank.is_nan()) {
         (false, false) => format!("t = {time:.6} s, crank angle {:.3} deg", crank.to_degrees()),
         (false, true) => format!("t = {time:.6} s"),

@@ -7,16 +7,21 @@ mod align;
 mod allowed;
 mod analytic_party;
 mod cause;
+mod interpolate;
 mod judge;
+mod pair;
 
 pub use allowed::How;
 pub use cause::Explained;
-pub use judge::{Compared, Instant};
+pub use judge::{Compared, Row};
+pub use pair::Pair;
 
 use std::path::Path;
 
-use crate::compare::{Check, Verdict, overall};
+use self::pair::Side;
+use crate::compare::{Verdict, overall};
 use crate::scenario::Scenario;
+use crate::scenario::words::choice;
 use crate::tables::Held;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::trajectory::Trajectory;
@@ -39,26 +44,6 @@ pub struct Comparison {
     pub verdict: Verdict,
 }
 
-/// Two sides compared.
-pub struct Pair {
-    /// What they are called in the recordings; empty for others.
-    pub names: [String; 2],
-    /// Channel by channel, in the order of the second party.
-    pub channels: Vec<Compared>,
-    /// Checks of the analytic sides on each other, where a scenario was solved.
-    pub checks: Vec<Check>,
-    /// Number of instants of the party that gives them.
-    pub instants: usize,
-    /// Number of those that the other does not have.
-    pub unshared: usize,
-    /// Channels that only one of the two has.
-    pub alone: [Vec<String>; 2],
-    /// Whether the instants are crank angles.
-    pub by_crank: bool,
-    /// Why channels are off, where that is simple.
-    pub causes: Vec<Explained>,
-}
-
 /// Name of the analytic side in a recording.
 const REFERENCE: &str = "reference";
 
@@ -69,19 +54,10 @@ const REFERENCE: &str = "reference";
 pub fn compare(parties: [Party; 2], paths: [&Path; 2], how: &How) -> Result<Comparison> {
     let mut pairs = Vec::new();
     let [first, second] = parties;
-    let named = |all: Vec<(String, Trajectory)>| -> Vec<(String, Held)> {
-        all.into_iter()
-            .map(|(name, own)| {
-                let held = Held::of_trajectory(&own, name == REFERENCE);
-                (name, held)
-            })
-            .collect()
-    };
-    let unnamed = |held: Held| vec![(String::new(), held)];
     let sides = |party: Party| match party {
-        Party::Scenario(_) => None,
-        Party::Recording(all) => Some(named(all)),
-        Party::Table(held) => Some(unnamed(*held)),
+        Party::Scenario(_) => Ok(Vec::new()),
+        Party::Recording(all) => asked(all, how),
+        Party::Table(held) => Ok(vec![(String::new(), *held)]),
     };
     match (first, second) {
         (Party::Scenario(one), Party::Scenario(other)) => {
@@ -89,23 +65,23 @@ pub fn compare(parties: [Party; 2], paths: [&Path; 2], how: &How) -> Result<Comp
             pairs.push(analytic_party::beside(&other, (String::new(), held), false, how)?);
         }
         (Party::Scenario(scenario), other) => {
-            for side in sides(other).unwrap_or_default() {
+            for side in sides(other)? {
                 pairs.push(analytic_party::beside(&scenario, side, true, how)?);
             }
         }
         (other, Party::Scenario(scenario)) => {
-            for side in sides(other).unwrap_or_default() {
+            for side in sides(other)? {
                 pairs.push(analytic_party::beside(&scenario, side, false, how)?);
             }
         }
         (one, other) => {
-            let (ones, others) = (sides(one).unwrap_or_default(), sides(other).unwrap_or_default());
-            for [one, other] in paired(&ones, &others, paths, how)? {
+            let (ones, others) = (sides(one)?, sides(other)?);
+            for [one, other] in paired(&ones, &others, paths)? {
                 pairs.push(align::beside(one, other, how)?);
             }
         }
     }
-    how.check_used(&pairs)?;
+    how.check_used(pairs.iter().flat_map(|pair| &pair.channels).map(|own| &own.claim))?;
     let verdicts: Vec<&Verdict> = pairs
         .iter()
         .flat_map(|pair| {
@@ -117,18 +93,29 @@ pub fn compare(parties: [Party; 2], paths: [&Path; 2], how: &How) -> Result<Comp
     Ok(Comparison { pairs, verdict })
 }
 
-type Side = (String, Held);
+/// The sides of a recording that are asked for.
+fn asked(all: Vec<(String, Trajectory)>, how: &How) -> Result<Vec<Side>> {
+    let names: Vec<String> = all.iter().map(|(name, _)| name.clone()).collect();
+    let is_asked = |name: &str| how.side.as_deref().is_none_or(|side| side == name);
+    let held = |(name, own): (String, Trajectory)| {
+        let held = Held::of_trajectory(&own, name == REFERENCE);
+        (name, held)
+    };
+    let asked: Vec<Side> = all.into_iter().filter(|(name, _)| is_asked(name)).map(held).collect();
+    match (&how.side, asked.is_empty()) {
+        (Some(side), true) => Err(Error::new(ErrorKind::Input, format!("a recording has no side {side}"))
+            .help(format!("it has {}", choice(names.iter().map(String::as_str), "")))),
+        _ => Ok(asked),
+    }
+}
 
 /// Which sides of two parties belong together: those of the same name, or all with one that is alone.
-fn paired<'a>(ones: &'a [Side], others: &'a [Side], paths: [&Path; 2], how: &How) -> Result<Vec<[&'a Side; 2]>> {
-    let asked = |side: &&Side| how.side.as_ref().is_none_or(|name| side.0 == *name || side.0.is_empty());
-    let (ones, others): (Vec<&Side>, Vec<&Side>) =
-        (ones.iter().filter(asked).collect(), others.iter().filter(asked).collect());
-    let pairs: Vec<[&Side; 2]> = match (ones.as_slice(), others.as_slice()) {
-        ([one], others) => others.iter().map(|other| [*one, *other]).collect(),
-        (ones, [other]) => ones.iter().map(|one| [*one, *other]).collect(),
+fn paired<'a>(ones: &'a [Side], others: &'a [Side], paths: [&Path; 2]) -> Result<Vec<[&'a Side; 2]>> {
+    let pairs: Vec<[&Side; 2]> = match (ones, others) {
+        ([one], others) => others.iter().map(|other| [one, other]).collect(),
+        (ones, [other]) => ones.iter().map(|one| [one, other]).collect(),
         (ones, others) => {
-            let same = |one: &&'a Side| Some([*one, *others.iter().find(|other| other.0 == one.0)?]);
+            let same = |one: &'a Side| Some([one, others.iter().find(|other| other.0 == one.0)?]);
             ones.iter().filter_map(same).collect()
         }
     };

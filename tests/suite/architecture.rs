@@ -24,7 +24,7 @@ const CRATES: &[(&str, &str, &str, &str)] = &[
         "linkproof",
         "",
         "analytic formula linkage precise rapier-twin simbody-twin workshop",
-        "annotate-snippets chacha20 clap comfy-table csv foxglove indicatif mcap plotters prost prost-types quick-junit serde serde_json strsim tempfile toml toml_edit",
+        "annotate-snippets chacha20 clap comfy-table csv foxglove indicatif mcap parquet plotters prost prost-types quick-junit serde serde_json strsim tempfile toml toml_edit",
     ),
 ];
 
@@ -58,7 +58,10 @@ const ROOMS: &[(&str, &str)] = &[
     ("workshop::task", ""),
     ("linkproof::bench", "compare engines scenario"),
     ("linkproof::claims", "scenario"),
-    ("linkproof::cli", "bench compare engines files mutate outside proof record report scenario stress tune"),
+    (
+        "linkproof::cli",
+        "bench compare engines files mutate outside proof record report scenario stress tables tune versus",
+    ),
     ("linkproof::compare", "tolerance"),
     ("linkproof::diagnosis", "compare"),
     ("linkproof::engines", ""),
@@ -67,12 +70,14 @@ const ROOMS: &[(&str, &str)] = &[
     ("linkproof::outside", "bench"),
     ("linkproof::proof", "claims compare diagnosis engines scenario tolerance"),
     ("linkproof::record", "files"),
-    ("linkproof::report", "bench claims compare diagnosis mutate proof record scenario stress tune"),
+    ("linkproof::report", "bench claims compare diagnosis mutate proof record scenario stress tune versus"),
     ("linkproof::scenario", "files"),
     ("linkproof::specimens", "scenario"),
     ("linkproof::stress", "compare engines proof scenario specimens"),
+    ("linkproof::tables", "files scenario"),
     ("linkproof::tolerance", ""),
     ("linkproof::tune", "compare proof scenario"),
+    ("linkproof::versus", "compare diagnosis proof scenario tables"),
 ];
 
 /// Parts of other crates that rooms of the harness must not name, even where Cargo would allow it.
@@ -128,8 +133,9 @@ const HOMES: &[(&str, &str)] = &[
     ("serde", "linkproof::report"),
     ("strsim", "linkproof::scenario"),
     ("serde_json", "linkproof::outside linkproof::report"),
-    // `scenario` reads tables of published numbers, `outside` those of peers, `report` writes tables.
-    ("csv", "linkproof::outside linkproof::report linkproof::scenario"),
+    // `scenario` reads tables of published numbers, `outside` those of peers, `tables` any; `report` writes tables.
+    ("csv", "linkproof::outside linkproof::report linkproof::scenario linkproof::tables"),
+    ("parquet", "linkproof::tables"),
     ("clap", "linkproof::cli"),
     ("indicatif", "linkproof::cli"),
     ("annotate_snippets", "linkproof::report"),
@@ -137,14 +143,17 @@ const HOMES: &[(&str, &str)] = &[
     ("SystemTime", "linkproof::cli"),
     ("stdout", "linkproof::cli"),
     ("stderr", "linkproof::cli"),
-    // The command line only writes files; `outside`, `record` and `scenario` read them.
-    ("fs", "linkproof::cli linkproof::files linkproof::outside linkproof::record linkproof::scenario"),
-    ("File", "linkproof::files linkproof::outside linkproof::record"),
+    // The command line only writes files; `outside`, `record`, `scenario` and `tables` read them.
+    (
+        "fs",
+        "linkproof::cli linkproof::files linkproof::outside linkproof::record linkproof::scenario linkproof::tables",
+    ),
+    ("File", "linkproof::files linkproof::outside linkproof::record linkproof::tables"),
     ("OpenOptions", ""),
     ("read_to_string", "linkproof::files linkproof::outside linkproof::scenario"),
     ("read_dir", "linkproof::files linkproof::scenario"),
     ("tempfile", "linkproof::files linkproof::outside"),
-    ("read", "linkproof::outside linkproof::record linkproof::scenario"),
+    ("read", "linkproof::outside linkproof::record linkproof::scenario linkproof::tables"),
     ("nalgebra", "linkage::math"),
     ("petgraph", "linkage::mechanism"),
     ("differential_equations", "analytic::motion analytic::reduced"),

@@ -56,3 +56,4 @@ mod triad_methods;
 mod trunk;
 mod tune;
 mod variants60;
+mod versus;

@@ -6,7 +6,7 @@ use linkage::ErrorKind;
 use linkage::math::{Motion, Vec2, cross, turned, unit};
 use linkage::mechanism::{Joint, JointKind, Link, Mechanism, Point, Side as On};
 use linkage::trajectory::{CHANNELS, Channel, Stage, Subject, Trajectory};
-use linkproof::record::{Level, LogEntry, Recording, Side, read, write};
+use linkproof::record::{Level, LogEntry, Recording, Side, load, write};
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::fs;
@@ -281,7 +281,7 @@ fn both_sides_are_read_back_bit_for_bit() {
     let (_directory, path) = place("sample.mcap");
     let run = Run::over(turn(361));
     run.write(&path).unwrap();
-    let sides = read(&path).unwrap();
+    let sides = load(&path).unwrap();
     assert_eq!(sides.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>(), ["reference", "engine"]);
     assert_same(&sides[0].1, &run.reference);
     assert_same(&sides[1].1, &run.engine);
@@ -295,7 +295,7 @@ fn rows_in_any_order_with_negative_times_keep_their_order() {
     let (_directory, path) = place("shuffled.mcap");
     let run = Run::over(vec![0.03, -0.01, 0.05, -0.0, 0.02, 1e-12, 0.05, -0.013]);
     run.write(&path).unwrap();
-    let sides = read(&path).unwrap();
+    let sides = load(&path).unwrap();
     assert_same(&sides[0].1, &run.reference);
     assert_same(&sides[1].1, &run.engine);
 }
@@ -309,7 +309,7 @@ fn zeros_of_both_signs_and_extremes_survive_and_absent_channels_stay_absent() {
     const VALUES: [f64; 5] = [0.0, -0.0, f64::MAX, f64::MIN_POSITIVE / 8.0, -f64::MAX];
     run.reference = trajectory(turn(5), few, |_, row| VALUES[row]);
     run.write(&path).unwrap();
-    let sides = read(&path).unwrap();
+    let sides = load(&path).unwrap();
     assert_same(&sides[0].1, &run.reference);
     assert!(sides[0].1.column(&Channel::named("link.crank.x_m").unwrap()).is_none());
 }
@@ -326,7 +326,7 @@ fn without_positions_there_is_no_scene() {
     let messages = mcap::MessageStream::new(&bytes).unwrap().map(|message| message.unwrap().channel.topic.clone());
     let scene: Vec<String> = messages.filter(|topic| topic.starts_with("/mechanism") || topic == "/tf").collect();
     assert_eq!(scene, [""; 0]);
-    assert_same(&read(&path).unwrap()[1].1, &run.engine);
+    assert_same(&load(&path).unwrap()[1].1, &run.engine);
 }
 
 #[test]
@@ -350,7 +350,7 @@ fn a_file_cut_off_opens_up_to_the_cut_but_is_not_taken_for_whole() {
     let grids = messages.filter(|message| message.channel.topic == "/reference/grid").count();
     assert!((100..361).contains(&grids), "{grids} samples before the cut");
     fs::write(&path, cut).unwrap();
-    let error = read(&path).unwrap_err();
+    let error = load(&path).unwrap_err();
     assert_eq!(error.kind(), ErrorKind::Io);
     assert!(error.to_string().contains("cut off or damaged"), "{error}");
 }
@@ -368,7 +368,7 @@ fn a_recording_that_cannot_be_written_is_an_error_with_its_path() {
 
     let error = run.write(&directory.path().join("missing/new.mcap")).unwrap_err();
     assert_eq!(error.kind(), ErrorKind::Io);
-    let error = read(&directory.path().join("missing.mcap")).unwrap_err();
+    let error = load(&directory.path().join("missing.mcap")).unwrap_err();
     assert_eq!(error.kind(), ErrorKind::Io);
 }
 

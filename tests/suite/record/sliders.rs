@@ -13,7 +13,7 @@ use linkage::math::{Vec2, cross, rotated, unit};
 use linkage::mechanism::GROUND;
 use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Trajectory};
-use linkproof::record::{Recording, Side, read, write};
+use linkproof::record::{Recording, Side, load, write};
 use linkproof::scenario::Scenario;
 use prost::Message;
 
@@ -37,7 +37,7 @@ fn recorded(name: &str) -> (Case, Trajectory, Vec<u8>, Trajectory) {
         log: &[],
     };
     write(&recording, &file).unwrap();
-    let back = read(&file).unwrap().remove(0).1;
+    let back = load(&file).unwrap().remove(0).1;
     (case, trajectory, fs::read(&file).unwrap(), back)
 }
 

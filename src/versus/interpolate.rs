@@ -1,0 +1,103 @@
+//! Values between the rows of a table, with what interpolating them may be wrong by.
+
+use formula::Rounded;
+use linkage::math::KeepNan;
+
+/// Rows that a cubic needs, and one more to tell its error.
+const FEWEST: usize = 5;
+/// How much larger the fourth divided difference may be between rows than in any window of five rows close by.
+const SAFETY: f64 = 2.0;
+
+/// A column in ascending order of its instants.
+pub(super) struct Course {
+    at: Vec<f64>,
+    values: Vec<Rounded>,
+    /// Size of the fourth divided difference of every five rows.
+    fourth: Vec<f64>,
+}
+
+impl Course {
+    /// A column by its instants and values, both in ascending order of the instants. Rows without a number are left out.
+    /// Angles with this `turn` may jump by it.
+    pub(super) fn new(at: &[f64], values: &[Rounded], turn: Option<f64>) -> Self {
+        let rows: Vec<(f64, Rounded)> =
+            at.iter().copied().zip(values.iter().copied()).filter(|(_, own)| own.value.is_finite()).collect();
+        let at: Vec<f64> = rows.iter().map(|(at, _)| *at).collect();
+        let values = unwound(rows.into_iter().map(|(_, value)| value).collect(), turn);
+        let window = |first: usize| {
+            let mut own: Vec<f64> = values[first..first + FEWEST].iter().map(|own| own.value).collect();
+            for order in 1..FEWEST {
+                for index in 0..FEWEST - order {
+                    own[index] = (own[index + 1] - own[index]) / (at[first + index + order] - at[first + index]);
+                }
+            }
+            own[0].abs()
+        };
+        let fourth = (0..(at.len() + 1).saturating_sub(FEWEST)).map(window).collect();
+        Course { at, values, fourth }
+    }
+
+    /// The value at an instant: the cubic through the four rows around it. Its error is that of the rows, and its first
+    /// neglected term. NaN beyond the rows, or if they are too few.
+    pub(super) fn value(&self, wanted: f64) -> Rounded {
+        let next = self.at.partition_point(|&at| at < wanted);
+        if next == 0 || next == self.at.len() || self.at.len() < FEWEST {
+            return Rounded::exact(f64::NAN);
+        }
+        let first = next.saturating_sub(2).min(self.at.len() - 4);
+        let rows = first..first + 4;
+        let weight = |row: usize| -> f64 {
+            let others = rows.clone().filter(|&other| other != row);
+            others.map(|other| (wanted - self.at[other]) / (self.at[row] - self.at[other])).product()
+        };
+        let [value, error] = rows.clone().fold([0.0, 0.0], |[sum, error], row| {
+            let (weight, own) = (weight(row), self.values[row]);
+            [sum + weight * own.value, error + weight.abs() * own.error]
+        });
+        let near = first.saturating_sub(2)..(first + 2).min(self.fourth.len());
+        let fourth = self.fourth[near].iter().copied().fold(0.0, f64::larger);
+        let distances: f64 = rows.map(|row| (wanted - self.at[row]).abs()).product();
+        Rounded { value, error: error + SAFETY * fourth * distances }
+    }
+}
+
+/// Angles without jumps by a turn from row to row.
+fn unwound(mut values: Vec<Rounded>, turn: Option<f64>) -> Vec<Rounded> {
+    let Some(turn) = turn else { return values };
+    for row in 1..values.len() {
+        let gap = values[row].value - values[row - 1].value;
+        values[row].value -= turn * (gap / turn).round();
+    }
+    values
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cubic_is_met_and_a_sine_within_its_bound() {
+        let at: Vec<f64> = (0..40).map(|row| 0.2 * f64::from(row) + 0.03 * f64::from(row % 3)).collect();
+        let of = |f: &dyn Fn(f64) -> f64| {
+            let values: Vec<Rounded> = at.iter().map(|&at| Rounded::exact(f(at))).collect();
+            Course::new(&at, &values, None)
+        };
+        let (cubic, sine) = (of(&|x| x * x * (x - 3.0)), of(&f64::sin));
+        for step in 1..=770 {
+            let x = 0.01 * f64::from(step);
+            let (exact, found) = (x * x * (x - 3.0), cubic.value(x));
+            assert!((found.value - exact).abs() < 1e-11 && found.error < 1e-9, "{x}: {found:?}");
+            let found = sine.value(x);
+            assert!((found.value - x.sin()).abs() <= found.error + 1e-15 && found.error < 5e-4, "{x}: {found:?}");
+        }
+        assert!(cubic.value(-0.1).value.is_nan() && cubic.value(8.0).value.is_nan());
+    }
+
+    #[test]
+    fn an_angle_that_jumps_by_a_turn_is_smooth() {
+        let at: Vec<f64> = (0..20).map(f64::from).collect();
+        let values: Vec<Rounded> = at.iter().map(|at| Rounded::exact((100.0 * at).rem_euclid(360.0))).collect();
+        let found = Course::new(&at, &values, Some(360.0)).value(7.5);
+        assert!((found.value - 750.0).abs() < 1e-9 && found.error < 1e-9, "{found:?}");
+    }
+}

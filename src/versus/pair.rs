@@ -1,0 +1,29 @@
+//! What is known of two sides after they were compared.
+
+use super::cause::Explained;
+use super::judge::Compared;
+use crate::compare::Check;
+use crate::tables::Held;
+
+/// A side by its name in a recording; empty for others.
+pub(super) type Side = (String, Held);
+
+/// Two sides compared.
+pub struct Pair {
+    /// What they are called in the recordings; empty for others.
+    pub names: [String; 2],
+    /// Channel by channel, in the order of the second party.
+    pub channels: Vec<Compared>,
+    /// Checks of the analytic sides on each other, where a scenario was solved.
+    pub checks: Vec<Check>,
+    /// Number of instants of the party that gives them.
+    pub instants: usize,
+    /// Number of those that the other does not have.
+    pub unshared: usize,
+    /// Channels that only one of the two has.
+    pub alone: [Vec<String>; 2],
+    /// Whether the instants are crank angles.
+    pub by_crank: bool,
+    /// Why channels are off, where that is simple.
+    pub causes: Vec<Explained>,
+}

@@ -1,0 +1,50 @@
+//! Tables, recordings and scenarios held against each other: what is right agrees, what is wrong is found and named.
+
+mod files;
+mod mistakes;
+mod pairs;
+
+use std::path::Path;
+
+use formula::Rounded;
+use linkage::solver::Solver;
+use linkage::trajectory::Trajectory;
+use linkproof::scenario::Scenario;
+use linkproof::scenario::mapping::{Mapped, Mapping};
+use linkproof::tables::{Held, Raw};
+use linkproof::versus::{Comparison, How, Party, compare};
+
+fn scenario(name: &str) -> Scenario {
+    Scenario::load(&Path::new("scenarios").join(format!("{name}.toml"))).unwrap()
+}
+
+/// What an analytic side finds for a scenario, all channels.
+fn solved(scenario: &Scenario) -> Trajectory {
+    let all = scenario.case.all_channels();
+    analytic::AssurSolver.solve(&scenario.case.wanting_only(&all)).unwrap()
+}
+
+/// A table of some columns by names, each number a whole double.
+fn table(columns: &[(&str, Vec<f64>)]) -> Raw {
+    let doubles = |values: &[f64]| values.iter().map(|&value| Rounded::nearly(value)).collect();
+    Raw {
+        names: columns.iter().map(|(name, _)| (*name).to_string()).collect(),
+        columns: columns.iter().map(|(_, values)| doubles(values)).collect(),
+    }
+}
+
+/// `EXPR=CHANNEL`, line by line.
+fn mapping(lines: &[&str]) -> Mapping {
+    let mut mapping = Mapping::default();
+    lines.iter().for_each(|line| mapping.push(Mapped::parse(line, "a test").unwrap()));
+    mapping
+}
+
+fn held(raw: &Raw) -> Party {
+    Party::Table(Box::new(Held::of_table(raw, &Mapping::default()).unwrap()))
+}
+
+fn against(scenario: &Scenario, raw: &Raw, how: &How) -> Comparison {
+    let parties = [Party::Scenario(Box::new(scenario.clone())), held(raw)];
+    compare(parties, [Path::new("a"), Path::new("b")], how).unwrap()
+}

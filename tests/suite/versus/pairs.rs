@@ -1,0 +1,181 @@
+//! Alignment, mapping, units, digits, interpolation.
+
+use std::path::Path;
+
+use super::{against, held, mapping, scenario, solved, table};
+use linkproof::scenario::mapping::{Allowed, Size};
+use linkproof::tables::{Held, load};
+use linkproof::versus::{Comparison, How, Party, compare};
+
+fn compared(parties: [Party; 2], how: &How) -> Result<Comparison, linkage::Error> {
+    compare(parties, [Path::new("a.csv"), Path::new("b.csv")], how)
+}
+
+fn rel(share: f64) -> How {
+    How { allowed: vec![Allowed { of: None, size: Size::Relative(share) }], ..How::default() }
+}
+
+#[test]
+fn a_mapping_bridges_names_units_signs_and_offsets() {
+    let scenario = scenario("crank_rocker");
+    let right = solved(&scenario);
+    let own = |name: &str| right.named(name).unwrap();
+    let changed = |name: &str, change: &dyn Fn(f64) -> f64| own(name).iter().map(|&value| change(value)).collect();
+    let raw = table(&[
+        ("time", right.times().to_vec()),
+        ("phi 3", changed("link.rocker.angle_rad", &|angle| -angle - 0.25)),
+        ("xB", changed("point.B.x_m", &|x| 1e3 * x)),
+        ("w", own("link.rocker.omega_rad_s").to_vec()),
+    ]);
+    let lines = [
+        "-(`phi 3` + 0.25)*180/pi=link.rocker.angle_deg",
+        "xB=point.B.x_mm",
+        "w = link.rocker.omega_rad_s",
+        "2*w=link.rocker.omega_rad_s + link.rocker.omega_rad_s",
+    ];
+    let mapping = mapping(&lines);
+    let table = Held::of_table(&raw, &mapping).unwrap();
+    let both = [Party::Scenario(Box::new(scenario)), Party::Table(Box::new(table))];
+    let found = compared(both, &How::default()).unwrap();
+    assert_eq!((found.verdict.word(), found.pairs[0].channels.len()), ("agree", 4));
+    // What it says is written to a file, and read back.
+    let text = mapping.text();
+    let path = std::env::temp_dir().join("linkproof-mapping-of-a-test.toml");
+    std::fs::write(&path, &text).unwrap();
+    assert_eq!(linkproof::scenario::mapping::Mapping::load(&path).unwrap().text(), text);
+    assert!(text.contains("\"link.rocker.angle_deg\" = \"-(`phi 3` + 0.25)*180/pi\""), "{text}");
+}
+
+#[test]
+fn a_wrong_mapping_is_refused_with_its_place() {
+    let right = solved(&scenario("crank_rocker"));
+    let raw =
+        table(&[("time", right.times().to_vec()), ("phi3", right.named("link.rocker.angle_rad").unwrap().to_vec())]);
+    for (line, message, help) in [
+        ("phi4=link.rocker.angle_rad", "no column `phi4`", "did you mean `phi3`?"),
+        ("2*(phi3=link.rocker.angle_rad", "not closed", "add `)`"),
+        ("phi3=link.rocker.angle", "no channel", ""),
+    ] {
+        let error = Held::of_table(&raw, &mapping(&[line])).unwrap_err();
+        assert!(error.message().contains(message), "{line}: {}", error.message());
+        assert!(
+            error.place().is_some() && format!("{:?}", error.advice()).contains(help),
+            "{line}: {:?}",
+            error.advice()
+        );
+    }
+    // The scenario has no such link.
+    let table = Held::of_table(&raw, &mapping(&["phi3=link.roker.angle_rad"])).unwrap();
+    let both = [Party::Scenario(Box::new(scenario("crank_rocker"))), Party::Table(Box::new(table))];
+    let error = compared(both, &How::default()).err().unwrap();
+    assert!(format!("{:?}", error.advice()).contains("link.rocker.angle_rad"), "{:?}", error.advice());
+}
+
+/// Numbers with few digits agree within half a unit of the last, times too.
+#[test]
+fn digits_of_numbers_and_of_instants_are_in_the_bound() {
+    let scenario = scenario("crank_rocker");
+    let right = solved(&scenario);
+    let path = std::env::temp_dir().join("linkproof-digits-of-a-test.csv");
+    let angle = right.named("link.rocker.angle_rad").unwrap();
+    let row = |row: usize| format!("{:.5},{:.4}\n", right.times()[row], angle[row].to_degrees());
+    let lines: String = (0..angle.len()).map(row).collect();
+    std::fs::write(&path, format!("t_s,link.rocker.angle_deg\n{lines}")).unwrap();
+    let raw = load(&path).unwrap();
+    assert_eq!(against(&scenario, &raw, &How::default()).verdict.word(), "agree");
+    // One number is off by two units of its last digit, beyond what both roundings leave.
+    let spoiled =
+        lines.replacen(&format!("{:.4}", angle[40].to_degrees()), &format!("{:.4}", angle[40].to_degrees() + 0.01), 1);
+    std::fs::write(&path, format!("t_s,link.rocker.angle_deg\n{spoiled}")).unwrap();
+    let found = against(&scenario, &load(&path).unwrap(), &How::default());
+    assert_eq!(found.verdict.word(), "disagree");
+    let since = found.pairs[0].channels[0].since.unwrap();
+    assert!((since.time - right.times()[40]).abs() < 1e-5);
+}
+
+#[test]
+fn rows_are_brought_together_by_crank_angle_too() {
+    let scenario = scenario("crank_rocker");
+    let right = solved(&scenario);
+    let cranks: Vec<f64> = right.cranks().iter().map(|crank| crank.to_degrees()).collect();
+    let raw = table(&[
+        ("crank_deg", cranks),
+        ("link.rocker.angle_rad", right.named("link.rocker.angle_rad").unwrap().to_vec()),
+    ]);
+    let found = against(&scenario, &raw, &How::default());
+    assert!(found.pairs[0].by_crank && found.verdict.word() == "agree");
+    let error = compared([held(&raw), held(&raw)], &How { by_crank: Some(false), ..How::default() }).err().unwrap();
+    assert!(error.message().contains("no times"), "{}", error.message());
+}
+
+/// Of two tables neither is analytic: without an allowance nothing is proven, unless they are the same.
+#[test]
+fn two_tables_need_an_allowance() {
+    let right = solved(&scenario("crank_rocker"));
+    let of = |more: f64| {
+        let angle = right.named("link.rocker.angle_rad").unwrap().iter().map(|value| value + more).collect();
+        table(&[("t", right.times().to_vec()), ("link.rocker.angle_rad", angle)])
+    };
+    let verdict = |more: f64, how: &How| compared([held(&of(0.0)), held(&of(more))], how).unwrap().verdict.word();
+    assert_eq!(verdict(0.0, &How::default()), "agree");
+    assert_eq!(verdict(1e-6, &How::default()), "inconclusive");
+    assert_eq!([verdict(1e-6, &rel(1e-5)), verdict(1e-4, &rel(1e-5))], ["agree", "disagree"]);
+}
+
+/// Every third instant is enough to interpolate the others: the bound holds what that is wrong by, and not much more.
+#[test]
+fn interpolation_has_its_error_in_the_bound() {
+    let right = solved(&scenario("crank_rocker"));
+    let name = "link.rocker.angle_rad";
+    let every = |step: usize| {
+        let thin = |values: &[f64]| values.iter().copied().step_by(step).collect();
+        table(&[("t", thin(right.times())), (name, thin(right.named(name).unwrap()))])
+    };
+    let plain = compared([held(&every(3)), held(&every(1))], &rel(0.0)).unwrap();
+    assert_eq!((plain.pairs[0].unshared, plain.pairs[0].channels[0].judged), (240, 121));
+    let how = How { interpolates: true, ..rel(0.0) };
+    let found = compared([held(&every(3)), held(&every(1))], &how).unwrap();
+    let channel = &found.pairs[0].channels[0];
+    assert_eq!((found.verdict.word(), found.pairs[0].unshared, channel.judged), ("agree", 0, 361));
+    let worst = channel.largest.unwrap();
+    assert!(worst.difference.abs() > 1e-9 && worst.bound < 1e-3, "{worst:?}");
+    // It hides no mistake.
+    let mut spoiled = every(1);
+    spoiled.columns[1][100].value += 1e-3;
+    assert_eq!(compared([held(&every(3)), held(&spoiled)], &how).unwrap().verdict.word(), "disagree");
+}
+
+#[test]
+fn two_models_of_one_mechanism_are_compared() {
+    let one = scenario("crank_rocker");
+    let both = |other: linkproof::Scenario| [Party::Scenario(Box::new(one.clone())), Party::Scenario(Box::new(other))];
+    let same = compared(both(one.clone()), &How::default()).unwrap();
+    assert_eq!(same.verdict.word(), "agree");
+    assert!(same.pairs[0].channels.len() > 50);
+    let heavier = one.text.replacen("mass_kg = ", "mass_kg = 1", 1);
+    let other = linkproof::Scenario::parse(&heavier, &one.path).unwrap();
+    let found = compared(both(other), &How::default()).unwrap();
+    assert_eq!(found.verdict.word(), "disagree");
+    let off: Vec<&str> =
+        found.pairs[0].channels.iter().filter(|own| own.since.is_some()).map(|own| own.claim.text.as_str()).collect();
+    assert!(off.iter().all(|name| name.ends_with("_N") || name.ends_with("_N_m")), "{off:?}");
+}
+
+#[test]
+fn what_they_do_not_share_is_told() {
+    let scenario = scenario("crank_rocker");
+    let right = solved(&scenario);
+    let raw = table(&[
+        ("t", right.times().to_vec()),
+        ("link.rocker.angle_rad", right.named("link.rocker.angle_rad").unwrap().to_vec()),
+        ("link.ghost.angle_rad", right.times().to_vec()),
+        ("temperature", right.times().to_vec()),
+    ]);
+    let pair = &against(&scenario, &raw, &How::default()).pairs[0];
+    assert_eq!(pair.alone[1], ["link.ghost.angle_rad"]);
+    let missing =
+        How { allowed: vec![Allowed { of: Some("point.B".into()), size: Size::Relative(0.1) }], ..How::default() };
+    let parties = [Party::Scenario(Box::new(scenario)), held(&raw)];
+    let error = compared(parties, &missing).err().unwrap();
+    assert!(error.message().contains("point.B"), "{}", error.message());
+}
