@@ -90,7 +90,8 @@ def model(folder, inertia=None):
             columns = [f"{name}{what}"] if what == "Rot" else [None, None, f"{name}{what}"]
             sensor(SensorBody, name + what, columns, bodyNumber=body, outputVariableType=kind)
     for what, kind in POINT.items():
-        sensor(SensorBody, "B" + what, [f"B{what}X", f"B{what}Y", None], bodyNumber=bodies["rocker"], outputVariableType=kind)
+        sensor(SensorBody, "B" + what, [f"B{what}X", f"B{what}Y", None],
+               bodyNumber=bodies["rocker"], outputVariableType=kind)
     for name, joint in joints.items():
         sensor(SensorObject, "force" + name, [f"force{name}X", f"force{name}Y", None],
                objectNumber=joint, outputVariableType=KINDS.Force)

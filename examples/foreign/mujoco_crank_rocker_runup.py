@@ -21,9 +21,9 @@ STALL, SLOPE = 22.51 * RATIO, 0.0716 * RATIO**2  # on the crank: N m, N m s/rad
 ARMATURE = 9e-4 * RATIO**2 + 1.6
 
 
-def model(step, integrator="RK4", stiffness=4):
-    """`stiffness`: time constant of loop and friction in steps. RK4 needs four to see them move."""
-    loop = f'solref="{stiffness * step} 1" solimp="0.9999 0.9999 1"' if stiffness else HARD
+def model(step, integrator="RK4", stiffness=4, impedance=0.9999):
+    """`stiffness`: time constant of loop and friction in steps. RK4 needs four to see them move. 0: one step."""
+    loop = f'solref="{stiffness * step} 1" solimp="{impedance} {impedance} 1"' if stiffness else HARD
     coupler, rocker = (math.degrees(angle) for angle in start_angles())
     return f"""
 <mujoco model="crank-rocker, run-up">
@@ -43,7 +43,9 @@ def model(step, integrator="RK4", stiffness=4):
   </worldbody>
   <equality><connect site1="B" site2="end"/></equality>
   <actuator><motor name="stall" joint="crank"/></actuator>
-  <sensor><force name="F_O" site="O"/> <torque name="T_O" site="O"/> <force name="F_A" site="A"/> <force name="F_C" site="C"/></sensor>
+  <sensor>
+    <force name="F_O" site="O"/> <torque name="T_O" site="O"/> <force name="F_A" site="A"/> <force name="F_C" site="C"/>
+  </sensor>
 </mujoco>"""
 
 

@@ -13,7 +13,13 @@ from pylinkage import Crank, Ground, Linkage, PointTracker, RRPDyad, RRRDyad
 STEPS = 240
 
 
-def simulate(path):
+def stepped(linkage):
+    """The same by step_with_derivatives(); NaN where it gives none."""
+    rows = [[[pair or (math.nan, math.nan) for pair in what] for what in step] for step in linkage.step_with_derivatives(STEPS)]
+    return np.array(rows).transpose(1, 0, 2, 3)
+
+
+def simulate(path, compiled=True):
     o1, o2, above = Ground(-5.2, 2.4), Ground(0, 0), Ground(0, 1)
     a = Crank(anchor=o1, radius=1, angular_velocity=math.tau / STEPS)
     b = RRRDyad(a.output, o2, distance1=5, distance2=3, x=0.8, y=2.9)
@@ -21,8 +27,8 @@ def simulate(path):
     d = RRPDyad(c, o2, above, distance=8, x=0, y=13)
     linkage = Linkage([o1, o2, above, a, b, c, d])
     linkage.set_input_velocity(a, omega=1.0)  # derivatives by the crank angle
-    # The compiled path: step_with_derivatives() knows no velocity of a PointTracker, nor of what hangs on it.
-    every = linkage.step_fast_with_kinematics(STEPS)
+    # The compiled path: step_with_derivatives() has no velocity of a PointTracker, and 0 for what hangs on it.
+    every = linkage.step_fast_with_kinematics(STEPS) if compiled else stepped(linkage)
     phi = np.arange(1, STEPS + 1) * math.tau / STEPS
     columns, names = [phi], ["phi"]
     for part, name in ((a, "A"), (b, "B"), (c, "C"), (d, "D")):

@@ -86,7 +86,7 @@ def scales(found, names):
 
 @dataclass
 class Worst:
-    """The worst channel of a kind: its largest error in its own unit, that as a share of its scale, and the share in the second half."""
+    """The worst channel of a kind: largest error in its unit, as a share of its scale, and the share in the second half."""
 
     channel: str
     error: float

@@ -9,6 +9,7 @@ import exudyn_crank_rocker
 import exudyn_crankcase
 import mujoco_crank_rocker
 import pylinkage_crank_rocker
+import pylinkage_six_bar
 from crank_rocker import COUPLER, INERTIA, MASS
 
 DATA = pathlib.Path(__file__).resolve().parent / "data"
@@ -30,6 +31,7 @@ def write():
     exudyn_crankcase.simulate(exudyn_crankcase.END / 1440, DATA / "wrong_exudyn_no_gravity.txt", gravity=0.0)
     pylinkage_crank_rocker.simulate(DATA / "wrong_pylinkage_late.csv", first=0)
     pylinkage_crank_rocker.simulate(DATA / "wrong_pylinkage_branch.csv", coupler_above=False)
+    pylinkage_six_bar.simulate(DATA / "wrong_pylinkage_tracker.csv", compiled=False)
 
 
 if __name__ == "__main__":
