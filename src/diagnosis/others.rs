@@ -8,7 +8,7 @@ use linkage::math::statistics::half_range;
 use linkage::trajectory::{Channel, Unit};
 
 /// How many times its bound a channel must vary before its values are known by their course.
-const TELLING: f64 = 1e3;
+const TELLING: f64 = 5.0;
 
 /// Every channel with the values of others: of one, or of two that changed places, or the difference of two.
 pub(super) fn found(question: &Question) -> Vec<Found> {
@@ -44,8 +44,11 @@ pub(super) fn found(question: &Question) -> Vec<Found> {
     causes
 }
 
+/// Whether the values of one may be taken for those of the other: in the same unit, or one the other's rate.
 fn alike(one: &Channel, other: &Channel) -> bool {
-    one != other && one.kind.unit == other.kind.unit && one.kind.stage == other.kind.stage
+    let is_rate = |of: &Channel, rate: &Channel| of.rate().is_some_and(|own| own == *rate);
+    let is_neighbour = is_rate(one, other) || is_rate(other, one);
+    one != other && (one.kind.unit == other.kind.unit && one.kind.stage == other.kind.stage || is_neighbour)
 }
 
 /// The difference of two links' angles, up to where it is counted from; or of their angular velocities.

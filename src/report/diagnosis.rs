@@ -5,7 +5,7 @@ use std::fmt::Write;
 use serde::Serialize;
 
 use crate::diagnosis::{Axis, Cause, Change, Diagnosis, How, Part, Since, Slip, Standing};
-use linkage::trajectory::Channel;
+use linkage::trajectory::{Channel, Stage};
 
 /// Channels that are named; the others are counted.
 const NAMED: usize = 3;
@@ -125,7 +125,8 @@ fn slip(slip: &Slip, channels: &[Channel]) -> String {
             let how = if *by >= 0.0 { "late" } else { "early" };
             let size = number(by.abs());
             let steps = steps.map_or(String::new(), |steps| format!(", {} steps", number(steps.abs())));
-            format!("{what} are {size} s{steps} too {how}")
+            let are = if *stage == Some(Stage::BalancingMoment) { "is" } else { "are" };
+            format!("{what} {are} {size} s{steps} too {how}")
         }
     }
 }

@@ -123,7 +123,10 @@ fn when(at: &Row, by_crank: bool) -> String {
 fn value(value: f64, bound: f64) -> String {
     let size = value.abs().log10().floor();
     let digits = (size - bound.log10().floor() + 1.0).clamp(3.0, 7.0);
-    if !(1e-3..1e6).contains(&value.abs()) && value != 0.0 {
+    if value.abs() <= 1e-3 * bound {
+        return "0".into();
+    }
+    if !(1e-3..1e6).contains(&value.abs()) {
         return format!("{value:.*e}", digits as usize - 1);
     }
     format!("{value:.*}", (digits - 1.0 - size).clamp(0.0, 9.0) as usize)
@@ -138,6 +141,15 @@ fn notes(pair: &Pair) -> String {
     let missing: usize = pair.channels.iter().map(|own| own.missing).max().unwrap_or(0);
     if missing > pair.unshared {
         let _ = writeln!(text, "left out: up to {} instants of a channel without a number", missing - pair.unshared);
+    }
+    if let Some((row, [from, to])) = pair.turns_back {
+        let [what, from, to] = match pair.by_crank {
+            true => {
+                ["crank angles".into(), format!("{:.2} deg", from.to_degrees()), format!("{:.2} deg", to.to_degrees())]
+            }
+            false => ["times".to_string(), format!("{from:.6} s"), format!("{to:.6} s")],
+        };
+        let _ = writeln!(text, "the {what} jump back in row {}, from {from} to {to}: has it begun anew?", row + 1);
     }
     for (side, which) in ["first", "second"].into_iter().enumerate() {
         if !pair.alone[side].is_empty() {
@@ -207,6 +219,7 @@ pub fn json(paths: [&Path; 2], comparison: &Comparison, tell: Tell) -> String {
             "by": if pair.by_crank { "crank angle" } else { "time" },
             "instants": pair.instants,
             "unshared": pair.unshared,
+            "jumps_back_in_row": pair.turns_back.map(|(row, _)| row + 1),
             "only_in_first": pair.alone[0],
             "only_in_second": pair.alone[1],
             "channels": pair.channels.iter().map(channel).collect::<Vec<_>>(),

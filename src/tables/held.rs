@@ -35,6 +35,16 @@ impl At {
         ascending(&self.values.iter().map(|at| at.value).collect::<Vec<f64>>())
     }
 
+    /// The first row, from 0, whose instant lies the other way from the one before than the second from the first, with
+    /// both instants: time that jumps back has begun anew.
+    #[must_use]
+    pub fn turns_back(&self) -> Option<(usize, [f64; 2])> {
+        let step = |row: usize| self.values[row].value - self.values[row - 1].value;
+        let way = (1..self.values.len()).map(step).find(|step| *step != 0.0)?;
+        let row = (1..self.values.len()).find(|&row| step(row) * way < 0.0)?;
+        Some((row, [self.values[row - 1].value, self.values[row].value]))
+    }
+
     /// Exact where steps are equal: such instants were chosen, and only others have lost digits.
     fn settled(values: Vec<Rounded>) -> Vec<Rounded> {
         let steps = values.windows(2).map(|pair| pair[1].value - pair[0].value);
@@ -96,8 +106,8 @@ impl Held {
             *(if is_crank { &mut at.cranks } else { &mut at.times }) = Some(At::settled(values));
         }
         if at.times.is_none() && at.cranks.is_none() {
-            let names = choice(raw.names.iter().map(String::as_str), "`");
-            let message = format!("nothing says where the rows of the table hold; its columns are {names}");
+            let message =
+                format!("nothing says where the rows of the table hold; its columns are {}", some(&raw.names));
             let help = "map a column to time_s, time_ms, crank_deg or crank_rad, such as time=time_s";
             return Err(Error::new(ErrorKind::Input, message).help(help));
         }
@@ -114,8 +124,7 @@ impl Held {
             columns.push(Column { claim, values: reader.column(mapped)?, mapped: None });
         }
         if columns.is_empty() {
-            let names = choice(raw.names.iter().map(String::as_str), "`");
-            let message = format!("no column of the table is a channel; they are {names}");
+            let message = format!("no column of the table is a channel; they are {}", some(&raw.names));
             let help = "map columns to channels, such as phi3*180/pi=link.rocker.angle_deg";
             return Err(Error::new(ErrorKind::Input, message).help(help));
         }
@@ -214,6 +223,18 @@ fn scaled(number: Rounded, factor: f64) -> Rounded {
     }
 }
 
+/// The first columns by name.
+fn some(names: &[String]) -> String {
+    let shown = names.iter().take(NAMED).map(String::as_str);
+    match names.len().saturating_sub(NAMED) {
+        0 => choice(shown, "`"),
+        more => format!("{} and {more} more", shown.map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")),
+    }
+}
+
+/// Columns that a message names; the others are counted.
+const NAMED: usize = 8;
+
 /// Evaluates arithmetics over the columns of a table.
 struct Reader<'a> {
     raw: &'a Raw,
@@ -254,10 +275,7 @@ impl<'a> Reader<'a> {
         let message = format!("the table has no column `{name}`");
         let help = match nearest(name, self.raw.names.iter().map(String::as_str)) {
             Some(near) => format!("did you mean `{near}`?"),
-            None => {
-                let names = choice(self.raw.names.iter().map(String::as_str), "`");
-                format!("its columns are {names}; backquotes hold a name with blanks or signs")
-            }
+            None => format!("its columns are {}; backquotes hold a name with blanks or signs", some(&self.raw.names)),
         };
         Fault { message, help, ..fault }
     }

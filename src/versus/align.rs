@@ -60,8 +60,9 @@ pub(super) fn beside(one: &Side, other: &Side, how: &How) -> Result<Pair> {
     };
     let channels = both.judged(&claims)?;
     let names = [one.0.clone(), other.0.clone()];
-    let (instants, by_crank) = (to.values.len(), to.is_crank);
-    Ok(Pair { names, channels, checks: Vec::new(), instants, unshared, alone, by_crank, causes: Vec::new() })
+    let (instants, by_crank, turns_back) = (to.values.len(), to.is_crank, to.turns_back());
+    let (checks, causes) = (Vec::new(), Vec::new());
+    Ok(Pair { names, channels, checks, instants, unshared, alone, turns_back, by_crank, causes })
 }
 
 /// Where an instant of the second party lies among the rows of the first.

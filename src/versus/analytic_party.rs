@@ -54,8 +54,9 @@ pub(super) fn beside(scenario: &Scenario, (name, held): Side, is_first: bool, ho
         true => ([String::new(), name], [Vec::new(), alone]),
         false => ([name, String::new()], [alone, Vec::new()]),
     };
+    let (instants, by_crank, turns_back) = (at.values.len(), at.is_crank, at.turns_back());
     let checks = solved.checks().to_vec();
-    Ok(Pair { names, channels, checks, instants: at.values.len(), unshared: 0, alone, by_crank: at.is_crank, causes })
+    Ok(Pair { names, channels, checks, instants, unshared: 0, alone, turns_back, by_crank, causes })
 }
 
 /// What a party says of channels that the scenario has, and the names of its other ones.

@@ -74,8 +74,8 @@ struct Stage {
     case: linkage::case::Case,
     right: Trajectory,
     found: Trajectory,
-    /// By channel of `found`: text of its claim, and the bound on it in SI.
-    bounds: Vec<(String, f64)>,
+    /// By channel of `found`: text of its claim, the bound on it in SI, and whether it agrees.
+    bounds: Vec<(String, f64, bool)>,
 }
 
 impl Stage {
@@ -102,7 +102,8 @@ impl Stage {
             }
             names.push(printed.channel.clone());
             columns.push(rows.iter().map(|&row| printed.to_si(values[row].value)).collect());
-            bounds.push((own.claim.text.clone(), printed.to_si(own.worst.map_or(0.0, |worst| worst.bound))));
+            let bound = printed.to_si(own.worst.map_or(0.0, |worst| worst.bound));
+            bounds.push((own.claim.text.clone(), bound, own.since.is_none()));
         }
         let all: Vec<Channel> = scenario.case.all_channels();
         let case = scenario.case.on(Grid { times: times.clone(), cranks: cranks.clone() })?.wanting_only(&all);
@@ -142,7 +143,11 @@ impl Stage {
             .channels()
             .iter()
             .zip(&self.bounds)
-            .filter_map(|(channel, (text, bound))| {
+            .filter_map(|(channel, (text, bound, agrees))| {
+                if *agrees {
+                    // A cause must not spoil it.
+                    return Some(Judged { channel: channel.clone(), bound: *bound, disagrees: false });
+                }
                 let own = of.iter().find(|own| own.claim.text == *text)?;
                 let largest = own.largest.map_or(0.0, |at| own.claim.channels[0].1.to_si(at.difference.abs()));
                 Some(Judged { channel: channel.clone(), bound: bound.larger(left * largest), disagrees: true })

@@ -22,6 +22,8 @@ pub struct Pair {
     pub unshared: usize,
     /// Channels that only one of the two has.
     pub alone: [Vec<String>; 2],
+    /// The first row whose instant lies back, with the one before: see [`At::turns_back`](crate::tables::At::turns_back).
+    pub turns_back: Option<(usize, [f64; 2])>,
     /// Whether the instants are crank angles.
     pub by_crank: bool,
     /// Why channels are off, where that is simple.

@@ -1,6 +1,7 @@
 //! Tables, recordings and scenarios held against each other: what is right agrees, what is wrong is found and named.
 
 mod files;
+mod foreign;
 mod mistakes;
 mod pairs;
 
