@@ -1,6 +1,7 @@
 //! Text with separated columns, as programs write it: with commas, semicolons, tabs or blanks, with or without a
 //! header, with lines of comment.
 
+use std::borrow::Cow;
 use std::path::Path;
 
 use super::digits::{Cell, numbers};
@@ -12,9 +13,9 @@ use linkage::error::{Error, ErrorKind, Place, Result};
 const COMMENTS: [char; 3] = ['#', '%', ';'];
 
 /// A line of the file that is no comment: where it begins, and its cells.
-struct Line {
+struct Line<'a> {
     start: usize,
-    cells: Vec<String>,
+    cells: Vec<Cow<'a, str>>,
 }
 
 pub(super) fn read(path: &Path) -> Result<Raw> {
@@ -38,7 +39,7 @@ fn of_text(text: &str, path: &Path) -> Result<Raw> {
     let has_numbers = |line: &Line| line.cells.iter().all(|cell| number(cell).is_some());
     let (names, rows) = match has_numbers(first) {
         true => ((1..=first.cells.len()).map(|column| format!("c{column}")).collect(), &lines[..]),
-        false => (first.cells.clone(), &lines[1..]),
+        false => (first.cells.iter().map(ToString::to_string).collect::<Vec<String>>(), &lines[1..]),
     };
     let mut columns: Vec<Vec<Cell>> = vec![Vec::with_capacity(rows.len()); names.len()];
     for line in rows {
@@ -64,7 +65,7 @@ fn number(cell: &str) -> Option<Cell> {
 }
 
 /// The lines that are no comments, divided by the separator that the last of them shows.
-fn lines(text: &str) -> Vec<Line> {
+fn lines<'a>(text: &'a str) -> Vec<Line<'a>> {
     let text = text.strip_prefix('\u{feff}').map_or((0, text), |rest| (text.len() - rest.len(), rest));
     let (mut start, text) = text;
     let mut found = Vec::new();
@@ -76,15 +77,18 @@ fn lines(text: &str) -> Vec<Line> {
         start += line.len();
     }
     let separator = found.last().and_then(|(_, line)| ['\t', ';', ','].into_iter().find(|sign| line.contains(*sign)));
-    let cells = |line: &str| -> Vec<String> {
+    let cells = |line: &'a str| -> Vec<Cow<'a, str>> {
         let Some(separator) = separator else {
-            return line.split_whitespace().map(str::to_string).collect();
+            return line.split_whitespace().map(Cow::Borrowed).collect();
         };
+        if !line.contains('"') {
+            return line.split(separator).map(|cell| Cow::Borrowed(cell.trim())).collect();
+        }
         let mut reader = csv::ReaderBuilder::new();
         reader.has_headers(false).flexible(true).trim(csv::Trim::All).delimiter(separator as u8);
         let mut record = csv::StringRecord::new();
         match reader.from_reader(line.as_bytes()).read_record(&mut record) {
-            Ok(_) => record.iter().map(str::to_string).collect(),
+            Ok(_) => record.iter().map(|cell| Cow::Owned(cell.to_string())).collect(),
             Err(_) => Vec::new(),
         }
     };
@@ -123,6 +127,20 @@ mod tests {
             let error = read(text).unwrap_err();
             assert!(error.message().contains(part), "{}", error.message());
             assert_eq!(error.place().unwrap().line(), line, "{text}");
+        }
+    }
+
+    proptest::proptest! {
+        /// Whatever a file holds: columns of equal length, or an error with its place.
+        #[test]
+        fn any_text_is_a_table_or_an_error(text in "([-+0-9.,;eE \t\r\n#\"a-z\u{fc}\u{20ac}]{0,12}\n){0,8}") {
+            match read(&text) {
+                Ok(raw) => {
+                    proptest::prop_assert!(raw.columns.iter().all(|column| column.len() == raw.len()));
+                    proptest::prop_assert_eq!(raw.names.len(), raw.columns.len());
+                }
+                Err(error) => proptest::prop_assert!(error.place().is_some() && !error.advice().is_empty()),
+            }
         }
     }
 }

@@ -23,21 +23,33 @@ impl Cell {
 
     /// Reads a cell; `None` if it is neither a number nor missing.
     pub fn parse(text: &str) -> Option<Cell> {
-        if text.is_empty() || ["nan", "na", "null", "none", "-"].iter().any(|word| text.eq_ignore_ascii_case(word)) {
+        let is_word = !text.starts_with(|sign: char| sign.is_ascii_digit()) && text.len() < 5;
+        if is_word
+            && (text.is_empty()
+                || ["nan", "na", "null", "none", "-"].iter().any(|word| text.eq_ignore_ascii_case(word)))
+        {
             return Some(Cell::MISSING);
         }
-        // Words such as `inf` are no numbers here.
-        if text.contains(|sign: char| !sign.is_ascii_digit() && !"+-.eE".contains(sign)) {
-            return None;
+        let (mut decimals, mut significant, mut point, mut exponent) = (0i32, 0i32, false, None);
+        for (at, byte) in text.bytes().enumerate() {
+            match byte {
+                b'0'..=b'9' => {
+                    significant += i32::from(significant > 0 || byte != b'0');
+                    decimals += i32::from(point);
+                }
+                b'.' => point = true,
+                b'+' | b'-' if at == 0 => {}
+                b'e' | b'E' => {
+                    exponent = Some(text[at + 1..].parse::<i32>().ok()?);
+                    break;
+                }
+                // Words such as `inf` are no numbers here.
+                _ => return None,
+            }
         }
         let value: f64 = text.parse().ok().filter(|value: &f64| value.is_finite())?;
-        let (mantissa, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
-        let exponent: i32 = exponent.parse().ok()?;
-        let decimals = mantissa.split_once('.').map_or(0, |(_, decimals)| decimals.len() as i32);
-        let digits: String = mantissa.chars().filter(char::is_ascii_digit).collect();
-        let number = Printed { value, digits: decimals.saturating_sub(exponent) };
-        let significant = digits.trim_start_matches('0').len() as i32;
-        Some(Cell { number: Some(number), significant, scientific: text.contains(['e', 'E']) })
+        let number = Printed { value, digits: decimals.saturating_sub(exponent.unwrap_or(0)) };
+        Some(Cell { number: Some(number), significant, scientific: exponent.is_some() })
     }
 
     /// Whether it has as many digits as a double.
