@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::check_format;
+use super::header::check_format;
 use super::reader::{Sign, Table};
 use super::source::Source;
 use super::unit::{ANGULAR_SPEED, POWER};

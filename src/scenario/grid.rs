@@ -63,7 +63,7 @@ const BY_TIME: &str = "give the grid by time (`from_s`, `to_s`, `step_s`, or a l
 
 /// The grid of a scenario, by crank angle or by time: a range or a list. An empty one if it is not wanted: it is read,
 /// but not checked against the drive.
-pub fn read(mut table: Table, drive: &Drive, is_replaced: bool) -> Result<Grid> {
+pub fn read(table: &mut Table, drive: &Drive, is_replaced: bool) -> Result<Grid> {
     let mut lists = Vec::new();
     for (base, family) in LISTS {
         lists.extend(table.optional_quantities(base, family)?.map(|values| (base, family, values)));
@@ -80,7 +80,7 @@ pub fn read(mut table: Table, drive: &Drive, is_replaced: bool) -> Result<Grid> 
         }
         (Some((family, from)), []) => {
             let family = [&ANGLE, &TIME][family];
-            (family, ranged_points(&mut table, family, from)?)
+            (family, ranged_points(table, family, from)?)
         }
         (None, []) => {
             return Err(table.fault("`from_deg`, `from_rad`, `from_s` or `from_ms` is missing").help(

@@ -5,7 +5,7 @@ use super::figure::Figure;
 use super::figure::{self, OracleFigure};
 use super::instant;
 use super::printed::{Printed, PrintedChannel};
-use super::reader::Table;
+use super::reader::{Faults, Table};
 use super::series::{ExpectedCell, Known, OraclePoint, OracleSeries};
 use super::table_file;
 use super::words::suggestion;
@@ -76,44 +76,43 @@ impl OracleBasis {
     }
 }
 
-/// All oracles of a case.
-pub(super) fn read(tables: Vec<Table>, case: &Case) -> Result<Vec<Oracle>> {
+/// The oracles of a case, but those with mistakes.
+pub(super) fn read(tables: Vec<Table>, case: &Case, faults: &mut Faults) -> Vec<Oracle> {
     let (wanted, all) = (case.channels(), case.all_channels());
-    let (channels, wanted) = (all.as_slice(), wanted.as_slice());
+    let known = Known { channels: &all, wanted: &wanted, digits: None, slack: 0.0 };
     let mut inline = 0;
-    let mut oracles = Vec::with_capacity(tables.len());
-    for mut table in tables {
-        let source = table.string("source")?;
-        let own_name = table.optional_string("name")?;
-        let forms = ["file", "values", "figures"].map(|key| table.has(key));
-        let basis = OracleBasis::read(&mut table)?;
-        let mut oracle = Oracle { name: String::new(), source, basis, series: Vec::new(), figures: Vec::new() };
-        match forms {
-            [true, false, false] => {
-                (oracle.name, oracle.series) =
-                    table_file::read(&mut table, &Known { channels, wanted, digits: None, slack: 0.0 }, case)?;
-            }
-            [false, true, false] => {
-                oracle.series = values(&mut table, &Known { channels, wanted, digits: None, slack: 0.0 }, case)?
-            }
-            [false, false, true] => oracle.figures = figure::read(&mut table, case)?,
-            _ => {
-                return Err(table
-                    .fault("an oracle has exactly one of `file`, `values` and `figures`")
-                    .help("split it into several [[oracle]] tables, or add the numbers"));
-            }
+    let one = |mut table: Table| faults.read(&mut table, |table| oracle(table, &known, case, &mut inline));
+    tables.into_iter().filter_map(one).collect()
+}
+
+/// One oracle; `inline` counts those with numbers in the scenario itself.
+fn oracle(table: &mut Table, known: &Known, case: &Case, inline: &mut usize) -> Result<Oracle> {
+    let source = table.string("source")?;
+    let own_name = table.optional_string("name")?;
+    let forms = ["file", "values", "figures"].map(|key| table.has(key));
+    let basis = OracleBasis::read(table)?;
+    let mut oracle = Oracle { name: String::new(), source, basis, series: Vec::new(), figures: Vec::new() };
+    match forms {
+        [true, false, false] => {
+            (oracle.name, oracle.series) = table_file::read(table, known, case)?;
         }
-        if !forms[0] {
-            inline += 1;
-            oracle.name = format!("inline {inline}");
+        [false, true, false] => oracle.series = values(table, known, case)?,
+        [false, false, true] => oracle.figures = figure::read(table, case)?,
+        _ => {
+            return Err(table
+                .fault("an oracle has exactly one of `file`, `values` and `figures`")
+                .help("split it into several [[oracle]] tables, or add the numbers"));
         }
-        if let Some(name) = own_name {
-            oracle.name = name;
-        }
-        table.finish()?;
-        oracles.push(oracle);
     }
-    Ok(oracles)
+    if !forms[0] {
+        *inline += 1;
+        oracle.name = format!("inline {inline}");
+    }
+    if let Some(name) = own_name {
+        oracle.name = name;
+    }
+    table.finish()?;
+    Ok(oracle)
 }
 
 /// Numbers at one instant, written in the scenario itself.

@@ -1,9 +1,13 @@
 //! Typed reading of a spanned TOML table. A reader knows its dotted path, returns typed values, remembers the keys that
 //! were asked for, and at the end refuses the keys that nobody asked for.
+//!
+//! A table that is read by [`Table::read`] tells all mistakes of its keys and values at once.
 
 mod quantity;
+mod several;
 
 pub use quantity::Sign;
+pub use several::Faults;
 
 use std::ops::Range;
 
@@ -12,7 +16,6 @@ use toml::de::{DeTable, DeValue};
 
 use super::parameters::{Parameter, arithmetic};
 use super::source::Source;
-use super::words::{choice, nearest};
 use formula::Fault;
 use linkage::error::{Error, ErrorKind, Result};
 
@@ -31,6 +34,11 @@ pub struct Table<'a> {
     entries: Vec<Entry<'a>>,
     used: Vec<&'a str>,
     asked: Vec<String>,
+    /// Whether reading goes on after a mistake.
+    goes_on: bool,
+    faults: Vec<Error>,
+    /// Spellings of each key that is missing.
+    missing: Vec<Vec<String>>,
 }
 
 impl<'a> Table<'a> {
@@ -46,7 +54,8 @@ impl<'a> Table<'a> {
             .collect();
         // The parser moves a table if its header comes after one of its children.
         entries.sort_by_key(|entry| entry.key_span.start);
-        Table { source, name, path, span, entries, used: Vec::new(), asked: Vec::new() }
+        let (used, asked, faults, missing) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        Table { source, name, path, span, entries, used, asked, goes_on: false, faults, missing }
     }
 
     /// The table's own key, for entries of a table of tables.
@@ -138,22 +147,6 @@ impl<'a> Table<'a> {
         }
     }
 
-    fn missing(&self, spellings: &[String]) -> Error {
-        let wanted = choice(spellings.iter().map(String::as_str), "`");
-        // At the top level there is no table to name.
-        let error = self.fault(format!("{wanted} is missing")).key(spellings[0].clone());
-        let spelling = |key: &str| nearest(key, spellings.iter().map(String::as_str));
-        let unread = self.entries.iter().filter(|entry| entry.key.len() > 3 && !self.used.contains(&entry.key));
-        match unread.filter_map(|entry| Some((entry, spelling(entry.key)?))).next() {
-            Some((entry, spelling)) => Error::new(ErrorKind::Input, format!("{wanted} is missing"))
-                .key(self.path_of(spelling))
-                .at(self.source.place(entry.key_span.clone()))
-                .help(format!("there is `{}`: did you mean `{spelling}`?", entry.key)),
-            None if self.path.is_empty() => error.help(format!("add {wanted}; docs/scenario.md describes every key")),
-            None => error.help(format!("add {wanted} to `{}`", self.path)),
-        }
-    }
-
     /// Value of `key`, which is recorded as asked for.
     fn take(&mut self, key: &str) -> Option<&'a Spanned<DeValue<'a>>> {
         self.asked.push(key.to_string());
@@ -162,7 +155,7 @@ impl<'a> Table<'a> {
         Some(entry.value)
     }
 
-    fn required<T>(&self, key: &str, value: Option<T>) -> Result<T> {
+    fn required<T>(&mut self, key: &str, value: Option<T>) -> Result<T> {
         value.ok_or_else(|| self.missing(&[key.to_string()]))
     }
 
@@ -171,7 +164,7 @@ impl<'a> Table<'a> {
         let Some(value) = self.take(key) else { return Ok(None) };
         match value.get_ref().as_str() {
             Some(text) => Ok(Some(text.to_string())),
-            None => Err(self.mistyped(key, value, "text")),
+            None => Err(self.noted(self.mistyped(key, value, "text"))),
         }
     }
 
@@ -186,7 +179,10 @@ impl<'a> Table<'a> {
         let Some(value) = self.take(key) else { return Ok(None) };
         let integer = value.get_ref().as_integer();
         let integer = integer.and_then(|number| i64::from_str_radix(number.as_str(), number.radix()).ok());
-        integer.map(Some).ok_or_else(|| self.mistyped(key, value, "a whole number"))
+        match integer {
+            Some(integer) => Ok(Some(integer)),
+            None => self.instead(Some(1), self.mistyped(key, value, "a whole number")),
+        }
     }
 
     /// Whole number.
@@ -203,65 +199,79 @@ impl<'a> Table<'a> {
     /// `true` or `false`, if the key is there.
     pub fn optional_boolean(&mut self, key: &str) -> Result<Option<bool>> {
         let Some(value) = self.take(key) else { return Ok(None) };
-        value.get_ref().as_bool().map(Some).ok_or_else(|| self.mistyped(key, value, "true or false"))
+        match value.get_ref().as_bool() {
+            Some(found) => Ok(Some(found)),
+            None => self.instead(None, self.mistyped(key, value, "true or false")),
+        }
     }
 
     /// Finite number without a unit, if the key is there.
     pub fn optional_number(&mut self, key: &str) -> Result<Option<f64>> {
-        let value = self.take(key);
-        value.map(|value| self.finite(key, value)).transpose()
+        let Some(value) = self.take(key) else { return Ok(None) };
+        self.finite(key, value).map(Some).or_else(|error| self.instead(None, error))
     }
 
     /// Finite number, or an arithmetic of these parameters.
     pub fn number_with(&mut self, key: &str, parameters: &[Parameter]) -> Result<f64> {
         let value = self.take(key);
         let value = self.required(key, value)?;
-        self.finite_with(key, value, parameters)
+        self.finite_with(key, value, parameters).or_else(|error| self.instead(1.0, error))
     }
 
     /// Finite number without a unit.
     pub fn number(&mut self, key: &str) -> Result<f64> {
-        let value = self.optional_number(key)?;
-        self.required(key, value)
+        let Some(value) = self.take(key) else {
+            let error = self.missing(&[key.to_string()]);
+            return if self.goes_on { Ok(1.0) } else { Err(error) };
+        };
+        self.finite(key, value).or_else(|error| self.instead(1.0, error))
     }
 
     /// Array of finite numbers without a unit.
     pub fn numbers(&mut self, key: &str) -> Result<Vec<f64>> {
         let value = self.take(key);
         let value = self.required(key, value)?;
-        let array = value.get_ref().as_array().ok_or_else(|| self.mistyped(key, value, "an array of numbers"))?;
-        array.iter().map(|element| self.finite(key, element)).collect()
+        let Some(array) = value.get_ref().as_array() else {
+            return Err(self.noted(self.mistyped(key, value, "an array of numbers")));
+        };
+        let number = |element| self.finite(key, element).or_else(|error| self.instead(1.0, error));
+        array.iter().map(number).collect()
     }
 
     /// Array of text.
     pub fn strings(&mut self, key: &str) -> Result<Vec<String>> {
         let value = self.take(key);
         let value = self.required(key, value)?;
-        let array = value.get_ref().as_array().ok_or_else(|| self.mistyped(key, value, "an array of texts"))?;
+        let Some(array) = value.get_ref().as_array() else {
+            return Err(self.noted(self.mistyped(key, value, "an array of texts")));
+        };
         let text = |element: &Spanned<DeValue>| match element.get_ref().as_str() {
             Some(text) => Ok(text.to_string()),
-            None => Err(self.mistyped(key, element, "text")),
+            None => self.instead(String::new(), self.mistyped(key, element, "text")),
         };
         array.iter().map(text).collect()
     }
 
     /// Table, if the key is there.
     pub fn optional_table(&mut self, key: &str) -> Result<Option<Table<'a>>> {
-        let value = self.take(key);
-        value.map(|value| self.child(key, self.path_of(key), value)).transpose()
+        let Some(value) = self.take(key) else { return Ok(None) };
+        self.child(key, self.path_of(key), value).map(Some).or_else(|error| self.instead(None, error))
     }
 
     /// Table.
     pub fn table(&mut self, key: &str) -> Result<Table<'a>> {
-        let value = self.optional_table(key)?;
-        self.required(key, value)
+        let value = self.take(key);
+        let value = self.required(key, value)?;
+        self.child(key, self.path_of(key), value).map_err(|error| self.noted(error))
     }
 
     /// Elements of an array of tables; empty if the key is missing. Their paths contain their name if they have one
     /// (`joints.A`), else their number, counted from 1 (`oracle[2]`).
     pub fn tables(&mut self, key: &str) -> Result<Vec<Table<'a>>> {
         let Some(value) = self.take(key) else { return Ok(Vec::new()) };
-        let array = value.get_ref().as_array().ok_or_else(|| self.mistyped(key, value, "an array of tables"))?;
+        let Some(array) = value.get_ref().as_array() else {
+            return self.instead(Vec::new(), self.mistyped(key, value, "an array of tables"));
+        };
         let child = |(index, element): (usize, &'a Spanned<DeValue<'a>>)| {
             let path = match element.get_ref().get("name").and_then(|name| name.get_ref().as_str()) {
                 Some(name) => format!("{}.{name}", self.path_of(key)),
@@ -269,7 +279,8 @@ impl<'a> Table<'a> {
             };
             self.child(key, path, element)
         };
-        array.iter().enumerate().map(child).collect()
+        let all: Vec<_> = array.iter().enumerate().map(child).collect();
+        self.sound(all)
     }
 
     /// A table or an array of tables; empty if the key is missing.
@@ -289,7 +300,9 @@ impl<'a> Table<'a> {
     /// All entries, each of which must be a table, in the order of the file.
     pub fn all_tables(&mut self) -> Result<Vec<Table<'a>>> {
         self.used = self.entries.iter().map(|entry| entry.key).collect();
-        self.entries.iter().map(|entry| self.child(entry.key, self.path_of(entry.key), entry.value)).collect()
+        let child = |entry: &Entry<'a>| self.child(entry.key, self.path_of(entry.key), entry.value);
+        let all: Vec<_> = self.entries.iter().map(child).collect();
+        self.sound(all)
     }
 
     #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the TOML parser")]
@@ -318,20 +331,6 @@ impl<'a> Table<'a> {
         };
         let number: f64 = number.ok_or_else(|| self.mistyped(key, value, "a number"))?;
         if number.is_finite() { Ok(number) } else { Err(self.mistyped(key, value, "a finite number")) }
-    }
-
-    /// Ends the reading. A key that nobody asked for is an error that names the nearest known key.
-    pub fn finish(&self) -> Result<()> {
-        let Some(entry) = self.entries.iter().find(|entry| !self.used.contains(&entry.key)) else { return Ok(()) };
-        let asked = || self.asked.iter().map(String::as_str);
-        let help = match nearest(entry.key, asked().filter(|key| !self.has(key))) {
-            Some(near) => format!("did you mean `{near}`?"),
-            None => format!("known here: {}", choice(asked(), "`")),
-        };
-        Err(Error::new(ErrorKind::Input, "this key is not known here")
-            .key(self.path_of(entry.key))
-            .at(self.source.place(entry.key_span.clone()))
-            .help(help))
     }
 }
 

@@ -3,6 +3,7 @@
 
 use std::ops::Range;
 use std::path::Path;
+use std::sync::Arc;
 
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -19,17 +20,24 @@ pub struct Source<'a> {
     pub text: &'a str,
     /// Parameters that its numbers may use.
     pub parameters: Vec<Parameter>,
+    /// The text once more, for places.
+    shared: Arc<str>,
 }
 
 impl<'a> Source<'a> {
     /// A file without parameters.
     pub fn new(path: &'a Path, text: &'a str) -> Self {
-        Source { path, text, parameters: Vec::new() }
+        Source { path, text, parameters: Vec::new(), shared: text.into() }
+    }
+
+    /// The same file with parameters.
+    pub fn with(self, parameters: Vec<Parameter>) -> Self {
+        Source { parameters, ..self }
     }
 
     /// Place of a byte range.
     pub fn place(&self, span: Range<usize>) -> Place {
-        Place { file: self.path.to_path_buf(), text: self.text.to_string(), span }
+        Place { file: self.path.to_path_buf(), text: self.shared.clone(), span }
     }
 
     /// The spanned tree of the file.
@@ -44,13 +52,15 @@ impl<'a> Source<'a> {
         Ok(tree)
     }
 
-    /// `error` with the place of its key, if it has a key and no place yet.
+    /// `error`, and those that were found with it: each with the place of its key, if it has a key and no place yet.
     pub fn located(&self, tree: &DeTable, error: Error) -> Error {
-        if error.place().is_some() {
-            return error;
-        }
-        let span = error.scenario_key().map_or(0..0, |key| locate(tree, key));
-        error.at(self.place(span))
+        error.each_in_order(|error| {
+            if error.place().is_some() {
+                return error;
+            }
+            let span = error.scenario_key().map_or(0..0, |key| locate(tree, key));
+            error.at(self.place(span))
+        })
     }
 }
 

@@ -3,12 +3,13 @@
 
 use std::path::Path;
 
+use super::Scenario;
+use super::header::{check_format, name};
 use super::joints::link;
 use super::reader::{Sign, Table};
 use super::source::Source;
 use super::unit::{ANGLE, Family, LENGTH, MASS_PER_LENGTH};
 use super::words::suggestion;
-use super::{Scenario, check_format, name};
 use crate::files;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::{Vec2, unit};
