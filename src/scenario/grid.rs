@@ -83,10 +83,9 @@ pub fn read(table: &mut Table, drive: &Drive, is_replaced: bool) -> Result<Grid>
             (family, ranged_points(table, family, from)?)
         }
         (None, []) => {
-            return Err(table.fault("`from_deg`, `from_rad`, `from_s` or `from_ms` is missing").help(
-                "a grid goes by crank angle (`from_deg`, `to_deg`, `step_deg`) or by time (`from_s`, `to_s`, `step_s`), \
-                 or lists its values (`angles_deg`, `times_s`)",
-            ));
+            let keys = ["from_deg", "from_rad", "from_s", "from_ms", "angles_deg", "angles_rad", "times_s", "times_ms"];
+            return Err(table.lacks(&keys, "a grid goes by crank angle (`from_deg`, `to_deg`, `step_deg`) or by time (`from_s`, `to_s`, `step_s`), \
+                 or lists its values (`angles_deg`, `times_s`)"));
         }
         (_, [.., (base, _, _)]) => {
             let message = "the grid is given twice";

@@ -17,7 +17,7 @@ pub fn read(tables: Vec<Table>, links: &[Link], faults: &mut Faults) -> Vec<Join
     for mut table in tables {
         joints.extend(faults.read(&mut table, |table| joint(table, links, &joints)));
     }
-    // A joint that is left out is missed by others.
+    // A joint that is left out is missed by drives and by the mechanism.
     faults.whole &= joints.len() == count;
     joints
 }
@@ -135,11 +135,12 @@ fn direction(angle: f64) -> Vec2 {
 }
 
 /// Index of the link called `name`. An unknown name is an error of the key `links` or `link` of `table`.
-pub fn link(table: &Table, name: &str, links: &[Link]) -> Result<usize> {
+pub fn link(table: &mut Table, name: &str, links: &[Link]) -> Result<usize> {
+    if let Some(found) = links.iter().position(|link| link.name == name) {
+        return Ok(found);
+    }
     let key = if table.has("links") { "links" } else { "link" };
-    links.iter().position(|link| link.name == name).ok_or_else(|| {
-        let names = links.iter().map(|link| link.name.as_str());
-        let error = table.wrong(ErrorKind::Input, key, format!("there is no link \"{name}\""));
-        error.help(suggestion(name, names, "\""))
-    })
+    let names = links.iter().map(|link| link.name.as_str());
+    let error = table.wrong(ErrorKind::Input, key, format!("there is no link \"{name}\""));
+    table.unknown_name(links.len() - 1, error.help(suggestion(name, names, "\"")))
 }

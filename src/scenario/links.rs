@@ -30,7 +30,8 @@ pub fn read(mut ground: Table, mut links: Table, faults: &mut Faults) -> Vec<Lin
         all.push(link);
     }
     // A link or a point that is left out is missed by others.
-    faults.whole = faults.is_empty() || all.len() > 1 && all.iter().all(|link| !link.points.is_empty());
+    faults.names = all.len() > 1 && all.iter().all(|link| !link.points.is_empty());
+    faults.whole &= faults.names;
     all
 }
 
@@ -91,7 +92,12 @@ pub fn place(mut table: Table, known: &[Point]) -> Result<Vec2> {
 }
 
 fn place_of(table: &mut Table, known: &[Point]) -> Result<Vec2> {
-    let place = match table.optional_string("from")? {
+    let mut polar = [LENGTH.keys("length"), ANGLE.keys("angle")].into_iter().flatten();
+    let from = match polar.any(|key| table.has(&key)) {
+        true => Some(table.string("from")?),
+        false => table.optional_string("from")?,
+    };
+    let place = match from {
         None => Vec2::new(table.quantity("x", &LENGTH, Sign::Any)?, table.quantity("y", &LENGTH, Sign::Any)?),
         Some(from) => {
             let names = known.iter().map(|point| point.name.as_str());

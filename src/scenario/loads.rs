@@ -216,7 +216,7 @@ fn is_smooth(table: &Table, interpolation: Option<String>) -> Result<bool> {
 }
 
 /// A moving link.
-fn moving(table: &Table, name: &str, mechanism: &Mechanism) -> Result<usize> {
+fn moving(table: &mut Table, name: &str, mechanism: &Mechanism) -> Result<usize> {
     let link = link(table, name, mechanism.links())?;
     if link == GROUND {
         let error = table.wrong(ErrorKind::Input, "link", "the ground does not move, and bears any load");
@@ -226,7 +226,7 @@ fn moving(table: &Table, name: &str, mechanism: &Mechanism) -> Result<usize> {
 }
 
 /// A link that can turn.
-fn turning(table: &Table, name: &str, mechanism: &Mechanism) -> Result<usize> {
+fn turning(table: &mut Table, name: &str, mechanism: &Mechanism) -> Result<usize> {
     let link = link(table, name, mechanism.links())?;
     if link == GROUND {
         return Err(table.wrong(ErrorKind::Input, "link", "the ground does not turn").help("name a moving link"));
@@ -240,7 +240,7 @@ fn turning(table: &Table, name: &str, mechanism: &Mechanism) -> Result<usize> {
 }
 
 /// `link` and `point`: a point of a moving link.
-fn loaded_point(table: &Table, mechanism: &Mechanism, (name, point): (String, String)) -> Result<Side> {
+fn loaded_point(table: &mut Table, mechanism: &Mechanism, (name, point): (String, String)) -> Result<Side> {
     let link = moving(table, &name, mechanism)?;
     side(table, mechanism, link, &point, "point")
 }
@@ -256,7 +256,7 @@ fn side(table: &Table, mechanism: &Mechanism, link: usize, point: &str, key: &st
 }
 
 /// `links`: two links, either of which may be the ground.
-fn pair(table: &Table, mechanism: &Mechanism, names: &[String]) -> Result<[usize; 2]> {
+fn pair(table: &mut Table, mechanism: &Mechanism, names: &[String]) -> Result<[usize; 2]> {
     let [first, second] = names else {
         let message = format!("found {} links, but this load acts between two", names.len());
         return Err(table.wrong(ErrorKind::Input, "links", message).help("write `links = [\"ground\", \"rocker\"]`"));
@@ -270,7 +270,7 @@ fn pair(table: &Table, mechanism: &Mechanism, names: &[String]) -> Result<[usize
 }
 
 /// `links` and `points`: a point of either link.
-fn ends(table: &Table, mechanism: &Mechanism, (links, points): (Vec<String>, Vec<String>)) -> Result<[Side; 2]> {
+fn ends(table: &mut Table, mechanism: &Mechanism, (links, points): (Vec<String>, Vec<String>)) -> Result<[Side; 2]> {
     let links = pair(table, mechanism, &links)?;
     let [first, second] = &points[..] else {
         let message = format!("found {} points, but this load acts between two", points.len());

@@ -30,6 +30,8 @@ pub fn drives(
             Ok(drive)
         };
         drives.extend(faults.read(&mut table, own));
+        // A drive may hang on a link that one before it moves.
+        faults.whole &= drives.len() > index;
     }
     let motor = motor.map(|mut motor| faults.read(&mut motor, motor::read));
     if drives.len() < count || matches!(motor, Some(None)) {
@@ -115,7 +117,11 @@ fn motion(table: &mut Table, law: MotionLaw) -> Result<DriveMotion> {
             };
             Ok(DriveMotion::Free { initial_speed: initial.unwrap_or(0.0), nominal_speed, motor: None })
         }
-        None | Some("prescribed") if initial.is_some() => {
+        None if initial.is_some() => Err(table.lacks(
+            &["motion"],
+            "a link with a speed at t = 0 moves freely: write `motion = \"free\"`, or take `initial_speed` out",
+        )),
+        Some("prescribed") if initial.is_some() => {
             let message = "the link is given a speed at t = 0, but its motion is prescribed";
             let help = "write `motion = \"free\"` to leave it to its motor and the loads, or take the key out";
             Err(table.wrong(ErrorKind::Input, "initial_speed", message).help(help))
@@ -149,7 +155,11 @@ type Law = (&'static str, fn(&mut Table, f64) -> Result<MotionLaw>);
 const LAWS: [Law; 4] = [("constant", constant), ("ramp", ramp), ("cycloidal", cycloidal), ("table", points)];
 
 fn law(table: &mut Table, start: f64) -> Result<MotionLaw> {
-    let Some(kind) = table.optional_string("law")? else { return constant(table, start) };
+    let mut of_laws = [ANGLE.keys("to"), TIME.keys("time"), vec!["points".into()]].into_iter().flatten();
+    let kind = match of_laws.any(|key| table.has(&key)) {
+        true => table.string("law")?,
+        false => table.optional_string("law")?.unwrap_or_else(|| "constant".into()),
+    };
     let Some((_, law)) = LAWS.iter().find(|(name, _)| *name == kind) else {
         let error = table.wrong(ErrorKind::Input, "law", format!("\"{kind}\" is no law of motion"));
         return Err(error.help(suggestion(&kind, LAWS.map(|(name, _)| name), "\"")));

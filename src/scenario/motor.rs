@@ -56,7 +56,10 @@ fn kloss(table: &mut Table) -> Result<MotorLaw> {
             let message = "the slip and the speed of breakdown are both given";
             return Err(table.wrong(ErrorKind::Input, "breakdown_slip", message).help(help));
         }
-        (None, None) => return Err(table.fault("neither slip nor speed of breakdown is given").help(help)),
+        (None, None) => {
+            let keys = ["breakdown_slip", "breakdown_speed_rpm", "breakdown_speed_rad_s"];
+            return Err(table.lacks(&keys, help));
+        }
         (Some(slip), None) if slip > 0.0 => slip,
         (Some(slip), None) => {
             let message = format!("found {slip}, but the slip of breakdown is positive");
@@ -77,9 +80,13 @@ fn kloss(table: &mut Table) -> Result<MotorLaw> {
 fn points(table: &mut Table) -> Result<MotorLaw> {
     let (mut speeds, mut torques) = (Vec::new(), Vec::new());
     for mut point in table.tables("points")? {
-        let speed = point.quantity("speed", &ANGULAR_SPEED, Sign::Any)?;
-        torques.push(point.quantity("torque", &MOMENT, Sign::Any)?);
-        point.finish()?;
+        let (speed, torque) = point.read(|point| {
+            let speed = point.quantity("speed", &ANGULAR_SPEED, Sign::Any)?;
+            let torque = point.quantity("torque", &MOMENT, Sign::Any)?;
+            point.finish()?;
+            Ok((speed, torque))
+        })?;
+        torques.push(torque);
         if let Some(last) = speeds.last()
             && !(speed > *last)
         {

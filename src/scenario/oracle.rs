@@ -6,7 +6,7 @@ use super::figure::{self, OracleFigure};
 use super::instant;
 use super::printed::{Printed, PrintedChannel};
 use super::reader::{Faults, Table};
-use super::series::{ExpectedCell, Known, OraclePoint, OracleSeries};
+use super::series::{ExpectedCell, Known, OraclePoint, OracleSeries, When};
 use super::table_file;
 use super::words::suggestion;
 use linkage::case::Case;
@@ -98,10 +98,13 @@ fn oracle(table: &mut Table, known: &Known, case: &Case, inline: &mut usize) -> 
         }
         [false, true, false] => oracle.series = values(table, known, case)?,
         [false, false, true] => oracle.figures = figure::read(table, case)?,
+        [false, false, false] => {
+            return Err(table.lacks(&["file", "values", "figures"], "give the numbers: docs/scenario.md tells how"));
+        }
         _ => {
             return Err(table
                 .fault("an oracle has exactly one of `file`, `values` and `figures`")
-                .help("split it into several [[oracle]] tables, or add the numbers"));
+                .help("split it into several [[oracle]] tables"));
         }
     }
     if !forms[0] {
@@ -120,29 +123,35 @@ fn values(table: &mut Table, known: &Known, case: &Case) -> Result<Vec<OracleSer
     let at = instant::read(table, case)?;
     let mut series = Vec::new();
     for mut entry in table.tables("values")? {
-        let (name, channel) = known.channel(&mut entry)?;
-        let si = |number: Printed| OraclePoint {
-            at,
-            value: channel.to_si(number.value),
-            bound: channel.to_si(number.half_unit()),
-            digits: number.digits,
-        };
-        let printed = number(&mut entry)?;
-        let correction = Correction::read(&mut entry, &printed)?;
-        entry.finish()?;
-        let point = si(printed);
-        let (mut points, mut expected) = (Vec::new(), Vec::new());
-        match correction {
-            None => points.push(point),
-            Some(Correction { finding, right }) => expected.push(ExpectedCell { point, right: si(right), finding }),
-        }
-        let PrintedChannel { channel, magnitude, .. } = channel;
-        series.push(OracleSeries { name, channel, magnitude, points, expected, wrong: None });
+        let own = entry.read(|entry| value(entry, at, known)).map(Some);
+        series.extend(table.part(own));
     }
     if series.is_empty() {
         return Err(table.wrong(ErrorKind::Input, "values", "there is no value").help(VALUE_HELP));
     }
     Ok(series)
+}
+
+/// One number at an instant.
+fn value(entry: &mut Table, at: When, known: &Known) -> Result<OracleSeries> {
+    let (name, channel) = known.channel(entry)?;
+    let si = |number: Printed| OraclePoint {
+        at,
+        value: channel.to_si(number.value),
+        bound: channel.to_si(number.half_unit()),
+        digits: number.digits,
+    };
+    let printed = number(entry)?;
+    let correction = Correction::read(entry, &printed)?;
+    entry.finish()?;
+    let point = si(printed);
+    let (mut points, mut expected) = (Vec::new(), Vec::new());
+    match correction {
+        None => points.push(point),
+        Some(Correction { finding, right }) => expected.push(ExpectedCell { point, right: si(right), finding }),
+    }
+    let PrintedChannel { channel, magnitude, .. } = channel;
+    Ok(OracleSeries { name, channel, magnitude, points, expected, wrong: None })
 }
 
 const VALUE_HELP: &str = "write `values = [{ channel = \"link.rocker.angle_deg\", value = 82, digits = 3 }]`";

@@ -37,8 +37,12 @@ pub struct Table<'a> {
     /// Whether reading goes on after a mistake.
     goes_on: bool,
     faults: Vec<Error>,
-    /// Spellings of each key that is missing.
-    missing: Vec<Vec<String>>,
+    /// Names of other tables that there are not.
+    unknown_names: Vec<Error>,
+    /// Spellings of keys that are there in one of them.
+    settled: Vec<String>,
+    /// Spellings of each key that is missing, and the way out.
+    missing: Vec<(Vec<String>, Option<&'static str>)>,
 }
 
 impl<'a> Table<'a> {
@@ -54,8 +58,20 @@ impl<'a> Table<'a> {
             .collect();
         // The parser moves a table if its header comes after one of its children.
         entries.sort_by_key(|entry| entry.key_span.start);
-        let (used, asked, faults, missing) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        Table { source, name, path, span, entries, used, asked, goes_on: false, faults, missing }
+        Table {
+            source,
+            name,
+            path,
+            span,
+            entries,
+            used: Vec::new(),
+            asked: Vec::new(),
+            goes_on: false,
+            faults: Vec::new(),
+            unknown_names: Vec::new(),
+            settled: Vec::new(),
+            missing: Vec::new(),
+        }
     }
 
     /// The table's own key, for entries of a table of tables.
@@ -141,9 +157,19 @@ impl<'a> Table<'a> {
         match (value.get_ref(), needed) {
             (_, "a finite number") => error.help("write a decimal number; nan and inf stand for no quantity"),
             (DeValue::Integer(_) | DeValue::Float(_), "text") => error.help("put the text in \"quotes\""),
+            (_, "a number") => error.help("write a decimal number, such as 12.5, without quotes"),
+            (_, "a whole number") => error.help("write a whole number, such as 3"),
+            (_, "true or false") => error.help("write `true` or `false`, without quotes"),
+            (_, "an array of numbers") => error.help("write numbers in brackets, such as [0, 0.1, 0.3]"),
+            (_, "an array of texts") => error.help("write texts in brackets, such as [\"ground\", \"crank\"]"),
+            (_, "text") => error.help("put a text in \"quotes\" there"),
             (DeValue::Table(_), "an array of tables") => error.help(format!("write [[{}]]", self.path_of(key))),
             (DeValue::Array(_), "a table") => error.help(format!("write [{}]", self.path_of(key))),
-            _ => error,
+            (_, "an array of tables") => error.help(format!("write a section [[{}]] for each", self.path_of(key))),
+            (_, "a table") => {
+                error.help("write keys with their values in braces, such as { x_mm = 0, y_mm = 0 }, or a section")
+            }
+            _ => error.help(format!("give {needed}")),
         }
     }
 

@@ -64,12 +64,14 @@ impl<'a> Stated<'a> {
         let links = links::read(ground, links, &mut faults);
         let joints = joints::read(joints, &links, &mut faults);
         let mechanism = mechanism(links, joints, &mut faults);
-        let of_start = faults.read(&mut start, |start| {
-            let (crank, groups) = (start.quantity("crank", &unit::ANGLE, Sign::Any)?, start.tables("groups")?);
+        let mut groups = Vec::new();
+        let crank = faults.read(&mut start, |start| {
+            groups = start.tables("groups")?;
+            let crank = start.quantity("crank", &unit::ANGLE, Sign::Any)?;
             start.finish()?;
-            Ok((crank, groups))
+            Ok(crank)
         });
-        let (crank, groups) = of_start.unwrap_or_default();
+        let crank = crank.unwrap_or_default();
         let groups = start::stated(groups, &mechanism, &mut faults);
         let loads = loads::read(loads, &mechanism, &mut faults);
         let drives = motion::drives(drives, motor, &mechanism, asked.crank.unwrap_or(crank), &mut faults);

@@ -41,8 +41,9 @@ pub fn read(oracle: &mut Table, known: &Known, case: &Case) -> Result<(String, V
     let known = &known.of_table(digits, slack);
     let mut columns = oracle.table("columns")?;
     let mut all = Vec::new();
-    for column in columns.all_tables()? {
-        all.push(series(column, &rows, &instants, known, case)?);
+    for mut column in columns.all_tables()? {
+        let series = column.read(|column| series(column, &rows, &instants, known, case)).map(Some);
+        all.extend(oracle.part(series));
     }
     if all.is_empty() {
         let help = "map at least one column: `P2x_mm = { channel = \"point.2.x_mm\" }`";
@@ -52,18 +53,18 @@ pub fn read(oracle: &mut Table, known: &Known, case: &Case) -> Result<(String, V
     Ok((name, all))
 }
 
-fn series(mut table: Table, rows: &Rows, instants: &[When], known: &Known, case: &Case) -> Result<OracleSeries> {
+fn series(table: &mut Table, rows: &Rows, instants: &[When], known: &Known, case: &Case) -> Result<OracleSeries> {
     let name = table.name().to_string();
     let column = rows.column(&name).map_err(|error| error.key(table.path()))?;
-    let (_, channel) = known.channel(&mut table)?;
-    let offset = offset(&mut table, &channel)?;
+    let (_, channel) = known.channel(table)?;
+    let offset = offset(table, &channel)?;
     let printed: Vec<Printed> = rows
         .cells(column)
         .map(|cell| Ok(cell.printed()?.with_zeros(known.digits)))
         .collect::<Result<_>>()
         .map_err(|error: Error| error.key(table.path()))?;
-    let whole = whole_column(&mut table, &printed)?;
-    let cells = single_cells(&mut table, instants, &printed, case)?;
+    let whole = whole_column(table, &printed)?;
+    let cells = single_cells(table, instants, &printed, case)?;
     if whole.is_some() && !cells.is_empty() {
         let message = "a column that is wrong as a whole has no single cells that are";
         return Err(table.wrong(ErrorKind::Input, "expect", message).help("keep either `expect` or `finding`"));
@@ -150,7 +151,14 @@ fn whole_column(table: &mut Table, printed: &[Printed]) -> Result<Option<(String
 
 /// Known error of the published numbers, in the printed unit; the file must explain it.
 fn slack(oracle: &mut Table) -> Result<f64> {
-    let Some(slack) = oracle.optional_number("slack")? else { return Ok(0.0) };
+    let Some(slack) = oracle.optional_number("slack")? else {
+        return match oracle.has("why") {
+            true => {
+                Err(oracle.lacks(&["slack"], "`why` explains `slack`, by which all numbers of the table may be off"))
+            }
+            false => Ok(0.0),
+        };
+    };
     let why = oracle.string("why")?;
     if slack > 0.0 && !why.trim().is_empty() {
         return Ok(slack);

@@ -140,7 +140,7 @@ fn read_output(mut table: Table, mechanism: &Mechanism) -> Result<(Output, Optio
     let (of_link, of_point) = (table.optional_string("link")?, table.optional_string("point")?);
     let found = match (of_link, of_point) {
         (Some(name), None) => {
-            let link = link(&table, &name, mechanism.links())?;
+            let link = link(&mut table, &name, mechanism.links())?;
             if link == GROUND {
                 let error = table.wrong(ErrorKind::Input, "link", "the ground does not turn");
                 return Err(error.help("name the moving link whose angle is watched"));
@@ -228,7 +228,7 @@ fn free(variables: &mut Vec<Variable>, name: String, bounds: [f64; 2], is_angle:
 /// One `[[vary]]`: a point, by its coordinates or relative to another point of its link.
 fn place(mut table: Table, mechanism: &Mechanism, variables: &mut Vec<Variable>, before: &[Place]) -> Result<Place> {
     let (link_name, point_name) = (table.string("link")?, table.string("point")?);
-    let own = link(&table, &link_name, mechanism.links())?;
+    let own = link(&mut table, &link_name, mechanism.links())?;
     let points = &mechanism.links()[own].points;
     let names = || points.iter().map(|point| point.name.as_str());
     let index = |table: &Table, key: &str, name: &str| {

@@ -133,8 +133,9 @@ impl<'a> Table<'a> {
         let (first, second) = (present.next(), present.next());
         let Some(at) = first else {
             let wrong = self.misspelt_unit(base, families[0], &spellings);
-            self.asked.extend(spellings);
+            self.asked.extend_from_slice(&spellings);
             let Some((key, error)) = wrong else { return Ok(None) };
+            self.settled.extend_from_slice(&spellings);
             self.used.push(key);
             return Err(error);
         };
@@ -148,6 +149,7 @@ impl<'a> Table<'a> {
         }
         let unit = |(index, family): (usize, &&'static Family)| Some((index, at, family.unit_of(base, key)?));
         let found = families.iter().enumerate().find_map(unit).expect("the key is one of the spellings");
+        self.settled.extend_from_slice(&spellings);
         self.asked.extend(spellings);
         Ok(Some(found))
     }

@@ -13,19 +13,21 @@ const MOST: usize = 20;
 #[derive(Debug)]
 pub struct Faults {
     all: Vec<Error>,
-    /// Whether everything that others may name could be read. What a table says about other tables counts only then.
+    /// Whether everything that others rest on could be read. What a table says beyond its own keys counts only then.
     pub whole: bool,
+    /// Whether all links and their points are there. What a table names in vain counts only then.
+    pub names: bool,
 }
 
 impl Faults {
     /// None yet.
     pub fn none() -> Self {
-        Faults { all: Vec::new(), whole: true }
+        Faults { all: Vec::new(), whole: true, names: true }
     }
 
     /// What `read` makes of a table; `None` after a mistake, which is noted.
     pub fn read<'a, T>(&mut self, table: &mut Table<'a>, read: impl FnOnce(&mut Table<'a>) -> Result<T>) -> Option<T> {
-        let (found, own) = table.tried(read);
+        let (found, own) = table.tried(self.names, read);
         self.all.extend(own);
         match found {
             Ok(value) => return Some(value),
@@ -55,26 +57,30 @@ impl<'a> Table<'a> {
     /// What `read` makes of the table. All mistakes of its keys and values come together. What `read` says beyond them,
     /// about what the values mean, counts only without them: it might follow from one of them.
     pub fn read<T>(&mut self, read: impl FnOnce(&mut Self) -> Result<T>) -> Result<T> {
-        match self.tried(read) {
+        match self.tried(true, read) {
             (Ok(value), _) => Ok(value),
             (Err(beyond), own) => Err(own.or(beyond).expect("there is an error")),
         }
     }
 
-    /// The value, or else what `read` says beyond mistakes of keys and values; and these.
+    /// The value, or else what `read` says beyond mistakes of keys and values; and these. Unknown names are among them
+    /// if all `names` could be read.
     fn tried<T>(
         &mut self,
+        names: bool,
         read: impl FnOnce(&mut Self) -> Result<T>,
     ) -> (std::result::Result<T, Option<Error>>, Option<Error>) {
         self.goes_on = true;
         let found = read(self);
         // Where the reading has stopped early, a key that was not asked for yet may be right.
         self.pair_missing();
-        let own = Error::all(std::mem::take(&mut self.faults));
-        match (found, own) {
-            (Ok(value), None) => (Ok(value), None),
-            (Err(error), None) => (Err(Some(error)), None),
-            (_, own) => (Err(None), own),
+        let unknown = std::mem::take(&mut self.unknown_names);
+        let is_sound = self.faults.is_empty() && unknown.is_empty();
+        let own = std::mem::take(&mut self.faults).into_iter().chain(unknown.into_iter().filter(|_| names));
+        match found {
+            Ok(value) if is_sound => (Ok(value), None),
+            Err(error) if is_sound => (Err(Some(error)), None),
+            _ => (Err(None), Error::all(own)),
         }
     }
 
@@ -100,6 +106,15 @@ impl<'a> Table<'a> {
         Ok(value)
     }
 
+    /// The same for a name that no other table has.
+    pub fn unknown_name<T>(&mut self, value: T, error: Error) -> Result<T> {
+        if !self.goes_on {
+            return Err(error);
+        }
+        self.unknown_names.push(error);
+        Ok(value)
+    }
+
     /// Notes an error after which nothing more can be read of the table.
     pub(super) fn noted(&mut self, error: Error) -> Error {
         if self.goes_on {
@@ -112,18 +127,27 @@ impl<'a> Table<'a> {
     /// have been asked for.
     pub(super) fn missing(&mut self, spellings: &[String]) -> Error {
         if self.goes_on {
-            self.missing.push(spellings.to_vec());
+            self.missing.push((spellings.to_vec(), None));
         }
-        self.missing_by(spellings).0
+        self.missing_by(spellings, None).0
+    }
+
+    /// The same for keys of which one is needed; `help` tells of them.
+    pub fn lacks(&mut self, spellings: &[&str], help: &'static str) -> Error {
+        let spellings: Vec<String> = spellings.iter().map(|&spelling| spelling.into()).collect();
+        if self.goes_on {
+            self.missing.push((spellings.clone(), Some(help)));
+        }
+        self.missing_by(&spellings, Some(help)).0
     }
 
     /// That error, and the entry that misspells the key.
-    fn missing_by(&self, spellings: &[String]) -> (Error, Option<&'a str>) {
+    fn missing_by(&self, spellings: &[String], help: Option<&'static str>) -> (Error, Option<&'a str>) {
         let wanted = choice(spellings.iter().map(String::as_str), "`");
         // At the top level there is no table to name.
         let error = self.fault(format!("{wanted} is missing")).key(spellings[0].clone());
         let spelling = |key: &str| nearest(key, spellings.iter().map(String::as_str));
-        let unread = self.entries.iter().filter(|entry| entry.key.len() > 3 && self.is_unknown(entry));
+        let unread = self.entries.iter().filter(|entry| self.is_unknown(entry));
         match unread.filter_map(|entry| Some((entry, spelling(entry.key)?))).next() {
             Some((entry, spelling)) => {
                 let error = Error::new(ErrorKind::Input, format!("{wanted} is missing"))
@@ -132,6 +156,7 @@ impl<'a> Table<'a> {
                     .help(format!("there is `{}`: did you mean `{spelling}`?", entry.key));
                 (error, Some(entry.key))
             }
+            None if help.is_some() => (help.into_iter().fold(error, Error::help), None),
             None if self.path.is_empty() => {
                 (error.help(format!("add {wanted}; docs/scenario.md describes every key")), None)
             }
@@ -141,8 +166,8 @@ impl<'a> Table<'a> {
 
     /// Notes the keys that are missing, each with the unknown key that stands in its place.
     fn pair_missing(&mut self) {
-        for spellings in std::mem::take(&mut self.missing) {
-            let (error, misspelt) = self.missing_by(&spellings);
+        for (spellings, help) in std::mem::take(&mut self.missing) {
+            let (error, misspelt) = self.missing_by(&spellings, help);
             self.used.extend(misspelt);
             self.faults.push(error);
         }
@@ -164,7 +189,8 @@ impl<'a> Table<'a> {
         let unknown: Vec<&Entry> = self.entries.iter().filter(|entry| self.is_unknown(entry)).collect();
         let asked = || self.asked.iter().map(String::as_str);
         let error = |(count, entry): (usize, &&Entry)| {
-            let near = || nearest(entry.key, asked().filter(|key| !self.has(key)));
+            let is_open = |key: &&str| !self.has(key) && !self.settled.iter().any(|settled| settled == key);
+            let near = || nearest(entry.key, asked().filter(is_open));
             let help = match (count < MOST).then(near).flatten() {
                 Some(near) => format!("did you mean `{near}`?"),
                 None => format!("known here: {}", choice(asked(), "`")),
