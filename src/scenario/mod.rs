@@ -15,6 +15,7 @@ mod instant;
 mod joints;
 mod links;
 mod loads;
+mod malformed;
 mod masses;
 mod motion;
 mod motor;
@@ -223,7 +224,7 @@ impl Scenario {
 fn text_of(path: &Path) -> Result<String> {
     files::read_text(path).map_err(|error| {
         Error::new(ErrorKind::Io, format!("the scenario {} cannot be read: {error}", path.display()))
-            .help("give the path of a scenario file, such as scenarios/crank_rocker.toml")
+            .help(files::way_out(&error, "give the path of a scenario file, such as scenarios/crank_rocker.toml"))
     })
 }
 

@@ -8,9 +8,9 @@ use std::sync::Arc;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::hostile;
 use super::parameters::Parameter;
-use linkage::error::{Error, ErrorKind, Place, Result};
+use super::{hostile, malformed};
+use linkage::error::{Error, Place, Result};
 
 /// Text of a file and the path that messages use for it.
 pub struct Source<'a> {
@@ -42,12 +42,8 @@ impl<'a> Source<'a> {
 
     /// The spanned tree of the file.
     pub fn tree(&self) -> Result<Spanned<DeTable<'a>>> {
-        let tree = DeTable::parse(self.text).map_err(|error| {
-            let message = error.message().trim().replace('\n', ", ");
-            Error::new(ErrorKind::Input, format!("the file is not valid TOML: {message}"))
-                .at(self.place(error.span().unwrap_or(0..0)))
-                .help("a key is written `name = value`, a section `[name]`, text stands in \"quotes\"")
-        })?;
+        let tree = DeTable::parse(self.text)
+            .map_err(|error| malformed::no_toml(self.text, &|span| self.place(span), &error))?;
         hostile::check(&|span| self.place(span), tree.get_ref())?;
         Ok(tree)
     }
