@@ -3,9 +3,13 @@
 //! The content goes to a temporary file in the same directory, created new and locked, which then takes the place of
 //! the file. So a run that fails or is killed leaves an older file alone, and two runs to one path do not mix.
 
+mod text;
+
 use std::fs::{self, File, TryLockError};
-use std::io::{self, Read};
+use std::io;
 use std::path::{Path, PathBuf};
+
+pub(crate) use text::{read_named, read_text, text, way_out};
 
 use tempfile::{Builder, NamedTempFile};
 
@@ -37,44 +41,6 @@ pub(crate) fn replace<E: From<io::Error>>(path: &Path, fill: impl FnOnce(&File) 
     temporary.as_file().sync_all()?;
     temporary.persist(&place).map_err(|error| error.error)?;
     Ok(())
-}
-
-/// Largest file that is read as text (bytes).
-const LARGEST: u64 = 64 << 20;
-
-/// Text of the file at `path`, of 64 MiB at most.
-///
-/// # Errors
-/// Those of the file system; also if the file is larger, or no text.
-pub(crate) fn read_text(path: &Path) -> io::Result<String> {
-    let mut text = String::new();
-    File::open(path)?.take(LARGEST + 1).read_to_string(&mut text)?;
-    match text.len() as u64 > LARGEST {
-        true => Err(io::Error::other(format!("it has more than {} MiB", LARGEST >> 20))),
-        false => Ok(text),
-    }
-}
-
-/// The same for a file that another file names: what is no regular file, such as a terminal, might never end.
-///
-/// # Errors
-/// Those of [`read_text`]; also if it is no regular file.
-pub(crate) fn read_named(path: &Path) -> io::Result<String> {
-    match fs::metadata(path)?.is_file() {
-        true => read_text(path),
-        false => Err(io::Error::other("it is no regular file")),
-    }
-}
-
-/// The text of a file; `None` if there is no such file.
-///
-/// # Errors
-/// Those of [`read_text`].
-pub(crate) fn text(path: &Path) -> io::Result<Option<String>> {
-    match read_text(path) {
-        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
-        other => other.map(Some),
-    }
 }
 
 /// A new temporary file that is locked as long as it is open.

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::output;
+use super::{number, output};
 use crate::report::bearings::{self as report, Journals};
 use crate::scenario::Scenario;
 use analytic::range::explained;
@@ -24,10 +24,10 @@ pub(super) struct Args {
     #[arg(value_name = "FILE")]
     file: PathBuf,
     /// Lever of the reaction on its journal, in mm
-    #[arg(long, value_name = "MM", default_value = "10", allow_hyphen_values = true)]
+    #[arg(long, value_name = "MM", default_value = "10", allow_hyphen_values = true, value_parser = number::finite)]
     lever_mm: f64,
     /// Bending stress that the journals may carry, in MPa
-    #[arg(long, value_name = "MPA", default_value = "200", allow_hyphen_values = true)]
+    #[arg(long, value_name = "MPA", default_value = "200", allow_hyphen_values = true, value_parser = number::finite)]
     stress_mpa: f64,
     /// Write the result as JSON to a file, or to standard output instead of the text with `-`
     #[arg(long, value_name = "FILE", value_parser = output::target)]

@@ -8,8 +8,8 @@ use clap::builder::PossibleValuesParser;
 
 use super::engine_args::engine_names;
 use super::load::only;
-use super::output;
 use super::progress::Bar;
+use super::{number, output};
 use crate::bench::{Axis, Bench, Clock, Options, Peer, bench};
 use crate::engines::{EngineName, usual_step};
 use crate::outside::{Command, Exports, machine, processor_time};
@@ -57,13 +57,13 @@ pub(super) struct Args {
     #[arg(long, value_name = "NAME=COMMAND", value_parser = peer)]
     peer: Vec<(String, String)>,
     /// Longest time in seconds of one call of a peer
-    #[arg(long, value_name = "S", default_value_t = LIMIT, value_parser = positive)]
+    #[arg(long, value_name = "S", default_value_t = LIMIT, allow_hyphen_values = true, value_parser = number::positive)]
     peer_limit: f64,
     /// Work allowed to the engines of a scenario, in steps without sweeps [default: 2e6, with `--quick` 3e5]
-    #[arg(long, value_name = "STEPS", value_parser = positive)]
+    #[arg(long, value_name = "STEPS", allow_hyphen_values = true, value_parser = number::positive)]
     budget: Option<f64>,
     /// Rounds of timing, of which the shortest counts [default: 3, with `--quick` 1]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = number::count)]
     rounds: Option<usize>,
     /// Write a page of Markdown with the results of all scenarios
     #[arg(long, value_name = "FILE", value_parser = output::target)]
@@ -79,11 +79,6 @@ fn peer(text: &str) -> std::result::Result<(String, String), String> {
         (false, _) => Err(format!("\"{name}\" is no name: letters, digits, -, _ and . are possible")),
         (true, true) => Err("the command is empty".into()),
     }
-}
-
-fn positive(text: &str) -> std::result::Result<f64, String> {
-    let value: f64 = text.parse().map_err(|error| format!("{error}"))?;
-    if value > 0.0 && value.is_finite() { Ok(value) } else { Err("it must be greater than 0".into()) }
 }
 
 pub(super) fn run(args: &Args) -> Result<()> {

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::grid::GridArgs;
 use super::load::StartArgs;
 use super::run::exit_code_of;
-use super::{advice, exit_code, output};
+use super::{advice, exit_code, number, output};
 use crate::proof::claimed;
 use crate::report::check as report;
 use crate::scenario::formula::refused;
@@ -45,13 +45,13 @@ pub(super) struct Args {
     #[arg(long = "let", value_name = "NAME=EXPR", requires = "expression", value_parser = step)]
     steps: Vec<(String, String)>,
     /// First crank angle in degrees for which the formula is claimed
-    #[arg(long, value_name = "DEG", requires = "expression", allow_hyphen_values = true)]
+    #[arg(long, value_name = "DEG", requires = "expression", allow_hyphen_values = true, value_parser = number::finite)]
     from_deg: Option<f64>,
     /// Last crank angle in degrees for which the formula is claimed
-    #[arg(long, value_name = "DEG", requires = "expression", allow_hyphen_values = true)]
+    #[arg(long, value_name = "DEG", requires = "expression", allow_hyphen_values = true, value_parser = number::finite)]
     to_deg: Option<f64>,
     /// Error that the formula is claimed to have, in the channel's unit: for series and approximations
-    #[arg(long, value_name = "NUMBER", requires = "expression", allow_hyphen_values = true)]
+    #[arg(long, value_name = "NUMBER", requires = "expression", allow_hyphen_values = true, value_parser = number::positive)]
     error: Option<f64>,
     #[command(flatten)]
     grid: GridArgs,

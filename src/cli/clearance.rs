@@ -66,7 +66,7 @@ pub(super) fn clearance(args: &Args) -> u8 {
             Err(error) => {
                 output::show(&error);
                 worst = exit_code::BAD_INPUT;
-                documents.push(report::failure(&file.display().to_string(), &error));
+                documents.extend(report::failures(&file.display().to_string(), &error));
             }
         }
     }

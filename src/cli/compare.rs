@@ -6,6 +6,7 @@ use clap::ValueEnum;
 
 use super::grid::GridArgs;
 use super::load::StartArgs;
+use super::number::not_negative;
 use super::run::exit_code_of;
 use super::{advice, exit_code, output};
 use crate::record;
@@ -90,21 +91,14 @@ enum By {
 /// Reads `[CHANNEL=]SHARE`.
 fn share(text: &str) -> std::result::Result<Allowed, String> {
     let (of, number) = text.rsplit_once('=').map_or((None, text), |(of, number)| (Some(of.trim().to_string()), number));
-    Ok(Allowed { of, size: Size::Relative(amount(number)?) })
+    Ok(Allowed { of, size: Size::Relative(not_negative(number)?) })
 }
 
 /// Reads `CHANNEL=SIZE`.
 fn size(text: &str) -> std::result::Result<Allowed, String> {
     let (of, number) =
         text.rsplit_once('=').ok_or("expected CHANNEL=SIZE, such as point.B.x_mm=0.01: sizes have units")?;
-    Ok(Allowed { of: Some(of.trim().to_string()), size: Size::Absolute(amount(number)?) })
-}
-
-fn amount(text: &str) -> std::result::Result<f64, String> {
-    match text.trim().parse::<f64>() {
-        Ok(number) if number.is_finite() && number >= 0.0 => Ok(number),
-        _ => Err(format!("\"{text}\" is not zero or more; expected a number such as 1e-3")),
-    }
+    Ok(Allowed { of: Some(of.trim().to_string()), size: Size::Absolute(not_negative(number)?) })
 }
 
 /// Compares, reports, and says how it ended.

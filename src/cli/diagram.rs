@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::builder::PossibleValuesParser;
 
 use super::load::reference_names;
-use super::output;
+use super::{number, output};
 use crate::report::diagram as report;
 use crate::scenario::Scenario;
 use analytic::range::explained;
@@ -31,7 +31,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "NAME")]
     channel: String,
     /// Number of equal divisions of one crank turn
-    #[arg(long, value_name = "N", default_value_t = 12)]
+    #[arg(long, value_name = "N", default_value_t = 12, allow_hyphen_values = true, value_parser = number::count)]
     divisions: usize,
     /// Analytic solver
     #[arg(long, value_name = "SOLVER", default_value = "assur", value_parser = PossibleValuesParser::new(reference_names()))]

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::load::load;
 use super::motor_choice;
-use super::output;
+use super::{number, output};
 use crate::report::drive::{self as report, Found};
 use crate::report::drive_graphs::{self, Curves};
 use crate::report::{run_up, table_csv};
@@ -42,25 +42,25 @@ pub(super) struct Args {
     #[arg(long, value_name = "LINK,LINK=MODE")]
     mode: Vec<String>,
     /// Find the flywheel on the crank's shaft for this coefficient of non-uniformity
-    #[arg(long, value_name = "SHARE", allow_hyphen_values = true)]
+    #[arg(long, value_name = "SHARE", allow_hyphen_values = true, value_parser = number::finite)]
     non_uniformity: Option<f64>,
     /// Show the reduced quantities and the steady motion by crank angle
     #[arg(long)]
     table: bool,
     /// Crank angle between two rows of the table, in degrees
-    #[arg(long, value_name = "DEG", default_value = "10", allow_hyphen_values = true)]
+    #[arg(long, value_name = "DEG", default_value = "10", allow_hyphen_values = true, value_parser = number::positive)]
     step_deg: f64,
     /// Write the run-up with all wanted channels as CSV to a file, or to standard output instead of the text with `-`
     #[arg(long, value_name = "FILE", value_parser = output::target)]
     run_up: Option<PathBuf>,
     /// Duration of the run-up
-    #[arg(long, value_name = "S", default_value = "0.5", allow_hyphen_values = true, requires = "run_up")]
+    #[arg(long, value_name = "S", default_value = "0.5", allow_hyphen_values = true, requires = "run_up", value_parser = number::positive)]
     seconds: f64,
     /// Number of equal time intervals of the run-up; a row is written at both ends of each
-    #[arg(long, value_name = "N", default_value = "500", requires = "run_up")]
+    #[arg(long, value_name = "N", default_value = "500", requires = "run_up", allow_hyphen_values = true, value_parser = number::count)]
     points: usize,
     /// Speed of the crank at the start of the run-up, in turns per minute, counter-clockwise positive
-    #[arg(long, value_name = "RPM", default_value = "0", allow_hyphen_values = true, requires = "run_up")]
+    #[arg(long, value_name = "RPM", default_value = "0", allow_hyphen_values = true, requires = "run_up", value_parser = number::finite)]
     from_rpm: f64,
     /// Draw the reduced quantities and the steady motion over the crank angle to a file, or to standard output instead
     /// of the text with `-`
@@ -115,17 +115,11 @@ fn driven(args: &Args, scenario: &Scenario) -> Result<()> {
 
 fn check(args: &Args) -> Result<()> {
     let wrong = |message: String, help: &str| Err(Error::new(ErrorKind::Input, message).help(help));
-    if !(args.step_deg > 0.0 && 360.0 / args.step_deg <= MOST_ROWS) {
+    if !(360.0 / args.step_deg <= MOST_ROWS) {
         return wrong(format!("--step-deg is {}", args.step_deg), "give a number of degrees above zero, such as 10");
     }
-    if !(args.seconds > 0.0 && args.seconds.is_finite()) {
-        return wrong(format!("--seconds is {}", args.seconds), "give a number above zero, such as 0.5");
-    }
-    if !(args.points >= 1 && args.points as f64 <= MOST_ROWS) {
+    if args.points as f64 > MOST_ROWS {
         return wrong(format!("--points is {}", args.points), "give a number from 1 to 1000000");
-    }
-    if !args.from_rpm.is_finite() {
-        return wrong(format!("--from-rpm is {}", args.from_rpm), "give a finite number; 0 for a start from rest");
     }
     let targets = [("--run-up", &args.run_up), ("--svg", &args.svg), ("--json", &args.json)];
     for (k, (one, to)) in targets.iter().enumerate() {

@@ -2,7 +2,7 @@
 
 use clap::builder::PossibleValuesParser;
 
-use super::output;
+use super::{number, output};
 use crate::engines::EngineName;
 use crate::proof::{Options, Reference, memory};
 use crate::scenario::Scenario;
@@ -26,7 +26,7 @@ pub(super) struct EngineArgs {
     #[command(flatten)]
     settings: SettingArgs,
     /// Work allowed for finding the settings that are not given, in steps without sweeps [default: 2e7, of `tune` 5e6]
-    #[arg(long, value_name = "STEPS", value_parser = work)]
+    #[arg(long, value_name = "STEPS", allow_hyphen_values = true, value_parser = number::positive)]
     budget: Option<f64>,
     #[command(flatten)]
     pub(super) memory: MemoryArgs,
@@ -37,7 +37,7 @@ pub(super) struct EngineArgs {
 #[group(skip)]
 pub(super) struct MemoryArgs {
     /// Memory allowed in GB; a run that is estimated to need more does not begin
-    #[arg(long, value_name = "GB", default_value = "4", value_parser = memory)]
+    #[arg(long, value_name = "GB", default_value = "4", allow_hyphen_values = true, value_parser = number::positive)]
     memory: f64,
 }
 
@@ -58,29 +58,23 @@ impl MemoryArgs {
     }
 }
 
-/// Reads an amount of memory.
-fn memory(text: &str) -> std::result::Result<f64, String> {
-    let gigabytes: f64 = text.parse().map_err(|error| format!("{error}"))?;
-    if gigabytes > 0.0 { Ok(gigabytes) } else { Err("the memory must be greater than 0".into()) }
-}
-
 /// The settings of an engine. What is not given is the scenario's, else found by the proof or the engine's own.
 #[derive(Clone, Debug, clap::Args)]
 #[group(skip)]
 pub(super) struct SettingArgs {
     /// Time step of the engine in seconds [default: the scenario's, else `run` finds it, and others take a quarter of a
     /// degree of the crank or less]
-    #[arg(long, value_name = "S", allow_hyphen_values = true)]
+    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = number::positive)]
     dt: Option<f64>,
     /// Relative accuracy of an engine that chooses its own steps [default: its tightest]
-    #[arg(long, value_name = "ACCURACY", allow_hyphen_values = true)]
+    #[arg(long, value_name = "ACCURACY", allow_hyphen_values = true, value_parser = number::positive)]
     accuracy: Option<f64>,
     /// Sweeps of the engine's iteration in a step [default: the scenario's, else `run` finds them, and others take the
     /// engine's]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = number::count)]
     sweeps: Option<usize>,
     /// Number of substeps into which the engine divides a step
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = number::count)]
     substeps: Option<usize>,
     /// Route by which reactions and balancing moment are computed
     #[arg(long, value_name = "ROUTE", value_parser = PossibleValuesParser::new(Route::ALL.map(Route::name)))]
@@ -105,12 +99,6 @@ impl EngineArgs {
         options.memory = Some(self.memory.bytes());
         options
     }
-}
-
-/// Reads an amount of work.
-fn work(text: &str) -> std::result::Result<f64, String> {
-    let steps: f64 = text.parse().map_err(|error| format!("{error}"))?;
-    if steps > 0.0 { Ok(steps) } else { Err("the work must be greater than 0".into()) }
 }
 
 impl SettingArgs {

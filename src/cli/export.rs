@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::load::load;
-use super::output;
+use super::{number, output};
 use crate::engines::usual_step;
 use crate::report::case_json;
 use analytic::AssurSolver;
@@ -37,7 +37,7 @@ pub(super) struct Args {
     json: Option<Option<PathBuf>>,
     /// Time step in seconds that the file starts with [default: the scenario's, else a quarter of a degree of the
     /// fastest driving link]
-    #[arg(long, value_name = "S", allow_hyphen_values = true)]
+    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = number::positive)]
     dt: Option<f64>,
     /// Start a group in another assembly mode than the file states, or in the configuration with that number in
     /// `inspect --modes`. May be given for several groups

@@ -69,8 +69,9 @@ impl FromStr for Values {
     type Err = String;
 
     fn from_str(text: &str) -> std::result::Result<Self, String> {
-        let number = |part: &str| -> std::result::Result<f64, String> {
-            part.trim().parse().map_err(|_| format!("\"{part}\" is not a number; {EXPECTED}"))
+        let number = |part: &str| match part.trim().parse::<f64>() {
+            Ok(number) if number.is_finite() => Ok(number),
+            Ok(_) | Err(_) => Err(format!("\"{part}\" is no finite number; {EXPECTED}")),
         };
         let mut values = Vec::new();
         for item in text.split(',') {

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::{load, output};
+use super::{load, number, output};
 use crate::report::{inspect as report, modes, range};
 use crate::scenario::{Asked, Scenario};
 use analytic::range::explained;
@@ -31,7 +31,7 @@ pub(super) struct Args {
     #[arg(long, conflicts_with = "modes")]
     range: bool,
     /// Crank angle for --modes in degrees, as the scenario states it [default: that of the start]
-    #[arg(long, value_name = "DEG", allow_hyphen_values = true, requires = "modes")]
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true, requires = "modes", value_parser = number::finite)]
     at_crank_deg: Option<f64>,
     /// Start a group in another assembly mode than the file states, as in `linkproof run`
     #[arg(long, value_name = "LINK,LINK=MODE")]

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::grid::GridArgs;
+use super::number;
 use crate::scenario::{Asked, Scenario};
 use linkage::error::{Error, ErrorKind, Result};
 
@@ -17,7 +18,7 @@ pub(super) struct StartArgs {
     pub(super) mode: Vec<String>,
     /// Crank angle at t = 0 in degrees, measured as in the scenario, instead of the `crank` of its `[start]`; published
     /// numbers stay if the start lies on the file's own branch
-    #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = finite)]
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = number::finite)]
     pub(super) start_crank_deg: Option<f64>,
     /// Number of a parameter, by its key in `[parameters]`; may be given several times
     #[arg(long, value_name = "KEY=NUMBER", value_parser = setting)]
@@ -52,15 +53,7 @@ pub(super) fn only(scenario: Scenario, words: &[String]) -> Result<Scenario> {
 /// Reads `KEY=NUMBER`.
 fn setting(text: &str) -> std::result::Result<(String, f64), String> {
     let (key, value) = text.split_once('=').ok_or("expected KEY=NUMBER, such as a_mm=30")?;
-    let number: f64 =
-        value.trim().parse().map_err(|_| format!("\"{value}\" is no number; expected such as a_mm=30"))?;
-    if number.is_finite() { Ok((key.trim().into(), number)) } else { Err("the number is not finite".into()) }
-}
-
-/// Reads a finite number.
-fn finite(text: &str) -> std::result::Result<f64, String> {
-    let value: f64 = text.parse().map_err(|error| format!("{error}"))?;
-    if value.is_finite() { Ok(value) } else { Err("the angle is not finite; expected a number of degrees".into()) }
+    Ok((key.trim().into(), number::decimal(value, "a finite number behind the `=`, such as a_mm=30")?))
 }
 
 /// Reads a scenario and starts its groups in the given `modes`.

@@ -18,6 +18,7 @@ mod list;
 mod load;
 mod motor_choice;
 mod mutate;
+mod number;
 mod output;
 mod panics;
 mod plan;

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 
-use super::output;
+use super::{number, output};
 use crate::report::motor_choice as report;
 use crate::scenario::{Scenario, catalogue};
 use linkage::error::{Error, ErrorKind, Result};
@@ -15,10 +15,10 @@ pub(super) struct Args {
     #[arg(long, value_name = "FILE", conflicts_with_all = ["non_uniformity", "run_up", "svg", "table"])]
     pub(super) catalogue: Option<PathBuf>,
     /// Efficiency between motor and crank, for the choice [default: that of the scenario's motor, else 1]
-    #[arg(long, value_name = "SHARE", allow_hyphen_values = true, requires = "catalogue")]
+    #[arg(long, value_name = "SHARE", allow_hyphen_values = true, requires = "catalogue", value_parser = number::efficiency)]
     efficiency: Option<f64>,
     /// Choose only among motors of this synchronous speed, in turns per minute
-    #[arg(long, value_name = "RPM", requires = "catalogue")]
+    #[arg(long, value_name = "RPM", requires = "catalogue", allow_hyphen_values = true, value_parser = number::positive)]
     synchronous_rpm: Option<f64>,
 }
 

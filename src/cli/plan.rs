@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::builder::PossibleValuesParser;
 
 use super::load::reference_names;
-use super::{advice, output};
+use super::{advice, number, output};
 use crate::report::plan as report;
 use crate::scenario::Scenario;
 use analytic::range::explained;
@@ -29,7 +29,7 @@ pub(super) struct Args {
     #[arg(value_name = "FILE")]
     file: PathBuf,
     /// Crank angle in degrees, as the scenario states it [default: that of the start]
-    #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = number::finite)]
     crank_deg: Option<f64>,
     /// Analytic solver
     #[arg(long, value_name = "SOLVER", default_value = "assur", value_parser = PossibleValuesParser::new(reference_names()))]

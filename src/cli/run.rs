@@ -11,7 +11,7 @@ use super::engine_section::{self, keys};
 use super::grid::GridArgs;
 use super::load::{StartArgs, only, reference_names};
 use super::progress::Bar;
-use super::{advice, exit_code, output};
+use super::{advice, exit_code, number, output};
 use crate::compare::Verdict;
 use crate::proof::{EngineProof, Entry, Proof, memory, prove_with};
 use crate::record::{self as recorder, Recording, Side};
@@ -56,7 +56,7 @@ pub(super) struct Args {
     start: StartArgs,
     /// Multiply every bound by this factor, to see how close a proof is to its bounds; 0 judges as usual and prints
     /// every residual beside its bound
-    #[arg(long, hide = true, value_name = "FACTOR", value_parser = dial)]
+    #[arg(long, hide = true, value_name = "FACTOR", allow_hyphen_values = true, value_parser = number::not_negative)]
     tolerance_scale: Option<f64>,
     /// Directory that the recordings (MCAP) are written to
     #[arg(long, value_name = "DIR", default_value = "recordings")]
@@ -137,12 +137,6 @@ pub(super) fn run(args: &Args) -> u8 {
         }
     }
     worst
-}
-
-/// Reads a factor for all bounds.
-fn dial(text: &str) -> std::result::Result<f64, String> {
-    let factor: f64 = text.parse().map_err(|error| format!("{error}"))?;
-    if factor.is_finite() && factor >= 0.0 { Ok(factor) } else { Err("a factor is 0 or greater".into()) }
 }
 
 fn prove_file(args: &Args, file: &Path, quiet: bool) -> Result<(Scenario, Proof)> {

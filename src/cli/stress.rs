@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::builder::PossibleValuesParser;
 
 use super::progress::Bar;
-use super::{exit_code, output};
+use super::{exit_code, number, output};
 use crate::files;
 use crate::report::stress as report;
 use crate::stress::{FAMILIES, Family, Job, Outcome, jobs, run_all};
@@ -42,18 +42,11 @@ pub(super) struct Args {
     #[arg(long, value_name = "N", default_value_t = SEED)]
     seed: u64,
     /// Points that are run side by side [default: as many as there are cores]
-    #[arg(long, value_name = "N", value_parser = at_least_one)]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = number::count)]
     jobs: Option<usize>,
     /// Write a page in Markdown, with the maps beside it in a directory of its name
     #[arg(long, value_name = "FILE", value_parser = output::target)]
     page: Option<PathBuf>,
-}
-
-fn at_least_one(text: &str) -> std::result::Result<usize, String> {
-    match text.parse() {
-        Ok(0) => Err("at least one point must be run at a time".into()),
-        other => other.map_err(|error| format!("{error}")),
-    }
 }
 
 /// Runs what is open, writes everything, and returns the exit code.

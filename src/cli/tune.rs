@@ -6,8 +6,8 @@ use std::time::Instant;
 
 use super::engine_args::EngineArgs;
 use super::engine_section::{self, keys};
-use super::output;
 use super::progress::Bar;
+use super::{number, output};
 use crate::report::tune as report;
 use crate::scenario::{EngineKeys, Scenario, edit};
 use crate::tune::{Candidate, Wish, tune};
@@ -37,7 +37,7 @@ pub(super) struct Args {
     #[arg(value_name = "FILE")]
     file: PathBuf,
     /// Largest error wanted, as a share of each channel's scale
-    #[arg(long, value_name = "SHARE", allow_hyphen_values = true)]
+    #[arg(long, value_name = "SHARE", allow_hyphen_values = true, value_parser = number::share)]
     within: f64,
     /// Channel, or stage of channels, that must meet it [default: all that the scenario wants]
     #[arg(long, value_name = "CHANNEL")]

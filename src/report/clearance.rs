@@ -174,11 +174,15 @@ pub(crate) fn value(scenario: &Scenario, asked: &Question, found: &Clearance) ->
 }
 
 /// A scenario that could not be answered, as an entry of the document.
-pub(crate) fn failure(file: &str, error: &Error) -> Value {
-    json!({
-        "scenario": file, "error": error.message(), "line": error.place().map(linkage::error::Place::line),
-        "key": error.scenario_key(), "help": error.way_out(),
-    })
+pub(crate) fn failures(file: &str, error: &Error) -> Vec<Value> {
+    let one = |error: &Error| {
+        json!({
+            "scenario": file, "error": error.message(), "line": error.place().map(linkage::error::Place::line),
+            "key": error.scenario_key(), "help": error.way_out(),
+        })
+    };
+    let rest = error.rest().map(|rest| json!({"scenario": file, "error": rest}));
+    error.each().map(one).chain(rest).collect()
 }
 
 /// The document of all scenarios, schema 1.

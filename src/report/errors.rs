@@ -1,4 +1,4 @@
-//! An error: the line of the file concerned, what was found there, and the way out.
+//! Errors: the line of the file concerned, what was found there, and the way out.
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
@@ -25,8 +25,13 @@ fn visible(text: &str, has_lines: bool) -> String {
     shown
 }
 
-/// An error as text, without a newline at its end; advice is worded by `tell`.
+/// An error, and those that were found with it, as text without a newline at its end; advice is worded by `tell`.
 pub(crate) fn text(error: &Error, tell: Tell) -> String {
+    let each = error.each().map(|error| one(error, tell));
+    each.chain(error.rest().map(|rest| format!("error: {rest}"))).collect::<Vec<_>>().join("\n\n")
+}
+
+fn one(error: &Error, tell: Tell) -> String {
     let title = match error.scenario_key() {
         Some(key) => format!("`{key}`: {}", error.message()),
         None => error.message().to_string(),
@@ -40,7 +45,7 @@ pub(crate) fn text(error: &Error, tell: Tell) -> String {
     };
     let path = visible(&place.file.display().to_string(), false);
     let annotation = AnnotationKind::Primary.span(place.span.clone());
-    let snippet = Snippet::source(place.text.as_str()).path(path.as_str()).annotation(annotation);
+    let snippet = Snippet::source(&*place.text).path(path.as_str()).annotation(annotation);
     let mut group = Group::with_title(Level::ERROR.primary_title(title.as_str())).element(snippet);
     if let Some(help) = help {
         group = group.element(Level::HELP.message(help));

@@ -201,15 +201,23 @@ impl Document {
         self.runs.push(run(proof, recording, self.tell));
     }
 
-    /// Adds a scenario that could not be proven.
+    /// Adds a scenario that could not be proven: an entry for each of its errors.
     pub fn add_failure(&mut self, scenario: &str, error: &Error) {
-        self.errors.push(Failure {
+        self.errors.extend(error.each().map(|error| Failure {
             scenario: scenario.into(),
             message: error.message().into(),
             line: error.place().map(linkage::error::Place::line),
             key: error.scenario_key().map(Into::into),
             help: error.way_out_by(self.tell),
-        });
+        }));
+        let rest = error.rest().map(|message| (scenario.into(), message));
+        self.errors.extend(rest.map(|(scenario, message)| Failure {
+            scenario,
+            message,
+            line: None,
+            key: None,
+            help: None,
+        }));
     }
 
     /// The document as text, with a newline at its end.

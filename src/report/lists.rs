@@ -20,7 +20,12 @@ pub(crate) fn scenarios(directory: &Path, all: &[(Result<Scenario>, PathBuf)], t
                 scenario.title,
                 scenario.case.structure.formula(&scenario.case.mechanism)
             ),
-            Err(error) => writeln!(text, "{}\n    cannot be read: {}", file.display(), error.line_by(tell)),
+            Err(error) => writeln!(
+                text,
+                "{}\n    cannot be read: {}",
+                file.display(),
+                error.lines_by(tell).replace('\n', "\n    ")
+            ),
         };
     }
     if all.is_empty() {

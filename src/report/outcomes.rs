@@ -89,9 +89,7 @@ impl Outcomes {
 
     /// Adds a scenario that could not be proven.
     pub fn add_failure(&mut self, scenario: &str, error: &Error) {
-        let place = error.place().map_or(String::new(), |place| format!("{}:{}: ", place.file.display(), place.line()));
-        let way_out = error.way_out_by(self.tell).map_or(String::new(), |help| format!("; {help}"));
-        let error = Some(format!("{place}{}{way_out}", error.message()));
+        let error = Some(error.lines_by(self.tell));
         let name = scenario.to_string();
         self.entries.push(Entry { name, title: String::new(), verdict: "error", cases: Vec::new(), error });
     }

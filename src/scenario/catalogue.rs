@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::check_format;
+use super::header::check_format;
 use super::reader::{Sign, Table};
 use super::source::Source;
 use super::unit::{ANGULAR_SPEED, POWER};
@@ -17,7 +17,7 @@ use workshop::motor::CatalogueMotor;
 pub fn load(path: &Path) -> Result<Vec<CatalogueMotor>> {
     let text = files::read_text(path).map_err(|error| {
         Error::new(ErrorKind::Io, format!("the catalogue {} cannot be read: {error}", path.display()))
-            .help("give the path of a catalogue of motors, such as catalogues/motors.toml")
+            .help(files::way_out(&error, "give the path of a catalogue of motors, such as catalogues/motors.toml"))
     })?;
     let source = Source::new(path, &text);
     let tree = source.tree()?;

@@ -22,9 +22,8 @@ const MOST_PARTS: usize = 200;
 /// Name that stands for all parts of the housing.
 const HOUSING: &str = "housing";
 
-/// The question that a file asks about clearance, if it asks one.
-pub fn read(table: Option<Table>, mechanism: &Mechanism) -> Result<Option<Question>> {
-    let Some(mut table) = table else { return Ok(None) };
+/// The question that a file asks about clearance.
+pub fn read(table: &mut Table, mechanism: &Mechanism) -> Result<Question> {
     let radius = table.optional_quantity("radius", &LENGTH, Sign::Positive)?;
     let wanted = table.optional_quantity("wanted", &LENGTH, Sign::NotNegative)?;
     let tolerance = table.optional_quantity("tolerance", &LENGTH, Sign::Positive)?;
@@ -36,11 +35,11 @@ pub fn read(table: Option<Table>, mechanism: &Mechanism) -> Result<Option<Questi
             .wrong(ErrorKind::Input, "tolerance", message)
             .help("give a larger tolerance, or leave it out"));
     }
-    let area = area(&mut table)?;
+    let area = area(table)?;
     let (outlines, housing) = (table.optional_table("outlines")?, table.tables("housing")?);
     let ignored = table.tables("ignore")?;
     table.finish()?;
-    let mut bodies = links(&table, outlines, radius, mechanism)?;
+    let mut bodies = links(table, outlines, radius, mechanism)?;
     if housing.len() > MOST_PARTS {
         let message = format!("found {} parts of the housing, but at most {MOST_PARTS} are handled", housing.len());
         return Err(table.wrong(ErrorKind::Input, HOUSING, message).help("leave out parts that no link comes near"));
@@ -60,7 +59,7 @@ pub fn read(table: Option<Table>, mechanism: &Mechanism) -> Result<Option<Questi
     }
     let ignored = ignored.into_iter().map(|pair| ignore(pair, &bodies)).collect::<Result<Vec<_>>>()?.concat();
     let pairs = pairs(mechanism, &bodies, &ignored);
-    Ok(Some(Question { bodies, pairs, wanted, tolerance, area }))
+    Ok(Question { bodies, pairs, wanted, tolerance, area })
 }
 
 fn area(table: &mut Table) -> Result<f64> {
@@ -69,9 +68,8 @@ fn area(table: &mut Table) -> Result<f64> {
         return Ok(share);
     }
     let message = format!("found {share}, but this is the share of a swept area that its error may have");
-    Err(table
-        .wrong(ErrorKind::Input, "area_rel", message)
-        .help(format!("give a number from {SMALLEST_AREA:e} to 1, such as 1e-3")))
+    let error = table.wrong(ErrorKind::Input, "area_rel", message);
+    table.instead(share, error.help(format!("give a number from {SMALLEST_AREA:e} to 1, such as 1e-3")))
 }
 
 /// The moving links with their outlines, in the order of the mechanism.

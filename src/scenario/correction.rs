@@ -22,8 +22,11 @@ impl Correction {
     pub fn read(entry: &mut Table, printed: &Printed) -> Result<Option<Self>> {
         let Some(finding) = finding(entry)? else { return Ok(None) };
         let mut table = entry.table("right")?;
-        let right = number(&mut table)?;
-        table.finish()?;
+        let right = table.read(|table| {
+            let right = number(table)?;
+            table.finish()?;
+            Ok(right)
+        })?;
         check_apart(entry, printed, &right)?;
         Ok(Some(Correction { finding, right }))
     }
@@ -37,8 +40,8 @@ pub(super) fn finding(entry: &mut Table) -> Result<Option<String>> {
     match (finding, entry.has("right")) {
         (Some(finding), true) => Ok(Some(finding)),
         (None, false) => Ok(None),
-        (Some(_), false) => Err(entry.fault("`finding` stands without `right`").help(help)),
-        (None, true) => Err(entry.fault("`right` stands without `finding`").help(help)),
+        (Some(_), false) => Err(entry.lacks(&["right"], help)),
+        (None, true) => Err(entry.lacks(&["finding"], help)),
     }
 }
 

@@ -79,31 +79,36 @@ const FIGURES: [(&str, Reader); 6] = [
 pub(super) fn read(table: &mut Table, case: &Case) -> Result<Vec<OracleFigure>> {
     let mut figures = Vec::new();
     for mut entry in table.tables("figures")? {
-        let name = entry.string("figure")?;
-        let Some((_, reader)) = FIGURES.iter().find(|(known, _)| *known == name) else {
-            let error = entry.wrong(ErrorKind::Input, "figure", format!("there is no figure \"{name}\""));
-            return Err(error.help(suggestion(&name, FIGURES.map(|(known, _)| known), "\"")));
-        };
-        let (figure, of) = reader(&mut entry, case)?;
-        let printed = number(&mut entry)?;
-        let correction = Correction::read(&mut entry, &printed)?;
-        entry.finish()?;
-        let unit = LENGTH.unit_of("distance", &name);
-        let si = |value: f64| unit.map_or(value, |unit: &Unit| unit.to_si(value));
-        let of_number = |number: &Printed| FigureValue {
-            value: si(number.value),
-            bound: si(number.half_unit()),
-            digits: number.digits,
-        };
-        let name = if of.is_empty() { name } else { format!("{name} of {of}") };
-        let wrong = correction.map(|Correction { finding, right }| (finding, of_number(&right)));
-        figures.push(OracleFigure { figure, name, printed: of_number(&printed), wrong });
+        let figure = entry.read(|entry| one(entry, case)).map(Some);
+        figures.extend(table.part(figure));
     }
     if figures.is_empty() {
         let names = suggestion("", FIGURES.map(|(known, _)| known), "\"");
         return Err(table.wrong(ErrorKind::Input, "figures", "there is no figure").help(names));
     }
     Ok(figures)
+}
+
+fn one(entry: &mut Table, case: &Case) -> Result<OracleFigure> {
+    let name = entry.string("figure")?;
+    let Some((_, reader)) = FIGURES.iter().find(|(known, _)| *known == name) else {
+        let error = entry.wrong(ErrorKind::Input, "figure", format!("there is no figure \"{name}\""));
+        return Err(error.help(suggestion(&name, FIGURES.map(|(known, _)| known), "\"")));
+    };
+    let (figure, of) = reader(entry, case)?;
+    let printed = number(entry)?;
+    let correction = Correction::read(entry, &printed)?;
+    entry.finish()?;
+    let unit = LENGTH.unit_of("distance", &name);
+    let si = |value: f64| unit.map_or(value, |unit: &Unit| unit.to_si(value));
+    let of_number = |number: &Printed| FigureValue {
+        value: si(number.value),
+        bound: si(number.half_unit()),
+        digits: number.digits,
+    };
+    let name = if of.is_empty() { name } else { format!("{name} of {of}") };
+    let wrong = correction.map(|Correction { finding, right }| (finding, of_number(&right)));
+    Ok(OracleFigure { figure, name, printed: of_number(&printed), wrong })
 }
 
 fn with_motor(entry: &mut Table, case: &Case, figure: Figure) -> Result<(Figure, String)> {

@@ -2,7 +2,7 @@
 
 use super::parameters::{INPUTS, Parameter, fault_of_name};
 use super::printed::PrintedChannel;
-use super::reader::{Sign, Table};
+use super::reader::{Faults, Sign, Table};
 use super::unit;
 use super::words::{nearest, suggestion};
 use formula::{Fault, Graph, Id, Operator, Rounded, Shape, Tree};
@@ -224,48 +224,55 @@ pub fn refused(what: &str, text: &str, fault: &Fault) -> Error {
     Error::new(ErrorKind::Input, fault.message.clone()).at(place).help(fault.help.clone())
 }
 
-/// All formulas of a scenario.
-pub(super) fn read(parameters: Vec<Parameter>, tables: Vec<Table>, case: &Case) -> Result<Formulas> {
+/// The formulas of a scenario, but those with mistakes.
+pub(super) fn read(parameters: Vec<Parameter>, tables: Vec<Table>, case: &Case, faults: &mut Faults) -> Formulas {
     let mut formulas = Formulas::over(parameters);
     let all = case.all_channels();
     for mut table in tables {
-        let name = table.string("name")?;
-        formulas.check_name(&name).map_err(|error| {
-            let wrong = table.wrong(ErrorKind::Input, "name", error.message());
-            error.advice().iter().cloned().fold(wrong, Error::or_help)
-        })?;
-        let text = table.string("expression")?;
-        let claimed = table.optional_string("channel")?;
-        let source = table.optional_string("source")?;
-        let valid = [
-            table.optional_quantity("from", &unit::ANGLE, Sign::Any)?,
-            table.optional_quantity("to", &unit::ANGLE, Sign::Any)?,
-        ];
-        if let [Some(from), Some(to)] = valid
-            && from > to
-        {
-            let message = "the last crank angle is less than the first";
-            return Err(table.wrong(ErrorKind::Input, "to", message).help("exchange them"));
-        }
-        let error = table.optional_number("error")?;
-        if error.is_some_and(|error| error <= 0.0) {
-            let message = "a claimed error must be positive";
-            return Err(table.wrong(ErrorKind::Input, "error", message).help("leave it out if the formula is exact"));
-        }
-        if claimed.is_none() {
-            let of_claim = ["from_deg", "to_deg", "from_rad", "to_rad", "error"];
-            if let Some(key) = of_claim.into_iter().find(|key| table.has(key)) {
-                let message = format!("`{key}` belongs to a claim, and this formula claims nothing");
-                return Err(table.wrong(ErrorKind::Input, key, message).help("add `channel`, or take it out"));
-            }
-        }
-        let formula = formulas.add(&name, &text).map_err(|fault| table.fault_in("expression", &fault))?;
-        if let Some(claimed) = claimed {
-            let claim = Claim::parse(&claimed, &all).map_err(|fault| table.fault_in("channel", &fault))?;
-            formula.claim = Some(claim);
-        }
-        (formula.source, formula.valid, formula.error) = (source, valid, error);
-        table.finish()?;
+        let read = faults.read(&mut table, |table| formula(table, &mut formulas, &all));
+        // A formula that is left out is missed by those after it.
+        faults.whole &= read.is_some();
     }
-    Ok(formulas)
+    formulas
+}
+
+/// Adds one formula.
+fn formula(table: &mut Table, formulas: &mut Formulas, all: &[Channel]) -> Result<()> {
+    let name = table.string("name")?;
+    formulas.check_name(&name).map_err(|error| {
+        let wrong = table.wrong(ErrorKind::Input, "name", error.message());
+        error.advice().iter().cloned().fold(wrong, Error::or_help)
+    })?;
+    let text = table.string("expression")?;
+    let claimed = table.optional_string("channel")?;
+    let source = table.optional_string("source")?;
+    let valid = [
+        table.optional_quantity("from", &unit::ANGLE, Sign::Any)?,
+        table.optional_quantity("to", &unit::ANGLE, Sign::Any)?,
+    ];
+    if let [Some(from), Some(to)] = valid
+        && from > to
+    {
+        let message = "the last crank angle is less than the first";
+        return Err(table.wrong(ErrorKind::Input, "to", message).help("exchange them"));
+    }
+    let error = table.optional_number("error")?;
+    if error.is_some_and(|error| error <= 0.0) {
+        let message = "a claimed error must be positive";
+        return Err(table.wrong(ErrorKind::Input, "error", message).help("leave it out if the formula is exact"));
+    }
+    if claimed.is_none() {
+        let of_claim = ["from_deg", "to_deg", "from_rad", "to_rad", "error"];
+        if let Some(key) = of_claim.into_iter().find(|key| table.has(key)) {
+            let message = format!("`{key}` belongs to a claim, and this formula claims nothing");
+            return Err(table.wrong(ErrorKind::Input, key, message).help("add `channel`, or take it out"));
+        }
+    }
+    let formula = formulas.add(&name, &text).map_err(|fault| table.fault_in("expression", &fault))?;
+    if let Some(claimed) = claimed {
+        let claim = Claim::parse(&claimed, all).map_err(|fault| table.fault_in("channel", &fault))?;
+        formula.claim = Some(claim);
+    }
+    (formula.source, formula.valid, formula.error) = (source, valid, error);
+    table.finish()
 }

@@ -63,7 +63,7 @@ const BY_TIME: &str = "give the grid by time (`from_s`, `to_s`, `step_s`, or a l
 
 /// The grid of a scenario, by crank angle or by time: a range or a list. An empty one if it is not wanted: it is read,
 /// but not checked against the drive.
-pub fn read(mut table: Table, drive: &Drive, is_replaced: bool) -> Result<Grid> {
+pub fn read(table: &mut Table, drive: &Drive, is_replaced: bool) -> Result<Grid> {
     let mut lists = Vec::new();
     for (base, family) in LISTS {
         lists.extend(table.optional_quantities(base, family)?.map(|values| (base, family, values)));
@@ -80,13 +80,12 @@ pub fn read(mut table: Table, drive: &Drive, is_replaced: bool) -> Result<Grid> 
         }
         (Some((family, from)), []) => {
             let family = [&ANGLE, &TIME][family];
-            (family, ranged_points(&mut table, family, from)?)
+            (family, ranged_points(table, family, from)?)
         }
         (None, []) => {
-            return Err(table.fault("`from_deg`, `from_rad`, `from_s` or `from_ms` is missing").help(
-                "a grid goes by crank angle (`from_deg`, `to_deg`, `step_deg`) or by time (`from_s`, `to_s`, `step_s`), \
-                 or lists its values (`angles_deg`, `times_s`)",
-            ));
+            let keys = ["from_deg", "from_rad", "from_s", "from_ms", "angles_deg", "angles_rad", "times_s", "times_ms"];
+            return Err(table.lacks(&keys, "a grid goes by crank angle (`from_deg`, `to_deg`, `step_deg`) or by time (`from_s`, `to_s`, `step_s`), \
+                 or lists its values (`angles_deg`, `times_s`)"));
         }
         (_, [.., (base, _, _)]) => {
             let message = "the grid is given twice";

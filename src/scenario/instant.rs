@@ -25,7 +25,7 @@ pub fn read(table: &mut Table, case: &Case) -> Result<When> {
             let message = "a crank angle and a time are both given";
             Err(table.wrong(ErrorKind::Input, "time", message).help(format!("keep one of the two: {HELP}")))
         }
-        (None, None) => Err(table.fault("`crank_deg`, `crank_rad`, `time_s` or `time_ms` is missing").help(HELP)),
+        (None, None) => Err(table.lacks(&["crank_deg", "crank_rad", "time_s", "time_ms"], HELP)),
     }
 }
 
@@ -52,7 +52,7 @@ impl Rows {
                     .wrong(ErrorKind::Input, "time", message)
                     .help(format!("keep one of the two: {HELP}")));
             }
-            (None, None) => return Err(table.fault("`crank` or `time` is missing").help(COLUMN_HELP)),
+            (None, None) => return Err(table.lacks(&["crank", "time"], COLUMN_HELP)),
         };
         let (units, help) = match is_time {
             false => (ANGLE.units, "the column of crank angles ends in `_deg` or `_rad`"),

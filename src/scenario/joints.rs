@@ -3,24 +3,26 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::links::NAME_HELP;
-use super::reader::{Sign, Table};
+use super::reader::{Faults, Sign, Table};
 use super::unit::ANGLE;
 use super::words::suggestion;
 use linkage::error::{ErrorKind, Result};
 use linkage::math::{Vec2, unit};
 use linkage::mechanism::{Joint, JointKind, Link, Side, is_sound_name};
 
-/// All joints, in the order of the file.
-pub fn read(tables: Vec<Table>, links: &[Link]) -> Result<Vec<Joint>> {
+/// The joints, in the order of the file, but those with mistakes.
+pub fn read(tables: Vec<Table>, links: &[Link], faults: &mut Faults) -> Vec<Joint> {
     let mut joints: Vec<Joint> = Vec::new();
-    for table in tables {
-        let joint = joint(table, links, &joints)?;
-        joints.push(joint);
+    let count = tables.len();
+    for mut table in tables {
+        joints.extend(faults.read(&mut table, |table| joint(table, links, &joints)));
     }
-    Ok(joints)
+    // A joint that is left out is missed by drives and by the mechanism.
+    faults.whole &= joints.len() == count;
+    joints
 }
 
-fn joint(mut table: Table, links: &[Link], before: &[Joint]) -> Result<Joint> {
+fn joint(table: &mut Table, links: &[Link], before: &[Joint]) -> Result<Joint> {
     let name = table.string("name")?;
     if !is_sound_name(&name) {
         let message = format!("\"{name}\" cannot be the name of a joint");
@@ -32,15 +34,15 @@ fn joint(mut table: Table, links: &[Link], before: &[Joint]) -> Result<Joint> {
             .wrong(ErrorKind::Input, "name", message)
             .help("give every joint its own name; two joints on one pin share the point instead: `point = \"...\"`"));
     }
-    let kind = kind(&mut table)?;
+    let kind = kind(table)?;
     let pair = table.strings("links")?;
-    let places = places(&mut table, kind, &name)?;
+    let places = places(table, kind, &name)?;
     table.finish()?;
     let [first, second] = &pair[..] else {
         let message = format!("found {} links, but a joint has two", pair.len());
         return Err(table.wrong(ErrorKind::Input, "links", message).help("write `links = [\"ground\", \"crank\"]`"));
     };
-    let (first, second) = (link(&table, first, links)?, link(&table, second, links)?);
+    let (first, second) = (link(table, first, links)?, link(table, second, links)?);
     if first == second {
         let message = format!("it joins \"{}\" with itself", links[first].name);
         return Err(table.wrong(ErrorKind::Input, "links", message).help("name two different links"));
@@ -133,11 +135,12 @@ fn direction(angle: f64) -> Vec2 {
 }
 
 /// Index of the link called `name`. An unknown name is an error of the key `links` or `link` of `table`.
-pub fn link(table: &Table, name: &str, links: &[Link]) -> Result<usize> {
+pub fn link(table: &mut Table, name: &str, links: &[Link]) -> Result<usize> {
+    if let Some(found) = links.iter().position(|link| link.name == name) {
+        return Ok(found);
+    }
     let key = if table.has("links") { "links" } else { "link" };
-    links.iter().position(|link| link.name == name).ok_or_else(|| {
-        let names = links.iter().map(|link| link.name.as_str());
-        let error = table.wrong(ErrorKind::Input, key, format!("there is no link \"{name}\""));
-        error.help(suggestion(name, names, "\""))
-    })
+    let names = links.iter().map(|link| link.name.as_str());
+    let error = table.wrong(ErrorKind::Input, key, format!("there is no link \"{name}\""));
+    table.unknown_name(links.len() - 1, error.help(suggestion(name, names, "\"")))
 }

@@ -1,34 +1,48 @@
 //! `[ground]` and `[links]`: points and masses.
 
-use super::reader::{Sign, Table};
+use super::reader::{Faults, Sign, Table};
 use super::unit::{ANGLE, INERTIA, LENGTH, MASS};
 use super::words::suggestion;
 use linkage::error::{ErrorKind, Result};
 use linkage::math::{Vec2, unit};
 use linkage::mechanism::{Link, Point, is_sound_name};
 
-/// The ground and all links, in the order of the file.
-pub fn read(mut ground: Table, mut links: Table) -> Result<Vec<Link>> {
-    let points = points(ground.table("points")?)?;
-    ground.finish()?;
+/// The ground and all links, in the order of the file. Those with mistakes keep their names and those of their points.
+pub fn read(mut ground: Table, mut links: Table, faults: &mut Faults) -> Vec<Link> {
+    let mut points = Vec::new();
+    faults.read(&mut ground, |ground| {
+        points = named_points(ground)?;
+        ground.finish()
+    });
     let frame = Link { name: "ground".into(), points, mass: 0.0, mass_centre: Vec2::zeros(), inertia: 0.0 };
     let mut all = vec![frame];
-    for table in links.all_tables()? {
-        all.push(link(table)?);
+    let tables = faults.read(&mut links, |links| {
+        let tables = links.all_tables()?;
+        match tables.is_empty() {
+            true => Err(links.fault("there is no link").help("add a section `[links.NAME]` for each moving link")),
+            false => Ok(tables),
+        }
+    });
+    for mut table in tables.into_iter().flatten() {
+        let mut link = Link { name: table.name().to_string(), ..all[0].clone() };
+        link.points = Vec::new();
+        faults.read(&mut table, |table| fill(table, &mut link));
+        all.push(link);
     }
-    if all.len() == 1 {
-        return Err(links.fault("there is no link").help("add a section `[links.NAME]` for each moving link"));
-    }
-    Ok(all)
+    // A link or a point that is left out is missed by others.
+    faults.names = all.len() > 1 && all.iter().all(|link| !link.points.is_empty());
+    faults.whole &= faults.names;
+    all
 }
 
-fn link(mut table: Table) -> Result<Link> {
-    check_name(&table, "link")?;
-    let name = table.name().to_string();
-    let points = points(table.table("points")?)?;
+fn fill(table: &mut Table, link: &mut Link) -> Result<()> {
+    check_name(table, "link")?;
+    link.points = named_points(table)?;
+    let points = &link.points;
     let mass = table.optional_quantity("mass", &MASS, Sign::NotNegative)?;
     let inertia = table.optional_quantity("inertia", &INERTIA, Sign::NotNegative)?;
-    let centre = table.optional_table("mass_centre")?.map(|centre| place(centre, &points)).transpose()?;
+    let centre = table.optional_table("mass_centre")?.map(|centre| place(centre, points)).transpose();
+    let centre = table.part(centre);
     table.finish()?;
     if mass.is_none() && inertia.is_some() {
         return Err(table
@@ -45,32 +59,45 @@ fn link(mut table: Table) -> Result<Link> {
             .wrong(ErrorKind::Input, "mass", "the link has a mass but no mass centre")
             .help("add `mass_centre = { x_mm = ..., y_mm = ... }`, in the link's frame"));
     }
-    Ok(Link {
-        name,
-        points,
-        mass: mass.unwrap_or(0.0),
-        mass_centre: centre.unwrap_or_else(Vec2::zeros),
-        inertia: inertia.unwrap_or(0.0),
-    })
+    link.mass = mass.unwrap_or(0.0);
+    link.mass_centre = centre.unwrap_or_else(Vec2::zeros);
+    link.inertia = inertia.unwrap_or(0.0);
+    Ok(())
 }
 
-fn points(mut table: Table) -> Result<Vec<Point>> {
+/// The points of a link. Those with mistakes keep their names.
+fn named_points(link: &mut Table) -> Result<Vec<Point>> {
+    let Ok(mut table) = link.table("points") else { return Ok(Vec::new()) };
     let mut points: Vec<Point> = Vec::new();
-    for point in table.all_tables()? {
-        check_name(&point, "point")?;
-        let name = point.name().to_string();
-        let local = place(point, &points)?;
-        points.push(Point { name, local });
-    }
-    if points.is_empty() {
-        return Err(table.fault("there is no point").help("add a point: `A = { x_mm = 0, y_mm = 0 }`"));
-    }
-    Ok(points)
+    let read = table.read(|table| {
+        for point in table.all_tables()? {
+            table.part(check_name(&point, "point"));
+            let name = point.name().to_string();
+            let local = table.part(place(point, &points));
+            points.push(Point { name, local });
+        }
+        match points.is_empty() {
+            true => Err(table.fault("there is no point").help("add a point: `A = { x_mm = 0, y_mm = 0 }`")),
+            false => Ok(()),
+        }
+    });
+    link.part(read);
+    // Nobody can say what a link lacks whose points could not all be read.
+    Ok(if points.len() == table.keys().len() { points } else { Vec::new() })
 }
 
 /// A place: coordinates, or a distance and an angle from one of the points read before.
 pub fn place(mut table: Table, known: &[Point]) -> Result<Vec2> {
-    let place = match table.optional_string("from")? {
+    table.read(|table| place_of(table, known))
+}
+
+fn place_of(table: &mut Table, known: &[Point]) -> Result<Vec2> {
+    let mut polar = [LENGTH.keys("length"), ANGLE.keys("angle")].into_iter().flatten();
+    let from = match polar.any(|key| table.has(&key)) {
+        true => Some(table.string("from")?),
+        false => table.optional_string("from")?,
+    };
+    let place = match from {
         None => Vec2::new(table.quantity("x", &LENGTH, Sign::Any)?, table.quantity("y", &LENGTH, Sign::Any)?),
         Some(from) => {
             let names = known.iter().map(|point| point.name.as_str());

@@ -1,7 +1,7 @@
 //! `[[loads]]`: forces, moments, springs and dampers.
 
 use super::joints::link;
-use super::reader::{Sign, Table};
+use super::reader::{Faults, Sign, Table};
 use super::unit::{ANGLE, DAMPING, FORCE, Family, LENGTH, MOMENT, MOMENT_PER_SPEED, STIFFNESS, TORSIONAL_STIFFNESS};
 use super::words::suggestion;
 use linkage::drive::{Acts, Course, Load, LoadSort};
@@ -28,18 +28,18 @@ fn reader(sort: LoadSort) -> Reader {
 /// Largest number of crank turns after which a table may repeat.
 const MOST_TURNS: i64 = 1000;
 
-/// All loads.
-pub fn read(tables: Vec<Table>, mechanism: &Mechanism) -> Result<Vec<Load>> {
-    tables.into_iter().map(|table| load(table, mechanism)).collect()
+/// The loads, but those with mistakes.
+pub fn read(tables: Vec<Table>, mechanism: &Mechanism, faults: &mut Faults) -> Vec<Load> {
+    tables.into_iter().filter_map(|mut table| faults.read(&mut table, |table| load(table, mechanism))).collect()
 }
 
-fn load(mut table: Table, mechanism: &Mechanism) -> Result<Load> {
+fn load(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
     let kind = table.string("type")?;
     let Some(sort) = LoadSort::named(&kind) else {
         let error = table.wrong(ErrorKind::Input, "type", format!("\"{kind}\" is no type of load"));
         return Err(error.help(suggestion(&kind, LoadSort::ALL.map(LoadSort::name), "\"")));
     };
-    let load = reader(sort)(&mut table, mechanism)?;
+    let load = reader(sort)(table, mechanism)?;
     table.finish()?;
     Ok(load)
 }
@@ -71,7 +71,7 @@ fn moment(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
 }
 
 fn force(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
-    let at = loaded_point(table, mechanism)?;
+    let point = (table.string("link")?, table.string("point")?);
     let force = courses(table, ["x", "y"], &FORCE)?;
     let follows = match table.optional_string("frame")?.as_deref() {
         None | Some("world") => false,
@@ -81,12 +81,14 @@ fn force(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
             return Err(error.help(suggestion(other, ["world", "link"], "\"")));
         }
     };
+    let at = loaded_point(table, mechanism, point)?;
     Ok(Load::Force { at, force, follows })
 }
 
 fn resisting_force(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
-    let at = loaded_point(table, mechanism)?;
+    let point = (table.string("link")?, table.string("point")?);
     let force = table.quantity("force", &FORCE, Sign::NotNegative)?;
+    let at = loaded_point(table, mechanism, point)?;
     // The velocity of such a point would be the rounding of zero, and so would the direction of the force.
     let mut pins = mechanism.joints().iter().filter(|joint| joint.is_pin() && joint.on(GROUND).is_some());
     if pins.any(|joint| joint.on(at.link) == Some(at.local)) {
@@ -97,24 +99,29 @@ fn resisting_force(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
 }
 
 fn spring(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
-    let ends = ends(table, mechanism)?;
+    let named = (table.strings("links")?, table.strings("points")?);
     let stiffness = table.quantity("stiffness", &STIFFNESS, Sign::NotNegative)?;
-    Ok(Load::Spring { ends, stiffness, free_length: table.quantity("free_length", &LENGTH, Sign::NotNegative)? })
+    let free_length = table.quantity("free_length", &LENGTH, Sign::NotNegative)?;
+    Ok(Load::Spring { ends: ends(table, mechanism, named)?, stiffness, free_length })
 }
 
 fn damper(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
-    Ok(Load::Damper { ends: ends(table, mechanism)?, damping: table.quantity("damping", &DAMPING, Sign::NotNegative)? })
+    let named = (table.strings("links")?, table.strings("points")?);
+    let damping = table.quantity("damping", &DAMPING, Sign::NotNegative)?;
+    Ok(Load::Damper { ends: ends(table, mechanism, named)?, damping })
 }
 
 fn torsion_spring(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
-    let links = pair(table, mechanism)?;
+    let names = table.strings("links")?;
     let stiffness = table.quantity("stiffness", &TORSIONAL_STIFFNESS, Sign::NotNegative)?;
-    Ok(Load::TorsionSpring { links, stiffness, free_angle: table.quantity("free_angle", &ANGLE, Sign::Any)? })
+    let free_angle = table.quantity("free_angle", &ANGLE, Sign::Any)?;
+    Ok(Load::TorsionSpring { links: pair(table, mechanism, &names)?, stiffness, free_angle })
 }
 
 fn torsion_damper(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
-    let links = pair(table, mechanism)?;
-    Ok(Load::TorsionDamper { links, damping: table.quantity("damping", &MOMENT_PER_SPEED, Sign::NotNegative)? })
+    let names = table.strings("links")?;
+    let damping = table.quantity("damping", &MOMENT_PER_SPEED, Sign::NotNegative)?;
+    Ok(Load::TorsionDamper { links: pair(table, mechanism, &names)?, damping })
 }
 
 /// Quantities of one family: constants, or columns of a table over the crank angle.
@@ -147,11 +154,14 @@ fn courses<const N: usize>(table: &mut Table, names: [&str; N], family: &'static
     let mut points: [Vec<(f64, f64)>; N] = names.map(|_| Vec::new());
     let (smooth, turns) = (is_smooth(table, interpolation)?, period(table, turns)?);
     for mut row in rows {
-        let crank = row.quantity("crank", &ANGLE, Sign::Any)?;
-        for (name, points) in names.into_iter().zip(&mut points) {
-            points.push((crank, row.quantity(name, family, Sign::Any)?));
-        }
-        row.finish()?;
+        let read = row.read(|row| {
+            let crank = row.quantity("crank", &ANGLE, Sign::Any)?;
+            for (name, points) in names.into_iter().zip(&mut points) {
+                points.push((crank, row.quantity(name, family, Sign::Any)?));
+            }
+            row.finish()
+        });
+        read?;
         check_crank(&row, &points[0], turns)?;
     }
     if points[0].is_empty() {
@@ -206,7 +216,7 @@ fn is_smooth(table: &Table, interpolation: Option<String>) -> Result<bool> {
 }
 
 /// A moving link.
-fn moving(table: &Table, name: &str, mechanism: &Mechanism) -> Result<usize> {
+fn moving(table: &mut Table, name: &str, mechanism: &Mechanism) -> Result<usize> {
     let link = link(table, name, mechanism.links())?;
     if link == GROUND {
         let error = table.wrong(ErrorKind::Input, "link", "the ground does not move, and bears any load");
@@ -216,7 +226,7 @@ fn moving(table: &Table, name: &str, mechanism: &Mechanism) -> Result<usize> {
 }
 
 /// A link that can turn.
-fn turning(table: &Table, name: &str, mechanism: &Mechanism) -> Result<usize> {
+fn turning(table: &mut Table, name: &str, mechanism: &Mechanism) -> Result<usize> {
     let link = link(table, name, mechanism.links())?;
     if link == GROUND {
         return Err(table.wrong(ErrorKind::Input, "link", "the ground does not turn").help("name a moving link"));
@@ -230,8 +240,7 @@ fn turning(table: &Table, name: &str, mechanism: &Mechanism) -> Result<usize> {
 }
 
 /// `link` and `point`: a point of a moving link.
-fn loaded_point(table: &mut Table, mechanism: &Mechanism) -> Result<Side> {
-    let (name, point) = (table.string("link")?, table.string("point")?);
+fn loaded_point(table: &mut Table, mechanism: &Mechanism, (name, point): (String, String)) -> Result<Side> {
     let link = moving(table, &name, mechanism)?;
     side(table, mechanism, link, &point, "point")
 }
@@ -247,9 +256,8 @@ fn side(table: &Table, mechanism: &Mechanism, link: usize, point: &str, key: &st
 }
 
 /// `links`: two links, either of which may be the ground.
-fn pair(table: &mut Table, mechanism: &Mechanism) -> Result<[usize; 2]> {
-    let names = table.strings("links")?;
-    let [first, second] = &names[..] else {
+fn pair(table: &mut Table, mechanism: &Mechanism, names: &[String]) -> Result<[usize; 2]> {
+    let [first, second] = names else {
         let message = format!("found {} links, but this load acts between two", names.len());
         return Err(table.wrong(ErrorKind::Input, "links", message).help("write `links = [\"ground\", \"rocker\"]`"));
     };
@@ -262,11 +270,10 @@ fn pair(table: &mut Table, mechanism: &Mechanism) -> Result<[usize; 2]> {
 }
 
 /// `links` and `points`: a point of either link.
-fn ends(table: &mut Table, mechanism: &Mechanism) -> Result<[Side; 2]> {
-    let links = pair(table, mechanism)?;
-    let names = table.strings("points")?;
-    let [first, second] = &names[..] else {
-        let message = format!("found {} points, but this load acts between two", names.len());
+fn ends(table: &mut Table, mechanism: &Mechanism, (links, points): (Vec<String>, Vec<String>)) -> Result<[Side; 2]> {
+    let links = pair(table, mechanism, &links)?;
+    let [first, second] = &points[..] else {
+        let message = format!("found {} points, but this load acts between two", points.len());
         let help = "write `points = [\"S\", \"B\"]`: a point of the first link and one of the second";
         return Err(table.wrong(ErrorKind::Input, "points", message).help(help));
     };

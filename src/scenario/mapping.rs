@@ -223,6 +223,6 @@ fn line(table: &mut Table, name: &str) -> Result<Mapped> {
     let text = table.string(name)?;
     let whole = Fault { message: String::new(), at: 0..text.len(), help: String::new() };
     let place = table.fault_in(name, &whole).place().cloned();
-    let place = place.unwrap_or_else(|| Place { file: table.source().path.into(), text: String::new(), span: 0..0 });
+    let place = place.unwrap_or_else(|| Place { file: table.source().path.into(), text: "".into(), span: 0..0 });
     Ok(Mapped { name: name.into(), text, start: place.span.start, place })
 }

@@ -9,11 +9,13 @@ pub mod edit;
 mod figure;
 pub mod formula;
 pub mod grid;
+mod header;
 mod hostile;
 mod instant;
 mod joints;
 mod links;
 mod loads;
+mod malformed;
 pub mod mapping;
 mod masses;
 mod motion;
@@ -28,6 +30,7 @@ mod series;
 mod settings;
 mod source;
 mod start;
+mod stated;
 mod table_file;
 pub mod task_file;
 #[cfg(test)]
@@ -46,17 +49,16 @@ pub use settings::EngineKeys;
 
 use std::path::{Path, PathBuf};
 
-use self::reader::{Sign, Table};
+use self::header::{NAME_HELP, is_name};
+use self::reader::{Faults, Table};
 use self::source::Source;
+use self::stated::Stated;
 use crate::files;
 use linkage::case::{Case, CaseParts, Grid, Wanted};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::mechanism::assembly::{Choice, group_of};
-use linkage::mechanism::{LONGEST_NAME, Mechanism, StartGroup, Structure};
+use linkage::mechanism::{StartGroup, Structure};
 use workshop::clearance::Question;
-
-/// Version of the file format that this crate reads.
-pub const FORMAT: i64 = 1;
 
 /// A scenario: the problem, the engine's settings, and the published numbers that it is compared with.
 ///
@@ -223,7 +225,7 @@ impl Scenario {
 fn text_of(path: &Path) -> Result<String> {
     files::read_text(path).map_err(|error| {
         Error::new(ErrorKind::Io, format!("the scenario {} cannot be read: {error}", path.display()))
-            .help("give the path of a scenario file, such as scenarios/crank_rocker.toml")
+            .help(files::way_out(&error, "give the path of a scenario file, such as scenarios/crank_rocker.toml"))
     })
 }
 
@@ -235,8 +237,9 @@ fn parse(text: &str, path: &Path, asked: &Asked, lists: bool) -> Found {
         &asked.set,
         asked.adds_parameters,
     )?;
-    let source = Source { parameters, ..Source::new(path, text) };
-    read(&mut Table::root(&source, &tree), asked, lists).map_err(|error| source.located(tree.get_ref(), error))?
+    let source = plain.with(parameters);
+    let found = Table::root(&source, &tree).read(|root| read(root, asked, lists));
+    found.map_err(|error| source.located(tree.get_ref(), error))?
 }
 
 /// What a file with another start gives: the scenario and the groups that are not decided, or an error of what was
@@ -244,44 +247,16 @@ fn parse(text: &str, path: &Path, asked: &Asked, lists: bool) -> Found {
 type Found = std::result::Result<(Scenario, Vec<Undecided>), Error>;
 
 fn read(root: &mut Table, asked: &Asked, lists: bool) -> Result<Found> {
-    check_format(root)?;
-    let name = name(root)?;
-    let title = root.string("title")?;
-    let cited = root.optional_string("source")?;
-    // All sections are fetched before any is read: a misspelt section is the cause of other errors.
-    let (ground, links, joints) = (root.table("ground")?, root.table("links")?, root.tables("joints")?);
-    let (drives, motor) = (root.needed_tables("drive")?, root.optional_table("motor")?);
-    let (gravity, loads) = (root.optional_table("gravity")?, root.tables("loads")?);
-    let (mut start, grid, channels) = (root.table("start")?, root.table("grid")?, root.optional_table("channels")?);
-    let (engine, tolerances) = (root.optional_table("engine")?, root.optional_table("tolerances")?);
-    let (oracles, clearance) = (root.tables("oracle")?, root.optional_table("clearance")?);
-    let formulas = root.tables("formula")?;
-    // It was read before all others, which may use it.
-    root.optional_table("parameters")?;
-    root.finish()?;
-
-    let links = links::read(ground, links)?;
-    let joints = joints::read(joints, &links)?;
-    let mechanism = Mechanism::new(links, joints)?;
-    let clearance = clearance::read(clearance, &mechanism)?;
-    let own_crank = start.quantity("crank", &unit::ANGLE, Sign::Any)?;
+    let stated = Stated::read(root, asked)?;
+    let Stated { mechanism, drives, crank: own_crank, .. } = stated;
     let crank = asked.crank.unwrap_or(own_crank);
-    let groups = start.tables("groups")?;
-    start.finish()?;
-    let drives = motion::drives(drives, motor, &mechanism, crank)?;
     masses::check(&mechanism, &drives)?;
-    let loads = loads::read(loads, &mechanism)?;
-    let gravity = motion::gravity(gravity)?;
     let structure = Structure::of(&mechanism, &drives.joints())?;
     let groups_asked = match asked.groups(&mechanism, &structure) {
         Ok(groups) => groups,
         Err(error) => return Ok(Err(error)),
     };
-    let starts = start::groups(&start, groups, &mechanism, &structure, &groups_asked)?;
-    let grid = grid::read(grid, drives.crank(), asked.without_grid)?;
-    let wanted = Wanted::ALL;
-    let (dt, engine) = settings::engine(engine, drives.crank())?;
-    let engine_rel = settings::engine_rel(tolerances)?;
+    let starts = start::groups(&stated.start, stated.groups, &mechanism, &structure, &groups_asked)?;
     let placing = asked::Start {
         mechanism: &mechanism,
         structure: &structure,
@@ -302,11 +277,17 @@ fn read(root: &mut Table, asked: &Asked, lists: bool) -> Result<Found> {
     let (starts, choices, undecided) = (placed.starts, placed.choices, placed.undecided);
     let modes = choices.iter().map(|choice| choice.mode).collect();
     let start = placed.pose;
+    let (loads, gravity, grid, wanted) = (stated.loads, stated.gravity, stated.grid, Wanted::ALL);
     let case =
         Case::new(CaseParts { mechanism, structure, drives, loads, gravity, start, modes, grid, wanted, only: None })?;
-    let case = settings::wanted(channels, case)?;
-    let mut oracles = oracle::read(oracles, &case)?;
-    let mut formulas = self::formula::read(root.source().parameters.clone(), formulas, &case)?;
+    let case = match stated.channels {
+        Some((table, words)) => settings::wanting(&table, &words, case)?,
+        None => case,
+    };
+    let mut faults = Faults::none();
+    let mut oracles = oracle::read(stated.oracles, &case, &mut faults);
+    let mut formulas = self::formula::read(root.source().parameters.clone(), stated.formulas, &case, &mut faults);
+    faults.end()?;
     if !asked.set.is_empty() {
         // Published numbers belong to the file's own parameters.
         oracles.clear();
@@ -328,57 +309,22 @@ fn read(root: &mut Table, asked: &Asked, lists: bool) -> Result<Found> {
     }
     let source = root.source();
     let (path, text) = (source.path.to_path_buf(), source.text.to_string());
+    let (dt, engine) = stated.engine;
     let scenario = Scenario {
-        name,
-        title,
-        source: cited,
+        name: stated.name,
+        title: stated.title,
+        source: stated.source,
         path,
         text,
         case,
         dt,
         engine,
-        engine_rel,
+        engine_rel: stated.engine_rel,
         oracles,
         formulas,
-        clearance,
+        clearance: stated.clearance,
         starts,
         choices,
     };
     Ok(Ok((scenario, undecided)))
-}
-
-fn check_format(root: &mut Table) -> Result<()> {
-    if root.is_empty() {
-        let error = root.fault("the file holds no scenario");
-        return Err(error.help("a scenario starts with `format = 1`; docs/scenario.md builds one up step by step"));
-    }
-    match root.integer("format")? {
-        FORMAT => Ok(()),
-        other => Err(root
-            .wrong(ErrorKind::Unsupported, "format", format!("format {other} is not handled by this version"))
-            .help(format!("this version reads `format = {FORMAT}`"))),
-    }
-}
-
-/// Whether a name can be used in file names.
-fn is_name(name: &str) -> bool {
-    let is_reserved = match name.as_bytes() {
-        b"con" | b"prn" | b"aux" | b"nul" => true,
-        [b'c', b'o', b'm', digit] | [b'l', b'p', b't', digit] => digit.is_ascii_digit(),
-        _ => false,
-    };
-    !is_reserved
-        && (1..=LONGEST_NAME).contains(&name.len())
-        && name.bytes().all(|byte| matches!(byte, b'a'..=b'z' | b'0'..=b'9' | b'_'))
-}
-
-const NAME_HELP: &str =
-    "it names files: use at most 100 lower-case letters, digits and `_`, and no name of a device such as `con`";
-
-fn name(root: &mut Table) -> Result<String> {
-    let name = root.string("name")?;
-    if is_name(&name) {
-        return Ok(name);
-    }
-    Err(root.wrong(ErrorKind::Input, "name", format!("\"{name}\" cannot be the name of a scenario")).help(NAME_HELP))
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::motor;
-use super::reader::{Sign, Table};
+use super::reader::{Faults, Sign, Table};
 use super::unit::{ACCELERATION, ANGLE, ANGULAR_SPEED, TIME};
 use super::words::suggestion;
 use linkage::drive::{Drive, DriveMotion, Drives, MotionLaw};
@@ -12,29 +12,51 @@ use linkage::math::{Piecewise, Vec2};
 use linkage::mechanism::{GROUND, Mechanism, Side};
 
 /// The drives of the mechanism: the crank, with `start` as its angle at t = 0 (rad) and with the motor, and further
-/// drives, which state their own start.
-pub fn drives(tables: Vec<Table>, motor: Option<Table>, mechanism: &Mechanism, start: f64) -> Result<Drives> {
+/// drives, which state their own start. `None` after a mistake.
+pub fn drives(
+    tables: Vec<Table>,
+    motor: Option<Table>,
+    mechanism: &Mechanism,
+    start: f64,
+    faults: &mut Faults,
+) -> Option<Drives> {
     let mut drives: Vec<Drive> = Vec::new();
-    for mut table in tables {
-        let start = match drives.is_empty() {
-            true => start,
-            false => table.quantity("start", &ANGLE, Sign::Any)?,
+    let count = tables.len();
+    for (index, mut table) in tables.into_iter().enumerate() {
+        let own = |table: &mut Table| {
+            let start = if index == 0 { start } else { table.quantity("start", &ANGLE, Sign::Any)? };
+            let drive = drive(table, mechanism, &drives, start)?;
+            check_beside(table, &drive, &drives)?;
+            Ok(drive)
         };
-        let drive = drive(&mut table, mechanism, &drives, start)?;
-        // Several drives are coupled by the crank angle, which determines the time only at constant speeds.
-        let changing = drives.iter().chain([&drive]).any(|drive| drive.constant_speed().is_none());
-        if changing && !drives.is_empty() {
-            let message = "one of several drives has a speed that changes";
-            return Err(table.wrong(ErrorKind::Unsupported, "law", message).help("give all drives constant speeds"));
-        }
-        if !drives.is_empty() && drives.iter().chain([&drive]).any(|drive| drive.through) {
-            let message = "change points are passed with one drive only, and there are several";
-            return Err(table.wrong(ErrorKind::Unsupported, "through", message).help("take the key out"));
-        }
-        drives.push(drive);
+        drives.extend(faults.read(&mut table, own));
+        // A drive may hang on a link that one before it moves.
+        faults.whole &= drives.len() > index;
     }
-    let crank = drives.remove(0).with_motor(motor.map(motor::read).transpose()?);
-    Ok(Drives::new(crank, drives))
+    let motor = motor.map(|mut motor| faults.read(&mut motor, motor::read));
+    if drives.len() < count || matches!(motor, Some(None)) {
+        return None;
+    }
+    let crank = drives.remove(0).with_motor(motor.flatten());
+    Some(Drives::new(crank, drives))
+}
+
+/// Checks that a drive may stand beside those before it.
+fn check_beside(table: &Table, drive: &Drive, before: &[Drive]) -> Result<()> {
+    if before.is_empty() {
+        return Ok(());
+    }
+    let all = || before.iter().chain([drive]);
+    // Several drives are coupled by the crank angle, which determines the time only at constant speeds.
+    if all().any(|drive| drive.constant_speed().is_none()) {
+        let message = "one of several drives has a speed that changes";
+        return Err(table.wrong(ErrorKind::Unsupported, "law", message).help("give all drives constant speeds"));
+    }
+    if all().any(|drive| drive.through) {
+        let message = "change points are passed with one drive only, and there are several";
+        return Err(table.wrong(ErrorKind::Unsupported, "through", message).help("take the key out"));
+    }
+    Ok(())
 }
 
 /// A drive; `before` are the drives already read.
@@ -95,7 +117,11 @@ fn motion(table: &mut Table, law: MotionLaw) -> Result<DriveMotion> {
             };
             Ok(DriveMotion::Free { initial_speed: initial.unwrap_or(0.0), nominal_speed, motor: None })
         }
-        None | Some("prescribed") if initial.is_some() => {
+        None if initial.is_some() => Err(table.lacks(
+            &["motion"],
+            "a link with a speed at t = 0 moves freely: write `motion = \"free\"`, or take `initial_speed` out",
+        )),
+        Some("prescribed") if initial.is_some() => {
             let message = "the link is given a speed at t = 0, but its motion is prescribed";
             let help = "write `motion = \"free\"` to leave it to its motor and the loads, or take the key out";
             Err(table.wrong(ErrorKind::Input, "initial_speed", message).help(help))
@@ -129,7 +155,11 @@ type Law = (&'static str, fn(&mut Table, f64) -> Result<MotionLaw>);
 const LAWS: [Law; 4] = [("constant", constant), ("ramp", ramp), ("cycloidal", cycloidal), ("table", points)];
 
 fn law(table: &mut Table, start: f64) -> Result<MotionLaw> {
-    let Some(kind) = table.optional_string("law")? else { return constant(table, start) };
+    let mut of_laws = [ANGLE.keys("to"), TIME.keys("time"), vec!["points".into()]].into_iter().flatten();
+    let kind = match of_laws.any(|key| table.has(&key)) {
+        true => table.string("law")?,
+        false => table.optional_string("law")?.unwrap_or_else(|| "constant".into()),
+    };
     let Some((_, law)) = LAWS.iter().find(|(name, _)| *name == kind) else {
         let error = table.wrong(ErrorKind::Input, "law", format!("\"{kind}\" is no law of motion"));
         return Err(error.help(suggestion(&kind, LAWS.map(|(name, _)| name), "\"")));
@@ -162,9 +192,13 @@ fn cycloidal(table: &mut Table, start: f64) -> Result<MotionLaw> {
 fn points(table: &mut Table, start: f64) -> Result<MotionLaw> {
     let mut points: Vec<(f64, f64)> = Vec::new();
     for mut point in table.tables("points")? {
-        let time = point.quantity("time", &TIME, Sign::NotNegative)?;
-        let gone = point.quantity("angle", &ANGLE, Sign::Any)? - start;
-        point.finish()?;
+        let read = point.read(|point| {
+            let time = point.quantity("time", &TIME, Sign::NotNegative)?;
+            let gone = point.quantity("angle", &ANGLE, Sign::Any)? - start;
+            point.finish()?;
+            Ok((time, gone))
+        });
+        let (time, gone) = read?;
         match points.last() {
             None if time != 0.0 || gone.abs() > 1e-12 => {
                 let message =
@@ -186,9 +220,8 @@ fn points(table: &mut Table, start: f64) -> Result<MotionLaw> {
     Ok(MotionLaw::Table(Arc::new(Piecewise::clamped_spline(&points, [0.0; 2]))))
 }
 
-/// Acceleration of gravity (m/s^2); zero without a table.
-pub fn gravity(table: Option<Table>) -> Result<Vec2> {
-    let Some(mut table) = table else { return Ok(Vec2::zeros()) };
+/// Acceleration of gravity (m/s^2).
+pub fn gravity(table: &mut Table) -> Result<Vec2> {
     let (x, y) = (table.quantity("x", &ACCELERATION, Sign::Any)?, table.quantity("y", &ACCELERATION, Sign::Any)?);
     table.finish()?;
     Ok(Vec2::new(x, y))

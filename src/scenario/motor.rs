@@ -12,24 +12,25 @@ type Law = (&'static str, fn(&mut Table) -> Result<MotorLaw>);
 const LAWS: [Law; 4] = [("constant", constant), ("linear", linear), ("kloss", kloss), ("table", points)];
 
 /// The motor.
-pub fn read(mut table: Table) -> Result<Motor> {
+pub fn read(table: &mut Table) -> Result<Motor> {
     let kind = table.string("law")?;
     let Some((_, law)) = LAWS.iter().find(|(name, _)| *name == kind) else {
         let error = table.wrong(ErrorKind::Input, "law", format!("\"{kind}\" is no law of a motor"));
         return Err(error.help(suggestion(&kind, LAWS.map(|(name, _)| name), "\"")));
     };
-    let law = law(&mut table)?;
+    let law = law(table)?;
     let ratio = table.number("ratio")?;
     if ratio <= 0.0 {
         let error = table.wrong(ErrorKind::Input, "ratio", format!("found {ratio}, but a ratio of speeds is positive"));
-        return Err(error.help("give the speed of the motor over that of the crank; 1 without a reducer"));
+        table.instead((), error.help("give the speed of the motor over that of the crank; 1 without a reducer"))?;
     }
     let efficiency = table.optional_number("efficiency")?.unwrap_or(1.0);
     if !(efficiency > 0.0 && efficiency <= 1.0) {
         let message = format!("found {efficiency}, but an efficiency lies above 0 and at most at 1");
-        return Err(table.wrong(ErrorKind::Input, "efficiency", message).help("give a share: 0.92 for 92 %"));
+        let error = table.wrong(ErrorKind::Input, "efficiency", message).help("give a share: 0.92 for 92 %");
+        table.instead((), error)?;
     }
-    let inertia = inertia(&mut table)?;
+    let inertia = inertia(table)?;
     table.finish()?;
     Ok(Motor { law, ratio, efficiency, inertia })
 }
@@ -55,7 +56,10 @@ fn kloss(table: &mut Table) -> Result<MotorLaw> {
             let message = "the slip and the speed of breakdown are both given";
             return Err(table.wrong(ErrorKind::Input, "breakdown_slip", message).help(help));
         }
-        (None, None) => return Err(table.fault("neither slip nor speed of breakdown is given").help(help)),
+        (None, None) => {
+            let keys = ["breakdown_slip", "breakdown_speed_rpm", "breakdown_speed_rad_s"];
+            return Err(table.lacks(&keys, help));
+        }
         (Some(slip), None) if slip > 0.0 => slip,
         (Some(slip), None) => {
             let message = format!("found {slip}, but the slip of breakdown is positive");
@@ -76,9 +80,13 @@ fn kloss(table: &mut Table) -> Result<MotorLaw> {
 fn points(table: &mut Table) -> Result<MotorLaw> {
     let (mut speeds, mut torques) = (Vec::new(), Vec::new());
     for mut point in table.tables("points")? {
-        let speed = point.quantity("speed", &ANGULAR_SPEED, Sign::Any)?;
-        torques.push(point.quantity("torque", &MOMENT, Sign::Any)?);
-        point.finish()?;
+        let (speed, torque) = point.read(|point| {
+            let speed = point.quantity("speed", &ANGULAR_SPEED, Sign::Any)?;
+            let torque = point.quantity("torque", &MOMENT, Sign::Any)?;
+            point.finish()?;
+            Ok((speed, torque))
+        })?;
+        torques.push(torque);
         if let Some(last) = speeds.last()
             && !(speed > *last)
         {

@@ -5,8 +5,8 @@ use super::figure::Figure;
 use super::figure::{self, OracleFigure};
 use super::instant;
 use super::printed::{Printed, PrintedChannel};
-use super::reader::Table;
-use super::series::{ExpectedCell, Known, OraclePoint, OracleSeries};
+use super::reader::{Faults, Table};
+use super::series::{ExpectedCell, Known, OraclePoint, OracleSeries, When};
 use super::table_file;
 use super::words::suggestion;
 use linkage::case::Case;
@@ -76,44 +76,46 @@ impl OracleBasis {
     }
 }
 
-/// All oracles of a case.
-pub(super) fn read(tables: Vec<Table>, case: &Case) -> Result<Vec<Oracle>> {
+/// The oracles of a case, but those with mistakes.
+pub(super) fn read(tables: Vec<Table>, case: &Case, faults: &mut Faults) -> Vec<Oracle> {
     let (wanted, all) = (case.channels(), case.all_channels());
-    let (channels, wanted) = (all.as_slice(), wanted.as_slice());
+    let known = Known { channels: &all, wanted: &wanted, digits: None, slack: 0.0 };
     let mut inline = 0;
-    let mut oracles = Vec::with_capacity(tables.len());
-    for mut table in tables {
-        let source = table.string("source")?;
-        let own_name = table.optional_string("name")?;
-        let forms = ["file", "values", "figures"].map(|key| table.has(key));
-        let basis = OracleBasis::read(&mut table)?;
-        let mut oracle = Oracle { name: String::new(), source, basis, series: Vec::new(), figures: Vec::new() };
-        match forms {
-            [true, false, false] => {
-                (oracle.name, oracle.series) =
-                    table_file::read(&mut table, &Known { channels, wanted, digits: None, slack: 0.0 }, case)?;
-            }
-            [false, true, false] => {
-                oracle.series = values(&mut table, &Known { channels, wanted, digits: None, slack: 0.0 }, case)?
-            }
-            [false, false, true] => oracle.figures = figure::read(&mut table, case)?,
-            _ => {
-                return Err(table
-                    .fault("an oracle has exactly one of `file`, `values` and `figures`")
-                    .help("split it into several [[oracle]] tables, or add the numbers"));
-            }
+    let one = |mut table: Table| faults.read(&mut table, |table| oracle(table, &known, case, &mut inline));
+    tables.into_iter().filter_map(one).collect()
+}
+
+/// One oracle; `inline` counts those with numbers in the scenario itself.
+fn oracle(table: &mut Table, known: &Known, case: &Case, inline: &mut usize) -> Result<Oracle> {
+    let source = table.string("source")?;
+    let own_name = table.optional_string("name")?;
+    let forms = ["file", "values", "figures"].map(|key| table.has(key));
+    let basis = OracleBasis::read(table)?;
+    let mut oracle = Oracle { name: String::new(), source, basis, series: Vec::new(), figures: Vec::new() };
+    match forms {
+        [true, false, false] => {
+            (oracle.name, oracle.series) = table_file::read(table, known, case)?;
         }
-        if !forms[0] {
-            inline += 1;
-            oracle.name = format!("inline {inline}");
+        [false, true, false] => oracle.series = values(table, known, case)?,
+        [false, false, true] => oracle.figures = figure::read(table, case)?,
+        [false, false, false] => {
+            return Err(table.lacks(&["file", "values", "figures"], "give the numbers: docs/scenario.md tells how"));
         }
-        if let Some(name) = own_name {
-            oracle.name = name;
+        _ => {
+            return Err(table
+                .fault("an oracle has exactly one of `file`, `values` and `figures`")
+                .help("split it into several [[oracle]] tables"));
         }
-        table.finish()?;
-        oracles.push(oracle);
     }
-    Ok(oracles)
+    if !forms[0] {
+        *inline += 1;
+        oracle.name = format!("inline {inline}");
+    }
+    if let Some(name) = own_name {
+        oracle.name = name;
+    }
+    table.finish()?;
+    Ok(oracle)
 }
 
 /// Numbers at one instant, written in the scenario itself.
@@ -121,29 +123,35 @@ fn values(table: &mut Table, known: &Known, case: &Case) -> Result<Vec<OracleSer
     let at = instant::read(table, case)?;
     let mut series = Vec::new();
     for mut entry in table.tables("values")? {
-        let (name, channel) = known.channel(&mut entry)?;
-        let si = |number: Printed| OraclePoint {
-            at,
-            value: channel.to_si(number.value),
-            bound: channel.to_si(number.half_unit()),
-            digits: number.digits,
-        };
-        let printed = number(&mut entry)?;
-        let correction = Correction::read(&mut entry, &printed)?;
-        entry.finish()?;
-        let point = si(printed);
-        let (mut points, mut expected) = (Vec::new(), Vec::new());
-        match correction {
-            None => points.push(point),
-            Some(Correction { finding, right }) => expected.push(ExpectedCell { point, right: si(right), finding }),
-        }
-        let PrintedChannel { channel, magnitude, .. } = channel;
-        series.push(OracleSeries { name, channel, magnitude, points, expected, wrong: None });
+        let own = entry.read(|entry| value(entry, at, known)).map(Some);
+        series.extend(table.part(own));
     }
     if series.is_empty() {
         return Err(table.wrong(ErrorKind::Input, "values", "there is no value").help(VALUE_HELP));
     }
     Ok(series)
+}
+
+/// One number at an instant.
+fn value(entry: &mut Table, at: When, known: &Known) -> Result<OracleSeries> {
+    let (name, channel) = known.channel(entry)?;
+    let si = |number: Printed| OraclePoint {
+        at,
+        value: channel.to_si(number.value),
+        bound: channel.to_si(number.half_unit()),
+        digits: number.digits,
+    };
+    let printed = number(entry)?;
+    let correction = Correction::read(entry, &printed)?;
+    entry.finish()?;
+    let point = si(printed);
+    let (mut points, mut expected) = (Vec::new(), Vec::new());
+    match correction {
+        None => points.push(point),
+        Some(Correction { finding, right }) => expected.push(ExpectedCell { point, right: si(right), finding }),
+    }
+    let PrintedChannel { channel, magnitude, .. } = channel;
+    Ok(OracleSeries { name, channel, magnitude, points, expected, wrong: None })
 }
 
 const VALUE_HELP: &str = "write `values = [{ channel = \"link.rocker.angle_deg\", value = 82, digits = 3 }]`";

@@ -1,9 +1,13 @@
 //! Typed reading of a spanned TOML table. A reader knows its dotted path, returns typed values, remembers the keys that
 //! were asked for, and at the end refuses the keys that nobody asked for.
+//!
+//! A table that is read by [`Table::read`] tells all mistakes of its keys and values at once.
 
 mod quantity;
+mod several;
 
 pub use quantity::Sign;
+pub use several::Faults;
 
 use std::ops::Range;
 
@@ -12,7 +16,6 @@ use toml::de::{DeTable, DeValue};
 
 use super::parameters::{Parameter, arithmetic};
 use super::source::Source;
-use super::words::{choice, nearest};
 use formula::Fault;
 use linkage::error::{Error, ErrorKind, Result};
 
@@ -31,6 +34,15 @@ pub struct Table<'a> {
     entries: Vec<Entry<'a>>,
     used: Vec<&'a str>,
     asked: Vec<String>,
+    /// Whether reading goes on after a mistake.
+    goes_on: bool,
+    faults: Vec<Error>,
+    /// Names of other tables that there are not.
+    unknown_names: Vec<Error>,
+    /// Spellings of keys that are there in one of them.
+    settled: Vec<String>,
+    /// Spellings of each key that is missing, and the way out.
+    missing: Vec<(Vec<String>, Option<&'static str>)>,
 }
 
 impl<'a> Table<'a> {
@@ -46,7 +58,20 @@ impl<'a> Table<'a> {
             .collect();
         // The parser moves a table if its header comes after one of its children.
         entries.sort_by_key(|entry| entry.key_span.start);
-        Table { source, name, path, span, entries, used: Vec::new(), asked: Vec::new() }
+        Table {
+            source,
+            name,
+            path,
+            span,
+            entries,
+            used: Vec::new(),
+            asked: Vec::new(),
+            goes_on: false,
+            faults: Vec::new(),
+            unknown_names: Vec::new(),
+            settled: Vec::new(),
+            missing: Vec::new(),
+        }
     }
 
     /// The table's own key, for entries of a table of tables.
@@ -132,25 +157,19 @@ impl<'a> Table<'a> {
         match (value.get_ref(), needed) {
             (_, "a finite number") => error.help("write a decimal number; nan and inf stand for no quantity"),
             (DeValue::Integer(_) | DeValue::Float(_), "text") => error.help("put the text in \"quotes\""),
+            (_, "a number") => error.help("write a decimal number, such as 12.5, without quotes"),
+            (_, "a whole number") => error.help("write a whole number, such as 3"),
+            (_, "true or false") => error.help("write `true` or `false`, without quotes"),
+            (_, "an array of numbers") => error.help("write numbers in brackets, such as [0, 0.1, 0.3]"),
+            (_, "an array of texts") => error.help("write texts in brackets, such as [\"ground\", \"crank\"]"),
+            (_, "text") => error.help("put a text in \"quotes\" there"),
             (DeValue::Table(_), "an array of tables") => error.help(format!("write [[{}]]", self.path_of(key))),
             (DeValue::Array(_), "a table") => error.help(format!("write [{}]", self.path_of(key))),
-            _ => error,
-        }
-    }
-
-    fn missing(&self, spellings: &[String]) -> Error {
-        let wanted = choice(spellings.iter().map(String::as_str), "`");
-        // At the top level there is no table to name.
-        let error = self.fault(format!("{wanted} is missing")).key(spellings[0].clone());
-        let spelling = |key: &str| nearest(key, spellings.iter().map(String::as_str));
-        let unread = self.entries.iter().filter(|entry| entry.key.len() > 3 && !self.used.contains(&entry.key));
-        match unread.filter_map(|entry| Some((entry, spelling(entry.key)?))).next() {
-            Some((entry, spelling)) => Error::new(ErrorKind::Input, format!("{wanted} is missing"))
-                .key(self.path_of(spelling))
-                .at(self.source.place(entry.key_span.clone()))
-                .help(format!("there is `{}`: did you mean `{spelling}`?", entry.key)),
-            None if self.path.is_empty() => error.help(format!("add {wanted}; docs/scenario.md describes every key")),
-            None => error.help(format!("add {wanted} to `{}`", self.path)),
+            (_, "an array of tables") => error.help(format!("write a section [[{}]] for each", self.path_of(key))),
+            (_, "a table") => {
+                error.help("write keys with their values in braces, such as { x_mm = 0, y_mm = 0 }, or a section")
+            }
+            _ => error.help(format!("give {needed}")),
         }
     }
 
@@ -162,7 +181,7 @@ impl<'a> Table<'a> {
         Some(entry.value)
     }
 
-    fn required<T>(&self, key: &str, value: Option<T>) -> Result<T> {
+    fn required<T>(&mut self, key: &str, value: Option<T>) -> Result<T> {
         value.ok_or_else(|| self.missing(&[key.to_string()]))
     }
 
@@ -171,7 +190,7 @@ impl<'a> Table<'a> {
         let Some(value) = self.take(key) else { return Ok(None) };
         match value.get_ref().as_str() {
             Some(text) => Ok(Some(text.to_string())),
-            None => Err(self.mistyped(key, value, "text")),
+            None => Err(self.noted(self.mistyped(key, value, "text"))),
         }
     }
 
@@ -186,7 +205,10 @@ impl<'a> Table<'a> {
         let Some(value) = self.take(key) else { return Ok(None) };
         let integer = value.get_ref().as_integer();
         let integer = integer.and_then(|number| i64::from_str_radix(number.as_str(), number.radix()).ok());
-        integer.map(Some).ok_or_else(|| self.mistyped(key, value, "a whole number"))
+        match integer {
+            Some(integer) => Ok(Some(integer)),
+            None => self.instead(Some(1), self.mistyped(key, value, "a whole number")),
+        }
     }
 
     /// Whole number.
@@ -203,65 +225,79 @@ impl<'a> Table<'a> {
     /// `true` or `false`, if the key is there.
     pub fn optional_boolean(&mut self, key: &str) -> Result<Option<bool>> {
         let Some(value) = self.take(key) else { return Ok(None) };
-        value.get_ref().as_bool().map(Some).ok_or_else(|| self.mistyped(key, value, "true or false"))
+        match value.get_ref().as_bool() {
+            Some(found) => Ok(Some(found)),
+            None => self.instead(None, self.mistyped(key, value, "true or false")),
+        }
     }
 
     /// Finite number without a unit, if the key is there.
     pub fn optional_number(&mut self, key: &str) -> Result<Option<f64>> {
-        let value = self.take(key);
-        value.map(|value| self.finite(key, value)).transpose()
+        let Some(value) = self.take(key) else { return Ok(None) };
+        self.finite(key, value).map(Some).or_else(|error| self.instead(None, error))
     }
 
     /// Finite number, or an arithmetic of these parameters.
     pub fn number_with(&mut self, key: &str, parameters: &[Parameter]) -> Result<f64> {
         let value = self.take(key);
         let value = self.required(key, value)?;
-        self.finite_with(key, value, parameters)
+        self.finite_with(key, value, parameters).or_else(|error| self.instead(1.0, error))
     }
 
     /// Finite number without a unit.
     pub fn number(&mut self, key: &str) -> Result<f64> {
-        let value = self.optional_number(key)?;
-        self.required(key, value)
+        let Some(value) = self.take(key) else {
+            let error = self.missing(&[key.to_string()]);
+            return if self.goes_on { Ok(1.0) } else { Err(error) };
+        };
+        self.finite(key, value).or_else(|error| self.instead(1.0, error))
     }
 
     /// Array of finite numbers without a unit.
     pub fn numbers(&mut self, key: &str) -> Result<Vec<f64>> {
         let value = self.take(key);
         let value = self.required(key, value)?;
-        let array = value.get_ref().as_array().ok_or_else(|| self.mistyped(key, value, "an array of numbers"))?;
-        array.iter().map(|element| self.finite(key, element)).collect()
+        let Some(array) = value.get_ref().as_array() else {
+            return Err(self.noted(self.mistyped(key, value, "an array of numbers")));
+        };
+        let number = |element| self.finite(key, element).or_else(|error| self.instead(1.0, error));
+        array.iter().map(number).collect()
     }
 
     /// Array of text.
     pub fn strings(&mut self, key: &str) -> Result<Vec<String>> {
         let value = self.take(key);
         let value = self.required(key, value)?;
-        let array = value.get_ref().as_array().ok_or_else(|| self.mistyped(key, value, "an array of texts"))?;
+        let Some(array) = value.get_ref().as_array() else {
+            return Err(self.noted(self.mistyped(key, value, "an array of texts")));
+        };
         let text = |element: &Spanned<DeValue>| match element.get_ref().as_str() {
             Some(text) => Ok(text.to_string()),
-            None => Err(self.mistyped(key, element, "text")),
+            None => self.instead(String::new(), self.mistyped(key, element, "text")),
         };
         array.iter().map(text).collect()
     }
 
     /// Table, if the key is there.
     pub fn optional_table(&mut self, key: &str) -> Result<Option<Table<'a>>> {
-        let value = self.take(key);
-        value.map(|value| self.child(key, self.path_of(key), value)).transpose()
+        let Some(value) = self.take(key) else { return Ok(None) };
+        self.child(key, self.path_of(key), value).map(Some).or_else(|error| self.instead(None, error))
     }
 
     /// Table.
     pub fn table(&mut self, key: &str) -> Result<Table<'a>> {
-        let value = self.optional_table(key)?;
-        self.required(key, value)
+        let value = self.take(key);
+        let value = self.required(key, value)?;
+        self.child(key, self.path_of(key), value).map_err(|error| self.noted(error))
     }
 
     /// Elements of an array of tables; empty if the key is missing. Their paths contain their name if they have one
     /// (`joints.A`), else their number, counted from 1 (`oracle[2]`).
     pub fn tables(&mut self, key: &str) -> Result<Vec<Table<'a>>> {
         let Some(value) = self.take(key) else { return Ok(Vec::new()) };
-        let array = value.get_ref().as_array().ok_or_else(|| self.mistyped(key, value, "an array of tables"))?;
+        let Some(array) = value.get_ref().as_array() else {
+            return self.instead(Vec::new(), self.mistyped(key, value, "an array of tables"));
+        };
         let child = |(index, element): (usize, &'a Spanned<DeValue<'a>>)| {
             let path = match element.get_ref().get("name").and_then(|name| name.get_ref().as_str()) {
                 Some(name) => format!("{}.{name}", self.path_of(key)),
@@ -269,7 +305,8 @@ impl<'a> Table<'a> {
             };
             self.child(key, path, element)
         };
-        array.iter().enumerate().map(child).collect()
+        let all: Vec<_> = array.iter().enumerate().map(child).collect();
+        self.sound(all)
     }
 
     /// A table or an array of tables; empty if the key is missing.
@@ -289,7 +326,9 @@ impl<'a> Table<'a> {
     /// All entries, each of which must be a table, in the order of the file.
     pub fn all_tables(&mut self) -> Result<Vec<Table<'a>>> {
         self.used = self.entries.iter().map(|entry| entry.key).collect();
-        self.entries.iter().map(|entry| self.child(entry.key, self.path_of(entry.key), entry.value)).collect()
+        let child = |entry: &Entry<'a>| self.child(entry.key, self.path_of(entry.key), entry.value);
+        let all: Vec<_> = self.entries.iter().map(child).collect();
+        self.sound(all)
     }
 
     #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the TOML parser")]
@@ -318,20 +357,6 @@ impl<'a> Table<'a> {
         };
         let number: f64 = number.ok_or_else(|| self.mistyped(key, value, "a number"))?;
         if number.is_finite() { Ok(number) } else { Err(self.mistyped(key, value, "a finite number")) }
-    }
-
-    /// Ends the reading. A key that nobody asked for is an error that names the nearest known key.
-    pub fn finish(&self) -> Result<()> {
-        let Some(entry) = self.entries.iter().find(|entry| !self.used.contains(&entry.key)) else { return Ok(()) };
-        let asked = || self.asked.iter().map(String::as_str);
-        let help = match nearest(entry.key, asked().filter(|key| !self.has(key))) {
-            Some(near) => format!("did you mean `{near}`?"),
-            None => format!("known here: {}", choice(asked(), "`")),
-        };
-        Err(Error::new(ErrorKind::Input, "this key is not known here")
-            .key(self.path_of(entry.key))
-            .at(self.source.place(entry.key_span.clone()))
-            .help(help))
     }
 }
 

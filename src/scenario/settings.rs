@@ -8,9 +8,8 @@ use linkage::drive::Drive;
 use linkage::error::{ErrorKind, Result};
 use linkage::trajectory::{Channel, Stage};
 
-/// The case with its wanted channels; all of them without a table.
-pub fn wanted(table: Option<Table>, case: Case) -> Result<Case> {
-    let Some(mut table) = table else { return Ok(case) };
+/// The words of `[channels]`; there is one at least.
+pub fn wanted(table: &mut Table) -> Result<Vec<String>> {
     let names = table.strings("want")?;
     table.finish()?;
     let stages = || Stage::ALL.into_iter().map(Stage::name);
@@ -19,8 +18,13 @@ pub fn wanted(table: Option<Table>, case: Case) -> Result<Case> {
             format!("name at least one, or leave the section out to get all; {}", suggestion("", stages(), "\""));
         return Err(table.wrong(ErrorKind::Input, "want", "nothing is wanted").help(help));
     }
+    Ok(names)
+}
+
+/// The case with the channels wanted that the words of `[channels]` ask for.
+pub fn wanting(table: &Table, names: &[String], case: Case) -> Result<Case> {
     let channels =
-        called(&case, &names).map_err(|(message, help)| table.wrong(ErrorKind::Input, "want", message).help(help))?;
+        called(&case, names).map_err(|(message, help)| table.wrong(ErrorKind::Input, "want", message).help(help))?;
     Ok(case.wanting_only(&channels))
 }
 
@@ -70,14 +74,13 @@ pub struct EngineKeys {
 }
 
 /// Step of the engine (s), if it is given, and its other keys. What is not given is found by the proof.
-pub fn engine(table: Option<Table>, drive: &Drive) -> Result<(Option<f64>, EngineKeys)> {
-    let Some(mut table) = table else { return Ok((None, EngineKeys::default())) };
+pub fn engine(table: &mut Table, drive: &Drive) -> Result<(Option<f64>, EngineKeys)> {
     let keys = EngineKeys {
         name: table.optional_string("name")?,
-        sweeps: count(&mut table, "sweeps")?,
-        substeps: count(&mut table, "substeps")?,
+        sweeps: count(table, "sweeps")?,
+        substeps: count(table, "substeps")?,
         route: table.optional_string("route")?,
-        extrapolated: times(&mut table)?,
+        extrapolated: times(table)?,
     };
     Ok((engine_step(table, drive)?, keys))
 }
@@ -87,9 +90,10 @@ fn count(table: &mut Table, key: &str) -> Result<Option<usize>> {
     let Some(number) = table.optional_integer(key)? else { return Ok(None) };
     match usize::try_from(number) {
         Ok(count) if count > 0 => Ok(Some(count)),
-        _ => Err(table
-            .wrong(ErrorKind::Input, key, format!("found {number}, but an engine needs at least one"))
-            .help("give a whole number greater than zero")),
+        _ => {
+            let error = table.wrong(ErrorKind::Input, key, format!("found {number}, but an engine needs at least one"));
+            table.instead(None, error.help("give a whole number greater than zero"))
+        }
     }
 }
 
@@ -102,9 +106,10 @@ fn times(table: &mut Table) -> Result<Option<usize>> {
     let Some(number) = table.optional_integer(key)? else { return Ok(None) };
     match usize::try_from(number) {
         Ok(times) if times <= MOST_TIMES => Ok(Some(times)),
-        _ => Err(table
-            .wrong(ErrorKind::Input, key, format!("found {number} extrapolations"))
-            .help(format!("give a whole number from 0 to {MOST_TIMES}, or true for 1"))),
+        _ => {
+            let error = table.wrong(ErrorKind::Input, key, format!("found {number} extrapolations"));
+            table.instead(None, error.help(format!("give a whole number from 0 to {MOST_TIMES}, or true for 1")))
+        }
     }
 }
 
@@ -112,7 +117,7 @@ fn times(table: &mut Table) -> Result<Option<usize>> {
 const MOST_TIMES: usize = 8;
 
 /// Step of the engine (s), if it is given.
-fn engine_step(mut table: Table, drive: &Drive) -> Result<Option<f64>> {
+fn engine_step(table: &mut Table, drive: &Drive) -> Result<Option<f64>> {
     let time = table.optional_quantity("dt", &TIME, Sign::Positive)?;
     let angle = table.optional_quantity("step", &ANGLE, Sign::NotZero)?;
     table.finish()?;
@@ -137,8 +142,7 @@ fn engine_step(mut table: Table, drive: &Drive) -> Result<Option<f64>> {
 pub const ENGINE_REL: f64 = 1e-2;
 
 /// Largest bound on the error of the engine, as a share of a channel's scale, at which agreement is still a proof.
-pub fn engine_rel(table: Option<Table>) -> Result<f64> {
-    let Some(mut table) = table else { return Ok(ENGINE_REL) };
+pub fn engine_rel(table: &mut Table) -> Result<f64> {
     let share = table.optional_number("engine_rel")?.unwrap_or(ENGINE_REL);
     table.finish()?;
     if share > 0.0 && share < 1.0 {

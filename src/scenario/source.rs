@@ -3,13 +3,14 @@
 
 use std::ops::Range;
 use std::path::Path;
+use std::sync::Arc;
 
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::hostile;
 use super::parameters::Parameter;
-use linkage::error::{Error, ErrorKind, Place, Result};
+use super::{hostile, malformed};
+use linkage::error::{Error, Place, Result};
 
 /// Text of a file and the path that messages use for it.
 pub struct Source<'a> {
@@ -19,38 +20,43 @@ pub struct Source<'a> {
     pub text: &'a str,
     /// Parameters that its numbers may use.
     pub parameters: Vec<Parameter>,
+    /// The text once more, for places.
+    shared: Arc<str>,
 }
 
 impl<'a> Source<'a> {
     /// A file without parameters.
     pub fn new(path: &'a Path, text: &'a str) -> Self {
-        Source { path, text, parameters: Vec::new() }
+        Source { path, text, parameters: Vec::new(), shared: text.into() }
+    }
+
+    /// The same file with parameters.
+    pub fn with(self, parameters: Vec<Parameter>) -> Self {
+        Source { parameters, ..self }
     }
 
     /// Place of a byte range.
     pub fn place(&self, span: Range<usize>) -> Place {
-        Place { file: self.path.to_path_buf(), text: self.text.to_string(), span }
+        Place { file: self.path.to_path_buf(), text: self.shared.clone(), span }
     }
 
     /// The spanned tree of the file.
     pub fn tree(&self) -> Result<Spanned<DeTable<'a>>> {
-        let tree = DeTable::parse(self.text).map_err(|error| {
-            let message = error.message().trim().replace('\n', ", ");
-            Error::new(ErrorKind::Input, format!("the file is not valid TOML: {message}"))
-                .at(self.place(error.span().unwrap_or(0..0)))
-                .help("a key is written `name = value`, a section `[name]`, text stands in \"quotes\"")
-        })?;
+        let tree = DeTable::parse(self.text)
+            .map_err(|error| malformed::no_toml(self.text, &|span| self.place(span), &error))?;
         hostile::check(&|span| self.place(span), tree.get_ref())?;
         Ok(tree)
     }
 
-    /// `error` with the place of its key, if it has a key and no place yet.
+    /// `error`, and those that were found with it: each with the place of its key, if it has a key and no place yet.
     pub fn located(&self, tree: &DeTable, error: Error) -> Error {
-        if error.place().is_some() {
-            return error;
-        }
-        let span = error.scenario_key().map_or(0..0, |key| locate(tree, key));
-        error.at(self.place(span))
+        error.each_in_order(|error| {
+            if error.place().is_some() {
+                return error;
+            }
+            let span = error.scenario_key().map_or(0..0, |key| locate(tree, key));
+            error.at(self.place(span))
+        })
     }
 }
 

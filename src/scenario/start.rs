@@ -1,7 +1,7 @@
 //! `[[start.groups]]`: the assembly mode in which each Assur group starts, and the same from the command line.
 
 use super::joints::link;
-use super::reader::{Sign, Table};
+use super::reader::{Faults, Sign, Table};
 use super::unit::LENGTH;
 use super::words::suggestion;
 use linkage::error::{Advice, Error, ErrorKind, Result};
@@ -9,20 +9,48 @@ use linkage::math::Vec2;
 use linkage::mechanism::pose::SidePoint;
 use linkage::mechanism::{AssemblyMode, Group, GroupKind, Mechanism, Side, StartGroup, Structure};
 
+/// A table of `[[start.groups]]` as it stands there.
+pub struct Stated<'a> {
+    table: Table<'a>,
+    links: Vec<usize>,
+    mode: Option<AssemblyMode>,
+    near: Vec<(Table<'a>, String, Vec2)>,
+}
+
+/// The tables of `[[start.groups]]`, but those with mistakes.
+pub fn stated<'a>(tables: Vec<Table<'a>>, mechanism: &Mechanism, faults: &mut Faults) -> Vec<Stated<'a>> {
+    let one = |mut table: Table<'a>| {
+        let (links, mode, near) = faults.read(&mut table, |table| {
+            let names = table.strings("links")?;
+            let mode = mode(table)?;
+            let near = table.table_or_tables("near")?.into_iter().map(rough_place).collect::<Result<_>>();
+            let near = table.part(near);
+            table.finish()?;
+            let links = names.iter().map(|name| link(table, name, mechanism.links())).collect::<Result<_>>()?;
+            Ok((links, mode, near))
+        })?;
+        Some(Stated { table, links, mode, near })
+    };
+    tables.into_iter().filter_map(one).collect()
+}
+
 /// The start that the file asks for each group, in the order of the structure. `start` is the table that contains the
 /// groups. Those that are `asked` for elsewhere may be missing.
 pub fn groups(
     start: &Table,
-    tables: Vec<Table>,
+    stated: Vec<Stated>,
     mechanism: &Mechanism,
     structure: &Structure,
     asked: &[(usize, StartGroup)],
 ) -> Result<Vec<StartGroup>> {
     let mut wanted: Vec<Option<StartGroup>> = vec![None; structure.groups.len()];
-    for table in tables {
-        let (index, group) = group(table, mechanism, structure, &wanted)?;
-        wanted[index] = Some(group);
+    let mut faults = Faults::none();
+    for own in stated {
+        if let Some((index, group)) = faults.kept(group(own, mechanism, structure, &wanted)) {
+            wanted[index] = Some(group);
+        }
     }
+    faults.end()?;
     let is_asked = |index: usize| asked.iter().any(|(other, _)| *other == index);
     let groups = structure.groups.iter().enumerate();
     let missing: Vec<&Group> =
@@ -38,18 +66,13 @@ pub fn groups(
 }
 
 fn group(
-    mut table: Table,
+    Stated { table, links, mode, near }: Stated,
     mechanism: &Mechanism,
     structure: &Structure,
     before: &[Option<StartGroup>],
 ) -> Result<(usize, StartGroup)> {
-    let names = table.strings("links")?;
-    let mode = mode(&mut table)?;
-    let near = table.table_or_tables("near")?;
-    table.finish()?;
-    let links: Vec<usize> = names.iter().map(|name| link(&table, name, mechanism.links())).collect::<Result<_>>()?;
     let Some(index) = group_of(&links, structure) else {
-        return Err(unknown_group(&table, &names, mechanism, structure));
+        return Err(unknown_group(&table, &links, mechanism, structure));
     };
     if before[index].is_some() {
         return Err(table.wrong(ErrorKind::Input, "links", "this group is given twice").help("keep one of the two"));
@@ -61,7 +84,7 @@ fn group(
         return Err(foreign_mode(&table, asked, group));
     }
     let mode = if links == group.links { mode } else { mode.map(AssemblyMode::swapped) };
-    let near = near.into_iter().map(|near| rough_place(near, mechanism, group)).collect::<Result<_>>()?;
+    let near = near.into_iter().map(|near| side_point(near, mechanism, group)).collect::<Result<_>>()?;
     Ok((index, StartGroup { mode, rank: None, near }))
 }
 
@@ -117,9 +140,10 @@ fn mode(table: &mut Table) -> Result<Option<AssemblyMode>> {
         Some("right") => Ok(Some(AssemblyMode::Right)),
         Some("ahead") => Ok(Some(AssemblyMode::Ahead)),
         Some("behind") => Ok(Some(AssemblyMode::Behind)),
-        Some(other) => Err(table
-            .wrong(ErrorKind::Input, "mode", format!("\"{other}\" is no assembly mode"))
-            .help(suggestion(other, ["left", "right", "ahead", "behind"], "\""))),
+        Some(other) => {
+            let error = table.wrong(ErrorKind::Input, "mode", format!("\"{other}\" is no assembly mode"));
+            table.instead(None, error.help(suggestion(other, ["left", "right", "ahead", "behind"], "\"")))
+        }
     }
 }
 
@@ -142,10 +166,22 @@ fn foreign_mode(table: &Table, asked: AssemblyMode, group: &Group) -> Error {
     table.wrong(ErrorKind::Input, "mode", message).help(help)
 }
 
-fn rough_place(mut table: Table, mechanism: &Mechanism, group: &Group) -> Result<(SidePoint, Vec2)> {
-    let name = table.string("point")?;
-    let place = Vec2::new(table.quantity("x", &LENGTH, Sign::Any)?, table.quantity("y", &LENGTH, Sign::Any)?);
-    table.finish()?;
+/// A rough place: the table that states it, the name of the point, and the coordinates (m).
+fn rough_place(mut table: Table) -> Result<(Table, String, Vec2)> {
+    let (name, place) = table.read(|table| {
+        let name = table.string("point")?;
+        let place = Vec2::new(table.quantity("x", &LENGTH, Sign::Any)?, table.quantity("y", &LENGTH, Sign::Any)?);
+        table.finish()?;
+        Ok((name, place))
+    })?;
+    Ok((table, name, place))
+}
+
+fn side_point(
+    (table, name, place): (Table, String, Vec2),
+    mechanism: &Mechanism,
+    group: &Group,
+) -> Result<(SidePoint, Vec2)> {
     let mut points = group.links.iter().flat_map(|&link| {
         mechanism.links()[link].points.iter().map(move |point| (point.name.as_str(), Side { link, local: point.local }))
     });
@@ -164,7 +200,8 @@ fn rough_place(mut table: Table, mechanism: &Mechanism, group: &Group) -> Result
     }
 }
 
-fn unknown_group(table: &Table, names: &[String], mechanism: &Mechanism, structure: &Structure) -> Error {
+fn unknown_group(table: &Table, links: &[usize], mechanism: &Mechanism, structure: &Structure) -> Error {
+    let names: Vec<&str> = links.iter().map(|&link| mechanism.links()[link].name.as_str()).collect();
     let message = format!("the mechanism has no Assur group ({})", names.join(", "));
     let groups: Vec<&Group> = structure.groups.iter().collect();
     let help = if groups.is_empty() {

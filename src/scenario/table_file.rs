@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::correction::{Correction, check_apart, digits, finding};
 use super::instant;
+use super::malformed::has_decimal_comma;
 use super::printed::{Printed, PrintedChannel};
 use super::reader::{Sign, Table};
 use super::series::{ExpectedCell, Known, OraclePoint, OracleSeries, When};
@@ -25,7 +26,7 @@ pub fn read(oracle: &mut Table, known: &Known, case: &Case) -> Result<(String, V
     let text = files::read_named(&path).map_err(|error| {
         oracle
             .wrong(ErrorKind::Io, "file", format!("the table {} cannot be read: {error}", path.display()))
-            .help("the path is relative to the scenario's directory")
+            .help(files::way_out(&error, "the path is relative to the scenario's directory"))
     })?;
     let source = Source::new(&path, &text);
     let rows = Rows::read(&source).map_err(|error| error.key(oracle.path_of("file")))?;
@@ -41,8 +42,9 @@ pub fn read(oracle: &mut Table, known: &Known, case: &Case) -> Result<(String, V
     let known = &known.of_table(digits, slack);
     let mut columns = oracle.table("columns")?;
     let mut all = Vec::new();
-    for column in columns.all_tables()? {
-        all.push(series(column, &rows, &instants, known, case)?);
+    for mut column in columns.all_tables()? {
+        let series = column.read(|column| series(column, &rows, &instants, known, case)).map(Some);
+        all.extend(oracle.part(series));
     }
     if all.is_empty() {
         let help = "map at least one column: `P2x_mm = { channel = \"point.2.x_mm\" }`";
@@ -52,18 +54,18 @@ pub fn read(oracle: &mut Table, known: &Known, case: &Case) -> Result<(String, V
     Ok((name, all))
 }
 
-fn series(mut table: Table, rows: &Rows, instants: &[When], known: &Known, case: &Case) -> Result<OracleSeries> {
+fn series(table: &mut Table, rows: &Rows, instants: &[When], known: &Known, case: &Case) -> Result<OracleSeries> {
     let name = table.name().to_string();
     let column = rows.column(&name).map_err(|error| error.key(table.path()))?;
-    let (_, channel) = known.channel(&mut table)?;
-    let offset = offset(&mut table, &channel)?;
+    let (_, channel) = known.channel(table)?;
+    let offset = offset(table, &channel)?;
     let printed: Vec<Printed> = rows
         .cells(column)
         .map(|cell| Ok(cell.printed()?.with_zeros(known.digits)))
         .collect::<Result<_>>()
         .map_err(|error: Error| error.key(table.path()))?;
-    let whole = whole_column(&mut table, &printed)?;
-    let cells = single_cells(&mut table, instants, &printed, case)?;
+    let whole = whole_column(table, &printed)?;
+    let cells = single_cells(table, instants, &printed, case)?;
     if whole.is_some() && !cells.is_empty() {
         let message = "a column that is wrong as a whole has no single cells that are";
         return Err(table.wrong(ErrorKind::Input, "expect", message).help("keep either `expect` or `finding`"));
@@ -150,7 +152,14 @@ fn whole_column(table: &mut Table, printed: &[Printed]) -> Result<Option<(String
 
 /// Known error of the published numbers, in the printed unit; the file must explain it.
 fn slack(oracle: &mut Table) -> Result<f64> {
-    let Some(slack) = oracle.optional_number("slack")? else { return Ok(0.0) };
+    let Some(slack) = oracle.optional_number("slack")? else {
+        return match oracle.has("why") {
+            true => {
+                Err(oracle.lacks(&["slack"], "`why` explains `slack`, by which all numbers of the table may be off"))
+            }
+            false => Ok(0.0),
+        };
+    };
     let why = oracle.string("why")?;
     if slack > 0.0 && !why.trim().is_empty() {
         return Ok(slack);
@@ -190,7 +199,8 @@ impl<'a> Rows<'a> {
             let start = error.position().map_or(0, |position| position.byte() as usize);
             let message = match error.kind() {
                 csv::ErrorKind::UnequalLengths { expected_len, len, .. } => {
-                    format!("the row has {len} cells, but the header has {expected_len}")
+                    let commas = if len == &(2 * expected_len) { ": its decimals seem to have commas" } else { "" };
+                    format!("the row has {len} cells, but the header has {expected_len}{commas}")
                 }
                 _ => format!("the table is not valid CSV: {error}"),
             };
@@ -199,6 +209,13 @@ impl<'a> Rows<'a> {
             )
         };
         let header = reader.headers().map_err(|error| wrong(&error))?.clone();
+        if let [whole] = header.iter().collect::<Vec<_>>()[..]
+            && let Some(other) = [';', '\t'].into_iter().find(|other| whole.contains(*other))
+        {
+            let message = format!("the header has one cell, because its columns are separated by {other:?}");
+            let error = Error::new(ErrorKind::Input, message).at(source.place(line_from(source.text, 0)));
+            return Err(error.help("separate cells with commas, and write decimals with a point"));
+        }
         if header.iter().any(|column| column.contains(is_unseen)) {
             let error = Error::new(ErrorKind::Input, "the header holds a letter that is not seen");
             return Err(error.at(source.place(0..0)).help("take out line breaks and control characters"));
@@ -240,7 +257,8 @@ impl Cell<'_> {
 
     fn printed(&self) -> Result<Printed> {
         Printed::parse(self.text).ok_or_else(|| {
-            Error::new(ErrorKind::Input, format!("found \"{}\", but a decimal number is needed", self.text))
+            let comma = if has_decimal_comma(self.text) { ", and decimals take a point" } else { "" };
+            Error::new(ErrorKind::Input, format!("found \"{}\", but a decimal number is needed{comma}", self.text))
                 .at(self.source.place(self.span.clone()))
                 .help("write it as printed, with a decimal point; a cell known to be wrong is named under `expect`, with its finding")
         })

@@ -3,12 +3,13 @@
 
 use std::path::Path;
 
+use super::Scenario;
+use super::header::{check_format, name};
 use super::joints::link;
 use super::reader::{Sign, Table};
 use super::source::Source;
 use super::unit::{ANGLE, Family, LENGTH, MASS_PER_LENGTH};
 use super::words::suggestion;
-use super::{Scenario, check_format, name};
 use crate::files;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::{Vec2, unit};
@@ -35,8 +36,12 @@ impl TaskFile {
     /// [`Scenario::load`] and [`Task::check`].
     pub fn load(path: &Path) -> Result<Self> {
         let text = files::read_text(path).map_err(|error| {
-            Error::new(ErrorKind::Io, format!("the synthesis file {} cannot be read: {error}", path.display()))
-                .help("give the path of a synthesis file, such as scenarios/ov7_drives/sinker_task.toml")
+            Error::new(ErrorKind::Io, format!("the synthesis file {} cannot be read: {error}", path.display())).help(
+                files::way_out(
+                    &error,
+                    "give the path of a synthesis file, such as scenarios/ov7_drives/sinker_task.toml",
+                ),
+            )
         })?;
         let source = Source::new(path, &text);
         let tree = source.tree()?;
@@ -139,7 +144,7 @@ fn read_output(mut table: Table, mechanism: &Mechanism) -> Result<(Output, Optio
     let (of_link, of_point) = (table.optional_string("link")?, table.optional_string("point")?);
     let found = match (of_link, of_point) {
         (Some(name), None) => {
-            let link = link(&table, &name, mechanism.links())?;
+            let link = link(&mut table, &name, mechanism.links())?;
             if link == GROUND {
                 let error = table.wrong(ErrorKind::Input, "link", "the ground does not turn");
                 return Err(error.help("name the moving link whose angle is watched"));
@@ -227,7 +232,7 @@ fn free(variables: &mut Vec<Variable>, name: String, bounds: [f64; 2], is_angle:
 /// One `[[vary]]`: a point, by its coordinates or relative to another point of its link.
 fn place(mut table: Table, mechanism: &Mechanism, variables: &mut Vec<Variable>, before: &[Place]) -> Result<Place> {
     let (link_name, point_name) = (table.string("link")?, table.string("point")?);
-    let own = link(&table, &link_name, mechanism.links())?;
+    let own = link(&mut table, &link_name, mechanism.links())?;
     let points = &mechanism.links()[own].points;
     let names = || points.iter().map(|point| point.name.as_str());
     let index = |table: &Table, key: &str, name: &str| {

@@ -71,6 +71,8 @@ mod laws;
 mod loads;
 mod masses;
 mod motors;
+mod remedies;
+mod several;
 mod sliders;
 mod timed;
 
@@ -395,21 +397,21 @@ fn oracles() {
         bad!("\"reduced_inertia_mean_kg_m2\"" => "\"distance_mm\", points = [\"C\", \"C\"]", INPUT, at "figures =", key
             "oracle[3].figures[1].points", ["stands in the file"]),
         bad!("digits = 1 }" => "digits = 1, finding = \"misprint\" }", INPUT, at "values =", key "oracle[2].values[1]",
-            ["`finding` stands without `right`", "right = {"]),
+            ["`right` is missing", "right = {"]),
         bad!("digits = 1 }" => "digits = 1, right = { value = 71, digits = 1 } }", INPUT, at "values =", key
-            "oracle[2].values[1]", ["`right` stands without `finding`"]),
+            "oracle[2].values[1]", ["`finding` is missing"]),
         bad!("digits = 1 }" => "digits = 1, finding = \"misprint\", right = { value = 70.05, digits = 2 } }", INPUT, at
             "values =", key "oracle[2].values[1].right", ["not apart from the printed 70"]),
         bad!("digits = 1 }" => "digits = 1, finding = \"misprint\", right = { value = 71 } }", INPUT, at "values =", key
             "oracle[2].values[1].right", ["`digits` is missing"]),
         bad!("digits = 2 }" => "digits = 2, finding = \"misprint\" }", INPUT, at "figures =", key "oracle[3].figures[1]",
-            ["`finding` stands without `right`"]),
+            ["`right` is missing"]),
         bad!("channel = \"point.B.x_mm\"" => "channel = \"point.B.x_mm\", finding = \"misprint\"", INPUT, at "Bx_mm", key
-            "oracle[1].columns.Bx_mm", ["`finding` stands without `right`"]),
+            "oracle[1].columns.Bx_mm", ["`right` is missing"]),
         bad!("channel = \"point.B.x_mm\"" => "channel = \"point.B.x_mm\", finding = \"x\", right = { values = [1], digits = 1 }",
             INPUT, at "Bx_mm", key "oracle[1].columns.Bx_mm.right.values", ["found 1 right values", "2 rows"]),
         bad!("channel = \"point.B.x_mm\"" => "channel = \"point.B.x_mm\", expect = [{ crank_deg = 90, finding = \"x\" }]",
-            INPUT, at "expect", key "oracle[1].columns.Bx_mm.expect[1]", ["`finding` stands without `right`"]),
+            INPUT, at "expect", key "oracle[1].columns.Bx_mm.expect[1]", ["`right` is missing"]),
         bad!("source = \"a number\"" => "source = \"a number\"\nbasis = \"guessed\"", INPUT, at "basis", key "oracle[2].basis",
             ["cannot be \"guessed\"", "\"published\""]),
         bad!("figures = [" => "file = \"table.csv\"\nfigures = [", INPUT, at "[[oracle]]\nsource = \"a figure\"",

@@ -3,12 +3,14 @@
 mod bench;
 mod clearance;
 mod drive;
+mod encodings;
 mod engines;
 mod export;
 mod files;
 mod messages;
 mod modes;
 mod mutate;
+mod numbers;
 mod plan;
 mod range;
 mod reports;

@@ -2,12 +2,14 @@
 //! text.
 
 mod advice;
+mod several;
 
 pub use advice::{Advice, rounded_up};
 
 use std::fmt;
 use std::ops::Range;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// Result of every fallible operation of this crate.
 pub type Result<T> = std::result::Result<T, Error>;
@@ -33,7 +35,7 @@ pub struct Place {
     /// Path of the file as the user gave it.
     pub file: PathBuf,
     /// Whole text of the file, to show the line.
-    pub text: String,
+    pub text: Arc<str>,
     /// Byte range in `text`.
     pub span: Range<usize>,
 }
@@ -104,6 +106,8 @@ struct Inner {
     reached: Option<Reached>,
     out_of_reach: bool,
     advice: Vec<Advice>,
+    further: Vec<Error>,
+    left_out: usize,
 }
 
 impl Error {
@@ -122,6 +126,8 @@ impl Error {
             reached: None,
             out_of_reach: false,
             advice: Vec::new(),
+            further: Vec::new(),
+            left_out: 0,
         }))
     }
 
@@ -312,7 +318,7 @@ impl Error {
         (!parts.is_empty()).then(|| parts.join("; "))
     }
 
-    /// The whole error in one line, as its `Display`. `tell` puts each advice into words.
+    /// The whole error in one line, without those that were found with it. `tell` puts each advice into words.
     #[must_use]
     pub fn line_by(&self, tell: impl Fn(&Advice) -> String) -> String {
         let place = self.0.place.as_ref().map(|place| format!("{}:{}: ", place.file.display(), place.line()));
@@ -325,7 +331,7 @@ impl Error {
 
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.line_by(Advice::to_string))
+        f.write_str(&self.lines_by(Advice::to_string))
     }
 }
 

@@ -4,10 +4,10 @@ use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 
 use super::target::{scenario_target, write_scenario};
-use crate::cli::output;
+use crate::cli::{number, output};
 use crate::report::closed_form::{self as report, Told};
 use crate::scenario::Scenario;
-use linkage::error::{Error, ErrorKind, Result};
+use linkage::error::Result;
 use linkage::math::Vec2;
 use workshop::synthesis::Sheet;
 use workshop::synthesis::crank_rocker::{self, CrankRocker};
@@ -20,10 +20,10 @@ struct Target {
     #[arg(short, long, value_name = "FILE", value_parser = scenario_target, conflicts_with = "json")]
     output: Option<PathBuf>,
     /// Speed of the crank in the scenario, in turns per minute, counter-clockwise positive
-    #[arg(long, value_name = "RPM", default_value = "60", allow_hyphen_values = true)]
+    #[arg(long, value_name = "RPM", default_value = "60", allow_hyphen_values = true, value_parser = number::not_zero)]
     rpm: f64,
     /// Mass per metre of the links in the scenario, which are uniform bars
-    #[arg(long, value_name = "KG_PER_M", default_value = "1")]
+    #[arg(long, value_name = "KG_PER_M", default_value = "1", allow_hyphen_values = true, value_parser = number::positive)]
     bar_kg_per_m: f64,
     /// Write the result as JSON to a file, or to standard output instead of the text with `-`
     #[arg(long, value_name = "FILE", value_parser = output::target)]
@@ -31,18 +31,10 @@ struct Target {
 }
 
 impl Target {
-    fn sheet(&self, name: &str, title: &str, comment: String) -> Result<Sheet> {
-        if !(self.rpm != 0.0 && self.rpm.is_finite()) {
-            let error = Error::new(ErrorKind::Input, format!("--rpm is {}", self.rpm));
-            return Err(error.help("give a number of turns a minute that is not zero"));
-        }
-        if !(self.bar_kg_per_m > 0.0 && self.bar_kg_per_m.is_finite()) {
-            let error = Error::new(ErrorKind::Input, format!("--bar-kg-per-m is {}", self.bar_kg_per_m));
-            return Err(error.help("give a number greater than zero"));
-        }
+    fn sheet(&self, name: &str, title: &str, comment: String) -> Sheet {
         let stem = self.output.as_deref().and_then(Path::file_stem).map_or("-".into(), |stem| stem.to_string_lossy());
         let name = if stem == "-" { name.to_string() } else { stem.to_string() };
-        Ok(Sheet { name, title: title.into(), comment, speed: self.rpm * TAU / 60.0, bar: self.bar_kg_per_m })
+        Sheet { name, title: title.into(), comment, speed: self.rpm * TAU / 60.0, bar: self.bar_kg_per_m }
     }
 
     /// Writes the scenario, if one is wanted. Then writes the other results, unless the scenario went to standard
@@ -65,8 +57,10 @@ impl Target {
 
 /// Two numbers separated by a comma.
 fn pair(text: &str) -> std::result::Result<[f64; 2], String> {
-    let numbers: Vec<f64> = text.split(',').map_while(|part| part.trim().parse().ok()).collect();
-    <[f64; 2]>::try_from(numbers).map_err(|_| "expected two numbers with a comma between them, such as 150,15".into())
+    const EXPECTED: &str = "two numbers with a comma between them, such as 150,15";
+    let numbers: Vec<f64> =
+        text.split(',').map(|part| number::decimal(part, EXPECTED)).collect::<std::result::Result<_, _>>()?;
+    <[f64; 2]>::try_from(numbers).map_err(|_| format!("expected {EXPECTED}"))
 }
 
 #[derive(Debug, clap::Args)]
@@ -78,13 +72,13 @@ pub(super) struct CrankRockerArgs {
     #[arg(long, value_name = "X,Y", value_parser = pair, allow_hyphen_values = true)]
     pivot_mm: [f64; 2],
     /// Length of the rocker
-    #[arg(long, value_name = "MM", allow_hyphen_values = true)]
+    #[arg(long, value_name = "MM", allow_hyphen_values = true, value_parser = number::positive)]
     rocker_mm: f64,
     /// Angle of the rocker in one extreme position, counter-clockwise from x
-    #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = number::finite)]
     extreme_deg: f64,
     /// Angle from there to the other extreme position, counter-clockwise positive
-    #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = number::finite)]
     swing_deg: f64,
     #[command(flatten)]
     target: Target,
@@ -111,7 +105,7 @@ pub(super) fn crank_rocker(args: &CrankRockerArgs) -> Result<()> {
         args.swing_deg
     );
     let sheet =
-        args.target.sheet("crank_rocker_found", "Crank-rocker from two extreme positions of its rocker", comment)?;
+        args.target.sheet("crank_rocker_found", "Crank-rocker from two extreme positions of its rocker", comment);
     args.target.deliver(&found.scenario(&sheet), &report::crank_rocker(&found, wish.rocker))
 }
 
@@ -119,16 +113,16 @@ pub(super) fn crank_rocker(args: &CrankRockerArgs) -> Result<()> {
 #[command(group = clap::ArgGroup::new("given").required(true).args(["rod_mm", "time_ratio"]))]
 pub(super) struct SliderCrankArgs {
     /// Stroke of the slider
-    #[arg(long, value_name = "MM", allow_hyphen_values = true)]
+    #[arg(long, value_name = "MM", allow_hyphen_values = true, value_parser = number::positive)]
     stroke_mm: f64,
     /// Distance of the slider's line from the crank's pivot
-    #[arg(long, value_name = "MM", default_value = "0", allow_hyphen_values = true)]
+    #[arg(long, value_name = "MM", default_value = "0", allow_hyphen_values = true, value_parser = number::finite)]
     offset_mm: f64,
     /// Length of the rod
-    #[arg(long, value_name = "MM", allow_hyphen_values = true)]
+    #[arg(long, value_name = "MM", allow_hyphen_values = true, value_parser = number::positive)]
     rod_mm: Option<f64>,
     /// Duration of the slower stroke over that of the faster one
-    #[arg(long, value_name = "K", allow_hyphen_values = true)]
+    #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = number::finite)]
     time_ratio: Option<f64>,
     #[command(flatten)]
     target: Target,
@@ -145,6 +139,6 @@ pub(super) fn slider_crank(args: &SliderCrankArgs) -> Result<()> {
         "linkproof synthesize slider-crank --stroke-mm {} --offset-mm {} {told}",
         args.stroke_mm, args.offset_mm
     );
-    let sheet = args.target.sheet("slider_crank_found", "Slider-crank from stroke and offset", comment)?;
+    let sheet = args.target.sheet("slider_crank_found", "Slider-crank from stroke and offset", comment);
     args.target.deliver(&found.scenario(&sheet), &report::slider_crank(&found))
 }

@@ -38,9 +38,14 @@ impl Sign {
             Sign::Any | Sign::NotNegative | Sign::Positive | Sign::Negative | Sign::NotZero => None,
         }
     }
+
+    /// A number that is allowed.
+    fn stand_in(self) -> f64 {
+        if self == Sign::Negative { -1.0 } else { 1.0 }
+    }
 }
 
-impl Table<'_> {
+impl<'a> Table<'a> {
     /// Quantity under one of the spellings of `base` in `family`, in SI; `None` if there is none.
     pub fn optional_quantity(&mut self, base: &str, family: &'static Family, sign: Sign) -> Result<Option<f64>> {
         Ok(self.quantity_in(base, &[family], sign)?.map(|(_, value)| value))
@@ -48,8 +53,11 @@ impl Table<'_> {
 
     /// Quantity under one of the spellings of `base` in `family`, in SI.
     pub fn quantity(&mut self, base: &str, family: &'static Family, sign: Sign) -> Result<f64> {
-        let value = self.optional_quantity(base, family, sign)?;
-        value.ok_or_else(|| self.missing(&family.keys(base)))
+        if let Some(value) = self.optional_quantity(base, family, sign)? {
+            return Ok(value);
+        }
+        let error = self.missing(&family.keys(base));
+        if self.goes_on { Ok(sign.stand_in()) } else { Err(error) }
     }
 
     /// Quantity of one of several families: the index of its family, and its value in SI.
@@ -59,28 +67,50 @@ impl Table<'_> {
         families: &[&'static Family],
         sign: Sign,
     ) -> Result<Option<(usize, f64)>> {
-        let Some((index, at, unit)) = self.spelled(base, families)? else { return Ok(None) };
+        let (index, at, unit) = match self.spelled(base, families) {
+            Ok(None) => return Ok(None),
+            Ok(Some(found)) => found,
+            // Of several families nobody knows which one is meant.
+            Err(error) if families.len() > 1 => return Err(self.noted(error)),
+            Err(error) => return self.instead(Some((0, sign.stand_in())), error),
+        };
+        self.used.push(self.entries[at].key);
+        match self.allowed(at, unit, families[index], sign) {
+            Ok(value) => Ok(Some((index, value))),
+            Err(error) => self.instead(Some((index, sign.stand_in())), error),
+        }
+    }
+
+    /// The number of an entry in SI, if it is one of those that are allowed.
+    fn allowed(&self, at: usize, unit: &Unit, family: &Family, sign: Sign) -> Result<f64> {
         let entry = &self.entries[at];
         let number = self.finite(entry.key, entry.value)?;
         if let Some((rule, way_out)) = sign.broken_by(number) {
             let found = found(self.source, entry.value);
-            let message = format!("found {found}, but {} {rule} here", families[index].noun);
+            let message = format!("found {found}, but {} {rule} here", family.noun);
             return Err(self.wrong_entry(entry, message).help(way_out));
         }
-        let value = self.in_range(entry.key, entry.value, unit.to_si(number))?;
-        self.used.push(entry.key);
-        Ok(Some((index, value)))
+        self.in_range(entry.key, entry.value, unit.to_si(number))
     }
 
     /// Array of quantities under one of the spellings of `base` in `family`, in SI; `None` if there is none.
     pub fn optional_quantities(&mut self, base: &str, family: &'static Family) -> Result<Option<Vec<f64>>> {
-        let Some((_, at, unit)) = self.spelled(base, &[family])? else { return Ok(None) };
-        let Entry { key, value, .. } = self.entries[at];
-        let array = value.get_ref().as_array().ok_or_else(|| self.mistyped(key, value, "an array of numbers"))?;
-        let si = |element: &Spanned<DeValue>| self.in_range(key, element, unit.to_si(self.finite(key, element)?));
-        let values = array.iter().map(si).collect::<Result<_>>()?;
+        let (at, unit) = match self.spelled(base, &[family]) {
+            Ok(None) => return Ok(None),
+            Ok(Some((_, at, unit))) => (at, unit),
+            Err(error) => return self.instead(Some(vec![0.0]), error),
+        };
+        let (key, value) = (self.entries[at].key, self.entries[at].value);
         self.used.push(key);
-        Ok(Some(values))
+        let Some(array) = value.get_ref().as_array() else {
+            return self.instead(Some(vec![0.0]), self.mistyped(key, value, "an array of numbers"));
+        };
+        let si = |(index, element): (usize, &Spanned<DeValue>)| {
+            let number = self.finite(key, element).and_then(|number| self.in_range(key, element, unit.to_si(number)));
+            // No two stand-ins are the same.
+            number.or_else(|error| self.instead(index as f64, error))
+        };
+        array.iter().enumerate().map(si).collect::<Result<_>>().map(Some)
     }
 
     /// A number in SI whose products with others of its kind stay numbers: zero, or of a size from 1e-100 to 1e30.
@@ -103,32 +133,38 @@ impl Table<'_> {
         let (first, second) = (present.next(), present.next());
         let Some(at) = first else {
             let wrong = self.misspelt_unit(base, families[0], &spellings);
-            self.asked.extend(spellings);
-            return wrong.map_or(Ok(None), Err);
+            self.asked.extend_from_slice(&spellings);
+            let Some((key, error)) = wrong else { return Ok(None) };
+            self.settled.extend_from_slice(&spellings);
+            self.used.push(key);
+            return Err(error);
         };
         let key = self.entries[at].key;
         if let Some(second) = second.map(|second| &self.entries[second]) {
-            return Err(self
+            let error = self
                 .wrong_entry(second, format!("`{key}` and `{}` are both given", second.key))
-                .help("keep one of the two"));
+                .help("keep one of the two");
+            self.asked.extend(spellings);
+            return Err(error);
         }
         let unit = |(index, family): (usize, &&'static Family)| Some((index, at, family.unit_of(base, key)?));
         let found = families.iter().enumerate().find_map(unit).expect("the key is one of the spellings");
+        self.settled.extend_from_slice(&spellings);
         self.asked.extend(spellings);
         Ok(Some(found))
     }
 
-    /// The error for a key that is `base` without its unit or with an unknown unit.
-    fn misspelt_unit(&self, base: &str, family: &Family, spellings: &[String]) -> Option<Error> {
+    /// A key that is `base` without its unit or with an unknown unit, and its error.
+    fn misspelt_unit(&self, base: &str, family: &Family, spellings: &[String]) -> Option<(&'a str, Error)> {
         let help = format!("write {}", choice(spellings.iter().map(String::as_str), "`"));
         let is_number =
             |entry: &&Entry| !matches!(entry.value.get_ref(), DeValue::Table(_)) && !self.used.contains(&entry.key);
         if let Some(entry) = self.entries.iter().filter(is_number).find(|entry| entry.key == base) {
-            return Some(self.wrong_entry(entry, format!("`{base}` carries no unit")).help(help));
+            return Some((entry.key, self.wrong_entry(entry, format!("`{base}` carries no unit")).help(help)));
         }
         let prefixed = |entry: &&Entry| entry.key.strip_prefix(base).is_some_and(|rest| rest.starts_with('_'));
         let entry = self.entries.iter().filter(is_number).find(prefixed)?;
         let message = format!("`{}` does not end in a unit that {} has here", entry.key, family.noun);
-        Some(self.wrong_entry(entry, message).help(help))
+        Some((entry.key, self.wrong_entry(entry, message).help(help)))
     }
 }

@@ -11,7 +11,7 @@ fn laws_and_reducers() {
             "law = \"kloss\"\nbreakdown_torque_N_m = 1\nsynchronous_speed_rpm = 3000\nratio = 1\n".into(),
             "[motor]",
             "motor",
-            &["neither slip nor speed", "breakdown_slip"],
+            &["`breakdown_speed_rad_s` is missing", "breakdown_slip"],
         ),
         (
             "law = \"kloss\"\nbreakdown_torque_N_m = 1\nsynchronous_speed_rpm = 3000\nbreakdown_slip = 0.2\nbreakdown_speed_rpm = 2400\nratio = 1\n"

@@ -114,10 +114,10 @@ fn mistakes_are_answered() {
     let place = Place::new();
     for (arguments, words) in [
         ("--non-uniformity 0", ["asked for", "above zero"]),
-        ("--step-deg -1", ["--step-deg is -1", "above zero"]),
-        ("--run-up - --seconds 0", ["--seconds is 0", "above zero"]),
-        ("--run-up - --points 0", ["--points is 0", "from 1"]),
-        ("--run-up - --from-rpm nan", ["--from-rpm is NaN", "finite"]),
+        ("--step-deg -1", ["'-1' for '--step-deg", "greater than 0"]),
+        ("--run-up - --seconds 0", ["'0' for '--seconds", "greater than 0"]),
+        ("--run-up - --points 0", ["'0' for '--points", "from 1"]),
+        ("--run-up - --from-rpm nan", ["'nan' for '--from-rpm", "finite"]),
         ("--run-up same --json same", ["the same file", "two files"]),
         ("--run-up same --svg same", ["--run-up and --svg name the same file", "two files"]),
         ("--svg - --json -", ["--svg and --json name the same file", "two files"]),

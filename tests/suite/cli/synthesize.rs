@@ -86,11 +86,11 @@ fn mistakes_are_answered() {
         ("synthesize slider-crank --stroke-mm 100", ["--rod-mm", "--time-ratio"]),
         ("synthesize slider-crank --stroke-mm 100 --rod-mm 200 -o no.csv", ["ends in .toml", "`-`"]),
         ("synthesize slider-crank --stroke-mm 100 --rod-mm 200 -o No.toml", ["cannot be the name", "lower-case"]),
-        ("synthesize slider-crank --stroke-mm 100 --rod-mm 200 --rpm 0", ["--rpm is 0", "not zero"]),
+        ("synthesize slider-crank --stroke-mm 100 --rod-mm 200 --rpm 0", ["--rpm", "not 0"]),
         ("synthesize search nothing.toml", ["cannot be read", "sinker_task.toml"]),
         ("synthesize search scenarios/crank_rocker.toml", ["`scenario` is missing", "add `scenario`"]),
         ("drive scenarios/crank_rocker.toml --catalogue nothing.toml", ["cannot be read", "catalogues/motors.toml"]),
-        ("drive scenarios/crank_rocker.toml --catalogue motors.toml --efficiency 2", ["the efficiency is 2", "0.92"]),
+        ("drive scenarios/crank_rocker.toml --catalogue motors.toml --efficiency 2", ["--efficiency", "0.92"]),
         (
             "drive scenarios/crank_rocker.toml --catalogue motors.toml --efficiency 0.1",
             ["the strongest motor has 2.2000 kW", "flywheel"],
@@ -144,7 +144,7 @@ fn catalogues_are_checked() {
         ),
         ("power_kW = 0.55", "power = 0.55", ["carries no unit", "power_kW"]),
         ("breakdown_ratio = 2.2", "breakdown_ratio = 0.2", ["breakdown_ratio", "not above the rated"]),
-        ("[[motors]]\nname = \"4A63B2\"", "[[motors]]\nnam = \"4A63B2\"", ["`name` is missing", "add `name`"]),
+        ("[[motors]]\nname = \"4A63B2\"", "[[motors]]\nnam = \"4A63B2\"", ["`name` is missing", "did you mean `name`"]),
     ] {
         assert!(good.contains(from), "{from}");
         fs::write(place.path("motors.toml"), good.replacen(from, to, 1)).unwrap();

@@ -84,7 +84,7 @@ fn the_command_says_what_is_wrong() {
     place.refused(&of("some.csv"), &["no column of the table is a channel", "phi3*180/pi=link"]);
     place.refused(&of("some.csv --map phi3"), &["--map", "`=`"]);
     place.refused(&of("some.csv --map bad.toml"), &["bad.toml:2", "`times`", "time_s"]);
-    place.refused(&of("some.csv --map phi3=link.rocker.angle_rad --rel=-1"), &["not zero or more"]);
+    place.refused(&of("some.csv --map phi3=link.rocker.angle_rad --rel=-1"), &["0 or greater"]);
     place.refused(&of("some.csv --map phi3=link.rocker.angle_rad --abs 1"), &["CHANNEL=SIZE"]);
     place.refused(&of("some.csv --map phi3=link.rocker.angle_rad --by crank"), &["no crank angles"]);
     place.refused(&of("some.csv --map phi3=link.rocker.angle_rad --rel joint.B=1"), &["joint.B"]);

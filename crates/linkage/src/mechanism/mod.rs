@@ -255,6 +255,19 @@ impl Mechanism {
     /// itself, negative or non-finite masses and inertias, inertia without mass, a point name on two links that no
     /// joint holds together.
     pub fn new(links: Vec<Link>, joints: Vec<Joint>) -> Result<Self> {
+        let mechanism = Mechanism::unchecked(links, joints);
+        mechanism.check_names()?;
+        for link in &mechanism.links {
+            check_masses(link).map_err(|error| error.key(format!("links.{}", link.name)))?;
+        }
+        mechanism.check_shared_points()?;
+        Ok(mechanism)
+    }
+
+    /// Links and joints as they are, sound or not: for looking up names while a file with mistakes is read, and for
+    /// nothing else.
+    #[must_use]
+    pub fn unchecked(links: Vec<Link>, joints: Vec<Joint>) -> Self {
         let size = links.iter().map(Link::extent).fold(0.0, f64::larger);
         let mut on = vec![Vec::new(); links.len()];
         for (index, joint) in joints.iter().enumerate() {
@@ -263,13 +276,7 @@ impl Mechanism {
                 on[side.link].push(index);
             }
         }
-        let mechanism = Mechanism { links, joints, on, size: if size > 0.0 { size } else { 1.0 } };
-        mechanism.check_names()?;
-        for link in &mechanism.links {
-            check_masses(link).map_err(|error| error.key(format!("links.{}", link.name)))?;
-        }
-        mechanism.check_shared_points()?;
-        Ok(mechanism)
+        Mechanism { links, joints, on, size: if size > 0.0 { size } else { 1.0 } }
     }
 
     /// All links; index 0 is the ground.

@@ -1,0 +1,97 @@
+//! Several errors that were found at once: the first of them carries the others.
+
+use super::{Advice, Error};
+
+/// Most errors that are kept; the others are counted.
+const MOST: usize = 20;
+
+impl Error {
+    /// The error that carries all of these: the first, with the others behind it. `None` without any.
+    ///
+    /// Twenty are kept, and the others counted.
+    #[must_use]
+    pub fn all(errors: impl IntoIterator<Item = Error>) -> Option<Error> {
+        let mut kept: Vec<Error> = Vec::new();
+        let mut left_out = 0;
+        for mut error in errors {
+            left_out += std::mem::take(&mut error.0.left_out);
+            let further = std::mem::take(&mut error.0.further);
+            for own in [error].into_iter().chain(further) {
+                match kept.len() < MOST {
+                    true => kept.push(own),
+                    false => left_out += 1,
+                }
+            }
+        }
+        let mut kept = kept.into_iter();
+        let mut first = kept.next()?;
+        (first.0.further, first.0.left_out) = (kept.collect(), left_out);
+        Some(first)
+    }
+
+    /// This error, then those that were found with it.
+    pub fn each(&self) -> impl Iterator<Item = &Error> {
+        [self].into_iter().chain(&self.0.further)
+    }
+
+    /// Number of errors that were found beyond those that are kept.
+    #[must_use]
+    pub fn left_out(&self) -> usize {
+        self.0.left_out
+    }
+
+    /// What stands for the errors that are not kept; `None` if all are.
+    #[must_use]
+    pub fn rest(&self) -> Option<String> {
+        match self.0.left_out {
+            0 => None,
+            1 => Some("1 more mistake is not shown".into()),
+            many => Some(format!("{many} more mistakes are not shown")),
+        }
+    }
+
+    /// The same errors, each as `change` makes it, in the order of the lines that they are about.
+    #[must_use]
+    pub fn each_in_order(mut self, change: impl FnMut(Error) -> Error) -> Error {
+        let left_out = std::mem::take(&mut self.0.left_out);
+        let further = std::mem::take(&mut self.0.further);
+        let mut all: Vec<Error> = [self].into_iter().chain(further).map(change).collect();
+        // Stable: what has no place, or the same, stays in the order in which it was found.
+        all.sort_by_key(|error| error.place().map_or(0, |place| place.span.start));
+        let mut first = Error::all(all).expect("one error at least");
+        first.0.left_out = left_out;
+        first
+    }
+
+    /// All errors, one a line, as the `Display`. `tell` puts each advice into words.
+    #[must_use]
+    pub fn lines_by(&self, tell: impl Fn(&Advice) -> String) -> String {
+        let lines = self.each().map(|error| error.line_by(&tell));
+        lines.chain(self.rest()).collect::<Vec<_>>().join("\n")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::error::ErrorKind;
+
+    #[test]
+    fn errors_are_kept_up_to_a_number_and_then_counted() {
+        let one = |k: usize| Error::new(ErrorKind::Input, format!("mistake {k}"));
+        assert!(Error::all([]).is_none());
+        let pair = Error::all([one(1), one(2)]).unwrap();
+        assert_eq!(pair.to_string(), "mistake 1\nmistake 2");
+        let many = Error::all((0..30).map(one)).unwrap();
+        // What was counted before is counted on.
+        let more = Error::all([pair, many]).unwrap();
+        let told = more.to_string();
+        assert!(
+            told.starts_with("mistake 1\nmistake 2\nmistake 0\n")
+                && told.ends_with("\nmistake 17\n12 more mistakes are not shown")
+        );
+        assert_eq!((more.each().count(), more.left_out()), (MOST, 12));
+        let named = more.each_in_order(|error| error.key("k"));
+        assert!(named.each().all(|error| error.scenario_key() == Some("k")) && named.left_out() == 12);
+    }
+}

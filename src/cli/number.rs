@@ -1,0 +1,99 @@
+//! Numbers on the command line: what a value may be, and what is said of another.
+
+use std::fmt::Display;
+use std::str::FromStr;
+
+type Parsed<T> = std::result::Result<T, String>;
+
+/// A finite number.
+pub(super) fn finite(text: &str) -> Parsed<f64> {
+    allowed(text, "a finite number, such as 12.5", |_| true)
+}
+
+/// A finite number greater than zero.
+pub(super) fn positive(text: &str) -> Parsed<f64> {
+    allowed(text, "a finite number greater than 0", |number| number > 0.0)
+}
+
+/// A finite number from zero on.
+pub(super) fn not_negative(text: &str) -> Parsed<f64> {
+    allowed(text, "a finite number that is 0 or greater", |number| number >= 0.0)
+}
+
+/// A finite number other than zero.
+pub(super) fn not_zero(text: &str) -> Parsed<f64> {
+    allowed(text, "a finite number that is not 0", |number| number != 0.0)
+}
+
+/// A number above 0 and below 1.
+pub(super) fn share(text: &str) -> Parsed<f64> {
+    allowed(text, "a number between 0 and 1, such as 1e-4", |number| number > 0.0 && number < 1.0)
+}
+
+/// A number above 0 and at most 1.
+pub(super) fn efficiency(text: &str) -> Parsed<f64> {
+    allowed(text, "a number above 0 and at most 1, such as 0.92", |number| number > 0.0 && number <= 1.0)
+}
+
+/// A whole number from one on.
+pub(super) fn count(text: &str) -> Parsed<usize> {
+    const EXPECTED: &str = "expected a whole number from 1 on";
+    match text.trim().parse() {
+        Ok(0) | Err(_) => Err(EXPECTED.into()),
+        Ok(count) => Ok(count),
+    }
+}
+
+/// A decimal number from a text.
+///
+/// # Errors
+/// What is expected instead, `such` a number.
+pub(super) fn decimal(text: &str, such: impl Display) -> Parsed<f64> {
+    let text = text.trim();
+    match f64::from_str(text) {
+        Ok(number) if number.is_finite() => Ok(number),
+        _ if f64::from_str(&text.replacen(',', ".", 1)).is_ok() => {
+            Err(format!("expected {such}; decimals take a point: {}", text.replacen(',', ".", 1)))
+        }
+        _ => Err(format!("expected {such}")),
+    }
+}
+
+fn allowed(text: &str, such: &str, is_allowed: impl Fn(f64) -> bool) -> Parsed<f64> {
+    let number = decimal(text, such)?;
+    if is_allowed(number) { Ok(number) } else { Err(format!("expected {such}")) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_what_is_allowed_is_read() {
+        assert_eq!(
+            [finite("-1e3"), positive("0.5"), not_negative(" 0"), not_zero("-2")],
+            [Ok(-1e3), Ok(0.5), Ok(0.0), Ok(-2.0)]
+        );
+        assert_eq!((share("1e-4"), efficiency("1"), count("3")), (Ok(1e-4), Ok(1.0), Ok(3)));
+        for read in [finite, positive, not_negative, not_zero, share, efficiency] {
+            for text in ["nan", "inf", "-inf", "1e999", "", "x", "1 2"] {
+                assert!(read(text).unwrap_err().starts_with("expected "), "{text}");
+            }
+            assert!(read("30,5").unwrap_err().ends_with("; decimals take a point: 30.5"));
+        }
+        for refused in [
+            positive("0"),
+            positive("-1"),
+            not_negative("-1"),
+            not_zero("0"),
+            share("1"),
+            share("0"),
+            efficiency("1.1"),
+        ] {
+            assert!(refused.is_err());
+        }
+        for text in ["0", "-1", "2.5", "", "99999999999999999999"] {
+            assert!(count(text).is_err(), "{text}");
+        }
+    }
+}
