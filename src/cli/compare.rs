@@ -14,7 +14,7 @@ use crate::report::versus as report;
 use crate::scenario::mapping::{Allowed, Mapped, Mapping, Size};
 use crate::tables::{self, Held};
 use crate::versus::{How, Party, compare as compared};
-use linkage::error::Result;
+use linkage::error::{Error, ErrorKind, Result};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -104,6 +104,7 @@ fn size(text: &str) -> std::result::Result<Allowed, String> {
 /// Compares, reports, and says how it ended.
 pub(super) fn compare(args: &Args) -> u8 {
     let answer = || -> Result<u8> {
+        check_parties(args)?;
         let mut mapping = mapping(&args.map, "--map")?;
         mapping.allowed.extend(args.rel.iter().chain(&args.abs).cloned());
         let first_mapping = mapping_of_first(args, &mapping)?;
@@ -133,6 +134,29 @@ pub(super) fn compare(args: &Args) -> u8 {
         output::show(&error);
         exit_code::BAD_INPUT
     })
+}
+
+/// Refuses options that mean nothing for these parties.
+fn check_parties(args: &Args) -> Result<()> {
+    let tables = [&args.first, &args.second].map(|path| is_table(path));
+    let has_recording =
+        [&args.first, &args.second].iter().any(|path| path.extension().is_some_and(|own| own == "mcap"));
+    let refused = |option: &str, message: &str, help: &str| {
+        Err(Error::new(ErrorKind::Input, message).key(option).help(help.to_string()))
+    };
+    if !args.map.is_empty() && tables == [false; 2] {
+        return refused("--map", "neither of the two is a table", "scenarios and recordings have channels by name");
+    }
+    if !args.map_a.is_empty() && !tables[0] {
+        return refused("--map-a", "A is no table", "--map is for B");
+    }
+    if args.interpolate && tables.iter().filter(|is_table| **is_table).count() == 0 && !has_recording {
+        return refused("--interpolate", "both are scenarios, which are solved where they are asked", "leave it out");
+    }
+    if args.side.is_some() && !has_recording {
+        return refused("--side", "neither of the two is a recording", "leave it out");
+    }
+    Ok(())
 }
 
 /// Whether a path names a table: neither a scenario nor a recording.

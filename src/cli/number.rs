@@ -52,7 +52,7 @@ pub(super) fn decimal(text: &str, such: impl Display) -> Parsed<f64> {
     let text = text.trim();
     match f64::from_str(text) {
         Ok(number) if number.is_finite() => Ok(number),
-        _ if f64::from_str(&text.replacen(',', ".", 1)).is_ok() => {
+        _ if text.contains(',') && f64::from_str(&text.replacen(',', ".", 1)).is_ok() => {
             Err(format!("expected {such}; decimals take a point: {}", text.replacen(',', ".", 1)))
         }
         _ => Err(format!("expected {such}")),

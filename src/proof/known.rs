@@ -19,7 +19,7 @@ use linkage::trajectory::{Channel, Stage, Trajectory, Unit};
 
 /// Wanted: relative error of an analytic side in well conditioned poses. Each derivative, and each linear solve for
 /// forces, multiplies the rounding of its input by the condition of the pose, here at most some tens.
-fn usual(stage: Stage) -> f64 {
+pub(super) fn usual(stage: Stage) -> f64 {
     match stage {
         Stage::Positions => 1e-12,
         Stage::Velocities | Stage::Accelerations => 1e-11,

@@ -1,15 +1,24 @@
 //! A scenario solved by both analytic sides at instants of somebody else, without engines.
 
 use super::entrants::{Sides, TRUE_SIDES};
+use super::known::usual;
 use super::ledger::Ledger;
 use super::options::Reference;
 use crate::claims::{Course, needed};
-use crate::compare::Check;
+use crate::compare::{Check, magnitudes};
 use crate::scenario::{Claim, Formulas, Scenario};
 use analytic::range::explained;
 use linkage::case::{Case, Grid};
 use linkage::error::Result;
 use linkage::trajectory::Trajectory;
+
+/// How far the numbers of an analytic side's trajectory are known where nothing was measured: what rounding leaves in
+/// well conditioned poses, channel by channel, in their units.
+#[must_use]
+pub fn known_at_least(trajectory: &Trajectory) -> Vec<f64> {
+    let sizes = magnitudes(trajectory).into_iter().zip(trajectory.channels());
+    sizes.map(|(size, channel)| usual(channel.kind.stage) * size).collect()
+}
 
 /// What both sides find, and how well they know it.
 pub struct Solved {

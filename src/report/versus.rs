@@ -90,8 +90,10 @@ fn sentence(paths: [&Path; 2], pair: &Pair) -> String {
         (0, open) => format!("INCONCLUSIVE in {open} of {} channels", pair.channels.len()),
         (disagree, _) => format!("DISAGREE in {disagree} of {} channels", pair.channels.len()),
     };
-    let by = if pair.by_crank { "crank angles" } else { "times" };
-    format!("{verdict} at {} {by}: {} against {}", pair.instants - pair.unshared, name(1), name(0))
+    let by = if pair.by_crank { "crank angle" } else { "time" };
+    let count = pair.instants - pair.unshared;
+    let several = if count == 1 { "" } else { "s" };
+    format!("{verdict} at {count} {by}{several}: {} against {}", name(1), name(0))
 }
 
 fn rank(own: &Compared) -> f64 {

@@ -70,6 +70,10 @@ fn claims(scenario: &Scenario, held: &Held, how: &How) -> Result<(Vec<Claim>, Ve
             (Err(_), None) => alone.push(column.claim.text.clone()),
         }
     }
+    if claims.is_empty() && !how.only.is_empty() {
+        let message = format!("no channel that both have is called {}", how.only.join(" or "));
+        return Err(Error::new(ErrorKind::Input, message).help("name a channel, a subject or a stage of both"));
+    }
     if claims.is_empty() {
         let message = format!("the scenario {} has no channel of the other party", scenario.name);
         let error = Error::new(ErrorKind::Input, message);

@@ -20,6 +20,7 @@ use std::path::Path;
 
 use self::pair::Side;
 use crate::compare::{Verdict, overall};
+use crate::proof::solved::known_at_least;
 use crate::scenario::Scenario;
 use crate::scenario::words::choice;
 use crate::tables::Held;
@@ -98,7 +99,12 @@ fn asked(all: Vec<(String, Trajectory)>, how: &How) -> Result<Vec<Side>> {
     let names: Vec<String> = all.iter().map(|(name, _)| name.clone()).collect();
     let is_asked = |name: &str| how.side.as_deref().is_none_or(|side| side == name);
     let held = |(name, own): (String, Trajectory)| {
-        let held = Held::of_trajectory(&own, name == REFERENCE);
+        let mut held = Held::of_trajectory(&own, name == REFERENCE);
+        if held.is_analytic {
+            for (column, known) in held.columns.iter_mut().zip(known_at_least(&own)) {
+                column.values.iter_mut().for_each(|value| value.error += known);
+            }
+        }
         (name, held)
     };
     let asked: Vec<Side> = all.into_iter().filter(|(name, _)| is_asked(name)).map(held).collect();

@@ -31,6 +31,20 @@ fn a_recording_of_the_first_version_is_read() {
     assert_eq!(outcome.code, 1, "{}", outcome.stdout);
 }
 
+/// Both analytic sides are known to rounding: an old and a new recording of one mechanism agree without an allowance.
+#[test]
+fn two_recordings_are_compared_side_by_side() {
+    let place = place();
+    place.run("run scenarios/crank_rocker.toml --budget 1e4");
+    let told = place.ok("compare first_version.mcap recordings/crank_rocker.mcap --side reference");
+    assert!(told.starts_with("AGREE in all 54 channels at 25 times"), "{told}");
+    assert!(told.contains("only in the second: frame.fx_N"), "{told}");
+    let outcome = place.run("compare first_version.mcap recordings/crank_rocker.mcap");
+    assert_eq!(outcome.code, 3, "{}", outcome.stdout);
+    assert!(outcome.stdout.contains("(engine) against") && outcome.stdout.contains("neither is analytic"));
+    place.ok("compare first_version.mcap recordings/crank_rocker.mcap --rel 0.01");
+}
+
 #[test]
 fn parquet_files_of_pandas_and_polars_are_read() {
     let place = place();
@@ -88,6 +102,10 @@ fn the_command_says_what_is_wrong() {
     place.refused(&of("some.csv --map phi3=link.rocker.angle_rad --abs 1"), &["CHANNEL=SIZE"]);
     place.refused(&of("some.csv --map phi3=link.rocker.angle_rad --by crank"), &["no crank angles"]);
     place.refused(&of("some.csv --map phi3=link.rocker.angle_rad --rel joint.B=1"), &["joint.B"]);
+    place.refused(&of("some.csv --map phi3=link.rocker.angle_rad --side engine"), &["--side", "recording"]);
+    place.refused(&of("some.csv --map phi3=link.rocker.angle_rad --only point.X"), &["point.X"]);
+    place.refused(&of("some.csv --map-a phi3=link.rocker.angle_rad"), &["--map-a", "no table"]);
+    place.refused("compare scenarios/crank_rocker.toml scenarios/pendulum.toml --map a=b", &["neither", "--map"]);
     place.refused("compare scenarios/crank_rocker_runup.toml some.csv --map t=crank_rad --map phi3=link.rocker.angle_rad --by crank", &["free"]);
 }
 
