@@ -1,5 +1,6 @@
 //! The command line. Only this part uses standard output, paths, the clock, the environment and exit codes.
 
+mod accept;
 mod advice;
 mod bearings;
 mod bench;
@@ -55,6 +56,8 @@ struct Cli {
 enum Command {
     /// Solve scenarios both ways, compare, check, record, and say whether the two sides agree
     Run(run::Args),
+    /// Keep the figures of proven scenarios in files beside them, and judge later runs by these, within their bounds
+    Accept(accept::Args),
     /// Judge formulas over the whole motion, by value and by derivative, against both analytic sides
     Check(check::Args),
     /// Solve a scenario with one solver and write the solution as CSV, one row per instant
@@ -95,6 +98,7 @@ pub fn main() -> ExitCode {
     let cli = Cli::parse();
     let code = match cli.command {
         Command::Run(args) => run::run(&args),
+        Command::Accept(args) => accept::run(&args),
         Command::Check(args) => check::check(&args),
         Command::Solve(args) => output::exit(solve::solve(&args)),
         Command::Tune(args) => output::exit(tune::run(&args)),

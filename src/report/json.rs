@@ -174,13 +174,26 @@ struct CheckRow {
     printed_off: Option<f64>,
 }
 
+/// A scenario that could not be read or proven.
 #[derive(Debug, Serialize)]
-struct Failure {
+pub(super) struct Failure {
     scenario: String,
     message: String,
     line: Option<usize>,
     key: Option<String>,
     help: Option<String>,
+}
+
+impl Failure {
+    pub(super) fn of(scenario: &str, error: &Error, tell: Tell) -> Self {
+        Failure {
+            scenario: scenario.into(),
+            message: error.message().into(),
+            line: error.place().map(linkage::error::Place::line),
+            key: error.scenario_key().map(Into::into),
+            help: error.way_out_by(tell),
+        }
+    }
 }
 
 impl Document {
@@ -203,13 +216,7 @@ impl Document {
 
     /// Adds a scenario that could not be proven.
     pub fn add_failure(&mut self, scenario: &str, error: &Error) {
-        self.errors.push(Failure {
-            scenario: scenario.into(),
-            message: error.message().into(),
-            line: error.place().map(linkage::error::Place::line),
-            key: error.scenario_key().map(Into::into),
-            help: error.way_out_by(self.tell),
-        });
+        self.errors.push(Failure::of(scenario, error, self.tell));
     }
 
     /// The document as text, with a newline at its end.

@@ -24,7 +24,7 @@ const CRATES: &[(&str, &str, &str, &str)] = &[
         "linkproof",
         "",
         "analytic formula linkage precise rapier-twin simbody-twin workshop",
-        "annotate-snippets chacha20 clap comfy-table csv foxglove indicatif mcap plotters prost prost-types quick-junit serde serde_json strsim tempfile toml toml_edit",
+        "annotate-snippets chacha20 clap comfy-table csv foxglove indicatif libtest-mimic mcap plotters prost prost-types quick-junit serde serde_json strsim tempfile toml toml_edit",
     ),
 ];
 
@@ -56,9 +56,10 @@ const ROOMS: &[(&str, &str)] = &[
     ("workshop::motor", ""),
     ("workshop::synthesis", "task"),
     ("workshop::task", ""),
+    ("linkproof::accept", "compare proof scenario"),
     ("linkproof::bench", "compare engines scenario"),
     ("linkproof::claims", "scenario"),
-    ("linkproof::cli", "bench compare engines files mutate outside proof record report scenario stress tune"),
+    ("linkproof::cli", "accept bench compare engines files mutate outside proof record report scenario stress tune"),
     ("linkproof::compare", "tolerance"),
     ("linkproof::diagnosis", "compare"),
     ("linkproof::engines", ""),
@@ -67,10 +68,11 @@ const ROOMS: &[(&str, &str)] = &[
     ("linkproof::outside", "bench"),
     ("linkproof::proof", "claims compare diagnosis engines scenario tolerance"),
     ("linkproof::record", "files"),
-    ("linkproof::report", "bench claims compare diagnosis mutate proof record scenario stress tune"),
+    ("linkproof::report", "accept bench claims compare diagnosis mutate proof record scenario stress tune"),
     ("linkproof::scenario", "files"),
     ("linkproof::specimens", "scenario"),
     ("linkproof::stress", "compare engines proof scenario specimens"),
+    ("linkproof::testing", "compare proof report scenario"),
     ("linkproof::tolerance", ""),
     ("linkproof::tune", "compare proof scenario"),
 ];
@@ -122,9 +124,9 @@ const HOMES: &[(&str, &str)] = &[
     ("toml_edit", "linkproof::scenario"),
     ("comfy_table", "linkproof::report"),
     ("plotters", "linkproof::report"),
-    // Other programs are run in one room.
+    // Other programs are run in one room. `testing` gives an exit code.
     ("Command", "linkproof::cli linkproof::outside"),
-    ("process", "linkproof::cli linkproof::outside"),
+    ("process", "linkproof::cli linkproof::outside linkproof::testing"),
     ("serde", "linkproof::report"),
     ("strsim", "linkproof::scenario"),
     ("serde_json", "linkproof::outside linkproof::report"),
@@ -132,6 +134,7 @@ const HOMES: &[(&str, &str)] = &[
     ("csv", "linkproof::outside linkproof::report linkproof::scenario"),
     ("clap", "linkproof::cli"),
     ("indicatif", "linkproof::cli"),
+    ("libtest_mimic", "linkproof::testing"),
     ("annotate_snippets", "linkproof::report"),
     ("Instant", "linkproof::cli"),
     ("SystemTime", "linkproof::cli"),

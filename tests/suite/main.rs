@@ -51,6 +51,7 @@ mod start;
 mod stories;
 mod stress;
 mod synthesis;
+mod testing;
 mod timed_numbers;
 mod triad_methods;
 mod trunk;
