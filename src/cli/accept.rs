@@ -96,11 +96,11 @@ fn one(args: &Args, file: &Path, document: &mut Document) -> Result<u8> {
     let item = Item { proof: &proof, found: &found, comparison: comparison.as_ref(), deed, file: &place };
     document.add(&item);
     if args.json.as_deref() != Some(Path::new("-")) {
-        let is_worse = comparison.as_ref().is_some_and(|comparison| comparison.proof.is_some());
-        if !is_proven && (deed == Deed::Refused || is_worse) {
-            output::print(&format!("{}\n", report::proof(&proof, advice::told)))?;
-        }
         output::print(&text(&item))?;
+        let is_worse = comparison.as_ref().is_some_and(|comparison| comparison.proof.is_some());
+        if !is_proven && (deed == Deed::Refused || deed == Deed::Checked && is_worse) {
+            output::print(&format!("\n{}", report::proof(&proof, advice::told)))?;
+        }
     }
     Ok(match (deed, &comparison) {
         (Deed::Checked, Some(comparison)) => exit_code_of(&comparison.verdict),

@@ -202,3 +202,55 @@ fn digits(value: f64, after_the_first: f64) -> String {
     }
     format!("{value:.*e}", after_the_first.clamp(0.0, MOST_DIGITS - 1.0) as usize)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_number_is_rounded_by_a_twentieth_of_its_bound_at_most() {
+        for (value, bound, written) in [
+            (1.234_567_89, 1e-3, "1.2346"),
+            (1.234_567_89, 9.9e-4, "1.23457"),
+            (-1234.567, 50.0, "-1.235e3"),
+            (0.000_012_345, 1e-8, "1.2345e-5"),
+            (3.0, 1e3, "0.0"),
+            (99.0, 1e3, "1e2"),
+            (-1e-20, 1e-12, "0.0"),
+            (0.1, 0.0, "0.1"),
+            (9.999_999_6e-6, 1e-11, "1.0000000e-5"),
+            (6.02e23, 1e12, "6.020000000000e23"),
+        ] {
+            assert_eq!(number(value, bound), written, "{value:e} to {bound:e}");
+        }
+        for exponent in -30..30 {
+            for (value, bound) in [(0.987_654_321, 1e-6), (-9.999_999_9, 3e-7), (1.0, 9.9e-3), (5.0, 1e-30)] {
+                let size = 10f64.powi(exponent);
+                let (value, bound) = (value * size, bound * size);
+                let written = number(value, bound);
+                let read: f64 = written.parse().unwrap();
+                assert!(
+                    (read - value).abs() <= 0.0501 * bound + 1e-16 * value.abs(),
+                    "{value:e} to {bound:e}: {written}"
+                );
+                assert_eq!(number(read, bound), written, "{value:e} to {bound:e}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_written_is_read_back() {
+        let kept =
+            |name: &str, rms| Kept { name: name.into(), bound: 1e-9, at: vec![0.5], least: -1.0, greatest: 1.0, rms };
+        let accepted = Accepted {
+            scenario: "four_bar".into(),
+            verdict: "agree".into(),
+            instants: 3,
+            times: vec![0.1 + 0.2],
+            channels: vec![kept("link.a.angle_rad", None), kept(&format!("joint.{}.fx_N", "B".repeat(100)), Some(0.7))],
+        };
+        let path = Path::new("four_bar.accepted");
+        assert_eq!(parse(&text(&accepted), path, "four_bar").unwrap(), accepted);
+        assert_eq!(beside(Path::new("a/four_bar.toml")), Path::new("a/four_bar.accepted"));
+    }
+}
