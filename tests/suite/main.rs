@@ -52,6 +52,7 @@ mod stories;
 mod stress;
 mod synthesis;
 mod testing;
+mod testing_docs;
 mod timed_numbers;
 mod triad_methods;
 mod trunk;
