@@ -41,9 +41,17 @@
 //! # Ok::<(), linkproof::parts::Error>(())
 //! ```
 //!
+//! In a test; a disagreement panics with the report, and [`testing`] has more:
+//!
+//! ```
+//! linkproof::assert_proven!("scenarios/crank_rocker.toml", only = ["positions"]);
+//! ```
+//!
 //! SI units and world axes (x right, y up, angles counter-clockwise from +x) everywhere; other units exist
 //! only in scenario files and carry their suffix there.
 
+#[doc(hidden)]
+pub mod accept;
 #[doc(hidden)]
 pub mod bench;
 #[doc(hidden)]
@@ -74,6 +82,7 @@ pub mod specimens;
 pub mod stress;
 #[doc(hidden)]
 pub mod tables;
+pub mod testing;
 #[doc(hidden)]
 pub mod tolerance;
 #[doc(hidden)]

@@ -1,5 +1,6 @@
 //! The command line. Only this part uses standard output, paths, the clock, the environment and exit codes.
 
+mod accept;
 mod advice;
 mod bearings;
 mod bench;
@@ -58,6 +59,8 @@ struct Cli {
 enum Command {
     /// Solve scenarios both ways, compare, check, record, and say whether the two sides agree
     Run(run::Args),
+    /// Keep the figures of proven scenarios in files beside them, and judge later runs by these, within their bounds
+    Accept(accept::Args),
     /// Judge formulas over the whole motion, by value and by derivative, against both analytic sides
     Check(check::Args),
     /// Hold a table, a recording or another scenario against a scenario, or two of them against each other
@@ -100,6 +103,7 @@ pub fn main() -> ExitCode {
     let cli = Cli::parse();
     let code = match cli.command {
         Command::Run(args) => run::run(&args),
+        Command::Accept(args) => accept::run(&args),
         Command::Check(args) => check::check(&args),
         Command::Compare(args) => compare::compare(&args),
         Command::Solve(args) => output::exit(solve::solve(&args)),
@@ -122,10 +126,87 @@ pub fn main() -> ExitCode {
 
 #[cfg(test)]
 mod tests {
-    use clap::CommandFactory;
+    use std::fs;
+    use std::path::{Path, PathBuf};
+
+    use clap::{CommandFactory, Parser};
+
+    use super::Cli;
 
     #[test]
     fn arguments_are_consistent() {
-        super::Cli::command().debug_assert();
+        Cli::command().debug_assert();
+    }
+
+    /// Our documents: those of the top, of `docs` and of the example for Python.
+    fn documents() -> Vec<PathBuf> {
+        let top = Path::new(env!("CARGO_MANIFEST_DIR"));
+        let all =
+            ["", "docs", "examples/pytest"].into_iter().flat_map(|folder| fs::read_dir(top.join(folder)).unwrap());
+        let mut files: Vec<PathBuf> = all.map(|entry| entry.unwrap().path()).collect();
+        files.retain(|file| file.extension().is_some_and(|extension| extension == "md"));
+        files.sort();
+        files
+    }
+
+    /// Commands in the blocks of shell and CI files of a document, with lines that go on joined.
+    fn commands(page: &str) -> Vec<Vec<String>> {
+        let mut found = Vec::new();
+        let mut language = None;
+        for line in page.replace("\\\n", " ").lines() {
+            match (line.trim_start().strip_prefix("```"), language) {
+                (Some(begun), None) => language = Some(matches!(begun, "sh" | "yaml")),
+                (Some(_), Some(_)) => language = None,
+                (None, Some(true)) => found.extend(command(line)),
+                (None, Some(false) | None) => {}
+            }
+        }
+        found
+    }
+
+    /// The words of the line from `linkproof` on, up to where the shell would end the command.
+    fn command(line: &str) -> Option<Vec<String>> {
+        let words = shlex::split(line)?;
+        let is_ours = |word: &String| word == "linkproof" || word.ends_with("/linkproof") && !word.contains('=');
+        let start = words.iter().position(is_ours)?;
+        // Before it stand only a list's or a key's sign, and variables.
+        let begins = words[..start].iter().all(|word| matches!(word.as_str(), "-" | "run:") || word.contains('='));
+        let ends = |word: &&String| !matches!(word.as_str(), "|" | ">" | ">>" | "&&" | ";");
+        let words: Vec<String> = words[start..].iter().take_while(ends).cloned().collect();
+        // Alone it is a name, not a command.
+        (begins && words.len() > 1).then_some(words)
+    }
+
+    #[test]
+    fn every_command_of_the_documents_is_understood() {
+        let mut count = 0;
+        for file in documents() {
+            for words in commands(&fs::read_to_string(&file).unwrap()) {
+                if let Err(error) = Cli::try_parse_from(&words) {
+                    // Help is no error, but an answer.
+                    assert_eq!(error.exit_code(), 0, "{}: {}\n{error}", file.display(), words.join(" "));
+                }
+                count += 1;
+            }
+        }
+        assert!(count > 100, "only {count} commands are found");
+    }
+
+    #[test]
+    fn a_command_that_is_not_understood_is_found_wherever_it_stands() {
+        for block in [
+            "```sh\nlinkproof prove a.toml\n```",
+            "```yaml\n  run: linkproof run a.toml --juint x\n```",
+            "```yaml\n    - linkproof accept a.toml --checked\n```",
+            "```sh\nA=1 target/release/linkproof run \\\n  --no-file | head\n```",
+        ] {
+            let found = commands(block);
+            assert_eq!(found.len(), 1, "{block}");
+            assert!(Cli::try_parse_from(&found[0]).is_err(), "{block}");
+        }
+        assert!(
+            commands("```sh\ncargo install --path linkproof\n```\nlinkproof prove\n```text\nlinkproof x\n```")
+                .is_empty()
+        );
     }
 }

@@ -188,6 +188,12 @@ impl Sides {
         (0..self.trajectory().channels().len()).map(|channel| self.known.integration(0, channel)).collect()
     }
 
+    /// Largest error allowed to the reference over the run, channel by channel, in their units.
+    pub(super) fn bounds(&self) -> Vec<f64> {
+        let channels = self.trajectory().channels().iter().enumerate();
+        channels.map(|(index, channel)| self.known.error(channel.kind.stage, index)).collect()
+    }
+
     /// The verdict on all checks.
     pub(crate) fn verdict(&self) -> Verdict {
         overall(self.checks.iter().map(|check| &check.verdict))

@@ -90,6 +90,8 @@ pub struct Proof {
     pub verdict: Verdict,
     /// The reference's trajectory.
     pub reference_trajectory: Trajectory,
+    /// How far the reference is known in each of its channels, over the whole run, in the channel's unit.
+    pub reference_bounds: Vec<f64>,
     /// The part of the scenario's case that was solved, and what nothing wanted depends on.
     pub scene: Scene,
     /// What was done, part by part, and what was not needed.
@@ -204,6 +206,7 @@ fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: 
         reference: main.name(),
         diagnosis,
         reference_trajectory: own.trajectory.clone(),
+        reference_bounds: sides.bounds(),
         checks: sides.checks,
         engines: proofs,
         disputes,

@@ -155,9 +155,11 @@ pub fn change(change: &Change) -> String {
         How::Other(mode) => format!("{part}: {mode}"),
         How::Instead { found, given, unit } => {
             let [found, given, unit] = match *unit {
-                "rad" => [told(found.to_degrees(), given.to_degrees()), number(given.to_degrees()), " deg".into()],
-                "" => [told(*found, *given), number(*given), String::new()],
-                unit => [told(*found, *given), number(*given), format!(" {unit}")],
+                "rad" => {
+                    [told_apart(found.to_degrees(), given.to_degrees()), number(given.to_degrees()), " deg".into()]
+                }
+                "" => [told_apart(*found, *given), number(*given), String::new()],
+                unit => [told_apart(*found, *given), number(*given), format!(" {unit}")],
             };
             format!("{part}: {found}{unit} instead of {given}{unit}")
         }
@@ -190,13 +192,13 @@ fn part(part: &Part) -> String {
 }
 
 /// A number with so many digits that it differs from another.
-fn told(value: f64, other: f64) -> String {
+pub(super) fn told_apart(value: f64, other: f64) -> String {
     let differ = |digits: &usize| with_digits(value, *digits) != with_digits(other, *digits);
     with_digits(value, (6..15).find(differ).unwrap_or(15))
 }
 
 /// A number with at most six significant digits.
-fn number(value: f64) -> String {
+pub(super) fn number(value: f64) -> String {
     with_digits(value, 6)
 }
 

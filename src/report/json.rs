@@ -174,13 +174,29 @@ struct CheckRow {
     printed_off: Option<f64>,
 }
 
+/// A scenario that could not be read or proven.
 #[derive(Debug, Serialize)]
-struct Failure {
+pub(super) struct Failure {
     scenario: String,
     message: String,
     line: Option<usize>,
     key: Option<String>,
     help: Option<String>,
+}
+
+impl Failure {
+    /// One for each of the errors of a file, and one that counts those that are not told.
+    pub(super) fn each(scenario: &str, error: &Error, tell: Tell) -> Vec<Failure> {
+        let told = |error: &Error| Failure {
+            scenario: scenario.into(),
+            message: error.message().into(),
+            line: error.place().map(linkage::error::Place::line),
+            key: error.scenario_key().map(Into::into),
+            help: error.way_out_by(tell),
+        };
+        let rest = |message| Failure { scenario: scenario.into(), message, line: None, key: None, help: None };
+        error.each().map(told).chain(error.rest().map(rest)).collect()
+    }
 }
 
 impl Document {
@@ -203,21 +219,7 @@ impl Document {
 
     /// Adds a scenario that could not be proven: an entry for each of its errors.
     pub fn add_failure(&mut self, scenario: &str, error: &Error) {
-        self.errors.extend(error.each().map(|error| Failure {
-            scenario: scenario.into(),
-            message: error.message().into(),
-            line: error.place().map(linkage::error::Place::line),
-            key: error.scenario_key().map(Into::into),
-            help: error.way_out_by(self.tell),
-        }));
-        let rest = error.rest().map(|message| (scenario.into(), message));
-        self.errors.extend(rest.map(|(scenario, message)| Failure {
-            scenario,
-            message,
-            line: None,
-            key: None,
-            help: None,
-        }));
+        self.errors.extend(Failure::each(scenario, error, self.tell));
     }
 
     /// The document as text, with a newline at its end.

@@ -1,6 +1,7 @@
 //! Presentation of the results of every command, as text and as JSON: pure functions of data, without files, clock or
 //! terminal.
 
+pub(crate) mod accept;
 pub(crate) mod bearings;
 pub(crate) mod bench;
 pub(crate) mod bench_page;

@@ -5,7 +5,7 @@ use linkage::error::{ErrorKind, Result};
 use linkage::mechanism::LONGEST_NAME;
 
 /// Version of the file format that this crate reads.
-const FORMAT: i64 = 1;
+pub const FORMAT: i64 = 1;
 
 /// Checks the version of the format.
 pub fn check_format(root: &mut Table) -> Result<()> {

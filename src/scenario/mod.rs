@@ -1,6 +1,7 @@
 //! Scenario files: TOML in, a [`Case`] out. Only this module converts units; docs/scenario.md describes the format.
 //! Every error names file, line and key, what was found, and the way out.
 
+pub mod accepted;
 mod asked;
 pub mod catalogue;
 mod clearance;

@@ -1,5 +1,6 @@
 //! The contract of the command line: exit codes, streams, JSON, CSV and messages, on the built command.
 
+mod accept;
 mod bench;
 mod clearance;
 mod drive;

@@ -51,6 +51,8 @@ mod start;
 mod stories;
 mod stress;
 mod synthesis;
+mod testing;
+mod testing_docs;
 mod timed_numbers;
 mod triad_methods;
 mod trunk;

@@ -1,0 +1,119 @@
+//! `linkproof accept`.
+
+use std::path::{Path, PathBuf};
+
+use super::engine_args::EngineArgs;
+use super::progress::Bar;
+use super::run::{exit_code_of, graver};
+use super::{advice, exit_code, output};
+use crate::accept::{compared, figures, renewed};
+use crate::proof::{Proof, Reference, memory, prove_with};
+use crate::report::accept::{Deed, Document, Item, text};
+use crate::report::text as report;
+use crate::scenario::Scenario;
+use crate::scenario::accepted::{self, beside};
+use linkage::error::{Error, ErrorKind, Result};
+
+const EXAMPLES: &str = "\
+Examples:
+  linkproof accept scenarios/crank_rocker.toml               prove it, and keep its figures in scenarios/crank_rocker.accepted
+  linkproof accept --check scenarios/crank_rocker.toml       prove it, and judge its figures by those kept: for CI
+  linkproof accept --check scenarios/*.toml --json out.json  what has moved, by how many bounds, for a script
+  linkproof accept mine.toml --unproven                      keep the figures although the proof is open
+
+Figures are values at five instants, the smallest, the largest and the root mean square of every channel of the reference,
+each with its bound. One has moved if it differs by more than the bounds of both allow: docs/testing.md. What has not
+moved is left as it stands in the file. Write nothing by hand: restore the file, or accept anew.
+
+Exit codes: 0 as accepted, 1 a figure is moved, new or gone or the proof disagrees, 2 bad input or usage, 3 inconclusive.";
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Args {
+    /// Scenario files
+    #[arg(required = true, value_name = "FILE")]
+    files: Vec<PathBuf>,
+    /// Write nothing: judge by the figures that were accepted, and show what has moved
+    #[arg(long, conflicts_with = "unproven")]
+    check: bool,
+    /// Accept figures also where the proof disagrees or is inconclusive; the file then says so
+    #[arg(long)]
+    unproven: bool,
+    #[command(flatten)]
+    engine: EngineArgs,
+    /// Write the results as JSON to a file, or to standard output instead of the report with `-`
+    #[arg(long, value_name = "FILE", value_parser = output::target)]
+    json: Option<PathBuf>,
+}
+
+/// Goes through all files. A bad one does not stop the others.
+pub(super) fn run(args: &Args) -> u8 {
+    let mut document = Document::told_by(advice::told);
+    let mut worst = exit_code::AGREE;
+    for file in &args.files {
+        let code = one(args, file, &mut document).unwrap_or_else(|error| {
+            output::show(&error);
+            document.add_failure(&file.display().to_string(), &error);
+            exit_code::BAD_INPUT
+        });
+        worst = graver(worst, code);
+    }
+    match &args.json {
+        Some(to) => graver(worst, output::exit(output::write(&document.text(), to))),
+        None => worst,
+    }
+}
+
+/// Accepts or judges the figures of one file, and returns the exit code.
+fn one(args: &Args, file: &Path, document: &mut Document) -> Result<u8> {
+    let scenario = Scenario::load(file)?;
+    let place = beside(file);
+    let kept = accepted::load(&place, &scenario.name)?;
+    if args.check && kept.is_none() {
+        let message = format!("nothing was accepted of {}: there is no {}", file.display(), place.display());
+        let help = format!("`linkproof accept {}` writes it", file.display());
+        return Err(Error::new(ErrorKind::Io, message).help(help));
+    }
+    let proof = proven(args, &scenario)?;
+    let found = figures(&proof);
+    let comparison = kept.as_ref().map(|kept| compared(kept, &found));
+    let is_proven = exit_code_of(&proof.verdict) == exit_code::AGREE;
+    let deed = match &comparison {
+        Some(_) if args.check => Deed::Checked,
+        _ if !is_proven && !args.unproven => Deed::Refused,
+        None => Deed::Written,
+        Some(comparison) if comparison.is_same() => Deed::Kept,
+        Some(_) => Deed::Renewed,
+    };
+    let written = match (deed, &kept, &comparison) {
+        (Deed::Renewed, Some(kept), Some(comparison)) => Some(renewed(kept, found.clone(), comparison)),
+        (Deed::Written, _, _) => Some(found.clone()),
+        _ => None,
+    };
+    if let Some(figures) = written {
+        output::write(&accepted::text(&figures), &place)?;
+    }
+    let item = Item { proof: &proof, found: &found, comparison: comparison.as_ref(), deed, file: &place };
+    document.add(&item);
+    if args.json.as_deref() != Some(Path::new("-")) {
+        output::print(&text(&item))?;
+        let is_worse = comparison.as_ref().is_some_and(|comparison| comparison.proof.is_some());
+        if !is_proven && (deed == Deed::Refused || deed == Deed::Checked && is_worse) {
+            output::print(&format!("\n{}", report::proof(&proof, advice::told)))?;
+        }
+    }
+    Ok(match (deed, &comparison) {
+        (Deed::Checked, Some(comparison)) => exit_code_of(&comparison.verdict),
+        (Deed::Refused, _) => exit_code_of(&proof.verdict),
+        (Deed::Written | Deed::Renewed | Deed::Kept | Deed::Checked, _) => exit_code::AGREE,
+    })
+}
+
+/// The proof of a scenario.
+fn proven(args: &Args, scenario: &Scenario) -> Result<Proof> {
+    let options = args.engine.options(Reference::default().name());
+    let engines = options.engines.len().max(1);
+    args.engine.memory.tell(&scenario.case, memory::of_proof(&scenario.case, engines));
+    let mut bar = Bar::new(&scenario.name);
+    prove_with(scenario, &options, &mut |part| bar.at(part))
+}

@@ -1,0 +1,262 @@
+//! What has become of accepted figures, as text and as JSON.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use serde_json::{Value, json};
+
+use super::cells::table;
+use super::diagnosis::{number, told_apart};
+use super::json::Failure;
+use super::pretty::pretty;
+use super::tell::Tell;
+use crate::accept::{Comparison, Figure, Moved};
+use crate::compare::Verdict;
+use crate::proof::Proof;
+use crate::scenario::accepted::Accepted;
+use linkage::error::Error;
+use linkage::trajectory::Channel;
+
+/// Channels of which figures are shown; the others are counted.
+const SHOWN: usize = 20;
+
+/// What was done with the file of accepted figures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Deed {
+    /// The file was judged by, and left as it is.
+    Checked,
+    /// There was none; it was written.
+    Written,
+    /// It was written anew.
+    Renewed,
+    /// Nothing has moved, and it was left as it is.
+    Kept,
+    /// The proof does not agree: nothing was written.
+    Refused,
+}
+
+impl Deed {
+    fn word(self) -> &'static str {
+        match self {
+            Deed::Checked => "checked",
+            Deed::Written => "written",
+            Deed::Renewed => "renewed",
+            Deed::Kept => "kept",
+            Deed::Refused => "refused",
+        }
+    }
+}
+
+/// A scenario with its accepted figures.
+pub(crate) struct Item<'a> {
+    /// The proof that they were found by.
+    pub(crate) proof: &'a Proof,
+    /// What was found.
+    pub(crate) found: &'a Accepted,
+    /// What has moved; `None` if nothing was accepted before.
+    pub(crate) comparison: Option<&'a Comparison>,
+    /// What was done.
+    pub(crate) deed: Deed,
+    /// The file of accepted figures.
+    pub(crate) file: &'a Path,
+}
+
+impl Item<'_> {
+    /// Channels without figures: their bounds are not finite.
+    fn without_figures(&self) -> usize {
+        self.proof.reference_trajectory.channels().len() - self.found.channels.len()
+    }
+}
+
+/// The report on one scenario: what it comes to first, then what has moved.
+pub(crate) fn text(item: &Item) -> String {
+    let mut text = format!("{}\n", headline(item));
+    if let Some(comparison) = item.comparison {
+        changes(comparison, &mut text);
+    }
+    if item.without_figures() > 0 {
+        let _ = writeln!(text, "{} have no finite bound and no figures.", channels(item.without_figures()));
+    }
+    text
+}
+
+fn headline(item: &Item) -> String {
+    let (name, file) = (&item.found.scenario, item.file.display());
+    let all = channels(item.found.channels.len());
+    match (item.deed, item.comparison) {
+        (Deed::Checked, Some(comparison)) => match &comparison.verdict {
+            Verdict::Agree { .. } | Verdict::Expected { .. } => {
+                format!("AGREE: {name} is as accepted in {file}, {all} within their bounds.")
+            }
+            Verdict::Disagree { .. } => {
+                format!("DISAGREE: {name} is not as accepted in {file}: {}.", counts(comparison))
+            }
+            Verdict::Inconclusive { .. } => {
+                format!("INCONCLUSIVE: {name} is known worse than accepted in {file}: {}.", counts(comparison))
+            }
+        },
+        (Deed::Renewed, Some(comparison)) => format!("{name}: accepted anew in {file}: {}.", counts(comparison)),
+        (Deed::Kept, _) => format!("{name}: nothing has moved, {file} stays as it is ({all})."),
+        (Deed::Refused, _) => format!("{name}: not accepted, the proof is {}.", item.proof.verdict.word()),
+        (Deed::Written | Deed::Checked | Deed::Renewed, _) => format!("{name}: accepted, {all} in {file}."),
+    }
+}
+
+fn channels(count: usize) -> String {
+    format!("{count} channel{}", if count == 1 { "" } else { "s" })
+}
+
+/// What has changed, in numbers.
+fn counts(comparison: &Comparison) -> String {
+    let Comparison { wider, new, gone, is_other_grid, proof, .. } = comparison;
+    let moved = comparison.moved_channels().len();
+    let mut parts = Vec::new();
+    if let Some([accepted, found]) = proof {
+        parts.push(format!("the proof was accepted as {accepted} and is {found}"));
+    }
+    if *is_other_grid {
+        parts.push("its instants are others, values are not compared".into());
+    }
+    let all = comparison.channels;
+    let counted =
+        [(moved, "moved"), (wider.len(), "known 100 times worse or more"), (new.len(), "new"), (gone.len(), "gone")];
+    let counted = counted.into_iter().filter(|(count, _)| *count > 0);
+    parts.extend(counted.map(|(count, word)| match word {
+        "gone" => format!("{count} gone"),
+        _ => format!("{count} of {} {word}", channels(all)),
+    }));
+    parts.join(", ")
+}
+
+/// The worst figure of every channel that has moved, and the channels that are new, gone or known worse.
+fn changes(comparison: &Comparison, text: &mut String) {
+    let mut worst: Vec<&Moved> =
+        comparison.moved_channels().iter().filter_map(|name| worst(comparison, name)).collect();
+    worst.sort_by(|a, b| b.bounds().total_cmp(&a.bounds()));
+    if !worst.is_empty() {
+        let header = ["channel", "figure", "accepted", "found", "moved by", "bound", "bounds"];
+        let mut table = table(header, &[2, 3, 4, 5, 6]);
+        for moved in worst.iter().take(SHOWN) {
+            let [accepted, found] = both(moved);
+            let (by, unit) = (moved.found - moved.accepted, unit(&moved.channel));
+            let (by, bound) = (format!("{by:+.1e} {unit}"), format!("{:.1e}", moved.bound));
+            let bounds = format!("{:.1e}", moved.bounds());
+            table.add_row([moved.channel.clone(), figure(moved.figure), accepted, found, by, bound, bounds]);
+        }
+        let _ = writeln!(text, "\n{table}");
+    }
+    if worst.len() > SHOWN {
+        let _ = writeln!(text, "... and {} more channels; the JSON has all of them.", worst.len() - SHOWN);
+    }
+    for (word, names) in [("new", &comparison.new), ("gone", &comparison.gone)] {
+        if !names.is_empty() {
+            let _ = writeln!(text, "\n{word}: {}", listed(names));
+        }
+    }
+    for wider in comparison.wider.iter().take(SHOWN) {
+        let (channel, unit) = (&wider.channel, unit(&wider.channel));
+        let _ = writeln!(text, "\n{channel}: its bound was {:.1e} {unit}, now {:.1e}", wider.accepted, wider.found);
+    }
+}
+
+fn worst<'a>(comparison: &'a Comparison, channel: &str) -> Option<&'a Moved> {
+    let own = comparison.moved.iter().filter(|moved| moved.channel == channel);
+    own.max_by(|a, b| a.bounds().total_cmp(&b.bounds()))
+}
+
+fn listed(names: &[String]) -> String {
+    let more = names.len().saturating_sub(SHOWN);
+    let names = names.iter().take(SHOWN).map(String::as_str).collect::<Vec<_>>().join(", ");
+    if more == 0 { names } else { format!("{names}, and {more} more") }
+}
+
+fn unit(channel: &str) -> &'static str {
+    Channel::named(channel).map_or("", |channel| channel.kind.unit.symbol())
+}
+
+fn figure(figure: Figure) -> String {
+    match figure {
+        Figure::At(t) => format!("at {} s", number(t)),
+        Figure::Least => "least".into(),
+        Figure::Greatest => "greatest".into(),
+        Figure::Rms => "rms".into(),
+    }
+}
+
+/// Both figures with so many digits that they differ.
+fn both(moved: &Moved) -> [String; 2] {
+    [(moved.accepted, moved.found), (moved.found, moved.accepted)].map(|(value, other)| told_apart(value, other))
+}
+
+/// The results of a command as JSON.
+pub(crate) struct Document {
+    files: Vec<Value>,
+    errors: Vec<Failure>,
+    tell: Tell,
+}
+
+impl Document {
+    /// An empty one; `tell` words advice.
+    pub(crate) fn told_by(tell: Tell) -> Self {
+        Document { files: Vec::new(), errors: Vec::new(), tell }
+    }
+
+    /// Adds a scenario.
+    pub(crate) fn add(&mut self, item: &Item) {
+        let comparison = item.comparison.map(|comparison| {
+            json!({
+                "verdict": comparison.verdict.word(),
+                "other_grid": comparison.is_other_grid,
+                "moved": comparison.moved.iter().map(row).collect::<Vec<_>>(),
+                "wider": comparison.wider.iter().map(|wider| json!({
+                    "channel": wider.channel,
+                    "unit": unit(&wider.channel),
+                    "accepted_bound": wider.accepted,
+                    "found_bound": wider.found,
+                })).collect::<Vec<_>>(),
+                "new": comparison.new,
+                "gone": comparison.gone,
+                "accepted_proof": comparison.proof.as_ref().map(|[accepted, _]| accepted),
+            })
+        });
+        self.files.push(json!({
+            "scenario": item.found.scenario,
+            "accepted_file": item.file.display().to_string(),
+            "deed": item.deed.word(),
+            "proof": item.proof.verdict.word(),
+            "reason": item.proof.verdict.reason(self.tell),
+            "channels": item.found.channels.len(),
+            "channels_without_figures": item.without_figures(),
+            "comparison": comparison,
+        }));
+    }
+
+    /// Adds a file that could not be judged.
+    pub(crate) fn add_failure(&mut self, scenario: &str, error: &Error) {
+        self.errors.extend(Failure::each(scenario, error, self.tell));
+    }
+
+    /// The document as text, with a newline at its end.
+    pub(crate) fn text(&self) -> String {
+        pretty(&json!({ "schema": 1, "files": self.files, "errors": self.errors }))
+    }
+}
+
+fn row(moved: &Moved) -> Value {
+    let (figure, t) = match moved.figure {
+        Figure::At(t) => ("at", Some(t)),
+        Figure::Least => ("least", None),
+        Figure::Greatest => ("greatest", None),
+        Figure::Rms => ("rms", None),
+    };
+    json!({
+        "channel": moved.channel,
+        "unit": unit(&moved.channel),
+        "figure": figure,
+        "t_s": t,
+        "accepted": moved.accepted,
+        "found": moved.found,
+        "bound": moved.bound,
+        "bounds": moved.bounds(),
+    })
+}

@@ -1,0 +1,240 @@
+//! Proofs in test suites: one line a scenario ([`assert_proven!`](crate::assert_proven)), or one line a folder of them
+//! (`testing::main`, with the feature `testing`).
+//!
+//! A test fails where a proof does not end in *agree*, also where it is inconclusive: then nothing is proven. Its
+//! message is the report.
+
+#[cfg(feature = "testing")]
+mod folder;
+
+#[cfg(feature = "testing")]
+pub use folder::{Folder, main};
+
+use std::path::PathBuf;
+
+use crate::compare::Verdict;
+use crate::proof::{Options, Proof, prove};
+use crate::report::{errors, text};
+use crate::scenario::grid::listed;
+use crate::scenario::{Asked, Scenario};
+use linkage::case::Grid;
+use linkage::error::{Advice, Error, ErrorKind, Result};
+
+/// Proves a scenario file, and panics with the report unless it agrees; gives the [`Proof`].
+///
+/// The path is relative to the directory of the caller's `Cargo.toml`. What follows are methods of
+/// [`Proving`](crate::testing::Proving) with their argument.
+///
+/// ```
+/// use linkproof::{Options, assert_proven};
+///
+/// let proof = assert_proven!("scenarios/crank_rocker.toml", only = ["positions"]);
+/// assert!(proof.engine().channels.iter().all(|channel| channel.residual.share() < 1e-4));
+/// assert_proven!("scenarios/pendulum.toml", with = Options::default().step(1e-3), only = ["link.rod"]);
+/// assert_proven!("scenarios/formulas/slider_crank_centric.toml", set = ("r_mm", 40.0), only = ["point.B.positions"]);
+/// ```
+#[macro_export]
+macro_rules! assert_proven {
+    (@with $proving:expr,) => { $proving };
+    (@with $proving:expr, set = ($key:expr, $value:expr $(,)?) $(, $($rest:tt)*)?) => {
+        $crate::assert_proven!(@with $proving.set($key, $value), $($($rest)*)?)
+    };
+    (@with $proving:expr, $option:ident = $value:expr $(, $($rest:tt)*)?) => {
+        $crate::assert_proven!(@with $proving.$option($value), $($($rest)*)?)
+    };
+    ($file:expr $(, $($options:tt)*)?) => {{
+        let file = ::std::path::Path::new(::core::env!("CARGO_MANIFEST_DIR")).join($file);
+        $crate::assert_proven!(@with $crate::Proof::of(file), $($($options)*)?).assert()
+    }};
+}
+
+impl Proof {
+    /// Begins a proof of the scenario file at `path`, for a test.
+    ///
+    /// ```no_run
+    /// use linkproof::{Options, Proof};
+    ///
+    /// Proof::of("scenarios/crank_rocker.toml").with(Options::default().step(1e-3)).only(["positions"]).assert();
+    /// ```
+    pub fn of(path: impl Into<PathBuf>) -> Proving {
+        Proving {
+            file: path.into(),
+            asked: Asked::default(),
+            instants: None,
+            only: Vec::new(),
+            options: Options::default(),
+            tolerance: None,
+        }
+    }
+
+    /// The report, as the terminal shows it.
+    #[must_use]
+    pub fn report(&self) -> String {
+        text::proof(self, Advice::to_string)
+    }
+
+    /// Gives the proof back if it agrees.
+    ///
+    /// ```
+    /// use linkproof::{Options, Scenario, prove};
+    ///
+    /// # std::env::set_current_dir(env!("CARGO_MANIFEST_DIR"))?;
+    /// let scenario = Scenario::load("scenarios/pendulum.toml".as_ref())?;
+    /// prove(&scenario, &Options::default())?.assert();
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Panics
+    /// If it disagrees or is inconclusive, with the verdict and the report.
+    #[track_caller]
+    pub fn assert(self) -> Self {
+        match self.failure() {
+            None => self,
+            Some(failure) => panic!("{failure}"),
+        }
+    }
+
+    /// Why a test that wants this proof fails; `None` if it does not.
+    fn failure(&self) -> Option<String> {
+        let word = match self.verdict {
+            Verdict::Agree { .. } | Verdict::Expected { .. } => return None,
+            Verdict::Disagree { .. } | Verdict::Inconclusive { .. } => self.verdict.word(),
+        };
+        let mut told = format!("{} is not proven: {word}\n\n{}", self.scenario, self.report());
+        for error in self.engines.iter().filter_map(|engine| engine.failure.as_ref()) {
+            told += &format!("\n{}\n", errors::text(error, Advice::to_string));
+        }
+        Some(told)
+    }
+}
+
+/// A proof to be made of a scenario file: [`Proof::of`]. What is not set is the file's.
+#[derive(Clone, Debug)]
+#[must_use = "nothing is proven before `prove` or `assert`"]
+pub struct Proving {
+    file: PathBuf,
+    asked: Asked,
+    instants: Option<Instants>,
+    only: Vec<String>,
+    options: Options,
+    tolerance: Option<f64>,
+}
+
+/// The instants of a grid.
+#[derive(Clone, Debug)]
+enum Instants {
+    /// Crank angles (rad).
+    Cranks(Vec<f64>),
+    /// Times (s).
+    Times(Vec<f64>),
+}
+
+impl Proving {
+    /// Sets engines, their settings and the reference.
+    pub fn with(mut self, options: Options) -> Self {
+        self.options = options;
+        self
+    }
+
+    /// Asks for these channels only, by the words of `want` in `[channels]`: a stage (`positions`), a subject
+    /// (`point.P`), a subject's stage (`point.P.positions`) or a channel (`joint.B.fx_N`). May be called several times.
+    pub fn only<W: Into<String>>(mut self, words: impl IntoIterator<Item = W>) -> Self {
+        self.only.extend(words.into_iter().map(Into::into));
+        self
+    }
+
+    /// Sets a parameter by its key in `[parameters]`, in the unit of the key. Published numbers, which belong to the
+    /// file's own parameters, are then left out. May be called several times.
+    pub fn set(mut self, key: impl Into<String>, number: f64) -> Self {
+        self.asked.set.push((key.into(), number));
+        self
+    }
+
+    /// Sets the grid by crank angles (rad, as the scenario states them).
+    pub fn cranks(mut self, angles: impl IntoIterator<Item = f64>) -> Self {
+        self.instants = Some(Instants::Cranks(angles.into_iter().collect()));
+        self
+    }
+
+    /// Sets the grid by times (s).
+    pub fn times(mut self, times: impl IntoIterator<Item = f64>) -> Self {
+        self.instants = Some(Instants::Times(times.into_iter().collect()));
+        self
+    }
+
+    /// Sets the crank angle at t = 0 (rad, as the scenario states it).
+    pub fn start(mut self, crank: f64) -> Self {
+        self.asked.crank = Some(crank);
+        self
+    }
+
+    /// Starts a group in another assembly mode, `LINK,LINK=MODE`. May be called for several groups.
+    pub fn mode(mut self, group: impl Into<String>) -> Self {
+        self.asked.modes.push(group.into());
+        self
+    }
+
+    /// Sets the largest error of the engine, as a share of a channel's scale, at which agreement still is a proof:
+    /// `engine_rel` of `[tolerances]`. The bounds themselves are derived and cannot be chosen.
+    pub fn tolerance(mut self, share: f64) -> Self {
+        self.tolerance = Some(share);
+        self
+    }
+
+    /// Proves the scenario.
+    ///
+    /// # Errors
+    /// Those of [`Scenario::load`] and of [`prove`], and [`ErrorKind::Input`] for what was set and cannot be.
+    pub fn prove(&self) -> Result<Proof> {
+        prove(&self.scenario()?, &self.options)
+    }
+
+    /// Proves the scenario, and gives the proof if it agrees.
+    ///
+    /// # Panics
+    /// If it disagrees, is inconclusive or cannot be made, with the verdict and the report, or with the error.
+    #[track_caller]
+    pub fn assert(&self) -> Proof {
+        match self.prove() {
+            Ok(proof) => proof.assert(),
+            Err(error) => panic!("{}", errors::text(&error, Advice::to_string)),
+        }
+    }
+
+    /// The scenario with what was set.
+    fn scenario(&self) -> Result<Scenario> {
+        let asked = Asked { without_grid: self.instants.is_some(), ..self.asked.clone() };
+        let mut scenario = Scenario::load_as(&self.file, &asked)?;
+        if let Some(instants) = &self.instants {
+            let grid = instants.grid(&scenario)?;
+            scenario.case = scenario.case.on(grid)?;
+        }
+        if !self.only.is_empty() {
+            scenario = scenario.only(&self.only)?;
+        }
+        if let Some(share) = self.tolerance {
+            if !(share > 0.0 && share < 1.0) {
+                let message = format!("found {share} as tolerance, but this is a share of a channel's scale");
+                return Err(Error::new(ErrorKind::Input, message).help("give a number between 0 and 1, such as 1e-2"));
+            }
+            scenario.engine_rel = share;
+        }
+        Ok(scenario)
+    }
+}
+
+impl Instants {
+    fn grid(&self, scenario: &Scenario) -> Result<Grid> {
+        let crank = scenario.case.crank();
+        let wrong = |message: String| {
+            Error::new(ErrorKind::Input, format!("the grid cannot be: {message}"))
+                .help("give every instant once, crank angles in rad or times in s")
+        };
+        let grid = match self {
+            Instants::Cranks(angles) => Grid::of_cranks(crank, listed(angles.clone()).map_err(wrong)?),
+            Instants::Times(times) => Grid::of_times(crank, listed(times.clone()).map_err(wrong)?),
+        };
+        grid.check(crank).map_err(wrong)?;
+        Ok(grid)
+    }
+}

@@ -1,0 +1,59 @@
+#!/bin/sh
+# Runs examples/pytest on a scenario that agrees and on three that do not: tests/pytest/run.sh
+#
+# Packages go into target/pytest-venv. LINKPROOF names a command that is built already.
+set -eu
+top=$(cd "$(dirname "$0")/../.." && pwd)
+environment="$top/target/pytest-venv"
+if [ -n "${LINKPROOF:-}" ]; then
+    LINKPROOF=$(realpath "$LINKPROOF")
+else
+    cargo build --quiet --release --manifest-path "$top/Cargo.toml"
+    LINKPROOF="${CARGO_TARGET_DIR:-$top/target}/release/linkproof"
+fi
+mkdir -p "$top/target"
+wanted="$top/examples/pytest/requirements.txt"
+if ! cmp -s "$wanted" "$environment/installed.txt"; then
+    python3 -m venv "$environment"
+    "$environment/bin/pip" install --quiet --disable-pip-version-check -r "$wanted"
+    cp "$wanted" "$environment/installed.txt"
+fi
+
+place=$(mktemp -d)
+trap 'rm -r "$place"' EXIT
+mkdir "$place/scenarios" "$place/empty"
+SCENARIOS="$place/scenarios"
+pendulum="$top/scenarios/pendulum.toml"
+cp "$pendulum" "$SCENARIOS/right.toml"
+{
+    cat "$pendulum"
+    printf '\n[[formula]]\nname = "w"\nexpression = "phi"\nchannel = "link.rod.omega_rad_s"\n'
+} >"$SCENARIOS/wrong.toml"
+sed 's/^joint = "O"/joint = "Q"/' "$pendulum" >"$SCENARIOS/broken.toml"
+{
+    cat "$pendulum"
+    printf '\n[engine]\ndt_s = 0.05\n'
+} >"$SCENARIOS/coarse.toml"
+
+export LINKPROOF SCENARIOS PYTHONDONTWRITEBYTECODE=1
+told="$place/told.txt"
+code=0
+"$environment/bin/python" -m pytest -p no:cacheprovider "$top/examples/pytest" -rA >"$told" 2>&1 || code=$?
+fail() {
+    cat "$told"
+    echo "pytest: $1" >&2
+    exit 1
+}
+[ "$code" -eq 1 ] || fail "exit code $code instead of 1"
+for line in \
+    'PASSED .*test_proven\[right\]' 'FAILED .*test_proven\[wrong\]' 'FAILED .*test_proven\[broken\]' 'FAILED .*test_proven\[coarse\]' \
+    '^DISAGREE: pendulum' '^worst: .*w as link.rod.omega_rad_s.* times its bound' \
+    '^INCONCLUSIVE: pendulum' 'choose a smaller time step' 'broken.toml:[0-9]*: .*"Q"' '^help: '; do
+    grep -q "$line" "$told" || fail "no line like $line"
+done
+# An empty folder is no success.
+SCENARIOS="$place/empty"
+if "$environment/bin/python" -m pytest -p no:cacheprovider -q "$top/examples/pytest" >"$told" 2>&1; then
+    fail "nothing was proven, and it passed"
+fi
+echo "examples/pytest: one scenario passes, three fail with their reasons"

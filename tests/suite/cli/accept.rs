@@ -1,0 +1,230 @@
+//! `accept`: figures beside a scenario, and what has moved since.
+
+use std::fs;
+
+use super::tools::{Outcome, Place, texts};
+use crate::common::assert_within;
+
+const FILE: &str = "scenarios/crank_rocker.accepted";
+const SCENARIO: &str = "scenarios/crank_rocker.toml";
+
+/// A four-bar without published numbers, so that another length leaves the proof as it is; its figures are accepted.
+fn accepted() -> Place {
+    let place = Place::new();
+    let text = fs::read_to_string(place.path(SCENARIO)).unwrap();
+    let text = &text[..text.find("[[oracle]]").unwrap()];
+    fs::write(place.path(SCENARIO), text).unwrap();
+    let told = place.ok(&format!("accept {SCENARIO}"));
+    assert_eq!(told, format!("crank_rocker: accepted, 57 channels in {FILE}.\n"));
+    place
+}
+
+/// Replaces a text that occurs once or more, the first time.
+fn edit(place: &Place, file: &str, old: &str, new: &str) {
+    let text = fs::read_to_string(place.path(file)).unwrap();
+    assert!(text.contains(old), "{old} is not in {file}");
+    fs::write(place.path(file), text.replacen(old, new, 1)).unwrap();
+}
+
+fn check(place: &Place) -> Outcome {
+    place.run(&format!("accept --check {SCENARIO}"))
+}
+
+#[test]
+fn the_file_is_text_for_people_and_stays_as_it_is() {
+    let place = accepted();
+    let text = fs::read_to_string(place.path(FILE)).unwrap();
+    let end = text.find("\n[[channels]]\nname = \"link.crank.x_m\"").unwrap();
+    insta::assert_snapshot!(text[..end]);
+    let told = place.ok(&format!("accept --check {SCENARIO}"));
+    assert_eq!(told, format!("AGREE: crank_rocker is as accepted in {FILE}, 57 channels within their bounds.\n"));
+    let told = place.ok(&format!("accept {SCENARIO}"));
+    assert_eq!(told, format!("crank_rocker: nothing has moved, {FILE} stays as it is (57 channels).\n"));
+    assert_eq!(fs::read_to_string(place.path(FILE)).unwrap(), text);
+    // Nothing takes it for a scenario.
+    let listed = place.run("list scenarios");
+    assert!(!listed.stdout.contains("accepted") && !listed.stderr.contains("accepted"));
+}
+
+#[test]
+fn a_length_that_changes_by_a_tenth_of_a_nanometre_is_seen_and_told_in_bounds() {
+    let place = accepted();
+    let before = fs::read_to_string(place.path(FILE)).unwrap();
+    edit(&place, SCENARIO, "C = { x_mm = 150, y_mm = 15 }", "C = { x_mm = 150.0000001, y_mm = 15 }");
+    let outcome = check(&place);
+    assert_eq!((outcome.code, outcome.stderr.as_str()), (1, ""), "{}", outcome.stdout);
+    assert!(outcome.stdout.starts_with("DISAGREE: crank_rocker is not as accepted in "), "{}", outcome.stdout);
+    assert!(outcome.stdout.contains("of 57 channels moved."), "{}", outcome.stdout);
+    let header = "channel figure accepted found moved by bound bounds";
+    let is_header = |line: &str| line.split_whitespace().collect::<Vec<_>>().join(" ") == header;
+    assert!(outcome.stdout.lines().any(is_header), "{}", outcome.stdout);
+    assert_eq!(fs::read_to_string(place.path(FILE)).unwrap(), before, "a check writes nothing");
+    let json = place.run(&format!("accept --check {SCENARIO} --json -"));
+    let json = json.json();
+    let moved = json["files"][0]["comparison"]["moved"].as_array().unwrap().clone();
+    assert!(!moved.is_empty());
+    for row in &moved {
+        let [accepted, found, bound, bounds] =
+            ["accepted", "found", "bound", "bounds"].map(|key| row[key].as_f64().unwrap());
+        assert!((found - accepted).abs() > bound && bounds > 1.0, "{row}");
+        assert_within!(((found - accepted).abs() / bound - bounds).abs(), 1e-3 * bounds);
+    }
+    // The crank turns as before: of its channels nothing is written anew.
+    let told = place.ok(&format!("accept {SCENARIO}"));
+    assert!(told.starts_with("crank_rocker: accepted anew in "), "{told}");
+    let after = fs::read_to_string(place.path(FILE)).unwrap();
+    let of = |text: &str, name: &str| -> String {
+        text.split("\n\n").find(|part| part.contains(&format!("\"{name}\""))).unwrap().to_string()
+    };
+    assert_eq!(of(&before, "link.crank.angle_rad"), of(&after, "link.crank.angle_rad"));
+    assert_ne!(of(&before, "point.D.x_m"), of(&after, "point.D.x_m"));
+    assert_eq!(check(&place).code, 0);
+}
+
+/// Differences that the bounds allow are no difference, whatever the digits say.
+#[test]
+fn a_figure_within_its_bound_has_not_moved() {
+    let place = accepted();
+    let text = fs::read_to_string(place.path(FILE)).unwrap();
+    edit(&place, FILE, "greatest = 6.2831853071796", "greatest = 6.2831853071860");
+    assert_eq!(check(&place).code, 0);
+    let edited = fs::read_to_string(place.path(FILE)).unwrap();
+    place.ok(&format!("accept {SCENARIO}"));
+    assert_eq!(fs::read_to_string(place.path(FILE)).unwrap(), edited);
+    fs::write(place.path(FILE), text).unwrap();
+    edit(&place, FILE, "greatest = 6.2831853071796", "greatest = 6.2831853072000");
+    let outcome = check(&place);
+    assert_eq!(outcome.code, 1);
+    assert!(outcome.stdout.contains("1 of 57 channels moved."), "{}", outcome.stdout);
+    // A whole turn of an angle is none.
+    let turned = [
+        ("at = [0.0, 1.5707963267949, 3.1415926535898,", "at = [6.2831853071796, 7.8539816339745, 9.4247779607694,"),
+        ("4.7123889803847, 6.2831853071796]", "10.9955742875643, 12.5663706143592]"),
+        ("least = 0.0\ngreatest = 6.2831853072000", "least = 6.2831853071796\ngreatest = 12.5663706143592"),
+    ];
+    for (old, new) in turned {
+        edit(&place, FILE, old, new);
+    }
+    assert_eq!(check(&place).code, 0);
+}
+
+#[test]
+fn what_is_new_or_gone_is_told() {
+    let place = accepted();
+    edit(&place, FILE, "\"link.coupler.angle_rad\"", "\"link.handle.angle_rad\"");
+    edit(&place, FILE, "rms = 13.61356816556\n", "");
+    let outcome = check(&place);
+    assert_eq!(outcome.code, 1, "{}", outcome.stdout);
+    for line in [
+        "2 of 57 channels new, 1 gone.",
+        "new: link.crank.omega_rad_s, link.coupler.angle_rad",
+        "gone: link.handle.angle_rad",
+    ] {
+        assert!(outcome.stdout.contains(line), "{line}: {}", outcome.stdout);
+    }
+    let json = place.run(&format!("accept --check {SCENARIO} --json -")).json();
+    assert_eq!(json["files"][0]["comparison"]["gone"][0], "link.handle.angle_rad");
+    place.ok(&format!("accept {SCENARIO}"));
+    assert_eq!(check(&place).code, 0);
+}
+
+#[test]
+fn another_grid_is_told_and_no_value_is_compared() {
+    let place = accepted();
+    edit(&place, SCENARIO, "step_deg = 1\n", "step_deg = 2\n");
+    let outcome = check(&place);
+    assert_eq!(outcome.code, 1, "{}", outcome.stdout);
+    assert!(outcome.stdout.contains("its instants are others, values are not compared."), "{}", outcome.stdout);
+    place.ok(&format!("accept {SCENARIO}"));
+    let text = fs::read_to_string(place.path(FILE)).unwrap();
+    assert!(text.contains("instants = 181\n"), "{text}");
+    assert_eq!(check(&place).code, 0);
+}
+
+#[test]
+fn a_bound_that_has_grown_a_hundred_times_proves_nothing() {
+    let place = accepted();
+    edit(&place, FILE, "bound = 6.6e-12", "bound = 6.6e-15");
+    let outcome = check(&place);
+    assert_eq!(outcome.code, 3, "{}", outcome.stdout);
+    assert!(
+        outcome.stdout.starts_with("INCONCLUSIVE: crank_rocker is known worse than accepted"),
+        "{}",
+        outcome.stdout
+    );
+    assert!(
+        outcome.stdout.contains("link.crank.angle_rad: its bound was 6.6e-15 rad, now 6.6e-12"),
+        "{}",
+        outcome.stdout
+    );
+}
+
+#[test]
+fn what_is_not_proven_is_accepted_only_if_asked() {
+    let place = accepted();
+    let before = fs::read_to_string(place.path(FILE)).unwrap();
+    let coarse = "--dt 2e-2";
+    for command in [format!("accept {SCENARIO} {coarse}"), format!("accept --check {SCENARIO} {coarse}")] {
+        let outcome = place.run(&command);
+        assert_eq!(outcome.code, 3, "{}", outcome.stdout);
+        assert!(outcome.stdout.contains("choose a smaller time step"), "{}", outcome.stdout);
+        assert_eq!(fs::read_to_string(place.path(FILE)).unwrap(), before);
+    }
+    let wrong = "\n[[formula]]\nname = \"w\"\nexpression = \"phi\"\nchannel = \"link.crank.omega_rad_s\"\n";
+    let text = fs::read_to_string(place.path(SCENARIO)).unwrap();
+    fs::write(place.path(SCENARIO), format!("{text}{wrong}")).unwrap();
+    let outcome = place.run(&format!("accept {SCENARIO}"));
+    assert_eq!(outcome.code, 1, "{}", outcome.stdout);
+    assert!(outcome.stdout.starts_with("crank_rocker: not accepted, the proof is disagree.\n"), "{}", outcome.stdout);
+    assert_eq!(check(&place).code, 1);
+    let told = place.ok(&format!("accept {SCENARIO} --unproven"));
+    assert!(told.contains("the proof was accepted as agree and is disagree"), "{told}");
+    // It is as it was accepted, but no worse.
+    assert_eq!(check(&place).code, 0);
+    fs::write(place.path(SCENARIO), text).unwrap();
+    assert_eq!(check(&place).code, 0);
+    place.refused(&format!("accept {SCENARIO} --unproven --check"), &["cannot be used with"]);
+}
+
+#[test]
+fn a_file_that_cannot_be_judged_by_is_refused_with_its_place_and_never_overwritten() {
+    let place = accepted();
+    let whole = fs::read_to_string(place.path(FILE)).unwrap();
+    let cases = [
+        (
+            whole[..whole.len() / 2].trim_end_matches(']').to_string() + "\"",
+            vec!["crank_rocker.accepted:", "not valid TOML"],
+        ),
+        (format!("<<<<<<< ours\n{whole}"), vec!["crank_rocker.accepted:1:", "not valid TOML"]),
+        (String::new(), vec!["no accepted figures"]),
+        (whole.replace("scenario = \"crank_rocker\"", "scenario = \"pendulum\""), vec!["of \"pendulum\", not of"]),
+        (whole.replace("format = 1", "format = 7"), vec!["format 7"]),
+        (whole.replace("verdict = \"agree\"", "verdict = \"fine\""), vec!["\"fine\" is no verdict"]),
+        (whole.replace("instants = 361", "instants = -1"), vec!["-1 instants"]),
+        (whole.replacen("least = ", "last = ", 1), vec!["`least`", "did you mean"]),
+        (whole.replacen("bound = ", "bound = -", 1), vec!["is negative"]),
+        (whole.replacen("bound = 6.6e-12", "bound = inf", 1), vec!["a finite number is needed"]),
+        (whole.replacen("at = [0.0, ", "at = [", 1), vec!["4 values are kept for 5 instants"]),
+        (whole.replace("link.crank.omega_rad_s", "link.crank.angle_rad"), vec!["link.crank.angle_rad stands twice"]),
+    ];
+    for (text, words) in cases {
+        fs::write(place.path(FILE), &text).unwrap();
+        for command in ["accept", "accept --check", "accept --unproven"] {
+            place.refused(&format!("{command} {SCENARIO}"), &words);
+            assert_eq!(fs::read_to_string(place.path(FILE)).unwrap(), text);
+        }
+    }
+    fs::remove_file(place.path(FILE)).unwrap();
+    place.refused(&format!("accept --check {SCENARIO}"), &["nothing was accepted", "linkproof accept scenarios/"]);
+}
+
+#[test]
+fn a_bad_file_does_not_stop_the_others() {
+    let place = accepted();
+    let outcome = place.run(&format!("accept --check scenarios/missing.toml {SCENARIO} --json out.json"));
+    assert_eq!(outcome.code, 2);
+    assert!(outcome.stdout.starts_with("AGREE: crank_rocker"), "{}", outcome.stdout);
+    let json: serde_json::Value = serde_json::from_slice(&fs::read(place.path("out.json")).unwrap()).unwrap();
+    assert_eq!(texts(&json["files"], "scenario"), ["crank_rocker"]);
+    assert_eq!(texts(&json["errors"], "scenario"), ["scenarios/missing.toml"]);
+}
