@@ -11,6 +11,7 @@ mod messages;
 mod modes;
 mod mutate;
 mod numbers;
+mod outputs;
 mod plan;
 mod range;
 mod reports;
