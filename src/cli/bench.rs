@@ -42,7 +42,7 @@ pub(super) struct Args {
     #[arg(value_name = "FILE", required = true)]
     files: Vec<PathBuf>,
     /// Directory for diagrams and numbers; it is made if it is missing
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", value_parser = output::directory)]
     out: PathBuf,
     /// Fewer settings and one round of timing
     #[arg(long)]
@@ -66,7 +66,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = number::count)]
     rounds: Option<usize>,
     /// Write a page of Markdown with the results of all scenarios
-    #[arg(long, value_name = "FILE", value_parser = output::target)]
+    #[arg(long, value_name = "FILE", value_parser = output::page)]
     page: Option<PathBuf>,
 }
 

@@ -7,7 +7,7 @@ use crate::engines::named;
 use crate::files;
 use crate::scenario::{EngineKeys, Scenario, edit};
 use linkage::engine::Settings;
-use linkage::error::{Error, ErrorKind, Result};
+use linkage::error::Result;
 
 /// What a scenario must state to run an engine at `settings`: its step (s), and its other keys. The engine's usual
 /// route is left out unless the scenario states one: without it the engine's own forces are judged too.
@@ -34,7 +34,7 @@ pub(super) fn keys(scenario: &Scenario, name: &str, settings: Settings) -> (Opti
 pub(super) fn write(file: &Path, scenario: &Scenario, keys: (Option<f64>, EngineKeys)) -> Result<()> {
     let text = edit::with_engine(&scenario.text, keys)?;
     files::replace(file, |mut to| to.write_all(text.as_bytes())).map_err(|error: io::Error| {
-        Error::new(ErrorKind::Io, format!("{} cannot be written: {error}", file.display()))
-            .help("check that the file may be written to, or copy the section by hand")
+        let usual = "check that the file may be written to, or copy the section by hand";
+        files::unwritten(&file.display().to_string(), &error, Some(text.len()), usual)
     })
 }

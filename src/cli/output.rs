@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use super::advice;
 use crate::files;
 use crate::report::errors;
-use linkage::error::{Error, ErrorKind, Result};
+use linkage::error::{Error, Result};
 
 /// Path that results may be written to, `-` for standard output. Scenario files are refused: in `--json
 /// scenarios/*.toml` the first of them would become the target.
@@ -15,22 +15,50 @@ pub(super) fn target(text: &str) -> std::result::Result<PathBuf, String> {
     if path.extension().is_some_and(|extension| extension == "toml") {
         return Err("this is a scenario file and would be overwritten; expected a file for the results, or `-`".into());
     }
+    writable(path)
+}
+
+/// A path that can be written to, `-` for standard output. What is in the way is found before any work is done.
+pub(super) fn writable(path: PathBuf) -> std::result::Result<PathBuf, String> {
+    if path != Path::new("-") {
+        files::may_write(&path)?;
+    }
+    Ok(path)
+}
+
+/// As [`target`], also in a directory that the command makes.
+pub(super) fn page(text: &str) -> std::result::Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    match path.parent().filter(|parent| *parent != Path::new("") && !parent.exists()) {
+        Some(parent) => directory(&parent.to_string_lossy()).map(|_| path),
+        None => target(text),
+    }
+}
+
+/// A directory that can be filled with results; it is made when there are some.
+pub(super) fn directory(text: &str) -> std::result::Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    files::may_fill(&path)?;
     Ok(path)
 }
 
 /// Writes text to a file, or to standard output for `-`.
 pub(super) fn write(text: &str, to: &Path) -> Result<()> {
-    stream(to, |out| out.write_all(text.as_bytes()))
+    sized(to, Some(text.len()), |out| out.write_all(text.as_bytes()))
 }
 
 /// Lets `fill` write piece by piece to a file, or to standard output for `-`.
 pub(super) fn stream(to: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
+    sized(to, None, fill)
+}
+
+fn sized(to: &Path, needs: Option<usize>, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
     if to == Path::new("-") {
         return printed(fill);
     }
     files::replace(to, |mut file| fill(&mut file)).map_err(|error: io::Error| {
-        Error::new(ErrorKind::Io, format!("{} cannot be written: {error}", to.display()))
-            .help("check that the directory exists, may be written to and has room")
+        let usual = "check that the directory exists, may be written to and has room";
+        files::unwritten(&to.display().to_string(), &error, needs, usual)
     })
 }
 
@@ -43,7 +71,7 @@ fn printed(fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
     let mut out = io::stdout().lock();
     match fill(&mut out).and_then(|()| out.flush()) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            Err(Error::new(ErrorKind::Io, format!("standard output cannot be written: {error}")))
+            Err(files::unwritten("standard output", &error, None, "check where it goes to"))
         }
         _ => Ok(()),
     }

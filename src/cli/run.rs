@@ -13,6 +13,7 @@ use super::load::{StartArgs, only, reference_names};
 use super::progress::Bar;
 use super::{advice, exit_code, number, output};
 use crate::compare::Verdict;
+use crate::files;
 use crate::proof::{EngineProof, Entry, Proof, memory, prove_with};
 use crate::record::{self as recorder, Recording, Side};
 use crate::report::outcomes::Outcomes;
@@ -87,8 +88,25 @@ pub(super) struct Args {
     markdown: Option<PathBuf>,
 }
 
+impl Args {
+    /// Tries whether recordings can be written, if there are to be any, before any work is done.
+    fn record_target(&self) -> Result<()> {
+        if self.no_record {
+            return Ok(());
+        }
+        files::may_fill(&self.record).map_err(|found| {
+            let message = format!("recordings cannot be written to {}: {found}", self.record.display());
+            Error::new(ErrorKind::Io, message).key("--record").help("name another directory, or use --no-record")
+        })
+    }
+}
+
 /// Proves every file. A bad file does not stop the others from being proven.
 pub(super) fn run(args: &Args) -> u8 {
+    // The default directory need not be there if nothing is recorded.
+    if let Err(found) = args.record_target() {
+        return output::exit(Err(found));
+    }
     let mut document = json::Document::told_by(advice::told);
     let mut outcomes = Outcomes::told_by(advice::told);
     let mut worst = exit_code::AGREE;

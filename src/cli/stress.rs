@@ -33,7 +33,7 @@ pub(super) struct Args {
     #[arg(value_name = "FAMILY", value_parser = PossibleValuesParser::new(FAMILIES.iter().map(|family| family.name)))]
     families: Vec<String>,
     /// Directory that results are written to, and taken from if they are there already
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", value_parser = output::directory)]
     out: PathBuf,
     /// A few points of every family
     #[arg(long)]
@@ -45,7 +45,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = number::count)]
     jobs: Option<usize>,
     /// Write a page in Markdown, with the maps beside it in a directory of its name
-    #[arg(long, value_name = "FILE", value_parser = output::target)]
+    #[arg(long, value_name = "FILE", value_parser = output::page)]
     page: Option<PathBuf>,
 }
 

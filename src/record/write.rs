@@ -13,7 +13,7 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
 use linkage::math::statistics::ascending;
 use linkage::trajectory::{ChannelKind, Subject, Trajectory};
-use mcap::McapResult;
+use mcap::{McapError, McapResult};
 use prost::Message;
 use std::fs::File;
 use std::path::Path;
@@ -24,8 +24,12 @@ const CLOUDS: usize = 200;
 pub(super) fn write(recording: &Recording, path: &Path) -> Result<()> {
     check(recording)?;
     files::replace(path, |file| fill(recording, file.try_clone()?)).map_err(|error| {
-        Error::new(ErrorKind::Io, format!("the recording {} cannot be written: {error}", path.display()))
-            .help("check that the directory exists, may be written to and has room, or record elsewhere")
+        let what = format!("the recording {}", path.display());
+        let usual = "check that the directory exists, may be written to and has room, or record elsewhere";
+        match error {
+            McapError::Io(error) => files::unwritten(&what, &error, None, usual),
+            other => Error::new(ErrorKind::Io, format!("{what} cannot be written: {other}")).help(usual),
+        }
     })
 }
 

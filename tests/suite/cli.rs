@@ -12,6 +12,7 @@ mod messages;
 mod modes;
 mod mutate;
 mod numbers;
+mod outputs;
 mod plan;
 mod range;
 mod reports;

@@ -12,7 +12,7 @@ pub(super) fn scenario_target(text: &str) -> std::result::Result<PathBuf, String
     if text != "-" && path.extension().is_none_or(|extension| extension != "toml") {
         return Err("a scenario is written to a file that ends in .toml, or to standard output with `-`".into());
     }
-    Ok(path)
+    output::writable(path)
 }
 
 /// Writes a scenario, but never over one of its source files.

@@ -50,13 +50,13 @@ fn a_run_is_the_same_from_any_number_of_threads_and_goes_on_where_it_was() {
 fn a_directory_that_cannot_be_is_told_before_anything_is_run() {
     let place = Place::new();
     fs::write(place.path("file"), "").unwrap();
-    place.refused("stress speed --quick --out file", &["file", "cannot be made"]);
-    place.refused("stress speed --quick --out file/below", &["cannot be made"]);
+    place.refused("stress speed --quick --out file", &["file", "is no directory"]);
+    place.refused("stress speed --quick --out file/below", &["--out", "expected a directory"]);
     // A directory in the place of a result.
     fs::create_dir_all(place.path("out/speed.json")).unwrap();
     place.refused("stress speed --quick --out out", &["speed.json"]);
     place.refused("stress sped --quick --out out", &["sped", "speed"]);
-    place.refused("stress speed --quick --out out --jobs 0", &["at least one"]);
+    place.refused("stress speed --quick --out out --jobs 0", &["from 1 on"]);
 }
 
 /// The engines fail where the mechanism does not let them through; that is a result with a reason, and no error.

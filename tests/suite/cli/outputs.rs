@@ -1,0 +1,175 @@
+//! Outputs that cannot be written: found before the work, or called by their name, and never left by halves.
+#![cfg(unix)]
+
+use std::fs;
+use std::os::unix::fs::PermissionsExt;
+use std::process::{Command, Output};
+use std::time::Instant;
+
+use assert_cmd::cargo::CommandCargoExt;
+
+use super::tools::Place;
+
+/// Every command with an output, up to the file's name, and that of the option.
+const FILES: [(&str, &str); 23] = [
+    ("run scenarios/pendulum.toml --no-record --json", "--json"),
+    ("run scenarios/pendulum.toml --no-record --junit", "--junit"),
+    ("run scenarios/pendulum.toml --no-record --markdown", "--markdown"),
+    ("check scenarios/crank_rocker.toml phi --channel link.crank.angle_rad --json", "--json"),
+    ("solve scenarios/crank_rocker.toml --with assur --csv", "--csv"),
+    ("tune scenarios/pendulum.toml --within 1e-2 --engine rapier --json", "--json"),
+    ("mutate scenarios/pendulum.toml --no-sizes --kind gravity-sign --json", "--json"),
+    ("mutate scenarios/pendulum.toml --no-sizes --kind gravity-sign --markdown", "--markdown"),
+    ("inspect scenarios/crank_rocker.toml --json", "--json"),
+    ("bearings scenarios/crank_rocker.toml --json", "--json"),
+    ("clearance scenarios/crankcase.toml --svg", "--svg"),
+    ("clearance scenarios/crankcase.toml --csv", "--csv"),
+    ("clearance scenarios/crankcase.toml --json", "--json"),
+    ("drive scenarios/crank_rocker.toml --svg", "--svg"),
+    ("drive scenarios/crank_rocker.toml --json", "--json"),
+    ("drive scenarios/crank_rocker.toml --run-up", "--run-up"),
+    ("plan scenarios/crank_rocker.toml --svg", "--svg"),
+    ("plan scenarios/crank_rocker.toml --json", "--json"),
+    ("diagram scenarios/crank_rocker.toml --channel point.B.x_m --svg", "--svg"),
+    ("diagram scenarios/crank_rocker.toml --channel point.B.x_m --csv", "--csv"),
+    ("export scenarios/crank_rocker.toml --mjcf", "--mjcf"),
+    ("export scenarios/crank_rocker.toml --json", "--json"),
+    ("synthesize slider-crank --stroke-mm 100 --rod-mm 200 --json", "--json"),
+];
+
+/// Names in a place, without the scenarios.
+fn left(place: &Place) -> Vec<String> {
+    let names = fs::read_dir(place.path("")).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    let mut names: Vec<String> = names.filter(|name| name != "scenarios").collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn what_cannot_be_written_is_found_before_the_work() {
+    let place = Place::new();
+    fs::create_dir(place.path("taken")).unwrap();
+    fs::write(place.path("file"), "old").unwrap();
+    for (command, option) in FILES {
+        for (target, words) in [
+            ("no/such/out", "there is no directory no/such"),
+            ("taken", "this is a directory"),
+            ("file/below", "directory"),
+            ("new/", "this is a directory"),
+        ] {
+            let outcome = place.refused(&format!("{command} {target}"), &[option, words]);
+            assert_eq!(outcome.stdout, "", "{command} {target}");
+        }
+    }
+    place.refused(
+        "synthesize slider-crank --stroke-mm 100 --rod-mm 200 -o no/such.toml",
+        &["--output", "no directory no;"],
+    );
+    for command in ["run scenarios/pendulum.toml --record", "bench scenarios/pendulum.toml --out", "stress speed --out"]
+    {
+        let outcome = place.refused(&format!("{command} file/below"), &["expected a directory"]);
+        assert_eq!(outcome.stdout, "", "{command}");
+    }
+    assert_eq!(left(&place), ["file", "taken"]);
+    assert_eq!(fs::read_to_string(place.path("file")).unwrap(), "old");
+}
+
+/// A proof that would take long ends at once, and touches nothing.
+#[test]
+fn a_directory_that_may_not_be_written_to_is_found_at_once() {
+    let place = Place::new();
+    let locked = place.path("locked");
+    fs::create_dir(&locked).unwrap();
+    fs::set_permissions(&locked, PermissionsExt::from_mode(0o555)).unwrap();
+    if fs::write(locked.join("probe"), "").is_ok() {
+        eprintln!("skipped: this user may write to every directory");
+        return;
+    }
+    let since = Instant::now();
+    place.refused("run scenarios/ov7_base.toml --no-record --json locked/out.json", &["--json", "Permission denied"]);
+    place.refused("run scenarios/ov7_base.toml --record locked/own", &["--record", "Permission denied"]);
+    assert!(since.elapsed().as_secs() < 5, "{:?}", since.elapsed());
+    fs::set_permissions(&locked, PermissionsExt::from_mode(0o755)).unwrap();
+}
+
+/// An existing file stays as it is while it is only tried.
+#[test]
+fn an_older_file_survives_a_bad_scenario() {
+    let place = Place::new();
+    fs::write(place.path("out.json"), "old").unwrap();
+    place.refused("solve nothing.toml --with assur --csv out.json", &["nothing.toml cannot be read"]);
+    assert_eq!(fs::read_to_string(place.path("out.json")).unwrap(), "old");
+}
+
+/// Runs `linkproof` in a shell: `$0` is the command, and `prepare` goes before it.
+fn in_shell(place: &Place, prepare: &str, arguments: &str) -> Output {
+    let linkproof = Command::cargo_bin("linkproof").unwrap().get_program().to_owned();
+    let script = format!("{prepare} exec \"$0\" {arguments}");
+    Command::new("sh").current_dir(place.path("")).args(["-c", &script]).arg(linkproof).output().unwrap()
+}
+
+/// A limit on the size of files ends a write as a full disk does, and needs no rights.
+#[test]
+fn no_output_is_left_by_halves() {
+    let place = Place::new();
+    for (command, _) in FILES {
+        for old in [Some("an older file"), None] {
+            let _ = fs::remove_file(place.path("out"));
+            old.map(|old| fs::write(place.path("out"), old).unwrap());
+            let output = in_shell(&place, "ulimit -f 0; trap '' XFSZ;", &format!("{command} out"));
+            let told = String::from_utf8_lossy(&output.stderr);
+            assert_eq!(output.status.code(), Some(2), "{command}: {told}");
+            assert!(told.contains("out cannot be written: a file of this size is not allowed"), "{command}: {told}");
+            assert!(told.contains("raise the limit"), "{command}: {told}");
+            assert_eq!(fs::read_to_string(place.path("out")).ok().as_deref(), old, "{command}");
+        }
+        assert_eq!(left(&place), Vec::<String>::new(), "{command}");
+    }
+}
+
+#[test]
+fn a_full_device_is_called_so() {
+    let place = Place::new();
+    for command in ["solve scenarios/crank_rocker.toml --with assur --csv", "plan scenarios/crank_rocker.toml --svg"] {
+        place.refused(
+            &format!("{command} /dev/full"),
+            &["/dev/full cannot be written: no room is left on the device", "make room"],
+        );
+        let output = in_shell(&place, "exec > /dev/full;", &format!("{command} -"));
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{command}: {told}");
+        assert!(told.contains("standard output cannot be written: no room is left"), "{command}: {told}");
+    }
+}
+
+/// A file system of 16 kB, where the kernel lets its user mount one.
+#[test]
+fn a_full_disk_leaves_no_file() {
+    let place = Place::new();
+    fs::create_dir(place.path("small")).unwrap();
+    let own = "mount -t tmpfs -o size=16k none small";
+    let is_possible = Command::new("unshare").current_dir(place.path("")).args(["-rm", "sh", "-c", own]).status();
+    if !is_possible.is_ok_and(|status| status.success()) {
+        eprintln!("skipped: no file system can be mounted here");
+        return;
+    }
+    let linkproof = Command::cargo_bin("linkproof").unwrap().get_program().to_owned();
+    for (arguments, needs) in [
+        ("solve scenarios/crank_rocker.toml --with assur --csv small/out", ""),
+        ("run scenarios/pendulum.toml --route differences --record small", ""),
+        ("run scenarios/pendulum.toml --route differences --no-record --json small/out", "kB are needed"),
+        ("plan scenarios/ov7_base.toml --svg small/out", "kB are needed"),
+    ] {
+        let script = format!("{own}; \"$0\" {arguments}; code=$?; ls -A small; exit $code");
+        let mut command = Command::new("unshare");
+        let output =
+            command.current_dir(place.path("")).args(["-rm", "sh", "-c", &script]).arg(&linkproof).output().unwrap();
+        let (told, listed) = (String::from_utf8_lossy(&output.stderr), String::from_utf8_lossy(&output.stdout));
+        assert_eq!(output.status.code(), Some(2), "{arguments}: {told}");
+        assert!(told.contains("no room is left on the device") && told.contains(needs), "{arguments}: {told}");
+        assert!(
+            !listed.lines().any(|line| line.ends_with("out") || line.ends_with(".mcap") || line.ends_with(".partial")),
+            "{listed}"
+        );
+    }
+}
