@@ -24,7 +24,7 @@ const CRATES: &[(&str, &str, &str, &str)] = &[
         "linkproof",
         "",
         "analytic formula linkage precise rapier-twin simbody-twin workshop",
-        "annotate-snippets chacha20 clap comfy-table csv foxglove indicatif mcap plotters prost prost-types quick-junit serde serde_json strsim tempfile toml toml_edit",
+        "annotate-snippets anstream anstyle chacha20 clap clap_complete clap_mangen comfy-table csv foxglove indicatif mcap plotters prost prost-types quick-junit serde serde_json strsim tempfile terminal_size textwrap toml toml_edit",
     ),
 ];
 
@@ -130,7 +130,13 @@ const HOMES: &[(&str, &str)] = &[
     ("serde_json", "linkproof::outside linkproof::report"),
     // `scenario` reads tables of published numbers, `outside` those of peers, `report` writes tables.
     ("csv", "linkproof::outside linkproof::report linkproof::scenario"),
+    ("anstream", "linkproof::cli"),
+    ("anstyle", "linkproof::report"),
     ("clap", "linkproof::cli"),
+    ("clap_complete", "linkproof::cli"),
+    ("clap_mangen", "linkproof::cli"),
+    ("terminal_size", "linkproof::cli"),
+    ("textwrap", "linkproof::report"),
     ("indicatif", "linkproof::cli"),
     ("annotate_snippets", "linkproof::report"),
     ("Instant", "linkproof::cli"),
